@@ -44,6 +44,10 @@ class BadResults(BenchError):
     """A results folder that cannot be read, written, or continued."""
 
 
+class NoTable(BadResults):
+    """A run has no file of a table."""
+
+
 class LostWorkers(BenchError):
     """A cluster that went away, or whose workers did."""
 

@@ -1,6 +1,7 @@
 """Every page and its module: named alike, and what the one pastes the other gives; what a run does not hold is said."""
 
 import importlib
+import shutil
 from pathlib import Path
 from types import ModuleType
 
@@ -55,6 +56,14 @@ def test_module_gives_what_its_page_pastes_of_the_published_run(name):
     kinds = kinds_of(module, text_of(name))
     wanted = {key for key, kind in kinds.items() if kind in ("fact", "sentence", "table")}
     assert wanted - given == set()
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_module_says_that_it_is_not_in_a_run_without_tables(name, tmp_path, monkeypatch):
+    monkeypatch.setenv("ORIENTATION_BENCH_RESULTS", str(tmp_path))
+    shutil.copy("results/reference/provenance.json", tmp_path)
+    module, text = importlib.import_module(f"report.figures.{name}"), text_of(name)
+    assert set(contents(module, run_in(tmp_path), text)) == set(kinds_of(module, text))
 
 
 def test_keys_of_a_page_are_told_apart_by_how_they_are_pasted():

@@ -15,7 +15,7 @@ from report.figures import index
 from report.figures.answer import which_law
 from report.figures.arms import arm_ranking, cost_on_arms
 from report.figures.comparison import a_new_law, comparison
-from report.figures.contact import as_arms_run, hand_axes, in_contact, limits
+from report.figures.contact import as_arms_run, hand_axes, in_contact
 from report.figures.kit.page import Run
 from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX
 from report.figures.libraries import answers, libraries, loops
@@ -33,9 +33,9 @@ class Planted(Run):
         super().__init__(FOLDER)
         self.columns = columns
 
-    def rows(self, table, **words):
+    def any_rows(self, table, **words):
         """Return its rows, with the columns that they have changed."""
-        found = super().rows(table, **words)
+        found = super().any_rows(table, **words)
         return found.assign(**{name: value for name, value in self.columns.items() if name in found})
 
 
@@ -48,7 +48,7 @@ def plant_pegs(bad):
 
 def plant_fits(*depths_m):
     """State how pegs of two fits go in, two of each."""
-    return limits.said_of_fits(pd.DataFrame({"clearance": [0.02, 0.02, 0.001, 0.001], "depth_m": depths_m}))
+    return in_contact.said_of_fits(pd.DataFrame({"clearance": [0.02, 0.02, 0.001, 0.001], "depth_m": depths_m}))
 
 
 def plant_axis(off_deg):

@@ -16,7 +16,7 @@ from report.figures.contact import as_arms_run
 from report.figures.kit.page import ABSENT, run_in
 
 RUN = run_in(RESULTS / "reference")
-FROM_STUDIES = {"tab_limits", "admittance-limits", *as_arms_run.in_contact()}
+FROM_STUDIES = {"admittance-limits", *as_arms_run.in_contact()}
 """Keys of the page on impedance that a committed study holds and no run."""
 
 
@@ -47,8 +47,5 @@ def test_laws_that_are_dead_or_unwind_are_named():
     assert "control: no sign" in facts["unwinds"]
 
 
-def test_limits_are_written_with_their_closed_forms_or_as_none():
+def test_limits_are_written_with_their_closed_forms():
     assert velocity_commands.line(RUN, "rotation-vector")["K dt, near"] == "2 (2)"
-    lines = as_arms_run.limits()
-    assert lines[-1][2] == "none"
-    assert "(" in lines[0][3]

@@ -2,24 +2,12 @@
 
 import re
 
-import pandas as pd
-
 from report.figures.kit import style
 from report.figures.kit.page import ABSENT, contents, text_of
 
 TWINS = {colour.lower() for pair in style.TWINS.items() for colour in pair}
 COLOUR = re.compile(r"#[0-9a-fA-F]{6}\b")
 IMAGE = re.compile(r'"data:[^"]*"')
-
-
-class Nothing:
-    """A run without a row in any table."""
-
-    folder = None
-
-    def rows(self, table, **words):
-        """None."""
-        return pd.DataFrame()
 
 
 def assert_is_drawn(picture, constant=()):

@@ -13,7 +13,7 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from bench.base.errors import BadResults
+from bench.base.errors import BadResults, NoTable
 from bench.base.files import refuse_link, write_atomically
 from bench.experiments.columns import VERSION, Table
 from bench.experiments.tables.schema import table_of
@@ -122,7 +122,7 @@ def _checked(path: Path, table: str, opened) -> pa.Table:
     try:
         arrow = opened()
     except FileNotFoundError:
-        raise BadResults(f"{path}: there is no such file; run `make bench` (or python -m bench run) first") from None
+        raise NoTable(f"{path}: there is no such file; run `make bench` (or python -m bench run) first") from None
     except (OSError, pa.ArrowException) as error:
         reason = str(error).splitlines()[0]
         raise BadResults(f"{path}: it is truncated or no parquet file ({reason}); delete it and run again") from error

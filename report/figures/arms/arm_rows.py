@@ -42,9 +42,8 @@ SETS = ("clear", "pole", "wrist", "half-turn", "uniform", "tumbling", "reach")
 
 @functools.cache
 def every(run: Run) -> pd.DataFrame:
-    """Episodes of the run on arms with their law, way and controller; maybe none."""
-    found = run.rows("episodes", task="arm-regulation", engine="native")
-    return named(found) if len(found) else found.assign(variation="")
+    """Return the episodes of the run on arms with their law, way and controller."""
+    return named(run.rows("episodes", task="arm-regulation", engine="native"))
 
 
 def episodes(run: Run) -> pd.DataFrame:

@@ -35,8 +35,6 @@ def standard(run: Run) -> pd.DataFrame:
 def facts(run: Run) -> dict:
     """Which law and inverse to take, what the pole, the arm's own singularities and torques do."""
     rows = arm_rows.episodes(run)
-    if rows.empty:
-        return {}
     both, counts = arm_pole.side_by_side(standard(run)), arm_outcomes.tallied(standard(run))
     return {
         **arm_ranking.facts(rows),

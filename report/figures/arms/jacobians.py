@@ -36,7 +36,7 @@ COORDINATES = {name: arm_looks.short_title(name) for name in known_representatio
 
 def papers(run: Run, **words: str) -> pd.DataFrame:
     """Poses seen in the paper's coordinates."""
-    return run.rows("poses", representation=PAPERS, **words)
+    return run.any_rows("poses", representation=PAPERS, **words)
 
 
 def facts(run: Run) -> dict:
@@ -46,7 +46,7 @@ def facts(run: Run) -> dict:
         **(given(papers(run, **FIRST_EXAMPLE), first_example) or {}),
         **(given(papers(run, pose_set="random"), most_spoilt) or {}),
         **{name: f"{value:.1f}" for name, value in (given(every, gaps) or {}).items()},
-        **(given(run.rows("poses", pose_set="pole"), slopes) or {}),
+        **(given(run.any_rows("poses", pose_set="pole"), slopes) or {}),
         **filmed(run),
         "joints": given(papers(run, pose_set="slice"), joints),
         "bad": f"{condition_maps.BAD:g}",
@@ -58,8 +58,8 @@ def facts(run: Run) -> dict:
 def tables(run: Run) -> dict:
     """Named poses, and poses that J_E spoils."""
     return {
-        "named": given(run.rows("poses", pose_set="named"), conditions),
-        "spoilt": given(run.rows("poses", pose_set="random"), spoilt),
+        "named": given(run.any_rows("poses", pose_set="named"), conditions),
+        "spoilt": given(run.any_rows("poses", pose_set="random"), spoilt),
     }
 
 
@@ -171,7 +171,7 @@ def miss(start: str) -> str:
 def family(run: Run, about: dict) -> dict[str, str]:
     """How many of the arm's starts at the same pole and pose the first controller loses in this run, of how many."""
     words = {"arm": about["arm"], "start_set": about["start_set"], "variation": "nominal", "engine": "native"}
-    rows = run.rows("episodes", **words)
+    rows = run.any_rows("episodes", **words)
     rows = rows[rows["contender"] == about["episodes"][0]["contender"]]
     alike = rows[rows["start_id"].astype(str).str.startswith(about["start"].rpartition("-")[0])]
     failed = int((alike["outcome"] != "settled").sum())

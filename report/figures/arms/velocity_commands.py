@@ -42,7 +42,7 @@ INVERSES = Table(
 @functools.cache
 def told(run: Run) -> pd.DataFrame:
     """Rows of episodes, with `law` and `settled`; none where the run has none."""
-    rows = run.rows("velocity")
+    rows = run.any_rows("velocity")
     if rows.empty:
         return rows
     law = rows["contender"].astype(str).str.partition("@")[0]
@@ -52,7 +52,7 @@ def told(run: Run) -> pd.DataFrame:
 @functools.cache
 def limits(run: Run) -> pd.DataFrame:
     """Measured limits beside theory's, with `law`."""
-    rows = run.rows("velocity-limits")
+    rows = run.any_rows("velocity-limits")
     if rows.empty:
         return rows
     return with_theory(rows).assign(law=rows["contender"].astype(str).str.partition("@")[0])

@@ -238,5 +238,5 @@ def facts(run: Run) -> dict:
 
 def figures(run: Run) -> dict:
     """What the script brings to life."""
-    costs = run.rows("costs", **read.FREE_BODY)
+    costs = run.any_rows("costs", **read.FREE_BODY)
     return {"two-laws": page(alive(costs["contender"].astype(str)) if len(costs) else alive(()), costs)}

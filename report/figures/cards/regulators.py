@@ -79,7 +79,7 @@ def docstring(file: Path) -> tuple[list[str], str]:
 
 def costs_of(one: Contender, run: Run) -> pd.DataFrame:
     """Operations of the typical branch: a row a stage, the stages that do nothing left out."""
-    rows = run.rows("costs", contender=one.name, branch="typical").set_index("stage")
+    rows = run.any_rows("costs", contender=one.name, branch="typical").set_index("stage")
     numbers = rows[[name for name in COUNTED if name == "flops" or rows[name].any()]]
     return numbers[(numbers > 0).any(axis=1)].rename(columns={"compare": "<"}).reset_index()
 
@@ -105,7 +105,7 @@ def measured(episodes: pd.DataFrame, regulator: Regulator) -> str:
 
 def found_of(one: Contender, run: Run) -> str:
     """What its command is as a function of state, without the states that show it, which `judge` prints."""
-    rows = run.rows("command-field", contender=one.name)
+    rows = run.any_rows("command-field", contender=one.name)
     said = why.sentences(rows, one.regulator.property) if len(rows) else []
     return " ".join(EXAMPLE.split(each.text)[0].rstrip(".") + "." for each in said)
 
@@ -123,7 +123,7 @@ def advised(law: str, run: Run) -> str:
 def card(one: Contender, run: Run) -> str:
     """Card of one law: source, formula, words, costs, and the map of its failures."""
     regulator, title = one.regulator, laws.title_of(one)
-    episodes = run.rows("episodes", contender=one.name, engine=engine_of(regulator))
+    episodes = run.any_rows("episodes", contender=one.name, engine=engine_of(regulator))
     drawn = f'<div class="card-map">{card_map(episodes, title)._repr_html_()}</div>' if len(episodes) else ""
     formula = f'<div class="card-formula">{html.formula(regulator.formula)}</div>' if regulator.formula else ""
     look, alone = html.both(style.look(one.name).colour), "" if drawn else " alone"
@@ -173,7 +173,7 @@ def facts(run: Run) -> dict:
     every = [one.regulator for one in all_contenders()]
     ran = [one for one in every if not one.costing_only]
     uniform = run.rows("episodes", **read.FREE_BODY, engine="ideal-rk4", start_set="uniform")
-    looked_at = run.rows("command-field")
+    looked_at = run.any_rows("command-field")
     tried = dict(zip(looked_at["finding"], looked_at["of"], strict=True)) if len(looked_at) else {}
     return {
         "compared": sum(not one.control for one in ran),
@@ -194,7 +194,7 @@ def tables(run: Run) -> dict:
 
 def line(one: Contender, run: Run) -> tuple:
     """A link to a law's card, what is proved, what was measured, its word on the command line."""
-    uniform = run.rows("episodes", contender=one.name, engine=engine_of(one.regulator), start_set="uniform")
+    uniform = run.any_rows("episodes", contender=one.name, engine=engine_of(one.regulator), start_set="uniform")
     return (
         families.link(one.name, laws.title_of(one)),
         html.together(html.foreign(one.regulator.property)),

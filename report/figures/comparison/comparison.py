@@ -48,14 +48,14 @@ def uniform(run: Run) -> pd.DataFrame:
 @functools.cache
 def at_peak(run: Run) -> pd.DataFrame:
     """Rows of every law at cells.LEVEL, family by family; a law whose command has no bound has none."""
-    every = run.rows("robustness", axis="equal-peak")
+    every = run.any_rows("robustness", axis="equal-peak")
     return cells.in_families(every[every["level"] == cells.LEVEL]) if len(every) else every
 
 
 @functools.cache
 def in_mujoco(run: Run) -> pd.DataFrame:
     """Episodes of the free body in MuJoCo if its own actuator is among them, else none."""
-    every = run.rows("episodes", engine="native", **read.FREE_BODY)
+    every = run.any_rows("episodes", engine="native", **read.FREE_BODY)
     return every if (every["contender"] == ACTUATOR).any() else every.iloc[:0]
 
 

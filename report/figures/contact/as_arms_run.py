@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Iterator
 
-import numpy as np
 import pandas as pd
 
-from bench.base.files import read_json
 from bench.experiments.impedance import ZETA, Stiffness
 from bench.findings.theory.impedance_modes import longest_tick, with_theory
 from bench.law.control.unshaped import DAMPINGS
-from bench.studies.contact.__main__ import STORED
 from bench.studies.contact.admittance import DECADES, FORCE_N, HALVINGS, SHIPPED
 from report.figures.arms import arm_looks
+from report.figures.contact.in_contact import study
 from report.figures.kit import html, style
 from report.figures.kit.inline import responsive_picture
-from report.figures.kit.page import Run, given
+from report.figures.kit.page import Run, in_run
 from report.figures.kit.tables import Table
 
 LOOKS = {
@@ -29,11 +28,7 @@ WITHIN = 10.0 ** ((DECADES[1] - DECADES[0]) / 2**HALVINGS) - 1.0
 LAG_COLOURS = (style.INK, "#0072b2", "#009e73", "#d55e00")
 
 SHORT = {"diagonal": "2√K", "per-axis": "per axis", "double-diagonalization": "double"}
-RATIOS, TIMES = ({name: f"{what}, {word}" for name, word in SHORT.items()} for what in ("Ratio", "Settles [s]"))
-FELT = Table(
-    " | ".join(("Arm", "K [N/m, N m/rad]", *RATIOS.values(), *TIMES.values())),
-    words=(*RATIOS.values(), *TIMES.values()),
-)
+FELT = Table(" | ".join(("Arm", "K [N/m, N m/rad]", *SHORT.values())), words=SHORT.values())
 BARE = "panda"
 """The arm whose model has neither hand nor rotors."""
 EXAMPLES = {
@@ -50,46 +45,32 @@ SENSITIVITY = Table(
     " | ".join(("Rotor [kg m² a joint]", *(f"{name}, {k:g}, {r:g}" for name, (k, r) in EXAMPLES.items()))),
     words=tuple(f"{name}, {k:g}, {r:g}" for name, (k, r) in EXAMPLES.items()),
 )
-LIMITS = Table(
-    "Position loop | Lag [ms] | 0 ms | 2 ms | 5 ms | 10 ms | 20 ms", words=("0 ms", "2 ms", "5 ms", "10 ms", "20 ms")
-)
 
 
 @functools.cache
 def modes(run: Run) -> pd.DataFrame:
-    """Modes measured, beside theory's; none where the run has none."""
-    rows = run.rows("impedance-modes")
-    return with_theory(rows.astype({"arm": str, "damping": str})) if len(rows) else rows
+    """Return the modes measured, beside theory's."""
+    return with_theory(run.rows("impedance-modes").astype({"arm": str, "damping": str}))
 
 
 @functools.cache
 def episodes(run: Run) -> pd.DataFrame:
     """Episodes in free motion, with `settled` and `gap`, the share of its energy that is unaccounted for."""
     rows = run.rows("impedance")
-    if rows.empty:
-        return rows
     gone = rows["left_j"] + rows["damped_j"] + rows["elbow_j"] - rows["added_j"]
     return rows.astype({"arm": str, "damping": str, "compensated": str}).assign(
         settled=rows["outcome"].astype(str) == "settled", gap=(gone / rows["stored_j"] - 1.0).abs()
     )
 
 
-@functools.cache
-def study(part: str) -> pd.DataFrame:
-    """A part of the committed study of contact."""
-    return pd.DataFrame(read_json(STORED).get(part, []))
-
-
 def facts(run: Run) -> dict:
-    """Numbers of the text."""
-    return in_free_motion(run) | in_contact()
+    """Return the numbers of the text."""
+    return (in_run(lambda: in_free_motion(run)) or {}) | in_contact()
 
 
 def in_free_motion(run: Run) -> dict:
-    """Return the facts of modes and episodes; none where the run lacks one of them."""
+    """Return the facts of modes and episodes."""
     found, rows = modes(run), episodes(run)
-    if found.empty or rows.empty:
-        return {}
     felt = {name: found.loc[found["damping"] == name, "ratio"] for name in LOOKS}
     lost = found[found["radius"] >= 1.0].groupby(["arm", "stiffness_n_m", "stiffness_nm_rad"]).size().index
     whole = rows[rows["compensated"] == "bias"]
@@ -113,8 +94,8 @@ def in_free_motion(run: Run) -> dict:
         ),
         "slower": f"{slower(rows, 'diagonal', 'double-diagonalization'):.2g}",
         "needs": needed_ticks(found),
-        "tick": f"{1000 * float(rows['dt_s'].iloc[0]):g}",
-        **practice(float(rows["dt_s"].iloc[0])),
+        "tick": f"{1000 * dt_of(run):g}",
+        **practice(dt_of(run)),
     }
 
 
@@ -164,12 +145,12 @@ def slower(rows: pd.DataFrame, one: str, other: str) -> float:
 def in_contact() -> dict:
     """Return the study's numbers: planes that the impedance was pressed on, and limits of the admittance."""
     pressed, limits = study("unshaped"), study("admittance")
-    if pressed.empty or limits.empty:
-        return {}
     calm, servos, arms = pressed[pressed["settles"]], *(limits[limits["plant"] == name] for name in ("servo", "arm"))
     slow = servos[servos["lag_ms"] == servos["lag_ms"].max()]
     off = {name: (own["measured"] / own["theory"] - 1.0).abs().max() for name, own in limits.groupby("plant")}
     lost = arms[arms["measured"].isna()]
+    done = study("unshaped-tasks").pivot_table(index=["task", "arm"], columns="damping", values="done")
+    apart = done.div(done["shaped"], axis=0) - 1.0
     return {
         "planes": f"{len(calm)} of {len(pressed)}",
         "plane_arms": pressed["arm"].nunique(),
@@ -179,7 +160,7 @@ def in_contact() -> dict:
         "servo_gap": f"{100 * float(off['servo']):.1g}",
         "arm_gap": f"{100 * max(float(off['arm']), WITHIN):.1g}",
         "tasks": len(study("unshaped-tasks")["task"].unique()),
-        "same": f"{100 * farthest_from_shaped(study('unshaped-tasks')):.1g}",
+        "same": f"{100 * float(apart.abs().max().max()):.1g}",
         "shipped_m": f"{SHIPPED.m:g}",
         "shipped_d": f"{SHIPPED.d:.0f}",
         "shipped_k": f"{SHIPPED.k:g}",
@@ -190,37 +171,21 @@ def in_contact() -> dict:
     }
 
 
-def farthest_from_shaped(rows: pd.DataFrame) -> float:
-    """The largest share by which what is done to a scene differs from what shaped inertia does."""
-    wide = rows.pivot_table(index=["task", "arm"], columns="damping", values="done")
-    return float(wide.div(wide["shaped"], axis=0).sub(1.0).abs().max().max())
-
-
 def tables(run: Run) -> dict:
-    """Return damping felt and free motion; the bare arm with rotors; limits of the admittance."""
-    rows = episodes(run)
-    rotors = [] if rows.empty else sensitivity(float(rows["dt_s"].iloc[0]))
-    return {"tab_felt": FELT(felt(run)), "tab_rotors": SENSITIVITY(rotors), "tab_limits": LIMITS(limits())}
+    """Return damping felt, and the bare arm with rotors."""
+    return {"tab_felt": FELT(felt(modes(run))), "tab_rotors": SENSITIVITY(sensitivity(dt_of(run)))}
 
 
-def felt(run: Run) -> list[tuple]:
-    """A row an arm and stiffness, with gravity alone compensated."""
-    found, rows = modes(run), episodes(run)
-    if found.empty or rows.empty:
-        return []
-    rows = rows[rows["compensated"] == "gravity"]
-    return [
-        (
-            arm_looks.title(arm),
-            html.together(f"{k:g}, {r:g}"),
-            *(ratio(own[own["damping"] == name]) for name in LOOKS),
-            *(
-                time(rows[(rows["arm"] == arm) & (rows["stiffness_n_m"] == k) & (rows["damping"] == name)])
-                for name in LOOKS
-            ),
-        )
-        for (arm, k, r), own in found.groupby(["arm", "stiffness_n_m", "stiffness_nm_rad"])
-    ]
+def felt(found: pd.DataFrame) -> Iterator[tuple]:
+    """Return a row an arm and stiffness."""
+    for (arm, k, r), own in found.groupby(["arm", "stiffness_n_m", "stiffness_nm_rad"]):
+        ratios = (ratio(own[own["damping"] == name]) for name in LOOKS)
+        yield arm_looks.title(arm), html.together(f"{k:g}, {r:g}"), *ratios
+
+
+def dt_of(run: Run) -> float:
+    """Return the control period [s]."""
+    return float(episodes(run)["dt_s"].iloc[0])
 
 
 def ratio(own: pd.DataFrame) -> str:
@@ -230,36 +195,12 @@ def ratio(own: pd.DataFrame) -> str:
     return html.together(f"{said}, unstable" if own["radius"].iloc[0] >= 1.0 else said)
 
 
-def time(ran: pd.DataFrame) -> str:
-    """The median of those that settle, and how many do."""
-    settled = ran[ran["settled"]]
-    median = f"{settled['settling_time_s'].median():.2g}, " if len(settled) else ""
-    return html.together(f"{median}{len(settled)} of {len(ran)}")
-
-
-def limits() -> list[tuple]:
-    """A row a position loop: the stiffness [N/mm] up to which a press settles, by delay; theory in brackets."""
-    own = study("admittance")
-    if own.empty:
-        return []
-    titles = {"servo": "servo with a lag", "arm": "UR5e, a double pole"}
-    return [
-        (titles[plant], lag, *(limit(row) for row in group.sort_values("delay_ms").itertuples()))
-        for (plant, lag), group in own.groupby(["plant", "lag_ms"], sort=False)
-    ]
-
-
-def limit(row) -> str:
-    """Measured and by theory [N/mm]."""
-    if np.isnan(row.measured):
-        return "none"
-    form = ".3g" if row.measured < 1e6 else ",.0f"
-    return html.together(f"{row.measured / 1000:{form}} ({row.theory / 1000:{form}})")
-
-
 def figures(run: Run) -> dict:
-    """Ratios felt, and limits."""
-    return {"ratios-felt": given(modes(run), ratios_felt), "admittance-limits": given(study("admittance"), stiffest)}
+    """Return ratios felt, and limits."""
+    return {
+        "ratios-felt": in_run(lambda: ratios_felt(modes(run))),
+        "admittance-limits": stiffest(study("admittance")),
+    }
 
 
 @responsive_picture
@@ -268,16 +209,8 @@ def ratios_felt(rows: pd.DataFrame, narrow: bool):
     figure, axes = style.panels(height=3.6 if narrow else 3.2, narrow=narrow)
     for name, look in LOOKS.items():
         own = rows[rows["damping"] == name]
-        axes.plot(
-            own["omega"],
-            own["ratio"],
-            linestyle="none",
-            marker=look.marker,
-            markersize=5,
-            color=look.colour,
-            alpha=0.7,
-            label=DAMPINGS[name].title,
-        )
+        marks = {"linestyle": "none", "marker": look.marker, "markersize": 5, "color": look.colour, "alpha": 0.7}
+        axes.plot(own["omega"], own["ratio"], label=DAMPINGS[name].title, **marks)
         axes.plot(own["omega_theory"], own["ratio_theory"], ".", color=style.INK, markersize=2)
     axes.axhline(float(rows["zeta"].iloc[0]), color=style.MUTED, linewidth=0.7, linestyle=style.DASHED)
     axes.set(xscale="log", yscale="log", xlabel="natural frequency of the mode [1/s]", ylabel="damping ratio felt")
@@ -303,13 +236,11 @@ def stiffest(rows: pd.DataFrame, narrow: bool):
         words.append(
             f"{own['measured'].iloc[-1] / 1000:.1f} N/mm at {lag:g} ms of lag and {own['delay_ms'].max()} of delay"
         )
-    for marker, (lag, own) in zip(
-        "v^", rows[(rows["plant"] == "arm") & rows["measured"].notna()].groupby("lag_ms"), strict=True
-    ):
+    arms = rows[(rows["plant"] == "arm") & rows["measured"].notna()]
+    for marker, (lag, own) in zip("v^", arms.groupby("lag_ms"), strict=True):
+        marks = {"color": style.MUTED, "markersize": 5, "label": f"UR5e, {lag:.0f} ms"}
         axes.plot(own["delay_ms"], own["theory"], color=style.MUTED, linestyle=style.DASHED)
-        axes.plot(
-            own["delay_ms"], own["measured"], marker, color=style.MUTED, markersize=5, label=f"UR5e, {lag:.0f} ms"
-        )
+        axes.plot(own["delay_ms"], own["measured"], marker, **marks)
     axes.set(yscale="log", ylim=(4e3, 2e5), xlabel="delay of the command [ms]", ylabel="stiffness [N/m]")
     figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2 if narrow else 3)
     return figure, f"Stiffness up to which a press by admittance settles. {'; '.join(words)}."

@@ -9,60 +9,80 @@ import pandas as pd
 from scipy.stats import fisher_exact
 
 import tasks
-from report.figures.arms import arm_looks
-from report.figures.contact import contact_models, limits
-from report.figures.contact.by_frame import MEASURES, Measure, by_frame
-from report.figures.contact.ends import ends
-from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER, of, of_task, title, verdicts, ways
-from report.figures.kit import html, media
-from report.figures.kit.page import ABSENT, Run, given
+from bench.base.files import read_json
+from bench.engines.metrics.contact.scene import IN
+from bench.studies.contact.__main__ import STORED
+from report.figures.contact.outcomes import MEASURES, table_of_tasks
+from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER, of, of_task, verdicts
+from report.figures.kit import media
+from report.figures.kit.page import ABSENT, NotInRun, Run, in_run
 from report.figures.kit.spelling import power
-from report.figures.kit.tables import Table
 from tasks.contact_model import STANDARD
+from tasks.contact_rest import HORIZON_S, REST
 
-CONTROLS = ("hybrid-unconverted/zyx-euler", "hybrid-unconverted/zyx-euler+transpose")
-"""Controllers that are there to fail."""
-
-MARKS = {"projected": "(S J)⁺", "transpose": "Jᵀ"}
-"""Form -> its mark in a table; J^-1, the usual one, has none."""
-
-QUANTILE = 0.95
 P_VALUE = 0.05
 """Of Fisher's exact test, both sides: below it two shares of pegs differ significantly."""
+PRESSING = ("surface-alignment", "peg-in-hole", "force-on-plane")
+"""Tasks in which a force is ordered."""
 
 
 @functools.cache
 def all_rows(run: Run) -> pd.DataFrame:
-    """Rows of every task in contact; maybe none."""
-    return pd.concat([of_task(run, name) for name in MEASURES], ignore_index=True)
+    """Return the rows of every task in contact that the run has."""
+    found = [of_task(run, name) for name in MEASURES if len(run.any_rows("compliance", task=name))]
+    if not found:
+        raise NotInRun("no task in contact")
+    return pd.concat(found, ignore_index=True)
+
+
+@functools.cache
+def study(part: str) -> pd.DataFrame:
+    """Return a part of the committed study of contact."""
+    return pd.DataFrame(read_json(STORED)[part])
 
 
 def facts(run: Run) -> dict:
-    """How episodes end, and what they are."""
-    rows = all_rows(run)
+    """Return how episodes end, and what they are."""
     return {
-        **plate(rows),
-        "orders": orders(),
-        "fewer": given(rows, fewer),
+        **describe_tasks(),
+        **limits(),
+        **(in_run(lambda: of_run(all_rows(run))) or {}),
+        "fits": said_of_fits(study("fits")),
+    }
+
+
+def describe_tasks() -> dict[str, str]:
+    """Return what each task is, what its order lets comply, when it ends, and the model of contact."""
+    arm = tasks.arm(media.facts()["contact"]["arm"])
+    parts = [
+        f"{task.title} (complies: {task.trials(arm)[0].specification.name})"
+        for task in map(tasks.contact_task, MEASURES)
+    ]
+    return {
+        "orders": f"{'. '.join(parts)}.",
+        "rest_rule": f"{1e3 * REST.speed:g} mm/s and {REST.rate:g} rad/s for {REST.hold_s:g} s",
+        "rest_horizon": f"{HORIZON_S:g}",
         "stiffness": f"{STANDARD.stiffness:,.0f}",
         "damping": f"{STANDARD.damping:,.0f}",
-        **ends(rows),
-        **limits.facts(),
         "friction": f"{STANDARD.friction:g}",
-        "models_trial": f"{tasks.arm(contact_models.ARM).title}, {named(contact_models.TRIAL)}",
-        "betas": given(rows, lambda _: ", ".join(f"{beta:.0f}°" for beta in sorted(set(rows["beta_deg"])))),
-        "penetration": penetration(rows),
-        "worst": worst(rows, PAPERS, PAPERS_EULER),
-        "stuck": stuck(rows, PAPERS, PAPERS_EULER),
-        "other_worst": worst(rows, CARTESIAN, EULER),
-        "other_stuck": stuck(rows, CARTESIAN, EULER),
+    }
+
+
+def of_run(rows: pd.DataFrame) -> dict[str, str]:
+    """Return what the run says."""
+    return {
+        **plate(rows),
+        "betas": ", ".join(f"{beta:.0f}°" for beta in sorted(set(rows["beta_deg"]))),
+        "rest": rested(rows),
+        "overshoot": overshot(rows),
         "flat": flat(rows),
-        "fits": limits.said_of_fits(limits.part("fits")),
+        "stuck": stuck(rows, PAPERS, PAPERS_EULER),
+        "other_stuck": stuck(rows, CARTESIAN, EULER),
     }
 
 
 def plate(rows: pd.DataFrame) -> dict[str, str]:
-    """What the loop shows: the angles [deg] at the end of its two episodes, in this run, and whether that is rest."""
+    """Return what the loop shows: the angles [deg] at the end of its two episodes, and whether that is rest."""
     about = media.facts()["contact"]
     shown, values = about["plate"], {"plate_arm": tasks.arm(about["arm"]).title}
     trials = tasks.contact_task(shown["task"]).trials(tasks.arm(about["arm"]))
@@ -72,59 +92,44 @@ def plate(rows: pd.DataFrame) -> dict[str, str]:
     values["plate_beta"] = trial.id.rpartition("beta+")[2]
     own = rows[(rows["task"] == shown["task"]) & (rows["arm"] == about["arm"]) & (rows["pose"] == shown["trial"])]
     for word, contender in zip(("plate_cartesian", "plate_euler"), shown["controllers"], strict=True):
-        one = own[own["contender"] == contender]
-        values[word] = f"{np.degrees(one['alignment_error_rad'].iloc[0]):.1f}" if len(one) else ABSENT
-        values[f"{word}_rest"] = word_of_rest(one.iloc[0]) if len(one) else ABSENT
+        for _, one in own[own["contender"] == contender].iterrows():
+            values |= {word: f"{np.degrees(one['alignment_error_rad']):.1f}", f"{word}_rest": word_of_rest(one)}
     return values
 
 
-def orders() -> str:
-    """What each task is, and what its order lets comply."""
-    arm, lines = tasks.arm(media.facts()["contact"]["arm"]), []
-    for name in MEASURES:
-        task = tasks.contact_task(name)
-        lines.append(f"{task.title} (complies: {task.trials(arm)[0].specification.name})")
-    return f"{'. '.join(lines)}."
+def word_of_rest(row: pd.Series) -> str:
+    """Return at rest, or creeping and how fast."""
+    if row["rest"] == "at-rest":
+        return "at rest"
+    rate, speed = np.degrees(row["remaining_rate_rad_per_s"]), 1e3 * row["remaining_speed_m_per_s"]
+    return f"creeping at {power(rate)} °/s and {power(speed)} mm/s"
 
 
-def fewer(rows: pd.DataFrame) -> str:
-    """Which arms run some of the controllers only: medians over arms are then of other arms from line to line."""
-    run = rows.groupby("arm")["contender"].nunique()
-    parts = [f"the {arm_looks.title(arm)} {count} of {run.max()}" for arm, count in run[run < run.max()].items()]
+def rested(rows: pd.DataFrame) -> str:
+    """State how many are at rest by the paper's force control, and how fast the others creep."""
+    own = rows[rows["contender"].isin((PAPERS, PAPERS_EULER)) & (rows["rest"] != "")]
+    late = own[own["rest"] == "creeping"]
+    words = f"{len(own) - len(late)} of {len(own)} are at rest."
+    if late.empty:
+        return words
+    speed, rate = 1e3 * late["remaining_speed_m_per_s"], np.degrees(late["remaining_rate_rad_per_s"])
+    return f"{words} The others creep, at most at {power(speed.max())} mm/s and {power(rate.max())} °/s."
+
+
+def overshot(rows: pd.DataFrame) -> str:
+    """State the largest force of each pressing task, by the paper's force control and by accelerations."""
+    own = rows[rows["task"].isin(PRESSING) & (rows["outcome"] == "done")]
+    peaks = own.groupby(["task", "contender"])["peak_force_n"].median().unstack()
+    over = of(own, PAPERS).groupby("task")["force_overshoot"].median()
+    parts = [
+        f"{task.replace('-', ' ')} {peaks.loc[task, PAPERS]:.0f} N ({1.0 + over[task]:.1f} times the order along it; "
+        f"by accelerations {peaks.loc[task, CARTESIAN]:.0f} N)"
+        for task in PRESSING
+        if task in over.index and CARTESIAN in peaks
+    ]
     if not parts:
-        return "Every arm runs every controller."
-    return f"Not every arm runs every controller ({'; '.join(parts)}): rows with more episodes cover more arms."
-
-
-def penetration(rows: pd.DataFrame) -> str:
-    """How deep the hand is in its surroundings at the worst, of those that reach the end."""
-    own = rows[(rows["outcome"] == "done") & ~rows["way"].isin(CONTROLS)]
-    if own.empty:
-        return f"How deep they penetrate is {ABSENT}."
-    deepest = 1e3 * own["penetration_m"].dropna()
-    return (
-        f"Over the {len(deepest)} episodes that reach the end hand and scene penetrate by {deepest.median():.2f} mm in "
-        f"the median, by {deepest.quantile(QUANTILE):.2f} mm at the {QUANTILE:.0%} quantile and by {deepest.max():.2f} "
-        "mm at most."
-    )
-
-
-def worst(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
-    """Say where the Euler Jacobian is furthest from the Cartesian one, on the plate."""
-    own = rows[(rows["task"] == "surface-alignment") & (rows["outcome"] == "done")]
-    pair = of(own, cartesian).merge(of(own, euler), on=["arm", "pose"])
-    if pair.empty:
-        return f"How tools end on the plate is {ABSENT}."
-    turned = pair.loc[pair["held_turn_rad_y"].idxmax()]
-    tilted = pair.loc[pair["alignment_error_rad_y"].idxmax()]
-    flat = np.degrees(pair["alignment_error_rad_x"].max())
-    return (
-        f"On the plate the Cartesian tool lies flat to {power(flat)} degrees in all {len(pair)} episodes that both "
-        f"end. By the Euler one it ends up to {np.degrees(tilted['alignment_error_rad_y']):.0f}° off "
-        f"({of_pose(tilted)}; {word_of_rest(tilted, '_y')}), and has turned by up to "
-        f"{np.degrees(turned['held_turn_rad_y']):.0f}° about the axis that it had to hold ({of_pose(turned)}; "
-        f"{word_of_rest(turned, '_y')})."
-    )
+        return f"How hard they strike is {ABSENT}."
+    return f"No controller limits the impact. The largest force is, in the median, {'; '.join(parts)}."
 
 
 def stuck(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
@@ -164,73 +169,32 @@ def flat(rows: pd.DataFrame) -> str:
     return "; ".join(parts)
 
 
-def word_of_rest(row: pd.Series, side: str = "") -> str:
-    """At rest, or creeping and how fast; of one side of a pair, `_x` or `_y`."""
-    if row[f"rest{side}"] == "at-rest":
-        return "at rest"
-    rate, speed = row[f"remaining_rate_rad_per_s{side}"], 1e3 * row[f"remaining_speed_m_per_s{side}"]
-    return f"creeping at {power(np.degrees(rate))} °/s and {power(speed)} mm/s"
-
-
-def of_pose(row: pd.Series) -> str:
-    """An episode's arm and pose."""
-    return f"{row['arm']}, {named(row['pose'])}"
-
-
-def named(pose: str) -> str:
-    """A pose as the page spells it: tilt 20 about 0, beta+75."""
-    return pose.replace("beta+", "β = ").replace("beta-", "β = −") + "°"
-
-
-def tables(run: Run) -> dict:
-    """Other models of contact; verdicts; a table a task."""
-    rows = all_rows(run)
+def limits() -> dict[str, str]:
+    """Return from the study what springs leave, and where a press becomes unstable."""
+    springs, boundary = study("springs"), study("boundary")
+    steep = springs[springs["tilt_deg"] > 15.0].groupby("stiffness")["left_deg"].max().sort_index(ascending=False)
+    is_ours = boundary["controller"] == PAPERS
+    ours, others = boundary[is_ours & (boundary["kf"] == 0.5)], boundary[~is_ours]
     return {
-        "tab_models": contact_models.MODELS(contact_models.models()),
-        "verdicts": verdicts(run, "C25"),
-        **limits.tables(),
-        **{f"tab_{name}": given(rows[rows["task"] == name], of_controllers) for name in MEASURES},
+        "springs_left": ", ".join(f"{left:.2g}° by {k:g} N m/rad" for k, left in steep.items()),
+        "springs_soft": f"{steep.index[-1]:g}",
+        "boundary_papers": f"{int(ours['measured'].isna().sum())} of {len(ours)}",
+        "boundary_off": f"{100.0 * (others['measured'] / others['theory'] - 1.0).abs().max():.0f}",
+        "boundary_longest": f"{ours['delay_ms'].max():g}",
     }
 
 
-def of_controllers(own: pd.DataFrame) -> html.Markdown | None:
-    """A controller a line: how many episodes of one task reach the end, and its two middles at every beta."""
-    measures = MEASURES[str(own["task"].iloc[0])]
-    betas = sorted(set(own["beta_deg"]))
-    shown = betas if len(betas) <= 3 else [betas[0], betas[len(betas) // 2], betas[-1]]
-    ends_at_rest = (own["rest"].astype(str) != "").any()
-    lines = []
-    for contender in in_order(own):
-        mine = own[own["contender"] == contender]
-        done = mine[mine["outcome"] == "done"]
-        counts = [f"{len(done)}/{len(mine)}"]
-        counts += [f"{(done['rest'] == 'at-rest').sum()}/{len(done)}"] if ends_at_rest else []
-        middles = [measure.over_beta(mine) for measure in measures]
-        values = (middle.get(beta, np.nan) for middle in middles for beta in shown)
-        lines.append((controller(contender), *map(html.together, counts), *values))
-    forms = {_head(measure, b): measure.form for measure in measures for b in shown}
-    counted = ("Reach the end", "At rest") if ends_at_rest else ("Reach the end",)
-    return Table({"Controller": "", **dict.fromkeys(counted, ""), **forms})(lines)
+def said_of_fits(fits: pd.DataFrame) -> str:
+    """How many pegs go in at each clearance, the widest first, and whether closer fits take fewer."""
+    counts = (fits["depth_m"] >= IN).groupby(fits["clearance"]).agg(["sum", "size"]).sort_index(ascending=False)
+    told = ", ".join(f"{one['sum']} of {one['size']} at {100 * share:g} %" for share, one in counts.iterrows())
+    falls = counts["sum"].is_monotonic_decreasing and counts["sum"].nunique() > 1
+    return f"{'fewer' if falls else 'not fewer'} pegs go in the closer they fit: {told} of play"
 
 
-def _head(measure: Measure, beta: float) -> str:
-    return f"{measure.short} [{measure.unit}], {beta:.0f}°"
-
-
-def controller(contender: str) -> str:
-    """A controller in a cell, its coordinates and its form kept whole."""
-    way, _, form = contender.partition("+")
-    name, comma, coordinates = title(way).rpartition(", ")
-    whole = f"{name}, {html.together(coordinates)}" if "/" in way else f"{name}{comma}{coordinates}"
-    return f"{whole}, {html.together(MARKS[form])}" if form in MARKS else whole
-
-
-def in_order(rows: pd.DataFrame) -> list[str]:
-    """The controllers of the rows: hybrid ones first, each with its forms side by side."""
-    ranks = {way.partition("+")[0]: place for place, way in enumerate(ways(rows))}
-    return sorted(
-        set(rows["contender"]), key=lambda name: (name.startswith("impedance"), ranks[name.partition("+")[0]], name)
-    )
+def tables(run: Run) -> dict:
+    """Return the verdict, and one table of all tasks."""
+    return {"verdicts": verdicts(run, "C25"), "outcomes": table_of_tasks(all_rows(run))}
 
 
 LOOP = (
@@ -239,7 +203,6 @@ LOOP = (
 )
 
 
-def figures(run: Run) -> dict:
-    """The loop of two arms at a plate; tasks by frame of the hand."""
-    found = {"plate-loop": media.loop(LOOP, "plate-loop"), "in-contact": given(all_rows(run), by_frame)}
-    return {**found, **limits.figures()}
+def figures(_: Run) -> dict:
+    """Return the loop of two arms at a plate."""
+    return {"plate-loop": media.loop(LOOP, "plate-loop")}

@@ -15,7 +15,7 @@ from bench.law.contenders.registry import known_impedances
 from bench.law.control.contact_controller import PAPERS_FORM
 from report.figures.claims import claims as shown
 from report.figures.kit import html, style
-from report.figures.kit.page import Run
+from report.figures.kit.page import Run, in_run
 
 CARTESIAN, EULER = "hybrid-base+inverse", "hybrid/zyx-euler+inverse"
 HAND, BY_RATE = "hybrid-hand+inverse", "hybrid-rate+inverse"
@@ -47,21 +47,17 @@ COORDINATES = {
     "mrp": "Rodrigues",
 }
 WORDS = ("task", "arm", "contender", "complies", "pose", "outcome", "rest", "form")
-COLUMNS = (*WORDS, "way", "alpha_deg", "beta_deg", "gamma_deg", "tilt_deg")
-"""Those that a table without rows has too."""
 
 ORDERS = ("about x", "about y", "about z", "about x and y", "about y and z", "about z and x")
 
 
 @functools.cache
 def of_task(run: Run, task: str) -> pd.DataFrame:
-    """Rows of one task, maybe none: with plain words, `way`, and the goal's angles [deg].
+    """Return rows of one task, with plain words, `way`, and the goal's angles [deg].
 
     way: the controller without its form, for the forms that command accelerations; the paper's keeps its name.
     """
     found = run.rows("compliance", task=task)
-    if found.empty:
-        return pd.DataFrame(columns=COLUMNS)
     found = found.assign(**{word: found[word].astype(str) for word in WORDS})
     degrees = {f"{name}_deg": np.degrees(found[name]).round(6) + 0.0 for name in ("alpha", "beta", "gamma", "tilt")}
     way = found["contender"].where(found["form"] == PAPERS_FORM, found["contender"].str.partition("+")[0])
@@ -71,10 +67,7 @@ def of_task(run: Run, task: str) -> pd.DataFrame:
 def verdicts(run: Run, *ids: str) -> html.Markdown | None:
     """These claims with their words, linked to their sections; None if no row speaks of them."""
     results = claims.Results(run.folder)
-    try:
-        return shown.table([claims.judge(one, results) for one in ids], "40-claims.html")
-    except claims.NoEvidence:
-        return None
+    return in_run(lambda: shown.table([claims.judge(one, results) for one in ids], "40-claims.html"))
 
 
 def of(rows: pd.DataFrame, contender: str, complies: str = "") -> pd.DataFrame:
@@ -107,12 +100,6 @@ def wanted(rows: pd.DataFrame) -> dict[str, float]:
 def arms(rows: pd.DataFrame) -> list[str]:
     """The arms of the rows, sorted."""
     return sorted(set(rows["arm"]))
-
-
-def ways(rows: pd.DataFrame) -> list[str]:
-    """The controllers of the rows without their forms: those that have a look first, in its order."""
-    there = set(rows["way"])
-    return [way for way in LOOKS if way in there] + sorted(there - set(LOOKS))
 
 
 def title(way: str) -> str:

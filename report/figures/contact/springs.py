@@ -6,48 +6,44 @@ import pandas as pd
 
 from bench.law.contenders.registry import known_springs
 from report.figures.kit import html
-from report.figures.kit.page import Run
+from report.figures.kit.page import Run, in_run
 from report.figures.kit.tables import Table
 
 WORK = Table("Moment | Axes | Potential | Stiffness felt | Work | Work, K = kI | Rests at 180° | Balance")
-WAYS = Table(
-    "Force and moment | Potential | Work | Work, K = kI | Way, median:.2f | Way, most:.2f | Moves apart [m]:.2f"
-)
 WORDS = ("spring", "potential", "frame")
 
 
 def read_rows(run: Run, name: str) -> pd.DataFrame:
     """Return a table of the run with its words as text, springs without a potential first."""
     found = run.rows(name)
-    if found.empty:
-        return found
     words = [word for word in WORDS if word in found]
     return found.astype(dict.fromkeys(words, str)).sort_values(["potential", "spring"], kind="stable")
 
 
 def facts(run: Run) -> dict:
-    """Return the most work with and without a potential; work and path of the spring whose path is bent most."""
-    found, of_pose = read_rows(run, "springs"), read_rows(run, "pose-springs")
-    made: dict[str, int | str] = {}
-    if not found.empty:
-        most = found.groupby("potential")["work_share"].max()
-        loops = int(found["loops"].max())
-        made |= {
-            "loops": loops,
-            "worst": f"{100.0 * most['no']:.0f} % (the most of {loops} loops; more loops give more)",
-            "rounding": f"{html.number(float('{:.0e}'.format(most['yes'])))} of it",
-        }
-    if not of_pose.empty:
-        screw = of_pose.loc[of_pose["way_most"].idxmax()]
-        made |= {
-            "screw_work": write_percent(screw["work_share_isotropic"]),
-            "screw_way": f"{screw['way_most']:.2g} (never more than π/2) ",
-        }
-    return made
+    """Return the most work with and without a potential."""
+    found = read_rows(run, "springs")
+    most = found.groupby("potential")["work_share"].max()
+    loops = int(found["loops"].max())
+    return {
+        "loops": loops,
+        "worst": f"{100.0 * most['no']:.0f} % (the most of {loops} loops; more loops give more)",
+        "rounding": f"{html.number(float('{:.0e}'.format(most['yes'])))} of it",
+        **(in_run(lambda: of_poses(read_rows(run, "pose-springs"))) or {}),
+    }
+
+
+def of_poses(found: pd.DataFrame) -> dict:
+    """Return work and path of the spring of a pose whose path is bent most."""
+    screw = found.loc[found["way_most"].idxmax()]
+    return {
+        "screw_work": write_percent(screw["work_share_isotropic"]),
+        "screw_way": f"{screw['way_most']:.2g} (never more than π/2) ",
+    }
 
 
 def tables(run: Run) -> dict:
-    """Return a row a rotational spring and frame, and a row a spring of a pose."""
+    """Return a row a rotational spring and frame."""
     work = (
         (
             write_formula(one.spring),
@@ -61,19 +57,7 @@ def tables(run: Run) -> dict:
         )
         for one in read_rows(run, "springs").itertuples()
     )
-    ways = (
-        (
-            write_formula(one.spring),
-            one.potential,
-            write_percent(one.work_share),
-            write_percent(one.work_share_isotropic),
-            one.way_median,
-            one.way_most,
-            one.apart_m,
-        )
-        for one in read_rows(run, "pose-springs").itertuples()
-    )
-    return {"work": WORK(work), "ways": WAYS(ways)}
+    return {"work": WORK(work)}
 
 
 def write_formula(name: str) -> str:

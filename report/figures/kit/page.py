@@ -3,8 +3,8 @@
 The page pages/16-robustness.md has the module robustness/robustness.py (the front page, `index`), whose functions
 facts(run), tables(run) and figures(run) give what it pastes, key by key; a page may do without any of them. Further
 modules on a page give what it pastes under their own word: `spread` of responses.responses is pasted as
-`responses.spread`. A value that is None, or a key that is left out, is not in this run, and the page says so. A key
-that the page does not paste is an error.
+`responses.spread`. A value that is None, a key that is left out, and what needs a table that the run lacks (NotInRun,
+and the claims' NoEvidence) are not in this run, and the page says so. A key that the page does not paste is an error.
 """
 
 from __future__ import annotations
@@ -19,8 +19,10 @@ from typing import Any
 
 import pandas as pd
 
+from bench.base.errors import NoTable
 from bench.experiments.tables import read
-from bench.experiments.tables.schema import RESULTS
+from bench.experiments.tables.schema import RESULTS, table_of
+from bench.findings.claims.verdict import NoEvidence
 from report.figures.kit import html, style
 from report.figures.kit.inline import responsive_picture
 
@@ -32,6 +34,10 @@ INLINE = re.compile(r"\{glue:(text|md)\}`([^`:]+)")
 BLOCK = re.compile(r"^\s*(?:`{3,}|:{3,})\{glue:?(md|figure|)\}\s+(\S+)", re.MULTILINE)
 
 
+class NotInRun(NoEvidence):
+    """The run lacks a table, or every row that is asked for."""
+
+
 class Run:
     """The run that is shown, beside the studies that are committed: timings, history, faults, kills."""
 
@@ -39,9 +45,21 @@ class Run:
         self.folder, self.studies = folder, studies
 
     def rows(self, table: str, **words: str) -> pd.DataFrame:
-        """Rows of one of its tables that have these words; none where it has no such table."""
-        is_there = (self.folder / f"{table}.parquet").is_file()
-        return read.chosen(read.table(self.folder, table), words) if is_there else pd.DataFrame()
+        """Return rows of one of its tables that have these words.
+
+        Errors:
+            NotInRun: there are none.
+        """
+        found = self.any_rows(table, **words)
+        if found.empty:
+            raise NotInRun(f"{self.folder} has no rows of {table} with {words}")
+        return found
+
+    def any_rows(self, table: str, **words: str) -> pd.DataFrame:
+        """Return the same, maybe none."""
+        if not (self.folder / f"{table}.parquet").is_file():
+            return pd.DataFrame(columns=[*(one.name for one in table_of(table).columns()), "contender"])
+        return read.chosen(read.table(self.folder, table), words)
 
 
 @functools.cache
@@ -50,8 +68,16 @@ def run_in(folder: Path) -> Run:
     return Run(folder)
 
 
+def in_run(make: Callable[[], Any]) -> Any:
+    """Return make(); None, for which the page says that it is not in this run, if the run lacks what it needs."""
+    try:
+        return make()
+    except (NoEvidence, NoTable):
+        return None
+
+
 def given(rows: pd.DataFrame, make: Callable[[pd.DataFrame], Any]) -> Any:
-    """make(rows); None, for which the page says that it is not in this run, if there are no rows."""
+    """Return make(rows); None if there are no rows."""
     return make(rows) if len(rows) else None
 
 
@@ -81,7 +107,10 @@ def text_of(name: str) -> str:
 
 def contents(module: ModuleType, run: Run, text: str) -> dict[str, Any]:
     """What a page pastes of a module, as it pastes it, by the module's own keys."""
-    found = {key: value for part in PARTS if hasattr(module, part) for key, value in getattr(module, part)(run).items()}
+    found: dict[str, Any] = {}
+    for part in PARTS:
+        if hasattr(module, part):
+            found |= in_run(functools.partial(getattr(module, part), run)) or {}
     kinds = kinds_of(module, text)
     if unread := sorted(set(found) - set(kinds)):
         raise ValueError(f"{module.__name__} gives {unread}, which its page does not paste (cure: remove them)")

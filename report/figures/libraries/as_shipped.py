@@ -37,7 +37,7 @@ SOURCES = Table("Controller | What, and where | Its lines | Difference [rad]")
 
 def shipped(run: Run) -> pd.DataFrame:
     """Return a row for each controller, torques first."""
-    rows = run.rows("shipped")
+    rows = run.any_rows("shipped")
     if rows.empty:
         return rows
     rows = rows.astype(dict.fromkeys(("shipped", "law", "level", "shapes_inertia"), str))

@@ -20,7 +20,7 @@ RIGHT = "log"
 
 def streamed(run: Run) -> pd.DataFrame:
     """Rows, words as text."""
-    rows = run.rows("goal-streams")
+    rows = run.any_rows("goal-streams")
     return rows.astype({"stream": str, "law": str}) if len(rows) else rows
 
 

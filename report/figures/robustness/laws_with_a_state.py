@@ -17,7 +17,7 @@ STATES = Table("Law | Measures the rate | Disturbance [rad/s²]:g | Left [°]:.2
 
 def compensated(run: Run) -> pd.DataFrame:
     """Rows, words as text."""
-    rows = run.rows("compensators")
+    rows = run.any_rows("compensators")
     return rows.astype({"law": str, "reads_rate": str}) if len(rows) else rows
 
 

@@ -23,7 +23,7 @@ DEG = 180.0 / math.pi
 @functools.cache
 def along(run: Run, name: str) -> pd.DataFrame:
     """Return rows of one perturbation, by family, with `good` and `time_s`, infinite where nothing settled."""
-    rows = run.rows("robustness", axis=name)
+    rows = run.any_rows("robustness", axis=name)
     if rows.empty:
         return rows
     names = families.in_order(rows["contender"].unique())
