@@ -6,7 +6,6 @@ fewer engines, than any run that a report is built from.
 
 import dataclasses
 import functools
-import re
 
 import numpy as np
 import pandas as pd
@@ -90,26 +89,6 @@ def test_map_keeps_areas():
 def test_facts_of_a_page_are_numbers(facts):
     values = facts(run_in(read.folder()))
     assert all("nan" not in str(value) for value in values.values()), values
-
-
-def test_exact_points_are_where_the_laws_are_known_to_fail():
-    found = {
-        (re.sub("<[^>]*>", "", law), place): (tried, failing)
-        for law, place, tried, failing, *_ in failure_map.exact_points(ideal())
-    }
-    of_matrix = {place for law, place in found if "Rotation matrix" in law}
-    assert of_matrix == {"180° rotation", "180° rotation and pole"}
-    of_feedback = {place: tally for (law, place), tally in found.items() if "Feedback" in law}
-    assert set(of_feedback) == {"pole", "180° rotation and pole"}
-    assert all(tried == failing for tried, failing in of_feedback.values())
-
-
-def test_tables_have_a_row_for_each_law():
-    shown = {
-        key: text for one in (failure_map, settling_time) for key, text in one.tables(run_in(read.folder())).items()
-    }
-    rows = {key: text.splitlines()[2:] for key, text in shown.items() if text}
-    assert (len(rows["tab_shares"]), len(rows["tab_nearest"]), len(rows["tab_slopes"])) == (3, 3, 2)
 
 
 def test_response_bends_are_nothing_under_feedback_linearization():

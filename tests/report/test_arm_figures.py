@@ -16,7 +16,6 @@ from bench.law.contenders.registry import find_contender
 from bench.running import run
 from report.figures.arms import (
     arm_advice,
-    arm_outcomes,
     arm_pole,
     arm_ranking,
     arm_rows,
@@ -82,14 +81,6 @@ def test_every_controller_has_a_title_of_its_own():
     names = [f"feedback-linearized/{word}@{by}" for word in ("zyx-euler", "mrp") for by in jacobians]
     names += [f"rotation-matrix@{by}" for by in jacobians[:2]]
     assert len({arm_rows.title(name) for name in names}) == len(names)
-
-
-def test_failures_are_all_filed_under_a_cause():
-    standard = arms.standard(shown())
-    counts = arm_outcomes.tallied(standard)
-    failed = (~arm_rows.settled(standard)).groupby(standard["controller"]).sum()
-    assert counts[list(arm_outcomes.CAUSES)].sum(axis=1).to_dict() == counts["failed"].to_dict() == failed.to_dict()
-    assert counts["episodes"].sum() == len(standard)
 
 
 def test_pole_distances_are_read_from_the_names_of_the_starts():

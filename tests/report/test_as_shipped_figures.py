@@ -16,7 +16,7 @@ from bench.experiments.tables.schema import RESULTS
 from bench.findings.remedy import fix_of
 from bench.law.contenders.registry import known_shipped
 from report.figures.kit.page import run_in
-from report.figures.libraries import as_shipped, libraries
+from report.figures.libraries import as_shipped
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +33,6 @@ def test_page_is_whole(run):
     assert_is_whole(as_shipped, run)
 
 
-def test_fix_of_a_controller_is_printed_here_and_page_25_has_no_advice_of_its_own():
-    assert not {"Instead", "Write instead", "Smallest fix"} & set(libraries.CONTROLLERS.heads)
+def test_fix_of_a_controller_is_printed():
     for one in known_shipped().values():
         assert as_shipped.fix(one)[2].startswith(fix_of(one.name).words)

@@ -17,8 +17,7 @@ from bench.experiments.experiment import Settings
 from bench.experiments.tables.read import with_contender
 from bench.findings.claims.arm_probes import controller
 from bench.findings.claims.euler_jacobian import ROUNDINGS
-from report.figures.arms import arm_times, condition_maps, controller_costs, cost_on_arms, jacobians
-from report.figures.kit.page import Run
+from report.figures.arms import condition_maps, controller_costs, jacobians
 
 ARMS = ("puma560", "panda")
 WORDS = {
@@ -54,21 +53,8 @@ def of(seen, pose_set="", representation=""):
     return chosen if not representation else chosen[chosen["representation"] == representation]
 
 
-DRAWN = {
-    "maps": lambda seen, _: condition_maps.maps(of(seen, "slice", "zyx-euler")),
-    "stages": lambda _, counted: controller_costs.bars(counted),
-}
-
-
-@pytest.mark.parametrize("name", DRAWN)
-def test_figure_says_its_numbers_keeps_to_the_palette_and_fits_a_phone(name, seen, counted):
-    assert_is_drawn(DRAWN[name](seen, counted))
-
-
-def test_page_says_so_where_a_run_has_no_poses(tmp_path):
-    none = Run(tmp_path)
-    shown = jacobians.tables(none) | jacobians.figures(none)
-    assert {key for key, value in shown.items() if value is not None} == {"pole-loop"}
+def test_figure_says_its_numbers_keeps_to_the_palette_and_fits_a_phone(seen):
+    assert_is_drawn(condition_maps.maps(of(seen, "slice", "zyx-euler")))
 
 
 def test_stock_pose_is_well_conditioned_and_on_the_pole(seen):
@@ -114,22 +100,3 @@ def test_quaternion_is_shown_with_the_inverse_that_fits_it(counted):
     shown = set(controller_costs.standard(counted, 6)["contender"])
     assert "feedback-linearized/quaternion@analytic+pseudo-inverse" in shown
     assert "rotation-matrix@geometric+damped-least-squares" not in shown
-
-
-def test_price_of_damping_says_so_where_a_run_has_none(counted):
-    none = pd.DataFrame(columns=["controller", "start_set", "arm", "inverse", "outcome"])
-    assert "Not in this run" in cost_on_arms.price_of_damping(counted, none)
-
-
-def test_damping_costs_more_than_the_inverse_and_fits_where_its_price_is_given(counted):
-    flops = cost_on_arms.invert(counted)[6]
-    assert flops["damped-least-squares"] > flops["solve"]
-    table = {row[0]: row[1:] for row in cost_on_arms.prices(counted)}
-    assert len(table) == 3
-    assert table["Inverse"][-1] == 1.0
-
-
-def test_times_say_so_where_none_were_measured(tmp_path):
-    none = Run(tmp_path, studies=tmp_path)
-    assert "make time" in arm_times.by_arm(arm_times.rows(none))
-    assert "make time" in arm_times.duration(none)

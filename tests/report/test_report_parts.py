@@ -2,10 +2,8 @@
 
 import fnmatch
 import re
-import shutil
 
 import build
-import numpy as np
 import pandas as pd
 import pytest
 
@@ -15,12 +13,11 @@ from bench.experiments.tables.schema import RESULTS
 from bench.export.language import language_words
 from bench.law.contenders.registry import known_regulators, papers_laws
 from report.figures.cards import law_page, other_page, regulators
-from report.figures.cost import cost, machines, times
+from report.figures.cost import cost
 from report.figures.kit import families, spelling
 from report.figures.kit.page import Run, run_in
-from report.figures.kit.rows import FEEDBACK, MATRIX
 from report.figures.method import engines
-from report.figures.problem import conditioning, representations
+from report.figures.problem import representations
 
 
 @pytest.fixture(autouse=True)
@@ -32,14 +29,8 @@ def shown():
     return run_in(RESULTS / "reference")
 
 
-def test_condition_number_of_zyx_is_its_closed_form():
-    of = dict(conditioning.curves())["Z-Y-X Euler angles"]
-    for beta in (0.3, 1.0, 1.5):
-        assert of(beta) == pytest.approx(np.sqrt((1 + np.sin(beta)) / (1 - np.sin(beta))))
-
-
 def test_our_extraction_is_exact_at_every_distance_and_the_textbooks_is_not():
-    worst = representations.extracted().groupby("way")["error"].max()
+    worst = representations.extracted()
     assert worst["ours"] < 1e-14 < worst["scipy"] < 1.0 < worst["textbook"]
 
 
@@ -141,14 +132,3 @@ def test_every_page_has_a_number_of_its_own():
     numbers = [path.name[:3] for path in (ROOT / "report" / "pages").glob("*.md")]
     assert all(re.fullmatch(r"\d\d-", number) for number in numbers)
     assert len(set(numbers)) == len(numbers)
-
-
-def test_every_machine_that_was_timed_has_a_row(tmp_path):
-    [known] = times.files(shown())
-    (tmp_path / "timings").mkdir()
-    for name in ("one", "two"):
-        shutil.copyfile(known, tmp_path / "timings" / f"{name}.parquet")
-    rows = machines.tables(Run(RESULTS / "reference", tmp_path))["tab_machines"].splitlines()[2:]
-    own = times.alone(times.read(known)).set_index("contender")["ratio"]
-    assert len(rows) == 2
-    assert f"| {own[FEEDBACK] / own[MATRIX]:.2f} |" in rows[0]

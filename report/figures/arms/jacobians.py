@@ -8,10 +8,10 @@ import numpy as np
 import pandas as pd
 
 from bench.findings.claims.euler_jacobian import DIFFERENCED, EPS, NEAR, WELL_CONDITIONED
-from bench.law.contenders.registry import known_representations, papers_coordinates
+from bench.law.contenders.registry import papers_coordinates
 from report.figures.arms import arm_looks, condition_maps
 from report.figures.kit import html, media
-from report.figures.kit.page import Run, given
+from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
 
 PAPERS = papers_coordinates().name
@@ -31,42 +31,35 @@ def condition(value: float) -> str:
     return html.MISSING if math.isnan(value) else (power(value) if value > LOST else f"{value:.1f}")
 
 
-COORDINATES = {name: arm_looks.short_title(name) for name in known_representations()}
-
-
 def papers(run: Run, **words: str) -> pd.DataFrame:
     """Poses seen in the paper's coordinates."""
-    return run.any_rows("poses", representation=PAPERS, **words)
+    return run.rows("poses", representation=PAPERS, **words)
 
 
 def facts(run: Run) -> dict:
-    """The first example, poses that J_E spoils, how far derivations are apart, and the film."""
-    every = papers(run)
+    """Return the first example, poses that J_E spoils, how far derivations are apart, and the film."""
+    return filmed() | (in_run(lambda: of_poses(run)) or {})
+
+
+def of_poses(run: Run) -> dict:
+    """Return what the run's poses say."""
+    every, slices = papers(run), papers(run, pose_set="slice")
     return {
-        **(given(papers(run, **FIRST_EXAMPLE), first_example) or {}),
-        **(given(papers(run, pose_set="random"), most_spoilt) or {}),
-        **{name: f"{value:.1f}" for name, value in (given(every, gaps) or {}).items()},
-        **(given(run.any_rows("poses", pose_set="pole"), slopes) or {}),
-        **filmed(run),
-        "joints": given(papers(run, pose_set="slice"), joints),
+        **first_example(papers(run, **FIRST_EXAMPLE)),
+        **most_spoilt(papers(run, pose_set="random")),
+        **{name: f"{value:.1f}" for name, value in gaps(every).items()},
+        **slopes(run.rows("poses", pose_set="pole")),
+        "joints": joints(slices),
         "bad": f"{condition_maps.BAD:g}",
         "well": f"{WELL_CONDITIONED:g}",
         "poses": f"{len(every):,}".replace(",", "\u202f"),
     }
 
 
-def tables(run: Run) -> dict:
-    """Named poses, and poses that J_E spoils."""
-    return {
-        "named": given(run.any_rows("poses", pose_set="named"), conditions),
-        "spoilt": given(run.any_rows("poses", pose_set="random"), spoilt),
-    }
-
-
 def figures(run: Run) -> dict:
     """Maps of two joints, and the film."""
     return {
-        "condition-maps": given(papers(run, pose_set="slice"), condition_maps.maps),
+        "condition-maps": in_run(lambda: condition_maps.maps(papers(run, pose_set="slice"))),
         "pole-loop": media.loop(FILM),
     }
 
@@ -107,20 +100,6 @@ def joints(rows: pd.DataFrame) -> str:
     return f"{'; '.join(parts)} ({rows.groupby('arm', observed=True)['pose_id'].nunique().max()} poses each)"
 
 
-def conditions(rows: pd.DataFrame) -> html.Markdown:
-    """A row a named pose: beta, cond J, and cond J_E in every representation."""
-    lines = []
-    for arm in arm_looks.arms(rows):
-        own = rows[rows["arm"] == arm]
-        for pose, at in own.groupby("pose_id", observed=True, sort=False):
-            by = at.set_index(at["representation"].astype(str))["condition_analytic"]
-            beta = round(math.degrees(at["beta"].iloc[0]), 1) + 0.0
-            line = {"Arm": arm_looks.title(arm), "Pose": f"`{pose}`", "β [deg]": beta, "J": at["condition"].iloc[0]}
-            lines.append(line | {title: by[name] for name, title in COORDINATES.items() if name in by})
-    frame = pd.DataFrame(lines)
-    return html.table(frame, dict.fromkeys(frame.columns.drop(["Arm", "Pose"]), condition) | {"β [deg]": ".1f"})
-
-
 def slopes(rows: pd.DataFrame) -> dict[str, str]:
     """Fit the power of 1/distance by which cond J_E grows on each path to the Z-Y-X pole, from 0.1 to 10^-8 rad.
 
@@ -134,19 +113,7 @@ def slopes(rows: pd.DataFrame) -> dict[str, str]:
     return {"slope_least": f"{least:.3f}", "slope_most": f"{most:.3f}", "slope_others": f"{others:.3f}"}
 
 
-def spoilt(rows: pd.DataFrame) -> html.Markdown:
-    """A row an arm: poses where J is well conditioned, and of those how many each J_E makes bad."""
-    lines = []
-    for arm in arm_looks.arms(rows):
-        own = rows[rows["arm"] == arm]
-        fine, once = own[own["condition"] <= WELL_CONDITIONED], own["pose_id"].nunique()
-        bad = (fine["condition_analytic"] > condition_maps.BAD).groupby(fine["representation"].astype(str)).mean()
-        line = {"Arm": arm_looks.title(arm), "Poses": once, "J fine [%]": 100 * fine["pose_id"].nunique() / once}
-        lines.append(line | {title: 100 * bad.get(name, math.nan) for name, title in COORDINATES.items()})
-    return html.table(pd.DataFrame(lines), dict.fromkeys(COORDINATES.values(), ".1f") | {"J fine [%]": ".0f"})
-
-
-def filmed(run: Run) -> dict[str, str]:
+def filmed() -> dict[str, str]:
     """How far off both controllers of the film are, how much torque they ask for, how long a way they go."""
     about = media.facts()
     euler, geometric = about["episodes"]
@@ -158,7 +125,6 @@ def filmed(run: Run) -> dict[str, str]:
         "film_off": f"{100 * euler['position_error_m']:.0f}",
         "film_off_geometric": f"{1000 * geometric['position_error_m']:.1f}",
         "film_miss": miss(about["start"]),
-        **family(run, about),
     }
 
 
@@ -166,13 +132,3 @@ def miss(start: str) -> str:
     """How near the pole a start's turn leads: pole-minus-1-k3 misses it by 10^-3 rad."""
     how = start.rpartition("-")[2]
     return "through the pole itself" if how == "exact" else f"past the pole at {power(10.0 ** -int(how[1:]))} rad"
-
-
-def family(run: Run, about: dict) -> dict[str, str]:
-    """How many of the arm's starts at the same pole and pose the first controller loses in this run, of how many."""
-    words = {"arm": about["arm"], "start_set": about["start_set"], "variation": "nominal", "engine": "native"}
-    rows = run.any_rows("episodes", **words)
-    rows = rows[rows["contender"] == about["episodes"][0]["contender"]]
-    alike = rows[rows["start_id"].astype(str).str.startswith(about["start"].rpartition("-")[0])]
-    failed = int((alike["outcome"] != "settled").sum())
-    return {"film_alike": str(len(alike)), "film_lost": str(failed)}

@@ -3,36 +3,29 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterator
 
 import numpy as np
 import pandas as pd
 
 import tasks
 from report.figures.arms import arm_looks, arm_rows, model_rest
-from report.figures.failures.failure_map import outcomes
-from report.figures.kit import html
-from report.figures.kit.page import ABSENT, Run
-from report.figures.kit.tables import Table
+from report.figures.kit.page import ABSENT, NotInRun, Run
 
 SHOWN = (arm_rows.ON_MATRIX, arm_rows.SAME_BOTH_WAYS, arm_rows.ON_ANGLES)
-VARIATIONS = Table(
-    "Variation | The plant | Episodes | Settled [%]:.0f | The others | Angle [deg]:.2f | Strays [mm]:.1f"
-)
 
 
 @functools.cache
 def compared(run: Run) -> pd.DataFrame:
     """Rows by the controllers that settle every clear start of a perfect model, so that what is left is the model's."""
     varied = arm_rows.varied(run)
-    return arm_rows.with_standard(varied[varied["controller"].isin(SHOWN)]) if len(varied) else varied
+    if varied.empty:
+        raise NotInRun("no variation")
+    return arm_rows.with_standard(varied[varied["controller"].isin(SHOWN)])
 
 
 def facts(run: Run) -> dict:
     """Whole sentences: what variations leave, on what that stands, and what of it is gravity's."""
     own = compared(run)
-    if own.empty:
-        return {}
     medians = np.degrees(own.groupby("variation")["final_angle_rad"].median())
     angles = own.pivot_table(
         index=["arm", "start_id", "variation"], columns="controller", values="final_angle_rad", observed=True
@@ -53,16 +46,6 @@ def facts(run: Run) -> dict:
     }
 
 
-def tables(run: Run) -> dict:
-    """Return the table by variation."""
-    return {"tab_variations": VARIATIONS(by_variation(compared(run)))}
-
-
-def in_order(rows: pd.DataFrame) -> list[str]:
-    """The variations that the rows hold, in the order of tasks/variations.py."""
-    return [name for name in tasks.variation_names() if len(rows) and name in set(rows["variation"])]
-
-
 def by_gravity(own: pd.DataFrame) -> str:
     """Measured angle over that of the formula, for arms of six joints and of seven."""
     found = model_rest.predicted(own)
@@ -74,12 +57,3 @@ def by_gravity(own: pd.DataFrame) -> str:
             low, middle, high = ratio.quantile(0.05), ratio.median(), ratio.quantile(0.95)
             said.append(f"on {words} {middle:.3f} in the median ({low:.2f} to {high:.2f} from 5 to 95 %)")
     return f"Measured over predicted is {', '.join(said)}." if said else f"The comparison is {ABSENT}."
-
-
-def by_variation(rows: pd.DataFrame) -> Iterator[tuple]:
-    """Every variation: what it is, episodes, share settled, how the others end, angle and distance."""
-    for word in in_order(rows):
-        own = rows[rows["variation"] == word]
-        settled, others = 100.0 * arm_rows.settled(own).mean(), html.together(outcomes(own))
-        left = np.degrees(own["final_angle_rad"].median()), 1e3 * own["position_error_m"].median()
-        yield html.together(f"`{word}`"), tasks.variation(word).title, len(own), settled, others, *left

@@ -8,20 +8,17 @@ import math
 import numpy as np
 import pandas as pd
 
-from bench.experiments.limiters import BAND, GREATEST_RATE, LIMITERS, NONE
+from bench.experiments.limiters import BAND, GREATEST_RATE
 from bench.experiments.suites import BY_EVERY_INVERSE
 from bench.findings.claims.adequacy import DETOUR
-from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.needs import Advice
 from bench.findings.selection.robots import VELOCITIES, advise_for
 from bench.findings.selection.words import standing
-from bench.findings.theory.velocity_limits import lagged, with_theory
+from bench.findings.theory.velocity_limits import with_theory
 from bench.law.contenders.registry import known_inverses
-from report.figures.arms import arm_looks
 from report.figures.comparison.cells import by_family
-from report.figures.kit import families, html, style
-from report.figures.kit.inline import responsive_picture
-from report.figures.kit.page import Run, given
+from report.figures.kit import families, html
+from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
 
 DEG = 180.0 / math.pi
@@ -29,10 +26,6 @@ DEG = 180.0 / math.pi
 BENT_SUPREMUM = math.acos(1.0 / math.sqrt(3.0))
 """The most [rad] by which a clamp per axis turns a vector: from beside an axis to the box's diagonal."""
 
-SITUATIONS = Table("Situation | Law | Ties with")
-LIMITED = Table(
-    "Limiter | Starts | Settled | Median [s]:.2f | Way over the shortest:.3f | Bent by [deg]:.1f | Left [deg]:.2f"
-)
 INVERSES = Table(
     "Inverse | Starts | Settled | Settled, servos lag | Median [s] | Joint rates [rad/s]:.0f | K dt | Closed form",
     words=("Settled", "Settled, servos lag", "Median [s]", "K dt", "Closed form"),
@@ -42,9 +35,7 @@ INVERSES = Table(
 @functools.cache
 def told(run: Run) -> pd.DataFrame:
     """Rows of episodes, with `law` and `settled`; none where the run has none."""
-    rows = run.any_rows("velocity")
-    if rows.empty:
-        return rows
+    rows = run.rows("velocity")
     law = rows["contender"].astype(str).str.partition("@")[0]
     return rows.assign(law=law, settled=rows["outcome"].astype(str) == "settled")
 
@@ -52,19 +43,8 @@ def told(run: Run) -> pd.DataFrame:
 @functools.cache
 def limits(run: Run) -> pd.DataFrame:
     """Measured limits beside theory's, with `law`."""
-    rows = run.any_rows("velocity-limits")
-    if rows.empty:
-        return rows
+    rows = run.rows("velocity-limits")
     return with_theory(rows).assign(law=rows["contender"].astype(str).str.partition("@")[0])
-
-
-@functools.cache
-def choice(run: Run) -> Advice | None:
-    """What the rule advises; None if the run compares no laws."""
-    try:
-        return advise_for(VELOCITIES, run.folder)
-    except NoEvidence:
-        return None
 
 
 def plain(run: Run, start_set: str) -> pd.DataFrame:
@@ -77,9 +57,7 @@ def plain(run: Run, start_set: str) -> pd.DataFrame:
 
 def facts(run: Run) -> dict:
     """Return the numbers of the text; none where no law of the run commands velocities."""
-    rows, found, advice = told(run), limits(run), choice(run)
-    if rows.empty or found.empty or advice is None:
-        return {}
+    rows, found, advice = told(run), limits(run), advise_for(VELOCITIES, run.folder)
     uniform, exact = plain(run, "uniform"), plain(run, "half-turn")
     shares = exact.groupby("law")["settled"].mean()
     ways = uniform[uniform["settled"]].groupby("law")["path_ratio"].max()
@@ -133,22 +111,12 @@ def lead(advice: Advice) -> str:
 
 
 def tables(run: Run) -> dict:
-    """Situations, laws, limiters, inverses."""
-    rows, advice = told(run), choice(run)
+    """Return laws and inverses."""
+    rows = told(run)
     return {
-        "tab_situations": SITUATIONS(situations(advice)) if advice else None,
-        "tab_laws": given(rows, lambda _: by_family(rows["law"].unique(), lambda law: line(run, law))),
-        "tab_limiters": LIMITED(limited(run)) if len(rows) else None,
-        "tab_inverses": INVERSES(by_inverse(run)) if len(rows) and len(limits(run)) else None,
+        "tab_laws": by_family(rows["law"].unique(), lambda law: line(run, law)),
+        "tab_inverses": INVERSES(by_inverse(run)),
     }
-
-
-def situations(advice: Advice) -> list[tuple]:
-    """A row a situation in which another law is better, after what is advised where nothing else is known."""
-    return [
-        (one.need.words, families.word(one.law) if one.law else "none", named(one.tied))
-        for one in (advice.default, *advice.exceptions)
-    ]
 
 
 def line(run: Run, law: str) -> dict:
@@ -184,24 +152,6 @@ def of_limiter(run: Run, name: str) -> pd.DataFrame:
     return own[(own["limiter"] == name) & own["start_id"].isin(few)]
 
 
-def limited(run: Run) -> list[tuple]:
-    """A row a limiter."""
-    found = ((name, of_limiter(run, name)) for name in LIMITERS)
-    return [
-        (
-            LIMITERS[name].title,
-            len(own),
-            int(own["settled"].sum()),
-            own["settling_time_s"].median(),
-            own["path_ratio"].max(),
-            DEG * own["bent_rad"].max(),
-            DEG * own["final_angle_rad"].max(),
-        )
-        for name, own in sorted(found, key=lambda pair: pair[0] != NONE)
-        if len(own)
-    ]
-
-
 def by_inverse(run: Run) -> list[tuple]:
     """A row an inverse, all arms that take it together."""
     rows, found = told(run), limits(run)
@@ -232,41 +182,3 @@ def between(values: pd.Series) -> str:
     """The least and the greatest, once if they look alike."""
     low, high = f"{values.min():.3g}", f"{values.max():.3g}"
     return low if low == high else f"{low} to {high}"
-
-
-def figures(run: Run) -> dict:
-    """The limit against the servos' lag."""
-    own = limits(run)
-    own = own[(own["arm"] != "") & (own["inverse"].isin(("solve", "pseudo-inverse")))] if len(own) else own
-    own = own[own.groupby(["arm", "inverse"], observed=True)["lag_ticks"].transform("nunique") > 1] if len(own) else own
-    return {"servo-lag": given(own, servo_lag)}
-
-
-@responsive_picture
-def servo_lag(rows: pd.DataFrame, narrow: bool):
-    """The largest K dt against T over dt: theory's curve, and every arm's."""
-    figure, axes = style.panels(height=3.4 if narrow else 3.0, narrow=narrow)
-    lags = np.geomspace(0.05, 8.0, 400)
-    axes.plot(lags, [lagged(lag) for lag in lags], color=style.INK, linewidth=0.9, zorder=1)
-    for arm in arm_looks.arms(rows):
-        own, look = rows[(rows["arm"] == arm) & (rows["lag_ticks"] > 0.0)], arm_looks.look(arm)
-        axes.plot(
-            own["lag_ticks"],
-            own["k_dt"],
-            color=look.colour,
-            marker=look.marker,
-            linestyle="none",
-            alpha=0.7,
-            label=arm_looks.title(arm),
-        )
-    axes.axhline(2.0, color=style.MUTED, linewidth=0.7, linestyle=style.DASHED)
-    axes.set(
-        xscale="log", ylim=(1.5, 4.5), xlabel="servo's time constant over the tick, $T/dt$", ylabel="largest $K\\,dt$"
-    )
-    axes.set_xticks([0.1, 0.25, 1, 4], ["0.1", "0.25", "1", "4"])
-    axes.legend(loc="upper right")
-    top = max((lagged(lag), lag) for lag in lags)
-    return figure, (
-        f"Largest stable K dt against the servo's lag: 2 without one, up to {top[0]:.1f} at T = {top[1]:.2f} dt, "
-        f"towards 2 again for slow servos; {rows['arm'].nunique()} arms lie on the curve."
-    )

@@ -32,7 +32,6 @@ MEASURED = Table(
     "| Bent [°]:.0f | Settles [s]"
 )
 FIXES = Table("Controller | Bound of the error | Smallest fix | Greatest K e")
-SOURCES = Table("Controller | What, and where | Its lines | Difference [rad]")
 
 
 def shipped(run: Run) -> pd.DataFrame:
@@ -108,7 +107,7 @@ def named(rows: pd.DataFrame) -> str:
 
 
 def tables(run: Run) -> dict:
-    """Return what is measured, equals in one line; where it comes from, and the smallest fix."""
+    """Return what is measured, equals in one line; and the smallest fix, with a link to the source."""
     lines: dict[tuple, list[str]] = {}
     for one in shipped(run).itertuples():
         lines.setdefault(measured(one), []).append(one.shipped)
@@ -116,7 +115,6 @@ def tables(run: Run) -> dict:
     return {
         "measured": MEASURED((", ".join(names), *cells) for cells, names in lines.items()),
         "fixes": FIXES(fix(one) for one in ordered),
-        "sources": SOURCES(source(one) for one in ordered),
     }
 
 
@@ -146,24 +144,10 @@ def fix(one: Shipped) -> tuple:
     repository, _, number = one.thread.partition("#")
     known = f" Thread: [{one.thread}]({HOST}/{repository}/issues/{number})." if one.thread else ""
     unit = "rad/s²" if one.shapes_inertia else "N m"
+    source, _, revision = one.source.partition("@")
     return (
-        one.name,
+        f"[{one.name}]({HOST}/{source}/blob/{revision}/{one.path.partition(',')[0]})",
         None if math.isinf(one.bound) else f"{one.bound:g}, {'each component' if is_bent(one.error) else 'length'}",
         found.words + known,
         None if one.level == VELOCITY else html.together(f"{found.before:.3g} → {found.after:.3g} {unit}"),
     )
-
-
-def source(one: Shipped) -> tuple:
-    """Return the cells of a controller's source: where it is, its error's lines, how far the restatement is off."""
-    repository, _, revision = one.source.partition("@")
-    at, held = f"{HOST}/{repository}/blob/{revision}", restated().get(one.name)
-    where = f"{one.title} ([{revision[:8]}]({at}/{one.path.partition(',')[0]}); gains: {one.set_by})"
-    if held is None:
-        return one.name, where, None, "not compared yet"
-    first, last = held["lines"].partition(",")[0].split("-")
-    lines = f"[{held['lines']}]({at}/{held['file']}#L{first}-L{last})"
-    if "reason" in held:
-        return one.name, where, lines, f"read; {held['reason']}"
-    near = f"; {power(held['near_180'])} above 175°" if held["near_180"] > 10.0 * held["difference"] else ""
-    return one.name, where, lines, power(held["difference"]) + near

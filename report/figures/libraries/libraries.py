@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-import math
+from collections.abc import Iterator
 
 import pandas as pd
 
@@ -21,16 +21,10 @@ HOST = "https://github.com"
 WELD = "<weld>, by default"
 
 TO_USE = Table("Library | From a matrix | From a quaternion")
-FAULTS = Table("Function | Fault | Off by [rad] | In closed loop | Smallest fix | Reported")
-IDIOMS = Table("Idiom | Fault | In closed loop | Write instead")
-CONTROLLERS = Table("Controller | What runs | By | Its error | In closed loop")
-WELDED = Table("Angle [°] | Weld | sin θ")
-AS_ANGLES = Table("Function | Drawn | Poles | 180° rotations | As an error | Reported")
+FAULTS = Table("Function | Kind | Fault | Off by [rad] | In closed loop | Smallest fix | Reported")
 VERSIONS = Table("Library | Version | Asked on | Python | numpy | Note")
 
 TAKES = ("matrix", "quaternion")
-COMMANDS = {"velocity": "ω", "acceleration": "u"}
-RESTATED = "restated from its source, gains of the suite"
 
 
 @functools.cache
@@ -141,31 +135,11 @@ def named_loops(some: pd.DataFrame) -> str:
 
 
 def tables(_: Run) -> dict:
-    """Return what to use, what fails and its fix, idioms, the weld, controllers, angles and versions."""
-    every, driven = lines(), loops.responses()
-    angles = every[every["form"] == answers.ANGLES]
+    """Return what to use, what fails and its fix, and versions."""
+    every = lines()
     return {
         "tab_to_use": TO_USE(to_use(every)),
-        "tab_faults": FAULTS(
-            (asked(one), said(one), off(one), loops.in_words(one), instead(one, every), reported(one.thread))
-            for one in in_loop(faulty(errors(every)), driven).itertuples()
-        ),
-        "tab_idioms": IDIOMS(
-            (asked(one), said(one), loops.in_words(one), one.replacement)
-            for one in in_loop(faulty(errors(every, "idiom")), driven).itertuples()
-        ),
-        "tab_weld": WELDED(
-            (f"{one.angle_deg:g}", one.pull_ratio, abs(round(math.sin(math.radians(one.angle_deg)), 15)))
-            for one in pulls().itertuples()
-        ),
-        "tab_controllers": CONTROLLERS(controllers(every, driven)),
-        "tab_angles": AS_ANGLES(
-            (
-                *(asked(one), *map(power, (one.drawn, one.pole, max(one.near, one.at))), f"{one.off:.1f}"),
-                reported(one.thread) if one.objections else html.MISSING,
-            )
-            for one in angles.itertuples()
-        ),
+        "tab_faults": FAULTS(faults(every)),
         "tab_versions": VERSIONS(
             (f"`{name}`", one["version"], one["asked"], one["python"], one["numpy"], one["note"] or html.MISSING)
             for name, one in sorted(answers.origins().items())
@@ -174,29 +148,17 @@ def tables(_: Run) -> dict:
     }
 
 
-def in_loop(some: pd.DataFrame, driven: pd.DataFrame) -> pd.DataFrame:
-    """Return lines with their smallest fix, and what a body does that each of them drives."""
-    fixes = loops.verdicts()[["library", "function", "replacement"]]
-    return some.merge(fixes, on=["library", "function"]).merge(driven, on=["library", "function", "kind"])
-
-
-def controllers(every: pd.DataFrame, driven: pd.DataFrame) -> list[tuple]:
-    """Return a row a controller: those that are run, and those that are restated from their source."""
-    theirs = driven[~driven["kind"].isin(["function", "idiom"])]
-    checked = theirs.merge(loops.verdicts()[["library", "function", "faults"]], on=["library", "function"], how="left")
-    verdict = {(one.library, one.function): said(one) for one in every.itertuples()}
-    return [
-        (
-            one.library if one.kind == "restated" else asked(one),
-            one.title or RESTATED,
-            COMMANDS[one.command],
-            loops.check_in_words(one)
-            if one.kind == "restated"
-            else verdict.get((one.library, one.error), html.MISSING),
-            loops.in_words(one),
-        )
-        for one in checked.itertuples()
-    ]
+def faults(every: pd.DataFrame) -> Iterator[tuple]:
+    """Return a row a function that fails: errors along an axis, idioms, and angles, which drive no loop."""
+    keys = ["library", "function"]
+    fixes = loops.verdicts()[[*keys, "replacement"]]
+    found = faulty(every).merge(fixes, on=keys, how="left").merge(loops.responses(), on=[*keys, "kind"], how="left")
+    for one in found.fillna({"replacement": ""}).sort_values("kind", kind="stable").itertuples():
+        is_angles = one.form == answers.ANGLES
+        kind = "angles" if is_angles else one.kind
+        driven = html.MISSING if is_angles else loops.in_words(one)
+        threads = html.MISSING if kind == "idiom" else reported(one.thread)
+        yield asked(one), kind, said(one), off(one), driven, instead(one, every), threads
 
 
 def to_use(every: pd.DataFrame) -> list[tuple]:
@@ -217,8 +179,8 @@ def _named(own: pd.DataFrame) -> str:
 
 def instead(one, every: pd.DataFrame) -> str:
     """Return the smallest fix: a change of a line, else a right function of the same library, else one of ours."""
-    if not one.replacement.startswith("`of_") and one.replacement:
-        return one.replacement
+    if one.form == answers.ANGLES or (one.replacement and not one.replacement.startswith("`of_")):
+        return one.replacement or html.MISSING
     kept = right(errors(every))
     alike = kept[(kept["library"] == one.library) & (kept["takes"] == one.takes) & (kept["form"] == answers.VECTOR)]
     return f"`{alike['function'].iloc[0]}`" if len(alike) else f"`of_{one.takes}`"

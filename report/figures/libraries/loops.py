@@ -73,13 +73,3 @@ def in_words(one) -> str:
     if not pd.isna(one.fastest):
         words.append(f"settles in {' to '.join(dict.fromkeys((f'{one.fastest:.3g}', f'{one.slowest:.3g}')))} s")
     return ", ".join(words)
-
-
-BOUNDS = {"axis-clip": "bound of each component", "norm-clip": "bound of the length"}
-"""Limits that a controller sets on purpose: no faults."""
-
-
-def check_in_words(one) -> str:
-    """Return what the check finds in a restated error: faults, the stiffness felt, and bounds named as such."""
-    words = {"stiffness": f"stiffness {one.slope:.2g} of the one set"} | BOUNDS
-    return ", ".join(words.get(fault, fault) for fault in one.faults.split(", ") if fault) or RIGHT

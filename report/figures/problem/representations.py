@@ -8,12 +8,12 @@ in doubles, as MuJoCo does.
 from __future__ import annotations
 
 import functools
+import itertools
 import math
 import sys
 import warnings
 
 import numpy as np
-import pandas as pd
 from scipy.spatial.transform import Rotation as Scipy
 
 from bench.law.contenders.registry import known_representations
@@ -22,8 +22,6 @@ from bench.law.so3 import Rotation, from_quaternion
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power, prose
 from report.figures.kit.tables import Table
-from report.figures.problem import conditioning
-from tasks import start_set
 from tasks.rotations import multiply, on_pole, zyx
 
 COORDINATES = Table("Coordinates | Definition | Where it breaks | Source")
@@ -33,13 +31,10 @@ SEED = 0
 
 
 def facts(_: Run) -> dict:
-    """How far each way to take angles off a matrix is off; how fast angles move near a pole."""
-    found = extracted()
-    worst = found.groupby("way")["error"].max()
+    """Return how far each way to take angles off a matrix is off, and how fast angles move near a pole."""
     return {
-        **{f"worst_{way}": power(float(worst[way])) for way in WAYS},
+        **{f"worst_{way}": power(worst) for way, worst in extracted().items()},
         "orientations": 2 * PAIRS,
-        "scipy_jump": power(jump(found)),
         "gain": f"{gain(0.5):.0f}",
     }
 
@@ -51,11 +46,6 @@ def tables(_: Run) -> dict:
         for one in known_representations().values()
     ]
     return {"representations": COORDINATES(coordinates)}
-
-
-def figures(_: Run) -> dict:
-    """Draw where each map of rates loses rank."""
-    return {"conditioning": conditioning.conditioning()}
 
 
 def where_it_breaks(one) -> str:
@@ -96,24 +86,12 @@ def error(R: Rotation, angles: tuple) -> float:
 
 
 @functools.cache
-def extracted() -> pd.DataFrame:
-    """Largest error of each way over PAIRS orientations at each distance to each pole; distance 0: the exact starts."""
-    generator = np.random.default_rng(SEED)
-    pairs = generator.uniform(-math.pi, math.pi, size=(PAIRS, 2)).tolist()
-    rows = []
-    for sign in (1, -1):
-        places = [
-            (10.0**-decade, [build_near_pole(alpha, gamma, sign, 10.0**-decade) for alpha, gamma in pairs])
-            for decade in DECADES
-        ]
-        word = "plus" if sign > 0 else "minus"
-        exact = [start.quat_wxyz for start in start_set("poles") if start.id.startswith(f"pole-{word}-exact")]
-        places.append((0.0, [from_quaternion(quat) for quat in exact]))
-        for distance, rotations in places:
-            for way, angles in WAYS.items():
-                worst = max(error(R, angles(R)) for R in rotations)
-                rows.append({"pole": sign, "distance": distance, "way": way, "error": worst})
-    return pd.DataFrame(rows)
+def extracted() -> dict[str, float]:
+    """Return the largest error [rad] of each way over PAIRS orientations at each distance to each pole."""
+    pairs = np.random.default_rng(SEED).uniform(-math.pi, math.pi, size=(PAIRS, 2)).tolist()
+    places = itertools.product(pairs, (1, -1), DECADES)
+    rotations = [build_near_pole(*pair, sign, 10.0**-decade) for pair, sign, decade in places]
+    return {way: max(error(R, angles(R)) for R in rotations) for way, angles in WAYS.items()}
 
 
 def build_near_pole(alpha: float, gamma: float, sign: int, distance: float) -> Rotation:
@@ -121,9 +99,3 @@ def build_near_pole(alpha: float, gamma: float, sign: int, distance: float) -> R
     pole = multiply(zyx(alpha, 0.0, 0.0), on_pole(sign, 0.0))
     back = (math.cos(distance / 2), 0.0, -sign * math.sin(distance / 2), 0.0)
     return from_quaternion(multiply(multiply(pole, back), zyx(0.0, 0.0, gamma)))
-
-
-def jump(found: pd.DataFrame) -> float:
-    """The largest distance at which scipy's error is a thousand times ours: where it gives one angle up [rad]."""
-    worst = found[found["distance"] > 0.0].pivot_table(index="distance", columns="way", values="error", aggfunc="max")
-    return float(worst.index[worst["scipy"] > 1e3 * worst["ours"]].max())

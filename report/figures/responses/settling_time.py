@@ -8,20 +8,14 @@ import numpy as np
 import pandas as pd
 
 from bench.findings.theory import closed_form
-from report.figures.kit import html, style
+from report.figures.kit import style
 from report.figures.kit.inline import responsive_picture
 from report.figures.kit.page import Run
 from report.figures.kit.rows import MATRIX, SHORT, of
-from report.figures.kit.tables import Table
 
 DECADE = re.compile(r"-k(\d+)$")
 FITTED = (3, 10)
 """Decades of the slope: the sine is linear in pi - angle from the first on, and rounding of R is small to the last."""
-
-SLOPES = Table(
-    "Engine | Starts fitted | Slope [s/decade]:.4f | Closed form:.4f | Difference [%]:+.3f | Exact 180° rotations | "
-    "of which settle | Horizon [s]"
-)
 
 
 @functools.cache
@@ -59,13 +53,6 @@ def facts(run: Run) -> dict:
     return values
 
 
-def tables(run: Run) -> dict:
-    """The slope by engine."""
-    half = run.rows("episodes", task="free-body", start_set="half-turn", contender=MATRIX)
-    engines = half.groupby("engine", observed=True, sort=False)
-    return {"tab_slopes": SLOPES(slope_on(engine, part) for engine, part in engines)}
-
-
 def figures(run: Run) -> dict:
     """Draw settling time against the distance from 180°."""
     return {"settling-decades": decades(of(continuous(run), MATRIX, "half-turn"))}
@@ -75,23 +62,6 @@ def late_ms(rows: pd.DataFrame, kp: float, kv: float, tolerance: float) -> pd.Se
     """Measured settling time minus its closed form [ms], for rows of the rotation-matrix law at rest."""
     theory = closed_form.settling_curve(kp, kv, tolerance)(math.pi - rows["angle0_rad"].to_numpy())
     return 1000.0 * (rows["settling_time_s"] - theory)
-
-
-def slope_on(engine: str, rows: pd.DataFrame) -> tuple:
-    """Return an engine's measured slope, the closed form, and the outcomes of exact 180° rotations."""
-    near, exact = near_and_exact(rows)
-    theory = closed_form.decade_slope(float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0]))
-    found = slope(near)
-    return (
-        html.together(engine),
-        int(decade(near["start_id"]).between(*FITTED).sum()),
-        found,
-        theory,
-        100.0 * (found / theory - 1.0),
-        len(exact),
-        int((exact["outcome"] == "settled").sum()),
-        float(rows["horizon_s"].max()),
-    )
 
 
 def decade(start_ids: pd.Series) -> pd.Series:
