@@ -97,7 +97,7 @@ def find_crossing(quats, omegas):
     beta, rising = np.where(rising < 0.0, -beta, beta), np.abs(rising)
     v = rising + rate * beta
     highest = np.exp(-rising / np.where(v > 0.0, v, 1.0)) * v / rate
-    return (v > 0.0) & (highest > math.pi / 2.0)
+    return (v > 0.0) & (highest > np.pi / 2.0)
 
 
 def test_starts_without_a_limit_are_those_whose_linear_response_crosses_a_pole():

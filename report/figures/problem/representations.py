@@ -90,7 +90,7 @@ def extracted() -> dict[str, float]:
     """Return the largest error [rad] of each way over PAIRS orientations at each distance to each pole."""
     pairs = np.random.default_rng(SEED).uniform(-math.pi, math.pi, size=(PAIRS, 2)).tolist()
     places = itertools.product(pairs, (1, -1), DECADES)
-    rotations = [build_near_pole(*pair, sign, 10.0**-decade) for pair, sign, decade in places]
+    rotations = [build_near_pole(alpha, gamma, sign, 10.0**-decade) for (alpha, gamma), sign, decade in places]
     return {way: max(error(R, angles(R)) for R in rotations) for way, angles in WAYS.items()}
 
 
