@@ -10,7 +10,7 @@ LINES = {
     "bench/__init__.py": 28,
     "bench/__main__.py": 29,
     "bench/audit": 2_069,
-    "bench/base": 356,
+    "bench/base": 360,
     "bench/cli": 2_398,
     "bench/engines": 6_336,
     "bench/experiments": 5_865,
@@ -23,28 +23,26 @@ LINES = {
     "tests/audit": 667,
     "tests/cli": 782,
     "tests/conftest.py": 85,
-    "tests/contracts": 3_102,
-    "tests/engines": 3_192,
+    "tests/contracts": 3_090,
+    "tests/engines": 3_204,
     "tests/experiments": 2_472,
     "tests/export": 406,
     "tests/findings": 2_767,
     "tests/law": 3_552,
     "tests/regression": 668,
-    "tests/report": 2_686,
-    "tests/repository": 616,
+    "tests/report": 2_573,
+    "tests/repository": 614,
     "tests/running": 1_201,
     "tests/studies": 826,
-    "tests/support": 3_674,
+    "tests/support": 3_662,
     "tests/tasks": 2_282,
-    "report": 12_291,
+    "report": 10_807,
     "tasks": 5_156,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
 LONGEST_FILE = 250
 TOO_LONG = {
     "bench/law/control/hybrid.py": 259,
-    "report/figures/arms/velocity_commands.py": 272,
-    "report/figures/contact/as_arms_run.py": 315,
 }
 """Files that are still longer, with their lines."""
 
