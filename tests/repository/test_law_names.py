@@ -9,7 +9,7 @@ from bench.law.contenders.registry import known_impedances, known_regulators, kn
 ROOT = Path(__file__).parents[2]
 ROOMS = ("bench", "tasks", "report")
 
-CHAPTERS = ("arms", "contact", "problem", "robustness")
+CHAPTERS = ("arms", "contact", "robustness")
 
 ALLOWED = {
     "bench/audit/": "the law that cures a fault, and forms, some of which are laws' words too",
