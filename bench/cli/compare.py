@@ -66,7 +66,7 @@ def _compare(base, head, laws, no_timing, benchmarks, leave) -> None:
         differences = rows.compare(Path(base), Path(head))
     else:
         means = gates.Means(rounds=0) if no_timing else gates.USUAL
-        with progress("hundredths", "checking out") as steps:
+        with progress("steps", "checking out") as steps:
             said = gates.compare_revisions(base, head, laws, steps.now, means)
         differences = [f"{one.verdict}: {one.says}" for one in said.findings]
     for line in differences:

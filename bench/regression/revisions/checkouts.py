@@ -3,11 +3,12 @@
 import contextlib
 import os
 import re
-import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
+from subprocess import PIPE, STDOUT, Popen
 
 from bench.base.errors import BadLaw, BadResults
 from bench.base.provenance import ROOT
@@ -21,9 +22,6 @@ PART = (
     *("--task", "free-body", "--task", "arm-regulation"),
 )
 """The part of the quick suite through which all laws are run; `make gate` runs the whole."""
-
-SHARE = re.compile(r"\((\d+)%\)")
-"""The share done, in a line of progress of `bench run`."""
 
 
 @contextlib.contextmanager
@@ -54,49 +52,29 @@ def _make(stack: contextlib.ExitStack, folder: Path, revision: str | None, laws:
     return Side(sources, files, bool(laws), (), name if revision else "working tree", digest)
 
 
-def run_python(
-    checkout: Path, *words: str, allowed: tuple[int, ...] = (0,), heard: Callable[[str], None] = lambda _: None
-) -> str:
-    """Run Python with the sources of a checkout; return what it prints, or raise BadResults with its last words.
-
-    heard: called with every line on its stderr.
-    """
-    environment = os.environ | {"PYTHONPATH": str(checkout)}
-    last = "it said nothing"
-    with (
-        tempfile.TemporaryFile("w+", encoding="utf-8") as printed,
-        subprocess.Popen(
-            [sys.executable, *words], cwd=checkout, env=environment, stdout=printed, stderr=subprocess.PIPE, text=True
-        ) as process,
-    ):
-        for line in process.stderr or ():
-            heard(line)
-            last = line.strip() or last
-        if process.wait() not in allowed:
-            raise BadResults(f"{checkout}: python {' '.join(words[:3])} does not run ({last.removeprefix('error: ')})")
-        printed.seek(0)
-        return printed.read().strip()
+def run_python(checkout: Path, *words: str, allowed: tuple[int, ...] = (0,), report: Callable = lambda _: None) -> str:
+    """Run Python with a checkout's sources, report shares done, return its last line; BadResults says it on failure."""
+    said, command, more = "it said nothing", [sys.executable, *words], os.environ | {"PYTHONPATH": str(checkout)}
+    with Popen(command, cwd=checkout, env=more, text=True, stdout=PIPE, stderr=STDOUT) as process:
+        for line in process.stdout or ():
+            said = line.strip() or said
+            if share := re.search(r"\d+%", line):
+                report(share[0])
+    if process.returncode not in allowed:
+        raise BadResults(f"{checkout}: python {' '.join(words[:3])} does not run ({said.removeprefix('error: ')})")
+    return said
 
 
 @contextlib.contextmanager
-def run_side(side: Side, report: Callable) -> Iterator[Path]:
-    """Run a user's laws through the quick suite, or all laws through PART of it; give the folder for the block.
-
-    report: called with what is done and the share of it that is done, as the run's own lines say it.
-    """
+def run_side(side: Side, report: Callable[[str], None]) -> Iterator[Path]:
+    """Run a user's laws through the quick suite, or all laws through PART of it; give the folder for the block."""
     with tempfile.TemporaryDirectory(prefix="orientation-bench-") as temporary:
         doing = f"running {'the quick suite' if side.only else 'a part of the quick suite'} of {side.name}"
-        report(doing, 0.0)
-
-        def heard(line: str) -> None:
-            if share := SHARE.search(line):
-                report(doing, int(share[1]) / 100)
-
+        report(doing)
         folder = Path(temporary) / "run"
-        words = [*(() if side.only else PART), "--out", str(folder)]
-        for law in side.laws:
-            words += ["--law", str(law), "--regulator", described(law).name]
+        laws = [word for law in side.laws for word in ("--law", str(law), "--regulator", described(law).name)]
         # 1: some rows of a user's law were lost, and the folder says which
-        allowed = (0, 1) if side.only else (0,)
-        run_python(side.path, "-m", "bench", "run", "--suite", "quick", *words, allowed=allowed, heard=heard)
+        run = partial(run_python, side.path, report=lambda share: report(f"{doing}: {share} done"))
+        words = [*(() if side.only else PART), "--out", str(folder), *laws]
+        run("-m", "bench", "run", "--suite", "quick", *words, allowed=(0, 1) if side.only else (0,))
         yield folder

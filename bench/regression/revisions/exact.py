@@ -25,9 +25,8 @@ LARGER_IS_WORSE = {"effort": (1.25, 0.0), "peak_u": (1.25, 0.0), "rest_change": 
 
 def compare_runs(base: Path, head: Path) -> list[Finding]:
     """Return all findings between two runs' folders; first what head's run says of a law that crashed or hung."""
-    found = sort_findings(find_differences(base, head))
     notes = read_json(head / "provenance.json").get("lost", [])
-    return [*(Finding(EXACT, REGRESSION, "", note) for note in notes), *found]
+    return [*(Finding(EXACT, REGRESSION, "", note) for note in notes), *sort_findings(find_differences(base, head))]
 
 
 def sort_findings(differences: Iterable[Difference]) -> list[Finding]:
@@ -36,10 +35,9 @@ def sort_findings(differences: Iterable[Difference]) -> list[Finding]:
     differences = list(differences)
     totals = {_name_law(one.row) for one in differences if _is_total(one)}
     for one in differences:
-        if one.table == "costs" and one.kind == CHANGED and not _is_total(one) and _name_law(one.row) in totals:
-            continue  # a stage of what the total says
-        if one.column == "flops":
-            continue  # the sum of what is said already
+        is_stage = one.table == "costs" and one.kind == CHANGED and not _is_total(one)
+        if one.column == "flops" or (is_stage and _name_law(one.row) in totals):
+            continue  # the sum of other differences, or a part of one
         what = (one.was, one.now) if one.column == "outcome" else one.row.get("branch")
         column = "" if one.table == "traces" and one.kind == CHANGED else one.column  # a curve is one finding
         groups.setdefault((_judge(one), one.table, _name_law(one.row), one.kind, column, what), []).append(one)
@@ -62,12 +60,9 @@ def _judge(one: Difference) -> str:
     if one.kind != CHANGED:
         return CHANGE if one.kind == NEW else REGRESSION
     if one.column == "outcome":
-        is_worse = one.was in GOOD or one.now == STUCK
-        return REGRESSION if is_worse else IMPROVEMENT if one.now in GOOD else CHANGE
-    times, least = (1.0, 0.0)
-    if one.table == "episodes" and one.column in LARGER_IS_WORSE:
-        times, least = LARGER_IS_WORSE[one.column]
-    elif not (_is_total(one) or one.column in (*SMALLER_IS_WORSE, "settling_time_s")):
+        return REGRESSION if one.was in GOOD or one.now == STUCK else IMPROVEMENT if one.now in GOOD else CHANGE
+    times, least = LARGER_IS_WORSE.get(one.column, (1.0, 0.0)) if one.table == "episodes" else (1.0, 0.0)
+    if times == 1.0 and not _is_total(one) and one.column not in (*SMALLER_IS_WORSE, "settling_time_s"):
         return CHANGE
     was, now = (float("inf") if word == "nan" else float(word) for word in (one.was, one.now))
     if one.column in SMALLER_IS_WORSE:

@@ -1,7 +1,6 @@
 """Compare gate after gate: two runs' folders (`compare_folders`), or two states of the code (`compare_revisions`)."""
 
 from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,10 +13,6 @@ from bench.regression.revisions.comparison import IMPROVEMENT, REGRESSION, Compa
 from bench.regression.revisions.timing import ROUNDS, SAME, SLOWER, Side, SideFailed, Timed, compare_times
 
 EXACT, OPERATIONS, TIME, FAULTS = exact.EXACT, exact.OPERATIONS, "time", "faults"
-
-
-STAGES = {"run base": 0.38, "run head": 0.38, "judge": 0.04, "time": 0.2}
-"""Usual shares of the time of a comparison, for its progress."""
 
 
 class Means(NamedTuple):
@@ -41,25 +36,17 @@ def compare_folders(base: Path, head: Path) -> Comparison:
 def compare_revisions(
     base: str, head: str | None, laws: tuple[Path, ...] = (), report: Callable = lambda *_: None, means: Means = USUAL
 ) -> Comparison:
-    """Compare two revisions, or a revision and the files in the checkout (head None), through every gate.
-
-    report: called with what is done now, how many hundredths of all are done, and 100.
-    """
-
-    def report_stage(stage: str, doing: str, share: float = 0.0) -> None:
-        before = sum(STAGES[one] for one in [*STAGES][: [*STAGES].index(stage)])
-        report(doing, round(100 * (before + STAGES[stage] * share)), 100)
-
+    """Compare two revisions, or a revision and the files in the checkout (head None), through every gate."""
     judgements: tuple[Judgement, ...] = ()
     with checkouts.check_out_both(base, head, laws) as (old, new):
         if new.is_new:
             raise BadResults(f"{new.name}: none of the --law files is there")
-        gates, found = _compare_rows(old, new, report_stage, means)
+        gates, found = _compare_rows(old, new, report, means)
         if new.only:
-            report_stage("judge", "judging")
+            report("judging")
             gate, faults, judgements = _compare_faults(old, new, means.judge)
             gates, found = [*gates, gate], [*found, *faults]
-        gate, slower, times, files = _compare_times(old, new, partial(report_stage, "time"), means)
+        gate, slower, times, files = _compare_times(old, new, report, means)
     found = sorted([*found, *slower], key=lambda one: one.verdict != REGRESSION)
     return Comparison(old.name, new.name, (*gates, gate), tuple(found), tuple(times), judgements, tuple(files))
 
@@ -71,8 +58,7 @@ def _compare_rows(old: Side, new: Side, report: Callable, means: Means) -> tuple
         state, says = "skipped", "base has no such law, or it does not load: there is nothing to compare with"
     if old.is_new or (old.digest == new.digest and not new.only):
         return [Gate(name, state, says) for name in (EXACT, OPERATIONS)], []
-    by = partial(report, "run base"), partial(report, "run head")
-    with means.run_side(old, by[0]) as before, means.run_side(new, by[1]) as after:
+    with means.run_side(old, report) as before, means.run_side(new, report) as after:
         try:
             found = exact.compare_runs(before, after)
         except BadResults as error:  # each program has just written its own run, so the schema differs

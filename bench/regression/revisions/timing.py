@@ -152,7 +152,7 @@ def compare_times(
     times = judge_files(*files)
     suspects = tuple(name for name, one in times.items() if one.verdict != SAME)
     if suspects:
-        report("timing once more what differs", 0.5)
+        report("timing once more what differs")
         again = run_benchmarks([side._replace(names=suspects) for side in (base, head)], rounds=rounds)
         times |= {name: confirm(times[name], one) for name, one in judge_files(*again).items()}
     return files, times
