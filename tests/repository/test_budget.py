@@ -17,7 +17,7 @@ LINES = {
     "bench/export": 1_988,
     "bench/findings": 6_864,
     "bench/law": 6_622,
-    "bench/regression": 1_241,
+    "bench/regression": 1_200,
     "bench/running": 2_509,
     "bench/studies": 3_385,
     "tests/audit": 667,
