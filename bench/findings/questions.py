@@ -1,11 +1,24 @@
-"""Questions that users of robot libraries asked in public: cause, cure, and a number without and with the cure."""
+"""Questions that users of robot libraries asked in public (questions.toml), and a number without and with the cure.
+
+Each measurement restates a public thread in a few lines: nobody's code runs here.
+"""
 
 from __future__ import annotations
 
+import itertools
+import tomllib
 from collections.abc import Callable
+from pathlib import Path
 from typing import NamedTuple
 
-from bench.findings import measured_questions as measured
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from bench.experiments.limiters import GREATEST_RATE, clamp_axes, clamp_norm
+from bench.law.contenders.registry import known_shipped
+from tasks.goal_stream import STREAMS, componentwise, continued, goals, normalized, slerp
+from tasks.rotations import about
+from tasks.truth import angle
 
 
 class Question(NamedTuple):
@@ -25,125 +38,126 @@ class Question(NamedTuple):
     tolerance: float = 1e-6
 
 
-QUESTIONS = (
-    Question(
-        "Vector part or rotation vector? Torques flip",
-        ("epfl-lasa/control-libraries#332", "aica-technology/control-libraries#116"),
-        "The vector part is sin(θ/2) k, half of the angle near the goal; q and −q are one orientation.",
-        "Negate q if w < 0, then 2 atan2(|v|, w) v/|v|.",
-        "torque over K times the angle, at 90° and w < 0",
-        measured.measure_vector_part,
-        right=1.0,
-    ),
-    Question(
-        "Which Jacobian goes with which error?",
-        ("ethz-adrl/control-toolbox#190", "google-deepmind/mujoco#89", "jrl-umi3218/RBDyn#84"),
-        "The geometric Jacobian gives ω. A difference of Euler angles is no vector of that frame: ω = B(E) Ė.",
-        "With the geometric Jacobian use the logarithm, or B times the difference.",
-        "command off the axis to the goal, at β = 60° [deg]",
-        measured.measure_angle_difference,
-        tolerance=0.1,
-    ),
-    Question(
-        "The axis is zero at 180°",
-        ("RobotLocomotion/drake#3451", "RobotLocomotion/drake#601"),
-        "The axis is taken from R − Rᵀ, which vanishes at 180°.",
-        "Convert R to a quaternion by its largest element, and take the axis from that.",
-        "R off the rotation rebuilt from axis and angle [deg]",
-        measured.measure_axis_of_180_degrees,
-    ),
-    Question(
-        "Units of the impedance example",
-        ("frankarobotics/franka_ros#215",),
-        "Its error is a quaternion's vector part, half of the angle: K/2 acts. D = 2 √K is critical for I = 1 kg m².",
-        "Use the logarithm [rad] and D = 2 √(K I), with the inertia about the axis.",
-        "damping ratio, I = 0.1 kg m²",
-        measured.measure_damping_ratio,
-        right=1.0,
-    ),
-    Question(
-        "(w, x, y, z) or (x, y, z, w)?",
-        ("isaac-sim/IsaacLab#5186", "isaac-sim/IsaacLab#5754"),
-        "Four numbers of unit length are a rotation in either order, so nothing fails.",
-        "Name the order where a quaternion enters (scalar_first of scipy); `bench audit` finds it.",
-        "identity off itself when read [deg]",
-        measured.measure_quaternion_order,
-    ),
-    Question(
-        "Inverse kinematics do not converge to 1e-6",
-        tuple(f"orocos/orocos_kinematics_dynamics#{number}" for number in (199, 109, 139)),
-        "The cosine is flat near 0: a last bit of the trace is 1e-8 rad.",
-        "θ = atan2(|v|, c) with v from R − Rᵀ and c from the trace; near 180° a quaternion.",
-        "relative error of an angle of 1e-9 rad",
-        measured.measure_arc_cosine,
-    ),
-    Question(
-        "Rotational stiffness oscillates",
-        ("lbr-stack/lbr_fri_ros2_stack#247", "matthias-mayr/Cartesian-Impedance-Controller#30"),
-        "D = 2 √K is for unit inertia; without inertia shaping the inertia is the arm's.",
-        "D = 2 √(K I) about one axis, double diagonalization of Λ and K about all.",
-        "overshoot of a step, I = 10 kg m² [%]",
-        measured.measure_overshoot,
-    ),
-    Question(
-        "The gripper tumbles between two goals of a policy",
-        tuple(f"huggingface/lerobot#{number}" for number in (3691, 3710, 4002)),
-        "Near 180° two neighbouring orientations have rotation vectors of opposite signs, whose components pass zero.",
-        "R₀ exp(s log(R₀ᵀ R₁)), or the twin that is nearer to the last vector.",
-        "highest rate of the filled-in goal [rad/s]",
-        measured.measure_goal_rate,
-        right=1.0,
-        tolerance=1.0,
-    ),
-    Question(
-        "A positive rotation turns backwards",
-        tuple(f"mani-skill/ManiSkill#{number}" for number in (1469, 1472, 1435)),
-        "The action, between −1 and 1, is multiplied by the lower bound, which is negative.",
-        "Multiply by the upper bound.",
-        "error after 20 steps over that at the start",
-        measured.measure_scaled_action,
-        tolerance=0.2,
-    ),
-    Question(
-        "A tolerance box of which numbers?",
-        tuple(f"moveit/moveit_msgs#{number}" for number in (82, 89, 96)),
-        "The message says axis and angle, one planner takes roll, pitch and yaw, another a rotation vector.",
-        "Say which: for a free rotation about z the angles X-Y-Z, whose first two are the tilt.",
-        "first two numbers over the tilt, after 170° about z",
-        measured.measure_tolerance_box,
-        right=1.0,
-        tolerance=0.01,
-    ),
-    Question(
-        "A limit changes the direction",
-        ("RobotControlStack/robot-control-stack#141",),
-        "Each component is clipped on its own.",
-        "Shorten the vector to the limit and keep its direction.",
-        "command off its direction [deg]",
-        measured.measure_clipped_direction,
-    ),
-    Question(
-        "Stiffness in which frame?",
-        ("ros-controls/ros2_controllers#1178", "ros-controls/ros2_controllers#1139"),
-        "Three numbers on a diagonal are a matrix in one frame; used in another they are another spring.",
-        "Rotate the matrix too: R K Rᵀ, for mass, damping and stiffness alike.",
-        "torque off the intended one, frame rotated by 60° [deg]",
-        measured.measure_stiffness_frame,
-    ),
-    Question(
-        "A masked axis disturbs the others",
-        ("stack-of-tasks/tsid#118", "gbionics/bipedal-locomotion-framework#356"),
-        "Striking one component of the logarithm leaves the others rotated by half of the angle about that axis.",
-        "Use an error of two degrees of freedom, z × z_d.",
-        "command off the shortest rotation, 120° about the masked axis [deg]",
-        measured.measure_masked_axis,
-    ),
-    Question(
-        "The arm flips between two waypoints",
-        ("UniversalRobots/Universal_Robots_ROS_Driver#540",),
-        "Quaternions are interpolated by component, although q and −q are one orientation.",
-        "If q₀ · q₁ < 0 take −q₁; then slerp.",
-        "middle off the shortest path, waypoints 60° apart [deg]",
-        measured.measure_interpolation,
-    ),
+def angle_between(a, b) -> float:
+    """Return the angle between two vectors [deg]."""
+    return float(np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b)), np.dot(a, b))))
+
+
+def measure_vector_part() -> tuple[float, float]:
+    """Compare the vector part of a quaternion, w < 0, with the rotation vector, over the angle."""
+    half = np.radians(45.0)
+    w, v = -np.cos(half), -np.sin(half)
+    return v / (2.0 * half), 2.0 * np.arctan2(-v, -w) / (2.0 * half)
+
+
+def measure_angle_difference() -> tuple[float, float]:
+    """Compare a small difference of Z-Y-X angles, and B times it, with the rotation vector to the goal."""
+    (a, b, c), difference = (0.4, np.radians(60.0), 0.3), 1e-4 * np.array([1.0, 0.0, 1.0])
+    R, R_d = (Rotation.from_euler("ZYX", angles) for angles in ((a, b, c), np.add((a, b, c), difference)))
+    B = [[0.0, -np.sin(a), np.cos(a) * np.cos(b)], [0.0, np.cos(a), np.sin(a) * np.cos(b)], [1.0, 0.0, -np.sin(b)]]
+    needed = (R_d * R.inv()).as_rotvec()
+    return angle_between(difference, needed), angle_between(B @ difference, needed)
+
+
+def measure_axis_of_180_degrees() -> tuple[float, float]:
+    """Rebuild a rotation by 180 degrees from its axis by R - R^T, and from its quaternion."""
+    R = np.diag([-1.0, -1.0, 1.0])
+    by_differences = np.pi * np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+    rebuilt = (Rotation.from_rotvec(one) for one in (by_differences, Rotation.from_matrix(R).as_rotvec()))
+    before, after = (float(np.degrees((one.inv() * Rotation.from_matrix(R)).magnitude())) for one in rebuilt)
+    return before, after
+
+
+def measure_damping_ratio() -> tuple[float, float]:
+    """Compute the damping ratio of the franka_ros example about an axis, and with the logarithm and D = 2 sqrt(K I)."""
+    example, inertia, small = known_shipped()["franka-ros"], 0.1, 0.01
+    K, turn = example.stiffness, about((1.0, 0.0, 0.0), small)
+    by_example, by_log = example.error(turn)[0], Rotation.from_quat(turn, scalar_first=True).as_rotvec()[0]
+    D, felt = (example.damping, 2.0 * np.sqrt(K * inertia)), (K * by_example / small, K * by_log / small)
+    return D[0] / (2.0 * np.sqrt(felt[0] * inertia)), D[1] / (2.0 * np.sqrt(felt[1] * inertia))
+
+
+def measure_quaternion_order() -> tuple[float, float]:
+    """Read the identity, (w, x, y, z), in the other order and in its own."""
+    before, after = (Rotation.from_quat([1.0, 0.0, 0.0, 0.0], scalar_first=first) for first in (False, True))
+    return float(np.degrees(before.magnitude())), float(np.degrees(after.magnitude()))
+
+
+def measure_arc_cosine() -> tuple[float, float]:
+    """Compute the relative error of an angle of 1e-9 rad by arc cosine and by atan2."""
+    theta = 1e-9
+    R = Rotation.from_rotvec(theta * np.array([1.0, 2.0, 3.0]) / np.sqrt(14.0)).as_matrix()
+    c, v = 0.5 * (np.trace(R) - 1.0), 0.5 * np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
+    before, after = np.arccos(np.clip(c, -1.0, 1.0)), np.arctan2(np.linalg.norm(v), c)
+    return abs(before / theta - 1.0), abs(after / theta - 1.0)
+
+
+def measure_overshoot() -> tuple[float, float]:
+    """Compute the overshoot of a step from the damping ratio that D = 2 sqrt(K), and D = 2 sqrt(K I), make."""
+    K, inertia = 250.0, 10.0
+    ratios = (D / (2.0 * np.sqrt(K * inertia)) for D in (2.0 * np.sqrt(K), 2.0 * np.sqrt(K * inertia)))
+    before, after = (100.0 * np.exp(-np.pi * z / np.sqrt(1.0 - z * z)) if z < 1.0 else 0.0 for z in ratios)
+    return before, after
+
+
+def measure_goal_rate() -> tuple[float, float]:
+    """Find the highest rate of a goal stream that is filled in by component and by the logarithm."""
+    dt, by_name = 1e-3, {stream.name: stream for stream in STREAMS}
+    filled = (goals(by_name[name], dt).tolist() for name in ("rotation-vector", "log"))
+    before, after = (max(angle(a, b) for a, b in itertools.pairwise(stream)) / dt for stream in filled)
+    return before, after
+
+
+def measure_scaled_action() -> tuple[float, float]:
+    """Run 20 steps of a loop whose action is scaled by the lower bound and by the upper bound."""
+    before = after = 0.5
+    for _ in range(20):
+        before += 0.1 * np.clip(before, -1.0, 1.0)
+        after -= 0.1 * np.clip(after, -1.0, 1.0)
+    return before / 0.5, after / 0.5
+
+
+def measure_tolerance_box() -> tuple[float, float]:
+    """Compare the first two numbers of a rotation vector, and of X-Y-Z angles, with the tilt that they bound."""
+    tilt = np.radians(3.0)
+    R = Rotation.from_rotvec([tilt, 0.0, 0.0]) * Rotation.from_rotvec([0.0, 0.0, np.radians(170.0)])
+    return float(np.linalg.norm(R.as_rotvec()[:2]) / tilt), float(np.linalg.norm(R.as_euler("XYZ")[:2]) / tilt)
+
+
+def measure_clipped_direction() -> tuple[float, float]:
+    """Compare a command of three times the limit with what a clip by component, and one of the norm, leave of it."""
+    omega = 3.0 * GREATEST_RATE * np.array([np.cos(np.radians(20.0)), np.sin(np.radians(20.0)), 0.0])
+    before, after = (angle_between(omega, limit(tuple(omega.tolist()), 1.0)) for limit in (clamp_axes, clamp_norm))
+    return before, after
+
+
+def measure_stiffness_frame() -> tuple[float, float]:
+    """Compare the torque of a diagonal stiffness, as it is and rotated, with that of the spring in the tool's axes."""
+    R, K = Rotation.from_rotvec([0.0, np.radians(60.0), 0.0]).as_matrix(), np.diag([100.0, 10.0, 10.0])
+    error = np.array([0.0, 1.0, 1.0])
+    meant = R @ K @ error
+    return angle_between(K @ R @ error, meant), angle_between(R @ K @ R.T @ R @ error, meant)
+
+
+def measure_masked_axis() -> tuple[float, float]:
+    """Compare a logarithm without its z component, and z x z_d, with the shortest rotation of the tool's axis."""
+    wanted = Rotation.from_rotvec([np.radians(5.0), 0.0, 0.0]) * Rotation.from_rotvec([0.0, 0.0, np.radians(120.0)])
+    z, z_d = np.array([0.0, 0.0, 1.0]), wanted.as_matrix()[:, 2]
+    needed = Rotation.align_vectors([z_d], [z])[0].as_rotvec()
+    return angle_between(wanted.as_rotvec() * [1.0, 1.0, 0.0], needed), angle_between(np.cross(z, z_d), needed)
+
+
+def measure_interpolation() -> tuple[float, float]:
+    """Interpolate half of 60 degrees between quaternions of opposite signs by component, and by slerp."""
+    axis, turn, half = (0.0, 1.0, 0.0), np.radians(60.0), np.array([[0.5]])
+    q = np.array([about(axis, 0.0), [-one for one in about(axis, turn)]])
+    middles = normalized(componentwise(q, half)), slerp(continued(q), half)
+    before, after = (float(np.degrees(angle(one[0].tolist(), about(axis, 0.5 * turn)))) for one in middles)
+    return before, after
+
+
+QUESTIONS = tuple(
+    Question(measure=globals()[f"measure_{word}"], **{**texts, "threads": tuple(texts["threads"])})
+    for word, texts in tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")).items()
 )
+"""In the order of the file."""

@@ -5,6 +5,8 @@ faults of a law whose `property` is "almost global": the word says that they exi
 """
 
 import math
+import tomllib
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -18,61 +20,11 @@ from bench.findings.selection.needs import CHATTER
 from bench.findings.theory.thresholds import near_goal
 from bench.law.contenders.registry import known_regulators
 
-GAINS, FRAMES, FAILURES, SIDE = "03-regulators", "30-method", "06-failure-map", "15-comparison"
-SIGNS, ENDS, ROBUSTNESS = "25-libraries", "30-method", "16-robustness"
+FAILURES, SIDE, ENDS, ROBUSTNESS = "06-failure-map", "15-comparison", "30-method", "16-robustness"
 
-WRONG = "Near the goal its stiffness is {value} kp"
-BASE = "as {at_goal}; R_d^T R and R^T R_d give a vector in the body's axes, u is wanted in the base frame"
-COLUMNS = "as {at_goal}, that of the transposed matrices; R has columns n, o, a"
-SHOWN = "Shown by {state}, where u = {u}."
-SWAPPED = "it pulls as pi - theta or pi/2 - theta does, {value} kp at 90 deg"
-SENTENCES: dict[str, dict[str, tuple[str, ...]]] = {
-    "goal": {
-        "pushes": ("At the goal it does not rest: |u| is {value} kp {at_goal}.", FRAMES, "no rest at the goal"),
-        "no-number": ("At the goal its command is no number, {at_goal}.", FAILURES, "singular goal"),
-    },
-    "stiffness": {
-        "as-set": (f"{WRONG}, as the gains say.", GAINS),
-        "half": (f"Half gain. {WRONG}: a factor 2 is missing, as in 2 sin(theta/2).", GAINS, "half gain"),
-        "scaled": (f"Wrong gain. {WRONG}.", GAINS, "wrong gain"),
-        "wrong-sign": (f"Wrong sign. {WRONG}; R R_d^T in place of R_d R^T has it.", FRAMES, "wrong sign"),
-        "body-frame": (f"Transposed, or in body axes. {WRONG} R_d^T, {BASE}: multiply by R.", FRAMES, "body frame"),
-        "row-first": (f"Row first. {WRONG} R_d^T, {COLUMNS}: R[i][j] is row j of column i.", FRAMES, "row first"),
-        "turned-by-goal": (f"Wrong frame. {WRONG} R_d, as {{at_goal}}.", FRAMES, "wrong frame"),
-        "none": ("No stiffness: near the goal it does not pull.", GAINS, "no stiffness"),
-        "unbounded": ("Near the goal its stiffness has no bound, {at_goal}.", FAILURES, "singular goal"),
-        "uneven": ("Stiffness differs by axis: {least} to {most} kp, {at_goal}.", GAINS, "uneven stiffness"),
-        "uneven-elsewhere": ("Its stiffness is kp at R_d = I, {least} to {most} kp {at_goal}.", FAILURES),
-    },
-    "damping": {
-        "as-set": ("Its damping is {value} kv.", GAINS),
-        "none": ("Undamped: its command does not depend on omega.", GAINS, "undamped"),
-        "wrong-sign": ("Its damping has the wrong sign, {value} kv: it drives.", GAINS, "wrong damping"),
-        "uneven-elsewhere": ("Its damping is kv at R_d = I, {least} to {most} kv {at_goal}.", FAILURES),
-        "*": ("Wrong damping, {what}: {least} to {most} kv, {at_goal}.", GAINS, "wrong damping"),
-    },
-    "dead-half-turns": {
-        "*": (f"It is stuck at {{set}}: |u| is at most {{value}} kp. {SHOWN}", FAILURES, "stuck"),
-        "between": (f"It is stuck at {{set}}, between two sides: take 1 for sign(0), not 0. {SHOWN}", SIGNS, "sign(0)"),
-    },
-    "no-number-half-turns": {"*": (f"Its command is no number at {{set}}. {SHOWN}", FAILURES, "no number")},
-    "jump-goal": {"*": ("It jumps by {value} rad times kp at the goal itself.", SIGNS, "jump at the goal")},
-    "jump-half-turns": {
-        "jump": ("At 180° it jumps by {value} rad times kp, as {state}: noise can hold it there.", ROBUSTNESS),
-        "kept": (
-            "At 180° its first tick jumps by {value} rad times kp, as {state}; memory keeps the side.",
-            ROBUSTNESS,
-        ),
-        "unbounded": ("Towards 180° its command grows without bound, as at {state}.", FAILURES),
-    },
-    "jump-elsewhere": {
-        "unbounded": ("Its command is no number, or unbounded, as at {state}.", FAILURES, "no number"),
-        "*": ("It jumps by {value} rad times kp away from 180° too, as at {state}.", FAILURES),
-    },
-    "away": {"some": ("At rest it pulls away from {found} of {of} states, as from {state}, where u = {u}.", SIDE)},
-    "pull": {"swapped": (f"Exchanged arguments of atan2: {SWAPPED}.", SIGNS, "swapped atan2")},
-}
-"""Finding -> what -> sentence, page, and the fault if it is one; * is any other word that says there is something."""
+SENTENCES: dict[str, dict[str, dict[str, str]]]
+SENTENCES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+"""Finding -> what -> text, page and, if it is one, fault."""
 
 SETS = {"every": "every 180° rotation ({found} of {of} axes tried)", "plane": "180° rotations about axes in one plane"}
 SETS |= {f"plane-{axis}": f"180° rotations about axes normal to {axis}" for axis in "xyz"}
@@ -98,10 +50,10 @@ def sentences(rows: pd.DataFrame, declared: str) -> list[Said]:
     for row, (finding, what) in zip(rows.to_dict("records"), whats.items(), strict=True):
         known = SENTENCES[finding].get(what) or SENTENCES[finding].get("*" if what != "none" else "")
         if known is not None:
-            text, page, *fault = known
             is_excused = finding in ("dead-half-turns", "no-number-half-turns") and what != "between"
             is_declared = is_excused and declared == "almost global"
-            said.append(Said(text.format(**_words(row)), page, *([] if is_declared else fault)))
+            fault = "" if is_declared else known.get("fault", "")
+            said.append(Said(known["text"].format(**describe_row(row)), known["page"], fault))
     return said
 
 
@@ -187,8 +139,8 @@ def _counts(rows: pd.DataFrame) -> str:
     return f"{each}, as {first['start_id']} (w x y z = {vector(first[f'quat_{part}'] for part in 'wxyz')})"
 
 
-def _words(row: dict) -> dict[str, str]:
-    """What a sentence may name."""
+def describe_row(row: dict) -> dict[str, str]:
+    """Return what a sentence may name, in words."""
     found, of, what = row["found"], row["of"], str(row["what"])
     goal = tuple(row[f"goal_quat_{part}"] for part in "wxyz")
     return {

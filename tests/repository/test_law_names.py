@@ -23,7 +23,7 @@ ALLOWED = {
     "bench/experiments/chosen_words.py": "what a suite runs",
     "bench/experiments/suites.py": "what a suite runs",
     "bench/findings/claims/": "sentences about them",
-    "bench/findings/measured_questions.py": "a goal stream",
+    "bench/findings/questions.py": "a goal stream",
     "bench/findings/selection/gains.py": "the law that no continuous plant runs",
     "bench/findings/selection/timed.py": "the controller that every share is of",
     "bench/findings/theory/thresholds.py": "where the memory of each law ends",

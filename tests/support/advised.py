@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.selection import measures, needs
+from bench.findings.selection import criteria, needs
 from bench.findings.start_sets import DIRECTED
 from bench.law.contenders.registry import find_contender
 from support.tables import table
@@ -178,7 +178,7 @@ def timed(uniform, directed, peak):
         "peak": by_start(uniform, peak, np.inf),
         "tick": alone(shares_of_time().reindex(laws)),
         "memory": alone({law: len(find_contender(law).regulator.memory or ()) for law in laws}),
-        "jump": alone({law: measures.jump(find_contender(law)) for law in laws}),
+        "jump": alone({law: criteria.jump(find_contender(law)) for law in laws}),
     }
 
 

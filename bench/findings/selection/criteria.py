@@ -1,25 +1,22 @@
-"""What is measured of a law: criteria as data, each with what it means and how it is computed from a run's tables."""
+"""What is measured of a law: criteria.toml says what each number means, a function here computes it from tables."""
 
 from __future__ import annotations
 
+import functools
 import math
+import tomllib
 from collections.abc import Callable
-from typing import NamedTuple
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from bench.findings.claims.standing import MEASURABLE
-from bench.findings.selection.measures import (
-    held_by_noise_from,
-    jump,
-    later_than_fastest,
-    longest_path,
-    of_one_law,
-    on_arms,
-    over_uniform,
-    perturbed,
-)
+from bench.findings.on_arms import passed
 from bench.findings.selection.tables import Tables, by_law
+from bench.law.contender import AT_REST, Contender, Gains, Goal
+from bench.law.so3 import from_quaternion
+from tasks.sphere import axes
 
 LEAST, GREATEST = 1.0, -1.0
 """Which is better."""
@@ -27,11 +24,15 @@ LEAST, GREATEST = 1.0, -1.0
 NOTABLE = 0.01
 """Differences below a hundredth are no reason to choose a law."""
 
+NOISE = "half-turn-noise"
+
+Measure = Callable[[Tables], dict[str, np.ndarray]]
+"""tables -> law: values, all laws' in the order of the same starts; a law that was not asked is missing."""
+
 
 class Criterion(NamedTuple):
     """One number of a law, from one value a start (or from one value alone).
 
-    measure(tables) -> law: values, all laws' in the order of the same starts; a law that was not asked is missing.
     level: the quantile that is taken of the values, 1 the largest; None: their mean. sense: LEAST or GREATEST is
     better. notable, least: relative and absolute difference up to which two laws tie. form: how the number is written.
     """
@@ -40,7 +41,7 @@ class Criterion(NamedTuple):
     title: str
     unit: str
     meaning: str
-    measure: Callable[[Tables], dict[str, np.ndarray]]
+    measure: Measure
     level: float | None = 0.5
     sense: float = LEAST
     notable: float = NOTABLE
@@ -53,157 +54,132 @@ SLOW_HZ, LATE_S, BOUND, PEAK, HEAVY, SPIN, MOVING, NOISY_RAD = 20.0, 0.02, 10.0,
 and for noise, where it is what a cheap sensor has."""
 
 
-def settled_under(name: str, title: str, words: str, axis: str, level: float) -> Criterion:
-    """The median settling time at one level of a perturbation."""
-    meaning = f"median settling time{words}"
-    return Criterion(name, title, "s", meaning, perturbed(axis, level, "settling_time_s"), form="{:.3f}")
+def of_one_law(measure: Callable[[Tables, str], float]) -> Measure:
+    """A measure from a function of one law."""
+    return lambda tables: {name: np.array([measure(tables, name)]) for name in tables.contenders}
 
 
-CRITERIA = (
-    Criterion(
-        "unsettled",
-        "Not settled",
-        "%",
-        "uniform starts that do not settle",
-        lambda tables: {name: 100.0 * lost for name, lost in by_law(tables.uniform, "lost").items()},
-        None,
-    ),
-    Criterion(
-        "lost",
-        "Directed starts",
-        "lost",
-        "directed starts that do not settle, exact 180° rotations, poles and jumps of coordinates among them",
-        lambda tables: {name: np.array([lost.sum()]) for name, lost in by_law(tables.directed, "lost").items()},
-    ),
-    Criterion(
-        "detour", "Longest path", "", "longest path over the shortest, from uniform and half-turn starts", longest_path
-    ),
-    Criterion(
-        "time",
-        "99 % settled in",
-        "s",
-        "time in which 99 % of the uniform starts settle",
-        over_uniform("settling_time_s"),
-        0.99,
-        form="{:.3f}",
-    ),
-    Criterion(
-        "median",
-        "Median settling time",
-        "s",
-        "median settling time of the uniform starts",
-        over_uniform("settling_time_s"),
-        form="{:.3f}",
-    ),
-    Criterion(
-        "worst",
-        "Slowest start",
-        "s",
-        "settling time of the slowest uniform start",
-        over_uniform("settling_time_s"),
-        1.0,
-        form="{:.3f}",
-    ),
-    Criterion(
-        "spread",
-        "Spread of settling",
-        "s",
-        "spread of settling times, uniform starts",
-        later_than_fastest,
-        1.0,
-        form="{:.3f}",
-    ),
-    Criterion(
-        "tick",
-        "Share of tick",
-        "%",
-        "time of the law alone over a tick of a whole controller on an arm",
-        lambda tables: {name: np.array([tables.ticks.get(name, math.nan)]) for name in tables.contenders},
-        notable=0.0,
-        least=100.0 * MEASURABLE,
-        form="{:.1f}",
-    ),
-    Criterion(
-        "memory", "Memory", "numbers", "numbers kept from tick to tick", of_one_law(Tables.memory), form="{:.0f}"
-    ),
-    Criterion(
-        "jump",
-        "Jump at 180°",
-        "rad",
-        "jump of the command across a 180° rotation, over kp",
-        of_one_law(lambda tables, name: jump(tables.contenders[name])),
-    ),
-    Criterion(
-        "held",
-        "Held by noise from",
-        "rad",
-        "least worst-case noise tried that traps it at a 180° rotation",
-        held_by_noise_from,
-        sense=GREATEST,
-        form="{:g}",
-    ),
-    Criterion(
-        "effort", "Effort", "rad²/s³", "integral of the squared command, median uniform start", over_uniform("effort")
-    ),
-    Criterion("peak", "Peak command", "rad/s²", "greatest command of any uniform start", over_uniform("peak_u"), 1.0),
-    Criterion(
-        "chatter",
-        "Change at rest",
-        "rad/s²",
-        "largest change of the command from tick to tick at rest",
-        over_uniform("rest_change"),
-        1.0,
-    ),
-    Criterion(
-        "variation",
-        "Variation",
-        "rad/s²",
-        "total variation of the command, median start",
-        perturbed("delay", 0.0, "variation"),
-    ),
-    settled_under(
-        "matched", "Settled at equal peak", f" with gains that give a peak of {PEAK:g} rad/s²", "equal-peak", PEAK
-    ),
-    settled_under("bounded", "Settled with weak motors", f", command cut at {BOUND:g} rad/s²", "saturation", BOUND),
-    settled_under("slow", f"Settled at {SLOW_HZ:g} Hz", f", control at {SLOW_HZ:g} Hz", "control-rate", SLOW_HZ),
-    settled_under("late", "Settled, late", f", {1e3 * LATE_S:g} ms late", "delay", LATE_S),
-    settled_under("heavy", "Settled, heavy", f", inertia {HEAVY:g} times the model's", "inertia", HEAVY),
-    settled_under("spinning", "Settled, spinning", f", {SPIN:g} rad/s at the start", "spin", SPIN),
-    Criterion(
-        "follows",
-        "Error behind the goal",
-        "rad",
-        f"greatest error in the last second, goal moving at {MOVING:g} rad/s",
-        perturbed("moving-goal", MOVING, "tail_max_rad"),
-        form="{:.2g}",
-    ),
-    Criterion(
-        "noisy",
-        "Variation under noise",
-        "rad/s²",
-        f"total variation of the command, orientation noise {NOISY_RAD:g} rad",
-        perturbed("attitude-noise", NOISY_RAD, "variation"),
-    ),
-    Criterion(
-        "arms",
-        "Settle on arms",
-        "%",
-        "uniform starts on arms that settle",
-        on_arms("settled"),
-        None,
-        GREATEST,
-        form="{:.1f}",
-    ),
-    Criterion(
-        "within",
-        "Within torque and range",
-        "%",
-        "uniform starts on arms that settle within the motors' rated torques and the joints' ranges",
-        on_arms("range"),
-        None,
-        GREATEST,
-        form="{:.1f}",
-    ),
-)
+def over_uniform(column: str) -> Measure:
+    """A column of all uniform starts; infinite where the law does not settle."""
+    return lambda tables: by_law(tables.uniform, column, math.inf)
 
+
+def perturbed(axis: str, level: float, column: str) -> Measure:
+    """A column at one level of a perturbation; infinite where the law does not settle."""
+
+    def measure(tables):
+        rows = tables.robustness
+        rows = rows[(rows["axis"] == axis) & (rows["level"] == level) & rows["contender"].isin(tables.contenders)]
+        return by_law(rows.sort_values("start_id", kind="stable"), column, math.inf)
+
+    return measure
+
+
+def later_than_fastest(tables: Tables) -> dict[str, np.ndarray]:
+    """How much later each uniform start settles than the law's fastest [s]; infinite where it does not settle."""
+    times = by_law(tables.uniform, "settling_time_s", math.inf)
+    return {name: values - min(values[np.isfinite(values)], default=0.0) for name, values in times.items()}
+
+
+def longest_path(tables: Tables) -> dict[str, np.ndarray]:
+    """Longest path over the geodesic, from uniform starts and 180° rotations."""
+    half_turns = tables.directed[tables.directed["start_set"] == "half-turn"]
+    ways = [by_law(rows, "path_ratio") for rows in (tables.uniform, half_turns)]
+    return {name: np.array([np.nanmax(np.concatenate([way[name] for way in ways]))]) for name in ways[0]}
+
+
+def held_by_noise_from(tables: Tables) -> dict[str, np.ndarray]:
+    """Return the least noise tried that holds a law at some 180° rotation; infinite if none does."""
+    rows = tables.robustness[tables.robustness["axis"] == NOISE]
+    found = {}
+    for name, own in rows[rows["contender"].isin(tables.contenders)].groupby("contender", observed=True):
+        holding = own.loc[own["lost"], "level"]
+        found[str(name)] = np.array([holding.min() if len(holding) else math.inf])
+    return found
+
+
+BESIDE_RAD, DIRECTIONS = 1e-6, 16
+
+
+@functools.cache
+def jump(one: Contender) -> float:
+    """Return the jump of the command where a body at rest is pushed through a 180° rotation, over kp [rad].
+
+    On coordinates: not a number, for a chart of SO(3) jumps somewhere else as well; nor of a user's law, which must not
+    be called here. What a law remembers goes with it.
+    """
+    if one.representation is not None or one.regulator.origin:
+        return math.nan
+    return max(_across(one, axis) for axis in axes(DIRECTIONS))
+
+
+def _across(one: Contender, axis: np.ndarray) -> float:
+    gains, goal = Gains(np.float64(1.0), np.float64(2.0)), Goal()
+    memory = one.regulator.memory
+    commands = []
+    with np.errstate(all="ignore"):
+        for angle in (math.pi - BESIDE_RAD, math.pi + BESIDE_RAD):
+            quat = (math.cos(angle / 2), *(math.sin(angle / 2) * axis))
+            R = from_quaternion(tuple(map(np.float64, quat)))
+            found = one.law(R, AT_REST, goal, gains, *(() if memory is None else (memory,)))
+            u, memory = (found, None) if memory is None else found
+            commands.append(np.array(u))
+    return float(np.linalg.norm(commands[1] - commands[0]))
+
+
+def on_arms(measure: str) -> Measure:
+    """100 for each episode on arms from uniform starts that passes one of `on_arms.MEASURES`, 0 for the others [%]."""
+
+    def measured(tables):
+        rows = tables.arms[tables.arms["contender"].isin(tables.contenders)]
+        return by_law(rows.assign(passed_percent=100.0 * passed(rows)[measure]), "passed_percent")
+
+    return measured
+
+
+def settled_under(axis: str, level: float) -> Measure:
+    """Return the settling times at one level of a perturbation."""
+    return perturbed(axis, level, "settling_time_s")
+
+
+MEASURES: dict[str, Measure] = {
+    "unsettled": lambda tables: {name: 100.0 * lost for name, lost in by_law(tables.uniform, "lost").items()},
+    "lost": lambda tables: {name: np.array([lost.sum()]) for name, lost in by_law(tables.directed, "lost").items()},
+    "detour": longest_path,
+    **dict.fromkeys(("time", "median", "worst"), over_uniform("settling_time_s")),
+    "spread": later_than_fastest,
+    "tick": of_one_law(lambda tables, name: tables.ticks.get(name, math.nan)),
+    "memory": of_one_law(Tables.memory),
+    "jump": of_one_law(lambda tables, name: jump(tables.contenders[name])),
+    "held": held_by_noise_from,
+    "effort": over_uniform("effort"),
+    "peak": over_uniform("peak_u"),
+    "chatter": over_uniform("rest_change"),
+    "variation": perturbed("delay", 0.0, "variation"),
+    "matched": settled_under("equal-peak", PEAK),
+    "bounded": settled_under("saturation", BOUND),
+    "slow": settled_under("control-rate", SLOW_HZ),
+    "late": settled_under("delay", LATE_S),
+    "heavy": settled_under("inertia", HEAVY),
+    "spinning": settled_under("spin", SPIN),
+    "follows": perturbed("moving-goal", MOVING, "tail_max_rad"),
+    "noisy": perturbed("attitude-noise", NOISY_RAD, "variation"),
+    "arms": on_arms("settled"),
+    "within": on_arms("range"),
+}
+
+
+def read_criteria() -> tuple[Criterion, ...]:
+    """Return the criteria of criteria.toml with their measures; differences in time a tick tie below MEASURABLE."""
+    found = []
+    for name, words in tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")).items():
+        one: dict[str, Any] = {"measure": MEASURES[name], "least": 100.0 * MEASURABLE if name == "tick" else 0.0}
+        for part, value in words.items():
+            one[part] = value.format(**globals(), LATE_MS=1e3 * LATE_S) if part in ("title", "meaning") else value
+        one["sense"] = GREATEST if one.pop("greater", False) else LEAST
+        found.append(Criterion(name, **one | ({"level": None} if one.get("level") == "mean" else {})))
+    return tuple(found)
+
+
+CRITERIA = read_criteria()
 BY_NAME = {one.name: one for one in CRITERIA}

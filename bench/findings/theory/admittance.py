@@ -25,6 +25,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bench.findings.theory.bisection import bisect
 from bench.findings.theory.contact_stability import Spring
 
 ANGLES = 4000
@@ -63,10 +64,7 @@ def lagged_limit(one: Admittance, lag_s: float, late: int, dt: float) -> float:
 
 def _root(function, low: float, high: float) -> float:
     sign = math.copysign(1.0, function(low))
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if sign * function(middle) > 0.0 else (low, middle)
-    return 0.5 * (low + high)
+    return 0.5 * sum(bisect(lambda at: sign * function(at) > 0.0, low, high, 60))
 
 
 def routh_limit(one: Admittance, lag_s: float) -> float:

@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from bench.findings.theory.bisection import bisect
 from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.so3 import Rotation, from_quaternion
 
@@ -68,8 +69,4 @@ def held_to(law: Callable, axis: np.ndarray, gains: Gains, scan_rad: float = mat
     first = next((i for i, angle in enumerate(angles) if not is_held(angle)), None)
     if first is None:
         return math.pi
-    low, high = float(angles[first] - scan_rad), float(angles[first])
-    for _ in range(BISECTIONS):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if is_held(middle) else (low, middle)
-    return high
+    return bisect(is_held, float(angles[first] - scan_rad), float(angles[first]), BISECTIONS)[1]

@@ -19,12 +19,15 @@ from scipy.linalg import eigh
 
 import tasks
 from bench.engines.arm_episode import buffers
-from bench.experiments.impedance import Stiffness
+from bench.findings.theory.bisection import bisect
 from bench.law.control.unshaped import DAMPINGS
 from tasks.kinematics import kinematics
 
 HALVINGS = 30
 """Of a second: to a nanosecond."""
+
+Stiffness = tuple[float, float]
+"""Of translation [N/m] and of rotation [N m/rad]."""
 
 
 class Hand(NamedTuple):
@@ -43,35 +46,24 @@ def hand_of(name: str, rotor: float = 0.0) -> Hand:
     return Hand(J @ by_joints @ J.T, J @ by_joints @ friction @ np.linalg.pinv(J))
 
 
-def damping_matrix(name: str, stiffness: Stiffness, mobility: np.ndarray, zeta: float) -> np.ndarray:
-    """D of a design, 6 x 6."""
-    D = np.zeros((6, 6))
-    DAMPINGS[name].design(diagonal(stiffness), np.linalg.inv(mobility), zeta, D, buffers(7).scratch)
-    return D
-
-
 def diagonal(stiffness: Stiffness) -> np.ndarray:
-    """K's diagonal: six stiffnesses."""
-    return np.repeat([stiffness.translation, stiffness.rotation], 3)
+    """Return K's diagonal: six stiffnesses."""
+    return np.repeat(stiffness, 3)
 
 
 def hand_matrices(
     arm: str, damping: str, stiffness: Stiffness, zeta: float, rotor: float = 0.0
 ) -> tuple[np.ndarray, np.ndarray]:
-    """P = Lambda^-1 K [1/s^2] and Q = Lambda^-1 D and friction's [1/s]."""
-    hand = hand_of(arm, rotor)
-    D = damping_matrix(damping, stiffness, hand.mobility, zeta)
+    """Compute P = Lambda^-1 K [1/s^2] and Q = Lambda^-1 D and friction's [1/s], D of a design."""
+    hand, D = hand_of(arm, rotor), np.zeros((6, 6))
+    DAMPINGS[damping].design(diagonal(stiffness), np.linalg.inv(hand.mobility), zeta, D, buffers(7).scratch)
     return hand.mobility * diagonal(stiffness), hand.mobility @ D + hand.friction
 
 
 def longest_tick(arm: str, damping: str, stiffness: Stiffness, zeta: float, rotor: float = 0.0) -> float:
     """The control period [s] from which on the sampled loop is unstable: 2/(D/Lambda) of the fastest pole, or less."""
     P, Q = hand_matrices(arm, damping, stiffness, zeta, rotor)
-    low, high = 0.0, 1.0
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if compute_radius(P, Q, middle) < 1.0 else (low, middle)
-    return low
+    return bisect(lambda dt: compute_radius(P, Q, dt) < 1.0, 0.0, 1.0, HALVINGS)[0]
 
 
 def compute_modes(P: np.ndarray, Q: np.ndarray, mobility: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -97,7 +89,7 @@ def with_theory(rows: pd.DataFrame) -> pd.DataFrame:
     keys, found = ["arm", "damping", "stiffness_n_m", "stiffness_nm_rad", "zeta", "dt_s"], []
     for key, group in rows.groupby(keys, observed=True, sort=False):
         arm, damping, translation, rotation, zeta, dt = key
-        P, Q = hand_matrices(str(arm), str(damping), Stiffness(translation, rotation), zeta)
+        P, Q = hand_matrices(str(arm), str(damping), (translation, rotation), zeta)
         omega, ratio = compute_modes(P, Q, hand_of(str(arm)).mobility)
         radius = compute_radius(P, Q, dt)
         places = group["mode"].to_numpy() - 1

@@ -13,7 +13,6 @@ import numpy as np
 from scipy.linalg import solve_discrete_lyapunov
 from scipy.signal import lsim
 
-from bench.engines.plants.perturbed import LEAD
 from bench.findings.theory.isotropic import Equation
 from tasks.condition import NO_FEEDFORWARD, RATE
 from tasks.moving_goal import reference_rates
@@ -21,8 +20,8 @@ from tasks.moving_goal import reference_rates
 STEP_S = 1e-3
 """Longest step of the plant [s], as in the episodes."""
 
-LONGEST_S = 3.0
-"""Five settling times of the undisturbed loop."""
+LEAD = 2.0
+"""Periods that the worst of measurements looks ahead."""
 
 GRID_S = 5e-3
 """Between points [s] that are joined by straight lines; the goal sways with 0.3 s to the radian or slower."""
@@ -52,28 +51,6 @@ def least_rate(kp: float, kv: float) -> float:
     Kv h < 2 and Kp h < 2 Kv.
     """
     return max(kv / 2.0, kp / (2.0 * kv))
-
-
-@functools.cache
-def settling(
-    kp: float, kv: float, tolerance: float, period_s: float = STEP_S, delay_s: float = 0.0, inertia: float = 1.0
-) -> float:
-    """Settling time [s] of the linear loop from rest: sampled, held, late, and with an inertia the law does not know.
-
-    Infinite if it does not settle in LONGEST_S.
-    """
-    steps = max(1, math.ceil(period_s / STEP_S - 1e-9))
-    h = period_s / steps
-    late = round(delay_s / h)
-    x, v, last, sent = 1.0, 0.0, -1, []
-    for tick in range(round(LONGEST_S / h)):
-        if tick % steps == 0:
-            sent.append(-(kp * x + kv * v) / inertia)
-        u = sent[(tick - late) // steps] if tick >= late else 0.0
-        x, v = x + h * v + 0.5 * h * h * u, v + h * u
-        if abs(x) > tolerance:
-            last = tick + 1
-    return math.inf if last >= round(LONGEST_S / h) else (last + 1) * h
 
 
 def sampled(kp: float, kv: float, period_s: float) -> tuple[np.ndarray, np.ndarray]:
@@ -135,15 +112,6 @@ def least_settling(angle: float, bound: float, tolerance: float) -> float:
     return (2.0 * math.sqrt(1.0 + tolerance) - math.sqrt(4.0 * tolerance)) * math.sqrt(angle / bound)
 
 
-def reversal_angle(kp: float, blind_s: float) -> float:
-    """Angle [rad] from which paielli-bach, blind for a while, pushes itself past the rate where its spring turns round.
-
-    u = (2 Kp - |omega|^2/2) tan(theta/2) k - Kv omega pushes away from |omega| = 2 sqrt(Kp) on; from rest the first
-    command, 2 Kp tan(theta/2), reaches that in 1/(sqrt(Kp) tan(theta/2)).
-    """
-    return 2.0 * math.atan2(1.0, math.sqrt(kp) * blind_s)
-
-
 def is_held(equation: Equation, kp: float, kv: float, worst_error: float, period_s: float = STEP_S) -> bool:
     """Tell whether the worst noise holds a law at 180°: its scalar equation, evaluated every tick on a wrong angle.
 
@@ -161,11 +129,3 @@ def is_held(equation: Equation, kp: float, kv: float, worst_error: float, period
         u = side * outward - kv * v
         x, v = x + h * v + 0.5 * h * h * u, v + h * u
     return True
-
-
-def two_ticks(push: float, kv: float, period_s: float = STEP_S) -> float:
-    """Return the angle [rad] that a body is driven from 180° before a jump of 2 `push` brakes it: U h^2 (1 - Kv h/2).
-
-    One tick of U, before the law can measure any motion, makes the rate U h; the next, of -U - Kv U h, takes it.
-    """
-    return push * period_s * period_s * (1.0 - 0.5 * kv * period_s)

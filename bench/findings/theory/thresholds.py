@@ -8,6 +8,7 @@ import math
 import tasks
 from bench.findings.perturbed import FOLLOWED_RAD
 from bench.findings.theory import robustness_theory
+from bench.findings.theory.bisection import bisect
 from bench.findings.theory.isotropic import EQUATIONS
 from bench.law.contenders.registry import all_contenders
 from tasks.condition import condition_at
@@ -56,10 +57,7 @@ def least(law: str, kp: float, kv: float) -> float:
     low, high = math.log(1e-6), math.log(1.0)
     if held(math.exp(low)):
         return 0.0
-    for _ in range(STEPS):
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if held(math.exp(middle)) else (middle, high)
-    return math.exp(high)
+    return math.exp(bisect(lambda noise: not held(math.exp(noise)), low, high, STEPS)[1])
 
 
 @functools.cache

@@ -20,7 +20,6 @@ import pandas as pd
 
 import tasks
 from bench.engines.arm_episode import buffers
-from bench.experiments.velocity_limits import SCAN_RAD, pose
 from bench.law.contender import AT_REST, Contender, Gains, Goal
 from bench.law.contenders.registry import find_contender, inverse
 from bench.law.equation import Equation
@@ -31,6 +30,9 @@ from tasks.rotations import about
 
 DIFFERENCE_RAD = 1e-5
 """Step of central differences, which err by its square."""
+
+TURNS_RAD = np.linspace(1e-3, math.pi - 1e-3, 400)
+"""Angles of which no tick may make one larger."""
 
 SPANNED = 1e-9
 """Eigenvalues smaller than this are of directions that are not commanded at all."""
@@ -99,9 +101,9 @@ def of_row(row: dict) -> float:
     """The closed form of one row."""
     law = str(row["contender"]).partition("@")[0]
     if row["arm"]:
-        plain = on_arm(row["arm"], pose(row["arm"]), inverse(row["inverse"]))
+        plain = on_arm(row["arm"], tasks.arm(row["arm"]).home, inverse(row["inverse"]))
         return plain if row["lag_ticks"] == 0.0 else lagged(row["lag_ticks"])
     one = find_contender(law)
     if row["reach"] == "near":
         return near(one) / row["share"]
-    return far(one.equation, SCAN_RAD) if one.equation else math.nan
+    return far(one.equation, TURNS_RAD) if one.equation else math.nan

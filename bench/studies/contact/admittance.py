@@ -14,7 +14,7 @@ from bench.engines.contact_episode import USUAL
 from bench.findings.theory.admittance import Admittance, Loop, lagged_limit, routh_limit, settles
 from bench.findings.theory.contact_stability import Spring
 from bench.studies.contact.by_torque import Tick, press
-from bench.studies.contact.stability import ARM, INERTANCE, RELAXATION_S, mobility, scale
+from bench.studies.contact.stability import ARM, DECADES, INERTANCE, RELAXATION_S, bisect_stiffness, mobility, scale
 
 MASS, STIFFNESS, RATIO = 5.5, 214.1, 2.828427
 SHIPPED = Admittance(MASS, 2.0 * RATIO * math.sqrt(MASS * STIFFNESS), STIFFNESS)
@@ -29,8 +29,8 @@ TICKS = 20_000
 """Of a servo's episode: 1 % off the limit an error grows or falls by e^4 and more."""
 BISECTIONS = 16
 """Of the logarithm of the stiffness, over eight decades: to 0.1 %."""
-DECADES, HALVINGS = (3.0, 6.0), 9
-"""Of the plane that the arm presses on [N/m]: to 1 %."""
+HALVINGS = 9
+"""Of the stiffness of the plane that the arm presses on: to 1 %."""
 HORIZON_S, RAMP_S = 4.0, 1.0
 """Of the press, and until when the force ordered rises to FORCE_N, so that the tip does not strike."""
 CALM_N = 1e-3
@@ -51,7 +51,9 @@ def _servos():
                 "plant": "servo",
                 "lag_ms": 1e3 * lag_s,
                 "delay_ms": delay,
-                "measured": bisected(lambda K, lag_s=lag_s, late=late: is_damped(K, lag_s, late), 0.0, 8.0, BISECTIONS),
+                "measured": bisect_stiffness(
+                    lambda K, lag_s=lag_s, late=late: is_damped(K, lag_s, late), 0.0, 8.0, BISECTIONS
+                ),
                 "theory": lagged_limit(SHIPPED, lag_s, late, dt),
                 "continuous": routh_limit(SHIPPED, lag_s) if delay == 0 else math.nan,
             }
@@ -64,20 +66,12 @@ def _arms():
                 "plant": "arm",
                 "lag_ms": 2e3 / w,
                 "delay_ms": delay,
-                "measured": bisected(lambda K, w=w, delay=delay: calms(pressed(K, w, delay)), *DECADES, HALVINGS),
-                "theory": bisected(lambda K, w=w, delay=delay: predicted(K, w, delay), *DECADES, HALVINGS),
+                "measured": bisect_stiffness(
+                    lambda K, w=w, delay=delay: calms(pressed(K, w, delay)), *DECADES, HALVINGS
+                ),
+                "theory": bisect_stiffness(lambda K, w=w, delay=delay: predicted(K, w, delay), *DECADES, HALVINGS),
                 "continuous": math.nan,
             }
-
-
-def bisected(holds, low: float, high: float, halvings: int) -> float:
-    """The stiffness [N/m] up to which something holds, between powers of ten; infinite if at the highest too."""
-    if holds(10.0**high):
-        return math.inf
-    for _ in range(halvings):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if holds(10.0**middle) else (low, middle)
-    return 10.0 ** (0.5 * (low + high))
 
 
 def is_damped(K: float, lag_s: float, late: int) -> bool:
@@ -119,6 +113,11 @@ def pressed(stiffness: float, w: float, delay_ms: float) -> np.ndarray:
         return now.M @ np.linalg.solve(now.J, wanted) + now.bias
 
     return np.array([now.wrench[2] for now in press(ARM, stiffness, torque, HORIZON_S)])
+
+
+def holds(stiffness: float, w: float, delay_ms: float) -> bool:
+    """Tell whether the arm's press comes to rest."""
+    return calms(pressed(stiffness, w, delay_ms))
 
 
 def calms(force: np.ndarray) -> bool:

@@ -12,6 +12,7 @@ import numpy as np
 import tasks
 from bench.engines.contact_episode import FORCE, USUAL, Sensor
 from bench.engines.simulate_contact import run_contact as run
+from bench.findings.theory.bisection import bisect
 from bench.findings.theory.contact_stability import Spring, acceleration, settles
 from bench.law.control.registry import find_controller
 from bench.law.control.setpoint import TOUCH
@@ -27,7 +28,7 @@ CONTROLLERS = (
 )
 """Each with its gain on the error of force, which the last two do not have."""
 
-LEAST, MOST = 1e3, 1e6
+DECADES, LEAST = (3.0, 6.0), 1e3
 DELAYS_MS = (0, 1, 2, 3, 5, 7, 10, 15, 20)
 STIFFNESSES = tuple(10.0**k for k in (3, 3.5, 4, 4.5, 5, 5.5, 6))
 NOISE_N = 1.0
@@ -92,16 +93,15 @@ def mobility(arm: Arm) -> float:
 
 
 def boundary(is_stable) -> float:
-    """The stiffness [N/m] up to which it is stable: LEAST if never, infinite if at MOST too."""
-    if not is_stable(LEAST):
-        return LEAST
-    if is_stable(MOST):
+    """Return the stiffness [N/m] up to which it is stable: LEAST if never, infinite if at the most of DECADES too."""
+    return bisect_stiffness(is_stable, *DECADES, HALVINGS) if is_stable(LEAST) else LEAST
+
+
+def bisect_stiffness(holds, low: float, high: float, halvings: int) -> float:
+    """Return the stiffness [N/m] up to which something holds, between powers of ten; infinite if at the highest too."""
+    if holds(10.0**high):
         return math.inf
-    low, high = math.log10(LEAST), math.log10(MOST)
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if is_stable(10.0**middle) else (low, middle)
-    return 10.0 ** (0.5 * (low + high))
+    return 10.0 ** (0.5 * sum(bisect(lambda decades: holds(10.0**decades), low, high, halvings)))
 
 
 def boundaries() -> list[dict]:
