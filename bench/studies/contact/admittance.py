@@ -115,11 +115,6 @@ def pressed(stiffness: float, w: float, delay_ms: float) -> np.ndarray:
     return np.array([now.wrench[2] for now in press(ARM, stiffness, torque, HORIZON_S)])
 
 
-def holds(stiffness: float, w: float, delay_ms: float) -> bool:
-    """Tell whether the arm's press comes to rest."""
-    return calms(pressed(stiffness, w, delay_ms))
-
-
 def calms(force: np.ndarray) -> bool:
     """Whether the force of a whole episode varies less in its last quarter than in its second half's first."""
     if len(force) < round(HORIZON_S / USUAL.dt_s):
