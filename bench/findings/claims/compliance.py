@@ -11,60 +11,28 @@ from bench.findings.claims import probes, side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.force_conversion import random_orientations
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import claim, word_of
+from bench.findings.claims.verdict import claim, read_limits, word_of
 
 if TYPE_CHECKING:
     import pandas as pd
 
-ONE_AXIS = ("about x", "about y", "about z")
+LIMIT = read_limits(__file__)
+
+
 TWO_AXES = ("about x and y", "about y and z", "about z and x")
 LEVEL_PAIR = TWO_AXES[0]
-ANGLES = ("alpha", "beta", "gamma")
-EARLIER = {"about x": (1, 1, 0), "about y": (1, 0, 0), "about z": (0, 0, 0)}
-"""The angles that come before the one that complies, by order."""
-
-SAME = 0.01
-"""Distance of two matrices of compliance, over the size of the reference: ten times the 1e-3 that a sampled plant
-leaves of the closed form, and less than half of what one degree makes of an axis, sqrt(2) sin(1 deg) = 0.025."""
-
-CLOSE_TO_POLE = 0.05
-"""cos(beta) under which a pose is reported and does not decide: within 3 degrees of the pole B's condition number is
-above 40 and the controller's failures are those of C18 and C20."""
-
-POSES = 200
-"""Random orientations at which the angles' own axes are compared."""
-
-APART_DEG = 1.0
-"""An angle that is not zero is at least this; zero is below a billionth."""
-
-LEAK, SMALL_DEG = 0.01, 5.0
-"""Relative, of what theory says, or of tan 5 deg where that is more."""
-
-PLANE_RAD = 0.005
-"""rad, between measured and predicted tilt of a plane: a hand that turns by 3 mrad tilts its own axes by as much."""
-
-ZYZ, ORDER = "zyz-euler", "about x"
-
-ZERO_RAD, SLACK_DEG = 1e-9, 1e-6
-"""What rounding may make of an angle that a pose is named after."""
-
-NEAR_DEG, LITTLE = 15.0, 0.5
-"""What 'near zero' is; and the share of the wanted compliance under which something is a problem."""
-
-MOST_LEAK = 1.0
-"""Rotation about z over that about x from which on a hand turns about another axis than the compliant one."""
 
 
 @claim("C22")
 def c22(results):
     """One angle against one axis, by both ways to control forces."""
     word, found = _one_axis(results)
-    turns = random_orientations(POSES, 0)
+    turns = random_orientations(LIMIT.POSES, 0)
     B = np.array([probes.euler_B(R) for R in turns])
     by_alpha = np.abs(B[:, :, 0] - (0.0, 0.0, 1.0)).max()
     by_gamma = np.abs(B[:, :, 2] - [R.n for R in turns]).max()
     axes = (
-        f"At {POSES} orientations alpha's own axis is the base's z to {by_alpha:.0e} and gamma's the hand's x to "
+        f"At {LIMIT.POSES} orientations alpha's own axis is the base's z to {by_alpha:.0e} and gamma's the hand's x to "
         f"{by_gamma:.0e}."
     )
     return word, found._replace(sentence=f"{axes} {found.sentence}")
@@ -73,19 +41,22 @@ def c22(results):
 @side_by_side.by_papers_form
 def _one_axis(results, forms):
     """Measured compliance of one angle against that of one axis, as it is and turned by the angles before."""
-    rows = side_by_side.beside_base(results, COORDINATES, ONE_AXIS, forms)
-    away = (rows["cos_beta"] >= CLOSE_TO_POLE).to_numpy()
-    earlier = rows[list(ANGLES)].to_numpy() * np.array([EARLIER[order] for order in rows["complies"]])
-    is_turned = away & (np.degrees(np.abs(earlier).max(axis=1)) >= APART_DEG)
-    for order in ONE_AXIS:
+    rows = side_by_side.beside_base(results, COORDINATES, LIMIT.ONE_AXIS, forms)
+    away = (rows["cos_beta"] >= LIMIT.CLOSE_TO_POLE).to_numpy()
+    earlier = rows[list(LIMIT.ANGLES)].to_numpy() * np.array([LIMIT.EARLIER[order] for order in rows["complies"]])
+    is_turned = away & (np.degrees(np.abs(earlier).max(axis=1)) >= LIMIT.APART_DEG)
+    for order in LIMIT.ONE_AXIS:
         own = (rows["complies"] == order).to_numpy()
-        some(rows[own & (is_turned if any(EARLIER[order]) else away)], f"pose that tells angle and axis apart, {order}")
+        some(
+            rows[own & (is_turned if any(LIMIT.EARLIER[order]) else away)],
+            f"pose that tells angle and axis apart, {order}",
+        )
     C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
     differs = side_by_side.apart(C, base)
     differs_turned = side_by_side.apart(C, side_by_side.turned(base, _turns(earlier)))
-    differs_in_hand = side_by_side.apart(C, side_by_side.turned(base, _turns(rows[list(ANGLES)].to_numpy())))
-    word = word_of((differs[away] <= SAME).all(), (differs_turned[away] <= SAME).all())
-    judged = rows.assign(same=differs <= SAME, same_in_hand=differs_in_hand <= SAME)[away]
+    differs_in_hand = side_by_side.apart(C, side_by_side.turned(base, _turns(rows[list(LIMIT.ANGLES)].to_numpy())))
+    word = word_of((differs[away] <= LIMIT.SAME).all(), (differs_turned[away] <= LIMIT.SAME).all())
+    judged = rows.assign(same=differs <= LIMIT.SAME, same_in_hand=differs_in_hand <= LIMIT.SAME)[away]
     ends = rows.loc[~away, "outcome"].astype(str).value_counts()
     close = ", ".join(f"{n} {end}" for end, n in ends.items()) or "no pose"
     return word, evidence(
@@ -119,23 +90,23 @@ def _greatest(numbers: np.ndarray) -> float:
 def c23(results, forms):
     """Measured compliance of two angles against that of two axes: apart or not, and by how much in theory."""
     rows = side_by_side.beside_base(results, COORDINATES, TWO_AXES, forms)
-    rows = rows[rows["cos_beta"] >= CLOSE_TO_POLE].reset_index(drop=True)
-    general = (np.degrees(rows[list(ANGLES)].abs()) >= APART_DEG).all(axis=1).to_numpy()
+    rows = rows[rows["cos_beta"] >= LIMIT.CLOSE_TO_POLE].reset_index(drop=True)
+    general = (np.degrees(rows[list(LIMIT.ANGLES)].abs()) >= LIMIT.APART_DEG).all(axis=1).to_numpy()
     for order in TWO_AXES:
         some(rows[general & (rows["complies"] == order)], f"pose with no angle zero and B^-1 well conditioned, {order}")
     C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
     differs = side_by_side.apart(C, base)
-    parted = differs[general] > SAME
+    parted = differs[general] > LIMIT.SAME
     level = (rows["complies"] == LEVEL_PAIR).to_numpy()
     own, beta = rows[level], rows.loc[level, "beta"].abs().to_numpy()
     leak, by_base = (_leak(own, one[level]) for one in (C, base))
     expected, of_base = side_by_side.predicted(own, COORDINATES), side_by_side.predicted(own)
     missed = np.maximum(_missed(leak, _leak(own, expected)), _missed(by_base, _leak(own, of_base)))
     tilt = np.maximum(*map(side_by_side.planes_apart, (C[level], base[level]), (expected, of_base)))
-    as_predicted = (missed <= LEAK).all() and (tilt <= PLANE_RAD).all()
+    as_predicted = (missed <= LIMIT.LEAK).all() and (tilt <= LIMIT.PLANE_RAD).all()
     word = word_of(parted.all() and as_predicted, parted.mean() > 0.5)
     least = float(np.nanmin(differs[general], initial=np.inf))
-    special = _by_order(rows.assign(same=differs <= SAME)[~general], "same") or "at no pose: there is none"
+    special = _by_order(rows.assign(same=differs <= LIMIT.SAME)[~general], "same") or "at no pose: there is none"
     return word, evidence(
         f"""With no angle zero they part at {int(parted.sum())} of {len(parted)} poses and forms, by {least:.2f} of the
         Cartesian compliance or more; with one zero they correspond {special}. {LEVEL_PAIR.capitalize()}, at
@@ -150,7 +121,7 @@ def c23(results, forms):
 
 def _missed(leak: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """|leak - wanted| over what is wanted, or over the tangent of a small angle."""
-    return np.abs(leak - wanted) / np.maximum(wanted, math.tan(math.radians(SMALL_DEG)))
+    return np.abs(leak - wanted) / np.maximum(wanted, math.tan(math.radians(LIMIT.SMALL_DEG)))
 
 
 def _leak(rows: pd.DataFrame, C: np.ndarray) -> np.ndarray:
@@ -164,15 +135,19 @@ def _leak(rows: pd.DataFrame, C: np.ndarray) -> np.ndarray:
 @side_by_side.by_papers_form
 def c24(results, forms):
     """Rotation about x and z per moment about x with Z-Y-Z and with Z-Y-X angles, over what is wanted."""
-    zyz, zyx = (_about_x(results, coordinates, forms) for coordinates in (ZYZ, COORDINATES))
-    at_zero = some(zyz[zyz["from_zero"] <= ZERO_RAD], f"pose of {side_by_side.PROBE} by hybrid/{ZYZ} at zero rotation")
-    near = some(zyz[zyz["from_zero"] > ZERO_RAD], f"pose of {side_by_side.PROBE} by hybrid/{ZYZ} near zero rotation")
+    zyz, zyx = (_about_x(results, coordinates, forms) for coordinates in (LIMIT.ZYZ, COORDINATES))
+    at_zero = some(
+        zyz[zyz["from_zero"] <= LIMIT.ZERO_RAD], f"pose of {side_by_side.PROBE} by hybrid/{LIMIT.ZYZ} at zero rotation"
+    )
+    near = some(
+        zyz[zyz["from_zero"] > LIMIT.ZERO_RAD], f"pose of {side_by_side.PROBE} by hybrid/{LIMIT.ZYZ} near zero rotation"
+    )
     word = word_of(zyz["problem"].all() and not zyx["problem"].any(), zyz["problem"].any())
     done = near[near["outcome"] == "done"]
     ends = ", ".join(sorted(set(at_zero["outcome"].astype(str))))
     return word, evidence(
         f"""Z-Y-Z is a problem at {int(at_zero["problem"].sum())} of {len(at_zero)} poses at zero ({ends}) and at
-        {int(near["problem"].sum())} of {len(near)} within {NEAR_DEG:g} degrees: about x it yields
+        {int(near["problem"].sum())} of {len(near)} within {LIMIT.NEAR_DEG:g} degrees: about x it yields
         {done["yields"].min():.1e} to {done["yields"].max():.1e} of what is wanted, and about z
         {done["leak"].min():.1f} to {done["leak"].max():.1f} times as much as about x. Z-Y-X is one at
         {int(zyx["problem"].sum())} of {len(zyx)}, where it yields {zyx["yields"].min():.3f} or more.""",
@@ -183,8 +158,8 @@ def c24(results, forms):
 
 def _about_x(results, coordinates: str, forms: tuple[str, ...]) -> pd.DataFrame:
     """Poses near zero, order 'about x': c_xx over that of hybrid-base, |c_zx / c_xx|, and whether it is a problem."""
-    rows = side_by_side.beside_base(results, coordinates, (ORDER,), forms)
-    rows = rows[np.degrees(rows["from_zero"]) <= NEAR_DEG + SLACK_DEG].reset_index(drop=True)
+    rows = side_by_side.beside_base(results, coordinates, (LIMIT.ORDER,), forms)
+    rows = rows[np.degrees(rows["from_zero"]) <= LIMIT.NEAR_DEG + LIMIT.SLACK_DEG].reset_index(drop=True)
     C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
     yields, leak = C[:, 0, 0] / base[:, 0, 0], np.abs(C[:, 2, 0] / C[:, 0, 0])
-    return rows.assign(yields=yields, leak=leak, problem=~(yields >= LITTLE) | (leak > MOST_LEAK))
+    return rows.assign(yields=yields, leak=leak, problem=~(yields >= LIMIT.LITTLE) | (leak > LIMIT.MOST_LEAK))

@@ -10,17 +10,14 @@ from bench.engines.metrics.contact_force import WINDOW_S
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE, by_papers_form, paired
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import NoEvidence, claim, word_of
+from bench.findings.claims.verdict import NoEvidence, claim, read_limits, word_of
 from tasks.contact_rest import HORIZON_S
 
 if TYPE_CHECKING:
     import pandas as pd
 
-TURNED_DEG = 45.0
-"""|beta| of the hand's frame from which on the two must differ: its x then leans to z as much as it lies level."""
+LIMIT = read_limits(__file__)
 
-PARTS = 2.0
-"""Factor between two numbers that are not the same performance."""
 
 FLOORS = {"rad": 1e-3, "N": 0.1, "N m": 0.01, "m": 1e-4}
 """Floors by unit; a number below is taken for it, so that nothing is compared with almost nothing. About what the
@@ -36,15 +33,8 @@ PERFORMANCE = {
 }
 """Columns that say how well a task went, and their units."""
 
-MORE_IS_BETTER = ("insertion_depth_m",)
 LIMITS_S = {"end": HORIZON_S, "window": WINDOW_S}
 """When a task that has an end is stopped, and the first time in contact that rms errors are of."""
-
-TOUCHED = ["force_error_rms_n", "moment_error_rms_nm"]
-"""Columns that have a number only after a touch."""
-
-ZERO_RAD, SLACK_DEG = 1e-9, 1e-6
-"""What rounding may make of an angle that a frame is named after."""
 
 
 @claim("C25")
@@ -53,7 +43,7 @@ def c25(results, forms):
     """Pairs of episodes in contact that differ in the Jacobian alone, by task."""
     what = f"pose of a task by hybrid/{COORDINATES} and {BASE}, +{' or +'.join(forms)}"
     rows = some(paired(results, COORDINATES, forms), what)
-    touching = rows[TOUCHED].notna().groupby(rows["task"]).transform("any").any(axis=1)
+    touching = rows[list(LIMIT.TOUCHED)].notna().groupby(rows["task"]).transform("any").any(axis=1)
     rows = some(_compared(rows[touching].reset_index(drop=True)), "pose of a task with contact")
     complex_ones = some(rows[rows["turns"] >= 2], "pose of a task with contact where two turns comply")
     depends = [_depends(task, own, forms) for task, own in complex_ones.groupby("task")]
@@ -85,9 +75,11 @@ def _depends(task: str, rows: pd.DataFrame, forms: tuple[str, ...]) -> bool:
         some(rows[rows["form"] == form], f"pose of {task}, +{form}")
     found = []
     for (arm, form), own in rows.groupby(["arm", "form"]):
-        turned, straight = own[own["is_turned"]], own[own["beta"].abs() <= ZERO_RAD]
+        turned, straight = own[own["is_turned"]], own[own["beta"].abs() <= LIMIT.ZERO_RAD]
         if turned.empty or straight.empty:
-            raise NoEvidence(f"{task} on {arm}, {form}: no frames both at beta = 0 and from {TURNED_DEG:g} degrees")
+            raise NoEvidence(
+                f"{task} on {arm}, {form}: no frames both at beta = 0 and from {LIMIT.TURNED_DEG:g} degrees"
+            )
         found.append(turned["parts"].any())
     return all(found)
 
@@ -102,9 +94,9 @@ def _compared(rows: pd.DataFrame) -> pd.DataFrame:
     factor = np.exp(np.abs(most))
     return rows.assign(
         turns=[len(set(word.partition("about ")[2]) & set("xyz")) for word in rows["complies"]],
-        is_turned=np.degrees(rows["beta"].abs()) >= TURNED_DEG - SLACK_DEG,
+        is_turned=np.degrees(rows["beta"].abs()) >= LIMIT.TURNED_DEG - LIMIT.SLACK_DEG,
         factor=factor,
-        parts=factor >= PARTS,
+        parts=factor >= LIMIT.PARTS,
         euler_is_worse=most > 0,
     )
 
@@ -113,14 +105,16 @@ def _worse_by(rows: pd.DataFrame, column: str) -> np.ndarray:
     """Logarithm of the factor by which Euler is worse in one number; infinite if one of the two has none."""
     floor = FLOORS[PERFORMANCE[column]]
     own, base = (np.log(rows[name].clip(lower=floor)) for name in (column, f"{column}_base"))
-    by = base - own if column in MORE_IS_BETTER else own - base
+    by = base - own if column in LIMIT.MORE_IS_BETTER else own - base
     return np.select([own.isna() & base.isna(), own.isna(), base.isna()], [0.0, np.inf, -np.inf], by)
 
 
 def _told(task: str, rows: pd.DataFrame) -> str:
     """Describe how the pairs of a task with turned and with straight frames part."""
-    turned, straight = rows[rows["is_turned"]], rows[rows["beta"].abs() <= ZERO_RAD]
-    return f"{task}, {_parted(turned)} with |beta| >= {TURNED_DEG:g} degrees and {_parted(straight)} with beta = 0"
+    turned, straight = rows[rows["is_turned"]], rows[rows["beta"].abs() <= LIMIT.ZERO_RAD]
+    return (
+        f"{task}, {_parted(turned)} with |beta| >= {LIMIT.TURNED_DEG:g} degrees and {_parted(straight)} with beta = 0"
+    )
 
 
 def _parted(rows: pd.DataFrame) -> str:

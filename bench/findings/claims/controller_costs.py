@@ -15,12 +15,15 @@ from bench.findings.claims.adequacy import CALLS, of_stage, tallied
 from bench.findings.claims.side_by_side import BASE
 from bench.findings.claims.standing import ORDERED, Operations, by_columns
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import claim, word_of
+from bench.findings.claims.verdict import claim, read_limits, word_of
 from bench.law.contender import Gains
 from bench.law.control.contact_controller import PAPERS_FORM
 
 if TYPE_CHECKING:
     import pandas as pd
+
+LIMIT = read_limits(__file__)
+
 
 LAW, COORDINATES = "feedback-linearized", "zyx-euler"
 
@@ -34,25 +37,6 @@ BY_EULER, BY_COMMON, ON_MATRIX = (
 )
 """(3.7), (2.2) with (2.15), and (2.2) with the law on R; the inverse goes by the number of joints."""
 
-CURVES = 8
-"""Clear starts whose curves are computed at both steps."""
-
-BEND_TIGHT, BEND_LOOSE = 1e-3, 1e-2
-"""rad, at step zero by Richardson. What the extrapolation leaves is of second order: (10/s x 1 ms)^2 = 1e-4, times a
-motion of up to pi, times a few for the curvature of the angles. A visible bend is a hundredth, as in C09."""
-
-DRIFT_M = 1e-3
-"""m, at step zero: a thousandth of an arm's reach."""
-
-HALVING = (0.4, 0.6)
-"""Departure at half the step over that at the step: a half if it is the integrator's, of first order; one if it is the
-law's. A second-order part of -0.3 to 0.7 of the first-order one moves it this far from a half."""
-
-HAMMERED = 10.0
-"""Peak torque over that of the geometric Jacobian from the same start: beyond it the Jacobian is to blame."""
-
-FEW = 0.1
-"""Share of the flops of the whole tick: up to a tenth more is a few."""
 
 EULER = f"hybrid/{COORDINATES}"
 
@@ -97,16 +81,16 @@ def c20(results):
     clear, common = (pd.concat([_pairs(found, arm, "clear", one) for arm in arms]) for one in (BY_EULER, BY_COMMON))
     hidden = [_hidden(results, joints) for joints in INVERSES]
     full, shares, limits, drifts, samples = zip(*bends, strict=True)
-    is_first_order = HALVING[0] <= min(shares) and max(shares) <= HALVING[1]
-    is_linear = is_first_order and max(limits) <= BEND_TIGHT and max(drifts) <= DRIFT_M
+    is_first_order = LIMIT.HALVING[0] <= min(shares) and max(shares) <= LIMIT.HALVING[1]
+    is_linear = is_first_order and max(limits) <= LIMIT.BEND_TIGHT and max(drifts) <= LIMIT.DRIFT_M
     fails = all(rows["fails"].any() for rows in compared_at.values()) and not clear["fails"].any()
     hides = all(is_hidden for is_hidden, _ in hidden)
     at_poles = ", ".join(f"{rows['fails'].sum()} of {len(rows)} ({arm})" for arm, rows in compared_at.items())
-    return word_of(is_linear and fails and hides, max(limits) <= BEND_LOOSE and (fails or hides)), evidence(
-        f"""{CURVES * len(arms)} clear curves a step on {len(arms)} arms: angles are at most {max(full):.1e} rad off the
-        closed form at the step, {min(shares):.3f} to {max(shares):.3f} of that at half of it, and {max(limits):.1e} rad
-        at step zero; the tool moves {max(drifts):.1e} m. At a pole it fails, and the law on R does not, from
-        {at_poles}; from {int(clear["fails"].sum())} of {len(clear)} clear starts (by the same law on the common
+    return word_of(is_linear and fails and hides, max(limits) <= LIMIT.BEND_LOOSE and (fails or hides)), evidence(
+        f"""{LIMIT.CURVES * len(arms)} clear curves a step on {len(arms)} arms: angles are at most {max(full):.1e}
+        rad off the closed form at the step, {min(shares):.3f} to {max(shares):.3f} of that at half of it, and
+        {max(limits):.1e} rad at step zero; the tool moves {max(drifts):.1e} m. At a pole it fails, and the law on R
+        does not, from {at_poles}; from {int(clear["fails"].sum())} of {len(clear)} clear starts (by the same law on the common
         Jacobian: {int(common["fails"].sum())}). {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
         ("episodes", "poses", "costs", "experiment"),
@@ -117,7 +101,7 @@ def c20(results):
 def bend(arm: str, gains: Gains, dt_s: float, curves: Callable = arm_probes.curves) -> Bend:
     """Compare curves at a step and at half of it."""
     word = f"{BY_EULER}+{INVERSES[tasks.arm(arm).joints]}"
-    full, half = (curves(word, arm, gains, step, CURVES) for step in (dt_s, dt_s / 2))
+    full, half = (curves(word, arm, gains, step, LIMIT.CURVES) for step in (dt_s, dt_s / 2))
     both = full.merge(half, on=["start_id", "time_s"], suffixes=("", "_half"))
     limits = [2 * both[f"{name}_half"] - both[name] for name in arm_probes.BENDS]
     drift = 2 * both["position_error_m_half"] - both["position_error_m"]
@@ -141,7 +125,7 @@ def _against(own: pd.DataFrame, other: pd.DataFrame) -> pd.DataFrame:
     import pandas as pd
 
     both = own.merge(other, on="start_id", suffixes=("", "_other"))
-    hammered = ~(both["peak_tau_nm"] <= HAMMERED * both["peak_tau_nm_other"])
+    hammered = ~(both["peak_tau_nm"] <= LIMIT.HAMMERED * both["peak_tau_nm_other"])
     fails = (both["outcome_other"] == "settled") & ((both["outcome"] != "settled") | hammered)
     return pd.DataFrame({"start_id": both["start_id"].astype(str), "fails": fails})
 
@@ -201,7 +185,7 @@ def c33(results):
         weighed = f", {euler.weighed(price) / base.weighed(price) - 1:.0%} more with a call at its price in C12's times"
         more = euler.flops / base.flops - 1
         is_more.append(by_columns(base, euler) == ORDERED)
-        is_few.append(more <= FEW)
+        is_few.append(more <= LIMIT.FEW)
         told.append(
             f"on {joints} joints {base} on the common Jacobian, {euler} on Euler's: {more:.1%} more flops and "
             f"{euler.calls - base.calls} calls{weighed if math.isfinite(price) else ''}"

@@ -10,7 +10,7 @@ import numpy as np
 from bench.findings.claims import probes
 from bench.findings.claims.probes import at_boundary
 from bench.findings.claims.tables import MAIN_ENGINE, evidence, settled_of, some
-from bench.findings.claims.verdict import Word, claim, word_of
+from bench.findings.claims.verdict import Word, claim, read_limits, word_of
 from bench.law.contenders.registry import representation
 from bench.law.so3 import Rotation
 from tasks.sphere import axes
@@ -18,43 +18,23 @@ from tasks.sphere import axes
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation as Turn
 
-DIRECTIONS = 12
-DECADES = (1, 6)
-DEGENERATE, SMOOTH = 0.9, 0.01
-STEP = 1e-30
-"""Step of the complex-step derivative, which has no cancellation: any tiny number does."""
+LIMIT = read_limits(__file__)
 
-ANGLE_AND_AXIS = "angle and axis"
-"""The angle, and the polar and azimuth angle of the axis: coordinates that no controller here uses."""
-
-SHIFT = 0.7
-"""rad: any amount that no symmetry of the angles shares."""
-
-ON_POLE, SAME = 1e-12, 1e-12
-
-WAYS, LEGS = 200, 5
-"""Pairs of paths with the same ends; turns about one axis, one after the other."""
-
-APART_RAD, SAME_RAD = 1e-3, 1e-12
-"""Two integrals that are not the same; two orientations that are, to rounding."""
 
 LOOPS_RAD = (0.1, 0.5, 1.0, math.pi / 2)
-COMMUTATOR = 0.5
-"""Share of angle^2 by which four turns about x, y, -x, -y must miss at least: by Campbell, Baker and Hausdorff
-they miss by angle^2 about z, less terms of third order."""
 
 
 @claim("C13")
 def c13(results):
     """Condition numbers near zero rotation."""
-    decades = range(DECADES[0], DECADES[1] + 1)
-    tables = [conditions(axis, 10.0**-k) for k in decades for axis in axes(DIRECTIONS)]
+    decades = range(LIMIT.DECADES[0], LIMIT.DECADES[1] + 1)
+    tables = [conditions(axis, 10.0**-k) for k in decades for axis in axes(LIMIT.DIRECTIONS)]
     found = {}
     for word in tables[0]:
         numbers = np.array([one[word] for one in tables]).reshape(len(decades), -1)
         rise = np.diff(np.log10(np.median(numbers, axis=1))).min()
-        found[word] = (rise >= DEGENERATE, float(rise), float(numbers.max()))
-    zyz, axis, vector = found["zyz-euler"], found[ANGLE_AND_AXIS], found["rotation-vector"]
+        found[word] = (rise >= LIMIT.DEGENERATE, float(rise), float(numbers.max()))
+    zyz, axis, vector = found["zyz-euler"], found[LIMIT.ANGLE_AND_AXIS], found["rotation-vector"]
     word = word_of(zyz[0] and axis[0] and vector[0], zyz[0] and axis[0] != vector[0])
     return word, evidence(
         f"""Per decade towards zero rotation the condition number of the rate map rises by {zyz[1]:.3f} decades for
@@ -85,7 +65,7 @@ def condition_of_angle_and_axis(E) -> float:
         return turn(axis, E[0])
 
     R = to_matrix(E)
-    slopes = [to_matrix(E + 1j * STEP * unit).imag / STEP @ R.T for unit in np.eye(3)]
+    slopes = [to_matrix(E + 1j * LIMIT.STEP * unit).imag / LIMIT.STEP @ R.T for unit in np.eye(3)]
     return float(np.linalg.cond(np.array([(S[2, 1], S[0, 2], S[1, 0]) for S in slopes]).T))
 
 
@@ -94,7 +74,9 @@ def conditions(axis, angle) -> dict[str, float]:
     x, y, z = axis
     R = Rotation(*(tuple(column) for column in turn(axis, angle).T.tolist()))
     found = {name: condition_in(name, R) for name in ("zyz-euler", "rotation-vector")}
-    return found | {ANGLE_AND_AXIS: condition_of_angle_and_axis(np.array((angle, math.acos(z), math.atan2(y, x))))}
+    return found | {
+        LIMIT.ANGLE_AND_AXIS: condition_of_angle_and_axis(np.array((angle, math.acos(z), math.atan2(y, x))))
+    }
 
 
 @claim("C14")
@@ -104,7 +86,7 @@ def c14(results):
     turns = results.free_body("episodes", task="free-body", regulator="feedback-linearized", engine=MAIN_ENGINE)
     about_y = some(turns[turns["start_id"] == "half-turn-y-exact"], "exact 180° rotation about y")
     poles = at_boundary(turns[turns["start_set"] == "poles"], "pole", "exact pole")
-    word = word_of(least[180] < ON_POLE, max(least[90], least[-90]) < ON_POLE)
+    word = word_of(least[180] < LIMIT.ON_POLE, max(least[90], least[-90]) < LIMIT.ON_POLE)
     so = "2.3 and the equations are right, 2.2 is not" if word == Word.CORRECTED else "The equations do not correct 2.2"
     return word, evidence(
         f"""Smallest singular value of B: {least[180]:.3f} at 180 degrees about Y, {least[90]:.0e} and {least[-90]:.0e}
@@ -125,7 +107,7 @@ def c15(results):
             np.abs(
                 np.subtract(
                     to_matrix((a, sign * math.pi / 2, g)),
-                    to_matrix((a + SHIFT, sign * math.pi / 2, g + direction * SHIFT)),
+                    to_matrix((a + LIMIT.SHIFT, sign * math.pi / 2, g + direction * LIMIT.SHIFT)),
                 )
             ).max()
             for a in grid
@@ -134,7 +116,7 @@ def c15(results):
         for sign in (1, -1)
         for word, direction in (("sum", -1), ("difference", 1))
     }
-    by_sum = [moved[sign, "sum"] <= SAME < moved[sign, "difference"] for sign in (1, -1)]
+    by_sum = [moved[sign, "sum"] <= LIMIT.SAME < moved[sign, "difference"] for sign in (1, -1)]
     sums = [pole for pole, is_sum in zip(("+90", "-90"), by_sum, strict=True) if is_sum]
     word = {2: Word.HOLDS, 1: Word.CORRECTED, 0: Word.FAILS}[sum(by_sum)]
     so = f"Only the sum is determined at {' and '.join(sums) or 'neither pole'}"
@@ -155,7 +137,7 @@ def c16(results):
     matrices = np.array([probes.euler_B(R) for R in probes.rotations(frame)])
     values = np.linalg.svd(matrices[is_pole], compute_uv=False)
     largest = float(np.abs(matrices).max())
-    lacks_inverse = np.isfinite(matrices).all() and values[:, 2].max() < ON_POLE
+    lacks_inverse = np.isfinite(matrices).all() and values[:, 2].max() < LIMIT.ON_POLE
     word = word_of(not np.isfinite(matrices[is_pole]).all(), lacks_inverse)
     so = "B exists everywhere, as 3.3 says; B^-1 does not" if lacks_inverse else "3.3 is not confirmed"
     return word, evidence(
@@ -171,10 +153,10 @@ def c16(results):
 def c28(results):
     """Ways with the same ends, a loop of zero integral, and turns about one axis."""
     ends, loops, plane = results.found_by(ways, results.seed)
-    is_none = ends.min() >= APART_RAD and all(
-        missed >= COMMUTATOR * a * a for a, missed in zip(LOOPS_RAD, loops, strict=True)
+    is_none = ends.min() >= LIMIT.APART_RAD and all(
+        missed >= LIMIT.COMMUTATOR * a * a for a, missed in zip(LOOPS_RAD, loops, strict=True)
     )
-    word = word_of(is_none and plane <= SAME_RAD, is_none)
+    word = word_of(is_none and plane <= LIMIT.SAME_RAD, is_none)
     missed = ", ".join(f"{angle:.3f} (a = {a:.3g})" for a, angle in zip(LOOPS_RAD, loops, strict=True))
     return word, evidence(
         f"""Of {len(ends)} pairs of ways with the same ends the integrals differ by {ends.min():.2f} to {ends.max():.2f}
@@ -193,14 +175,16 @@ def ways(seed: int) -> tuple[np.ndarray, list[float], float]:
     from scipy.spatial.transform import Rotation as Turn
 
     rng = np.random.default_rng(seed)
-    end, between = Turn.random(WAYS, rng=rng), Turn.random(WAYS, rng=rng)
+    end, between = Turn.random(LIMIT.WAYS, rng=rng), Turn.random(LIMIT.WAYS, rng=rng)
     by_way = between.as_rotvec() + (end * between.inv()).as_rotvec()
     ends = np.linalg.norm(end.as_rotvec() - by_way, axis=1)
     x, y = np.eye(3)[:2]
     loops = [float(_after([a * x, a * y, -a * x, -a * y]).magnitude()) for a in LOOPS_RAD]
-    axes = rng.normal(size=(WAYS, 3))
+    axes = rng.normal(size=(LIMIT.WAYS, 3))
     axes /= np.linalg.norm(axes, axis=1)[:, None]
-    turns = [angles[:, None] * axis for axis, angles in zip(axes, rng.uniform(-3, 3, (WAYS, LEGS)), strict=True)]
+    turns = [
+        angles[:, None] * axis for axis, angles in zip(axes, rng.uniform(-3, 3, (LIMIT.WAYS, LIMIT.LEGS)), strict=True)
+    ]
     plane = max(float((Turn.from_rotvec(legs.sum(axis=0)).inv() * _after(legs)).magnitude()) for legs in turns)
     return ends, loops, plane
 

@@ -12,11 +12,14 @@ from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims.degeneracy import condition_in
 from bench.findings.claims.feedback_linearized import LAW
 from bench.findings.claims.tables import MAIN_ENGINE, Share, evidence, same_starts, settled, settling_times, share, some
-from bench.findings.claims.verdict import NoEvidence, claim, word_of
+from bench.findings.claims.verdict import NoEvidence, claim, read_limits, word_of
 from bench.law.contenders.registry import representation
 
 if TYPE_CHECKING:
     import pandas as pd
+
+LIMIT = read_limits(__file__)
+
 
 COORDINATES = "zyx-euler"
 
@@ -24,15 +27,6 @@ WELL_CONDITIONED = 50.0
 """Condition number of J, in metres and radians, up to which the manipulator is not to blame: six times the 7.9 of the
 PUMA's stock pose; a milliradian off a wrist singularity it is in the thousands."""
 
-SLOPE, SLOPE_TIGHT = 1.0, 0.05
-"""Decades a decade. cond B = (1 + |sin beta|)/cos beta is 2/d to a relative d^2 at a distance d; the constant between
-it and J_E, at most cond J, bends the first decade or two. 5 % of a fit over 8 decades is a factor of 2.5 in all."""
-
-DECADES = 8
-"""Decades that the slopes are of; beyond them cos(beta) is known to less than 1e-8."""
-
-UNBOUNDED, NEAREST = 1e10, 12
-"""Largest element at 10^-12 from the pole: 1/d, less a factor 100 for J's own elements."""
 
 EPS = 2.0**-52
 ROUNDINGS = 100.0
@@ -46,16 +40,6 @@ DIFFERENCED = EPS ** (2 / 3)
 """What a central difference keeps: with a step of eps^(1/3) times the margin, truncation (step/margin)^2/3 and
 rounding eps/step are both about eps^(2/3), over the margin."""
 
-REGULAR, AT_ZERO = ("zyx-euler", "xyz-euler"), "zyz-euler"
-"""Forms whose degenerate orientations are a quarter turn from zero, and one that is degenerate at zero."""
-
-SHARES, TIMES = 0.05, 0.05
-"""Points of a share, and relative difference of a median time, up to which results are the same 'for the most part'."""
-
-FORM_DECADES, PAIRS = 6, 12
-SETS = ("uniform", "half-turn")
-"""Starts that no form of angles was asked for."""
-
 
 @claim("C18")
 def c18(results):
@@ -68,7 +52,10 @@ def c18(results):
     square = some(rows[rows["det_gap"].notna() & (rows["margin"] >= NEAR)], "pose of an arm with six joints")
     slopes = ways[["condition_analytic", "largest"]].to_numpy()
     errors = square["det_gap"] * square["margin"] / EPS
-    tight = abs(slopes - SLOPE).max() <= SLOPE_TIGHT * SLOPE and (ways["nearest"] >= UNBOUNDED).all()
+    tight = (
+        abs(slopes - LIMIT.SLOPE).max() <= LIMIT.SLOPE_TIGHT * LIMIT.SLOPE
+        and (ways["nearest"] >= LIMIT.UNBOUNDED).all()
+    )
     has_own = tight and (errors <= ROUNDINGS).all()
     word = word_of(has_own and rows["largest"].min() <= ROUNDINGS * EPS, has_own)
     well = some(rows[(rows["pose_set"] == "random") & (rows["condition"] <= WELL_CONDITIONED)], "random pose")
@@ -77,7 +64,7 @@ def c18(results):
         f"""{len(ways)} families on {rows["arm"].nunique()} arms, J's condition number at most
         {ways["condition"].max():.0f}: towards the pole J_E's grows by {slopes[:, 0].min():.3f} to
         {slopes[:, 0].max():.3f} decades a decade, its largest element by {slopes[:, 1].min():.3f} to
-        {slopes[:, 1].max():.3f}, to {ways["nearest"].min():.1e} or more at 1e-{NEAREST}. det J_E = -det J /
+        {slopes[:, 1].max():.3f}, to {ways["nearest"].min():.1e} or more at 1e-{LIMIT.NEAREST}. det J_E = -det J /
         cos(beta) at {len(square):,} poses, to {errors.max():.1f} eps / cos(beta). Of the random poses with J well
         conditioned, J_E has ten times its condition number at {worse}. Its largest element is nowhere below
         {rows["largest"].min():.2f}: only its determinant is ever zero.""",
@@ -95,12 +82,12 @@ def _families(rows: pd.DataFrame) -> pd.DataFrame:
     found = []
     for (arm, _), way in pole.assign(**ids).dropna(subset="k").groupby(["arm", "family"], observed=True):
         k = way["k"].astype(int)
-        if way["condition"].max() > WELL_CONDITIONED or not {*range(1, DECADES + 1), NEAREST} <= set(k):
+        if way["condition"].max() > WELL_CONDITIONED or not {*range(1, LIMIT.DECADES + 1), LIMIT.NEAREST} <= set(k):
             continue
-        near = way[k <= DECADES]
+        near = way[k <= LIMIT.DECADES]
         decades = -np.log10(near["margin"])
         slopes = {name: np.polyfit(decades, np.log10(near[name]), 1)[0] for name in ("condition_analytic", "largest")}
-        nearest, condition = float(way.loc[k == NEAREST, "largest"].iloc[0]), way["condition"].max()
+        nearest, condition = float(way.loc[k == LIMIT.NEAREST, "largest"].iloc[0]), way["condition"].max()
         found.append({"arm": str(arm), **slopes, "nearest": nearest, "condition": condition})
     return pd.DataFrame(found, columns=["arm", "condition_analytic", "largest", "nearest", "condition"])
 
@@ -134,10 +121,10 @@ def c19(results):
 @claim("C34")
 def c34(results):
     """Pairs of forms by how their laws settle, and each form's Jacobian at its pole."""
-    forms = (*REGULAR, AT_ZERO)
+    forms = (*LIMIT.REGULAR, LIMIT.AT_ZERO)
     episodes = results.table("episodes", **FREE_BODY, task="free-body", regulator=LAW, engine=MAIN_ENGINE)
     found: dict[str, dict[str, tuple[Share, Estimate]]] = {form: {} for form in forms}
-    for name in SETS:
+    for name in LIMIT.SETS:
         rows = [episodes[(episodes["representation"] == form) & (episodes["start_set"] == name)] for form in forms]
         rows = [some(own, f"episode of {LAW}/{form} from {name}") for form, own in zip(forms, rows, strict=True)]
         for form, own in zip(forms, same_starts(rows), strict=True):
@@ -146,13 +133,14 @@ def c34(results):
     alike = {
         (one, two): degenerate[one][0]
         and degenerate[two][0]
-        and all(_alike(found[one][name], found[two][name]) for name in SETS)
+        and all(_alike(found[one][name], found[two][name]) for name in LIMIT.SETS)
         for one, two in itertools.combinations(forms, 2)
     }
     told = "; ".join(f"{form} {_told(found[form])}, {degenerate[form][1]}" for form in forms)
-    return word_of(all(alike.values()), alike[REGULAR] and not all(alike.values())), evidence(
+    return word_of(all(alike.values()), alike[LIMIT.REGULAR] and not all(alike.values())), evidence(
         f"""{told}. Alike: {", ".join(" and ".join(pair) for pair, facts in alike.items() if facts) or "none"}.""",
-        sum(kept.n for own in found.values() for kept, _ in own.values()) + len(forms) * PAIRS * FORM_DECADES,
+        sum(kept.n for own in found.values() for kept, _ in own.values())
+        + len(forms) * LIMIT.PAIRS * LIMIT.FORM_DECADES,
         ("episodes", "experiment"),
     )
 
@@ -161,18 +149,18 @@ def _alike(one: tuple[Share, Estimate], two: tuple[Share, Estimate]) -> bool:
     """Whether shares and medians are the same for the most part."""
     (kept, time), (other_kept, other_time) = one, two
     meet = time.low <= other_time.high and other_time.low <= time.high
-    same = meet or abs(time.value / other_time.value - 1) <= TIMES
-    return abs(kept.value - other_kept.value) <= SHARES and same
+    same = meet or abs(time.value / other_time.value - 1) <= LIMIT.TIMES
+    return abs(kept.value - other_kept.value) <= LIMIT.SHARES and same
 
 
 def _degenerates(form: str) -> tuple[bool, str]:
     """Whether a form's B has C18's slope at its pole, and what it is."""
-    along, at_pole = representation(form), 0.0 if form == AT_ZERO else np.pi / 2
-    outer = np.random.default_rng(0).uniform(-3.0, 3.0, (PAIRS, 2)).tolist()
-    near = [at_pole + 10.0**-k for k in range(1, FORM_DECADES + 1)]
+    along, at_pole = representation(form), 0.0 if form == LIMIT.AT_ZERO else np.pi / 2
+    outer = np.random.default_rng(0).uniform(-3.0, 3.0, (LIMIT.PAIRS, 2)).tolist()
+    near = [at_pole + 10.0**-k for k in range(1, LIMIT.FORM_DECADES + 1)]
     logs = [[np.log10(condition_in(form, along.to_matrix((one, x, two)))) for x in near] for one, two in outer]
     slopes = np.diff(logs, axis=1)
-    tight = np.abs(slopes - SLOPE).max() <= SLOPE_TIGHT * SLOPE
+    tight = np.abs(slopes - LIMIT.SLOPE).max() <= LIMIT.SLOPE_TIGHT * LIMIT.SLOPE
     return bool(tight), f"B {slopes.min():.3f} to {slopes.max():.3f} decades a decade"
 
 

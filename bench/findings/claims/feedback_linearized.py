@@ -22,7 +22,7 @@ from bench.findings.claims.tables import (
     share,
     some,
 )
-from bench.findings.claims.verdict import claim, word_of
+from bench.findings.claims.verdict import claim, read_limits, word_of
 from bench.findings.theory import closed_form
 from bench.law.contender import AT_REST, Gains
 from bench.law.contenders.registry import representation
@@ -30,31 +30,14 @@ from bench.law.contenders.registry import representation
 if TYPE_CHECKING:
     import pandas as pd
 
+LIMIT = read_limits(__file__)
+
+
 LAW, CONTENDER = "feedback-linearized", "feedback-linearized/zyx-euler"
 
-LINEAR_TIGHT, LINEAR_LOOSE = 1e-4, 1e-2
-"""rad: Runge-Kutta of order 4 at 1 ms errs by far less on a time constant of 0.1 s; a visible bend is a hundredth."""
 
-LOST_SHARE, STRAY_SHARE = 1e-3, 0.01
-"""Shares of random starts: as C01 has it, isolated orientations are no more than one in 1,000; and one that is no
-exception any more."""
-
-PAIRS = ((1.0, -0.5), (-2.0, 1.0))
-SIDES = ((0.0, 0.0), (0.4, 0.3), (-0.9, -1.5))
-"""(alpha, gamma) near the poles; (beta, the other angle) at the jumps: as in the start sets [rad]."""
-
-GROWTH_DECADES = (3, 8)
-SPIN = (4.0, -8.0, 6.0)
-"""rad/s, any direction: the terms that grow, about 58 / cos(beta), then exceed the spring term 100 pi from cos(beta)
-= 0.1 on."""
-
-GROWTH_SLACK, JUMP_SLACK = 0.05, 0.01
 MARGINS_RAD = (0.01, 0.05, 0.1, 0.2)
 MARGINS = ", ".join(f"{margin:g}" for margin in MARGINS_RAD)
-
-AXIS, STARTS, HORIZON_S = "inertia", 100, 5.0
-SLACK = 0.1
-"""A tenth more time is no problem of its own."""
 
 
 @claim("C09")
@@ -72,8 +55,8 @@ def c09(results):
     goals = results.episodes(LAW, MAIN_ENGINE, "goals")
     goals = some(goals[probes.goal_to_pole(goals) > EXACT_RAD], "goal off the pole")
     long_way = int((goals["path_ratio"] * goals["angle0_rad"] > math.pi).sum())
-    is_tight = max(bends) <= LINEAR_TIGHT and lost_at_rest <= LOST_SHARE and settled(off).all()
-    return word_of(is_tight, max(bends) <= LINEAR_LOOSE and lost_at_rest <= STRAY_SHARE), evidence(
+    is_tight = max(bends) <= LIMIT.LINEAR_TIGHT and lost_at_rest <= LIMIT.LOST_SHARE and settled(off).all()
+    return word_of(is_tight, max(bends) <= LIMIT.LINEAR_LOOSE and lost_at_rest <= LIMIT.STRAY_SHARE), evidence(
         f"""{len(bends)} traces bend from the closed form by at most {max(bends):.1e} rad. Lost of random starts
         {"; ".join(map(lost_text, spun))}. Settled: {settled_of(off)} starts off the boundary by 1e-12 rad or more,
         {settled_of(wrap)} exactly at +-pi, {settled_of(pole)} exactly on a pole, {settled_of(goals)} goals, {long_way}
@@ -96,13 +79,13 @@ def c10(results):
     gains = results.gains()
     exact = at_boundary(results.episodes(LAW, MAIN_ENGINE, "poles"), "pole", "exact pole")
     at = probes.rotations(exact)
-    commands = [probes.command(CONTENDER, R, omega, gains=gains) for R in at for omega in (AT_REST, SPIN)]
+    commands = [probes.command(CONTENDER, R, omega, gains=gains) for R in at for omega in (AT_REST, LIMIT.SPIN)]
     finite = sum(bool(np.isfinite(u).all()) for u in commands)
     largest = max(float(np.abs(probes.euler_B(R)).max()) for R in at)
     slope, grown = _growth(gains)
     jumps = _jumps(gains) / (2 * math.pi * gains.kp)
-    passes = finite == 0 and not settled(exact).any() and bool((np.abs(jumps - 1) <= JUMP_SLACK).all())
-    divides = abs(slope + 1) <= GROWTH_SLACK and not math.isfinite(largest)
+    passes = finite == 0 and not settled(exact).any() and bool((np.abs(jumps - 1) <= LIMIT.JUMP_SLACK).all())
+    divides = abs(slope + 1) <= LIMIT.GROWTH_SLACK and not math.isfinite(largest)
     so = ", so that B^-1 is what divides" if math.isfinite(largest) else ""
     return word_of(passes and divides, passes), evidence(
         f"""{finite} of {len(commands)} commands at exact poles are finite, and {settled_of(exact)} episodes there
@@ -117,14 +100,14 @@ def c10(results):
 def _growth(gains: Gains) -> tuple[float, float]:
     """Slope of log |u| against log cos(beta) for a spinning body near the poles, and the largest |u|."""
     zyx = representation("zyx-euler")
-    low, high = GROWTH_DECADES
+    low, high = LIMIT.GROWTH_DECADES
     margins, sizes = [], []
     for k in range(low, high + 1):
         for sign in (1, -1):
-            for alpha, gamma in PAIRS:
+            for alpha, gamma in LIMIT.PAIRS:
                 R = zyx.to_matrix((alpha, sign * (math.pi / 2 - 10.0**-k), gamma))
                 margins.append(zyx.margin(R))
-                sizes.append(np.linalg.norm(probes.command(CONTENDER, R, SPIN, gains=gains)))
+                sizes.append(np.linalg.norm(probes.command(CONTENDER, R, LIMIT.SPIN, gains=gains)))
     return float(np.polyfit(np.log(margins), np.log(sizes), 1)[0]), float(max(sizes))
 
 
@@ -132,7 +115,7 @@ def _jumps(gains: Gains) -> np.ndarray:
     """|change of u| over the jumps of alpha and of gamma, 1e-9 rad before and behind."""
     to_matrix = representation("zyx-euler").to_matrix
     found = []
-    for beta, other in SIDES:
+    for beta, other in LIMIT.SIDES:
         for angles in (lambda x, b=beta, y=other: (x, b, y), lambda x, b=beta, y=other: (y, b, x)):
             before, behind = (to_matrix(angles(sign * (math.pi - 1e-9))) for sign in (1, -1))
             change = probes.command(CONTENDER, before, gains=gains) - probes.command(CONTENDER, behind, gains=gains)
@@ -190,9 +173,9 @@ def c30(results):
         for level, (other, own), (other_lost, own_lost) in zip(levels, times, lost, strict=True)
     )
     heavy, linear = closed_form.linear_settling(gains.kp / 2, gains.kv / 2), closed_form.linear_settling(*gains)
-    return word_of(keeps and all(own <= (1 + SLACK) * other for other, own in times), keeps), evidence(
+    return word_of(keeps and all(own <= (1 + LIMIT.SLACK) * other for other, own in times), keeps), evidence(
         f"""Median settling time with an inertia of so many times the model's, feedback linearization against the
-        rotation matrix, of {STARTS} starts each: {told}. A linear system of twice the inertia is slowed by
+        rotation matrix, of {LIMIT.STARTS} starts each: {told}. A linear system of twice the inertia is slowed by
         {heavy / linear:.2f}.""",
         sum(map(len, runs)),
         ("experiment",),
@@ -208,5 +191,7 @@ def off_model(law: str, gains: Gains, seed: int) -> pd.DataFrame:
     """Rows of robustness.parquet of a law along the axis."""
     from bench.experiments.experiment import Settings, Unit, rows_of
 
-    unit = Unit("robustness", law, selector=AXIS, count=STARTS, total=STARTS, horizon_s=HORIZON_S)
+    unit = Unit(
+        "robustness", law, selector=LIMIT.AXIS, count=LIMIT.STARTS, total=LIMIT.STARTS, horizon_s=LIMIT.HORIZON_S
+    )
     return rows_of(Settings(gains=gains, seed=seed), unit)

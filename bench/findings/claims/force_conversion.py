@@ -12,7 +12,7 @@ from bench.findings.claims.euler_jacobian import COORDINATES, DIFFERENCED, EPS, 
 from bench.findings.claims.probes import rate_matrix
 from bench.findings.claims.side_by_side import PROBE
 from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import claim, word_of
+from bench.findings.claims.verdict import claim, read_limits, word_of
 from bench.law.contender import Representation
 from bench.law.contenders.registry import known_representations, representation
 from bench.law.so3 import Rotation, from_quaternion
@@ -20,19 +20,13 @@ from bench.law.so3 import Rotation, from_quaternion
 if TYPE_CHECKING:
     import pandas as pd
 
-TURNS, TURNS_ELSEWHERE, SEED = 2000, 200, 0
-"""Haar-random orientations of Z-Y-X, and of every other representation."""
+LIMIT = read_limits(__file__)
 
-USABLE = 10.0
-"""Greatest amplification of a moment with which a controller is of use: it is reached at cos(beta) = 0.1."""
 
 LOST = 1e-12
 """Smallest singular value of B at a pole, and the size of what it leaves of the lost moment: rounding of pi/2."""
 
 AT_RANDOM, NEAR_POLE, AT_POLE = "random", "near", "exact"
-DECADES = 12
-BESIDE = 20
-"""Orientations at each distance from each pole."""
 
 STEP = 2.0 ** (-52 / 3)
 """rad; of a central difference, whose truncation and rounding then are both about its square."""
@@ -49,8 +43,8 @@ def c21(results):
     closes = found["exists"] & (found["gap"] <= ROUNDINGS * EPS) & (found["difference_gap"] <= ROUNDINGS * DIFFERENCED)
     poles = found["place"] == AT_POLE
     off_poles = closes[~poles].all() and (residual <= ROUNDINGS).all()
-    word = word_of(off_poles and closes.all() and found["gain"].max() <= USABLE, off_poles)
-    usable = found["gain"] <= USABLE
+    word = word_of(off_poles and closes.all() and found["gain"].max() <= LIMIT.USABLE, off_poles)
+    usable = found["gain"] <= LIMIT.USABLE
     rank = 2 if found.loc[poles, "least"].max() <= LOST else 3
     return word, evidence(
         f"""{len(found):,} orientations, {int(poles.sum())} of them exact poles: F_E is finite at
@@ -60,8 +54,8 @@ def c21(results):
         rank {rank}: of one moment {found.loc[poles, "lost"].max():.0g} is left. In {len(elsewhere)} other
         representations the balance closes to {max(elsewhere) / EPS:.1f} eps. A moment that is not converted misses it
         by {found["raw_gap"].median():.2f} in the median. Where alpha complies alone, a moment is amplified at most
-        {USABLE:g} times at {int(usable.sum()):,} of the orientations, and up to {found.loc[~poles, "gain"].max():.1e}
-        times off the exact poles, as 1 / cos(beta) has it.""",
+        {LIMIT.USABLE:g} times at {int(usable.sum()):,} of the orientations, and up to
+        {found.loc[~poles, "gain"].max():.1e} times off the exact poles, as 1 / cos(beta) has it.""",
         len(found) + len(looped),
         ("experiment", "compliance"),
     )
@@ -71,10 +65,10 @@ def c21(results):
 def experiment() -> tuple[pd.DataFrame, list[float]]:
     """`balances` of Z-Y-X at random and polar orientations, and the greatest gap of every other representation."""
     zyx = representation(COORDINATES)
-    anywhere = [(AT_RANDOM, R) for R in random_orientations(TURNS, SEED)]
+    anywhere = [(AT_RANDOM, R) for R in random_orientations(LIMIT.TURNS, LIMIT.SEED)]
     others = [one for one in known_representations().values() if one.name != COORDINATES]
-    elsewhere = [float(balances(one, anywhere[:TURNS_ELSEWHERE], SEED)["gap"].max()) for one in others]
-    return balances(zyx, anywhere + polar_orientations(zyx, SEED), SEED), elsewhere
+    elsewhere = [float(balances(one, anywhere[: LIMIT.TURNS_ELSEWHERE], LIMIT.SEED)["gap"].max()) for one in others]
+    return balances(zyx, anywhere + polar_orientations(zyx, LIMIT.SEED), LIMIT.SEED), elsewhere
 
 
 def random_orientations(count: int, seed: int) -> list[Rotation]:
@@ -88,10 +82,10 @@ def polar_orientations(zyx: Representation, seed: int) -> list[tuple[str, Rotati
     """About both poles of Z-Y-X: (exact or near, R), at 10^-1 to 10^-12 rad and exactly."""
     rng, found = np.random.default_rng(seed), []
     for side in (1.0, -1.0):
-        for alpha, gamma in rng.uniform(-math.pi, math.pi, (BESIDE, 2)).tolist():
+        for alpha, gamma in rng.uniform(-math.pi, math.pi, (LIMIT.BESIDE, 2)).tolist():
             s, c = math.sin(alpha), math.cos(alpha)  # gamma adds to alpha on a pole
             found.append((AT_POLE, Rotation((0.0, 0.0, -side), (-s, c, 0.0), (side * c, side * s, 0.0))))
-            near = [side * (math.pi / 2 - 10.0**-k) for k in range(1, DECADES + 1)]
+            near = [side * (math.pi / 2 - 10.0**-k) for k in range(1, LIMIT.DECADES + 1)]
             found += [(NEAR_POLE, zyx.to_matrix((alpha, beta, gamma))) for beta in near]
     return found
 

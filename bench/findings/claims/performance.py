@@ -23,20 +23,16 @@ from bench.findings.claims.tables import (
     share,
     some,
 )
-from bench.findings.claims.verdict import NoEvidence, Word, claim, word_of
+from bench.findings.claims.verdict import NoEvidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form
 
 if TYPE_CHECKING:
     import pandas as pd
 
-LITERAL = "feedback-linearized-literal/zyx-euler"
+LIMIT = read_limits(__file__)
+
+
 NAMES = [name.partition("/")[0] for name in THREE]
-
-NEARLY_ALL, DRAMATIC = 0.99, 2.0
-"""The quantile that stands for 'the range', and the factor in time from which an improvement is dramatic."""
-
-REASONABLE, PACE = 0.99, 2.0
-"""Share that settles, and the factor over the time of a small error, in the median: from there on it is reasonable."""
 
 
 @claim("C12")
@@ -50,7 +46,7 @@ def c12(results):
     paper, total = (
         ", ".join(f"{short} {one[name]}" for short, name in zip(NAMES, THREE, strict=True)) for one in known.accountings
     )
-    literal = known.accountings[0].get(LITERAL)  # the law that is compared shares sines and folds Bdot
+    literal = known.accountings[0].get(LIMIT.LITERAL)  # the law that is compared shares sines and folds Bdot
     as_printed = f" (2.15) as printed, term by term, takes {literal}." if literal else ""
     priced = f"; in these times a call takes {known.price:.0f} flops" if np.isfinite(known.price) else ""
     return word_of(all(in_order), all(np.logical_or(in_order, [one.is_disputed for one in pairs]))), evidence(
@@ -159,11 +155,12 @@ def c31(results):
     laws = _of_the_three(results)
     matrix, linearized, mine = ranges = [share(settled(one)) for one in laws]
     ratios = [_gain(settling_times(laws[-1]), settling_times(one)) for one in laws[:-1]]
-    is_better = all(ratio.low >= DRAMATIC for ratio in ratios) and mine.low > linearized.high
+    is_better = all(ratio.low >= LIMIT.DRAMATIC for ratio in ratios) and mine.low > linearized.high
     told = ", ".join(f"{name} {one}" for name, one in zip(NAMES, ranges, strict=True))
     sooner = ", ".join(f"{name} {interval(ratio, '.2f')}" for name, ratio in zip(NAMES, ratios, strict=False))
     return word_of(is_better and mine.low > matrix.high, is_better and mine.high >= matrix.low), evidence(
-        f"""Settled: {told}. Time in which {NEARLY_ALL:.0%} settle over that of feedback linearization: {sooner}.""",
+        f"""Settled: {told}. Time in which {LIMIT.NEARLY_ALL:.0%} settle over that of feedback linearization:
+        {sooner}.""",
         3 * len(laws[-1]),
         ("episodes",),
     )
@@ -173,7 +170,7 @@ def _gain(own: np.ndarray, other: np.ndarray):
     """The other's time in which nearly all settle over its own; resampled by starts."""
 
     def ratio(drawn, axis):
-        quantiles = quantile(drawn, NEARLY_ALL, axis=-2)
+        quantiles = quantile(drawn, LIMIT.NEARLY_ALL, axis=-2)
         with np.errstate(invalid="ignore"):
             ratios = quantiles[..., 1] / quantiles[..., 0]
         return np.where(np.isnan(ratios), 1.0, ratios)  # neither settles
@@ -190,7 +187,7 @@ def c35(results):
         [quantile_estimate(settling_times(rows), 0.5) for rows in laws],
     )
     found = list(zip(NAMES, kept, times, strict=True))
-    reasonable = [name for name, one, time in found if one.low >= REASONABLE and time.high <= PACE * small]
+    reasonable = [name for name, one, time in found if one.low >= LIMIT.REASONABLE and time.high <= LIMIT.PACE * small]
     told = "; ".join(
         f"{name} {one}, in {time.value:.3f} s ({time.low:.3f} to {time.high:.3f}) in the median"
         for name, one, time in found

@@ -12,47 +12,28 @@ from bench.findings.claims.adequacy import CALLS
 from bench.findings.claims.at_gains import on_every_engine
 from bench.findings.claims.probes import at_boundary
 from bench.findings.claims.tables import MAIN_ENGINE, evidence, settled, share, some
-from bench.findings.claims.verdict import claim, word_of
+from bench.findings.claims.verdict import claim, read_limits, word_of
 from bench.findings.theory import closed_form
 from bench.law.contender import Gains
 from bench.law.so3 import IDENTITY, Rotation, cross, from_quaternion
 from tasks.sphere import axes
 
-LAW = "rotation-matrix"
-STRAY_SHARE = 1e-3
-"""Above one uniform start in 1,000 the starts that do not settle are no longer isolated orientations."""
+LIMIT = read_limits(__file__)
 
-ENERGY_SLACK = 1e-6
-"""rad^2/s^2 over Kp: rounding and integration of an energy that never grows; the largest is 2."""
+
+LAW = "rotation-matrix"
+
 
 SMALL_ANGLES = (0.1, 0.01, 0.001)
-AXES = ((1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1))
 GAINS = ((100.0, 20.0), (25.0, 10.0), (400.0, 40.0), (100.0, 10.0), (100.0, 40.0))
 """Critically damped at 10, 5 and 20 rad/s; then damping ratios 1/2 and 2 at 10 rad/s."""
 
 LOOSE_SETTLING = 0.05
 GAINS_TRIED = ", ".join(f"({kp:g}, {kv:g})" for kp, kv in GAINS)
 
-SLOPE_DECADES = (3, 10)
-"""Below 3 the sine is not yet linear in pi - angle; beyond 10, rounding of R (1e-16) exceeds 1e-6 of it."""
-
-SLOPE_TIGHT, SLOPE_LOOSE = 0.01, 0.1
-
-AT_HALF_TURN = 1e-6
-"""rad: what leaves an equilibrium has left it by more within its horizon."""
 
 ZERO_ERROR = EPS = 2.0**-52
 """One rounding of an element of R."""
-
-AWAY_RAD, NEAR_ZERO = 1e-3, 1e-9
-
-ROUNDINGS = 10.0
-"""Each element of e sums six products of numbers up to 1: eleven roundings of half an eps, of partial sums up to 3."""
-
-CLOSEST_RAD, DIGITS = 1e-12, 1e-2
-"""To the goal and to a 180° rotation; and what rounding may make of the error's length there."""
-
-BROKEN = ("diverged", "singular", "saturated", "crashed")
 
 
 @claim("C01")
@@ -62,11 +43,11 @@ def c01(results, engine):
     frame = results.episodes(LAW, engine, "uniform", "half-turn", "tumbling")
     speed = (frame[list(probes.OMEGA)] ** 2).sum(axis=1)
     gained = np.cos(frame["angle0_rad"]) - np.cos(frame["final_angle_rad"]) - speed / (2 * frame["kp"])
-    unstable = int((frame["outcome"].isin(BROKEN[:3]) | (gained > ENERGY_SLACK)).sum())
+    unstable = int((frame["outcome"].isin(LIMIT.BROKEN[:3]) | (gained > LIMIT.ENERGY_SLACK)).sum())
     uniform = share(settled(frame[frame["start_set"] == "uniform"]))
     left = frame[~settled(frame)]
     exactly = int((probes.boundary_distance(left)["half_turn"].abs() <= probes.EXACT_RAD).sum())
-    is_stray = uniform.n - uniform.k <= STRAY_SHARE * uniform.n
+    is_stray = uniform.n - uniform.k <= LIMIT.STRAY_SHARE * uniform.n
     return word_of(not unstable and exactly == len(left), not unstable and is_stray), evidence(
         f"""{unstable} of {len(frame):,} starts diverge or gain energy. {len(left)} do not settle, {exactly} of them
         exactly a 180° rotation from the goal; of uniform starts {uniform} settle.""",
@@ -81,7 +62,7 @@ def c02(results):
     off, allowed = [], []
     for gains in (Gains(*pair) for pair in GAINS):
         for angle in SMALL_ANGLES:
-            off.append(probes.off_linear(LAW, angle, AXES, gains, results.dt_s))
+            off.append(probes.off_linear(LAW, angle, LIMIT.AXES, gains, results.dt_s))
             allowed.append(results.dt_s / closed_form.linear_settling(*gains) + angle**2)
     steps = results.episodes(LAW, MAIN_ENGINE, "goals")
     steps = some(steps[steps["angle0_rad"].between(1e-3, 0.11)], "small step of the start set goals")
@@ -110,7 +91,7 @@ def c03(results, engine):
     turns = results.episodes(LAW, engine, "half-turn")
     short = probes.boundary_distance(turns)["half_turn"]
     decades = -np.log10(short.clip(lower=1e-17))
-    low, high = SLOPE_DECADES
+    low, high = LIMIT.SLOPE_DECADES
     fitted = some(turns[decades.between(low - 0.5, high + 0.5) & settled(turns)], "half-turn start that settles")
     slope = np.polyfit(decades[fitted.index], fitted["settling_time_s"], 1)[0]
     closed = closed_form.decade_slope(*results.gains())
@@ -118,9 +99,9 @@ def c03(results, engine):
     exact = some(turns[short <= probes.EXACT_RAD], "exact 180° rotation")
     stay = exact[~settled(exact)]
     slowest = turns.loc[short > probes.EXACT_RAD, "settling_time_s"].max()
-    is_infinite = bool((np.abs(stay["final_angle_rad"] - np.pi) <= AT_HALF_TURN).any())
+    is_infinite = bool((np.abs(stay["final_angle_rad"] - np.pi) <= LIMIT.AT_HALF_TURN).any())
     grows = growth.low > 0.0
-    return word_of(grows and off <= SLOPE_TIGHT and is_infinite, grows and off <= SLOPE_LOOSE), evidence(
+    return word_of(grows and off <= LIMIT.SLOPE_TIGHT and is_infinite, grows and off <= LIMIT.SLOPE_LOOSE), evidence(
         f"""Settling time rises by {growth.value:.3f} s ({growth.low:.3f} to {growth.high:.3f}) per rad of the initial
         angle; towards 180° by {float(slope):.4f} s a decade (closed form {closed:.4f} s), to
         {float(slowest):.2f} s at 1e-12 rad. {len(stay)} of {len(exact)} exact 180° rotations never settle in
@@ -161,7 +142,9 @@ def c05(results):
     from scipy.optimize import minimize
 
     frame = results.episodes(LAW, MAIN_ENGINE).drop_duplicates(["start_set", "start_id"])
-    frame = some(frame[frame["angle0_rad"].between(AWAY_RAD, np.pi - AWAY_RAD)], "start away from 0 and 180°")
+    frame = some(
+        frame[frame["angle0_rad"].between(LIMIT.AWAY_RAD, np.pi - LIMIT.AWAY_RAD)], "start away from 0 and 180°"
+    )
     sizes = np.array([_size(*pair) for pair in _pairs(frame)])
     found = [minimize(_ratio, 1.5 * axis, method="Nelder-Mead", options={"maxiter": 200}) for axis in axes(16)]
     states = sum(one.nfev for one in found)
@@ -169,7 +152,7 @@ def c05(results):
     least = min(float(sizes.min()), *(_size(_turn(one.x)) for one in found))
     exact = at_boundary(results.episodes(LAW, MAIN_ENGINE, "half-turn"), "half_turn", "exact 180° rotation")
     cancel = sum(_size(R) <= ZERO_ERROR < _largest_product(R) for R in probes.rotations(exact))
-    readings = (least < NEAR_ZERO, cancel > 0)
+    readings = (least < LIMIT.NEAR_ZERO, cancel > 0)
     return word_of(all(readings), any(readings)), evidence(
         f"""Ambiguous. (a) Off the 180° rotation |e| / sin(angle) is never below {lowest:.9f} at {len(frame):,} starts
         and {states:,} states of a search, and |e| never below {least:.1e}. (b) At {cancel} of {len(exact)} exact 180°
@@ -200,7 +183,7 @@ def _turn(vector) -> Rotation:
 
 def _ratio(vector) -> float:
     angle = float(np.linalg.norm(vector))
-    if not AWAY_RAD < angle < np.pi - AWAY_RAD:
+    if not LIMIT.AWAY_RAD < angle < np.pi - LIMIT.AWAY_RAD:
         return 2.0  # out of bounds: more than any ratio
     return _size(_turn(vector)) / np.sin(angle)
 
@@ -214,20 +197,20 @@ def _pairs(frame) -> list[tuple[Rotation, Rotation]]:
 def c32(results):
     """Rounding of e against exact fractions, what the law is made of, and how its episodes end."""
     every = some(results.free_body("episodes", task="free-body", regulator=LAW), f"episode of {LAW}")
-    ended = int(every["outcome"].isin(BROKEN).sum())
+    ended = int(every["outcome"].isin(LIMIT.BROKEN).sum())
     frame = every.drop_duplicates(["start_set", "start_id"])
     ours = np.array([error(*pair) for pair in _pairs(frame)])
     off = np.array([_farthest(e, _exact(*pair)) for e, pair in zip(ours, _pairs(frame), strict=True)])
     angle = frame["angle0_rad"].to_numpy()
-    inner = np.minimum(angle, np.pi - angle) >= CLOSEST_RAD * (1 - DIGITS)
+    inner = np.minimum(angle, np.pi - angle) >= LIMIT.CLOSEST_RAD * (1 - LIMIT.DIGITS)
     relative = (off / np.linalg.norm(ours, axis=1).clip(min=EPS))[inner]
     costs = some(results.free_body("costs", regulator=LAW), f"cost of {LAW}")
     asked = int(costs[["div", *CALLS]].to_numpy().sum())
-    sound = bool(np.isfinite(ours).all() and off.max() <= ROUNDINGS * EPS and not asked and not ended)
-    return word_of(sound and relative.max() <= DIGITS, sound), evidence(
+    sound = bool(np.isfinite(ours).all() and off.max() <= LIMIT.ROUNDINGS * EPS and not asked and not ended)
+    return word_of(sound and relative.max() <= LIMIT.DIGITS, sound), evidence(
         f"""At {len(frame):,} starts e is off by at most {off.max() / EPS:.1f} eps, and by {relative.max():.1e} of its
         length, closest to a 180° rotation. It takes {asked} divisions and calls; {ended} of {len(every):,} episodes end
-        {" or ".join(BROKEN)}.""",
+        {" or ".join(LIMIT.BROKEN)}.""",
         len(every) + len(costs),
         ("episodes", "costs", "experiment"),
     )

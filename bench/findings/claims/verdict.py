@@ -1,7 +1,8 @@
 """What a claim is, what can be said of it, and on what evidence.
 
-A module of claims holds the measurements alone. The texts of its claims stand in the TOML file of the same name beside
-it, with the names of the module's constants in braces; criteria that stood before are in history.toml.
+A module of claims holds the measurements alone. The texts of its claims and the limits that they set stand in the TOML
+file of the same name beside it, with names of limits and of the module in braces; criteria that stood before are in
+history.toml.
 """
 
 import functools
@@ -11,7 +12,7 @@ import tomllib
 from collections.abc import Callable, Mapping
 from enum import StrEnum
 from pathlib import Path
-from types import MappingProxyType, ModuleType
+from types import MappingProxyType, ModuleType, SimpleNamespace
 from typing import Any, NamedTuple
 
 from bench.base.errors import BenchError
@@ -125,7 +126,8 @@ def claim(id: str) -> Callable[[Callable], Claim]:
     """Return a decorator that makes a judging function the claim of this id, with the texts beside its module."""
 
     def with_texts(judge: Callable) -> Claim:
-        names = Names(inspect.unwrap(judge).__globals__)
+        its = inspect.unwrap(judge).__globals__
+        names = Names(its | vars(read_limits(its["__file__"])))
 
         def text(template: str) -> str:
             return " ".join(template.format_map(names).split())
@@ -140,6 +142,16 @@ def claim(id: str) -> Callable[[Callable], Claim]:
         return Claim(id, judge=judge, readings=readings, earlier=earlier, **written)
 
     return with_texts
+
+
+def read_limits(file: str) -> SimpleNamespace:
+    """Return the limits that the TOML file beside a module sets, by name; its comments say where they come from."""
+    limits = read_texts(Path(file).with_suffix(".toml")).get("limits", {})
+    return SimpleNamespace(**{name: _freeze(value) for name, value in limits.items()})
+
+
+def _freeze(value: Any) -> Any:
+    return tuple(map(_freeze, value)) if isinstance(value, list) else value
 
 
 class Names(dict[str, Any]):
