@@ -90,8 +90,8 @@ def c20(results):
         f"""{LIMIT.CURVES * len(arms)} clear curves a step on {len(arms)} arms: angles are at most {max(full):.1e}
         rad off the closed form at the step, {min(shares):.3f} to {max(shares):.3f} of that at half of it, and
         {max(limits):.1e} rad at step zero; the tool moves {max(drifts):.1e} m. At a pole it fails, and the law on R
-        does not, from {at_poles}; from {int(clear["fails"].sum())} of {len(clear)} clear starts (by the same law on the common
-        Jacobian: {int(common["fails"].sum())}). {" ".join(said for _, said in hidden)}""",
+        does not, from {at_poles}; from {int(clear["fails"].sum())} of {len(clear)} clear starts (by the same law on the
+        common Jacobian: {int(common["fails"].sum())}). {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
         ("episodes", "poses", "costs", "experiment"),
     )
