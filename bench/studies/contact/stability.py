@@ -93,7 +93,7 @@ def mobility(arm: Arm) -> float:
 
 
 def boundary(is_stable) -> float:
-    """Return the stiffness [N/m] up to which it is stable: LEAST if never, infinite if at the upper end of DECADES too."""
+    """Return the stiffness [N/m] up to which it is stable: LEAST if never, infinite if everywhere in DECADES."""
     return bisect_stiffness(is_stable, *DECADES, HALVINGS) if is_stable(LEAST) else LEAST
 
 
