@@ -16,7 +16,7 @@ from bench.findings.selection.robots import VELOCITIES, advise_for
 from bench.findings.selection.words import standing
 from bench.findings.theory.velocity_limits import with_theory
 from bench.law.contenders.registry import known_inverses
-from report.figures.comparison.cells import by_family
+from report.figures.comparison.cells import by_law
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
@@ -114,7 +114,7 @@ def tables(run: Run) -> dict:
     """Return laws and inverses."""
     rows = told(run)
     return {
-        "tab_laws": by_family(rows["law"].unique(), lambda law: line(run, law)),
+        "tab_laws": by_law(rows["law"].unique(), lambda law: line(run, law)),
         "tab_inverses": INVERSES(by_inverse(run)),
     }
 

@@ -10,6 +10,7 @@ import itertools
 import json
 import math
 from collections.abc import Iterable
+from pathlib import Path
 
 import tasks
 from bench.base.errors import BadLaw
@@ -23,6 +24,8 @@ from report.figures.kit.page import Run
 from tasks.base import Start
 from tasks.rules import RULES
 from tasks.truth import angle
+
+CONTROLS = Path(__file__).with_name("live.html")
 
 OPENING = {"a": "rotation-matrix", "b": "late-braking", "start": "half-turn-random0-k02"}
 """What the page shows first: the paper's first law beside half a turn, and one that leaves it at once."""
@@ -88,63 +91,14 @@ def page(contenders: list[Contender], costs) -> html.Html:
         if {a, b} <= set(names)
     )
     options = {side: _law_options(names, OPENING[side]) for side in "ab"}
-    controls = CONTROLS.format(starts=_start_options(every), presets=presets, band=f"{RULES.tolerance:.0%}", **options)
+    controls = CONTROLS.read_text(encoding="utf-8").format(
+        starts=_start_options(every), presets=presets, band=f"{RULES.tolerance:.0%}", **options
+    )
     return html.Html(
         f'{controls}<script type="application/json" id="live-data">{inside}</script>'
         f"<script>\n{browser.script(contenders)}</script>"
         "<noscript><p>This page runs the laws in the browser, which needs JavaScript.</p></noscript>"
     )
-
-
-CONTROLS = """
-<section id="live-page" class="live" aria-label="Two laws from one start" hidden>
-<div class="live-choices">
-<p><label for="live-a"><span class="live-key a"></span>Law A</label><select id="live-a">{a}</select></p>
-<p><label for="live-b"><span class="live-key b"></span>Law B</label><select id="live-b">{b}</select></p>
-<p class="live-start"><label for="live-start">Start</label><span class="live-row">
-<button type="button" id="live-previous" aria-label="Previous start">‹</button>
-<select id="live-start">{starts}<option value="own">Your own</option></select>
-<button type="button" id="live-next" aria-label="Next start">›</button></span></p>
-</div>
-<div class="live-views">
-<div class="live-body">
-<canvas id="live-gripper" tabindex="0" role="application" aria-roledescription="gripper"
- aria-label="The gripper: arrow keys, page up and page down turn the start"></canvas>
-<p class="hint">Drag, or use the arrow keys: that is the start. Broken lines: the goal. B is the paler hand.</p>
-<div id="live-start-sliders" class="live-sliders one"></div>
-</div>
-<div class="live-plots">
-<p class="live-title">Angle to the goal [deg]
-<label class="live-check"><input type="checkbox" id="live-log"> logarithmic</label></p>
-<svg id="live-angle-plot" role="img" aria-label="Angle to the goal against time, of both laws"></svg>
-<p class="live-title">Size of the command [rad/s²]</p>
-<svg id="live-command-plot" role="img" aria-label="Size of the command against time, of both laws"></svg>
-<p id="live-said" class="live-said" role="status"></p>
-</div>
-</div>
-<div class="live-clock">
-<button type="button" id="live-play">Play</button>
-<label for="live-time">Time</label><input type="range" id="live-time" aria-label="Time" min="0" step="0.005" value="0">
-<output id="live-now" for="live-time"></output>
-</div>
-<p class="live-presets"><span>Worth a look:</span> {presets}</p>
-<div class="live-title">Controller and plant <button type="button" id="live-reset">As measured</button></div>
-<div id="live-sliders" class="live-sliders"></div>
-<div class="live-views">
-<table class="plain live-facts">
-<thead><tr><th scope="col">Law</th><th scope="col" class="a"></th><th scope="col" class="b"></th></tr></thead>
-<tbody></tbody>
-</table>
-<div class="live-turns">
-<canvas id="live-ball" class="ball" tabindex="0" role="application" aria-roledescription="ball"
- aria-label="The ball of rotation vectors, with the ways of both laws to its centre: arrow keys turn it"></canvas>
-<p class="hint">The way to the goal, the cross: distance is the angle, direction the axis; the surface is half a turn,
-where a way goes on at the opposite point. In the plots: a ring where a law stays inside {band} of the first angle, a
-cross where it breaks off.</p>
-</div>
-</div>
-</section>
-"""
 
 
 def data(names: list[str], every: list[tuple[str, str, Start]], costs) -> dict:

@@ -1,4 +1,4 @@
-"""The page on the law that brakes late: its response beside its neighbours', and what was tried on the way to it."""
+"""The page on the law that brakes late: its response beside its neighbours'."""
 
 from __future__ import annotations
 
@@ -19,9 +19,8 @@ from report.figures.comparison.comparison import uniform
 from report.figures.comparison.new_law import greatest_pull, peak_gains, response
 from report.figures.cost.operations import CALLS
 from report.figures.kit import families, html
-from report.figures.kit.page import Run, given
+from report.figures.kit.page import Run, in_run
 from report.figures.kit.rows import MATRIX
-from report.figures.kit.tables import Table
 from tasks.rules import RULES
 
 NEW = "late-braking"
@@ -31,31 +30,11 @@ BESIDE = (NEW, "quaternion-shortest", MATRIX)
 """Laws whose effort and overshoot are compared in the text."""
 
 LATE = EQUATIONS[NEW]
-ROOTLESS = Equation(
-    r"5 \sin\theta/(3 + 2\cos\theta),\ \tfrac52 \sin(\theta/2)",
-    lambda theta: (
-        5.0 * math.sin(theta) / (3.0 + 2.0 * math.cos(theta))
-        if theta < 2.0 * math.pi / 3.0
-        else 2.5 * math.sin(theta / 2.0)
-    ),
-)
-"""5 s/(2 (2 + t)) within 120 degrees, where no root is taken, and 5 eps/2 beyond: once differentiable between."""
-
-TRIED = {
-    "A straight spring": ANGLE,
-    "The quaternion's spring": CHORD,
-    "A rational spring, no root within 120°": ROOTLESS,
-    "The quaternion's spring, damper eased": CHORD._replace(added=LATE.added),
-    "This spring, damper whole": LATE._replace(added=ANGLE.added),
-    "This law": LATE,
-}
-
-VARIANTS = Table("Variant | Slowest [s] | Peak [$K_p$] | Effort | Slowest at equal peak [s]")
 
 
 def facts(run: Run) -> dict:
     """Return by the equations how slow and strong this law is against the straight spring; and operations a tick."""
-    counted = run.rows("costs", **read.FREE_BODY)
+    counted = run.any_rows("costs", **read.FREE_BODY)
     spent = counted[counted["stage"] == "total"].set_index(["contender", "branch"])
     totals = spent["flops"]
     wanted = {
@@ -65,7 +44,7 @@ def facts(run: Run) -> dict:
         "flops_hybrid": ("hybrid", "typical"),
     }
     return {
-        "at_peak": given(comparison.at_peak(run), compare_at_equal_peak),
+        "at_peak": in_run(lambda: compare_at_equal_peak(comparison.at_peak(run))),
         "slowest": f"{longest(LATE, *PAPERS_GAINS):.3f}",
         "linear": f"{linear_settling(*PAPERS_GAINS):.3f}",
         "later": ", ".join(f"{ratio:g}" for ratio in RATIOS if is_later(ratio)) or "none",
@@ -75,10 +54,10 @@ def facts(run: Run) -> dict:
         "effort": html.number(round(effort(LATE))),
         "chord_effort": html.number(round(effort(CHORD))),
         "straight_effort": html.number(round(effort(ANGLE))),
-        "medians": given(uniform(run), lambda rows: in_words(medians(rows, "effort"), "{:.0f}")),
-        "factors": given(comparison.at_peak(run), effort_factors),
-        "bounded": given(run.any_rows("robustness", axis="saturation"), lambda rows: overshoots(rows, BOUND)),
-        "heavy": given(run.any_rows("robustness", axis="inertia"), lambda rows: overshoots(rows, HEAVY)),
+        "medians": in_run(lambda: in_words(medians(uniform(run), "effort"), "{:.0f}")),
+        "factors": in_run(lambda: effort_factors(comparison.at_peak(run))),
+        "bounded": in_run(lambda: overshoots(run.rows("robustness", axis="saturation"), BOUND)),
+        "heavy": in_run(lambda: overshoots(run.rows("robustness", axis="inertia"), HEAVY)),
         "peak_s": f"{longest(LATE, *peak_gains(LATE)):.2f}",
         "peak_straight_s": f"{longest(ANGLE, *peak_gains(ANGLE)):.2f}",
         "peak_chord_s": f"{longest(CHORD, *peak_gains(CHORD)):.2f}",
@@ -147,23 +126,6 @@ def longest(equation: Equation, kp: float, kv: float) -> float:
 def effort(equation: Equation) -> float:
     """Integrate the squared command from rest at 180° [rad^2/s^3]."""
     return float(response(equation, math.pi, *PAPERS_GAINS)[-1, -1])
-
-
-def tables(_: Run) -> dict:
-    """What was tried."""
-    return {"tried": VARIANTS(map(variant, TRIED))}
-
-
-def variant(what: str) -> tuple:
-    """Return the slowest start, greatest pull, effort from 180°, and slowest start at equal peak."""
-    equation = TRIED[what]
-    return (
-        what,
-        f"{longest(equation, *PAPERS_GAINS):.3f}",
-        f"{greatest_pull(equation):.2f}",
-        html.number(float(f"{effort(equation):.3g}")),
-        f"{longest(equation, *peak_gains(equation)):.3f}",
-    )
 
 
 def figures(_: Run) -> dict:

@@ -8,12 +8,9 @@ import numpy as np
 import pandas as pd
 
 from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, NEAREST_RAD, Equation, settling
-from report.figures.kit import families, html, style
+from report.figures.kit import families, style
 from report.figures.kit.dots import dots
 from report.figures.kit.inline import responsive_picture
-from report.figures.kit.tables import Table
-
-AGAINST = Table("Law | Spring | Starts | Late by [ms]")
 
 CURVE = 60
 DRAWN = 150
@@ -90,18 +87,6 @@ def lateness(rows: pd.DataFrame) -> dict[str, np.ndarray]:
     gains = [float(rows[column].iloc[0]) for column in ("kp", "kv", "tolerance")]
     names = [name for name in families.in_order(rows["contender"].unique()) if name in EQUATIONS]
     return {name: late_ms(rows[rows["contender"] == name], EQUATIONS[name], *gains) for name in names}
-
-
-def against(late: dict[str, np.ndarray]) -> html.Markdown | None:
-    """A row a law: its spring, and how much later than the equation says it settled, least and most."""
-    return AGAINST(
-        (families.link(name, families.word(name)), f"${EQUATIONS[name].formula}$", len(own), _span(own))
-        for name, own in late.items()
-    )
-
-
-def _span(values: np.ndarray) -> str:
-    return f"{values.min():.2f} to {values.max():.2f}"
 
 
 def late_ms(own: pd.DataFrame, equation: Equation, kp: float, kv: float, tolerance: float) -> np.ndarray:

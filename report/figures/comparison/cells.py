@@ -53,12 +53,9 @@ def medians(table: pd.DataFrame) -> pd.Series:
     return pd.Series({name: float(quantile(table[name].to_numpy(), 0.5)) for name in table})
 
 
-def by_family(names: Iterable[str], line: Callable[[str], dict]) -> html.Markdown | None:
-    """A line for each law, under the name of its family; no table without laws."""
-    lines: list[dict] = []
-    for family in families.present(names):
-        lines.append({"Law": f"*{family.title}*"})
-        lines += [{"Law": families.link(name, word), **line(name)} for name, word in family.laws.items()]
+def by_law(names: Iterable[str], line: Callable[[str], dict]) -> html.Markdown | None:
+    """Return a line for each law, family by family; no table without laws."""
+    lines = [{"Law": families.link(name, families.word(name)), **line(name)} for name in families.in_order(names)]
     return html.table(pd.DataFrame(lines).fillna("")) if lines else None
 
 
@@ -74,6 +71,8 @@ def tick(counted: pd.DataFrame, name: str) -> str:
     Args:
         counted: rows of costs.parquet about the free body.
     """
+    if name not in set(counted["contender"]):
+        return html.MISSING
     own = totals(counted).loc[name]
     return spent(int(own["flops"]), int(own[list(CALLS)].sum()))
 

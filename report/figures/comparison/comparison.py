@@ -9,15 +9,14 @@ import numpy as np
 import pandas as pd
 
 from bench.experiments.tables import read
-from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.measured import measured
 from bench.findings.selection.words import leaders
 from bench.findings.theory import closed_form
 from bench.law.contenders.registry import all_contenders
 from report.figures.comparison import cells, directed
-from report.figures.comparison.angle import against, curves, lateness
+from report.figures.comparison.angle import curves, lateness
 from report.figures.kit import families, html
-from report.figures.kit.page import Run, given
+from report.figures.kit.page import Run, in_run
 from report.figures.kit.rows import MATRIX
 
 DETOUR = 1.5
@@ -47,30 +46,23 @@ def uniform(run: Run) -> pd.DataFrame:
 
 @functools.cache
 def at_peak(run: Run) -> pd.DataFrame:
-    """Rows of every law at cells.LEVEL, family by family; a law whose command has no bound has none."""
-    every = run.any_rows("robustness", axis="equal-peak")
-    return cells.in_families(every[every["level"] == cells.LEVEL]) if len(every) else every
-
-
-@functools.cache
-def in_mujoco(run: Run) -> pd.DataFrame:
-    """Episodes of the free body in MuJoCo if its own actuator is among them, else none."""
-    every = run.any_rows("episodes", engine="native", **read.FREE_BODY)
-    return every if (every["contender"] == ACTUATOR).any() else every.iloc[:0]
+    """Return the rows of every law at cells.LEVEL, family by family; a law whose command has no bound has none."""
+    every = run.rows("robustness", axis="equal-peak")
+    return cells.in_families(every[every["level"] == cells.LEVEL])
 
 
 def facts(run: Run) -> dict:
-    """Numbers in the sentences of the page."""
+    """Return the numbers in the sentences of the page."""
     late = np.concatenate(list(lateness(uniform(run)).values()))
     return {
         **of_all(uniform(run), directed.directed(ideal(run))),
-        **best(run),
+        **(in_run(lambda: best(run)) or {}),
         **of_controls(uniform(run)),
         "least_late": f"{late.min():.2f}",
         "most_late": f"{late.max():.2f}",
         "checked": len(late),
-        **(given(at_peak(run), of_peak) or {}),
-        **(given(in_mujoco(run), of_actuator) or {}),
+        **(in_run(lambda: of_peak(at_peak(run))) or {}),
+        **(in_run(lambda: of_actuator(run.rows("episodes", engine="native", contender=ACTUATOR))) or {}),
     }
 
 
@@ -114,11 +106,8 @@ def near(rows: pd.DataFrame) -> dict:
 
 
 def best(run: Run) -> dict:
-    """What no law beats by the criteria of `selection`, ties named as ties; nothing where none was perturbed."""
-    try:
-        found = measured(run.folder)
-    except NoEvidence:
-        return {}
+    """Return what no law beats by the criteria of `selection`, ties named as ties."""
+    found = measured(run.folder)
     names = {"fastest": "time", "surest": "worst", "sparest": "effort", "peak_fastest": "matched"}
     return {key: leaders(found, criterion, families.word) for key, criterion in names.items()}
 
@@ -149,9 +138,8 @@ def of_peak(rows: pd.DataFrame) -> dict:
 
 def of_actuator(episodes: pd.DataFrame) -> dict:
     """From how many starts at rest MuJoCo's actuator settles, and how far from the linear response."""
-    own = episodes[episodes["contender"] == ACTUATOR]
-    even, half_turns = (own[own["start_set"] == word] for word in ("uniform", "half-turn"))
-    linear = closed_form.linear_settling(*own.iloc[0][["kp", "kv", "tolerance"]])
+    even, half_turns = (episodes[episodes["start_set"] == word] for word in ("uniform", "half-turn"))
+    linear = closed_form.linear_settling(*episodes.iloc[0][["kp", "kv", "tolerance"]])
     late = pd.concat((even, half_turns))["settling_time_s"] - linear
     return {
         "servo_starts": len(even),
@@ -164,53 +152,49 @@ def of_actuator(episodes: pd.DataFrame) -> dict:
 
 
 def tables(run: Run) -> dict:
-    """A row a law, family by family."""
-    counted = run.rows("costs", **read.FREE_BODY)
+    """Return all laws, and those whose command has a bound at equal peak command."""
     return {
-        "settling": each(uniform(run), settling),
-        "way": each(uniform(run), functools.partial(way, counted)),
-        "against": against(lateness(uniform(run))),
-        "at_peak": given(at_peak(run), lambda rows: each(rows, of_gains)),
-        "dead": directed.table(directed.directed(ideal(run))),
+        "all_laws": all_laws(uniform(run), directed.directed(ideal(run)), run.any_rows("costs", **read.FREE_BODY)),
+        "at_peak": in_run(lambda: at_equal_peak(at_peak(run))),
     }
 
 
-def each(rows: pd.DataFrame, line) -> html.Markdown | None:
-    """line(own, times, efforts) of each law: its rows, and what the starts took, infinite where it did not settle."""
+def all_laws(rows: pd.DataFrame, tried: pd.DataFrame, counted: pd.DataFrame) -> html.Markdown | None:
+    """Return a row a law: what settles, how fast, overshoot, effort, peak, operations, and directed starts lost."""
     times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
-    return cells.by_family(times, lambda name: line(rows[rows["contender"] == name], times[name], efforts[name]))
+
+    def line(name: str) -> dict:
+        own = rows[rows["contender"] == name]
+        return {
+            "Settles [%]": cells.settles(own),
+            "Median [s]": cells.seconds(times[name]),
+            "99 % [s]": cells.seconds(times[name], 0.99),
+            "Worst start": cells.worst(own),
+            "Overshoot [deg]": f"{np.degrees(own['overshoot_rad'].max()):.0f}",
+            "Effort": cells.three_figures(efforts[name]),
+            "Peak": cells.large(own["peak_u"].max()),
+            "A tick": cells.tick(counted, name),
+            "Directed, lost": directed.count_lost(tried[tried["contender"] == name]),
+        }
+
+    return cells.by_law(times, line)
 
 
-def settling(own: pd.DataFrame, times: pd.Series, _) -> dict:
-    """Share that settles, median and 99th percentile of settling time with intervals, and the worst start."""
-    return {
-        "Settles [%]": cells.settles(own),
-        "Median [s]": cells.seconds(times),
-        "99 % [s]": cells.seconds(times, 0.99),
-        "Worst start": cells.worst(own),
-    }
+def at_equal_peak(rows: pd.DataFrame) -> html.Markdown | None:
+    """Return a row a law: the gain that the peak allows, what settles, median and slowest time, and effort."""
+    times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
 
+    def line(name: str) -> dict:
+        own = rows[rows["contender"] == name]
+        return {
+            "$K_p$": f"{own['kp'].iloc[0]:.1f}",
+            "Settles [%]": cells.settles(own),
+            "Median [s]": cells.seconds(times[name]),
+            "Slowest [s]": cells.slowest(times[name]),
+            "Effort": cells.three_figures(efforts[name]),
+        }
 
-def way(counted: pd.DataFrame, own: pd.DataFrame, _, efforts: pd.Series) -> dict:
-    """Overshoot, detours, effort and peak of the command, and operations a tick."""
-    return {
-        "Overshoot [deg]": f"{np.degrees(own['overshoot_rad'].max()):.0f}",
-        "Detours [%]": cells.percent(float((own["path_ratio"] > DETOUR).mean())),
-        "Effort": cells.three_figures(efforts),
-        "Peak": cells.large(own["peak_u"].max()),
-        "A tick": cells.tick(counted, efforts.name),
-    }
-
-
-def of_gains(own: pd.DataFrame, times: pd.Series, efforts: pd.Series) -> dict:
-    """The gain that the peak allows; share that settles; median and slowest settling time; effort."""
-    return {
-        "$K_p$": f"{own['kp'].iloc[0]:.1f}",
-        "Settles [%]": cells.settles(own),
-        "Median [s]": cells.seconds(times),
-        "Slowest [s]": cells.slowest(times),
-        "Effort": cells.three_figures(efforts),
-    }
+    return cells.by_law(times, line)
 
 
 def figures(run: Run) -> dict:

@@ -68,10 +68,10 @@ def run_in(folder: Path) -> Run:
     return Run(folder)
 
 
-def in_run(make: Callable[[], Any]) -> Any:
-    """Return make(); None, for which the page says that it is not in this run, if the run lacks what it needs."""
+def in_run(make: Callable[..., Any], *arguments: Any) -> Any:
+    """Return make(*arguments); None, which the page shows as not in this run, if the run lacks what it needs."""
     try:
-        return make()
+        return make(*arguments)
     except (NoEvidence, NoTable):
         return None
 
@@ -110,7 +110,7 @@ def contents(module: ModuleType, run: Run, text: str) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for part in PARTS:
         if hasattr(module, part):
-            found |= in_run(functools.partial(getattr(module, part), run)) or {}
+            found |= in_run(getattr(module, part), run) or {}
     kinds = kinds_of(module, text)
     if unread := sorted(set(found) - set(kinds)):
         raise ValueError(f"{module.__name__} gives {unread}, which its page does not paste (cure: remove them)")

@@ -21,6 +21,8 @@ from bench.law import look as law_look
 from report.figures.kit import laws
 
 FONTS = Path(__file__).parent / "fonts"
+PAPER_STYLE = Path(__file__).parent / "paper.mplstyle"
+"""The colours of words, axes and grid are INK, MUTED and GRID."""
 TEXT_WIDTH_IN = 7.5  # the column of a page at 1280 pixels, 720 of CSS's 96 to the inch
 PHONE_WIDTH_IN = 3.7  # the column of a page at 390 pixels, so that words keep their size there
 
@@ -94,49 +96,6 @@ OUTCOMES = {
     "hung": ("#009e73", "D"),
 }
 
-PAPER_STYLE = {
-    "font.family": ["Orientation Sans", "DejaVu Sans"],
-    "font.size": 10.5,
-    "mathtext.fontset": "cm",
-    "axes.titlesize": 10.5,
-    "axes.titleweight": "bold",
-    "axes.titlelocation": "left",
-    "axes.labelsize": 10.5,
-    "axes.labelcolor": INK,
-    "axes.edgecolor": MUTED,
-    "axes.linewidth": 0.7,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "axes.axisbelow": True,
-    "axes.titlecolor": INK,
-    "grid.color": GRID,
-    "grid.linewidth": 0.6,
-    "text.color": INK,
-    "xtick.color": MUTED,
-    "ytick.color": MUTED,
-    "xtick.labelcolor": INK,
-    "ytick.labelcolor": INK,
-    "xtick.labelsize": 9.5,
-    "ytick.labelsize": 9.5,
-    "xtick.major.width": 0.7,
-    "ytick.major.width": 0.7,
-    "xtick.minor.visible": False,
-    "lines.linewidth": 1.7,
-    "lines.markersize": 4.5,
-    "lines.solid_capstyle": "round",
-    "legend.frameon": False,
-    "legend.fontsize": 9.5,
-    "legend.handlelength": 2.6,
-    "figure.constrained_layout.use": True,
-    "figure.facecolor": "none",
-    "axes.facecolor": "none",
-    "savefig.facecolor": "none",
-    "svg.fonttype": "path",  # the SVG needs no font where it is read
-    "svg.hashsalt": "orientation-bench",  # equal results give equal bytes
-    "image.cmap": "cividis",  # even in lightness, for any colour vision
-}
-
 
 def look(name: str) -> Look:
     """How to draw a regulator or a contender (`regulator/representation@...`), unknown ones included."""
@@ -172,7 +131,7 @@ def register_fonts() -> None:
 def paper_style():
     """The style all figures are drawn in, as a context."""
     register_fonts()
-    return rc_context(PAPER_STYLE)
+    return rc_context(fname=PAPER_STYLE)
 
 
 def panels(rows: int = 1, cols: int = 1, *, height: float = 3.2, narrow: bool = False, **subplots):

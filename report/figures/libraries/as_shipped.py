@@ -15,7 +15,7 @@ from bench.law.contenders.registry import known_shipped
 from bench.law.shipped import POSITION, TORQUE, VELOCITY, Shipped
 from bench.studies.restated.__main__ import STORED
 from report.figures.kit import html
-from report.figures.kit.page import Run, given
+from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
 from report.figures.kit.tables import Table
 
@@ -36,9 +36,7 @@ FIXES = Table("Controller | Bound of the error | Smallest fix | Greatest K e")
 
 def shipped(run: Run) -> pd.DataFrame:
     """Return a row for each controller, torques first."""
-    rows = run.any_rows("shipped")
-    if rows.empty:
-        return rows
+    rows = run.rows("shipped")
     rows = rows.astype(dict.fromkeys(("shipped", "law", "level", "shapes_inertia"), str))
     rows["bent"] = rows[[f"bent_{angle}_rad" for angle in BENT_DEG]].max(axis=1)
     own = rows[rows["law"] == ""]
@@ -77,8 +75,7 @@ FACTS: dict[str, Callable[[pd.DataFrame], object]] = {
 
 def facts(run: Run) -> dict:
     """Return what the text says of controllers, of fixes and of the study that held them to their sources."""
-    own = shipped(run)
-    return {key: given(own, make) for key, make in FACTS.items()} | held()
+    return held() | (in_run(lambda: {key: make(shipped(run)) for key, make in FACTS.items()}) or {})
 
 
 def held() -> dict:
@@ -108,14 +105,16 @@ def named(rows: pd.DataFrame) -> str:
 
 def tables(run: Run) -> dict:
     """Return what is measured, equals in one line; and the smallest fix, with a link to the source."""
-    lines: dict[tuple, list[str]] = {}
-    for one in shipped(run).itertuples():
-        lines.setdefault(measured(one), []).append(one.shipped)
     ordered = sorted(known_shipped().values(), key=lambda one: (LEVELS.index(one.level), one.name))
-    return {
-        "measured": MEASURED((", ".join(names), *cells) for cells, names in lines.items()),
-        "fixes": FIXES(fix(one) for one in ordered),
-    }
+    return {"measured": in_run(lambda: MEASURED(in_lines(shipped(run)))), "fixes": FIXES(fix(one) for one in ordered)}
+
+
+def in_lines(rows: pd.DataFrame) -> list[tuple]:
+    """Return a row for all controllers with the same cells."""
+    lines: dict[tuple, list[str]] = {}
+    for one in rows.itertuples():
+        lines.setdefault(measured(one), []).append(one.shipped)
+    return [(", ".join(names), *cells) for cells, names in lines.items()]
 
 
 def measured(one) -> tuple:

@@ -35,15 +35,3 @@ def agreement(episodes: pd.DataFrame, one: str, other: str) -> tuple[int, int]:
     first, second = first.loc[both].astype({"outcome": str}), second.loc[both].astype({"outcome": str})
     equal = (first == second) | (first.isna() & second.isna())
     return len(both), int(equal.all(axis=1).sum())
-
-
-def same_outcome(episodes: pd.DataFrame, other: str) -> pd.DataFrame:
-    """Episodes that ran on the continuous plant and on another engine, a row a law: how many end alike.
-
-    Columns: n, outcome (the same one of six), settles (both settle, or neither).
-    """
-    outcomes = episodes.pivot_table(index=KEY, columns="engine", values="outcome", aggfunc="first", observed=True)
-    both = outcomes[[CONTINUOUS, other]].dropna().astype(str)
-    one, two = both[CONTINUOUS], both[other]
-    alike = pd.DataFrame({"n": 1, "outcome": one == two, "settles": (one == "settled") == (two == "settled")})
-    return alike.astype(int).groupby("contender", observed=True).sum().reset_index()

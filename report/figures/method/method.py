@@ -42,7 +42,6 @@ INVERSES = Table("Inverse | Formula | Source")
 STARTS = Table("Set | What it holds | Starts | Horizon [s]")
 ENGINES = Table("Engine | What it is | Episodes")
 CONVERGED = Table("Law | Episodes | Shorter steps | Shortest that decides [µs] | Not converged")
-ALIKE = Table("Law | n | same outcome | both or neither settle | later by [ms]:+.2f")
 halved = functools.cache(steps.errors)
 
 
@@ -96,7 +95,7 @@ def between(late: pd.Series) -> str:
 
 
 def tables(run: Run) -> dict:
-    """The judge's rules, metrics, Jacobians, inverses, start sets and engines; how alike episodes end."""
+    """The judge's rules, metrics, Jacobians, inverses, start sets and engines."""
     runs = episodes(run)
     counts = runs["engine"].value_counts()
     listed = LISTED.findall(bench.engines.__doc__ or "")
@@ -109,7 +108,6 @@ def tables(run: Run) -> dict:
         "inverses": INVERSES((word(one), lines(one.formula), prose(one.source)) for one in known_inverses().values()),
         "starts": STARTS(start_sets(runs)),
         "tab_engines": ENGINES((f"`{name}`", prose(text), int(counts.get(name, 0)) or None) for name, text in listed),
-        "alike": ALIKE(alike(runs)),
         "tab_converged": CONVERGED(unconverged(run)),
     }
 
@@ -127,13 +125,6 @@ def unconverged(run: Run) -> Iterator[tuple]:
         if (shorter | apart).any():
             moved = f"{1e6 * own.loc[shorter & ~apart, 'step_s'].min():.2g}" if (shorter & ~apart).any() else None
             yield html.law(name, laws.title(name)), len(own), int(shorter.sum()), moved, int(apart.sum())
-
-
-def alike(runs: pd.DataFrame) -> Iterator[tuple]:
-    """A row a law: how its episodes end on the continuous plant and in MuJoCo, and how much later it settles."""
-    later = engines.later_ms(runs, "native")
-    for name, *counts in engines.same_outcome(runs, "native").itertuples(index=False):
-        yield html.law(name, laws.title(name)), *counts, later.get(name)
 
 
 def start_sets(runs: pd.DataFrame) -> Iterator[tuple]:

@@ -20,7 +20,7 @@ from bench.law.contenders.registry import find_contender
 from bench.law.contenders.regulators import hybrid, mrp_linearized
 from report.figures.kit import families, html, style
 from report.figures.kit.inline import responsive_picture
-from report.figures.kit.page import Run, given
+from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
 from report.figures.kit.tables import Table
 from report.figures.robustness.rows import along, gains, laws, starts
@@ -120,8 +120,6 @@ def measured(shares: pd.Series) -> str:
 def facts(run: Run) -> dict:
     """Whom noise holds, by theory and in the episodes; laws with memory and without."""
     rows = along(run, HALF_TURN)
-    if rows.empty:
-        return {}
     kp, kv = gains(rows)
     shares = leaving(rows)
     noisy = shares[shares.index > 0]
@@ -153,9 +151,9 @@ def facts(run: Run) -> dict:
 
 def tables(run: Run) -> dict:
     """Return what was measured of every law, beside what theory says."""
-    return {"tab_half_turn": given(along(run, HALF_TURN), table)}
+    return {"tab_half_turn": table(along(run, HALF_TURN))}
 
 
 def figures(run: Run) -> dict:
     """Draw which laws leave 180° at which noise."""
-    return {HALF_TURN: given(along(run, HALF_TURN), strips)}
+    return {HALF_TURN: strips(along(run, HALF_TURN))}

@@ -17,15 +17,12 @@ STATES = Table("Law | Measures the rate | Disturbance [rad/s²]:g | Left [°]:.2
 
 def compensated(run: Run) -> pd.DataFrame:
     """Rows, words as text."""
-    rows = run.any_rows("compensators")
-    return rows.astype({"law": str, "reads_rate": str}) if len(rows) else rows
+    return run.rows("compensators").astype({"law": str, "reads_rate": str})
 
 
 def facts(run: Run) -> dict:
     """Return what laws without an integral leave; how long the law without a rate takes over its twin."""
     rows = compensated(run)
-    if rows.empty:
-        return {}
     worst = rows["disturbance"].max()
     rejecting = {name for name, one in known_compensators().items() if one.rejects}
     left = rows[(rows["disturbance"] == worst) & ~rows["law"].isin(rejecting)]["left_rad"].max()

@@ -1,6 +1,6 @@
 """The page on the perturbations that act on all laws through the linear loop that all are near the goal.
 
-Control rate, delay, noise, inertia, initial spin and goals that move: facts of a paragraph each; tables of what lasts.
+Control rate, delay, noise, inertia, initial spin and goals that move: facts of a paragraph each.
 """
 
 from __future__ import annotations
@@ -14,9 +14,8 @@ import pandas as pd
 import tasks
 from bench.findings.perturbed import FOLLOWED_RAD
 from bench.findings.theory import robustness_theory
-from report.figures.kit import families, html
-from report.figures.kit.page import Run
-from report.figures.kit.tables import Table
+from report.figures.kit import families
+from report.figures.kit.page import Run, in_run
 from report.figures.robustness.rows import (
     DEG,
     along,
@@ -37,8 +36,6 @@ TIMED = ("control-rate", "delay", "inertia", "uneven-inertia", "spin")
 
 MOVING = ("moving-goal", "moving-goal-rate", "moving-goal-untold")
 
-ERRORS = Table("Perturbation | Level | Linear theory [deg] | Median law [deg] | Least [deg] | Most [deg] | Of the law")
-
 
 def left(rows: pd.DataFrame, name: str) -> float:
     """Root mean square angle that the linear loop keeps of noise or of a slightly moving goal [rad], over the level."""
@@ -54,18 +51,6 @@ def over_theory(rows: pd.DataFrame, name: str) -> pd.DataFrame:
     found = medians(rows, "tail_rms_rad")
     found = found[found.index > 0.0]
     return found.div(left(rows, name) * found.index.to_series(), axis=0)
-
-
-def errors(*each: tuple[str, pd.DataFrame]) -> html.Markdown | None:
-    """Return a level a row: the error that is left by theory, and over the laws."""
-    lines = []
-    for name, rows in each:
-        for level, ratios in over_theory(rows, name).iterrows() if len(rows) else ():
-            theory = DEG * left(rows, name) * level
-            found = theory * ratios
-            where = (tasks.axis(name).title, with_unit(level, name), theory)
-            lines.append((*where, found.median(), found.min(), found.max(), families.word(found.idxmax())))
-    return ERRORS(lines)
 
 
 def changes(rows: pd.DataFrame, name: str) -> dict:
@@ -166,17 +151,16 @@ SECTIONS: dict[Callable[..., dict], tuple[str, ...]] = {
 
 def facts(run: Run) -> dict:
     """Return the facts of every section whose perturbations the run has."""
+
+    def of_section(section: Callable[..., dict], names: tuple[str, ...]) -> dict:
+        return section(*(along(run, name) for name in names))
+
+    def of_times(name: str) -> dict:
+        return changes(along(run, name), name)
+
     found: dict = {}
     for section, names in SECTIONS.items():
-        each = [along(run, name) for name in names]
-        if all(map(len, each)):
-            found |= section(*each)
+        found |= in_run(of_section, section, names) or {}
     for name in TIMED:
-        found |= changes(along(run, name), name) if len(along(run, name)) else {}
+        found |= in_run(of_times, name) or {}
     return found
-
-
-def tables(run: Run) -> dict:
-    """Return the error by level under perturbations that last, near the goal the same for all laws."""
-    lasting = {"noise": SECTIONS[noise], "moving-goals": MOVING}
-    return {key: errors(*((name, along(run, name)) for name in names)) for key, names in lasting.items()}

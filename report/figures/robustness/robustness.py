@@ -15,7 +15,7 @@ from bench.findings.perturbed import FOLLOWED_RAD, LOST, Threshold, Way, by_leve
 from bench.findings.theory.thresholds import near_goal
 from report.figures.kit import families, style
 from report.figures.kit.inline import responsive_picture
-from report.figures.kit.page import Run, given
+from report.figures.kit.page import NotInRun, Run, in_run
 from report.figures.kit.spelling import listed
 from report.figures.robustness.rows import along, gains, laws, starts, with_unit
 
@@ -30,8 +30,6 @@ Found = dict[str, dict[Way, Threshold]]
 def counted(run: Run, axis: str) -> pd.DataFrame:
     """`by_level` of one perturbation: of the study's starts for the laws that it has, of the run's for others."""
     rows = along(run, axis)
-    if rows.empty:
-        return rows
     known = studied()
     known = known[(known["axis"] == axis) & known["contender"].isin(laws(rows))]
     own = rows[~rows["contender"].isin(set(known["contender"]))]
@@ -44,14 +42,21 @@ def widest(starts: int) -> float:
     return max(one.high - one.value, one.value - one.low)
 
 
+def thresholds_along(run: Run, axis: str) -> dict[str, dict[Way, Threshold]]:
+    """Return the thresholds of every law along one perturbation."""
+    return thresholds(counted(run, axis))
+
+
 @functools.cache
 def found(run: Run) -> Found:
     """Return every law's thresholds, laws family by family."""
     each: Found = {}
     for axis in AXES:
-        known = thresholds(counted(run, axis)) if len(along(run, axis)) else {}
-        for law in laws(along(run, axis)):
+        known = in_run(thresholds_along, run, axis)
+        for law in laws(along(run, axis)) if known else ():
             each.setdefault(law, {}).update(known[law])
+    if not each:
+        raise NotInRun("no perturbation")
     return each
 
 
@@ -92,8 +97,6 @@ def named(way: Way) -> str:
 def facts(run: Run) -> dict:
     """Return how laws differ under the perturbations, without the negative controls."""
     each = found(run)
-    if not compared(each):
-        return {}
     apart, _ = differing(each)
     most = int(counted(run, "delay")["starts"].max())
     return {
@@ -111,7 +114,7 @@ def facts(run: Run) -> dict:
 
 def figures(run: Run) -> dict:
     """Thresholds of the laws along the perturbations that tell them apart."""
-    return {"robustness": given(found(run), threshold_map)}
+    return {"robustness": threshold_map(found(run))}
 
 
 @responsive_picture

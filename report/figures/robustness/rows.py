@@ -11,8 +11,7 @@ import pandas as pd
 import tasks
 from bench.experiments.tables.statistics import quantile
 from bench.findings.perturbed import went_well
-from report.figures.comparison.cells import by_family
-from report.figures.kit import families, html
+from report.figures.kit import families
 from report.figures.kit.page import Run
 from report.figures.kit.share import share
 from report.figures.kit.spelling import listed
@@ -23,9 +22,7 @@ DEG = 180.0 / math.pi
 @functools.cache
 def along(run: Run, name: str) -> pd.DataFrame:
     """Return rows of one perturbation, by family, with `good` and `time_s`, infinite where nothing settled."""
-    rows = run.any_rows("robustness", axis=name)
-    if rows.empty:
-        return rows
+    rows = run.rows("robustness", axis=name)
     names = families.in_order(rows["contender"].unique())
     return rows.assign(
         contender=pd.Categorical(rows["contender"].astype(str), names, ordered=True),
@@ -36,8 +33,6 @@ def along(run: Run, name: str) -> pd.DataFrame:
 
 def laws(rows: pd.DataFrame, controls: bool = True) -> list[str]:
     """Return the laws of the rows, family by family; without the negative controls if so asked."""
-    if rows.empty:
-        return []
     names = [name for name in rows["contender"].cat.categories if (rows["contender"] == name).any()]
     return names if controls else [name for name in names if name not in families.CONTROLS]
 
@@ -60,7 +55,7 @@ def starts(rows: pd.DataFrame) -> int:
 
 def levels(rows: pd.DataFrame) -> list[float]:
     """Return the levels that the rows hold, from the least."""
-    return sorted(rows["level"].unique()) if len(rows) else []
+    return sorted(rows["level"].unique())
 
 
 def nominal(name: str) -> float:
@@ -113,20 +108,3 @@ def losses(rows: pd.DataFrame, name: str) -> str:
     if not parts:
         return "No law loses a start there that goes well unperturbed."
     return f"Success drops there for {listed(parts)}."
-
-
-def by_level(rows: pd.DataFrame, name: str) -> html.Markdown | None:
-    """Settling time, laws by levels of rows of `along`: median and longest, and how many starts fail, if any."""
-
-    def line(law: str) -> dict:
-        there = dict(iter(of(rows, law).groupby("level")))
-        return {with_unit(one, name): _time(there[one]) if one in there else html.MISSING for one in levels(rows)}
-
-    return by_family(laws(rows), line)
-
-
-def _time(rows: pd.DataFrame) -> str:
-    middle, lost = median(rows["time_s"]), int((~rows["good"]).sum())
-    if not lost:
-        return f"{middle:.2f}, {rows['time_s'].max():.2f}"
-    return "all fail" if lost == len(rows) else f"{lost} fail" if np.isinf(middle) else f"{middle:.2f} ({lost} fail)"

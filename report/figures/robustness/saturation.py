@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import pandas as pd
 
-from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.measured import measured
 from bench.findings.selection.words import leaders
 from bench.findings.theory import robustness_theory
 from report.figures.kit import families
-from report.figures.kit.page import Run
-from report.figures.robustness.rows import DEG, along, by_level, laws, losses, medians, with_unit
+from report.figures.kit.page import Run, in_run
+from report.figures.robustness.rows import DEG, along, laws, losses, medians, with_unit
 from tasks.rules import RULES
 
 NAME = "saturation"
@@ -19,8 +18,6 @@ NAME = "saturation"
 def bounded(run: Run) -> pd.DataFrame:
     """Return rows with `over_least`: settling time over the least that the bound allows from that angle."""
     rows = along(run, NAME)
-    if rows.empty:
-        return rows
     least = [
         robustness_theory.least_settling(angle, bound, RULES.tolerance)
         for angle, bound in zip(rows["angle0_rad"], rows["level"], strict=True)
@@ -31,8 +28,6 @@ def bounded(run: Run) -> pd.DataFrame:
 def facts(run: Run) -> dict:
     """Return which laws come near the least time, and who overshoots."""
     rows = bounded(run)
-    if rows.empty:
-        return {}
     table = medians(rows, "over_least")
     kept = rows[rows["contender"].isin(laws(rows, controls=False))]
     best, tight = kept.loc[kept["over_least"].idxmin()], min(table.index)
@@ -44,21 +39,8 @@ def facts(run: Run) -> dict:
         "record_law": families.word(str(best["contender"])),
         "record_bound": with_unit(float(best["level"]), NAME),
         "tight": f"{table.loc[tight].min():.2f}",
-        "tight_law": fastest(run),
+        "tight_law": in_run(lambda: leaders(measured(run.folder), "bounded", families.word)),
         "slack": f"{table.loc[tight].max():.2f}",
         "over_law": families.word(overshoot.idxmax()),
         "over": f"{DEG * overshoot.max():.0f}",
     }
-
-
-def fastest(run: Run) -> str:
-    """Return the laws that none beats behind the tightest bound."""
-    try:
-        return leaders(measured(run.folder), "bounded", families.word)
-    except NoEvidence:
-        return "none, for this run does not compare laws"
-
-
-def tables(run: Run) -> dict:
-    """Settling times by bound and law."""
-    return {"tab_levels": by_level(along(run, NAME), NAME)}

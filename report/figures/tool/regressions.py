@@ -16,9 +16,6 @@ from report.figures.kit.page import Run, given
 from report.figures.kit.tables import Table
 
 FAULTS = Table("Planted | In | Caught by | In the words")
-BUILDS = Table("Commit | Date | Machine | Benchmarks | Counts that changed")
-SHORT = 10
-"""Digits of a commit."""
 
 
 def read_rows(run: Run, name: str) -> list[dict[str, Any]]:
@@ -64,33 +61,14 @@ def describe_noise(rows: pd.DataFrame) -> str:
 
 
 def tables(run: Run) -> dict:
-    """Return what was planted, which gates caught it, and in what words; and builds, newest first."""
-    return {
-        "tab_faults": FAULTS(map(write_fault, read_rows(run, "faults"))),
-        "tab_builds": BUILDS(write_builds(read_builds(run))),
-    }
+    """Return what was planted, which gates caught it, and in what words."""
+    return {"tab_faults": FAULTS(map(write_fault, read_rows(run, "faults")))}
 
 
 def write_fault(one: dict[str, Any]) -> tuple:
     """Return a line of the table of faults."""
     words = html.foreign(one["says"][0]) if one["says"] else html.MISSING
     return one["fault"], one["law"] or html.MISSING, ", ".join(one["gates"]) or "nothing", words
-
-
-def write_builds(rows: pd.DataFrame) -> list[tuple]:
-    """Return a line for each build: commit, date, machine, benchmarks, and laws whose flops are not those before."""
-    lines, before = [], pd.Series(dtype=float)
-    for (commit, machine), own in rows.groupby(["commit", "machine"], sort=False) if len(rows) else []:
-        flops = own.set_index("name")["flops"].dropna()
-        known = flops.index.intersection(before.index)
-        changed = [name for name in known if flops[name] != before[name]]
-        before = flops.combine_first(before)
-        words = html.foreign(", ".join(changed)) or None
-        date = html.together(str(own["date"].iloc[0].date()))
-        lines.append(
-            (html.Html(f"<code>{html.foreign(commit[:SHORT])}</code>"), date, html.foreign(machine), len(own), words)
-        )
-    return lines[::-1]
 
 
 def figures(run: Run) -> dict:
