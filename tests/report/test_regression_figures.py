@@ -47,13 +47,6 @@ def test_sentence_counts_doubts_and_alarms():
     )
 
 
-def test_builds_are_listed_newest_first_with_the_laws_whose_flops_changed():
-    build = {"machine": "m", "what": "law", "name": "gibbs", "kernel_steps": 1.0, "date": pd.Timestamp("2026-01-01")}
-    rows = pd.DataFrame([build | {"commit": f"{at:040x}", "flops": flops} for at, flops in enumerate((9.0, 9.0, 8.0))])
-    assert [line[-1] for line in regressions.write_builds(rows)] == ["gibbs", None, None]
-    assert "3 builds" in regressions.draw_history(rows).alt
-
-
 def test_page_without_a_study_has_only_the_numbers_of_the_rule(tmp_path):
     facts = regressions.facts(Run(tmp_path, studies=tmp_path))
     assert {key for key, value in facts.items() if value is not None} == {"p", "ratio", "rounds"}

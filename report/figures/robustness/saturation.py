@@ -39,8 +39,13 @@ def facts(run: Run) -> dict:
         "record_law": families.word(str(best["contender"])),
         "record_bound": with_unit(float(best["level"]), NAME),
         "tight": f"{table.loc[tight].min():.2f}",
-        "tight_law": in_run(lambda: leaders(measured(run.folder), "bounded", families.word)),
+        "tight_law": in_run(fastest, run) or "none, for this run does not compare laws",
         "slack": f"{table.loc[tight].max():.2f}",
         "over_law": families.word(overshoot.idxmax()),
         "over": f"{DEG * overshoot.max():.0f}",
     }
+
+
+def fastest(run: Run) -> str:
+    """Return the laws that none beats behind the tightest bound."""
+    return leaders(measured(run.folder), "bounded", families.word)
