@@ -30,13 +30,13 @@ LINES = {
     "tests/findings": 2_767,
     "tests/law": 3_552,
     "tests/regression": 668,
-    "tests/report": 2_571,
+    "tests/report": 2_564,
     "tests/repository": 614,
     "tests/running": 1_201,
     "tests/studies": 826,
     "tests/support": 3_662,
     "tests/tasks": 2_282,
-    "report": 10_807,
+    "report": 10_505,
     "tasks": 5_156,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
