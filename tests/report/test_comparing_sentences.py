@@ -3,6 +3,8 @@
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.spatial.transform import Rotation
+from support.states import of_scipy
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
@@ -11,6 +13,8 @@ from bench.findings.perturbed import Threshold, Way
 from bench.findings.selection import gains, needs
 from bench.findings.selection.measured import measured
 from bench.findings.selection.words import leaders, standing
+from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.contenders.registry import find_contender
 from report.figures import index
 from report.figures.answer import which_law
 from report.figures.arms import arm_ranking, cost_on_arms
@@ -21,6 +25,7 @@ from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX
 from report.figures.libraries import answers, libraries, loops
 from report.figures.method import method
 from report.figures.robustness import half_turn_noise, robustness
+from report.figures.tool import regressions
 
 FOLDER = RESULTS / "reference"
 OURS, ADVISED = "late-braking", "hybrid"
@@ -150,6 +155,30 @@ def plant_kv(**columns):
     return method.describe_gains(Planted(**columns).rows("episodes"))
 
 
+def plant_exact(**columns):
+    """State the least angle from which the rotation matrix fails, and the least pitch from which feedback does."""
+    rows = Planted(**columns).rows("episodes", task="free-body", engine="ideal-rk4")
+    lost = rows[rows["start_id"].str.contains("-exact") & (rows["outcome"] != "settled")].groupby("contender")
+    least = lost["angle0_rad"].min().get(MATRIX, np.nan), lost["beta0"].agg(lambda beta: beta.abs().min()).get(FEEDBACK)
+    return " and ".join(f"{np.degrees(one or np.nan):.3f}" for one in least)
+
+
+def plant_gain(k_dt):
+    """State how much of a radian one tick of a velocity command leaves, the error being the logarithm."""
+    R = Rotation.from_rotvec((0.6, 0.0, 0.8))
+    omega = np.array(find_contender("rotation-vector").law(of_scipy(R), AT_REST, Goal(), Gains(1.0, 0.0)))
+    return f"{100 * (Rotation.from_rotvec(k_dt * omega) * R).magnitude():.0f} %"
+
+
+def plant_faults(is_caught):
+    """State how many planted faults are caught."""
+    with pytest.MonkeyPatch.context() as patch:
+        rows = [{"law": "a", "caught": is_caught, "named": True}]
+        patch.setattr(regressions, "read_rows", lambda run, name: rows if name == "faults" else [])
+        said = regressions.facts(Run(FOLDER))
+    return f"{said['caught']} of {said['planted']}"
+
+
 def plant_fact(facts, key):
     """Return a function of columns that states one fact of the reference so changed."""
     return lambda **columns: facts(Planted(**columns))[key]
@@ -187,6 +216,9 @@ SENTENCES = {
     "ours": (plant_gains, [({}, "better at every ratio by effort"), ({"effort": 1e9}, "worse at 1 by effort")]),
     "time": (plant_leader, [({"criterion": "time"}, "gibbs"), ({"criterion": "time", "time": 1e-9}, FEEDBACK)]),
     "effort": (plant_leader, [({"criterion": "effort"}, MATRIX), ({"criterion": "effort", "effort": 1e-9}, FEEDBACK)]),
+    "exact": (plant_exact, [({}, "180.000 and 90.000"), ({"outcome": "settled"}, "nan and nan")]),
+    "one tick": (plant_gain, [((1.0,), "0 %"), ((0.4,), "60 %")]),
+    "caught": (plant_faults, [((True,), "1 of 1"), ((False,), "0 of 1")]),
     "dearest": (plant_dearest, [((LINEARIZED,), "linearized"), ((MATRIX,), "rotation matrix")]),
 }
 
