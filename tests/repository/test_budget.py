@@ -30,7 +30,7 @@ LINES = {
     "tests/findings": 2_767,
     "tests/law": 3_552,
     "tests/regression": 668,
-    "tests/report": 2_564,
+    "tests/report": 2_596,
     "tests/repository": 614,
     "tests/running": 1_201,
     "tests/studies": 826,
