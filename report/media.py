@@ -70,7 +70,7 @@ def motions() -> dict[str, tuple[Motion, dict]]:
     from bench.experiments.episode_rows import frame
     from bench.experiments.experiment import Settings, Unit
     from bench.experiments.suites import NOMINAL, ON_ARM
-    from bench.findings.claims.arm_probes import controller
+    from bench.findings.claims.probes import controller
 
     start = next(one for one in tasks.start_set(START_SET, None, SEED, arm=ARM) if one.id == START)
     metrics, joints, settings = metrics_of(on_arm=True), tasks.arm(ARM).joints, Settings("media")

@@ -10,11 +10,9 @@ from support.user_law import spring_text
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import Results
 from bench.findings.selection.criteria import BY_NAME, CRITERIA, jump
-from bench.findings.selection.measured import Measured
+from bench.findings.selection.measured import GENERAL, Measured, dominates, front
 from bench.findings.selection.needs import DEFAULT, NEEDS, Fact, Need, decide
-from bench.findings.selection.rule import GENERAL, dominates, front
-from bench.findings.selection.tables import Tables
-from bench.findings.selection.timed import ticks
+from bench.findings.selection.tables import Tables, ticks
 from bench.findings.selection.words import together
 from bench.law.contenders.described_law import described
 from bench.law.contenders.registry import contenders_of, find_contender

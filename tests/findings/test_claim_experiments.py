@@ -11,7 +11,7 @@ from support.claim_tables import compliances, controllers
 from bench.experiments import jacobians as poses
 from bench.experiments.experiment import Settings
 from bench.experiments.suites import ON_ARM
-from bench.findings.claims import arm_probes, degeneracy, force_conversion, probes, rotation_matrix, side_by_side
+from bench.findings.claims import degeneracy, force_conversion, probes, rotation_matrix, side_by_side
 from bench.findings.claims.controller_costs import BY_EULER, ON_MATRIX
 from bench.findings.claims.euler_jacobian import DIFFERENCED, EPS
 from bench.findings.claims.verdict import NoEvidence
@@ -78,28 +78,28 @@ def test_bodies_beside_a_pole_are_counted_and_some_settle():
 def test_episodes_beside_poles_are_refused_where_a_run_has_no_such_pose():
     of_ur5e = controllers()["poses"].iloc[:1].assign(**{f"q_{i + 1}": 0.0 for i in range(7)})
     with pytest.raises(NoEvidence, match="no pose of panda beside a pole"):
-        arm_probes.beside_poles(f"{ON_MATRIX}+pseudo-inverse", "panda", of_ur5e, Gains())
+        probes.beside_poles(f"{ON_MATRIX}+pseudo-inverse", "panda", of_ur5e, Gains())
 
 
 @pytest.mark.slow
 def test_curves_of_an_arm_bend_by_the_integration_error_alone():
-    full, half = (arm_probes.curves(f"{BY_EULER}+solve", "ur5e", Gains(), dt, 2) for dt in (1e-3, 5e-4))
-    assert arm_probes.largest(half) / arm_probes.largest(full) == pytest.approx(0.5, abs=0.01)
+    full, half = (probes.curves(f"{BY_EULER}+solve", "ur5e", Gains(), dt, 2) for dt in (1e-3, 5e-4))
+    assert probes.largest(half) / probes.largest(full) == pytest.approx(0.5, abs=0.01)
     assert full["start_id"].nunique() == 2
     assert full.groupby("start_id")["time_s"].min().max() == 0.0
 
 
 @pytest.mark.slow
 def test_curves_of_a_law_that_is_not_linear_in_the_angles_bend_at_any_step():
-    full, half = (arm_probes.curves(f"{ON_MATRIX}+solve", "ur5e", Gains(), dt, 2) for dt in (1e-3, 5e-4))
-    assert arm_probes.largest(half) > 0.9 * arm_probes.largest(full) > 0.01
+    full, half = (probes.curves(f"{ON_MATRIX}+solve", "ur5e", Gains(), dt, 2) for dt in (1e-3, 5e-4))
+    assert probes.largest(half) > 0.9 * probes.largest(full) > 0.01
 
 
 @pytest.mark.slow
 def test_episodes_beside_poles_start_where_the_table_says_and_end_at_a_tenth_of_a_radian():
     table = poses.rows(Settings(), poses.of_arm("ur5e", 5))
     table = table[table["representation"] == "zyx-euler"]
-    found = arm_probes.beside_poles(f"{ON_MATRIX}+solve", "ur5e", table, Gains())
+    found = probes.beside_poles(f"{ON_MATRIX}+solve", "ur5e", table, Gains())
     assert len(found) == 8 * 12
     assert (found["outcome"] == "settled").all()
     exact = found[found["start_id"].astype(str).str.endswith("exact")]
@@ -110,8 +110,8 @@ def test_episodes_beside_poles_start_where_the_table_says_and_end_at_a_tenth_of_
 
 def test_largest_bend_is_infinite_where_one_is_no_number():
     frame = pd.DataFrame({"bend_0": [1e-3, -2e-3], "bend_1": 0.0, "bend_2": 0.0})
-    assert arm_probes.largest(frame) == 2e-3
-    assert arm_probes.largest(frame.assign(bend_1=[math.nan, 0.0])) == math.inf
+    assert probes.largest(frame) == 2e-3
+    assert probes.largest(frame.assign(bend_1=[math.nan, 0.0])) == math.inf
 
 
 # ------------------------------------------------------------------------------------------------- converted moments

@@ -12,11 +12,10 @@ from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection import gains
+from bench.findings.selection.measured import dominates
 from bench.findings.selection.needs import advice, decide, has_all
-from bench.findings.selection.robot_rows import measure_uncancelled as measure
-from bench.findings.selection.robot_rows import measure_velocities
-from bench.findings.selection.robots import POSITION, ROBOTS, UNCANCELLED, word_of
-from bench.findings.selection.rule import dominates
+from bench.findings.selection.robots import POSITION, ROBOTS, UNCANCELLED, measure_velocities, word_of
+from bench.findings.selection.robots import measure_uncancelled as measure
 from bench.law.contenders.registry import known_shipped
 
 REFERENCE = RESULTS / "reference"

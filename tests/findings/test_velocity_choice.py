@@ -7,8 +7,8 @@ from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.measured import measured
-from bench.findings.selection.robot_rows import measure_velocities as measure
 from bench.findings.selection.robots import VELOCITY
+from bench.findings.selection.robots import measure_velocities as measure
 
 REFERENCE = RESULTS / "reference"
 

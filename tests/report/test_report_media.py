@@ -10,7 +10,7 @@ import media as rendering
 
 import tasks
 from bench.engines.contact_episode import P, R
-from bench.findings.claims.arm_probes import controller
+from bench.findings.claims.probes import controller
 from report.figures.arms import jacobians
 from report.figures.kit import media
 

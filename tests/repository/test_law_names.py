@@ -25,7 +25,7 @@ ALLOWED = {
     "bench/findings/claims/": "sentences about them",
     "bench/findings/questions.py": "a goal stream",
     "bench/findings/selection/gains.py": "the law that no continuous plant runs",
-    "bench/findings/selection/timed.py": "the controller that every share is of",
+    "bench/findings/selection/tables.py": "the controller that every share is of",
     "bench/findings/theory/thresholds.py": "where the memory of each law ends",
     "bench/studies/": "what a study was designed for",
     "bench/regression/revisions/timed.py": "what is timed on every revision",

@@ -17,8 +17,7 @@ A module holds measurements alone; the TOML file of the same name holds the text
     at_gains.py              the same claim at other gains, and by the sampled engines
     standing.py              how two laws stand in cost, by time and by operations
     tables.py                what a judging function reads
-    probes.py                the small experiments of claims that no table answers
-    arm_probes.py            the same on arms
+    probes.py                the small experiments of claims that no table answers, on arms too
     side_by_side.py          rows of two controllers in contact, side by side
     errata.py                what is printed wrongly in the paper, each with a check, and what no run can decide
 """

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 import tasks
-from bench.findings.claims import adequacy, arm_probes, standing
+from bench.findings.claims import adequacy, probes, standing
 from bench.findings.claims.adequacy import CALLS, of_stage, tallied
 from bench.findings.claims.side_by_side import BASE
 from bench.findings.claims.standing import ORDERED, Operations, by_columns
@@ -70,7 +70,7 @@ def c20(results):
     import pandas as pd
 
     found = some(
-        results.table("episodes", task=arm_probes.TASK, engine="native", variation="nominal"),
+        results.table("episodes", task=probes.TASK, engine="native", variation="nominal"),
         "nominal episode of an arm",
     )
     arms = sorted(set(found["arm"].astype(str)))
@@ -98,14 +98,14 @@ def c20(results):
 
 
 @functools.cache
-def bend(arm: str, gains: Gains, dt_s: float, curves: Callable = arm_probes.curves) -> Bend:
+def bend(arm: str, gains: Gains, dt_s: float, curves: Callable = probes.curves) -> Bend:
     """Compare curves at a step and at half of it."""
     word = f"{BY_EULER}+{INVERSES[tasks.arm(arm).joints]}"
     full, half = (curves(word, arm, gains, step, LIMIT.CURVES) for step in (dt_s, dt_s / 2))
     both = full.merge(half, on=["start_id", "time_s"], suffixes=("", "_half"))
-    limits = [2 * both[f"{name}_half"] - both[name] for name in arm_probes.BENDS]
+    limits = [2 * both[f"{name}_half"] - both[name] for name in probes.BENDS]
     drift = 2 * both["position_error_m_half"] - both["position_error_m"]
-    whole, at_half = map(arm_probes.largest, (full, half))
+    whole, at_half = map(probes.largest, (full, half))
     return Bend(whole, at_half / whole, float(np.abs(limits).max()), float(np.abs(drift.to_numpy()).max()), len(both))
 
 
@@ -134,7 +134,7 @@ def _at_poles(results, found: pd.DataFrame, poses: pd.DataFrame, arm: str, gains
     import pandas as pd
 
     controllers = [f"{one}+{INVERSES[tasks.arm(arm).joints]}" for one in (BY_EULER, ON_MATRIX)]
-    beside = [results.found_by(arm_probes.beside_poles, one, arm, poses, gains) for one in controllers]
+    beside = [results.found_by(probes.beside_poles, one, arm, poses, gains) for one in controllers]
     return pd.concat([_pairs(found, arm, "pole"), _against(*beside)], ignore_index=True)
 
 

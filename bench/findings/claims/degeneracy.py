@@ -11,6 +11,7 @@ from bench.findings.claims import probes
 from bench.findings.claims.probes import at_boundary
 from bench.findings.claims.tables import MAIN_ENGINE, evidence, settled_of, some
 from bench.findings.claims.verdict import Word, claim, read_limits, word_of
+from bench.findings.theory.compliance_theory import matrix_B
 from bench.law.contenders.registry import representation
 from bench.law.so3 import Rotation
 from tasks.sphere import axes
@@ -54,7 +55,7 @@ def turn(axis, angle):
 
 def condition_in(word: str, R: Rotation) -> float:
     """Condition number of B (2.8) of a representation at R."""
-    return float(np.linalg.cond(probes.rate_matrix(representation(word), R)))
+    return float(np.linalg.cond(matrix_B(representation(word), R)))
 
 
 def condition_of_angle_and_axis(E) -> float:

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bench.findings.claims.euler_jacobian import COORDINATES, DIFFERENCED, EPS, ROUNDINGS
-from bench.findings.claims.probes import rate_matrix
 from bench.findings.claims.side_by_side import PROBE
 from bench.findings.claims.tables import evidence, some
 from bench.findings.claims.verdict import claim, read_limits, word_of
+from bench.findings.theory.compliance_theory import matrix_B
 from bench.law.contender import Representation
 from bench.law.contenders.registry import known_representations, representation
 from bench.law.so3 import Rotation, from_quaternion
@@ -102,7 +102,7 @@ def balance(along: Representation, R: Rotation, moment: np.ndarray, rates: np.nd
     from scipy.spatial.transform import Rotation as Turn
 
     at = along.chart(R)
-    B = rate_matrix(along, R)
+    B = matrix_B(along, R)
     F_E = np.array(along.generalized(at, tuple(moment.tolist())))
     raw = [moment[along.about.index(i)] for i in range(3)] if along.about else [math.nan] * len(rates)
     ends = [along.to_matrix(tuple((at.E + side * STEP * rates).tolist())) for side in (1, -1)]

@@ -16,9 +16,8 @@ from typing import NamedTuple
 from bench.base.files import read_json
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read, write_table
-from bench.findings.selection.measured import Measured, measured
+from bench.findings.selection.measured import GENERAL, Measured, measured
 from bench.findings.selection.needs import DEFAULT, NEARLY, SURE, TRIED, Need, decide, is_ours
-from bench.findings.selection.rule import GENERAL
 from bench.findings.selection.words import together
 from bench.findings.start_sets import DIRECTED
 

@@ -14,8 +14,7 @@ from typing import NamedTuple
 from bench.findings.claims.adequacy import DETOUR, HELD_RAD, SETTLED_SHARE
 from bench.findings.claims.tables import Results
 from bench.findings.selection import criteria
-from bench.findings.selection.measured import Measured, measure, measured
-from bench.findings.selection.rule import GENERAL, front, simplest
+from bench.findings.selection.measured import GENERAL, Measured, front, measure, measured, simplest
 
 CONTINUOUS = 1e-3
 """Jump of the command over kp [rad] below which it is the slope's: f'(pi) 2e-6 of any law here."""

@@ -1,13 +1,24 @@
-"""What a robot takes, and the laws that the rule advises for it: each by rows of robots that take just that."""
+"""What a robot takes, and the laws that the rule advises for it: each by rows of robots that take just that.
+
+Criteria keep their names and what is notable. What the rows of such a robot have no number for ties, and a law that was
+not run on it is not asked.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Container
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+import pandas as pd
+
+from bench.base.errors import BadResults
+from bench.experiments.shipped import SETTLING_DEG
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
+from bench.findings.selection.criteria import BY_NAME, CRITERIA
 from bench.findings.selection.measured import Measured
 from bench.findings.selection.measured import measure as measure_all
 from bench.findings.selection.needs import (
@@ -23,7 +34,88 @@ from bench.findings.selection.needs import (
     Need,
     advice,
 )
-from bench.findings.selection.robot_rows import measure_uncancelled, measure_velocities
+from bench.findings.selection.tables import Tables, by_law, by_standard_inverse, common, tables_of
+from bench.law.shipped import TORQUE
+
+FULL_TURN = 2.0
+"""Way over the shortest, at the least, of a start at 120 degrees or less that goes the long way."""
+
+
+def measure_velocities(results: Results) -> Measured:
+    """The criteria of every first-order law of a run at the full share of K, without a limiter; peak is of omega.
+
+    Errors:
+        NoEvidence: the run commands no robot by velocities.
+    """
+    advice = "no robot was commanded by velocities (try: python -m bench run --experiment velocity)"
+    rows = _rows(results, advice, "velocity", limiter="none")
+    rows = rows[rows["share"] == 1.0] if len(rows) else rows
+    if rows.empty:
+        raise NoEvidence(advice)
+    law = rows["contender"].astype(str).str.partition("@")[0]
+    rows = rows.assign(contender=law, lost=rows["outcome"].astype(str) != "settled")
+    tables = tables_of(results)
+    rows = rows[rows["contender"].isin(tables.contenders)]
+    free = rows[rows["arm"] == ""]
+    uniform, exact = (common(free[free["start_set"] == name]) for name in ("uniform", "half-turn"))
+    tables = _of_laws(tables, set(uniform["contender"]))
+    tables = tables._replace(uniform=uniform, directed=exact, robustness=pd.DataFrame())
+    ways = [by_law(part, "path_ratio") for part in (uniform, exact)]
+    at_once, late = (by_standard_inverse(rows[is_late]) for is_late in (rows["lag_s"] == 0.0, rows["lag_s"] > 0.0))
+    at_once = at_once[at_once["start_set"] == "uniform"]
+    return _measured(
+        tables,
+        ("unsettled", "lost", "time", "worst", "spread", "tick", "memory", "jump"),
+        detour={name: np.array([np.nanmax([way[name].max() for way in ways])]) for name in tables.contenders},
+        peak=by_law(uniform, "peak_omega", math.inf),
+        arms=by_law(at_once.assign(passed=100.0 * ~at_once["lost"]), "passed"),
+        late=by_law(late, "settling_time_s", math.inf),
+    )
+
+
+def measure_uncancelled(results: Results) -> Measured:
+    """The criteria of every law that was run at the gains of shipped controllers that cancel no inertia.
+
+    They take torques, tau = K e - D omega: a value for each controller and angle of start.
+
+    Errors:
+        NoEvidence: the run has no such row.
+    """
+    tables = tables_of(results)
+    advice = "no shipped controller was run (try: python -m bench run --experiment shipped)"
+    rows = _rows(results, advice, "shipped", level=TORQUE, shapes_inertia="no")
+    rows = rows[rows["law"].astype(str).isin(tables.contenders)].sort_values("shipped", kind="stable")
+    if rows.empty:
+        raise NoEvidence("no law was run at a shipped controller's gains")
+    known = {str(name): own for name, own in rows.groupby("law", observed=True)}
+    columns = [f"settling_{angle}_s" for angle in SETTLING_DEG]
+    times = {law: own[columns].fillna(math.inf).to_numpy(dtype=float).ravel() for law, own in known.items()}
+    return _measured(
+        _of_laws(tables, known),
+        ("tick", "memory", "jump"),
+        time=times,
+        worst=times,
+        unsettled={law: (100.0 * own["lost"] / own["starts"]).to_numpy() for law, own in known.items()},
+        lost={law: np.array([float(own["dead"].sum())]) for law, own in known.items()},
+        detour={law: np.array([FULL_TURN if own["away"].any() else 1.0]) for law, own in known.items()},
+    )
+
+
+def _rows(results: Results, advice: str, name: str, **words: str) -> pd.DataFrame:
+    try:
+        return results.table(name, **words)
+    except BadResults as error:  # a run that is older than the table
+        raise NoEvidence(advice) from error
+
+
+def _of_laws(tables: Tables, known: Container[str]) -> Tables:
+    return tables._replace(contenders={name: one for name, one in tables.contenders.items() if name in known})
+
+
+def _measured(tables: Tables, usual: tuple[str, ...], **values: dict[str, np.ndarray]) -> Measured:
+    """Some criteria measured as ever, others by these values, and no number of the rest."""
+    as_ever = {name: BY_NAME[name].measure(tables) for name in usual}
+    return Measured(tables, {one.name: {} for one in CRITERIA} | as_ever | values)
 
 
 class Robot(NamedTuple):

@@ -1,20 +1,29 @@
-"""The rows of a run that laws are compared on: the free body, and the same starts for every law."""
+"""The rows of a run that laws are compared on: the free body, the same starts for every law, and the time of a law.
+
+A law's time is a share of a whole controller's, by the times of results/timings. A whole controller
+(`bench.running.timing.controller`) computes the forward kinematics, D and fg, then the law, the Jacobian, its inverse
+and (2.2); plant, judge and metrics are not in it. Every share has this one denominator: the controller with the
+rotation-matrix law. Laws tie where shares differ by at most `standing.MEASURABLE`.
+"""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import pandas as pd
 
 from bench.experiments.tables import read as published
+from bench.experiments.tables.read import with_contender
 from bench.findings.claims.adequacy import tallied
 from bench.findings.claims.tables import MAIN_ENGINE, Results, settled, some
 from bench.findings.claims.verdict import NoEvidence
-from bench.findings.selection.timed import ticks
 from bench.findings.start_sets import DIRECTED
 from bench.law.contender import Contender
 from bench.law.contenders.registry import all_contenders, contenders_of
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 SAMPLED = "native"
 """The engine of a law that cannot run on the continuous plant: MuJoCo's own actuator."""
@@ -119,3 +128,32 @@ def _own(results: Results) -> list[Contender]:
     """The user's laws of the run; one that may not run cannot be asked how far it jumps, and is left out."""
     laws = published.own_laws(results.folder) if results.folder else ()
     return [one for law in laws if law.law or law.law_in for one in contenders_of(law)]
+
+
+BY = "rotation-matrix@geometric"
+"""The controller of the denominator, by the inverse of each arm."""
+
+
+def ticks(results: Results) -> dict[str, float]:
+    """Return law -> its time alone over a whole controller's [%], the medians over arms and over machines.
+
+    Laws that no machine timed are left out, and so are machines that timed no whole controller.
+    """
+    found: dict[str, list[float]] = {}
+    for frame in _machines(results):
+        is_whole = (frame["what"] == "controller") & frame["contender"].astype(str).str.startswith(BY)
+        whole = frame.loc[is_whole & (frame["ticks"] > 0), "ratio"].median()
+        alone = frame[(frame["what"] == "law") & (frame["ticks"] > 0)]
+        for law, ratio in zip(alone["contender"].astype(str), alone["ratio"], strict=True):
+            found.setdefault(law, []).append(100.0 * float(ratio / whole))
+    return {law: float(np.median(shares)) for law, shares in found.items() if np.isfinite(shares).all()}
+
+
+def _machines(results: Results) -> list[pd.DataFrame]:
+    """Times of each machine; those of files that say nothing of arms are of no use."""
+    from bench.experiments.tables.store import read_arrow
+
+    if "timings" in results.frames:
+        return [with_contender(results.frames["timings"])]
+    every = (read_arrow(path, "timings").to_pandas() for path in sorted(results.timings_folder.glob("*.parquet")))
+    return [with_contender(frame) for frame in every if "arm" in frame]

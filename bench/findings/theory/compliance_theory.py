@@ -42,9 +42,9 @@ NOWHERE = 1e-12
 
 
 def matrix_B(representation: Representation, R: Rotation) -> np.ndarray:
-    """B of omega = B Edot (Murphy 1988, 2.8), 3 x 3: what each coordinate turns the hand about, in its columns."""
+    """Compute B of omega = B Edot (Murphy 1988, 2.8): what each coordinate turns the hand about, in its columns."""
     at = representation.chart(R)
-    return np.array([representation.angular_velocity(at, unit) for unit in UNITS]).T
+    return np.array([representation.angular_velocity(at, tuple(rate)) for rate in np.eye(len(at.E)).tolist()]).T
 
 
 def compliance(

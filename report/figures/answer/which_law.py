@@ -12,9 +12,8 @@ from bench.findings.claims.adequacy import HELD_RAD
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.selection import gains, needs
 from bench.findings.selection.criteria import BY_NAME, Criterion
-from bench.findings.selection.measured import Measured, measured
+from bench.findings.selection.measured import GENERAL, Measured, front, measured
 from bench.findings.selection.robots import ROBOTS, word_of
-from bench.findings.selection.rule import GENERAL, front
 from bench.findings.selection.words import cost, faster_under_a_bound, standing, together
 from report.figures.answer.plane import plane, shown
 from report.figures.cost.cost import spent

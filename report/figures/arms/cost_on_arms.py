@@ -8,7 +8,7 @@ import pandas as pd
 
 from bench.findings.claims import Results, judge
 from bench.findings.claims.standing import MEASURABLE
-from bench.findings.selection.timed import ticks
+from bench.findings.selection.tables import ticks
 from report.figures.arms import arm_rows, controller_costs
 from report.figures.arms.arm_rows import ON_MATRIX
 from report.figures.kit import families, html
