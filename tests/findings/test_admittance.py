@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from bench.findings.theory.admittance import Admittance, Loop, lagged_limit, response, routh_limit, settles, step
+from bench.findings.theory.admittance import Admittance, Loop, lagged_limit, routh_limit, settles, step
 from bench.findings.theory.contact_stability import Spring
 from bench.studies.contact.admittance import SHIPPED
 
@@ -42,11 +42,6 @@ def test_limit_is_where_the_maps_eigenvalues_cross_the_circle(one, late, lag_s):
     )
 
 
-def test_limit_without_lag_is_jurys():
-    assert lagged_limit(SOFT, 0.0, 0, DT) == pytest.approx(2.0 * (2.0 * SOFT.m - SOFT.d * DT) / DT**2, rel=1e-9)
-    assert lagged_limit(SOFT, 0.0, 1, DT) == pytest.approx(SOFT.d / DT, rel=1e-6)
-
-
 @pytest.mark.parametrize("lag_s", [0.003, 0.01, 0.1])
 @pytest.mark.parametrize("one", [SHIPPED, SOFT], ids=["shipped", "soft"])
 def test_limit_of_short_ticks_is_rouths(one, lag_s):
@@ -56,30 +51,6 @@ def test_limit_of_short_ticks_is_rouths(one, lag_s):
         for share in (0.999, 1.001)
     ]
     assert roots[0].real.max() < 0.0 < roots[1].real.max()
-
-
-def test_limit_of_a_delay_is_that_of_dead_time_in_short_ticks():
-    """m w = d tan(phase) where w T and the admittance's phase make half a turn: K = w sqrt(d^2 + m^2 w^2)."""
-    dt, T = 1e-5, 0.01
-    w = 1.0
-    for _ in range(200):
-        w = math.atan(SOFT.d / (SOFT.m * w)) / T * 0.5 + 0.5 * w
-    assert lagged_limit(SOFT, 0.0, round(T / dt), dt) == pytest.approx(w * math.hypot(SOFT.d, SOFT.m * w), rel=5e-3)
-
-
-def test_response_is_that_of_the_recursion_it_stands_for():
-    """A force that turns on the circle, z^n, makes a place H(z) z^n once what it began with has died out."""
-    z, n, (lag_s, late) = np.exp(0.05j), 40_000, (0.01, 3)
-    a, m, d, k = math.exp(-DT / lag_s), *SHIPPED
-    x = c = rate = 0.0j
-    told = [0.0j] * late
-    for i in range(n):
-        F = z**i
-        rate += DT * (F - d * rate - k * c) / m
-        c += DT * rate
-        told.append(c)
-        x = a * x + (1.0 - a) * told.pop(0)
-    assert x == pytest.approx(response(z, SHIPPED, lag_s, late, DT) * z**n, rel=1e-6)
 
 
 def test_arms_loop_far_faster_than_its_admittance_has_the_limit_of_the_lagged_one():
@@ -98,9 +69,3 @@ def test_slow_roots_of_the_arms_loop_are_those_of_its_polynomial():
     found = np.linalg.eigvals(step(SHIPPED, Loop(w, 0, A), Spring(K, 0.0), dt))
     for root in np.roots(polynomial):
         assert np.abs(found - np.exp(root * dt)).min() <= 1e-2 * abs(root) * dt
-
-
-def test_more_delay_or_lag_never_raises_the_limit():
-    limits = np.array([[lagged_limit(SHIPPED, lag, late, DT) for late in range(12)] for lag in (0.003, 0.01, 0.03)])
-    assert (np.diff(limits, axis=1) < 0.0).all()
-    assert (np.diff(limits, axis=0) < 0.0).all()

@@ -56,11 +56,6 @@ def test_settling_is_infinite_at_the_half_turn():
     assert closed_form.settling(math.pi, *PAPER, TOLERANCE) == math.inf
 
 
-def test_slope_of_a_decade_is_the_saddles_unstable_root():
-    root = np.linalg.eigvals(np.array([[0.0, 1.0], [100.0, -20.0]])).max()
-    assert closed_form.decade_slope(*PAPER) == pytest.approx(math.log(10) / root, rel=1e-12)
-
-
 def test_settling_grows_by_the_slope_each_decade_near_the_half_turn():
     times = [closed_form.settling(0.0, *PAPER, TOLERANCE, short=10.0**-k) for k in (6, 7)]
     assert times[1] - times[0] == pytest.approx(closed_form.decade_slope(*PAPER), rel=1e-6)

@@ -6,7 +6,6 @@ import math
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as Turn
-from support.bits import EPS
 from support.in_contact import ARMS, COORDINATES, hand
 from support.older_ur5e import older_ur5e
 from support.states import of_scipy
@@ -156,12 +155,6 @@ def test_probe_turns_a_hand_by_milliradians_about_its_lightest_axis(arm):
     assert 1e-3 < push(on) * (1.0 + TOUCH.kf) * as_unit < 3e-2
 
 
-def test_what_leaks_by_the_jacobian_transpose_is_the_tangent_at_last_whatever_the_arm():
-    for arm in ARMS:
-        leaks = theory.leakage_by_transpose(math.radians(60), theory.mobility(tasks.arm(arm)), 1e4)
-        assert leaks == pytest.approx(math.tan(math.radians(60)), rel=1e-4)
-
-
 def test_an_arm_is_asked_for_where_its_inertia_matters():
     with pytest.raises(TypeError, match="try: arm="):
         theory.compliance(BY_TRANSPOSE[0], SPECIFICATIONS[0], IDENTITY, 0.5)
@@ -176,12 +169,6 @@ def test_two_euler_axes_leak_the_tangent_of_beta(form, beta):
     assert misalignment(pose) == pytest.approx(math.radians(beta), rel=1e-4, abs=2e-3 * FREE)
 
 
-@pytest.mark.parametrize("form", ["inverse", "projected"])
-@pytest.mark.parametrize("law", ["hybrid-base", "hybrid-hand"])
-def test_two_axes_of_the_base_leak_nothing(law, form):
-    assert leakage(probed(hybrid(law, form), beta=60)) < HELD
-
-
 @pytest.mark.parametrize("beta", [1, 5, 15, 30, 45, 60, 75, 85, 89])
 def test_springs_along_euler_angles_are_conditioned_as_predicted(beta):
     """Relative to (1 + |sin beta|)/(1 - |sin beta|); the time that springs take is common to all directions."""
@@ -189,12 +176,6 @@ def test_springs_along_euler_angles_are_conditioned_as_predicted(beta):
     assert stiffness_condition(pose) == pytest.approx(theory.stiffness_condition(angle), rel=1e-3)
     assert stiffness_axes(pose) == pytest.approx(theory.stiffness_axes(angle), abs=1e-4)
     assert least_yield(pose) == pytest.approx(theory.least_yield(angle) * theory.sprung(TASK.horizon_s), rel=2e-3)
-
-
-def test_springs_of_the_matrix_have_no_axes_of_their_own():
-    pose = probed(next(one for one in SPRINGS if one.law == "impedance-geometric"), "about x", beta=75)
-    assert stiffness_condition(pose) == pytest.approx(1.0, abs=1e-6)
-    assert stiffness_axes(pose) == pytest.approx(0.0, abs=4.0 * math.sqrt(EPS))  # an arc cosine of 1
 
 
 @pytest.mark.parametrize(

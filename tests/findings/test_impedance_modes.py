@@ -6,7 +6,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-import tasks
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.experiments.impedance import STIFFNESSES, ZETA
 from bench.findings.theory import impedance_modes as theory
@@ -58,11 +57,6 @@ def test_slowest_decay_is_that_of_the_poles_of_numpy():
     assert decay == pytest.approx(-poles.real.max(), rel=1e-2)
 
 
-def test_every_arm_has_six_modes_for_each_stiffness():
-    for arm in tasks.arm_names():
-        assert measured(arm, "diagonal").groupby("stiffness_n_m").size().tolist() == [6, 6]
-
-
 @pytest.mark.parametrize("arm", ARMS)
 @pytest.mark.parametrize("damping", DESIGNS)
 def test_longest_tick_is_where_the_loop_that_runs_becomes_unstable(arm, damping):
@@ -71,13 +65,3 @@ def test_longest_tick_is_where_the_loop_that_runs_becomes_unstable(arm, damping)
         for share, holds in ((0.99, True), (1.01, False)):
             rows = measured(arm, damping, share * dt).query(f"stiffness_n_m == {stiffness.translation}")
             assert (rows["radius"].max() < 1.0) == holds
-
-
-def test_longest_tick_of_one_mass_is_jurys():
-    """v+ = v - dt (K x + D v)/m, x+ = x + dt v+: stable up to K dt^2/m + 2 D dt/m = 4."""
-    K, D, m = 50.0, 14.0, 0.03
-    dt = (-D + np.sqrt(D * D + 4.0 * K * m)) / K
-    P, Q = np.eye(6) * K / m, np.eye(6) * D / m
-    for share, holds in ((0.999, True), (1.001, False)):
-        assert (theory.compute_radius(P, Q, share * dt) < 1.0) == holds
-    assert dt < 2.0 * m / D

@@ -49,7 +49,3 @@ def test_bounds_are_those_of_the_errors():
         if one.unbounded is not None:
             most = max(np.abs(one.error(remedy.about(k, math.pi))).max() for k in remedy.DIRECTIONS)
             assert most == pytest.approx(one.bound)
-
-
-def test_a_fix_of_our_own_law_is_never_advised():
-    assert not any("late-braking" in remedy.smallest_fix(one).words for one in known_shipped().values())
