@@ -3,7 +3,7 @@
 Rooms, bottom up; each imports only from rooms above it in this list (pyproject.toml says so, and `make lint` looks):
 
 base/         errors (each says its cure), provenance (where numbers come from, where caches are kept), files
-law/          what a law is: the dialect, rotations, linear algebra, records. `from bench.law import Regulator, kernel`
+law/          what a law is: the dialect, rotations, linear algebra, records. `from bench.law import Law, kernel`
               contenders/, one file each: regulators/ representations/ jacobians/ inverses/ impedances/ springs/, laws
               with a state of their own: compensators/, what others run: shipped/; registry finds them, combinations
               says what goes together; a user's own: law_file runs it, law_process where, described_law describes it

@@ -5,9 +5,9 @@ its own. Every reset begins the same trial.
 
 F, what the surroundings do to the hand, is known at a tick as MuJoCo computed it in the step before.
 
-Fails: dm_control raises PhysicsError where MuJoCo warns of a state that is not finite, and MuJoCo's own FatalError
-where it cannot go on. An engine that wants a row and no exception prevents the first, judges the state itself, and
-catches the second.
+Limitations: dm_control raises PhysicsError where MuJoCo warns of a state that is not finite, and MuJoCo's own
+FatalError where it cannot go on. An engine that wants a row and no exception prevents the first, judges the state
+itself, and catches the second.
 """
 
 from __future__ import annotations

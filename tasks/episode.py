@@ -4,7 +4,7 @@ Order of a tick: observation, law, command, step; MuJoCo sees mj_step1 | command
 (with RK4 mj_step, then mj_step1), which is `legacy_step=True`. With `legacy_step=False` the observation would
 be a tick old.
 
-Fails: dm_control raises PhysicsError once MuJoCo warns of a state that is not finite. An engine that wants a
+Limitations: dm_control raises PhysicsError once MuJoCo warns of a state that is not finite. An engine that wants a
 row and no exception judges the command before the step and the speed after it (verdict.py).
 """
 
@@ -72,8 +72,8 @@ class Physics(engine.Physics):
 def motors(physics: Physics) -> Any:
     """One number a motor within its ctrlrange, on an arm the rated torque: for agents to draw from, nothing cuts there.
 
-    Fails: arms have no joint limits. At full torque for half a second, or at random for some, a Panda turns too fast
-    for a step of 1 ms: PhysicsError.
+    Limitations: arms have no joint limits. At full torque for half a second, or at random for some, a Panda turns too
+    fast for a step of 1 ms: PhysicsError.
     """
     spec = engine.action_spec(physics)
     low, high = physics.model.actuator_ctrlrange.T

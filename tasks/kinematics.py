@@ -8,8 +8,8 @@ shortest one (minimum norm), so that the path is the one of dq = J^+ dx and depe
 
 Units: metres and radians, so that a condition number weighs a metre like a radian. The arms are about a metre long.
 
-Fails: a path that comes within about 1e-10 of a singular configuration is given up, and so is one whose points are so
-far apart that a joint jumps by more than LARGEST_STEP.
+Limitations: a path that comes within about 1e-10 of a singular configuration is given up, and so is one whose points
+are so far apart that a joint jumps by more than LARGEST_STEP.
 """
 
 from __future__ import annotations

@@ -12,7 +12,7 @@ for all processors alike.
 Squaring A costs half of the digits. `least_norm` gets them back by iterative refinement; the others serve Newton's
 method, whose steps may be inexact by eps cond(A)^2 without moving what it converges to.
 
-Fails: None where A A^T is singular to rounding, cond(A) about 1e8 and more.
+Limitations: None where A A^T is singular to rounding, cond(A) about 1e8 and more.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 The first is what a regulator takes that turns about the axis of the error; the second what a regulator takes that
 makes alpha, beta and gamma three independent double integrators with one pair of gains.
 
-Fails: Z-Y-X angles on the pole beta = +-pi/2; a straight line between principal values does not cross +-pi.
+Limitations: Z-Y-X angles on the pole beta = +-pi/2; a straight line between principal values does not cross +-pi.
 """
 
 from __future__ import annotations

@@ -101,7 +101,7 @@ def on_pole(sign: int, twist: float) -> Quat:
         sign: +1 or -1.
         twist: alpha - gamma at +pi/2, alpha + gamma at -pi/2 [rad]: all that is determined there.
 
-    Fails: ArithmeticError for some twists within 0.2 rad of 0 or +-pi but not on them.
+    Limitations: ArithmeticError for some twists within 0.2 rad of 0 or +-pi but not on them.
     """
     c, s = _half(twist)
     a, b = c * math.sqrt(0.5), s * math.sqrt(0.5)

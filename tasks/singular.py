@@ -10,8 +10,8 @@ Where rank J = 5 there is a twist u (6 numbers, |u| = 1, metres and radians) tha
 
 Derivatives of J are centred differences over 2e-6 rad: right to 1e-10, and Newton's method forgives that.
 
-Fails: None where Newton's method does not converge, or the singularity is not of this kind (two twists lost at once,
-or a turn that cannot pass: lambda complex).
+Limitations: None where Newton's method does not converge, or the singularity is not of this kind (two twists lost at
+once, or a turn that cannot pass: lambda complex).
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ joint of inertia m that should stay where it is creeps under a torque F at
 With MuJoCo's own d = .9 and T = .02 s the UR5e's wrist creeps some .01 rad/s; with d = .9999, the most MuJoCo takes,
 and T of two ticks, the least, some 1e-6 rad/s, and a joint that slows down is stopped within a tick.
 
-Fails: T is that of the time step the model has when it is varied; change the step afterwards and it is off.
+Limitations: T is that of the time step the model has when it is varied; change the step afterwards and it is off.
 """
 
 from __future__ import annotations

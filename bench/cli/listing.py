@@ -22,15 +22,16 @@ from tasks.errors import BadArm
 
 
 class Kind(NamedTuple):
-    """A table of `list`: its title, find() -> things by name, and their attributes that are shown."""
+    """A table of `list`: its title, find() -> things by name or a folder of contenders, attributes that are shown."""
 
     title: str
-    find: Callable[[], Mapping[str, Any]]
+    find: Callable[[], Mapping[str, Any]] | str
     attributes: str = "title source"
 
     def rows(self, own: tuple = ()) -> Iterator[tuple[str, ...]]:
         """Yield the name and the attributes of each thing, the user's own laws last."""
-        found = {**self.find(), **{one.name: one for one in own}}
+        known = registry.contenders(self.find) if isinstance(self.find, str) else self.find()
+        found = {**known, **{one.name: one for one in own}}
         for name, one in found.items():
             yield name, *(write_cell(read_attribute(one, attribute)) for attribute in self.attributes.split())
 
@@ -47,11 +48,6 @@ def write_cell(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:g}"
     return ", ".join(map(write_cell, value)) if isinstance(value, list | tuple) else str(value)
-
-
-def find_baselines() -> Mapping[str, Any]:
-    """Return the regulators of the baselines of arms, by the name of their controller."""
-    return {name: one.regulator for name, one in registry.baselines_of_arms().items()}
 
 
 def find_controllers() -> Mapping[str, Any]:
@@ -111,16 +107,16 @@ def find_claims() -> Mapping[str, Any]:
 
 
 KINDS = {
-    "regulators": Kind("Regulators", registry.known_regulators, "coordinates property origin source"),
-    "representations": Kind("Representations", registry.known_representations, "symbols source"),
-    "jacobians": Kind("Jacobians", registry.known_jacobians, "takes title source"),
-    "inverses": Kind("Inverses", registry.known_inverses, "gives title source"),
+    "regulators": Kind("Regulators", "regulators", "coordinates property origin source"),
+    "representations": Kind("Representations", "representations", "symbols source"),
+    "jacobians": Kind("Jacobians", "jacobians", "takes title source"),
+    "inverses": Kind("Inverses", "inverses", "gives title source"),
     "controllers": Kind("Controllers in contact", find_controllers, "coordinates forms title"),
-    "impedances": Kind("Impedances", registry.known_impedances),
-    "shipped": Kind("Controllers as they are shipped", registry.known_shipped, "level title source"),
-    "baselines": Kind("Baselines of arms, which are no laws", find_baselines),
-    "springs": Kind("Springs of a pose", registry.known_springs, "is_rotational title source"),
-    "compensators": Kind("Laws with a state", registry.known_compensators, "measures_rate property title source"),
+    "impedances": Kind("Impedances", "impedances"),
+    "shipped": Kind("Controllers as they are shipped", "shipped", "level title source"),
+    "baselines": Kind("Baselines of arms, which are no laws", "baselines"),
+    "springs": Kind("Springs of a pose", "springs", "is_rotational title source"),
+    "compensators": Kind("Laws with a state", "compensators", "state.measures_rate property title source"),
     "metrics": Kind("Metrics", known_metrics, "unit arm_only title"),
     "contact-metrics": Kind("Metrics of contact", known_contact_metrics, "unit title"),
     "tasks": Kind("Tasks", find_tasks, "contact title source"),

@@ -12,7 +12,7 @@ from bench.cli.screen import console, counted, examples, frame_table, shown_path
 from bench.experiments.choice import check_numbers, check_workers
 from bench.experiments.map import plan_of
 from bench.experiments.tables.schema import RESULTS
-from bench.law.contender import Gains
+from bench.law.inputs import Gains
 from bench.running.schedulers.words import check_scheduler
 
 MOST = 10**10

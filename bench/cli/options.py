@@ -9,9 +9,10 @@ from typing import NamedTuple
 import rich_click as click
 
 from bench.experiments.tables.schema import RESULTS
-from bench.law.contender import Contender, Regulator
+from bench.law.contender import Contender
 from bench.law.contenders import registry
 from bench.law.contenders.described_law import described
+from bench.law.kinds import Law
 from bench.running.schedulers.words import THREADS
 
 LATEST = RESULTS / "latest"
@@ -99,7 +100,7 @@ def named(regulators, jacobians, inverses) -> Named:
     return Named(tuple(word.partition("@")[0] for word in whole), (by,), (through,))
 
 
-def own_laws(files: tuple[Path, ...]) -> tuple[Regulator, ...]:
+def own_laws(files: tuple[Path, ...]) -> tuple[Law, ...]:
     """The regulators of these files, those that lie in bench/law/contenders too; two of one name are refused."""
     own = tuple(registry.regulator_in(file) or described(file) for file in files)
     names = [one.name for one in own]

@@ -10,11 +10,11 @@ import numpy as np
 
 from bench.engines.arrays import Seven
 from bench.engines.episode import blank
+from bench.law.chain import Scratch
 from bench.law.contender import Contender
 from bench.law.contenders.jacobians.geometric import fill
 from bench.law.control.resolved_acceleration import BY_JOINT, Buffers
 from bench.law.linalg import determinant, gram
-from bench.law.resolved_motion import Scratch
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation
 from tasks.arm_model import Arm

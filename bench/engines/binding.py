@@ -10,8 +10,9 @@ import math
 
 import tasks
 from bench.engines.episode import CRASHED_COMMAND, FIRST_METRIC, has_crashed
-from bench.law.contender import NO_MEMORY, Contender, Gains
+from bench.law.contender import Contender
 from bench.law.control.resolved_acceleration import Parts, parts_of
+from bench.law.inputs import NO_MEMORY, Gains
 from bench.law.scalar import kernel
 from bench.law.so3 import relative
 from tasks.base import Task

@@ -9,8 +9,8 @@ from bench.engines.compiled import BEGIN_STATE, STATEFUL, compile_function, made
 from bench.engines.episode import FINAL_ANGLE, SETTLING_TICK, Numbers, start_rows
 from bench.engines.plants import quaternion
 from bench.engines.simulate import compiled_loop, simulate
-from bench.law.compensator import Compensator
-from bench.law.contender import NO_MEMORY, Gains
+from bench.law.inputs import NO_MEMORY, Gains
+from bench.law.kinds import Law, State
 from bench.law.scalar import kernel
 
 SETTLED, LEFT, PEAK = range(3)
@@ -30,17 +30,17 @@ class Asked(NamedTuple):
 
 
 @made_once
-def _parts(one: Compensator):
-    return compile_function(one.law, STATEFUL), compile_function(one.begin, BEGIN_STATE)
+def _parts(one: Law):
+    return compile_function(one.law, STATEFUL), compile_function(one.state.begin, BEGIN_STATE)
 
 
-def prepare(one: Compensator) -> None:
+def prepare(one: Law) -> None:
     """Compile what `run` will need, or take it from the disk cache."""
     compiled_loop("state")
     _parts(one)
 
 
-def run(one: Compensator, starts, gains: Gains, asked: Asked) -> np.ndarray:
+def run(one: Law, starts, gains: Gains, asked: Asked) -> np.ndarray:
     """Rows (SETTLED, LEFT, PEAK), one per start, from its orientation and angular velocity."""
     return rows_of(compiled_loop("state"), _parts(one), starts, gains, asked)
 
@@ -63,13 +63,12 @@ def nothing(R):
 
 
 @made_once
-def without_state(one) -> Compensator:
-    """A regulator without memory as a compensator whose state stays at zero."""
+def without_state(one) -> Law:
+    """Return a law without memory as one with a state, which stays at zero."""
     law = one.law
 
     @kernel
     def still(R, omega, goal, gains, state):
         return law(R, omega, goal, gains), (0.0, 0.0, 0.0, 0.0)
 
-    words = one.name, one.title, one.source, one.formula
-    return Compensator(*words, still, nothing, None, measures_rate=True, rejects=False, property=one.property)
+    return one._replace(law=still, state=State(nothing, None, measures_rate=True, rejects=False))

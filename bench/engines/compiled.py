@@ -23,9 +23,9 @@ from bench.engines.curve import Curves
 from bench.engines.episode import Numbers
 from bench.engines.typed import type_of
 from bench.law import scalar
-from bench.law.contender import Gains, Goal
+from bench.law.chain import Chain, Scratch
 from bench.law.control.setpoint import ContactParameters, Rows, Setpoint
-from bench.law.resolved_motion import Chain, Scratch
+from bench.law.inputs import Gains, Goal
 from bench.law.so3 import Rotation
 from tasks import moving_goal, truth, velocity, verdict
 

@@ -8,10 +8,10 @@ import numpy as np
 
 from bench.engines.arm_episode import MOST
 from bench.engines.arrays import Four, Seven, Six, Three
-from bench.law.contender import PAPERS_GAINS, Gains
+from bench.law.chain import Scratch
 from bench.law.control.contact_controller import FORMS, ContactController
 from bench.law.control.setpoint import TOUCH, ContactBuffers, ContactParameters, Rows, Setpoint
-from bench.law.resolved_motion import Scratch
+from bench.law.inputs import PAPERS_GAINS, Gains
 from bench.law.scalar import kernel
 from bench.law.so3 import rotate
 from tasks import verdict

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.law.contender import Gains
+from bench.law.inputs import Gains
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation
 from tasks.rules import RULES

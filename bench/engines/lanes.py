@@ -26,7 +26,7 @@ from bench.engines.ideal import (
     small_turn,
     turned_by,
 )
-from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation, dot, from_quaternion
 from tasks.verdict import GOING, Watch, check_command, check_state, first_watch, watched

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from bench.engines.curve import keep
 from bench.engines.episode import Sample, blamed, finish
 from bench.engines.typed import borrow
-from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation, dot
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched

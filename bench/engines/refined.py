@@ -8,7 +8,7 @@ of `divisions`, which are kept whatever they differ by.
 A law is asked at every stage, as a continuous-time simulation asks it, beside the control period too. One with a memory
 keeps what it gave at the beginning of a step that is kept: a continuous law with jumps in the limit of short steps.
 
-Fails: where the command has no limit (beside a pole), steps of any length differ; see `convergence`.
+Limitations: where the command has no limit (beside a pole), steps of any length differ; see `convergence`.
 """
 
 from typing import NamedTuple

@@ -16,8 +16,8 @@ from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS, model_of
 from bench.engines.plants import contact as in_contact
 from bench.engines.simulate import compiled_loop, simulate
 from bench.engines.simulated import compiled_view
-from bench.law.contender import NO_MEMORY
 from bench.law.control.contact_controller import ContactController, check_constants
+from bench.law.inputs import NO_MEMORY
 from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Trial, leg, prepare, refuse
 from tasks.contact_checks import check_contact, check_trial

@@ -9,7 +9,8 @@ from bench.engines.binding import memory_of
 from bench.engines.episode import START_WIDTH, Numbers
 from bench.engines.plants import quaternion
 from bench.engines.simulate import compiled_loop, evaluation, simulate
-from bench.law.contender import Contender, Gains
+from bench.law.contender import Contender
+from bench.law.inputs import Gains
 
 
 class Seen(NamedTuple):

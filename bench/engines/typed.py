@@ -8,10 +8,10 @@ from numba.extending import intrinsic, overload
 from numba.np.arrayobj import make_array
 
 from bench.engines.arrays import Matrix, Three, Vector
-from bench.law.contender import Goal
+from bench.law.chain import Chain, Scratch
 from bench.law.control.resolved_acceleration import Buffers
 from bench.law.control.setpoint import ContactBuffers, Rows, Setpoint
-from bench.law.resolved_motion import Chain, Scratch
+from bench.law.inputs import Goal
 from bench.law.so3 import Rotation
 from tasks.condition import FIELDS, Condition
 

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 import tasks
 from bench.base.errors import BadNumber, Incompatible, UnknownWord
 from bench.experiments.suites import ENGINES
-from bench.law.contender import Gains
-from bench.law.contenders.registry import known_inverses, known_jacobians
+from bench.law.contenders.registry import contenders
 from bench.law.control.registry import find_controller
+from bench.law.inputs import Gains
 
 INTEGRATORS = ("euler", "implicit", "implicitfast", "rk4")
 WITHOUT, IN_CONTACT = "euler", "implicitfast"
@@ -46,8 +46,8 @@ class Choice:
             "start": (once.start_sets, sets),
             "engine": (once.engines, ENGINES),
             "arm": (once.arms, tasks.arm_names()),
-            "jacobian": (once.jacobians, known_jacobians()),
-            "inverse": (once.inverses, known_inverses()),
+            "jacobian": (once.jacobians, contenders("jacobians")),
+            "inverse": (once.inverses, contenders("inverses")),
             "variation": (once.variations, once.variations and tasks.variation_names()),
             "axis": (once.axes, once.axes and tasks.axis_names()),
         }

@@ -23,7 +23,8 @@ from bench.experiments.episodes import prepare
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.field import ZERO, Field, about, size
 from bench.experiments.traces import laws
-from bench.law.contender import Contender, Gains
+from bench.law.contender import Contender
+from bench.law.inputs import Gains
 from bench.law.so3 import from_quaternion
 from tasks.base import IDENTITY, Quat
 from tasks.rotations import multiply

@@ -7,8 +7,8 @@ import numpy as np
 import tasks
 from bench.experiments.columns import GAINS, STEPPED_DT, Column, Table, counts, numbers, words
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from bench.law.compensator import Compensator
-from bench.law.contenders.registry import known_compensators, papers_laws
+from bench.law.contenders.registry import contenders, papers_laws
+from bench.law.kinds import Law
 from tasks.rules import ticks
 
 NAME = "compensators"
@@ -51,7 +51,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     each = asked.count or STARTS
     return tuple(
         Unit(NAME, selector=name, count=each, total=each, horizon_s=asked.horizon_s or HORIZON_S)
-        for name in ("", *known_compensators())
+        for name in ("", *contenders("compensators"))
     )
 
 
@@ -71,7 +71,7 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
             {
                 "law": one.name,
                 "disturbance": level,
-                "reads_rate": "yes" if one.measures_rate else "no",
+                "reads_rate": "yes" if one.state.measures_rate else "no",
                 **settings.gains._asdict(),
                 "dt_s": settings.dt_s,
                 "horizon_s": unit.horizon_s,
@@ -86,12 +86,12 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
     return found
 
 
-def law_of(name: str) -> Compensator:
+def law_of(name: str) -> Law:
     """Return the law of that name; for an empty name the paper's on R."""
     from bench.engines.compensated import without_state
 
     if name:
-        return known_compensators()[name]
+        return contenders("compensators")[name]
     return without_state(next(one for one in papers_laws() if one.representation is None).regulator)
 
 

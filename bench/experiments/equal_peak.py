@@ -6,7 +6,8 @@ import math
 import numpy as np
 
 import tasks
-from bench.law.contender import AT_REST, Contender, Gains, Goal
+from bench.law.contender import Contender
+from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import from_quaternion
 
 LOOKED_AT = {"uniform": 500, "half-turn": None, "poles": None, "wraps": None}

@@ -20,8 +20,10 @@ from bench.base.errors import BadLaw
 from bench.experiments.choice import IN_CONTACT, WITHOUT, Choice
 from bench.experiments.columns import Table
 from bench.experiments.suites import Suite
-from bench.law.contender import PAPERS_GAINS, Contender, Gains, Regulator
+from bench.law.contender import Contender
 from bench.law.contenders.registry import find_contender
+from bench.law.inputs import PAPERS_GAINS, Gains
+from bench.law.kinds import Law
 from tasks.discovery import constants
 from tasks.rules import RULES, ticks
 
@@ -43,7 +45,7 @@ class Settings(NamedTuple):
     integrator: str = WITHOUT
     contact_integrator: str = IN_CONTACT
     seed: int = 0
-    own: tuple[Regulator, ...] = ()
+    own: tuple[Law, ...] = ()
 
     def contender(self, name: str) -> Contender:
         """Return the law, or the controller of an arm, of that name."""
@@ -117,7 +119,7 @@ class Asked:
     seed: int = 0
 
     @property
-    def own(self) -> tuple[Regulator, ...]:
+    def own(self) -> tuple[Law, ...]:
         """Return the user's laws."""
         return tuple(dict.fromkeys(one.regulator for one in self.laws if one.regulator.origin))
 
@@ -221,7 +223,7 @@ def lost_rows_of(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
     return pd.DataFrame(experiment_of(unit).lost(settings, unit, outcome))
 
 
-def own_last(units: list[Unit], own: tuple[Regulator, ...]) -> tuple[Unit, ...]:
+def own_last(units: list[Unit], own: tuple[Law, ...]) -> tuple[Unit, ...]:
     """Return the units of our laws in their order, then those of a user's, contender by contender."""
     names = [one.name for one in own]
     theirs = [unit.contender for unit in units if unit.law in names]

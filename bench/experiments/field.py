@@ -5,7 +5,8 @@ import numpy as np
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.episode import Settings, blank, numbers
 from bench.engines.metrics.registry import metrics_of
-from bench.law.contender import Contender, Gains
+from bench.law.contender import Contender
+from bench.law.inputs import Gains
 from tasks.base import IDENTITY, Quat
 
 ENGINE, U = "ideal-held", NUMBERS.index("u_x")

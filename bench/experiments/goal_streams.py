@@ -10,7 +10,7 @@ import numpy as np
 from bench.experiments.chosen_words import STREAMED
 from bench.experiments.columns import Column, Table, numbers, words
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from bench.law.contenders.registry import find_contender, known_regulators
+from bench.law.contenders.registry import contenders, find_contender
 from tasks.goal_stream import LENGTH_S, STREAMS, goals, true_goal
 from tasks.truth import angle
 
@@ -44,7 +44,7 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
     """Return a row a stream and law; `law` is empty for the spring on the quaternion as it came."""
     from bench.engines.streamed import run
 
-    dt, laws = settings.dt_s, [law for law in STREAMED if law in known_regulators()]
+    dt, laws = settings.dt_s, [law for law in STREAMED if law in contenders("regulators")]
     truth = np.array([true_goal(k * dt) for k in range(round(LENGTH_S / dt))])
     steps = compute_steps(truth)
     found = []

@@ -21,7 +21,8 @@ from bench.experiments.episode_rows import contender_columns
 from bench.experiments.experiment import Experiment, Settings, Unit
 from bench.experiments.plan import Plan
 from bench.experiments.suites import SHORT
-from bench.law.contender import PAPERS_GAINS, Contender, Gains
+from bench.law.contender import Contender
+from bench.law.inputs import PAPERS_GAINS, Gains
 from tasks.base import IDENTITY
 from tasks.random_starts import BLOCK, block
 from tasks.rules import RULES

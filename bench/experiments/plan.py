@@ -21,7 +21,8 @@ from bench.experiments.choice import (
 from bench.experiments.columns import Table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit, known_experiments, known_tables
 from bench.experiments.suites import suite
-from bench.law.contender import PAPERS_GAINS, Contender, Gains
+from bench.law.contender import Contender
+from bench.law.inputs import PAPERS_GAINS, Gains
 from tasks.rules import RULES
 
 

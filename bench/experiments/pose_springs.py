@@ -14,12 +14,12 @@ import numpy as np
 from bench.experiments.columns import Column, Table, counts, numbers, words
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.springs import LOOPS, POINTS, WIDTH, closed_path, draw_stiffness, right_jacobian
-from bench.law.contenders.registry import known_springs
+from bench.law.contenders.registry import contenders
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation
 
-    from bench.law.spring import Spring
+    from bench.law.kinds import Spring
 
 NAME = "pose-springs"
 
@@ -31,7 +31,7 @@ STEP, STEPS = 0.1, 80
 """Of Runge and Kutta's method, in units of 1/gain: e^-8 of the pose is left."""
 ALIKE = np.eye(3)
 
-SPRINGS = tuple(spring for spring in known_springs().values() if not spring.is_rotational)
+SPRINGS = tuple(spring for spring in contenders("springs").values() if not spring.is_rotational)
 
 
 def columns() -> list[Column]:

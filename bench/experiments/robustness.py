@@ -30,8 +30,9 @@ from bench.experiments.episode_rows import judged_columns, lost_numbers, measure
 from bench.experiments.equal_peak import gains_at
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit
 from bench.experiments.suites import Robustness
-from bench.law.contender import Contender, Gains
+from bench.law.contender import Contender
 from bench.law.contenders.registry import papers_laws
+from bench.law.inputs import Gains
 from tasks.condition import Condition, condition_at
 from tasks.truth import angle
 

@@ -5,8 +5,8 @@ library's sine until it is an outcome. Such an episode is repeated from q + NUDG
 than any two libraries' roundings lead apart and nearer than any difference one could mean: where an outcome is another
 one there, it is on a knife's edge, and the row says both.
 
-Fails: an episode that is neither DOUBTFUL in conditioning nor in torque, and hangs on rounding nevertheless, is not
-seen. Under other BLAS kernels, compiler targets and C libraries' variants of sin and cos there was none.
+Limitations: an episode that is neither DOUBTFUL in conditioning nor in torque, and hangs on rounding nevertheless, is
+not seen. Under other BLAS kernels, compiler targets and C libraries' variants of sin and cos there was none.
 """
 
 from __future__ import annotations

@@ -23,9 +23,10 @@ from bench.experiments.columns import Column, Table, counts, numbers, words
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.field import ENGINE, ZERO, Field, about, size
 from bench.experiments.suites import LONG
-from bench.law.contender import Contender, Gains
-from bench.law.contenders.registry import find_contender, known_regulators, known_shipped
-from bench.law.shipped import ANTIPODE, NEAR, VELOCITY, Shipped, regulator_of
+from bench.law.contender import Contender
+from bench.law.contenders.registry import contenders, find_contender
+from bench.law.kinds import VELOCITY, Law
+from bench.law.shipped import ANTIPODE, NEAR
 from tasks.base import Start
 from tasks.rotations import multiply
 from tasks.sphere import axes
@@ -102,26 +103,26 @@ def columns() -> list[Column]:
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """Return a unit for each controller."""
-    return tuple(Unit(NAME, selector=name, count=1, total=1, horizon_s=LONG) for name in known_shipped())
+    return tuple(Unit(NAME, selector=name, count=1, total=1, horizon_s=LONG) for name in contenders("shipped"))
 
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
     """Return the row of the controller, then that of each of LAWS at its gains."""
-    laws = [law for law in LAWS if law.partition("/")[0] in known_regulators()]
-    return compare(known_shipped()[unit.selector], laws, settings, unit.horizon_s)
+    laws = [law for law in LAWS if law.partition("/")[0] in contenders("regulators")]
+    return compare(contenders("shipped")[unit.selector], laws, settings, unit.horizon_s)
 
 
-def compare(one: Shipped, laws: Iterable[str], settings: Settings, horizon_s: float) -> list[dict]:
+def compare(one: Law, laws: Iterable[str], settings: Settings, horizon_s: float) -> list[dict]:
     """Return the row of a controller, then those of laws at its gains; no law takes the place of velocity commands."""
-    made = [row(one, "", Contender(regulator_of(one)), settings, horizon_s) | {"findings": ", ".join(findings(one))}]
+    made = [row(one, "", Contender(one), settings, horizon_s) | {"findings": ", ".join(findings(one))}]
     for law in laws if one.level != VELOCITY else ():
         made.append(row(one, law, find_contender(law), settings, horizon_s) | {"findings": ""})
     return made
 
 
-def row(one: Shipped, law: str, contender: Contender, settings: Settings, horizon_s: float) -> dict:
+def row(one: Law, law: str, contender: Contender, settings: Settings, horizon_s: float) -> dict:
     """Return a law's numbers at the gains of a controller."""
-    gains = Gains(one.stiffness, one.damping or 0.0)
+    gains = one.gains
     field = Field(contender, gains)
     felt = {name: compute_stiffness(field, angle) for name, angle in FELT_RAD.items()}
     ratio, is_velocity = math.nan, one.level == VELOCITY
@@ -132,12 +133,12 @@ def row(one: Shipped, law: str, contender: Contender, settings: Settings, horizo
         "shipped": one.name,
         "law": law,
         "level": one.level,
-        "shapes_inertia": "yes" if one.shapes_inertia else "no",
+        "shapes_inertia": "yes" if one.shipped.shapes_inertia else "no",
         "kp": gains.kp,
         "kv": math.nan if is_velocity else gains.kv,
         **felt,
         "damping_ratio": ratio,
-        "critical": math.nan if one.shapes_inertia else ratio**2,
+        "critical": math.nan if one.shipped.shapes_inertia else ratio**2,
         **{f"bent_{angle}_rad": compute_bending(field, math.radians(angle)) for angle in BENT_DEG},
         "half_turns": DIRECTIONS,
         "dead": int(dead.sum()),
@@ -163,12 +164,12 @@ def compute_bending(field: Field, angle: float) -> float:
     return 0.0 if worst < ZERO else worst  # what rounding leaves is no property of a controller
 
 
-def findings(one: Shipped) -> tuple[str, ...]:
+def findings(one: Law) -> tuple[str, ...]:
     """Return the faults and notes of the audit, for the error as a function of two quaternions with slope 1."""
 
     def error(q, q_d):
         (w, x, y, z), goal = q.tolist(), q_d.tolist()
-        return one.error(multiply(tuple(goal), (w, -x, -y, -z)))
+        return one.shipped.error(multiply(tuple(goal), (w, -x, -y, -z)))
 
     return tuple(found.fault.name for found in audit(error, "wxyz", name=one.name).findings)
 

@@ -15,11 +15,11 @@ import numpy as np
 
 from bench.experiments.columns import Column, Table, counts, numbers, words
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from bench.law.contenders.registry import known_springs
+from bench.law.contenders.registry import contenders
 from tasks.rotations import columns as columns_of
 
 if TYPE_CHECKING:
-    from bench.law.spring import Spring
+    from bench.law.kinds import Spring
 
 NAME = "springs"
 
@@ -35,7 +35,7 @@ VANISHED = 1e-9
 Moment = Callable[[np.ndarray], np.ndarray]
 """moment(q) of the remaining rotation -> in the tool's axes [N m]."""
 
-ROTATIONAL = tuple(spring for spring in known_springs().values() if spring.is_rotational)
+ROTATIONAL = tuple(spring for spring in contenders("springs").values() if spring.is_rotational)
 ORIGIN, NO_STIFFNESS = (0.0, 0.0, 0.0), ((0.0, 0.0, 0.0),) * 3
 """Place and stiffness of position, which a rotational spring ignores."""
 

@@ -39,7 +39,7 @@ from bench.experiments.suites import AT_VELOCITIES, BY_EVERY_INVERSE, SUITES, WI
 from bench.experiments.traces import laws
 from bench.law.contender import Contender, refusal
 from bench.law.contenders import combinations
-from bench.law.contenders.registry import known_inverses
+from bench.law.contenders.registry import contenders
 from bench.law.control.velocity import is_velocity_law
 from tasks.base import Start
 from tasks.truth import angle
@@ -134,7 +134,7 @@ def on_joints(law: Contender, joints: int) -> list[Contender]:
     if law.name != BY_EVERY_INVERSE:
         return combinations.on((f"{law.name}@geometric+standard",), {law.name: law}, joints)
     (by, *_) = combinations.on((f"{law.name}@geometric+standard",), {law.name: law}, joints)
-    return [one for every in known_inverses().values() if not refusal(one := by._replace(inverse=every), joints)]
+    return [one for every in contenders("inverses").values() if not refusal(one := by._replace(inverse=every), joints)]
 
 
 def rows(settings: Settings, unit: Unit) -> dict:

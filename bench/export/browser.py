@@ -16,7 +16,8 @@ from bench.export.languages.js import COPYSIGN, write_function
 from bench.export.reading import Program
 from bench.export.subject import GAINS, MATRIX
 from bench.export.types import REAL, TRUTH, Kind, Tuple, Typed, numbers
-from bench.law.contender import Contender, Goal
+from bench.law.contender import Contender
+from bench.law.inputs import Goal
 from bench.law.so3 import from_quaternion, turn_quaternion
 from tasks.verdict import OUTCOMES, Watch, check_command, check_state, first_watch, verdict, watched
 

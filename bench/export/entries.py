@@ -7,17 +7,7 @@ its own. Vectors are in the base frame; where the name of an entry ends in `_bod
 from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
-from bench.law import (
-    AT_REST,
-    Gains,
-    Goal,
-    Representation,
-    cross,
-    dot,
-    kernel,
-    rotate,
-    rotate_back,
-)
+from bench.law import AT_REST, Coordinates, Gains, Goal, cross, dot, kernel, rotate, rotate_back
 
 
 class Parameter(NamedTuple):
@@ -167,7 +157,7 @@ def of_impedance(law: Callable) -> list[Entry]:
     return in_both_frames(make, (given, U, f"{COMMAND} under a moment [N m]"))
 
 
-def of_representation(record: Representation) -> list[Entry]:
+def of_representation(record: Coordinates) -> list[Entry]:
     """Return the entries of coordinates: to and from R, B, B^-1 and B^T, base frame."""
     size = len(record.symbols)
     chart, chart_of, to_matrix, margin_of = record.chart, record.chart_of, record.to_matrix, record.margin

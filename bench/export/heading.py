@@ -53,7 +53,7 @@ def heading(subject: Subject, *notes: str) -> str:
     record = subject.record
     of = f" in {subject.representation.title}" if subject.representation else ""
     module = sys.modules[_function(record).__module__].__doc__ or ""
-    fails = re.search(r"(Fails|Limitations): (.*?)(?:\n\n|\Z)", module, re.DOTALL)
+    limits = re.search(r"Limitations: (.*?)(?:\n\n|\Z)", module, re.DOTALL)
     entries = "; ".join(f"{one.name}: {one.doc}" for one in subject.entries if not one.name.endswith("_body"))
     lines = [
         f"{record.title}{of} ({subject.word})",
@@ -61,7 +61,7 @@ def heading(subject: Subject, *notes: str) -> str:
         f"Formula   {record.formula}",
         *([f"Source    {record.source}"] if record.source else []),
         *_facts(subject),
-        *_wrapped(f"{fails[1]:<10}{' '.join(fails[2].split())}" if fails else ""),
+        *_wrapped(f"Limits    {' '.join(limits[1].split())}" if limits else ""),
         "Frames    base frame; body frame where a name ends in _body. R: columns are the body's axes in the base frame",
         *_wrapped(f"Entries   {entries}"),
         *(line for note in notes for line in _wrapped(note)),

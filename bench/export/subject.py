@@ -12,25 +12,22 @@ from bench.export.entries import Entry, of_impedance, of_law, of_representation
 from bench.export.reading import Program
 from bench.export.sprung import of_compensator, of_spring
 from bench.export.types import REAL, Kind, Tuple, Typed, numbers
-from bench.law.contender import Contender, Gains, Regulator
+from bench.law.contender import Contender
 from bench.law.contenders import registry
-from bench.law.contenders.registry import (
-    known_compensators,
-    known_impedances,
-    known_representations,
-    known_springs,
-)
+from bench.law.contenders.registry import contenders
 from bench.law.control.registry import all_controllers
+from bench.law.inputs import Gains
+from bench.law.kinds import Law
 from bench.law.so3 import Rotation
 
 IMPEDANCE, COMPENSATOR, SPRING = "impedance-", "compensator-", "spring-"
 
-ALONE: dict[str, tuple[Callable[[], dict], Callable[[Any], list[Entry]]]] = {
-    "representation-": (known_representations, of_representation),
-    COMPENSATOR: (known_compensators, lambda one: of_compensator(one.law, one.begin)),
-    SPRING: (known_springs, lambda one: of_spring(one.wrench, one.is_rotational)),
+ALONE: dict[str, tuple[str, Callable[[Any], list[Entry]]]] = {
+    "representation-": ("representations", of_representation),
+    COMPENSATOR: ("compensators", lambda one: of_compensator(one.law, one.state.begin)),
+    SPRING: ("springs", lambda one: of_spring(one.wrench, one.is_rotational)),
 }
-"""Kinds by what their words begin with: the records of each by name, and the entries of a record."""
+"""Kinds by what their words begin with: the folder of each, and the entries of a record."""
 
 
 class Subject(NamedTuple):
@@ -52,34 +49,34 @@ class Subject(NamedTuple):
         return self.word.replace("-", "_").replace("/", "_")
 
 
-def subject_words(extra: tuple[Regulator, ...] = ()) -> list[str]:
+def subject_words(extra: tuple[Law, ...] = ()) -> list[str]:
     """Return the words of everything that can be exported."""
     laws = [one.name for one in registry.all_contenders(extra)]
     impedances = [one.name for one in all_controllers() if one.impedance is not None]
-    alone = (f"{prefix}{name}" for prefix, (known, _) in ALONE.items() for name in known())
+    alone = (f"{prefix}{name}" for prefix, (folder, _) in ALONE.items() for name in contenders(folder))
     return [*laws, *impedances, *alone]
 
 
-def find_subject(word: str, extra: tuple[Regulator, ...] = ()) -> Subject:
+def find_subject(word: str, extra: tuple[Law, ...] = ()) -> Subject:
     """Return the subject of a word.
 
     Errors:
         UnknownWord: nothing of that name. Incompatible: coordinates are missing, or do not fit.
     """
     first, _, second = word.partition("/")
-    for prefix, (known, entries_of) in ALONE.items():
-        if first.startswith(prefix) and first.removeprefix(prefix) in known():
-            record = known()[first.removeprefix(prefix)]
+    for prefix, (folder, entries_of) in ALONE.items():
+        if first.startswith(prefix) and first.removeprefix(prefix) in contenders(folder):
+            record = contenders(folder)[first.removeprefix(prefix)]
             return Subject(word, record, None, tuple(entries_of(record)))
-    if first.startswith(IMPEDANCE) and first.removeprefix(IMPEDANCE) in known_impedances():
-        impedance = known_impedances()[first.removeprefix(IMPEDANCE)]
+    if first.startswith(IMPEDANCE) and first.removeprefix(IMPEDANCE) in contenders("impedances"):
+        impedance = contenders("impedances")[first.removeprefix(IMPEDANCE)]
         along = registry.representation(second) if second else None
         law = impedance.law_in(along) if along and impedance.law_in else impedance.law
         if law is None:
             words = [one for one in subject_words() if one.startswith(f"{first}/")]
             raise UnknownWord("impedance", word, words)
         return Subject(word, impedance, along, tuple(of_impedance(law)))
-    if first not in {one.name for one in (*registry.known_regulators().values(), *extra)}:
+    if first not in {one.name for one in (*registry.contenders("regulators").values(), *extra)}:
         raise UnknownWord("law to export", word, subject_words(extra))
     contender = registry.find_contender(word, extra)
     regulator = contender.regulator

@@ -9,7 +9,7 @@ import numpy as np
 
 from bench.export.entries import Entry, Parameter
 from bench.export.subject import Subject, translated
-from bench.law.contender import PAPERS_GAINS, Gains
+from bench.law.inputs import PAPERS_GAINS, Gains
 from bench.law.so3 import Rotation, from_quaternion
 from tasks.base import IDENTITY, Quat
 from tasks.rotations import about, multiply

@@ -14,8 +14,9 @@ from bench.experiments.tables.read import table, with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import why
 from bench.findings.judgement import Judgement
-from bench.law.contender import Contender, Regulator
+from bench.law.contender import Contender
 from bench.law.contenders.registry import contenders_of
+from bench.law.kinds import Law
 from bench.running.sandbox import LOST, Sandbox
 
 ENGINE = "ideal-rk4"
@@ -28,7 +29,7 @@ Parts = dict[tuple[str, str], list[pd.DataFrame]]
 """Rows by law and experiment."""
 
 
-def judged(regulators: Iterable[Regulator], limit_s: float = LIMIT_S) -> list[Judgement]:
+def judged(regulators: Iterable[Law], limit_s: float = LIMIT_S) -> list[Judgement]:
     """The judgement of every law of these.
 
     Args:

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from bench.experiments.limiters import GREATEST_RATE, clamp_axes, clamp_norm
-from bench.law.contenders.registry import known_shipped
+from bench.law.contenders.registry import contenders
 from tasks.goal_stream import STREAMS, componentwise, continued, goals, normalized, slerp
 from tasks.rotations import about
 from tasks.truth import angle
@@ -70,7 +70,7 @@ def measure_axis_of_180_degrees() -> tuple[float, float]:
 
 def measure_damping_ratio() -> tuple[float, float]:
     """Compute the damping ratio of the franka_ros example about an axis, and with the logarithm and D = 2 sqrt(K I)."""
-    example, inertia, small = known_shipped()["franka-ros"], 0.1, 0.01
+    example, inertia, small = contenders("shipped")["franka-ros"], 0.1, 0.01
     K, turn = example.stiffness, about((1.0, 0.0, 0.0), small)
     by_example, by_log = example.error(turn)[0], Rotation.from_quat(turn, scalar_first=True).as_rotvec()[0]
     D, felt = (example.damping, 2.0 * np.sqrt(K * inertia)), (K * by_example / small, K * by_log / small)

@@ -10,8 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.law.contenders.registry import known_shipped
-from bench.law.shipped import VELOCITY, Shipped, logarithm
+from bench.law.contenders.registry import contenders
+from bench.law.kinds import VELOCITY, Law
+from bench.law.shipped import logarithm
 from tasks.sphere import axes
 
 KEEP = "Keep it."
@@ -31,10 +32,11 @@ class Fix(NamedTuple):
     after: float
 
 
-def smallest_fix(one: Shipped) -> Fix:
+def smallest_fix(one: Law) -> Fix:
     """Return the smallest fix of a controller's error, by what its error does."""
-    free, steps = one.unbounded or one.error, []
-    fixed, bound = free, one.bound
+    own = one.shipped
+    free, steps = own.unbounded or own.error, []
+    fixed, bound = free, own.bound
     if not any(free(about(DIRECTIONS[-1], math.pi))):
         if largest(with_sign(free), math.pi) > SMALL:
             steps.append("take the sign of zero as 1 (`copysign(1, w)`)")
@@ -46,20 +48,20 @@ def smallest_fix(one: Shipped) -> Fix:
             )
             fixed = logarithm
     if HALF[0] < size(free, DIRECTIONS[0], NEAR_RAD) / NEAR_RAD < HALF[1]:
-        steps.append("multiply the vector part by 2" + (", before the clip" if math.isfinite(one.bound) else ""))
+        steps.append("multiply the vector part by 2" + (", before the clip" if math.isfinite(own.bound) else ""))
         fixed = doubled(fixed)
-    if is_bent(one.error):
+    if is_bent(own.error):
         steps.append(f"to keep the direction, clip the length at {bound:g} instead of each component")
     words = f"{'; '.join(steps)}."
-    before = 0.0 if one.level == VELOCITY else one.stiffness * largest(one.error, None)
+    before = 0.0 if one.level == VELOCITY else one.gains.kp * largest(own.error, None)
     if not steps:
         return Fix(KEEP, before, before)
-    return Fix(words[0].upper() + words[1:], before, one.stiffness * min(bound, largest(fixed, None)))
+    return Fix(words[0].upper() + words[1:], before, one.gains.kp * min(bound, largest(fixed, None)))
 
 
 def fix_of(name: str) -> Fix:
     """Return the smallest fix of the controller of this name."""
-    return smallest_fix(known_shipped()[name])
+    return smallest_fix(contenders("shipped")[name])
 
 
 def about(k: np.ndarray, angle: float) -> tuple[float, ...]:

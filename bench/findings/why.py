@@ -18,7 +18,7 @@ from bench.findings.judgement import Said
 from bench.findings.perturbed import WITHSTANDS, by_level, perturbations, thresholds
 from bench.findings.selection.needs import CHATTER
 from bench.findings.theory.thresholds import near_goal
-from bench.law.contenders.registry import known_regulators
+from bench.law.contenders.registry import contenders
 
 FAILURES, SIDE, ENDS, ROBUSTNESS = "06-failure-map", "15-comparison", "30-method", "16-robustness"
 
@@ -111,7 +111,7 @@ def beside(field: pd.DataFrame, episodes: pd.DataFrame, run_field: pd.DataFrame,
     """
     lines, pulls = [_line(field, episodes)], dict(iter(run_field.groupby("contender")))
     for name, own in run[run["start_id"].isin(episodes["start_id"])].groupby(run["contender"].astype(str), sort=False):
-        regulator = known_regulators().get(str(name).partition("/")[0])
+        regulator = contenders("regulators").get(str(name).partition("/")[0])
         if regulator is not None and not regulator.control and name in pulls:
             lines.append(_line(pulls[name], own))
     laws = pd.DataFrame(lines)

@@ -3,29 +3,38 @@
 Whoever writes a law, coordinates, a Jacobian, an inverse, an impedance or a spring imports from
 here alone:
 
-    from bench.law import Regulator, cross, dot, kernel, sqrt
+    from bench.law import Law, cross, dot, kernel, sqrt
 
 scalar           the dialect: @kernel, and the functions of a number that it has
 so3              rotations as three columns, and vectors
 linalg/          products, eliminations and rotations of small matrices
-contender        Regulator, Contender, Gains, Goal
-representation   Representation; euler: what Euler angles share
-compensator      Compensator: a law with a state of its own
-resolved_motion  Jacobian, Inverse: from the tool's acceleration to the joints
-impedance        Impedance
-spring           Spring, of a pose or of a rotation alone
-shipped          Shipped: a controller as its authors set it, and the law it makes
-equation, look   what the book shows of a law: its scalar equation, and how it is drawn
-chain, weighting an arm as kernels see it; weights of its joints
+kinds            Law, Coordinates, Jacobian, Inverse, Impedance, Spring: a file of contenders/ holds one of them
+inputs           Gains, Goal; chain: an arm as kernels see it
+display          what the book shows of a law: short name, look, family, equation
+contender        Contender: a law in its coordinates, on an arm with Jacobian and inverse
+euler, spring, shipped, weighting: what several files of a kind share
 tracking         goals that move
 """
 # ruff: noqa: F401  the public face: what it imports is what it gives
 
+from typing import TYPE_CHECKING
+
 from bench.law.chain import bias_acceleration, twist
-from bench.law.compensator import Compensator
-from bench.law.contender import AT_REST, Contender, Gains, Goal, Regulator
-from bench.law.equation import ANGLE, CHORD, LINEAR_MRP, LINEAR_SINE, QUARTER, SINE, TANGENT, Equation
-from bench.law.impedance import Impedance, driven
+from bench.law.contender import Contender
+from bench.law.display import (
+    ANGLE,
+    CHORD,
+    LINEAR_MRP,
+    LINEAR_SINE,
+    QUARTER,
+    SINE,
+    TANGENT,
+    Display,
+    Equation,
+    Look,
+)
+from bench.law.inputs import AT_REST, Gains, Goal
+from bench.law.kinds import Coordinates, Impedance, Inverse, Jacobian, Law, Spring, State
 from bench.law.linalg import (
     determinant,
     exceeds,
@@ -40,9 +49,6 @@ from bench.law.linalg import (
     solve_lower,
     solve_upper,
 )
-from bench.law.look import Look
-from bench.law.representation import Representation
-from bench.law.resolved_motion import Inverse, Jacobian
 from bench.law.scalar import acos, atan2, copysign, cos, kernel, sin, sqrt
 from bench.law.so3 import (
     IDENTITY,
@@ -50,6 +56,7 @@ from bench.law.so3 import (
     cross,
     dot,
     double_sine,
+    driven,
     from_quaternion,
     half_cosine_squared,
     minus,
@@ -62,5 +69,15 @@ from bench.law.so3 import (
     turn_matrix,
     turn_quaternion,
 )
-from bench.law.spring import Spring, divide_by_left_jacobian, rotation_vector, times
+from bench.law.spring import divide_by_left_jacobian, rotation_vector, times
 from bench.law.weighting import GREATEST_GAIN, LENGTH, smaller_gram, solve_gram, weigh
+
+RENAMED = {"Regulator": "Law", "Compensator": "Law", "Representation": "Coordinates"}
+
+if not TYPE_CHECKING:  # or a type checker would let every name pass
+
+    def __getattr__(name: str):
+        """Say what a record is called now, to a law file that imports it by its former name."""
+        if name in RENAMED:
+            raise ImportError(f"bench.law.{name} is now {RENAMED[name]}; write: from bench.law import {RENAMED[name]}")
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -10,11 +10,38 @@ i - 1, the first ones in the base, so with r_i = p_i - p_{i-1}
 and the tool is the last of these points. What is left of its acceleration at qddot = 0 is Jdot qdot: the forward half
 of Newton and Euler's recursion (Luh, Walker, Paul 1980), with neither J nor Jdot formed.
 
-A chain here has two hinges at least. Fails: nowhere.
+A chain here has two hinges at least.
 """
 
+from typing import Any, NamedTuple
+
 from bench.law.scalar import kernel
-from bench.law.so3 import cross
+from bench.law.so3 import Rotation, cross
+
+
+class Chain(NamedTuple):
+    """An arm of n hinges at one tick, as its controller sees it; base frame, SI units.
+
+    axes[i, :] is z_i, the direction of joint i, and anchors[i, :] is p_i, a point on it, from the forward kinematics;
+    qdot[i] [rad/s]; p and R are the tool's position [m] and orientation. Joints in order from the base.
+    """
+
+    n: int
+    axes: Any
+    anchors: Any
+    qdot: Any
+    p: tuple
+    R: Rotation
+
+
+class Scratch(NamedTuple):
+    """Buffers an inverse may overwrite: matrices A, B, V of 7 x 7, vectors s, t of 7."""
+
+    A: Any
+    B: Any
+    V: Any
+    s: Any
+    t: Any
 
 
 @kernel

@@ -1,115 +1,18 @@
-"""What takes part: gains, goals, regulators, and a contender made of one and its coordinates.
-
-Shapes: a vector is a tuple of 3 numbers, R a `Rotation`, E a tuple of 3 coordinates (4 of a quaternion). Base frame,
-radians, seconds. What a contender needs on an arm is in `resolved_motion`.
-"""
+"""A contender: a law and its coordinates, and on an arm the Jacobian and the inverse that it is resolved by."""
 
 from collections.abc import Callable
 from typing import NamedTuple
 
 from bench.base.errors import Incompatible
-from bench.law.equation import Equation
-from bench.law.look import Look
-from bench.law.representation import Representation
-from bench.law.resolved_motion import Inverse, Jacobian
-from bench.law.so3 import IDENTITY, Rotation
-
-AT_REST = (0.0, 0.0, 0.0)
-NO_MEMORY = (0.0, 0.0, 0.0, 0.0)
-"""A law with memory carries four numbers from tick to tick: a quaternion fits."""
-
-ON_MATRIX = "rotation-matrix"
-"""The coordinates of a law that acts on R itself."""
-
-
-class Gains(NamedTuple):
-    """Position and velocity gain: for small errors every law is u = kp (rotation vector error) - kv omega.
-
-    kp in 1/s^2, kv in 1/s. The defaults are the paper's (Murphy 1988, 2.3): critically damped at 10 rad/s.
-    """
-
-    kp: float = 100.0
-    kv: float = 20.0
-
-
-PAPERS_GAINS = Gains()
-
-OURS = "this benchmark"
-"""How the source of a law begins that was made here."""
-
-
-class Goal(NamedTuple):
-    """Desired rotation, and for tracking its angular velocity and acceleration (zero in regulation)."""
-
-    R: Rotation = IDENTITY
-    omega: tuple = AT_REST
-    alpha: tuple = AT_REST
-
-
-class Regulator(NamedTuple):
-    """A law u = law(R, omega, goal, gains): commanded angular acceleration in the base frame [rad/s^2].
-
-    coordinates: "rotation-matrix" if the law acts on R; otherwise the names of the representations it acts on, or
-    "any". Such a regulator gives `law_in(representation)`, which returns the law in those coordinates.
-    relative: the coordinates are those of R_d^T R, so their margin is too.
-    memory: initial memory of a law with state, law(R, omega, goal, gains, memory) -> (u, memory); else None.
-    property: what is proved of it: "local", "almost global", "global with memory", or "none".
-    origin: the file of a user's law; empty for ours.
-    costing_only: another way to write a law that is listed already: costed and tested, not run.
-    later: one that the paper does not have: it runs on the smaller set of starts.
-    in_engine: MuJoCo's own actuator makes the command, on the free body in MuJoCo alone; `law` is what it computes,
-    which is what is tested and counted.
-    stiffness: near the goal, about n_d, o_d and a_d, over kp.
-    margin: of a law on R that is singular somewhere: margin(R, R_d) in [0, 1], 0 exactly there; else None.
-    coordinate_law_in: of a law that commands Eddot itself: coordinate_law_in(representation) returns
-    law(chart, E_d, Edot, gains) -> u_E, what the controller on an analytic Jacobian needs (Murphy 1988, 3.7).
-    assemble: of a baseline (contenders/baselines), assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory)
-    in place of (2.2) and (3.7). through: the Jacobian and the inverse of one that acts on the joints; else empty.
-
-    What the book shows, all of it optional:
-    short: what it is called beside a curve. look: how it is drawn. family: the title of those it is drawn with.
-    papers: its place among the paper's three laws; 0 of another. control: a negative one, here because it must fail.
-    equation: of its angle, if it turns a free body about one fixed axis from rest; equation_in(representation) of a
-    law in coordinates.
-    """
-
-    name: str
-    title: str
-    source: str
-    formula: str
-    law: Callable | None = None
-    law_in: Callable | None = None
-    coordinates: str | tuple = ON_MATRIX
-    relative: bool = False
-    memory: tuple | None = None
-    property: str = "local"
-    origin: str = ""
-    costing_only: bool = False
-    later: bool = False
-    in_engine: bool = False
-    stiffness: tuple[float, float, float] = (1.0, 1.0, 1.0)
-    margin: Callable | None = None
-    coordinate_law_in: Callable | None = None
-    assemble: Callable | None = None
-    through: tuple[Jacobian, Inverse] | tuple[()] = ()
-    short: str = ""
-    look: Look | None = None
-    family: str = ""
-    papers: int = 0
-    control: bool = False
-    equation: Equation | None = None
-    equation_in: Callable[[Representation], Equation | None] | None = None
-
-    def is_ours(self) -> bool:
-        """Whether the law was made here and nobody else has reviewed it: its source then begins with OURS."""
-        return self.source.startswith(OURS)
+from bench.law.display import Equation
+from bench.law.kinds import ON_MATRIX, Coordinates, Inverse, Jacobian, Law
 
 
 class Contender(NamedTuple):
     """A regulator in the coordinates it acts on, and on an arm its Jacobian and inverse: what one row is about."""
 
-    regulator: Regulator
-    representation: Representation | None = None
+    regulator: Law
+    representation: Coordinates | None = None
     jacobian: Jacobian | None = None
     inverse: Inverse | None = None
 
@@ -142,18 +45,17 @@ class Contender(NamedTuple):
     @property
     def short(self) -> str:
         """What it is called beside a curve: the law, or of one in several coordinates where it is."""
-        if not self.regulator.short:
+        if not self.regulator.display.short:
             return self.on_free_body
         if self.representation is None or not self._is_abroad:
-            return self.regulator.short
-        return f"in {self.representation.short or self.representation.name}"
+            return self.regulator.display.short
+        return f"in {self.representation.display.short or self.representation.name}"
 
     @property
     def family(self) -> str:
         """The title of those it is drawn with; another one for a law in others than the paper's coordinates."""
-        if self.regulator.short and self._is_abroad:
-            return f"{self.regulator.short[:1].upper()}{self.regulator.short[1:]} elsewhere"
-        return self.regulator.family
+        short, family = self.regulator.display.short, self.regulator.display.family
+        return f"{short[:1].upper()}{short[1:]} elsewhere" if short and self._is_abroad else family
 
     @property
     def _is_abroad(self) -> bool:
@@ -162,8 +64,8 @@ class Contender(NamedTuple):
     @property
     def equation(self) -> Equation | None:
         """Return the equation of motion of its angle, if it turns a free body about one fixed axis from rest."""
-        equation_in = self.regulator.equation_in
-        return equation_in(self.representation) if equation_in and self.representation else self.regulator.equation
+        equation = self.regulator.display.equation
+        return equation(self.representation) if callable(equation) else equation
 
     @property
     def rows(self) -> int:
@@ -178,14 +80,14 @@ class Contender(NamedTuple):
 
     @property
     def coordinate_law(self) -> Callable:
-        """The law that commands the coordinates' acceleration; see `Regulator.coordinate_law_in`."""
+        """The law that commands the coordinates' acceleration; see `Law.coordinate_law_in`."""
         law_in = self.regulator.coordinate_law_in
         if law_in is None or self.representation is None:
             raise Incompatible(f"'{self.on_free_body}' commands no acceleration of coordinates")
         return law_in(self.representation)
 
 
-def bind(regulator: Regulator, representation: Representation | None) -> Callable:
+def bind(regulator: Law, representation: Coordinates | None) -> Callable:
     """The law of a regulator, in a representation if it acts on one."""
     law = regulator.law
     if representation is not None and regulator.law_in is not None:
@@ -219,7 +121,7 @@ def refusal(one: Contender, joints: int) -> str:
     return inverse.refuses(one.rows, joints)
 
 
-def contender(regulator: Regulator, representation: Representation | None = None) -> Contender:
+def contender(regulator: Law, representation: Coordinates | None = None) -> Contender:
     """Put the two together, or refuse with the reason.
 
     Errors:

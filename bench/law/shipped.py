@@ -1,53 +1,21 @@
-"""The record of a controller as it is shipped, which each file of bench/law/contenders/shipped holds, and its law.
+"""A controller as it is shipped, which each file of bench/law/contenders/shipped holds, as a law.
 
 The orientation error is a kernel of the unit quaternion (w, x, y, z) of the rotation from R to R_d in the base frame,
-of either sign, as its source has it; an error that takes matrices is the same for both signs. `regulator_of` makes a
+of either sign, as its source has it; an error that takes matrices is the same for both signs. `law_of` makes a
 law of it, u = K e - D omega, which carries the quaternion on from tick to tick as an encoder or an integrator does:
 with the memory ANTIPODE an episode begins on the other sign.
 """
 
-import functools
-import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any
 
-from bench.law.contender import Regulator
+from bench.law.inputs import Gains
+from bench.law.kinds import AsShipped, Law
 from bench.law.scalar import atan2, kernel, sqrt
 from bench.law.so3 import dot, quaternion_direction, spring_damper, turn_matrix
 
 NEAR, ANTIPODE = (1.0, 0.0, 0.0, 0.0), (-1.0, 0.0, 0.0, 0.0)
 """Memories from which an episode begins on the sheet with w >= 0, and on the other one."""
-
-TORQUE, VELOCITY, POSITION = "torque", "velocity", "position"
-"""What is commanded: joint torques; velocities; positions, from a plant that the controller simulates."""
-
-
-class Shipped(NamedTuple):
-    """A controller as its authors set it.
-
-    source: repository@commit, or release; path: the files there that were read. level: TORQUE, VELOCITY or POSITION.
-    formula: of the error e, with clips and deadbands in their order. error: kernel of the quaternion, see above.
-    stiffness: what multiplies e: N m/rad, 1/s^2 where an inertia is cancelled or simulated, 1/s of a velocity;
-    damping: what multiplies the angular velocity; None of a velocity. set_by: where they are set.
-    shapes_inertia: whether the body that K and D act on is one of unit inertia whatever the robot's.
-    unbounded, bound: the error before its bound, and the bound of its components or of its length, if it has one.
-    thread: owner/name#number of a public thread on what its error does.
-    """
-
-    name: str
-    title: str
-    source: str
-    path: str
-    level: str
-    formula: str
-    error: Callable
-    stiffness: float
-    damping: float | None
-    set_by: str
-    shapes_inertia: bool = False
-    unbounded: Callable | None = None
-    bound: float = math.inf
-    thread: str = ""
 
 
 @kernel
@@ -103,10 +71,8 @@ def shortened(e, limit):
     return e
 
 
-@functools.cache
-def regulator_of(one: Shipped) -> Regulator:
-    """The controller as a law u = kp e - kv omega with its quaternion in memory; once, so that it is compiled once."""
-    error = one.error
+def law_of(error: Callable) -> Callable:
+    """Return the law u = kp e - kv omega of an error, with its quaternion in memory."""
 
     @kernel
     def law(R, omega, goal, gains, memory):
@@ -117,4 +83,32 @@ def regulator_of(one: Shipped) -> Regulator:
         q = (scale * w, scale * x, scale * y, scale * z)
         return spring_damper(gains.kp, error(q), gains.kv, omega), q
 
-    return Regulator(one.name, one.title, one.source, one.formula, law=law, memory=NEAR, property="none")
+    return law
+
+
+def as_shipped(
+    name: str,
+    title: str,
+    source: str,
+    path: str,
+    level: str,
+    formula: str,
+    error: Callable,
+    stiffness: float,
+    damping: float,
+    set_by: str,
+    **more: Any,
+) -> Law:
+    """Return the law of a controller as its authors set it; more: other fields of `AsShipped`."""
+    return Law(
+        name,
+        title,
+        source,
+        formula,
+        law_of(error),
+        memory=NEAR,
+        property="none",
+        level=level,
+        gains=Gains(stiffness, damping),
+        shipped=AsShipped(error, path, set_by, **more),
+    )

@@ -146,3 +146,13 @@ def quaternion_direction(R):
     if w < 0.0:
         w, x, y, z = -w, -x, -y, -z
     return (w, x, y, z), t
+
+
+@kernel
+def driven(m, inertia, spring, kv, omega):
+    """Compute the resulting angular acceleration, m/m_o + spring - Kv omega."""
+    return (
+        m[0] / inertia + spring[0] - kv * omega[0],
+        m[1] / inertia + spring[1] - kv * omega[1],
+        m[2] / inertia + spring[2] - kv * omega[2],
+    )

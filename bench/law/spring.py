@@ -1,34 +1,7 @@
-"""A spring of a pose: force and moment as functions of the displacement from the goal, and their potential."""
-
-from collections.abc import Callable
-from typing import NamedTuple
+"""Kernels that springs of a pose share."""
 
 from bench.law.scalar import atan2, kernel, sqrt
 from bench.law.so3 import cross, dot
-
-
-class Spring(NamedTuple):
-    """wrench(q, p, K, Kr) -> (f, m): force [N] and moment [N m] on the hand about its origin, in the hand's axes.
-
-    q, p: X = T_d^-1 T, the pose of the hand seen from the goal: the unit quaternion (w, x, y, z), w >= 0, and the place
-    of its origin [m] in the goal's axes. K: the stiffness of position, symmetric, by rows [N/m]. Kr: the stiffness of
-    orientation [N m/rad], the same number about every axis. potential(q, p, K, Kr) -> [J]; None if there is none for
-    every K. formula: of force and moment, in TeX.
-
-    is_rotational: the spring ignores p and K, its force is zero, and its Kr is a symmetric matrix by rows, for any of
-    which its potential holds. frames: the axes in which its moment may be taken, "tool" or "goal"; base axes are the
-    goal's, turned by a constant. stiffness: the share of Kr that is felt at the goal.
-    """
-
-    name: str
-    title: str
-    source: str
-    formula: str
-    wrench: Callable
-    potential: Callable | None = None
-    is_rotational: bool = False
-    frames: tuple[str, ...] = ("tool",)
-    stiffness: float = 1.0
 
 
 @kernel

@@ -15,8 +15,9 @@ from bench.base.errors import BadResults
 from bench.base.provenance import source_digest
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.plan import Plan
-from bench.law.contender import Gains, Regulator
 from bench.law.contenders import described_law
+from bench.law.inputs import Gains
+from bench.law.kinds import Law
 
 
 def described(plan: Plan, units: Sequence[Unit]) -> dict:
@@ -30,7 +31,7 @@ def described(plan: Plan, units: Sequence[Unit]) -> dict:
     }
 
 
-def plan_of(content: dict, read: Callable[[Path], Regulator] = described_law.described) -> Plan:
+def plan_of(content: dict, read: Callable[[Path], Law] = described_law.described) -> Plan:
     """A plan of these units alone.
 
     Args:

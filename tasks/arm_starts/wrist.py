@@ -14,7 +14,7 @@ what an elbow's takes away a translation: of every SEARCHED those come first who
 rotational part, metres against radians, and the first POSES are taken for which all of these turns can be made. On a
 PUMA and a UR5e these have q5 = 0 or pi.
 
-Fails: an arm with fewer such singularities around home has fewer starts.
+Limitations: an arm with fewer such singularities around home has fewer starts.
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from bench.audit.faults import every_fault
 from bench.audit.forms import FORMS
 from bench.audit.pairs import AT_180, NEAR_180, NEAR_IDENTITY, every_pair
-from bench.law.contenders.registry import known_regulators
+from bench.law.contenders.registry import contenders
 
 FAULTS = every_fault()
 EACH = pytest.mark.parametrize("fault", FAULTS, ids=lambda one: one.name)
@@ -17,7 +17,7 @@ EACH = pytest.mark.parametrize("fault", FAULTS, ids=lambda one: one.name)
 
 @EACH
 def test_fault_names_a_law_that_exists(fault):
-    assert fault.law in known_regulators()
+    assert fault.law in contenders("regulators")
 
 
 @EACH

@@ -11,35 +11,28 @@ from bench.base.errors import Incompatible
 from bench.experiments import plan as planning
 from bench.experiments.choice import INTEGRATORS, Choice
 from bench.experiments.suites import ENGINES, SUITES
-from bench.law.contenders.registry import (
-    find_contender,
-    known_impedances,
-    known_inverses,
-    known_jacobians,
-    known_regulators,
-    known_representations,
-)
+from bench.law.contenders.registry import contenders, find_contender
 from bench.law.control.contact_controller import HYBRIDS
 
 REFUSED = tomllib.loads(Path(__file__).with_name("refused.toml").read_text(encoding="utf-8"))
-LAWS_IN_CONTACT = sorted((*HYBRIDS, *(f"impedance-{name}" for name in known_impedances())))
+LAWS_IN_CONTACT = sorted((*HYBRIDS, *(f"impedance-{name}" for name in contenders("impedances"))))
 
 
 @pytest.mark.parametrize(
     ("option", "word", "known"),
     [
         ("--suite", "defualt", sorted(SUITES)),
-        ("--regulator", "rotation-matrx", sorted(known_regulators())),
-        ("--regulator", "linearized-euler/zyx-eular", sorted(known_representations())),
-        ("--representation", "zyx", sorted(known_representations())),
+        ("--regulator", "rotation-matrx", sorted(contenders("regulators"))),
+        ("--regulator", "linearized-euler/zyx-eular", sorted(contenders("representations"))),
+        ("--representation", "zyx", sorted(contenders("representations"))),
         ("--task", "free-bodi", sorted((*tasks.names(), *tasks.contact_names()))),
         ("--arm", "ur5", tasks.arm_names()),
-        ("--jacobian", "geometrik", sorted(known_jacobians())),
-        ("--inverse", "sovle", sorted(known_inverses())),
-        ("--regulator", "rotation-matrix@geometrik+solve", sorted(known_jacobians())),
+        ("--jacobian", "geometrik", sorted(contenders("jacobians"))),
+        ("--inverse", "sovle", sorted(contenders("inverses"))),
+        ("--regulator", "rotation-matrix@geometrik+solve", sorted(contenders("jacobians"))),
         ("--variation", "mass-1.3", sorted(tasks.variation_names())),
         ("--controller", "hybird-base+inverse", LAWS_IN_CONTACT),
-        ("--controller", "hybrid/zyx-eular+inverse", sorted(known_representations())),
+        ("--controller", "hybrid/zyx-eular+inverse", sorted(contenders("representations"))),
         ("--starts", "uniforn", sorted({*tasks.start_set_names(), *tasks.start_set_names(arm=True)})),
         ("--engine", "nativ", sorted(ENGINES)),
         ("--integrator", "eulr", sorted(INTEGRATORS)),

@@ -6,22 +6,22 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from support.compensated import REST, commanded, left, motion
 from support.states import of_scipy, rotations
 
-from bench.law.contender import Gains, Goal
-from bench.law.contenders.registry import known_compensators
+from bench.law.contenders.registry import contenders
+from bench.law.inputs import Gains, Goal
 
 GAINS = Gains(37.0, 11.0)  # not the defaults: a law that has those built in is found out
 GOAL = ScipyRotation.from_rotvec((0.4, -0.7, 0.2))
 SMALL = 1e-4
 
 
-@pytest.fixture(params=known_compensators().values(), ids=lambda one: one.name)
+@pytest.fixture(params=contenders("compensators").values(), ids=lambda one: one.name)
 def one(request):
     return request.param
 
 
 def test_nothing_moves_at_the_goal_at_rest(one):
     for R in rotations():
-        u, rate = one.law(R, REST, Goal(R), GAINS, one.begin(R))
+        u, rate = one.law(R, REST, Goal(R), GAINS, one.state.begin(R))
         np.testing.assert_allclose((*u, *rate), 0.0, atol=1e-12)
 
 
@@ -30,15 +30,15 @@ def test_command_is_the_same_in_every_base_frame(one):
     for Q, R, R_d, omega in zip(
         *(ScipyRotation.random(20, rng=draw) for _ in range(3)), draw.normal(size=(20, 3)), strict=True
     ):
-        seen, _ = commanded(one, R, omega, R_d, GAINS, one.begin(of_scipy(R)))
-        turned, _ = commanded(one, Q * R, Q.apply(omega), Q * R_d, GAINS, one.begin(of_scipy(Q * R)))
+        seen, _ = commanded(one, R, omega, R_d, GAINS, one.state.begin(of_scipy(R)))
+        turned, _ = commanded(one, Q * R, Q.apply(omega), Q * R_d, GAINS, one.state.begin(of_scipy(Q * R)))
         np.testing.assert_allclose(turned, Q.apply(seen), atol=1e-11)
 
 
 def test_angular_velocity_is_read_or_not_as_it_says(one):
     R, state = ScipyRotation.from_rotvec((0.3, 0.1, -0.8)), (0.9, 0.1, -0.3, 0.2)
     still, moving = (commanded(one, R, omega, GOAL, GAINS, state) for omega in (REST, (1.0, -2.0, 3.0)))
-    assert one.measures_rate != (np.array_equal(still[0], moving[0]) and np.array_equal(still[1], moving[1]))
+    assert one.state.measures_rate != (np.array_equal(still[0], moving[0]) and np.array_equal(still[1], moving[1]))
 
 
 def test_small_angles_obey_the_polynomial(one):
@@ -51,26 +51,26 @@ def test_small_angles_obey_the_polynomial(one):
     jerk = np.gradient(a, h, edge_order=2)
     inside = slice(5, -5)
     fitted, *_ = np.linalg.lstsq(np.column_stack((a, v, x))[inside], -jerk[inside], rcond=None)
-    np.testing.assert_allclose(fitted, one.polynomial(*GAINS), rtol=2e-3)
+    np.testing.assert_allclose(fitted, one.state.polynomial(*GAINS), rtol=2e-3)
 
 
 def test_small_angles_die_out_for_all_gains(one):
     for gains in np.random.default_rng(3).uniform(0.1, 300.0, (200, 2)):
-        assert np.roots((1.0, *one.polynomial(*gains))).real.max() < 0.0
+        assert np.roots((1.0, *one.state.polynomial(*gains))).real.max() < 0.0
 
 
 def test_three_poles_are_one_at_critically_damped_gains(one):
-    c2, c1, c0 = one.polynomial(100.0, 20.0)
+    c2, c1, c0 = one.state.polynomial(100.0, 20.0)
     pole = c2 / 3.0
     np.testing.assert_allclose((c1, c0), (3.0 * pole**2, pole**3), rtol=1e-14)
 
 
-BOUNDED = [one for one in known_compensators().values() if one.bound]
+BOUNDED = [one for one in contenders("compensators").values() if one.state.bound]
 
 
 @pytest.mark.parametrize("one", BOUNDED, ids=lambda one: one.name)
 def test_bound_is_never_exceeded(one):
-    draw, limit = np.random.default_rng(8), one.bound(*GAINS)
+    draw, limit = np.random.default_rng(8), one.state.bound(*GAINS)
     greatest = 0.0
     for R, R_d in zip(rotations(), reversed(rotations()), strict=True):
         for state in draw.normal(size=(5, 4)):
@@ -84,7 +84,7 @@ def test_constant_disturbance_leaves_no_error_if_it_says_so(one):
     R, omega, _ = motion(one, GOAL, GOAL, GAINS, times, disturbance=pushed)
     off = np.linalg.norm(left(R, GOAL)[-1])
     np.testing.assert_allclose(omega[-1], 0.0, atol=1e-4)
-    if one.rejects:
+    if one.state.rejects:
         assert off < 1e-4
     else:  # Kp sin(theta) = |d|
         assert off == pytest.approx(np.arcsin(np.linalg.norm(pushed) / GAINS[0]), rel=1e-4)
@@ -102,7 +102,7 @@ CLOSED = {
 
 
 def known(name):
-    return known_compensators()[name]
+    return contenders("compensators")[name]
 
 
 @pytest.mark.parametrize("name", CLOSED)
@@ -167,7 +167,7 @@ def test_filter_begins_with_no_command_of_its_own():
     """At rest its first command is the spring alone: nothing is felt of where the frame was switched on."""
     for R, R_d, _ in starts():
         one = known("velocity-free")
-        u, rate = commanded(one, R, REST, R_d, Gains(), one.begin(of_scipy(R)))
+        u, rate = commanded(one, R, REST, R_d, Gains(), one.state.begin(of_scipy(R)))
         k = left(R, R_d)
         np.testing.assert_allclose(u, KP * np.sinc(np.linalg.norm(k) / np.pi) * k, atol=1e-11)
         np.testing.assert_allclose(rate, 0.0, atol=1e-13)

@@ -16,20 +16,19 @@ from bench.law.scalar import KERNELS
 EVERY = [
     pytest.param(kind, one, id=f"{kind}-{one.name}")
     for kind in registry.FOLDERS
-    for one in registry.known(kind).values()
+    for one in registry.contenders(kind).values()
 ]
 PLAIN = {"refuses", "polynomial", "bound"}
 """Functions of a record that no loop calls."""
-MADE_HERE = {"limiter", "spring", "pose_spring"}
+MADE_HERE = {"springs"}
 """Kinds that may have no source."""
-MAY_IMPORT = {"impedance": CONTROLLER_SOURCES, "baseline": CONTROLLER_SOURCES}
+MAY_IMPORT = {"impedances": CONTROLLER_SOURCES, "baselines": CONTROLLER_SOURCES}
 
 on_every = pytest.mark.parametrize(("kind", "one"), EVERY)
 
 
 def module_of(kind, one):
-    package, _ = registry.FOLDERS[kind]
-    return import_module(f"{package.__name__}.{one.name.replace('-', '_')}")
+    return import_module(f"bench.law.contenders.{kind}.{one.name.replace('-', '_')}")
 
 
 @on_every
@@ -42,7 +41,10 @@ def test_contender_says_what_it_is_and_where_it_is_from(kind, one):
 
 @on_every
 def test_functions_of_a_contender_are_kernels(kind, one):
-    called = {field: value for field, value in one._asdict().items() if inspect.isfunction(value)}
+    every = one._asdict()
+    for part in (every.get("state"), every.get("shipped")):
+        every |= part._asdict() if part else {}
+    called = {field: value for field, value in every.items() if inspect.isfunction(value)}
     assert [
         field for field in called.keys() - PLAIN if not field.endswith("_in") and called[field] not in KERNELS
     ] == []
@@ -66,4 +68,4 @@ def test_file_of_a_contender_keeps_to_the_dialect(kind, one):
 
 def test_every_contender_is_listed(capsys):
     listed = {line.split()[0] for line in bench(capsys, "list").out.splitlines() if line.strip()}
-    assert {one.name for kind in registry.FOLDERS for one in registry.known(kind).values()} <= listed
+    assert {one.name for kind in registry.FOLDERS for one in registry.contenders(kind).values()} <= listed

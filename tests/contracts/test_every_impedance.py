@@ -15,9 +15,9 @@ from support.in_contact import GAINS, IMPEDANCES, TOUCH
 from support.springs import STILL, B_at, command, free_body, margin, seen
 from support.states import of_scipy, rotations, vector
 
-from bench.law.contender import Gains
-from bench.law.contenders.registry import known_impedances, known_representations
+from bench.law.contenders.registry import contenders
 from bench.law.control.impedance import law_of
+from bench.law.inputs import Gains
 from bench.law.so3 import IDENTITY
 
 REGULAR = 0.3
@@ -38,7 +38,7 @@ def over(controllers):
     return pytest.mark.parametrize("one", controllers, ids=lambda one: one.name)
 
 
-@pytest.mark.parametrize("impedance", known_impedances().values(), ids=lambda one: one.name)
+@pytest.mark.parametrize("impedance", contenders("impedances").values(), ids=lambda one: one.name)
 def test_impedance_has_a_law_or_one_in_coordinates(impedance):
     assert (impedance.law is None) != (impedance.law_in is None)
     assert impedance.law_in is not None or not impedance.relative
@@ -204,7 +204,7 @@ def test_energy_balance_closes(one):
 
 def test_work_can_be_taken_out_where_moments_are_left_unconverted():
     """The test above can fail: with m for B^T m it does."""
-    zyx = known_representations()["zyx-euler"]
+    zyx = contenders("representations")["zyx-euler"]
 
     def law(R, omega, m, R_d, gains, inertia):
         at, E_d = zyx.chart(R), zyx.chart(R_d).E

@@ -19,8 +19,8 @@ from bench.engines.compiled import EVALUATE, compile_function
 from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
 from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import evaluation, run
-from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.contenders.registry import all_contenders
+from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import IDENTITY
 from tasks.base import Start
 from tasks.rotations import about

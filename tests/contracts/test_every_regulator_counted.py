@@ -11,8 +11,8 @@ from bench.engines.binding import memory_of
 from bench.engines.counting import OPERATIONS, STAGES, TOTAL, Tally, cost, flops, rows
 from bench.engines.counting.costs import bits, counted
 from bench.engines.counting.staged import STAGE_OF, law_of
-from bench.law.contender import AT_REST, Gains, Goal
-from bench.law.contenders.registry import all_contenders, known_representations
+from bench.law.contenders.registry import all_contenders, contenders
+from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import IDENTITY
 
 CONTENDERS = all_contenders()
@@ -42,7 +42,7 @@ def test_counted_command_is_the_float_command_bit_for_bit(one, pace):
 
 
 def test_every_function_of_a_representation_has_a_stage():
-    representation = known_representations()["zyx-euler"]
+    representation = contenders("representations")["zyx-euler"]
     functions = {name for name, value in representation._asdict().items() if callable(value)}
     assert set(STAGE_OF) == functions | {"goal_chart"}
 

@@ -14,7 +14,7 @@ from support.buffers import different_calls
 from support.exact import EXACT, exact_B, motion, rows_of
 from support.states import axis_permuting, matrix, near_identity, rotations, vector
 
-from bench.law.contenders.registry import known_representations
+from bench.law.contenders.registry import contenders
 from bench.law.so3 import Rotation
 
 # Three coordinates of size up to pi, each within one last place (2 EPS) of its true value, move R by up to
@@ -26,7 +26,7 @@ PRODUCT_TOLERANCE = 10 * EPS
 VANISHING = 4 * EPS
 
 
-@pytest.fixture(params=known_representations().values(), ids=lambda representation: representation.name)
+@pytest.fixture(params=contenders("representations").values(), ids=lambda representation: representation.name)
 def representation(request):
     return request.param
 
@@ -42,7 +42,7 @@ def some_rotations(representation) -> tuple:
     each representation."""
     every = rotations()
     always = len(axis_permuting()) + len(near_identity())
-    seed = list(known_representations()).index(representation.name)
+    seed = list(contenders("representations")).index(representation.name)
     drawn = np.random.default_rng(seed).permutation(len(every) - always)
     return (*every[:always], *(every[always + i] for i in sorted(drawn[: len(drawn) // 3])))
 

@@ -18,7 +18,7 @@ from support.planted_files import ASKED_OF_AXIS, DROPPED_EXPERIMENT, EXPERIMENT,
 
 from bench.base.provenance import ROOT
 from bench.experiments.tables import store
-from bench.law.contenders.registry import known_regulators
+from bench.law.contenders.registry import contenders
 
 INDEX = "# A book of one page\n\nIt cites {cite}`murphy1988`.\n"
 
@@ -61,7 +61,7 @@ def tree(tmp_path_factory):
     """A copy of the rooms with no laws but those that other files build on, for every run counts the operations of all;
     nothing but the files above is added to it; the book cut down to its references."""
     tree = copied(tmp_path_factory.mktemp("growing"))
-    for name in known_regulators().keys() - {"rotation-matrix", "feedback-linearized", "rotation-vector"}:
+    for name in contenders("regulators").keys() - {"rotation-matrix", "feedback-linearized", "rotation-vector"}:
         (tree / "bench" / "law" / "contenders" / "regulators" / f"{name.replace('-', '_')}.py").unlink()
     (tree / "report" / "pages").mkdir()
     for name in ("pyproject.toml", "CITATION.cff"):

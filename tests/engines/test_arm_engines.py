@@ -21,7 +21,7 @@ from bench.engines.simulate_arms import pointers
 from bench.engines.simulate_arms import run_arm as run
 from bench.experiments.choice import INTEGRATORS
 from bench.law.contenders import combinations
-from bench.law.contenders.registry import known_inverses, known_jacobians, known_representations
+from bench.law.contenders.registry import contenders
 from tasks.kinematics import kinematics
 from tasks.variations import VARIATIONS
 from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR, STUCK, TIMED_OUT
@@ -83,16 +83,16 @@ def test_native_rows_are_the_reference_rows_bit_for_bit(arm, one, integrator, k)
 
 
 def test_the_compared_runs_cover_every_part_and_integrator():
-    for kind, known in (("jacobian", known_jacobians()), ("inverse", known_inverses())):
+    for kind, known in (("jacobian", contenders("jacobians")), ("inverse", contenders("inverses"))):
         assert {getattr(case.values[1], kind).name for case in CASES} == set(known)
     met = {(case.values[1].on_free_body, case.values[1].jacobian.name) for case in CASES}
     assert met == {(one.on_free_body, one.jacobian.name) for one in combinations.every(LAWS, 6)}
     used = {one.representation.name for one in (case.values[1] for case in CASES) if one.representation}
-    assert used == set(known_representations())
+    assert used == set(contenders("representations"))
     for arm in ARMS:
         own = [case.values for case in CASES if case.values[0] == arm]
         refused = {"solve"} if tasks.arm(arm).joints > 6 else set()  # no square Jacobian there
-        assert {one.inverse.name for _, one, _, _ in own} == set(known_inverses()) - refused
+        assert {one.inverse.name for _, one, _, _ in own} == set(contenders("inverses")) - refused
         assert {integrator for _, _, integrator, _ in own} == set(INTEGRATORS)
         assert {SETS[k % len(SETS)] for *_, k in own} == set(SETS)
 

@@ -23,8 +23,8 @@ from bench.engines.episode import (
 )
 from bench.experiments.map import start_rows as random_rows
 from bench.findings.theory.closed_form import pole_crossings
-from bench.law.contender import PAPERS_GAINS
 from bench.law.contenders.registry import find_contender
+from bench.law.inputs import PAPERS_GAINS
 from tasks.random_starts import block
 from tasks.rules import RULES
 from tasks.verdict import CREEPING, DIVERGED, SATURATED, SETTLED

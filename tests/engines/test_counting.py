@@ -9,8 +9,9 @@ from bench.base.errors import BadLaw
 from bench.engines.counting import OPERATIONS, TOTAL, Counted, OutsideDialect, Tally, cost
 from bench.engines.counting.costs import counted_calls
 from bench.law import scalar
-from bench.law.contender import Contender, Regulator, contender
+from bench.law.contender import Contender, contender
 from bench.law.contenders.registry import find_contender
+from bench.law.kinds import Law
 from bench.law.so3 import dot
 
 
@@ -24,7 +25,7 @@ def taken(tally):
 
 
 def regulator(law, **fields):
-    return Regulator(name="ours", title="", source="", formula="", law=law, **fields)
+    return Law(name="ours", title="", source="", formula="", law=law, **fields)
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,8 @@ from bench.engines.counting import on_arms
 from bench.engines.counting.costs import cost
 from bench.engines.counting.counted import OPERATIONS, TOTAL
 from bench.law.contenders import combinations
-from bench.law.contenders.registry import known_inverses
-from bench.law.resolved_motion import Inverse
+from bench.law.contenders.registry import contenders
+from bench.law.kinds import Inverse
 from bench.law.scalar import kernel
 
 ITERATES = ("truncated-svd", "damped-least-squares-variable")
@@ -72,7 +72,7 @@ def test_elimination_costs_the_textbooks_number_of_multiplications():
 @pytest.mark.parametrize("arm", [arm for arm in ARMS if arm not in on_arms.ARM_OF.values()])
 def test_cost_does_not_depend_on_the_arm_where_nothing_iterates(arm):
     usual = on_arms.ARM_OF[tasks.arm(arm).joints]
-    for word in known_inverses():
+    for word in contenders("inverses"):
         if word in ITERATES:
             continue
         one = named(usual, f"rotation-matrix@geometric+{word}")

@@ -14,8 +14,8 @@ import pytest
 from casadi import SX, atan2, cos, sin, sqrt
 
 from bench.engines.counting import OPERATIONS, TOTAL, cost
-from bench.law.contender import Gains, Goal
 from bench.law.contenders.registry import find_contender
+from bench.law.inputs import Gains, Goal
 from bench.law.so3 import Rotation, from_quaternion
 
 COLUMN = {

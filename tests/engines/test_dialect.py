@@ -13,7 +13,7 @@ CONTROLLERS = [ROOM / "law" / "control" / f"{name}.py" for name in ("hybrid", "i
 
 LAW = '''"""A law."""
 
-from bench.law.contender import Regulator
+from bench.law.kinds import Law
 from bench.law.scalar import kernel, sin
 from bench.law.so3 import cross
 

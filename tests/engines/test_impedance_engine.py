@@ -10,9 +10,9 @@ import tasks
 from bench.engines.episode import FINAL_ANGLE, OUTCOME, Settings
 from bench.engines.plants.impedance import ADDED, DAMPED, ELBOW, KINETIC, LEFT, STRAIN, Springs
 from bench.engines.simulate_arms import run_impedance as run
-from bench.law.contender import Gains
 from bench.law.contenders.registry import find_contender
 from bench.law.control.unshaped import DAMPINGS, NULL_RATE
+from bench.law.inputs import Gains
 from tasks.rules import RULES
 from tasks.truth import angle
 from tasks.verdict import SATURATED, SETTLED

@@ -18,8 +18,8 @@ from bench.engines.binding import evaluation_of, observer
 from bench.engines.curve import blank_curves
 from bench.engines.episode import FIRST_METRIC, OUTCOME, TICKS, start_rows
 from bench.engines.metrics.registry import metrics_of
-from bench.law.contender import Gains
 from bench.law.contenders.registry import all_contenders, find_contender
+from bench.law.inputs import Gains
 from tasks.base import Start
 from tasks.rotations import about, short_of_180_degrees
 from tasks.rules import RULES

@@ -12,8 +12,8 @@ from bench.engines.episode import FINAL_ANGLE, SETTLING_TICK, TICKS, Settings
 from bench.engines.plants.velocity import BENT, OFF, PATH, PEAK, RATE
 from bench.engines.simulate_arms import run_velocity as run
 from bench.experiments.limiters import GREATEST_RATE, clamp_axes, clamp_norm, drop_small_errors, pass_all
-from bench.law.contender import Gains
 from bench.law.contenders.registry import find_contender
+from bench.law.inputs import Gains
 from tasks.base import Start
 from tasks.rotations import about
 from tasks.truth import angle

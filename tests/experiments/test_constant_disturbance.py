@@ -14,11 +14,11 @@ from bench.engines.compensated import rows_of as rows_by
 from bench.engines.plants.quaternion import with_state
 from bench.experiments.compensators import BAND_RAD, DISTURBANCES, law_of
 from bench.experiments.experiment import Settings, Unit, rows_of
-from bench.law.contender import Gains
-from bench.law.contenders.registry import known_compensators
+from bench.law.contenders.registry import contenders
+from bench.law.inputs import Gains
 from tasks.base import Start
 
-NAMES = ("", *known_compensators())
+NAMES = ("", *contenders("compensators"))
 PUSHED = (3.0, -4.0, 2.0)
 
 
@@ -29,7 +29,7 @@ def asked(ticks, disturbance=PUSHED, dt=1e-3):
 @pytest.mark.parametrize("name", NAMES)
 def test_compiled_rows_are_the_plain_loops_bit_for_bit(name):
     one, starts, given = law_of(name), tasks.start_set("uniform", 3), asked(200)
-    plain = rows_by(with_state(), (one.law, one.begin), starts, Gains(np.float64(70.0), np.float64(13.0)), given)
+    plain = rows_by(with_state(), (one.law, one.state.begin), starts, Gains(np.float64(70.0), np.float64(13.0)), given)
     np.testing.assert_array_equal(run(one, starts, Gains(70.0, 13.0), given), plain)
 
 
@@ -55,7 +55,7 @@ def rows(name):
 def test_disturbance_leaves_its_sine_over_kp_without_an_integral_and_nothing_with_one(name):
     one, found = law_of(name), rows(name)
     for level, off, settled in zip(found["disturbance"], found["left_rad"], found["settled"], strict=True):
-        assert off == pytest.approx(0.0 if one.rejects else math.asin(level / Gains().kp), abs=1e-6)
+        assert off == pytest.approx(0.0 if one.state.rejects else math.asin(level / Gains().kp), abs=1e-6)
         assert settled == (8 if off < BAND_RAD else 0)
 
 
@@ -64,4 +64,4 @@ def test_rows_are_one_a_disturbance_and_within_a_stated_bound(name):
     one, found = law_of(name), rows(name)
     assert tuple(found["disturbance"]) == DISTURBANCES
     assert found["settling_median_s"].isna().equals(found["settled"] == 0)
-    assert one.bound is None or (found["peak_u"] <= one.bound(*Gains())).all()
+    assert one.state.bound is None or (found["peak_u"] <= one.state.bound(*Gains())).all()

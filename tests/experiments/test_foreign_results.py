@@ -25,8 +25,8 @@ from report.figures.method import provenance as origin
 EVIL = """
 from pathlib import Path
 Path({marker!r}).write_text("ran")
-from bench.law import Regulator
-REGULATOR = Regulator("evil-law", "Evil <b>law</b>", "s", "f", lambda R, omega, goal, gains: (0.0, 0.0, 0.0))
+from bench.law import Law
+REGULATOR = Law("evil-law", "Evil <b>law</b>", "s", "f", lambda R, omega, goal, gains: (0.0, 0.0, 0.0))
 # </pre><script>alert(1)</script>
 """
 

@@ -15,8 +15,8 @@ from myst_parser.parsers.docutils_ import Parser
 
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
-from bench.law.contender import Regulator
 from bench.law.contenders.registry import contenders_of
+from bench.law.kinds import Law
 from report.figures.cards import regulators
 from report.figures.kit import html
 from report.figures.kit.page import run_in
@@ -78,7 +78,7 @@ def test_foreign_text_in_a_table_reads_as_it_is_and_nothing_is_live(text):
     assert as_read(page.get_text()).count(as_read(text)) == 2
 
 
-def nasty(text: str) -> Regulator:
+def nasty(text: str) -> Law:
     """One of our laws under another's words."""
     [mrp] = [one for one in regulators.in_order() if one.name == "mrp"]
     return mrp._replace(title=text, source=text, property=text)

@@ -10,8 +10,8 @@ from scipy.integrate import solve_ivp
 from bench.engines.streamed import run
 from bench.experiments.chosen_words import STREAMED
 from bench.experiments.experiment import Settings, Unit, rows_of
-from bench.law.contender import PAPERS_GAINS
 from bench.law.contenders.registry import find_contender
+from bench.law.inputs import PAPERS_GAINS
 from tasks.rotations import about
 
 AXIS, RATE, DT = (0.0, 0.0, 1.0), 0.5, 1e-3

@@ -15,7 +15,7 @@ from bench.experiments.choice import Choice
 from bench.experiments.suites import NOMINAL, SUITES
 from bench.law.contender import refusal
 from bench.law.contenders import combinations
-from bench.law.contenders.registry import find_contender, known_inverses, known_jacobians
+from bench.law.contenders.registry import contenders, find_contender
 
 ON_BOTH = ("ur5e", "panda")  # six joints and seven: nothing else of an arm decides what goes together
 SHORT = ("run", "--dry-run", "--suite", "quick", "--task", "arm-regulation", "--starts", "clear", "--count", "2")
@@ -31,9 +31,9 @@ def own(tmp_path):
 def crossed(joints: int):
     """(law, Jacobian, inverse, whether they go together) of everything there is."""
     for law in LAWS.values():
-        for by in known_jacobians():
-            for through in known_inverses():
-                one = law._replace(jacobian=known_jacobians()[by], inverse=known_inverses()[through])
+        for by in contenders("jacobians"):
+            for through in contenders("inverses"):
+                one = law._replace(jacobian=contenders("jacobians")[by], inverse=contenders("inverses")[through])
                 yield law, by, through, not refusal(one, joints)
 
 
@@ -48,7 +48,7 @@ def test_plan_of_a_named_combination_is_that_one_alone_or_refused_with_its_reaso
             assert {(unit.arm, unit.selector, unit.variation) for unit in plan.of("arm")} == {(arm, "clear", NOMINAL)}
             planned += 1
         else:
-            one = law._replace(jacobian=known_jacobians()[by], inverse=known_inverses()[through])
+            one = law._replace(jacobian=contenders("jacobians")[by], inverse=contenders("inverses")[through])
             with pytest.raises(Incompatible) as refused_with:
                 planning.make("quick", [law], choice, count=2)
             assert refusal(one, tasks.arm(arm).joints) in str(refused_with.value)

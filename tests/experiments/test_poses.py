@@ -15,7 +15,7 @@ from bench.experiments import plan
 from bench.experiments.experiment import Settings
 from bench.experiments.jacobians import pose_sets
 from bench.experiments.tables import schema
-from bench.law.contenders.registry import find_contender, known_representations
+from bench.law.contenders.registry import contenders, find_contender
 from bench.regression import rows as compare
 from tasks.arm_model import model_xml
 from tasks.kinematics import Kinematics
@@ -162,7 +162,7 @@ def test_random_poses_are_in_range_and_the_first_of_more(frames):
 def test_every_pose_has_a_row_in_every_representation(frames):
     for frame in frames.values():
         counts = frame.groupby(["pose_set", "pose_id"]).size()
-        assert set(counts) == {len(known_representations())}
+        assert set(counts) == {len(contenders("representations"))}
         assert frame["q_7"].isna().all()
         assert set(schema.table_of("poses").names) == set(frame.columns)
 

@@ -12,7 +12,8 @@ from bench.experiments import shipped as measured
 from bench.experiments.experiment import Settings
 from bench.experiments.shipped import compare
 from bench.law import kernel
-from bench.law.contenders.registry import known_shipped
+from bench.law.contenders.registry import contenders
+from bench.law.shipped import law_of
 from tasks.rules import RULES
 
 HORIZON_S = 20.0
@@ -21,7 +22,7 @@ HORIZON_S = 20.0
 @functools.cache
 def rows() -> pd.DataFrame:
     """All of the controllers, without laws of ours."""
-    made = [row for one in known_shipped().values() for row in compare(one, (), Settings(), HORIZON_S)]
+    made = [row for one in contenders("shipped").values() for row in compare(one, (), Settings(), HORIZON_S)]
     return pd.DataFrame(made).set_index("shipped")
 
 
@@ -47,22 +48,22 @@ def test_stiffness_and_damping_felt_are_the_closed_forms(name, ratio, damping):
 
 def moved(name: str, angle: float, inertia: float = 1.0):
     """Angle over time about the base's x, by scipy: I thetadotdot = -K e - D thetadot."""
-    one = known_shipped()[name]
+    one = contenders("shipped")[name]
 
     def rate(_, state):
-        e = one.error((math.cos(state[0] / 2.0), math.sin(state[0] / 2.0), 0.0, 0.0))[0]
-        return (state[1], (-one.stiffness * e - one.damping * state[1]) / inertia)
+        e = one.shipped.error((math.cos(state[0] / 2.0), math.sin(state[0] / 2.0), 0.0, 0.0))[0]
+        return (state[1], (-one.gains.kp * e - one.gains.kv * state[1]) / inertia)
 
     return solve_ivp(rate, (0.0, HORIZON_S), (angle, 0.0), rtol=1e-10, atol=1e-14, dense_output=True).sol
 
 
 @pytest.mark.parametrize("name", ["franka-ros", "mjctrl-opspace", "ros2-admittance"])
 def test_damping_ratio_is_that_of_the_decay_of_a_body_that_scipy_moves(name):
-    found, one = rows().loc[name], known_shipped()[name]
+    found, one = rows().loc[name], contenders("shipped")[name]
     late = moved(name, 0.02)
     times = (3.0, 3.5)
     decay = math.log(late(times[0])[0] / late(times[1])[0]) / (times[1] - times[0])
-    ratio, frequency = found["damping_ratio"], math.sqrt(found["stiffness_50mrad"] * one.stiffness)
+    ratio, frequency = found["damping_ratio"], math.sqrt(found["stiffness_50mrad"] * one.gains.kp)
     assert decay == pytest.approx(frequency * (ratio - math.sqrt(ratio * ratio - 1.0)), rel=2e-2)
 
 
@@ -91,8 +92,8 @@ def test_dead_points_are_where_the_sign_of_zero_is_zero_and_where_the_sine_is():
 
 
 def test_sine_leaves_its_dead_point_by_a_decade_as_linearized():
-    one, found = known_shipped()["robosuite"], rows().loc["robosuite"]
-    away = (-one.damping + math.sqrt(one.damping**2 + 4.0 * one.stiffness)) / 2.0
+    one, found = contenders("shipped")["robosuite"], rows().loc["robosuite"]
+    away = (-one.gains.kv + math.sqrt(one.gains.kv**2 + 4.0 * one.gains.kp)) / 2.0
     decades = math.log10(math.radians(0.1) / measured.BEFORE_180_RAD)
     waited = found["settling_near_180_s"] - found["settling_179_9_s"]
     assert waited == pytest.approx(decades * math.log(10.0) / away, rel=0.05)
@@ -105,7 +106,8 @@ def bare(q):
 
 
 def test_error_without_a_sign_is_found_to_unwind_from_the_antipode():
-    one = known_shipped()["franka-ros"]._replace(name="no-sign", error=bare)
+    one = contenders("shipped")["franka-ros"]
+    one = one._replace(name="no-sign", law=law_of(bare), shipped=one.shipped._replace(error=bare))
     [found] = compare(one, (), Settings(), HORIZON_S)
     assert found["away"] > 0
     assert "double-cover" in found["findings"] or "long-way" in found["findings"]

@@ -9,9 +9,9 @@ from scipy.spatial.transform import Rotation
 
 from bench.experiments import pose_springs, springs
 from bench.experiments.experiment import Settings, Unit, rows_of
-from bench.law.contenders.registry import known_springs
+from bench.law.contenders.registry import contenders
 
-SPRINGS = known_springs()
+SPRINGS = contenders("springs")
 AXES = Rotation.from_rotvec([0.3, -0.5, 0.7]).as_matrix()
 K, KR = AXES @ np.diag([30.0, 10.0, 3.0]) @ AXES.T, 7.0
 rotational = pytest.mark.parametrize("spring", springs.ROTATIONAL, ids=lambda one: one.name)

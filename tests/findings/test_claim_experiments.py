@@ -15,8 +15,8 @@ from bench.findings.claims import degeneracy, force_conversion, probes, rotation
 from bench.findings.claims.controller_costs import BY_EULER, ON_MATRIX
 from bench.findings.claims.euler_jacobian import DIFFERENCED, EPS
 from bench.findings.claims.verdict import NoEvidence
-from bench.law.contender import Gains
 from bench.law.contenders.registry import representation
+from bench.law.inputs import Gains
 from bench.law.so3 import IDENTITY, Rotation
 from tasks.sphere import axes
 

@@ -13,8 +13,8 @@ from support.in_contact import COORDINATES
 from support.states import of_scipy
 
 from bench.findings.theory import closed_form, compliance_theory
-from bench.law.contender import PAPERS_GAINS, Gains
 from bench.law.control.setpoint import TOUCH
+from bench.law.inputs import PAPERS_GAINS, Gains
 from bench.law.so3 import IDENTITY, from_quaternion
 from tasks.rotations import on_pole
 

@@ -18,7 +18,7 @@ from bench.engines.metrics.measured_compliance import compliance
 from bench.engines.simulate_contact import run_contact as run
 from bench.findings.theory import compliance_theory as theory
 from bench.law.contenders.impedances import coordinates, coordinates_relative
-from bench.law.contenders.registry import known_impedances
+from bench.law.contenders.registry import contenders
 from bench.law.control.contact_controller import PAPERS_FORM, hybrid, impedance_controller
 from bench.law.control.setpoint import TOUCH
 from bench.law.so3 import IDENTITY, from_quaternion
@@ -45,7 +45,7 @@ HYBRIDS = [
 ]
 SPRINGS = [
     impedance_controller(impedance, one)
-    for impedance in known_impedances().values()
+    for impedance in contenders("impedances").values()
     for one in ([COORDINATES[word] for word in TRIED] if impedance.law_in else [None])
 ]
 

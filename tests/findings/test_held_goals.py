@@ -10,8 +10,8 @@ from support.driving import settings
 from bench.engines.episode import OUTCOME
 from bench.engines.simulate import run
 from bench.findings.theory.held_goals import held_share, held_to, least_cosine
-from bench.law.contender import Gains
 from bench.law.contenders.registry import find_contender
+from bench.law.inputs import Gains
 from tasks.base import Start
 from tasks.rotations import about, multiply
 from tasks.sphere import axes

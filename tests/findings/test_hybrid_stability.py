@@ -18,7 +18,7 @@ from bench.findings.theory.hybrid_stability import (
     tuned,
     unstable_share,
 )
-from bench.law.contender import PAPERS_GAINS
+from bench.law.inputs import PAPERS_GAINS
 from tasks.arm_model import model_xml
 
 ARMS = [name for name in tasks.arm_names() if tasks.arm(name).joints == 6]

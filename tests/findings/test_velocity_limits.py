@@ -14,7 +14,7 @@ from bench.experiments.experiment import rows_of
 from bench.experiments.tables.read import with_contender
 from bench.experiments.velocity_limits import LAG_TICKS, pose
 from bench.findings.theory.velocity_limits import by_eigenvalues, derivative, lagged, near, on_arm, with_theory
-from bench.law.contenders.registry import all_contenders, inverse, known_inverses
+from bench.law.contenders.registry import all_contenders, contenders, inverse
 from tasks.kinematics import kinematics
 
 EXACT = ("solve", "pseudo-inverse", "dynamically-consistent", "truncated-svd", "damped-least-squares-variable")
@@ -54,7 +54,7 @@ def test_limit_behind_servos_is_where_a_root_leaves_the_circle(lag):
 def test_limit_of_exact_inverses_is_two_and_of_the_transpose_that_of_its_largest_singular_value(arm):
     q, joints = pose(arm), tasks.arm(arm).joints
     for word in EXACT:
-        if not known_inverses()[word].refuses(6, joints):
+        if not contenders("inverses")[word].refuses(6, joints):
             assert on_arm(arm, q, inverse(word)) == pytest.approx(2.0, rel=1e-6)
     largest = np.linalg.svd(kinematics(tasks.arm(arm)).jacobian(q), compute_uv=False)[0]
     assert on_arm(arm, q, inverse("transpose")) == pytest.approx(2.0 / largest**2, rel=1e-9)

@@ -19,8 +19,8 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
 from support.states import as_rotation, axis_permuting, matrix, vector
 
-from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.contenders.registry import find_contender
+from bench.law.inputs import AT_REST, Gains, Goal
 from bench.studies.libraries import turns
 from bench.studies.libraries.asked import find
 from bench.studies.libraries.asked.simulators import load_model, place_body

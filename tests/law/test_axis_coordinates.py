@@ -15,9 +15,9 @@ from support.bits import EPS
 from support.states import as_rotation, of_scipy, rotations, vector
 
 import tasks
-from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.contenders.registry import find_contender, representation
 from bench.law.contenders.representations.rotation_vector import FLAT, NEAR, coefficients, slopes
+from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import quaternion_direction
 from tasks.rotations import columns
 

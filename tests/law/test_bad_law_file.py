@@ -13,12 +13,18 @@ def written(tmp_path, text: str):
     return path
 
 
+def with_fields(fields: str) -> str:
+    """Return a sound law with more fields in its record."""
+    return law_text("return omega").replace("law)", f"law, {fields})").replace("import Law", "import Display, Law")
+
+
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
         ("def law(:", "does not import (SyntaxError"),
         ("import no_such_thing", "does not import (ModuleNotFoundError in line 1: No module named 'no_such_thing')"),
         ("raise RuntimeError('on\\npurpose')", "does not import (RuntimeError in line 1: on purpose)"),
+        ("from bench.law import Regulator", "bench.law.Regulator is now Law; write: from bench.law import Law"),
         ("x = 1", "it has no REGULATOR; it needs a constant REGULATOR"),
         ("REGULATOR = 5", "it has a REGULATOR of type int"),
         ("REGULATOR = ('mine', 'Mine')", "it has a REGULATOR of type tuple"),
@@ -26,20 +32,20 @@ def written(tmp_path, text: str):
         (law_text("return omega").replace('"mine"', '"../mine"'), "its name '../mine' is no word"),
         (law_text("return omega").replace('"mine"', "7"), "its name 7 is no word"),
         (law_text("return omega").replace('"Mine"', "7"), "title, source, formula and property must be texts"),
-        (law_text("return omega").replace("law)", "law, short='$x$')"), "its short name and family are ('$x$', '')"),
-        (law_text("return omega").replace("law)", "law, look=('red', 'o', '-'))"), "its look is ('red', 'o', '-')"),
-        (law_text("return omega").replace("law)", "law, equation=3.0)"), "give a bench.law.Equation(formula, spring)"),
+        (with_fields("display=Display('$x$')"), "its short name and family are ('$x$', '')"),
+        (with_fields("display=Display(look=('red', 'o', '-'))"), "its look is ('red', 'o', '-')"),
+        (with_fields("display=Display(equation=3.0)"), "give a bench.law.Equation(formula, spring)"),
         (law_text("return omega").replace('"u", law', '"u"'), "its law is None"),
         (law_text("return omega").replace('"u", law', '"u", 3.0'), "its law is 3.0"),
-        (law_text("return omega").replace("law)", "law, coordinates='any')"), "its law_in is None"),
-        (law_text("return omega").replace("law)", "law, coordinates='zyx-euler')"), "its coordinates are 'zyx-euler'"),
+        (with_fields("coordinates='any'"), "its law_in is None"),
+        (with_fields("coordinates='zyx-euler'"), "its coordinates are 'zyx-euler'"),
         (
             law_text("return omega").replace("law)", "None, lambda r: law, coordinates=('zyx',))"),
             "representation 'zyx' is unknown",
         ),
-        (law_text("return omega").replace("law)", "law, memory=(0, 1))"), "its memory is (0, 1)"),
-        (law_text("return omega").replace("law)", "law, memory=(0.0,))"), "law(R, omega, goal, gains, memory)"),
-        (law_text("return omega").replace("law)", "law, in_engine=True)"), "MuJoCo's own actuator would run"),
+        (with_fields("memory=(0, 1)"), "its memory is (0, 1)"),
+        (with_fields("memory=(0.0,)"), "law(R, omega, goal, gains, memory)"),
+        (with_fields("in_engine=True"), "MuJoCo's own actuator would run"),
         (law_text("return (1.0, 2.0)"), "returned (1.0, 2.0); it must return a tuple of three floats"),
         (law_text("return [1.0, 2.0, 3.0]"), "returned [1.0, 2.0, 3.0]"),
         (law_text("return ('a', 'b', 'c')"), "returned ('a', 'b', 'c')"),
@@ -68,7 +74,7 @@ from bench.so3 import (cross,
 def test_imports_of_before_the_public_face_are_refused_with_the_line_to_write(capsys, finished, tmp_path):
     line = refused_run(capsys, finished, "--law", written(tmp_path, OLD), *TINY)
     assert "No module named 'bench.contender'" in line
-    assert line.endswith("write: from bench.law import Regulator, cross, dot, kernel, sqrt")
+    assert line.endswith("write: from bench.law import Law, cross, dot, kernel, sqrt")
 
 
 def test_missing_law_file_is_refused(capsys, finished, tmp_path):

@@ -15,10 +15,10 @@ from bench.engines.curve import ARM_NUMBERS, blank_curves
 from bench.engines.episode import OUTCOME
 from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate_arms import run_arm as run
-from bench.law.contender import Gains
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import baselines_of_arms, find_contender
 from bench.law.control.resolved_acceleration import BY_JOINT
+from bench.law.inputs import Gains
 from tasks.kinematics import kinematics
 from tasks.verdict import SETTLED
 

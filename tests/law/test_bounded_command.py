@@ -6,8 +6,8 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.states import of_scipy, vector
 
-from bench.law.contender import Gains, Goal
 from bench.law.contenders.regulators.bounded_command import law
+from bench.law.inputs import Gains, Goal
 
 GAINS = Gains(kp=70.0, kv=13.0)
 

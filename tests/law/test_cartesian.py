@@ -14,9 +14,9 @@ from support.filling import filled
 from support.on_arms import ARMS, GAINS, LAWS, here, named, torques
 
 import tasks
-from bench.law.contender import Gains
 from bench.law.contenders import combinations
-from bench.law.contenders.registry import known_inverses, known_representations, representation
+from bench.law.contenders.registry import contenders, representation
+from bench.law.inputs import Gains
 from bench.law.weighting import GREATEST_GAIN, LENGTH
 from tasks.kinematics import kinematics, rotation_vector
 
@@ -24,7 +24,7 @@ over_arms = pytest.mark.parametrize("arm", ARMS)
 SEVEN = [arm for arm in ARMS if tasks.arm(arm).joints == 7]
 
 APPROXIMATE = ("damped-least-squares", "transpose")
-EXACT = [word for word in known_inverses() if word not in APPROXIMATE]
+EXACT = [word for word in contenders("inverses") if word not in APPROXIMATE]
 """Those that give J x = a wherever the damped and the truncated one leave J alone."""
 
 WEIGHTS = np.array([1.0 / LENGTH] * 3 + [1.0] * 4)
@@ -169,7 +169,7 @@ def beside_poles(arm: str) -> tuple:
 PAIRS = [
     pytest.param(arm, word, inverse, id=f"{arm}-{word}-{inverse}")
     for arm in ARMS
-    for word in known_representations()
+    for word in contenders("representations")
     for inverse in EXACT
     if all(
         combinations.on((f"feedback-linearized/{word}@{by}+{inverse}",), LAWS, tasks.arm(arm).joints)

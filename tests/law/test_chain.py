@@ -23,16 +23,11 @@ def flat(chain):
 
 
 @pytest.mark.parametrize("n", [2, 6, 7])
-def test_twist_is_mujocos_jacobian_times_the_rates_and_its_sensors(n):
+def test_twist_and_bias_are_mujocos_jacobian_and_its_derivative_times_the_rates_and_its_sensors(n):
     for arm, chain in poses(n, COUNT):
         allowed = n * PER_JOINT * n * size(arm.jacobian) * size(chain.qdot)
         np.testing.assert_allclose(flat(chain), arm.jacobian @ chain.qdot, rtol=0.0, atol=allowed)
         np.testing.assert_allclose(flat(chain), arm.data.sensordata, rtol=0.0, atol=allowed)
-
-
-@pytest.mark.parametrize("n", [2, 6, 7])
-def test_bias_acceleration_is_mujocos_derivative_of_the_jacobian_times_the_rates(n):
-    for arm, chain in poses(n, COUNT):
         allowed = n * PER_JOINT * (n * size(chain.qdot)) ** 2 * size(arm.jacobian)
         np.testing.assert_allclose(bias_acceleration(chain), arm.bias, rtol=0.0, atol=allowed)
 

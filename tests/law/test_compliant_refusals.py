@@ -9,11 +9,11 @@ import tasks
 from bench.base.errors import BenchError
 from bench.engines.contact_episode import USUAL
 from bench.engines.simulate_contact import run_contact as run
-from bench.law.contender import Gains
-from bench.law.contenders.registry import known_impedances, known_representations, representation
+from bench.law.contenders.registry import contenders, representation
 from bench.law.control.contact_controller import FORMS, HYBRIDS, hybrid, impedance_controller
 from bench.law.control.registry import find_controller
 from bench.law.control.setpoint import TOUCH
+from bench.law.inputs import Gains
 from tasks.arm import arm as arm_in
 from tasks.contact import Specification
 from tasks.contact_checks import check_contact, check_specification, check_trial
@@ -27,7 +27,7 @@ TRIAL = TASK.trials(ARM)[0]
 SPECIFICATION = Specification("about x", (1, 1, 1, 0, 1, 1))
 BASE = hybrid("hybrid-base", "inverse")
 ZYX, QUATERNION = representation("zyx-euler"), representation("quaternion")
-GEOMETRIC, COORDINATES = (known_impedances()[word] for word in ("geometric", "coordinates"))
+GEOMETRIC, COORDINATES = (contenders("impedances")[word] for word in ("geometric", "coordinates"))
 ENGINES = pytest.mark.parametrize("engine", ["native", "reference"])
 
 
@@ -63,7 +63,10 @@ def line_of(action, kind) -> str:
         (lambda: impedance_controller(COORDINATES), ["needs some", "try: impedance-coordinates/zyx-euler"]),
         (lambda: impedance_controller(GEOMETRIC, ZYX), ["takes no representation", "omit 'zyx-euler'"]),
         (lambda: find_controller("hybrid-bse+inverse"), ["'hybrid-bse' is unknown", "did you mean 'hybrid-base'"]),
-        (lambda: find_controller("hybrid/zyx+inverse"), ["representation 'zyx' is unknown", *known_representations()]),
+        (
+            lambda: find_controller("hybrid/zyx+inverse"),
+            ["representation 'zyx' is unknown", *contenders("representations")],
+        ),
         (lambda: find_controller("hybrid-base"), ["try: hybrid-base+inverse, or hybrid-base+projected, or"]),
         (lambda: find_controller("impedance-geometric+inverse"), ["omit '+inverse'"]),
         (lambda: find_controller("impedance-coordinates/quaternion"), ["'quaternion' has no coordinate for each"]),

@@ -9,10 +9,10 @@ from support.bits import EPS
 from support.in_contact import GAINS, SELECTIONS, TOUCH, backward, damping
 
 from bench.engines.contact_episode import room, rows
+from bench.law.chain import Chain
 from bench.law.control.contact_controller import FORMS, PAPERS_FORM
 from bench.law.control.hybrid import comply
 from bench.law.control.setpoint import Rows
-from bench.law.resolved_motion import Chain
 
 IN_FORMS = pytest.mark.parametrize("form", FORMS)
 ON_JOINTS = pytest.mark.parametrize("n", [6, 7])

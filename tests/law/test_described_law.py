@@ -21,12 +21,12 @@ def written(folder: Path, text: str) -> Path:
     "more",
     [
         "",
-        ", short='own', family='Mine', look=Look('sky', 'h', 'dotted'), property='local', stiffness=(1.0, 0.5, 1.0)",
+        ", display=Display('own', Look('sky', 'h', 'dotted'), 'Mine'), property='local', stiffness=(1.0, 0.5, 1.0)",
         ", memory=(1.0, 0.0)",
     ],
 )
 def test_words_of_a_law_are_those_of_its_file(tmp_path, more):
-    text = SOUND.replace("law)", f"law{more})").replace("import Regulator", "import Look, Regulator")
+    text = SOUND.replace("law)", f"law{more})").replace("import Law", "import Display, Law, Look")
     if "memory" in more:
         text = text.replace("goal, gains)", "goal, gains, memory)").replace("0.0, 0.0)\n", "0.0, 0.0), memory\n")
     path = written(tmp_path, text)

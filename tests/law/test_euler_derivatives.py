@@ -8,10 +8,10 @@ from support.bits import EPS
 from support.exact import EXACT, STEP, exact_matrix
 from support.states import as_rotation, rotations, vector
 
-from bench.law.contenders.registry import known_representations
+from bench.law.contenders.registry import contenders
 from bench.law.so3 import Rotation, cross
 
-DIFFERENTIATED = [one for one in known_representations().values() if one.differentiate is not None]
+DIFFERENTIATED = [one for one in contenders("representations").values() if one.differentiate is not None]
 
 # An element of R errs by 2 EPS and its derivatives by as much of their size; quotients of two products of such
 # elements carry 10 EPS, over a denominator as small as the margin's square.

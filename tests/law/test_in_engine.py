@@ -19,8 +19,8 @@ from bench.engines.simulate import run
 from bench.experiments.choice import Choice
 from bench.experiments.plan import make
 from bench.experiments.suites import SUITES
-from bench.law.contender import Gains, Goal
 from bench.law.contenders.registry import find_contender
+from bench.law.inputs import Gains, Goal
 from tasks.base import Start
 from tasks.errors import BadValue
 from tasks.rotations import about

@@ -12,9 +12,9 @@ import tasks
 from bench.engines.episode import OUTCOME, SETTLING_TICK
 from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate_perturbed import run_disturbed as run
-from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.contenders.registry import find_contender
 from bench.law.contenders.regulators.late_braking import EASED, law
+from bench.law.inputs import AT_REST, Gains, Goal
 from tasks.condition import Condition
 from tasks.verdict import SETTLED
 

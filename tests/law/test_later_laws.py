@@ -8,8 +8,8 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.states import of_scipy, vector
 
-from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.contenders.registry import find_contender
+from bench.law.inputs import AT_REST, Gains, Goal
 
 GAINS = Gains(kp=100.0, kv=20.0)
 

@@ -9,8 +9,8 @@ from support.bits import EPS
 from support.exact import EXACT, exact_B, motion, solved
 from support.states import as_rotation, axis_permuting, of_scipy, vector
 
-from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.contenders.registry import all_contenders, find_contender
+from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import IDENTITY
 
 GAINS = Gains(kp=100.0, kv=20.0)

@@ -14,7 +14,7 @@ from bench.experiments.shipped import compare
 from bench.experiments.tables import store
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.remedy import fix_of
-from bench.law.contenders.registry import known_shipped
+from bench.law.contenders.registry import contenders
 from report.figures.kit.page import run_in
 from report.figures.libraries import as_shipped
 
@@ -24,7 +24,7 @@ def run(tmp_path_factory):
     """The reference with the rows of every controller, without laws of ours."""
     folder = tmp_path_factory.mktemp("shipped") / "run"
     shutil.copytree(RESULTS / "reference", folder)
-    rows = pd.DataFrame([row for one in known_shipped().values() for row in compare(one, (), Settings(), 20.0)])
+    rows = pd.DataFrame([row for one in contenders("shipped").values() for row in compare(one, (), Settings(), 20.0)])
     store.write_table(folder / "shipped.parquet", rows, "shipped")
     return run_in(folder)
 
@@ -34,5 +34,5 @@ def test_page_is_whole(run):
 
 
 def test_fix_of_a_controller_is_printed():
-    for one in known_shipped().values():
+    for one in contenders("shipped").values():
         assert as_shipped.fix(one)[2].startswith(fix_of(one.name).words)

@@ -10,7 +10,7 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.theory import closed_form, isotropic
-from bench.law.equation import ANGLE, LINEAR_MRP, SINE
+from bench.law.display import ANGLE, LINEAR_MRP, SINE
 from report.figures.comparison import cells, comparison, directed
 from report.figures.comparison.angle import lateness
 from report.figures.failures import failure_map

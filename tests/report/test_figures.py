@@ -7,8 +7,8 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from bench.law.contenders.registry import known_regulators, known_representations
-from bench.law.look import COLOURS, LINES
+from bench.law.contenders.registry import contenders
+from bench.law.display import COLOURS, LINES
 from report.figures.kit import html, style
 from report.figures.kit.inline import Picture, picture, responsive_picture
 
@@ -34,14 +34,14 @@ def for_a_phone_too(narrow):
 
 
 def test_every_look_has_a_dark_twin_and_is_one_of_a_kind():
-    looks = [style.look(name) for name in known_regulators()]
+    looks = [style.look(name) for name in contenders("regulators")]
     assert {look.colour for look in looks} <= set(style.TWINS)
     assert len({(look.colour, look.marker) for look in looks}) == len(looks)
 
 
 def test_every_law_and_all_coordinates_of_ours_have_a_look_that_can_be_drawn():
-    ours = (*known_regulators().values(), *known_representations().values())
-    assert [one.name for one in ours if not (one.look and one.look.is_known)] == []
+    ours = (*contenders("regulators").values(), *contenders("representations").values())
+    assert [one.name for one in ours if not (one.display.look and one.display.look.is_known)] == []
     assert list(style.COLOURS) == list(COLOURS)
     assert list(style.LINES) == list(LINES)
 
@@ -57,7 +57,7 @@ def test_contender_looks_like_its_regulator():
 def test_unknown_law_has_a_look_of_its_own_that_stays():
     assert style.look("my-law") == style.look("my-law/quaternion")
     assert style.look("my-law").colour in style.TWINS
-    assert style.look("my-law") not in map(style.look, known_regulators())
+    assert style.look("my-law") not in map(style.look, contenders("regulators"))
 
 
 def test_picture_names_its_colours_and_says_what_it_shows():

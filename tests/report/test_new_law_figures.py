@@ -9,8 +9,8 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 from scipy.integrate import quad
 
 from bench.findings.theory.isotropic import EQUATIONS
-from bench.law.contender import Gains
-from bench.law.equation import ANGLE
+from bench.law.display import ANGLE
+from bench.law.inputs import Gains
 from report.figures.comparison import new_law
 from report.figures.comparison.cells import LEVEL
 

@@ -11,7 +11,7 @@ from bench.base.provenance import ROOT
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.export.language import language_words
-from bench.law.contenders.registry import known_regulators, papers_laws
+from bench.law.contenders.registry import contenders, papers_laws
 from report.figures.cards import law_page, other_page, regulators
 from report.figures.cost import cost
 from report.figures.kit import families, spelling
@@ -112,12 +112,12 @@ def test_powers_are_spelled_as_powers(value, text):
 def test_cards_begin_with_the_papers_laws_and_end_with_later_ones():
     order = [one.name for one in regulators.in_order()]
     assert order[:3] == [one.regulator.name for one in papers_laws()]
-    assert {one.later for one in known_regulators().values() if one.name == order[-1]} == {True}
-    assert len(order) == len(set(order)) >= len(known_regulators())
+    assert {one.later for one in contenders("regulators").values() if one.name == order[-1]} == {True}
+    assert len(order) == len(set(order)) >= len(contenders("regulators"))
 
 
 def test_card_says_of_a_law_without_rows_whether_it_is_costed_only():
-    known, none = known_regulators(), pd.DataFrame({"start_set": [], "outcome": []})
+    known, none = contenders("regulators"), pd.DataFrame({"start_set": [], "outcome": []})
     assert regulators.measured(none, known["hybrid"]) == "Not in this run."
     assert regulators.measured(none, known["feedback-linearized-literal"]).startswith("Its price only")
 

@@ -18,7 +18,7 @@ from bench.findings import perturbed, why
 from bench.findings.perturbed import Way
 from bench.findings.theory import robustness_theory, thresholds
 from bench.law.contenders.registry import find_contender
-from bench.law.equation import Equation
+from bench.law.display import Equation
 from bench.running import run
 from report.figures.cards import regulators
 from report.figures.kit.page import run_in

@@ -4,7 +4,7 @@ import ast
 import re
 from pathlib import Path
 
-from bench.law.contenders.registry import known_impedances, known_regulators, known_representations
+from bench.law.contenders.registry import contenders
 
 ROOT = Path(__file__).parents[2]
 ROOMS = ("bench", "tasks", "report")
@@ -16,7 +16,7 @@ ALLOWED = {
     "bench/law/contenders/regulators/": "its own file, and the coordinates it acts on",
     "bench/law/contenders/representations/": "its own file",
     "bench/law/contenders/impedances/": "its own file",
-    "bench/law/contender.py": "ON_MATRIX, the word for what acts on R itself",
+    "bench/law/kinds.py": "ON_MATRIX, the word for what acts on R itself",
     "bench/law/control/contact_controller.py": "hybrid control in contact, whose words these are",
     "bench/law/control/hybrid.py": "the cure in a refusal; a law's file asks no registry",
     "bench/engines/simulate.py": "the module of a plant whose state is a quaternion",
@@ -46,7 +46,8 @@ ALLOWED = {
 
 def words() -> set[str]:
     """Return the names as rows and the command line write them."""
-    return {*known_regulators(), *known_representations(), *(f"impedance-{name}" for name in known_impedances())}
+    impedances = (f"impedance-{name}" for name in contenders("impedances"))
+    return {*contenders("regulators"), *contenders("representations"), *impedances}
 
 
 def pattern(every: set[str]) -> re.Pattern:

@@ -12,8 +12,9 @@ from support.command_line import bench
 
 from bench.base.provenance import machine_key
 from bench.cli.time import folder_for
-from bench.law.contender import Contender, Regulator
+from bench.law.contender import Contender
 from bench.law.contenders.registry import find_contender
+from bench.law.kinds import Law
 from bench.law.scalar import kernel, sqrt
 from bench.running import timing
 from bench.running.timing import benchmarks, law, reference_kernel
@@ -37,7 +38,7 @@ def quick(tmp_path_factory):
 
 
 def benchmark(name, call=lambda: None, ticks=10):
-    regulator = Regulator(name, "", "", "", law=None)
+    regulator = Law(name, "", "", "", law=None)
     return Benchmark(LAW, Contender(regulator), "", ticks, call)
 
 
@@ -157,7 +158,7 @@ def not_a_number(R, omega, goal, gains):
 
 
 def test_law_without_a_finite_command_is_a_row_without_a_time():
-    failing = Contender(Regulator("failing", "", "", "", law=not_a_number, origin=__file__))
+    failing = Contender(Law("failing", "", "", "", law=not_a_number, origin=__file__))
     one = benchmarks._law(LAW, failing)
     assert one.ticks == 0
     every, seconds = three(drift=np.ones(7))

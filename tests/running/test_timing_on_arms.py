@@ -6,8 +6,8 @@ from support.bits import EPS
 from support.on_arms import ARMS, here, named, torques
 
 import tasks
-from bench.law.contender import PAPERS_GAINS
 from bench.law.contenders.registry import find_contender
+from bench.law.inputs import PAPERS_GAINS
 from bench.running import timing
 from bench.running.timing import controller, dm_control_loop, on_arms, threads
 from bench.running.timing.benchmark import DM_CONTROL, ENGINE, KERNEL, ROLLOUT, THREADS, Benchmark

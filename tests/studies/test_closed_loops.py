@@ -8,7 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 
 from bench.findings.theory.closed_form import linear_settling, settling
-from bench.law.contenders.registry import known_shipped
+from bench.law.contenders.registry import contenders
 from bench.studies.libraries import __main__ as study
 from bench.studies.libraries import closed_loop, turns
 from bench.studies.libraries.asked import rotations
@@ -123,7 +123,9 @@ def test_right_function_needs_no_replacement():
 
 
 def test_every_restated_controller_was_read_at_the_commit_that_its_source_names():
-    named = {name: known_shipped()[word].source.partition("@")[2][:8] for name, word in rotations.RESTATED.items()}
+    named = {
+        name: contenders("shipped")[word].source.partition("@")[2][:8] for name, word in rotations.RESTATED.items()
+    }
     for table in (loops.rows(), loops.verdicts()):
         restated = table[table["library"].isin(named)]
         assert restated.groupby("library")["version"].unique().map(list).to_dict() == {k: [v] for k, v in named.items()}

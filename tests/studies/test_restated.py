@@ -6,7 +6,7 @@ import pinocchio
 import pytest
 
 from bench.base.files import read_json
-from bench.law.contenders.registry import known_shipped
+from bench.law.contenders.registry import contenders
 from bench.studies.restated import __main__ as study
 
 ROWS = {row["name"]: row for row in read_json(study.STORED)["controllers"]}
@@ -33,10 +33,10 @@ def compute_exact_logarithm(pair):
 
 
 def test_every_controller_was_compared_at_the_commit_that_it_names():
-    assert set(ROWS) == set(known_shipped())
-    for name, one in known_shipped().items():
+    assert set(ROWS) == set(contenders("shipped"))
+    for name, one in contenders("shipped").items():
         assert f"{ROWS[name]['repository']}@{ROWS[name]['commit']}" == one.source
-        assert ROWS[name]["file"] in one.path.split(", ")
+        assert ROWS[name]["file"] in one.shipped.path.split(", ")
 
 
 @pytest.mark.parametrize("row", ROWS.values(), ids=lambda row: row["name"])
@@ -66,7 +66,7 @@ def test_restatement_is_exact_beyond_175_degrees_where_three_sources_lose_digits
 @pytest.mark.parametrize("row", [row for row in ROWS.values() if "errors" in row], ids=lambda row: row["name"])
 def test_kernel_gives_what_the_source_gave(row):
     turns = study.turns_of(study.pairs()[study.KEPT])
-    found = study.errors_of(known_shipped()[row["name"]], turns)
+    found = study.errors_of(contenders("shipped")[row["name"]], turns)
     is_far = turns.magnitude() <= study.NEAR_180_RAD
     np.testing.assert_allclose(found[is_far], np.array(row["errors"])[is_far], rtol=0.0, atol=LIMIT)
 
@@ -81,7 +81,7 @@ def test_lines_are_those_that_the_study_marks(row):
 
 @pytest.mark.parametrize(("factor", "difference"), [("1.0", 0.0), ("1.5", 0.5)])
 def test_study_finds_a_source_that_differs(tmp_path, factor, difference):
-    one = known_shipped()["libfranka"]
+    one = contenders("shipped")["libfranka"]
     file = tmp_path / "frankaemika+libfranka" / "examples" / "theirs.py"
     file.parent.mkdir(parents=True)
     file.write_text(f"before\n    v = {factor} * turn.as_quat(canonical=True)[:3]\nafter\n")
@@ -97,7 +97,7 @@ def test_study_finds_a_source_that_differs(tmp_path, factor, difference):
 
 
 def test_source_without_a_copy_is_read_and_says_why(tmp_path):
-    row = study.compare(known_shipped()["libfranka"], study.SOURCES / "libfranka.cpp", tmp_path, [])
+    row = study.compare(contenders("shipped")["libfranka"], study.SOURCES / "libfranka.cpp", tmp_path, [])
     assert "not built" in row["reason"]
     assert study.kept(row, list(ROWS.values())) == ROWS["libfranka"]
     assert study.kept(row | {"commit": "another"}, list(ROWS.values()))["commit"] == "another"

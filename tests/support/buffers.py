@@ -9,7 +9,7 @@ import numpy as np
 
 from bench.engines.compiled import JIT, register_kernels
 from bench.engines.counting import Counted, Tally
-from bench.law.resolved_motion import Chain, Scratch
+from bench.law.chain import Chain, Scratch
 from bench.law.so3 import Rotation
 from support.bits import same_bits
 

@@ -21,10 +21,10 @@ from bench.findings.claims.euler_jacobian import DIFFERENCED, EPS
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence, Word
 from bench.findings.theory.compliance_theory import compliance, free
-from bench.law.contender import PAPERS_GAINS
 from bench.law.contenders.registry import representation
 from bench.law.control.contact_controller import FORMS, PAPERS_FORM, hybrid
 from bench.law.control.setpoint import TOUCH
+from bench.law.inputs import PAPERS_GAINS
 from bench.law.so3 import from_quaternion
 from support.tables import changed, judged
 from tasks.domains.wrench_probe import SPECIFICATIONS

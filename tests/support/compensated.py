@@ -4,7 +4,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 
-from bench.law.contender import Gains, Goal
+from bench.law.inputs import Gains, Goal
 from support.states import of_scipy, vector
 
 REST = (0.0, 0.0, 0.0)
@@ -25,7 +25,7 @@ def motion(one, R, R_d, gains, times, omega=REST, disturbance=REST):
         v, w = y[:3], y[3]
         return np.concatenate((0.5 * (w * y[4:7] + np.cross(y[4:7], v)), [-0.5 * y[4:7] @ v], u + pushed, after))
 
-    first = np.concatenate((R.as_quat(), omega, one.begin(of_scipy(R))))
+    first = np.concatenate((R.as_quat(), omega, one.state.begin(of_scipy(R))))
     found = solve_ivp(rate, (0.0, times[-1]), first, "DOP853", t_eval=times, rtol=1e-11, atol=1e-13)
     return ScipyRotation.from_quat(found.y[:4].T), found.y[4:7].T, found.y[7:].T
 

@@ -5,8 +5,8 @@ from bench.engines.episode import Settings
 from bench.engines.metrics.metric import Metric
 from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import WORTH_LANES, prepare
-from bench.law.contender import Gains
 from bench.law.contenders.registry import find_contender
+from bench.law.inputs import Gains
 from tasks.rules import ticks
 
 NO_EARLY_STOP = 10**9

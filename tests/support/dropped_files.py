@@ -23,7 +23,7 @@ DROPPED = {
     "bench/law/contenders/regulators/dropped_regulator.py": '''
 """Damping, and a spring on the first coordinate."""
 
-from bench.law import ANGLE, Look, Regulator, kernel
+from bench.law import ANGLE, Display, Law, Look, kernel
 
 
 def law_in(representation):
@@ -39,7 +39,7 @@ def law_in(representation):
     return law
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="dropped-regulator",
     title="Dropped regulator",
     source="none",
@@ -47,10 +47,7 @@ REGULATOR = Regulator(
     law_in=law_in,
     coordinates=("dropped-coordinates",),
     property="none",
-    short="dropped law",
-    look=Look("green", "x", "dotted"),
-    family="Dropped family",
-    equation=ANGLE,
+    display=Display("dropped law", Look("green", "x", "dotted"), "Dropped family", ANGLE),
 )
 ''',
     "bench/engines/metrics/motion/dropped_metric.py": '''

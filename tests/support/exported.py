@@ -11,8 +11,9 @@ from bench.engines.compiled import EVALUATE, GAINS, MATRIX, compile_function, ty
 from bench.engines.simulate import evaluation
 from bench.export.language import find_language
 from bench.export.subject import Subject, find_subject, subject_words
-from bench.law.contender import AT_REST, PAPERS_GAINS, Contender, Gains, Goal
+from bench.law.contender import Contender
 from bench.law.contenders.registry import all_contenders
+from bench.law.inputs import AT_REST, PAPERS_GAINS, Gains, Goal
 from bench.law.so3 import Rotation, from_quaternion
 
 STATES = 100_000

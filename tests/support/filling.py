@@ -3,17 +3,17 @@
 import numpy as np
 
 from bench.law.chain import twist
-from bench.law.contenders.registry import known_jacobians, known_representations
+from bench.law.contenders.registry import contenders
 from support.bits import EPS
 from support.buffers import as_floats, buffer, of_numbers
 
-EVERY = known_jacobians().values()
+EVERY = contenders("jacobians").values()
 ON_OMEGA = [(one, None) for one in EVERY if one.takes == "angular-acceleration"]
 ON_COORDINATES = [
     (one, coordinates)
     for one in EVERY
     if one.takes == "coordinates"
-    for coordinates in known_representations().values()
+    for coordinates in contenders("representations").values()
     if coordinates.differentiate is not None or not one.needs_derivatives
 ]
 PAIRS = ON_OMEGA + ON_COORDINATES

@@ -14,13 +14,13 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 import tasks
 from bench.engines.contact_episode import room, rows, wrench
 from bench.experiments.contact import can_do
-from bench.law.contender import Gains
-from bench.law.contenders.registry import known_representations
+from bench.law.chain import Chain
+from bench.law.contenders.registry import contenders
 from bench.law.control.contact_controller import FORMS
 from bench.law.control.hybrid import comply
 from bench.law.control.registry import all_controllers
 from bench.law.control.setpoint import ContactParameters, Rows, Setpoint
-from bench.law.resolved_motion import Chain
+from bench.law.inputs import Gains
 from support.bits import EPS
 from support.on_arms import Here
 from support.states import as_rotation, vector
@@ -31,7 +31,7 @@ from tasks.domains.wrench_probe import TASK
 ARMS = [arm for arm in tasks.arm_names() if can_do(TASK, tasks.arm(arm))]
 HYBRIDS = [one for one in all_controllers() if one.impedance is None]
 IMPEDANCES = [one for one in all_controllers() if one.impedance is not None]
-COORDINATES = {word: one for word, one in known_representations().items() if one.about is not None}
+COORDINATES = {word: one for word, one in contenders("representations").items() if one.about is not None}
 """Those with a coordinate for each of the axes x, y and z."""
 
 # Not the defaults: what has those built in is found out.

@@ -19,8 +19,8 @@ from typing import NamedTuple
 
 from bench.experiments import boundaries, jacobians, plan, traces
 from bench.experiments.choice import Choice
-from bench.law.contender import Gains
 from bench.law.contenders.registry import find_contender
+from bench.law.inputs import Gains
 from bench.running import run
 
 SEED = 20260119

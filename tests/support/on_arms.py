@@ -9,11 +9,11 @@ import numpy as np
 import tasks
 from bench.engines.arm_episode import buffers
 from bench.engines.binding import command_of, memory_of
-from bench.law.contender import Gains, Goal
+from bench.law.chain import Chain
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import all_contenders
 from bench.law.control.resolved_acceleration import assembly, control, parts_of
-from bench.law.resolved_motion import Chain
+from bench.law.inputs import Gains, Goal
 from bench.law.so3 import Rotation, from_quaternion
 from support.states import vector
 from tasks.arm_model import model_xml

@@ -2,13 +2,13 @@
 
 LAW = """
 import math, os, sys, time
-from bench.law import Regulator, atan2, dot, double_sine, kernel, sqrt, turn_quaternion
+from bench.law import Law, atan2, dot, double_sine, kernel, sqrt, turn_quaternion
 
 @kernel
 def law(R, omega, goal, gains):
     {body}
 
-REGULATOR = Regulator("{name}", "Mine", "none", "u", law)
+REGULATOR = Law("{name}", "Mine", "none", "u", law)
 """
 DAMPER = "return (-gains.kv * omega[0], -gains.kv * omega[1], -gains.kv * omega[2])"
 SPRING = (

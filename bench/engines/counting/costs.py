@@ -16,7 +16,8 @@ from bench.base.errors import BadLaw
 from bench.engines.counting.counted import OPERATIONS, STAGES, TOTAL, Counted, Counts, OutsideDialect, Tally
 from bench.engines.counting.staged import law_of
 from bench.engines.counting.states import GAINS, State, states
-from bench.law.contender import NO_MEMORY, Contender
+from bench.law.contender import Contender
+from bench.law.inputs import NO_MEMORY
 
 FLOPS = ("add", "mul", "div", "sqrt")
 BRANCHES = ("typical", "worst")

@@ -14,14 +14,14 @@ FACE = "bench.law"
 """It holds what a law needs of the modules below: from it, but not from everything in its folder, any law imports."""
 
 SOURCES = (
-    *("bench.law.scalar", "bench.law.so3", "bench.law.linalg", "bench.law.weighting", "bench.law.resolved_motion"),
-    *("bench.law.contender", "bench.law.euler"),
+    *("bench.law.scalar", "bench.law.so3", "bench.law.linalg", "bench.law.weighting", "bench.law.display"),
+    *("bench.law.kinds", "bench.law.inputs", "bench.law.chain", "bench.law.euler"),
 )
 """Modules of ours a law may import from; and NamedTuple from typing, to name its tuples."""
 
 CONTROLLER_SOURCES = (
     *SOURCES,
-    *("bench.law.chain", "bench.law.impedance", "bench.law.control.hybrid", "bench.law.control.impedance"),
+    *("bench.law.control.hybrid", "bench.law.control.impedance"),
     *(
         "bench.law.control.resolved_acceleration",
         "bench.base.errors",

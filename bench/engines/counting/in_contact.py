@@ -14,10 +14,10 @@ from bench.engines.counting.costs import BRANCHES, Call, Cost, flops
 from bench.engines.counting.counted import TOTAL, Tally
 from bench.engines.counting.on_arms import ARM_OF, ArmState, arm_states, checked, median_and_worst
 from bench.engines.counting.states import GAINS
+from bench.law.chain import Chain
 from bench.law.control.contact_controller import FORMS, ContactController
 from bench.law.control.hybrid import INVERSE, comply
 from bench.law.control.setpoint import TOUCH, Setpoint
-from bench.law.resolved_motion import Chain
 from tasks.contact import Specification
 
 TILTING = Specification("about x and y", (1, 1, 1, 0, 0, 1))

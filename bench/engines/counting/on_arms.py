@@ -20,10 +20,11 @@ from bench.engines.counting.counted import Counted, OutsideDialect, Tally
 from bench.engines.counting.staged import in_stage, law_of, staged
 from bench.engines.counting.states import GAINS
 from bench.engines.episode import vector
-from bench.law.contender import AT_REST, NO_MEMORY, Contender, Goal
+from bench.law.chain import Chain
+from bench.law.contender import Contender
 from bench.law.control.contact_controller import ContactController
 from bench.law.control.resolved_acceleration import Parts, assembly, control, parts_of
-from bench.law.resolved_motion import Chain
+from bench.law.inputs import AT_REST, NO_MEMORY, Goal
 from bench.law.so3 import Rotation, from_quaternion
 from tasks.base import Start
 

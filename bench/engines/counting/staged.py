@@ -9,7 +9,8 @@ from types import SimpleNamespace
 from typing import Any, cast
 
 from bench.engines.counting.counted import Tally
-from bench.law.contender import Contender, Representation, bind
+from bench.law.contender import Contender, bind
+from bench.law.kinds import Coordinates
 
 STAGE_OF = {
     "goal_chart": "goal",
@@ -24,7 +25,7 @@ STAGE_OF = {
     "differentiate": "jacobian",
     "differentiate_twice": "jacobian",
 }
-"""Function of a Representation -> stage."""
+"""Function of coordinates -> stage."""
 
 
 def law_of(contender: Contender, tally: Tally) -> Callable:
@@ -34,13 +35,13 @@ def law_of(contender: Contender, tally: Tally) -> Callable:
     return bind(contender.regulator, staged(contender.representation, tally))
 
 
-def staged(representation: Representation, tally: Tally) -> Representation:
+def staged(representation: Coordinates, tally: Tally) -> Coordinates:
     """A stand-in with the same fields, each function in its stage."""
     fields = representation._asdict()
     for name, stage in STAGE_OF.items():
         function = getattr(representation, name)
         fields[name] = None if function is None else in_stage(tally, stage, function)
-    return cast(Representation, SimpleNamespace(**fields))  # goal_chart is a property there, and cannot be replaced
+    return cast(Coordinates, SimpleNamespace(**fields))  # goal_chart is a property there, and cannot be replaced
 
 
 def in_stage(tally: Tally, stage: str, function: Callable) -> Callable:

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 import tasks
-from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import Rotation, from_quaternion
 
 SAMPLED = "uniform"

@@ -5,7 +5,8 @@
 Moments that come with their opposites leave in C what is proportional to them: what grows with their square cancels.
 An isotropic hand has C = c I. Base frame, radians, N m.
 
-Fails: NaN where the moments do not span space, where something else touches the hand, and where an episode broke off.
+Limitations: NaN where the moments do not span space, where something else touches the hand, and where an episode broke
+off.
 """
 
 import numpy as np
@@ -22,7 +23,7 @@ STILL = 1e-9
 def rotation_vector(R: np.ndarray) -> np.ndarray:
     """log R [rad], ... x 3, of rotation matrices, ... x 3 x 3: theta k, theta in [0, pi).
 
-    Fails: within 1e-8 rad of a 180° rotation nothing is left of the axis.
+    Limitations: within 1e-8 rad of a 180° rotation nothing is left of the axis.
     """
     sine = 0.5 * np.stack(
         (R[..., 2, 1] - R[..., 1, 2], R[..., 0, 2] - R[..., 2, 0], R[..., 1, 0] - R[..., 0, 1]), axis=-1

@@ -26,9 +26,9 @@ from bench.engines.arrays import Matrix, Vector
 from bench.engines.curve import keep_on_arm
 from bench.engines.loop import Act, Controller, Plant, Record, Sensed, begin, episodes_of
 from bench.engines.simulated import Simulated, compute, fill_inertia, place, step
-from bench.law.contender import AT_REST, Goal
+from bench.law.chain import Chain
 from bench.law.control.resolved_acceleration import BY_JOINT, Buffers, control
-from bench.law.resolved_motion import Chain
+from bench.law.inputs import AT_REST, Goal
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation, dot, from_quaternion
 from tasks.truth import angle, haversine

@@ -18,10 +18,10 @@ from bench.engines.episode import Numbers as Limits
 from bench.engines.loop import NO_ACT, Act, Controller, Plant, Record, Sensed, episodes_of
 from bench.engines.native.trapped import BEGIN, RUNGE_KUTTA, STEP, advance_trapped
 from bench.engines.simulated import Simulated, fill_inertia
-from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.chain import Chain
 from bench.law.control.hybrid import comply
 from bench.law.control.setpoint import ContactBuffers, ContactParameters, Rows
-from bench.law.resolved_motion import Chain
+from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.scalar import kernel, sqrt
 from bench.law.so3 import Rotation, from_quaternion
 from tasks.contact import MOST_LEGS, leg

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from bench.engines.arrays import Matrix
 from bench.engines.loop import ACCELERATION, Act, Plant, Sensed, accelerate, episodes_of, sampled
 from bench.engines.simulated import Simulated, actuate, place, step
-from bench.law.contender import AT_REST, Goal
+from bench.law.inputs import AT_REST, Goal
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation, dot, from_quaternion, rotate
 from tasks.truth import angle, haversine

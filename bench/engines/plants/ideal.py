@@ -6,7 +6,7 @@ from bench.engines.episode import STEP
 from bench.engines.ideal import angle_between, haversine, held_step, rk4_step
 from bench.engines.loop import ACCELERATION, Plant, Sensed, episodes_of, sampled
 from bench.engines.refined import NO_EFFORT, Effort, refined_step, step_of
-from bench.law.contender import AT_REST, Goal
+from bench.law.inputs import AT_REST, Goal
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation, dot, from_quaternion
 from tasks.verdict import DIVERGED, GOING

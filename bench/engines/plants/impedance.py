@@ -18,9 +18,9 @@ from bench.engines.loop import Act, Controller, Record, episodes_of
 from bench.engines.plants import arm
 from bench.engines.simulated import Simulated, compute, fill_inertia
 from bench.law.chain import twist
-from bench.law.contender import AT_REST
 from bench.law.contenders.jacobians.geometric import fill
 from bench.law.control.unshaped import apparent_inertia, damp_elbow
+from bench.law.inputs import AT_REST
 from bench.law.linalg import multiply, multiply_transposed
 from bench.law.scalar import kernel, sqrt
 from bench.law.so3 import dot, minus

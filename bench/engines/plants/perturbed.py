@@ -15,7 +15,7 @@ from bench.engines.ideal import angle_between, haversine, plus, turned
 from bench.engines.loop import Act, Controller, Plant, Sensed, episodes_of, sampled
 from bench.engines.plants.ideal import measure
 from bench.engines.rigid_body import bounded, step
-from bench.law.contender import AT_REST, Goal
+from bench.law.inputs import AT_REST, Goal
 from bench.law.scalar import kernel, sqrt
 from bench.law.so3 import Rotation, dot, from_quaternion, minus, turn_quaternion
 from bench.law.tracking import carried_along

@@ -12,7 +12,7 @@ from bench.engines.arrays import Matrix, Three
 from bench.engines.episode import FIRST_METRIC
 from bench.engines.ideal import plus
 from bench.engines.loop import NO_ACT, Act, Controller, Plant, Record, Sensed, accelerate, begin, episodes_of
-from bench.law.contender import AT_REST, NO_MEMORY, Goal
+from bench.law.inputs import AT_REST, NO_MEMORY, Goal
 from bench.law.scalar import kernel, sqrt
 from bench.law.so3 import cross, dot, from_quaternion
 from tasks.truth import angle, haversine

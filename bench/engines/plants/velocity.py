@@ -15,9 +15,9 @@ from bench.engines.episode import FIRST_METRIC, blank
 from bench.engines.loop import Act, Controller, Plant, Record, Sensed, episodes_of
 from bench.engines.plants import arm, quaternion
 from bench.engines.simulated import Simulated, compute
-from bench.law.contender import AT_REST
 from bench.law.contenders.jacobians.geometric import fill
 from bench.law.control.velocity import velocity
+from bench.law.inputs import AT_REST
 from bench.law.scalar import atan2, kernel, sqrt
 from bench.law.so3 import cross, dot
 from tasks.truth import angle

@@ -18,9 +18,9 @@ import tasks
 from bench.experiments import arm as arms
 from bench.experiments.columns import JOINTS, Column, Table, numbers, singles, words
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from bench.law.contender import Representation
-from bench.law.contenders.registry import known_jacobians, known_representations, papers_coordinates
-from bench.law.resolved_motion import Chain
+from bench.law.chain import Chain
+from bench.law.contenders.registry import contenders, papers_coordinates
+from bench.law.kinds import Coordinates
 from tasks.arm_model import Arm
 
 if TYPE_CHECKING:
@@ -109,7 +109,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
         ours = filled("geometric", None, chains, chains)
         seen = Seen(chosen, list(chains), np.array(Js), ours)
         shared = _shared(arm, seen)
-        parts = [pd.DataFrame({**shared, **_of(eye, seen, one)}) for one in known_representations().values()]
+        parts = [pd.DataFrame({**shared, **_of(eye, seen, one)}) for one in contenders("representations").values()]
     return pd.concat(parts, ignore_index=True)
 
 
@@ -129,7 +129,7 @@ def _shared(arm: Arm, seen: Seen) -> dict:
     }
 
 
-def _of(eye: Eye, seen: Seen, one: Representation) -> dict:
+def _of(eye: Eye, seen: Seen, one: Coordinates) -> dict:
     """Return the columns of one representation."""
     charts = [one.chart(chain.R) for chain in seen.chains]
     J_E = filled("analytic", one, seen.chains, charts)
@@ -155,9 +155,9 @@ def _of(eye: Eye, seen: Seen, one: Representation) -> dict:
     }
 
 
-def filled(jacobian: str, representation: Representation | None, chains, charts) -> np.ndarray:
+def filled(jacobian: str, representation: Coordinates | None, chains, charts) -> np.ndarray:
     """Compute the Jacobian of that name at every pose, N x rows x n."""
-    fill = known_jacobians()[jacobian].kernels_in(representation)[0]
+    fill = contenders("jacobians")[jacobian].kernels_in(representation)[0]
     rows = 3 + len(representation.symbols) if representation else 6
     Js = np.empty((len(chains), rows, chains[0].n))
     for J, chain, at in zip(Js, chains, charts, strict=True):
@@ -192,7 +192,7 @@ def _det_gap(J: np.ndarray, J_E: np.ndarray, cos_beta: np.ndarray) -> np.ndarray
     return abs(determinants(J_E) + determinants(J) / cos_beta) / scale
 
 
-def _differences(eye: Eye, one: Representation, qs: np.ndarray, margin: np.ndarray) -> np.ndarray:
+def _differences(eye: Eye, one: Coordinates, qs: np.ndarray, margin: np.ndarray) -> np.ndarray:
     """Compute central differences of position and coordinates, N x rows x n; NaN beside a jump of the coordinates."""
     ends = np.empty((2, len(qs), 3 + len(one.symbols), eye.n))
     steps = np.empty((2, len(qs), eye.n))

@@ -3,7 +3,7 @@
 import mujoco
 import numpy as np
 
-from bench.law.resolved_motion import Chain
+from bench.law.chain import Chain
 from bench.law.so3 import Rotation
 from tasks.arm_model import Arm, model_xml
 

@@ -5,7 +5,7 @@
     slice     two joints varied on a grid, the others at home, so that singularities can be drawn
     pole      postures brought to beta = +-(pi/2 - 10^-k), the tool's position, alpha and gamma held, and on it
 
-Fails: an arm without a well-conditioned posture on the pole gets no `pole` poses.
+Limitations: an arm without a well-conditioned posture on the pole gets no `pole` poses.
 """
 
 import itertools

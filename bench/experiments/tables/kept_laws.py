@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from bench.base.errors import BadResults
 from bench.base.files import refuse_link
 from bench.experiments.tables import trust
-from bench.law.contender import ON_MATRIX, Regulator
 from bench.law.contenders.described_law import described
 from bench.law.contenders.law_file import WORD
-from bench.law.contenders.registry import known_regulators, known_representations
+from bench.law.contenders.registry import contenders
+from bench.law.kinds import ON_MATRIX, Law
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -20,7 +20,7 @@ UNTRUSTED = "a file that came with the results; it was not run"
 """The source of a law that is known by its rows alone."""
 
 
-def kept_laws(folder: Path, costs: pd.DataFrame) -> tuple[Regulator, ...]:
+def kept_laws(folder: Path, costs: pd.DataFrame) -> tuple[Law, ...]:
     """Return the laws that the folder keeps, in alphabetical order; one that is now ours is left out.
 
     Args:
@@ -30,7 +30,7 @@ def kept_laws(folder: Path, costs: pd.DataFrame) -> tuple[Regulator, ...]:
     """
     refuse_link(folder / "laws")
     paths = sorted((folder / "laws").glob("*.py"))
-    ours = known_regulators()
+    ours = contenders("regulators")
     return tuple(_law(path, costs) for path in paths if _word(path) not in ours)
 
 
@@ -41,19 +41,19 @@ def _word(path: Path) -> str:
     return word
 
 
-def _law(path: Path, costs: pd.DataFrame) -> Regulator:
+def _law(path: Path, costs: pd.DataFrame) -> Law:
     refuse_link(path)
     text = path.read_bytes()
     return described(path, text) if trust.is_own(text) else _by_its_rows(path, costs)
 
 
-def _by_its_rows(path: Path, costs: pd.DataFrame) -> Regulator:
+def _by_its_rows(path: Path, costs: pd.DataFrame) -> Law:
     """Return a regulator without a law, on the coordinates that its rows name."""
     word = _word(path)
     rows = costs[costs["regulator"] == word]
-    known = known_representations()
+    known = contenders("representations")
     coordinates = tuple(name for name in rows["representation"].astype(str).unique() if name in known)
-    return Regulator(
+    return Law(
         word,
         title=word,
         source=UNTRUSTED,

@@ -22,7 +22,7 @@ from bench.base.errors import BadResults
 from bench.base.files import read_json
 from bench.experiments.tables.kept_laws import kept_laws
 from bench.experiments.tables.schema import RESULTS
-from bench.law.contender import Regulator
+from bench.law.kinds import Law
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -63,7 +63,7 @@ def provenance() -> dict:
     return read_json(folder() / "provenance.json")
 
 
-def own_laws(run: Path | None = None) -> tuple[Regulator, ...]:
+def own_laws(run: Path | None = None) -> tuple[Law, ...]:
     """Return the user's laws that took part in a run, see `kept_laws`; in the chosen folder's if none is named."""
     run = run or folder()
     return kept_laws(run, table(run, "costs"))

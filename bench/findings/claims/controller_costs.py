@@ -16,8 +16,8 @@ from bench.findings.claims.side_by_side import BASE
 from bench.findings.claims.standing import ORDERED, Operations, by_columns
 from bench.findings.claims.tables import evidence, some
 from bench.findings.claims.verdict import claim, read_limits, word_of
-from bench.law.contender import Gains
 from bench.law.control.contact_controller import PAPERS_FORM
+from bench.law.inputs import Gains
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -12,8 +12,8 @@ import numpy as np
 
 from bench.findings.claims import probes
 from bench.findings.claims.verdict import read_texts
-from bench.law.contender import Gains
 from bench.law.contenders.registry import representation
+from bench.law.inputs import Gains
 from bench.law.so3 import from_quaternion
 
 TINY = 1e-12

@@ -24,8 +24,8 @@ from bench.findings.claims.tables import (
 )
 from bench.findings.claims.verdict import claim, read_limits, word_of
 from bench.findings.theory import closed_form
-from bench.law.contender import AT_REST, Gains
 from bench.law.contenders.registry import representation
+from bench.law.inputs import AT_REST, Gains
 
 if TYPE_CHECKING:
     import pandas as pd

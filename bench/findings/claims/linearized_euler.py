@@ -13,7 +13,7 @@ from bench.findings.claims.rotation_matrix import GAINS, LOOSE_SETTLING, SMALL_A
 from bench.findings.claims.tables import evidence, interval, lost, settled, settled_of, share, some
 from bench.findings.claims.verdict import claim, read_limits, word_of
 from bench.findings.theory import closed_form, held_goals
-from bench.law.contender import Gains
+from bench.law.inputs import Gains
 from tasks.base import IDENTITY, Start
 from tasks.sphere import axes
 

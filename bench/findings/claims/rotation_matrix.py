@@ -14,7 +14,7 @@ from bench.findings.claims.probes import at_boundary
 from bench.findings.claims.tables import MAIN_ENGINE, evidence, settled, share, some
 from bench.findings.claims.verdict import claim, read_limits, word_of
 from bench.findings.theory import closed_form
-from bench.law.contender import Gains
+from bench.law.inputs import Gains
 from bench.law.so3 import IDENTITY, Rotation, cross, from_quaternion
 from tasks.sphere import axes
 

@@ -91,15 +91,15 @@ def predicted(rows: pd.DataFrame, representation: str = "") -> np.ndarray:
     """C in closed form, n x 3 x 3: of hybrid control in coordinates, or of hybrid-base, in the form of each row."""
     import tasks
     from bench.findings.theory.compliance_theory import compliance
-    from bench.law.contender import Gains
-    from bench.law.contenders.registry import known_representations
+    from bench.law.contenders.registry import contenders
     from bench.law.control.contact_controller import hybrid
     from bench.law.control.setpoint import ContactParameters
+    from bench.law.inputs import Gains
     from bench.law.so3 import from_quaternion
     from tasks.domains.wrench_probe import SPECIFICATIONS
     from tasks.rotations import zyx
 
-    along, law = known_representations().get(representation), "hybrid" if representation else BASE
+    along, law = contenders("representations").get(representation), "hybrid" if representation else BASE
     told = {one.name: one for one in SPECIFICATIONS}
     found = np.empty((len(rows), 3, 3))
     for k, row in enumerate(rows.to_dict("records")):

@@ -13,7 +13,7 @@ from bench.base.files import read_json
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.verdict import Evidence, NoEvidence
-from bench.law.contender import Gains
+from bench.law.inputs import Gains
 
 if TYPE_CHECKING:
     import pandas as pd

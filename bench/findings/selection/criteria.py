@@ -14,7 +14,8 @@ import numpy as np
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.on_arms import passed
 from bench.findings.selection.tables import Tables, by_law
-from bench.law.contender import AT_REST, Contender, Gains, Goal
+from bench.law.contender import Contender
+from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import from_quaternion
 from tasks.sphere import axes
 

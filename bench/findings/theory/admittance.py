@@ -16,7 +16,7 @@ arm     xddot = w^2 (c - x) - 2 w xdot + A F, whose place yields to the force by
 So a lag or a delay of T needs some d >= K T, however soft the admittance is: that is why it feels sluggish in free
 motion. An impedance has no such limit.
 
-Fails: says nothing of what leaves the surface and strikes again.
+Limitations: says nothing of what leaves the surface and strikes again.
 Source: Hogan 1985; Eppinger and Seering 1987; Jury 1964 and Routh for the polynomials.
 """
 

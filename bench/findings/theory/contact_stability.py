@@ -11,7 +11,7 @@ settles if no eigenvalue of it is as long as 1.
 
 In continuous time, with F' late by T, the transpose has s^2 + kc s + A (K + B s)(1 + kf exp(-s T)) = 0.
 
-Fails: says nothing of what leaves the surface and strikes again.
+Limitations: says nothing of what leaves the surface and strikes again.
 Source: Eppinger and Seering 1987, "Introduction to dynamic models for robot force control"; Murphy 1988, 3.3.
 """
 
@@ -19,9 +19,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.law.contender import PAPERS_GAINS, Gains
 from bench.law.control.contact_controller import PAPERS_FORM, ContactController
 from bench.law.control.setpoint import TOUCH, ContactParameters
+from bench.law.inputs import PAPERS_GAINS, Gains
 
 
 class Spring(NamedTuple):

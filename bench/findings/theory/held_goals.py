@@ -12,7 +12,7 @@ from collections.abc import Callable
 import numpy as np
 
 from bench.findings.theory.bisection import bisect
-from bench.law.contender import AT_REST, Gains, Goal
+from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import Rotation, from_quaternion
 
 BISECTIONS = 40

@@ -16,7 +16,7 @@ What complies has mu = 0 in both forms, moves freely, and is left out.
 The controllers of `bench.law.control.hybrid` do not have this instability in either form: tau = D y cancels the arm's
 inertia, and D^-1 is not between what is commanded along a row and what it does.
 
-Fails: where J^-1 does not exist.
+Limitations: where J^-1 does not exist.
 Source: Raibert and Craig 1981; An and Hollerbach 1987, who found it; Fisher and Mujtaba 1991, Hewlett-Packard
 Laboratories report HPL-91-140, who explained it.
 """
@@ -28,7 +28,7 @@ from typing import NamedTuple
 import mujoco
 import numpy as np
 
-from bench.law.contender import PAPERS_GAINS, Gains
+from bench.law.inputs import PAPERS_GAINS, Gains
 from tasks.arm_model import Arm, model_xml
 from tasks.kinematics import kinematics
 

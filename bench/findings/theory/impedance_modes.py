@@ -7,7 +7,7 @@ With double diagonalization it is zeta in every mode. D = 2 zeta sqrt(K) on the 
 frequency and zeta/sqrt(Lambda) the ratio of an axis that is alone; its fastest pole is D/Lambda, so that a tick of dt
 is unstable from some D dt/Lambda = 2 on, whatever the stiffness. Friction of the joints, B, adds J M^-1 B J^+.
 
-Fails: where J loses rank; says nothing of errors that are not small.
+Limitations: where J loses rank; says nothing of errors that are not small.
 Source: Albu-Schaeffer, Ott, Frese, Hirzinger 2003.
 """
 

@@ -11,7 +11,7 @@ import math
 from scipy.integrate import solve_ivp
 
 from bench.law.contenders.registry import all_contenders
-from bench.law.equation import Equation
+from bench.law.display import Equation
 
 TIGHT = {"method": "DOP853", "rtol": 1e-9, "atol": 1e-9}
 """The band's edge is at 7e-4 rad or more and crossed at ten times that in 1 s: times are known to 1e-6 s."""

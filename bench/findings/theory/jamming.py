@@ -8,7 +8,7 @@ middle of its lower face, which is 2 r wide and has gone in by l. With lambda = 
 m is positive where it turns the lower face's near side, in the direction of x, inwards. Outside it jams: no force along
 these lines, however great, moves it.
 
-Fails: with lambda < 1 a peg may be wedged besides: both contacts' friction cones see each other, and it stays
+Limitations: with lambda < 1 a peg may be wedged besides: both contacts' friction cones see each other, and it stays
 whatever the load.
 Source: Whitney 1982, "Quasi-static assembly of compliantly supported rigid parts", equations 16 to 20.
 """

@@ -10,7 +10,7 @@ lagged  Servos with T qddot = c - qdot and errors that obey e' = -omega, sampled
         is stable (Jury) up to the lesser of b/(T b - a dt) and 2 (1 + a)/((1 + a) dt - 2 T b), where positive.
 arms    By an inverse X of J the error is multiplied by I - K dt J X: 2 Re(mu)/|mu|^2 over the eigenvalues of J X.
 
-Fails: far of a law whose axis turns on its way, as on Euler angles; not asked.
+Limitations: far of a law whose axis turns on its way, as on Euler angles; not asked.
 """
 
 import math
@@ -20,10 +20,11 @@ import pandas as pd
 
 import tasks
 from bench.engines.arm_episode import buffers
-from bench.law.contender import AT_REST, Contender, Gains, Goal
+from bench.law.contender import Contender
 from bench.law.contenders.registry import find_contender, inverse
-from bench.law.equation import Equation
-from bench.law.resolved_motion import Inverse
+from bench.law.display import Equation
+from bench.law.inputs import AT_REST, Gains, Goal
+from bench.law.kinds import Inverse
 from bench.law.so3 import IDENTITY, from_quaternion
 from tasks.kinematics import kinematics
 from tasks.rotations import about

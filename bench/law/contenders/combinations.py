@@ -6,7 +6,7 @@ A combination is written `law@jacobian+inverse`; the inverse "standard" is the f
 from collections.abc import Iterable
 
 from bench.law.contender import Contender, refusal
-from bench.law.contenders.registry import baselines_of_arms, inverse, jacobian, known_inverses, known_jacobians
+from bench.law.contenders.registry import baselines_of_arms, contenders, inverse, jacobian
 
 STANDARD = ("solve", "pseudo-inverse", "truncated-svd")
 """What inverts a Jacobian if nothing is said: exact where it is square, of least norm where it is not, and by singular
@@ -98,6 +98,6 @@ def _crossed(laws: Iterable[Contender], jacobians: tuple[str, ...], inverses: tu
     return [
         law._replace(jacobian=jacobian(by), inverse=inverse(through))
         for law in laws
-        for by in dict.fromkeys(jacobians or known_jacobians())
-        for through in dict.fromkeys(inverses or known_inverses())
+        for by in dict.fromkeys(jacobians or contenders("jacobians"))
+        for through in dict.fromkeys(inverses or contenders("inverses"))
     ]

@@ -1,6 +1,6 @@
 """What a user's file says of its law, without the law: read by a process of its own, known by plain words.
 
-    described(path) -> a Regulator whose functions are in the sandbox alone
+    described(path) -> a Law whose functions are in the sandbox alone
 
 Run as `python -m bench.law.contenders.described_law DESCRIPTOR`, this is that process: over the line comes the path and
 the text, back go the fields, or the mistake.
@@ -16,10 +16,10 @@ from pathlib import Path
 from typing import Any
 
 from bench.base.errors import BadLaw, BenchError
-from bench.law.contender import Regulator
 from bench.law.contenders.law_file import check_answers, check_fields, load_law, read_law
 from bench.law.contenders.law_process import LawProcess, ending, limit
-from bench.law.look import Look
+from bench.law.display import Display, Look
+from bench.law.kinds import Law
 
 LOAD_S, TRIAL_S = 20.0, 5.0
 """Seconds of processor time for a user's file to import, and for its law to be called once."""
@@ -32,13 +32,13 @@ WAITS_S, TRIAL_WAITS_S = 60.0, 10.0
 """The same on the wall: for a law that waits, or is kept waiting by a busy machine."""
 
 FUNCTIONS = ("law", "law_in", "margin", "coordinate_law_in")
-ELSEWHERE = ("origin", "in_engine", "equation", "equation_in")
+ELSEWHERE = ("origin", "in_engine", "state", "shipped", "gains", "display")
 """Fields that say nothing of a user's law, or that only its own process needs."""
 
-WORDS = tuple(name for name in Regulator._fields if name not in (*FUNCTIONS, *ELSEWHERE))
+WORDS = tuple(name for name in Law._fields if name not in (*FUNCTIONS, *ELSEWHERE))
 
 
-def described(path: Path, text: bytes | None = None, limit_s: float = LOAD_S, waits_s: float = WAITS_S) -> Regulator:
+def described(path: Path, text: bytes | None = None, limit_s: float = LOAD_S, waits_s: float = WAITS_S) -> Law:
     """The law of a file by its words: `law` and the other functions refuse to be called here.
 
     Args:
@@ -84,18 +84,21 @@ def _described(path: Path, text: bytes, limit_s: float, waits_s: float) -> str:
     return json.dumps(said[0]["fields"])
 
 
-def stand_in(content: str, path: Path) -> Regulator:
-    """The Regulator that these fields describe, of this file."""
+def stand_in(content: str, path: Path) -> Law:
+    """The Law that these fields describe, of this file."""
     fields: dict[str, Any] = json.loads(content)
     given: dict[str, Any] = dict.fromkeys(fields.pop("functions"), not_here)
     given |= {name: tuple(value) if isinstance(value, list) else value for name, value in fields.items()}
-    return Regulator(**given | {"look": given["look"] and Look(*given["look"]), "origin": str(path)})
+    look = given.pop("look")
+    display = Display(given.pop("short"), look and Look(*look), given.pop("family"))
+    return Law(**given, display=display, origin=str(path))
 
 
-def fields_of(own: Regulator) -> dict[str, Any]:
+def fields_of(own: Law) -> dict[str, Any]:
     """The words of a law, as JSON takes them."""
     functions = [name for name in FUNCTIONS if getattr(own, name) is not None]
-    return {**{name: getattr(own, name) for name in WORDS}, "functions": functions}
+    shown = {name: getattr(own.display, name) for name in ("short", "look", "family")}
+    return {**{name: getattr(own, name) for name in WORDS}, **shown, "functions": functions}
 
 
 def not_here(*_):

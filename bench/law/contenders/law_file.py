@@ -10,10 +10,11 @@ from pathlib import Path
 
 from bench import law
 from bench.base.errors import BadLaw
-from bench.law.contender import NO_MEMORY, ON_MATRIX, Contender, Gains, Goal, Regulator
-from bench.law.contenders.registry import contenders_of, known_regulators, representation
-from bench.law.equation import Equation
-from bench.law.look import COLOURS, LINES, MARKERS, Look
+from bench.law.contender import Contender
+from bench.law.contenders.registry import contenders, contenders_of, representation
+from bench.law.display import COLOURS, LINES, MARKERS, Equation, Look
+from bench.law.inputs import NO_MEMORY, Gains, Goal
+from bench.law.kinds import ON_MATRIX, Law
 from bench.law.so3 import Rotation
 
 WORD = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
@@ -44,7 +45,7 @@ def read_law(path: Path) -> bytes:
     return text
 
 
-def load_law(path: Path, text: bytes | None = None) -> Regulator:
+def load_law(path: Path, text: bytes | None = None) -> Law:
     """The REGULATOR of a file outside the package. This runs the file: in a law's own process alone.
 
     The module's name carries a digest of the file, so that nothing of an earlier version is ever reused.
@@ -68,18 +69,16 @@ def load_law(path: Path, text: bytes | None = None) -> Regulator:
         cure = _new_imports(text) if isinstance(error, ImportError) else "correct the file"
         raise BadLaw(f"--law {path}: it does not import ({_said(error, str(path))}); {cure}") from error
     own = getattr(module, "REGULATOR", None)
-    if not isinstance(own, Regulator):
+    if not isinstance(own, Law):
         given = "no REGULATOR" if own is None else f"a REGULATOR of type {type(own).__name__}"
-        raise BadLaw(
-            f"--law {path}: it has {given}; it needs a constant REGULATOR = bench.law.Regulator(...) (see README)"
-        )
+        raise BadLaw(f"--law {path}: it has {given}; it needs a constant REGULATOR = bench.law.Law(...) (see README)")
     check_fields(own, path)
-    if own.name in known_regulators():
+    if own.name in contenders("regulators"):
         raise BadLaw(f"--law {path}: the name '{own.name}' is one of ours; give your REGULATOR another name")
     return own._replace(origin=str(path))
 
 
-def check_answers(own: Regulator) -> None:
+def check_answers(own: Law) -> None:
     """Call the law once in each representation that it acts on.
 
     Errors:
@@ -96,7 +95,8 @@ def _new_imports(text: bytes) -> str:
         for one in ast.walk(ast.parse(text))
         if isinstance(one, ast.ImportFrom) and re.match(r"bench\.(?!law\b)", one.module or "")
     ]
-    moved = sorted({name.name for one in old for name in one.names if hasattr(law, name.name)})
+    names = {law.RENAMED.get(name.name, name.name) for one in old for name in one.names}
+    moved = sorted(name for name in names if name in law.__dict__)
     return f"write: from bench.law import {', '.join(moved)}" if moved else "correct the file"
 
 
@@ -104,11 +104,11 @@ TRIAL = Rotation((0.36, 0.48, -0.8), (-0.8, 0.6, 0.0), (0.48, 0.64, 0.6))
 """A rotation with short decimals, away from every singular set we know: where a law is tried once."""
 
 
-def check_fields(own: Regulator, path: Path) -> None:
+def check_fields(own: Law, path: Path) -> None:
     """What the fields of a user's REGULATOR must be, before anything is made of them."""
     on_matrix = own.coordinates == ON_MATRIX
     needed = "law" if on_matrix else "law_in"
-    memory = own.memory or ()
+    memory, shown = own.memory or (), own.display
     coordinates = own.coordinates if isinstance(own.coordinates, tuple) else ()
     problems = (
         (
@@ -120,18 +120,18 @@ def check_fields(own: Regulator, path: Path) -> None:
             "title, source, formula and property must be texts",
         ),
         (
-            not all(isinstance(text, str) and SHORT.fullmatch(text) for text in (own.short, own.family)),
-            f"its short name and family are {_shown((own.short, own.family))}; give texts of at most {LONGEST} "
+            not all(isinstance(text, str) and SHORT.fullmatch(text) for text in (shown.short, shown.family)),
+            f"its short name and family are {_shown((shown.short, shown.family))}; give texts of at most {LONGEST} "
             "letters, digits, spaces and , . ' -",
         ),
         (
-            not (own.look is None or (isinstance(own.look, Look) and own.look.is_known)),
-            f"its look is {_shown(own.look)}; give a bench.law.Look of a colour ({', '.join(COLOURS)}), a marker "
+            not (shown.look is None or (isinstance(shown.look, Look) and shown.look.is_known)),
+            f"its look is {_shown(shown.look)}; give a bench.law.Look of a colour ({', '.join(COLOURS)}), a marker "
             f"({' '.join(MARKERS)}) and a line ({', '.join(LINES)})",
         ),
         (
-            not (own.equation is None or isinstance(own.equation, Equation)),
-            f"its equation is {_shown(own.equation)}; give a bench.law.Equation(formula, spring)",
+            not (shown.equation is None or isinstance(shown.equation, Equation)),
+            f"its equation is {_shown(shown.equation)}; give a bench.law.Equation(formula, spring)",
         ),
         (
             not (on_matrix or own.coordinates == "any" or coordinates),
@@ -150,6 +150,7 @@ def check_fields(own: Regulator, path: Path) -> None:
             f"its memory is {own.memory!r}; give None or a tuple of up to {len(NO_MEMORY)} floats",
         ),
         (own.in_engine is not False, "it has in_engine; MuJoCo's own actuator would run in its place: omit it"),
+        (bool(own.state or own.shipped), "it has a state or is shipped, which only files in contenders/ may: omit it"),
     )
     for is_wrong, problem in problems:
         if is_wrong:

@@ -15,12 +15,12 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from bench.base.errors import BadNumber, Incompatible
-from bench.law.contender import PAPERS_GAINS, Gains, Representation
 from bench.law.contenders.registry import papers_coordinates
 from bench.law.control import hybrid as hybrid_control
 from bench.law.control.impedance import assembly, law_of
 from bench.law.control.setpoint import TOUCH, ContactParameters
-from bench.law.impedance import Impedance
+from bench.law.inputs import PAPERS_GAINS, Gains
+from bench.law.kinds import Coordinates, Impedance
 
 FORMS = ("inverse", "projected", "transpose")
 """Of `hybrid.comply`, in its numbers."""
@@ -52,7 +52,7 @@ class ContactController(NamedTuple):
     """
 
     law: str
-    representation: Representation | None = None
+    representation: Coordinates | None = None
     form: str = ""
     impedance: Impedance | None = None
 
@@ -87,7 +87,7 @@ class ContactController(NamedTuple):
         return tuple(map(float, (*specification.selection[:3], *turns)))
 
 
-def hybrid(law: str, form: str, representation: Representation | None = None) -> ContactController:
+def hybrid(law: str, form: str, representation: Coordinates | None = None) -> ContactController:
     """A hybrid controller, or refuse with the reason.
 
     Errors:
@@ -108,7 +108,7 @@ def hybrid(law: str, form: str, representation: Representation | None = None) ->
     return ContactController(law, representation, form)
 
 
-def impedance_controller(one: Impedance, representation: Representation | None = None) -> ContactController:
+def impedance_controller(one: Impedance, representation: Coordinates | None = None) -> ContactController:
     """An impedance controller, or refuse with the reason.
 
     Errors:

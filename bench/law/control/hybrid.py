@@ -31,7 +31,8 @@ Three frames, and with each the wrench converted to it:
 
 `unconverted` is a negative control: the moment's components taken for generalized forces as they are.
 
-Fails: where J is singular, and on coordinates where B^-1 does not exist; what complies there is then lost with it.
+Limitations: where J is singular, and on coordinates where B^-1 does not exist; what complies there is then lost with
+it.
 Source: Raibert and Craig 1981; Murphy 1988, 3.3; Khatib 1987; Fisher and Mujtaba 1991.
 """
 
@@ -39,13 +40,14 @@ from collections.abc import Callable
 
 from bench.base.errors import Incompatible
 from bench.law.chain import bias_acceleration, twist
-from bench.law.contender import AT_REST, Goal, Representation
 from bench.law.contenders.inverses.dynamically_consistent import resolve as by_least_energy
 from bench.law.contenders.jacobians import analytic
 from bench.law.contenders.jacobians.geometric import fill
 from bench.law.contenders.regulators import feedback_linearized
 from bench.law.contenders.regulators.rotation_matrix import law as regulate
 from bench.law.control.resolved_acceleration import damp, relax
+from bench.law.inputs import AT_REST, Goal
+from bench.law.kinds import Coordinates
 from bench.law.linalg import multiply, multiply_transposed, solve
 from bench.law.scalar import kernel
 from bench.law.so3 import rotate, rotate_back
@@ -128,7 +130,7 @@ def _carry_back(R, R_d, row):
     write(row, carried_back(R, R_d, (row[0], row[1], row[2])), carried_back(R, R_d, (row[3], row[4], row[5])))
 
 
-def in_coordinates(representation: Representation, converts: bool = True) -> Callable:
+def in_coordinates(representation: Coordinates, converts: bool = True) -> Callable:
     """The rows along the coordinates of a representation, on J_E = diag(I, B^-1) J.
 
     Args:
@@ -159,7 +161,7 @@ def in_coordinates(representation: Representation, converts: bool = True) -> Cal
     return assemble
 
 
-def conversion(representation: Representation, converts: bool = True) -> Callable:
+def conversion(representation: Coordinates, converts: bool = True) -> Callable:
     """convert(chart, m): B^T m, or m's components about the axes that the coordinates stand for."""
     if converts:
         return representation.generalized
@@ -172,7 +174,7 @@ def conversion(representation: Representation, converts: bool = True) -> Callabl
     return convert
 
 
-def axes_of(representation: Representation) -> tuple[int, int, int]:
+def axes_of(representation: Coordinates) -> tuple[int, int, int]:
     """Which coordinate is the one about x, about y and about z, near E = 0.
 
     Errors:

@@ -12,9 +12,8 @@ Source: Hogan 1985; Caccavale, Natale, Siciliano, Villani 1999.
 
 from collections.abc import Callable
 
-from bench.law.contender import Representation
 from bench.law.control.hybrid import hold_moving, measure, write
-from bench.law.impedance import Impedance
+from bench.law.kinds import Coordinates, Impedance
 from bench.law.scalar import kernel
 
 
@@ -37,7 +36,7 @@ def assembly(law: Callable) -> Callable:
     return assemble
 
 
-def law_of(impedance: Impedance, representation: Representation | None) -> Callable:
+def law_of(impedance: Impedance, representation: Coordinates | None) -> Callable:
     """The law, in a representation if it is one in coordinates."""
     if impedance.law_in is not None and representation is not None:
         return impedance.law_in(representation)

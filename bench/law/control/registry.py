@@ -1,7 +1,7 @@
 """Every controller in contact there is: hybrids in every form, and the impedances that were found."""
 
 from bench.base.errors import Incompatible, UnknownWord
-from bench.law.contenders.registry import known_impedances, known_representations, representation
+from bench.law.contenders.registry import contenders, representation
 from bench.law.control.contact_controller import (
     ALONG_AXES,
     FORMS,
@@ -14,12 +14,12 @@ from bench.law.control.contact_controller import (
 
 def all_controllers() -> list[ContactController]:
     """Every hybrid controller in every form, then every impedance; each in every representation that it takes."""
-    along = [one for one in known_representations().values() if one.about is not None]
+    along = [one for one in contenders("representations").values() if one.about is not None]
     found = []
     for law in HYBRIDS:
         for one in (None,) if law in ALONG_AXES else along:
             found += [hybrid(law, form, one) for form in FORMS]
-    for impedance in known_impedances().values():
+    for impedance in contenders("impedances").values():
         found += [impedance_controller(impedance, one) for one in (along if impedance.law_in else (None,))]
     return found
 
@@ -32,7 +32,7 @@ def find_controller(word: str) -> ContactController:
     """
     rest, plus, form = word.partition("+")
     law, _, coordinates = rest.partition("/")
-    springs = {f"impedance-{name}": one for name, one in known_impedances().items()}
+    springs = {f"impedance-{name}": one for name, one in contenders("impedances").items()}
     if law not in (*HYBRIDS, *springs):
         raise UnknownWord("controller", law, sorted((*HYBRIDS, *springs)))
     along = representation(coordinates) if coordinates else None

@@ -11,17 +11,17 @@ and `control`, which calls the two and turns x into torques.
 Position is held by the same gains, u_p = Kp (p_d - p) - Kv pdot, as the paper proposes for it (2.1). On seven joints
 null-space motion is damped: see `relax`.
 
-Fails: where J has no inverse; with the analytic Jacobian also where the coordinates are singular.
+Limitations: where J has no inverse; with the analytic Jacobian also where the coordinates are singular.
 """
 
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from bench.base.errors import Incompatible
-from bench.law.chain import bias_acceleration, twist
-from bench.law.contender import Contender, Representation
+from bench.law.chain import Scratch, bias_acceleration, twist
+from bench.law.contender import Contender
+from bench.law.kinds import Coordinates
 from bench.law.linalg import multiply
-from bench.law.resolved_motion import Scratch
 from bench.law.scalar import kernel
 from bench.law.so3 import minus, spring_damper
 
@@ -49,7 +49,7 @@ class Parts(NamedTuple):
     command: Callable
     fill: Callable
     convert: Callable
-    coordinates: Representation | None = None
+    coordinates: Coordinates | None = None
     report: Callable | None = None
     twist: Callable = twist
     bias_acceleration: Callable = bias_acceleration
@@ -104,7 +104,7 @@ def _on_geometric(parts: Parts) -> Callable:
     return assemble
 
 
-def _on_analytic(parts: Parts, coordinates: Representation) -> Callable:
+def _on_analytic(parts: Parts, coordinates: Coordinates) -> Callable:
     command, fill, drift_of, report = parts.command, parts.fill, parts.convert, parts.report or coordinates.accelerate
     chart, goal_chart, rates = coordinates.chart, coordinates.goal_chart, coordinates.rates
     twist_of, bias_of, hold_at = parts.twist, parts.bias_acceleration, parts.hold

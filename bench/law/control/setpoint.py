@@ -2,7 +2,7 @@
 
 from typing import Any, NamedTuple
 
-from bench.law.resolved_motion import Scratch
+from bench.law.chain import Scratch
 
 
 class ContactParameters(NamedTuple):

@@ -2,7 +2,8 @@
 
 The diagonal holds 1 / L_ii: n divisions in all, here and in every solution.
 
-Fails: NaN if a pivot is negative, which S of a condition number above 1 / EPS may come to by rounding; 1/0 if it is 0.
+Limitations: NaN if a pivot is negative, which S of a condition number above 1 / EPS may come to by rounding; 1/0 if it
+is 0.
 """
 
 from bench.law.scalar import kernel, sqrt

@@ -3,7 +3,7 @@
 Magnitudes are compared by copysign(x, 1.0), which is exact for every number; squares would be zero below 1e-162, and
 a matrix of such numbers would be called singular that is not.
 
-Fails: an exactly singular matrix has a column without a pivot; what is solved with it divides by that zero.
+Limitations: an exactly singular matrix has a column without a pivot; what is solved with it divides by that zero.
 """
 
 from bench.law.scalar import copysign, kernel

@@ -11,7 +11,7 @@ are compared by squares, which are neither zero nor infinite for matrices of the
 Each sweep rotates every pair once; the angles left go down quadratically once they are small. 6 x 6 and 6 x 7 matrices,
 Jacobians and random ones of any rank, need 8 sweeps at most; SWEEPS is a bound for the loop, no setting.
 
-Fails: rows that are not finite are never rotated; they and what they stand for stay as they are.
+Limitations: rows that are not finite are never rotated; they and what they stand for stay as they are.
 """
 
 from bench.law.scalar import copysign, kernel, sqrt

@@ -82,9 +82,9 @@ def shuffle(states: np.ndarray, rows: np.ndarray, number: int) -> None:
 def compile_benchmarks(asked: dict[str, Any], rows: np.ndarray) -> dict[str, Any]:
     """Compile laws, each in a loop over rows in which a tick waits for the command of the one before, and engines."""
     from bench.engines.binding import command_of, memory_of
-    from bench.law.contender import Gains
     from bench.law.contenders import combinations, registry
     from bench.law.contenders.law_file import load_law
+    from bench.law.inputs import Gains
     from bench.running.timing import benchmarks, law, on_arms
     from bench.running.timing.benchmark import ENGINE, LAW, Benchmark
 

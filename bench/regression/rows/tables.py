@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import pandas as pd
 
-from bench.law.contenders.registry import known_representations
+from bench.law.contenders.registry import contenders
 from bench.law.contenders.representations.zyx_euler import to_matrix
 from bench.regression.rows.difference import Rule
 from tasks.contact_rest import REST
@@ -104,7 +104,7 @@ def compare_contact(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
 
 def _is_on_singular_set(rows: pd.DataFrame) -> np.ndarray:
     """Return whether a row's goal is where its controller's coordinates are singular."""
-    margins = {name: one.margin for name, one in known_representations().items()}
+    margins = {name: one.margin for name, one in contenders("representations").items()}
     goals = zip(rows["representation"].astype(str), rows["alpha"], rows["beta"], rows["gamma"], strict=True)
     return np.array([bool(name) and margins[name](to_matrix(E)) < ON_SET for name, *E in goals], bool)
 

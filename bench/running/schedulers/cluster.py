@@ -1,7 +1,7 @@
 """Units carried out by a Dask cluster: of processes of this machine, or one that is there already.
 
 Text travels to a worker (wire_format.py) and parquet travels back; the client writes it, so that no disk is shared. A
-chunk whose worker is lost is run again by another. Fails: if a unit ends every worker that takes it.
+chunk whose worker is lost is run again by another. Limitations: if a unit ends every worker that takes it.
 """
 
 import contextlib

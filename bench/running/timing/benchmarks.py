@@ -22,7 +22,8 @@ from bench.engines.plants import free_body
 from bench.engines.simulate import compiled_loop, evaluation, simulate
 from bench.engines.simulated import compiled_view
 from bench.experiments.experiment import Settings
-from bench.law.contender import Contender, Gains
+from bench.law.contender import Contender
+from bench.law.inputs import Gains
 from bench.running.timing import law, on_arms, reference_kernel
 from bench.running.timing.benchmark import ENGINE, KERNEL, LAW, LOOP, NEVER, Benchmark, open_loop
 from tasks.base import Start

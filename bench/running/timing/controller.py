@@ -20,9 +20,10 @@ from bench.engines.plants.arm import Work
 from bench.engines.plants.arm import work as arm_work
 from bench.engines.simulated import Simulated, compiled_view
 from bench.engines.typed import borrow, type_of
-from bench.law.contender import AT_REST, PAPERS_GAINS, Contender, Gains, Goal
+from bench.law.chain import Chain
+from bench.law.contender import Contender
 from bench.law.control.resolved_acceleration import control
-from bench.law.resolved_motion import Chain
+from bench.law.inputs import AT_REST, PAPERS_GAINS, Gains, Goal
 from bench.law.so3 import Rotation, from_quaternion
 from bench.running.timing.benchmark import CONTROLLER, Benchmark
 from tasks.base import Start

@@ -3,7 +3,7 @@
 (2.2) with the law on R: torques from mj_jacSite, mj_jacDot, mj_fullM and numpy.linalg, and a step a tick, with the
 observation and reward that dm_control makes of it. The compiled loop's speed-up is over this.
 
-Fails: where J is singular; numpy then raises or gives torques without bound.
+Limitations: where J is singular; numpy then raises or gives torques without bound.
 """
 
 from collections.abc import Callable
@@ -13,7 +13,7 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench.law.contender import Gains
+from bench.law.inputs import Gains
 from bench.law.so3 import from_quaternion
 from tasks.base import Start
 

@@ -6,7 +6,7 @@ the command before it. What is measured is thus latency, from a state in memory 
 processor can overlap. The chain itself (three additions, a product, one more addition) and the loop are in every
 number; `EMPTY`, a law that only returns omega, is timed beside the others to say how much that is.
 
-Fails: a law with a command that is not finite breaks the chain with NaN; it is not timed.
+Limitations: a law with a command that is not finite breaks the chain with NaN; it is not timed.
 """
 
 import functools
@@ -15,7 +15,8 @@ import numpy as np
 
 import tasks
 from bench.engines.compiled import MATRIX, compile_function, float64, int64
-from bench.law.contender import AT_REST, Gains, Goal, Regulator
+from bench.law.inputs import AT_REST, Gains, Goal
+from bench.law.kinds import Law
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation, from_quaternion
 
@@ -34,7 +35,7 @@ def _omega(R, omega, goal, gains):
     return omega
 
 
-EMPTY = Regulator("empty", "No law", "", "u = \\omega", law=_omega)
+EMPTY = Law("empty", "No law", "", "u = \\omega", law=_omega)
 """Costs nothing: its time is the loop's and the chain's."""
 
 

@@ -19,8 +19,9 @@ from bench.engines.native.libmujoco import model_of
 from bench.engines.simulate import compiled_loop, simulate
 from bench.experiments.experiment import Settings
 from bench.experiments.suites import suite
-from bench.law.contender import PAPERS_GAINS, Contender
+from bench.law.contender import Contender
 from bench.law.contenders import combinations
+from bench.law.inputs import PAPERS_GAINS
 from bench.running.timing import dm_control_loop
 from bench.running.timing.benchmark import DM_CONTROL, ENGINE, NEVER, Benchmark, open_loop
 from bench.running.timing.controller import controller

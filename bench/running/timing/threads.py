@@ -4,7 +4,7 @@ A piece is a second's episode of an arm, with a simulation of its own; the threa
 the compiled loop holds no lock of Python's. Repetitions alternate, each in an order of its own, and the speed-up is the
 median of one thread's time over two threads' of the same repetition.
 
-Fails: says little on a machine that others use, or with one core.
+Limitations: says little on a machine that others use, or with one core.
 """
 
 import random

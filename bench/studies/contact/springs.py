@@ -11,10 +11,10 @@ from bench.engines.metrics.contact.scene import alignment_error
 from bench.engines.metrics.contact_metric import Pose, response
 from bench.engines.simulate_contact import run_contact as run
 from bench.law import Gains, kernel
-from bench.law.contender import PAPERS_GAINS
 from bench.law.contenders.impedances import geometric
 from bench.law.control.contact_controller import ContactController, impedance_controller
 from bench.law.control.setpoint import TOUCH
+from bench.law.inputs import PAPERS_GAINS
 
 ARMS = ("puma560", "ur5e")
 STIFFNESSES = (50.0, 20.0, 10.0, 5.0, 2.0)

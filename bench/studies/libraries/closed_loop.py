@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bench.engines.ideal import held_turn, plus
-from bench.law.contender import PAPERS_GAINS
+from bench.law.inputs import PAPERS_GAINS
 from bench.studies.libraries import turns
 from bench.studies.libraries.library import QUATERNION, Controller, Function, answer, quiet
 from tasks.rules import RULES, ticks

@@ -26,8 +26,8 @@ from scipy.spatial.transform import Rotation
 from bench.base.files import read_json, write_json
 from bench.base.provenance import describe
 from bench.experiments.tables.schema import RESULTS
-from bench.law.contenders.registry import known_shipped
-from bench.law.shipped import Shipped
+from bench.law.contenders.registry import contenders
+from bench.law.kinds import Law
 from bench.studies.study import make_parser
 
 STORED = RESULTS / "libraries" / "restated.json"
@@ -58,7 +58,7 @@ def pairs() -> np.ndarray:
     return np.hstack([one.as_quat(scalar_first=True) for one in (goal, now)])
 
 
-def filled(one: Shipped, template: str, folder: Path) -> str:
+def filled(one: Law, template: str, folder: Path) -> str:
     """Return a file of sources/ with the lines of theirs in the places of its marks."""
     repository, _, revision = one.source.partition("@")
     name = repository.replace("/", "+")
@@ -100,9 +100,9 @@ def turns_of(both: np.ndarray) -> Rotation:
     return goal * now.inv()
 
 
-def errors_of(one: Shipped, turns: Rotation) -> np.ndarray:
+def errors_of(one: Law, turns: Rotation) -> np.ndarray:
     """Return the errors of our kernel, n x 3."""
-    return np.array([one.error(tuple(q)) for q in turns.as_quat(canonical=True, scalar_first=True).tolist()])
+    return np.array([one.shipped.error(tuple(q)) for q in turns.as_quat(canonical=True, scalar_first=True).tolist()])
 
 
 def in_cpp(function: Callable) -> Errors:
@@ -116,7 +116,7 @@ def in_cpp(function: Callable) -> Errors:
     return errors
 
 
-def compare(one: Shipped, source: Path, folder: Path, options: list[str]) -> dict:
+def compare(one: Law, source: Path, folder: Path, options: list[str]) -> dict:
     """Return the row of a controller."""
     template = source.read_text()
     marks = list(MARK.finditer(template))
@@ -154,7 +154,9 @@ def main() -> None:
     files = {source.stem.replace("_", "-"): source for source in SOURCES.iterdir()}
     options = [f"-I{one}" for one in (SOURCES, *asked.include)]
     earlier = read_json(STORED)["controllers"]
-    rows = [kept(compare(one, files[name], asked.folder, options), earlier) for name, one in known_shipped().items()]
+    rows = [
+        kept(compare(one, files[name], asked.folder, options), earlier) for name, one in contenders("shipped").items()
+    ]
     about = describe() | {"command": "python -m bench.studies.restated FOLDER"}
     write_json(STORED, {"controllers": rows, "provenance": about})
 

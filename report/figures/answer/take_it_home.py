@@ -5,7 +5,7 @@ from __future__ import annotations
 from bench.export.language import find_language, language_words
 from bench.export.subject import find_subject, subject_words
 from bench.export.vectors import CLOSE, vectors
-from bench.law.contenders.registry import all_contenders, known_representations, papers_laws
+from bench.law.contenders.registry import all_contenders, contenders, papers_laws
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import listed
 from report.figures.kit.tables import Table
@@ -19,7 +19,7 @@ SHOWN = papers_laws()[0].name
 def facts(run: Run) -> dict:
     """How many languages, vectors and subjects there are."""
     words = [find_language(word).title for word in language_words()]
-    laws, coordinates = len(all_contenders()), len(known_representations())
+    laws, coordinates = len(all_contenders()), len(contenders("representations"))
     return {
         "languages": listed(words),
         "vectors": len(vectors(find_subject(SHOWN))),

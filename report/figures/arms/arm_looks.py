@@ -5,7 +5,7 @@ from __future__ import annotations
 import pandas as pd
 
 import tasks
-from bench.law.contenders.registry import known_representations
+from bench.law.contenders.registry import contenders
 from report.figures.kit import style
 
 LOOKS = {
@@ -34,4 +34,4 @@ def look(arm: str) -> style.Look:
 
 def short_title(name: str) -> str:
     """How coordinates are called at the head of a column."""
-    return known_representations()[name].title.removesuffix(" angles")
+    return contenders("representations")[name].title.removesuffix(" angles")

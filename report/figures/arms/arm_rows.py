@@ -16,14 +16,7 @@ from bench.experiments.suites import NOMINAL
 from bench.experiments.tables import read
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
-from bench.law.contenders.registry import (
-    all_contenders,
-    baselines_of_arms,
-    contenders_of,
-    known_inverses,
-    known_jacobians,
-    known_regulators,
-)
+from bench.law.contenders.registry import all_contenders, baselines_of_arms, contenders, contenders_of
 from report.figures.arms.arm_looks import short_title
 from report.figures.kit import families
 from report.figures.kit.page import Run
@@ -72,12 +65,12 @@ def standard(arm: str, law: str, jacobian: str) -> str:
     """The inverse that this law and Jacobian take on that arm if none is named; empty if nothing fits."""
     if law in baselines_of_arms() and baselines_of_arms()[law].inverse:
         return baselines_of_arms()[law].way[1]
-    fitting = combinations.on((f"{law}@{jacobian}+{STANDARD}",), contenders(), tasks.arm(arm).joints)
+    fitting = combinations.on((f"{law}@{jacobian}+{STANDARD}",), laws_by_name(), tasks.arm(arm).joints)
     return fitting[0].way[1] if fitting else ""
 
 
 @functools.cache
-def contenders() -> dict[str, Contender]:
+def laws_by_name() -> dict[str, Contender]:
     """Every law in its coordinates by name, the user's own of the run among them."""
     own = [one for law in read.own_laws() for one in contenders_of(law)]
     return {one.name: one for one in (*all_contenders(), *own)} | baselines_of_arms()
@@ -111,7 +104,7 @@ def equation(controller: str) -> str:
     """Which of the paper's two controllers it is; of a baseline none."""
     if controller.partition("@")[0] in baselines_of_arms():
         return "none"
-    jacobian = known_jacobians()[controller.partition("@")[2]]
+    jacobian = contenders("jacobians")[controller.partition("@")[2]]
     return "(2.2)" if jacobian.takes == "angular-acceleration" else "(3.7)"
 
 
@@ -122,7 +115,7 @@ def title(controller: str) -> str:
         return baselines_of_arms()[law].regulator.title
     regulator, _, coordinates = law.partition("/")
     which = short_title(coordinates) if coordinates else ""
-    known = known_regulators()
+    known = contenders("regulators")
     name = known[regulator].title.partition(" (")[0] if regulator in known else regulator
     if regulator in known and known[regulator].later:
         word = families.word(law)
@@ -132,13 +125,13 @@ def title(controller: str) -> str:
         said = f"{name}, {which}" if acts_on_any else name
     else:
         said = which
-    frame = "" if jacobian in PAPERS_JACOBIANS else f", {known_jacobians()[jacobian].title.lower()}"
+    frame = "" if jacobian in PAPERS_JACOBIANS else f", {contenders('jacobians')[jacobian].title.lower()}"
     return f"{equation(controller)} {said}{frame}"
 
 
 def title_of_inverse(inverse: str) -> str:
     """How an inverse is called in a figure."""
-    return "Inverse, or pseudo-inverse" if inverse == STANDARD else known_inverses()[inverse].title
+    return "Inverse, or pseudo-inverse" if inverse == STANDARD else contenders("inverses")[inverse].title
 
 
 def settled(rows: pd.DataFrame) -> pd.Series:

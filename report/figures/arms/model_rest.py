@@ -8,7 +8,7 @@ not: s fg = D x + fg, so that a = J x and
 and with dry friction wherever friction can hold what the command asks for, |D J^-1 Kp e| <= f: an error is held as
 long as the friction is large beside the inertia.
 
-Fails: on seven joints the posture at rest is not known, for nothing drives it; the formula takes the nearest one.
+Limitations: on seven joints the posture at rest is not known, for nothing drives it; the formula takes the nearest one.
 """
 
 from __future__ import annotations

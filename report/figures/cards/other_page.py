@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import inspect
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from bench.base.provenance import ROOT
 from bench.export.subject import COMPENSATOR, IMPEDANCE, SPRING, subject_words
-from bench.law import contenders
-from bench.law.contenders.registry import (
-    known_compensators,
-    known_impedances,
-    known_springs,
-)
+from bench.law.contenders.registry import contenders
 from report.figures.cards import regulators
 from report.figures.cards.law_page import BACK, LawPage, in_every_language, taken
 from report.figures.kit import html
@@ -33,9 +28,9 @@ class Kind(NamedTuple):
 
 
 KINDS = (
-    Kind(COMPENSATOR, "compensators", "a law with a state", known_compensators()),
-    Kind(IMPEDANCE, "impedances", "an impedance", known_impedances()),
-    Kind(SPRING, "springs", "a spring of a pose or of a rotation", known_springs()),
+    Kind(COMPENSATOR, "compensators", "a law with a state", contenders("compensators")),
+    Kind(IMPEDANCE, "impedances", "an impedance", contenders("impedances")),
+    Kind(SPRING, "springs", "a spring of a pose or of a rotation", contenders("springs")),
 )
 
 
@@ -59,7 +54,7 @@ class Other(NamedTuple):
     @property
     def file(self) -> Path:
         """Return the path of its file on this machine."""
-        return Path(inspect.getfile(contenders)).parents[3] / self.where
+        return ROOT / self.where
 
 
 def every_other() -> list[Other]:
@@ -76,7 +71,7 @@ def page(one: Other) -> LawPage:
     """What it is, where it fails, what is proved, and its files."""
     files = in_every_language(one.word)
     what, fails = regulators.docstring(one.file)
-    said = {"Is": f"{one.kind.title[:1].upper()}{one.kind.title[1:]}.", "Fails": fails, "Proved": proved(one)}
+    said = {"Is": f"{one.kind.title[:1].upper()}{one.kind.title[1:]}.", "Limitations": fails, "Proved": proved(one)}
     lines = [f"<p>{html.foreign(text)}</p>" for text in what]
     lines += [f'<p class="card-fact"><b>{head}.</b> {html.foreign(text)}</p>' for head, text in said.items() if text]
     body = (

@@ -17,9 +17,10 @@ from bench.export.heading import RESET, SIDE
 from bench.findings import why
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection import needs
-from bench.law.contender import Contender, Regulator
+from bench.law.contender import Contender
 from bench.law.contenders import regulators
-from bench.law.contenders.registry import all_contenders, contenders_of, known_regulators, papers_laws
+from bench.law.contenders.registry import all_contenders, contenders, contenders_of, papers_laws
+from bench.law.kinds import Law
 from report.figures.cards.card_map import MOST_SETTLED, card_map
 from report.figures.kit import families, html, laws, style
 from report.figures.kit.page import Run
@@ -41,28 +42,28 @@ UNTRUSTED = (
 LAWS = Table("Law | Proved | Settles | On the command line", {"Settles": lambda share: f"{100 * share:.1f} %"})
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 EXAMPLE = re.compile(r" Shown by |, as from |, as at ")
-FAILS = re.compile(r"\b(?:Fails|Limitations):\s*(.*)", re.DOTALL)
+LIMITATIONS = re.compile(r"\bLimitations:\s*(.*)", re.DOTALL)
 
 
-def in_order() -> list[Regulator]:
+def in_order() -> list[Law]:
     """The paper's three regulators, its variants by name, the later ones by name, the user's own of the run."""
     first = [one.regulator for one in papers_laws()]
-    others = [one for one in known_regulators().values() if one not in first]
+    others = [one for one in contenders("regulators").values() if one not in first]
     return [*first, *sorted(others, key=lambda one: (one.later, one.name)), *read.own_laws()]
 
 
-def papers_first(regulator: Regulator) -> list[Contender]:
+def papers_first(regulator: Law) -> list[Contender]:
     """A law in every representation it acts on, the paper's own coordinates first."""
     return sorted(contenders_of(regulator), key=lambda one: one.is_elsewhere)
 
 
-def file_of(regulator: Regulator) -> Path:
+def file_of(regulator: Law) -> Path:
     """Return the path of a law's source."""
     ours = Path(regulators.__path__[0]) / f"{regulator.name.replace('-', '_')}.py"
     return Path(regulator.origin) if regulator.origin else ours
 
 
-def text_of(regulator: Regulator) -> tuple[list[str], str]:
+def text_of(regulator: Law) -> tuple[list[str], str]:
     """What its docstring says: paragraphs on what the law is, and where it fails; nothing of one that may not run."""
     return docstring(file_of(regulator)) if regulator.law or regulator.law_in else ([UNTRUSTED], "")
 
@@ -70,7 +71,7 @@ def text_of(regulator: Regulator) -> tuple[list[str], str]:
 def docstring(file: Path) -> tuple[list[str], str]:
     """A contender's file in words: paragraphs on what it is, and where it fails."""
     text = ast.get_docstring(ast.parse(file.read_bytes())) or ""
-    found = FAILS.search(text)
+    found = LIMITATIONS.search(text)
     fails = typeset(" ".join(found[1].split())) if found else ""
     about = text[: found.start()] if found else text
     paragraphs = [typeset(" ".join(one.split())) for one in about.split("\n\n") if one.strip()]
@@ -84,12 +85,12 @@ def costs_of(one: Contender, run: Run) -> pd.DataFrame:
     return numbers[(numbers > 0).any(axis=1)].rename(columns={"compare": "<"}).reset_index()
 
 
-def engine_of(regulator: Regulator) -> str:
+def engine_of(regulator: Law) -> str:
     """Return the engine of a card's episodes: the continuous plant, or MuJoCo for an actuator that only it has."""
     return "native" if regulator.in_engine else "ideal-rk4"
 
 
-def measured(episodes: pd.DataFrame, regulator: Regulator) -> str:
+def measured(episodes: pd.DataFrame, regulator: Law) -> str:
     """How many of the uniform starts settled, and how fast."""
     uniform = episodes[episodes["start_set"] == "uniform"]
     if regulator.costing_only:
@@ -141,7 +142,7 @@ def said_of(one: Contender, episodes: pd.DataFrame, run: Run) -> str:
     what, fails = text_of(one.regulator)
     acts = one.representation.title if one.representation else "the rotation matrix"
     words = {
-        "Fails": fails,
+        "Limitations": fails,
         "Memory": f"{RESET} {SIDE}" if one.regulator.memory else "",
         "Acts on": f"{acts[:1].upper()}{acts[1:]}.",
         "Proved": PROPERTIES.get(one.regulator.property, f"{one.regulator.property}."),
@@ -153,7 +154,7 @@ def said_of(one: Contender, episodes: pd.DataFrame, run: Run) -> str:
     return "".join((*(f"<p>{html.foreign(one)}</p>" for one in what), *lines))
 
 
-def source(regulator: Regulator) -> str:
+def source(regulator: Law) -> str:
     """The law's own file, folded."""
     folder = "laws" if regulator.origin else "bench/law/contenders/regulators"
     return folded(file_of(regulator), f"{folder}/{regulator.name.replace('-', '_')}.py")

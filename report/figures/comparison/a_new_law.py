@@ -11,8 +11,8 @@ from bench.experiments.tables import read
 from bench.findings.selection.criteria import BOUND, HEAVY
 from bench.findings.theory.closed_form import linear_settling
 from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, settling
-from bench.law.contender import PAPERS_GAINS
-from bench.law.equation import ANGLE, CHORD, Equation
+from bench.law.display import ANGLE, CHORD, Equation
+from bench.law.inputs import PAPERS_GAINS
 from report.figures.comparison import cells, comparison, new_law
 from report.figures.comparison.cells import LEVEL
 from report.figures.comparison.comparison import uniform

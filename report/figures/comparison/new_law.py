@@ -9,8 +9,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from bench.findings.theory.isotropic import EQUATIONS, TIGHT
-from bench.law.contender import PAPERS_GAINS
-from bench.law.equation import Equation
+from bench.law.display import Equation
+from bench.law.inputs import PAPERS_GAINS
 from report.figures.comparison.cells import LEVEL
 from report.figures.kit import families, style
 from report.figures.kit.inline import responsive_picture

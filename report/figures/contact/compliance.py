@@ -10,7 +10,7 @@ import pandas as pd
 
 from bench.findings.selection.words import together
 from bench.findings.theory import compliance_theory as theory
-from bench.law.contenders.registry import known_representations
+from bench.law.contenders.registry import contenders
 from bench.law.so3 import from_quaternion
 from report.figures.contact import by_transpose
 from report.figures.contact import rows as controllers
@@ -51,7 +51,9 @@ def facts(run: Run) -> dict:
 
 def probed(rows: pd.DataFrame) -> dict:
     """Return the probe's numbers: theory, measurement, other controllers, work, and the moment that a pole loses."""
-    axis, kept = theory.lost_moment(known_representations()["zyx-euler"], from_quaternion(zyx(0.0, math.pi / 2.0, 0.0)))
+    axis, kept = theory.lost_moment(
+        contenders("representations")["zyx-euler"], from_quaternion(zyx(0.0, math.pi / 2.0, 0.0))
+    )
     work = rows.loc[rows["way"].isin(("hybrid/zyx-euler", controllers.SPRINGS_OF_EULER)), "work_residual"].dropna()
     return {
         "axes_arm": shown_arm(rows),

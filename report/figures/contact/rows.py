@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from bench.findings import claims
-from bench.law.contenders.registry import known_impedances
+from bench.law.contenders.registry import contenders
 from bench.law.control.contact_controller import PAPERS_FORM
 from report.figures.claims import claims as shown
 from report.figures.kit import html, style
@@ -106,7 +106,7 @@ def title(way: str) -> str:
     """How a controller is called in a figure: its frame, or its coordinates."""
     law, _, coordinates = way.partition("+")[0].partition("/")
     if law.startswith("impedance-"):
-        name = f"{SPRINGS}{known_impedances()[law.removeprefix('impedance-')].title}"
+        name = f"{SPRINGS}{contenders('impedances')[law.removeprefix('impedance-')].title}"
     else:
         name = OTHER if law == "hybrid" and not coordinates.endswith("euler") else TITLES.get(law, law)
     return f"{name}, {COORDINATES.get(coordinates, coordinates)}" if coordinates else name

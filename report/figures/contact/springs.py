@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from bench.law.contenders.registry import known_springs
+from bench.law.contenders.registry import contenders
 from report.figures.kit import html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.tables import Table
@@ -62,7 +62,7 @@ def tables(run: Run) -> dict:
 
 def write_formula(name: str) -> str:
     """Return the formula of a spring; its name if it is not here any more."""
-    known = known_springs()
+    known = contenders("springs")
     return f"${known[name].formula}$" if name in known else name
 
 

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from bench.experiments.tables import read
 from bench.findings.theory import held_goals
-from bench.law.contender import PAPERS_GAINS
+from bench.law.inputs import PAPERS_GAINS
 from report.figures.failures import ball, maps, world_map
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.rows import LINEARIZED, SHORT, lost, of

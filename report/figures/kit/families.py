@@ -67,7 +67,7 @@ def word(name: str) -> str:
     """What a law is called where its family is not said too."""
     one = laws.contender(name)
     short = present([name])[0].laws[name]
-    return f"{one.regulator.short} {short}" if one and short.startswith("in ") else short
+    return f"{one.regulator.display.short} {short}" if one and short.startswith("in ") else short
 
 
 def anchor(name: str) -> str:

@@ -6,8 +6,9 @@ from pathlib import Path
 import pandas as pd
 
 from bench.experiments.tables import read
-from bench.law.contender import Contender, Regulator
-from bench.law.contenders.registry import contenders_of, known_regulators, papers_laws
+from bench.law.contender import Contender
+from bench.law.contenders.registry import contenders, contenders_of, papers_laws
+from bench.law.kinds import Law
 
 TITLES = {one.name: one.regulator.title.partition(" (")[0] for one in papers_laws()}
 """contender -> how it is called in a figure."""
@@ -21,13 +22,13 @@ def each(frame: pd.DataFrame) -> list[tuple[str, str, pd.DataFrame]]:
 
 def without_later(frame: pd.DataFrame) -> pd.DataFrame:
     """The rows of the paper's laws in any coordinates, and of the user's own: what the paper's chapters are about."""
-    later = {name for name, one in known_regulators().items() if one.later}
+    later = {name for name, one in contenders("regulators").items() if one.later}
     return frame[~frame["regulator"].isin(later)].reset_index(drop=True)
 
 
-def regulator(word: str) -> Regulator | None:
+def regulator(word: str) -> Law | None:
     """The regulator of that name, the user's own of the run among them; None if there is none."""
-    return known_regulators().get(word) or _own(read.folder()).get(word)
+    return contenders("regulators").get(word) or _own(read.folder()).get(word)
 
 
 def contender(name: str) -> Contender | None:
@@ -46,7 +47,7 @@ def title(name: str) -> str:
 def title_of(one: Contender) -> str:
     """The law's title, and its coordinates where they are others than the paper's."""
     where, title = one.representation, one.regulator.title
-    return f"{title} in {where.short or where.name}" if where and one.is_elsewhere else title
+    return f"{title} in {where.display.short or where.name}" if where and one.is_elsewhere else title
 
 
 def regulator_of(name: str) -> str:
@@ -55,6 +56,6 @@ def regulator_of(name: str) -> str:
 
 
 @functools.cache
-def _own(folder: Path) -> dict[str, Regulator]:
+def _own(folder: Path) -> dict[str, Law]:
     """The user's laws of a run by name."""
     return {one.name: one for one in read.own_laws(folder)} if (folder / "laws").is_dir() else {}

@@ -17,7 +17,7 @@ from matplotlib import font_manager, rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from bench.law import look as law_look
+from bench.law import display
 from report.figures.kit import laws
 
 FONTS = Path(__file__).parent / "fonts"
@@ -101,10 +101,10 @@ def look(name: str) -> Look:
     """How to draw a regulator or a contender (`regulator/representation@...`), unknown ones included."""
     word = laws.regulator_of(name)
     own = laws.regulator(word)
-    return drawn(own.look) if own and own.look else spare(word)
+    return drawn(own.display.look) if own and own.display.look else spare(word)
 
 
-def drawn(words: law_look.Look) -> Look:
+def drawn(words: display.Look) -> Look:
     """The look that these words name."""
     return Look(COLOURS[words.colour], words.marker, LINES[words.line])
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pandas as pd
 
-from bench.law.contenders.registry import known_shipped
+from bench.law.contenders.registry import contenders
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
@@ -110,7 +110,7 @@ def loop_facts() -> dict:
         "axes_180": int(functions["at_180"].min()),
         "fixed": int((loops.verdicts()["fixed"] != "").sum()),
         "mink_version": answers.origins()["mink"]["version"],
-        "mink_commit": known_shipped()["mink"].source.partition("@")[2][:7],
+        "mink_commit": contenders("shipped")["mink"].source.partition("@")[2][:7],
         "weld_settings": weld.title,
         "weld_loop": loops.in_words(weld),
         "weld_most": f"{pulls()['pull_ratio'].max():.2g}",

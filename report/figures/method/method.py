@@ -14,8 +14,8 @@ import tasks
 from bench.engines.counting import RULES as COUNT_RULES
 from bench.engines.metrics.registry import known_metrics
 from bench.findings.selection.needs import CHATTER
-from bench.law.contenders.registry import known_inverses, known_jacobians
-from bench.law.resolved_motion import Inverse, Jacobian
+from bench.law.contenders.registry import contenders
+from bench.law.kinds import Inverse, Jacobian
 from report.figures.kit import families, html, laws
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power, prose
@@ -103,9 +103,11 @@ def tables(run: Run) -> dict:
         "rules": JUDGES((f"`{name}`", value(name), prose(why)) for name, why in reasons().items()),
         "metrics": METRICS((f"`{one.column}`", one.title, prose(one.unit)) for one in known_metrics().values()),
         "jacobians": JACOBIANS(
-            (word(one), lines(one.formula), used(one), prose(one.source)) for one in known_jacobians().values()
+            (word(one), lines(one.formula), used(one), prose(one.source)) for one in contenders("jacobians").values()
         ),
-        "inverses": INVERSES((word(one), lines(one.formula), prose(one.source)) for one in known_inverses().values()),
+        "inverses": INVERSES(
+            (word(one), lines(one.formula), prose(one.source)) for one in contenders("inverses").values()
+        ),
         "starts": STARTS(start_sets(runs)),
         "tab_engines": ENGINES((f"`{name}`", prose(text), int(counts.get(name, 0)) or None) for name, text in listed),
         "tab_converged": CONVERGED(unconverged(run)),

@@ -12,8 +12,8 @@ import pandas as pd
 from bench.engines.episode import FINAL_ANGLE, Settings
 from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
-from bench.law.contender import Gains
 from bench.law.contenders.registry import find_contender
+from bench.law.inputs import Gains
 from report.figures.kit.laws import TITLES
 from report.figures.kit.rows import LINEARIZED
 from tasks import start_set

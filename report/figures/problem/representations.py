@@ -16,7 +16,7 @@ import warnings
 import numpy as np
 from scipy.spatial.transform import Rotation as Scipy
 
-from bench.law.contenders.registry import known_representations
+from bench.law.contenders.registry import contenders
 from bench.law.contenders.representations.zyx_euler import chart, to_matrix
 from bench.law.so3 import Rotation, from_quaternion
 from report.figures.kit.page import Run
@@ -43,7 +43,7 @@ def tables(_: Run) -> dict:
     """Every representation there is."""
     coordinates = [
         (one.title, f"${one.formula}$", prose(where_it_breaks(one)), one.source)
-        for one in known_representations().values()
+        for one in contenders("representations").values()
     ]
     return {"representations": COORDINATES(coordinates)}
 

@@ -15,9 +15,9 @@ from matplotlib.axes import Axes
 from bench.experiments.tables import read
 from bench.findings.theory.isotropic import EQUATIONS
 from bench.findings.theory.thresholds import HALF_TURN, UNBOUNDED, WITH_MEMORY, keeps, least
-from bench.law.contender import Regulator
 from bench.law.contenders.registry import find_contender
 from bench.law.contenders.regulators import hybrid, mrp_linearized
+from bench.law.kinds import Law
 from report.figures.kit import families, html, style
 from report.figures.kit.inline import responsive_picture
 from report.figures.kit.page import Run
@@ -79,7 +79,7 @@ def _marks(axes: Axes, place: int, shares: pd.Series, colour: str) -> None:
             axes.plot(level, place, "o", markersize=6, fillstyle="left", color=colour, markerfacecoloralt=style.PAPER)
 
 
-def regulator_of(law: str) -> Regulator:
+def regulator_of(law: str) -> Law:
     """Return the regulator of a contender, the user's own of the run among them."""
     return find_contender(law, read.own_laws()).regulator
 

@@ -6,8 +6,8 @@ import math
 
 import pandas as pd
 
-from bench.law.contender import PAPERS_GAINS
-from bench.law.contenders.registry import known_compensators, known_regulators
+from bench.law.contenders.registry import contenders
+from bench.law.inputs import PAPERS_GAINS
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
@@ -24,11 +24,11 @@ def facts(run: Run) -> dict:
     """Return what laws without an integral leave; how long the law without a rate takes over its twin."""
     rows = compensated(run)
     worst = rows["disturbance"].max()
-    rejecting = {name for name, one in known_compensators().items() if one.rejects}
+    rejecting = {name for name, one in contenders("compensators").items() if one.state.rejects}
     left = rows[(rows["disturbance"] == worst) & ~rows["law"].isin(rejecting)]["left_rad"].max()
     still = rows[rows["disturbance"] == 0.0]
     without = still.loc[still["reads_rate"] == "no", "settling_median_s"].iloc[0]
-    paper = still.loc[~still["law"].isin(known_compensators()), "settling_median_s"].iloc[0]
+    paper = still.loc[~still["law"].isin(contenders("compensators")), "settling_median_s"].iloc[0]
     return {
         "left": f"{math.degrees(left):.1f}",
         "disturbance": f"{worst:g}",
@@ -56,7 +56,7 @@ def tables(run: Run) -> dict:
 
 
 def _title(law: str) -> str:
-    known = {**known_regulators(), **known_compensators()}
+    known = {**contenders("regulators"), **contenders("compensators")}
     return known[law].title if law in known else law
 
 

@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from bench.engines.metrics.contact_metric import ContactMetric, Pose, Response
-from bench.law.contender import Representation
 from bench.law.control import hybrid
+from bench.law.kinds import Coordinates
 from bench.law.so3 import Rotation, from_quaternion, relative, rotate_back
 
 # Ticks of an episode that are looked at, evenly spaced: nothing in a rounding depends on the tick.
@@ -31,7 +31,7 @@ def work_residual(pose: Pose) -> float:
 
 
 def _works(
-    coordinates: Representation, convert: Callable, from_goal: bool, one: Response
+    coordinates: Coordinates, convert: Callable, from_goal: bool, one: Response
 ) -> Iterator[tuple[float, float, float]]:
     """(m . omega, F_E . Edot, |m| |omega|) at some ticks [W]."""
     goal = from_quaternion(one.trial.goal_wxyz)

@@ -5,10 +5,10 @@ can. It needs the goal's joint angles q_d, which are the start's (`goal_q`), gra
 Jacobian, no coordinates, no inertia matrix. With V = (qdot' D qdot + Kp (q_d - q)' M (q_d - q))/2 it has
 Vdot = -Kv qdot' M qdot, whatever the arm: it comes to rest at q_d from everywhere (Takegaki and Arimoto 1981).
 
-Fails: nowhere; but the tool goes where the joints take it, and its response depends on the pose.
+Limitations: the tool goes where the joints take it, and its response depends on the pose.
 """
 
-from bench.law import Inverse, Jacobian, Regulator, kernel
+from bench.law import Inverse, Jacobian, Law, kernel
 
 
 @kernel
@@ -39,7 +39,7 @@ def kernels_in(representation):
 JOINTS = Jacobian("joints", "The joints themselves", "", r"\dot q", "joints", kernels_in)
 INERTIA = Inverse("inertia-at-home", "Inertia at home", "", r"\tau = M a", resolve, "joint-torque")
 
-BASELINE = Regulator(
+BASELINE = Law(
     name="joint-pd",
     title="Joint PD with gravity compensation",
     source="Takegaki & Arimoto 1981",

@@ -4,10 +4,10 @@ What industrial arms offer (Whitney 1969), with an ideal inner loop: tau = D qdd
 vector but for Jdot qdot, which nobody compensates; near the goal both are the same double pole. With Kv far above
 Kp/Kv the tool follows v, and errors fall as exp(-Kp/Kv t).
 
-Fails: where J has no inverse, and at a 180° rotation, where the logarithm jumps.
+Limitations: where J has no inverse, and at a 180° rotation, where the logarithm jumps.
 """
 
-from bench.law import Regulator, kernel, twist
+from bench.law import Law, kernel, twist
 from bench.law.contenders.jacobians.geometric import fill
 from bench.law.contenders.regulators.rotation_vector import law
 
@@ -24,7 +24,7 @@ def assemble(chain, goal, p_d, gains, memory, J, a):
     return u, memory
 
 
-BASELINE = Regulator(
+BASELINE = Law(
     name="resolved-rate",
     title="Resolved rate",
     source="Whitney 1969",

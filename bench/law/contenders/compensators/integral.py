@@ -10,14 +10,14 @@ Kv = 2 sqrt(Kp). There a disturbance alone turns the body by d t^2/2 exp(-Kv t/3
 V = Kp (1 - cos theta) - c e . omega + |omega|^2/2 + (Kp/6) |x - 3 d/Kp|^2 is positive and never rises where
 Kv^2 < 5 Kp: V' <= -((Kv - c) |omega|^2 - c Kv |e| |omega| + c Kp |e|^2). So almost global there.
 
-The state is x, and a zero. Fails: rests at exact 180° rotations without a disturbance; overshoots from rest, by the
-integral of the way it has come.
+The state is x, and a zero. Limitations: rests at exact 180° rotations without a disturbance; overshoots from rest, by
+the integral of the way it has come.
 
 Source: Goodarzi, Lee, Lee 2013, Geometric nonlinear PID control of a quadrotor UAV on SE(3) (the integral of
 omega + c e_R). The gains are this benchmark's.
 """
 
-from bench.law import Compensator, double_sine, kernel
+from bench.law import Law, State, double_sine, kernel
 
 INTEGRAL, LEAD = 1.0 / 3.0, 4.0 / 9.0
 """Integral gain over Kp, c over Kv: they make the three poles one where Kv^2 = 4 Kp."""
@@ -42,15 +42,14 @@ def law(R, omega, goal, gains, state):
     return u, (omega[0] - lead * e[0], omega[1] - lead * e[1], omega[2] - lead * e[2], 0.0)
 
 
-COMPENSATOR = Compensator(
+COMPENSATOR = Law(
     name="integral",
     title="Sine of the angle, with an integral",
     source="Goodarzi, Lee & Lee 2013",
     formula=r"u = K_p\,e - K_v\,\omega - \tfrac13 K_p x, \quad \dot x = \omega - \tfrac49 K_v\,e",
     law=law,
-    begin=begin,
-    polynomial=lambda kp, kv: (kv, (1.0 + INTEGRAL) * kp, INTEGRAL * LEAD * kp * kv),
-    measures_rate=True,
-    rejects=True,
     property="almost global where Kv^2 < 5 Kp",
+    state=State(
+        begin, lambda kp, kv: (kv, (1.0 + INTEGRAL) * kp, INTEGRAL * LEAD * kp * kv), measures_rate=True, rejects=True
+    ),
 )

@@ -9,7 +9,7 @@ stable for all gains and (s + sqrt(3 Kp))^3 at Kv = 2 sqrt(Kp).
 
 V = Kp (1 - cos theta) + 2 Kv^2 (1 - cos theta_F) + |omega|^2/2 has V' = -2 Kv^2 gamma |z|^2: almost global.
 
-The state is the quaternion of F, of any length. Fails: rests at exact 180° rotations; regulates only, a moving
+The state is the quaternion of F, of any length. Limitations: rests at exact 180° rotations; regulates only, a moving
 goal's rate is not fed forward.
 
 Source: Lizarralde, Wen 1996, Attitude control without angular velocity measurement (a filter makes up for the rate);
@@ -17,7 +17,7 @@ Tayebi 2008, Unit quaternion-based output feedback for the attitude tracking pro
 Tayebi, Roberts, Benallegue 2013. The gains are this benchmark's.
 """
 
-from bench.law import Compensator, double_sine, from_quaternion, kernel, quaternion_direction, sqrt
+from bench.law import Law, State, double_sine, from_quaternion, kernel, quaternion_direction, sqrt
 
 FOLLOWED = 1.5 * sqrt(3.0)
 """gamma over Kv: with 2 Kv^2 it makes the three poles one where Kv^2 = 4 Kp."""
@@ -54,16 +54,18 @@ def law(R, omega, goal, gains, state):
     return u, rate
 
 
-COMPENSATOR = Compensator(
+COMPENSATOR = Law(
     name="velocity-free",
     title="Sine of the angle, no measured rate",
     source="Lizarralde & Wen 1996; Tayebi 2008",
     formula=r"u = K_p\,e(R, R_d) - 2 K_v^2\,e(R, F), \quad \dot F = \gamma\,[e(F, R)]_\times F",
     law=law,
-    begin=begin,
-    polynomial=lambda kp, kv: (FOLLOWED * kv, kp + 2.0 * kv * kv, FOLLOWED * kv * kp),
-    measures_rate=False,
-    rejects=False,
     property="almost global",
-    bound=lambda kp, kv: kp + 2.0 * kv * kv,
+    state=State(
+        begin,
+        lambda kp, kv: (FOLLOWED * kv, kp + 2.0 * kv * kv, FOLLOWED * kv * kp),
+        measures_rate=False,
+        rejects=False,
+        bound=lambda kp, kv: kp + 2.0 * kv * kv,
+    ),
 )

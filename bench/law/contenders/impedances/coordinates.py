@@ -6,7 +6,7 @@ What B^T takes of a moment (Murphy 1988, 3.12) and B gives back as motion need n
 turned by B B^T m / (kp m_o), so that its stiffness is kp m_o B^-T B^-1. With Z-Y-X angles the condition number of that
 is (1 + |sin beta|)/(1 - |sin beta|).
 
-Fails: where B^-1 does not exist; a moment is lost there.
+Limitations: where B^-1 does not exist; a moment is lost there.
 """
 
 from bench.law import Impedance, driven, kernel

@@ -1,6 +1,7 @@
 """Impedance in coordinates of R_d^T R, the orientation as seen from the goal: the singularity stays away from the goal.
 
-Fails: where B^-1 of the relative orientation does not exist; with Z-Y-X angles a quarter turn about y from the goal.
+Limitations: where B^-1 of the relative orientation does not exist; with Z-Y-X angles a quarter turn about y from the
+goal.
 """
 
 from bench.law import IDENTITY, Impedance, kernel, relative, rotate, rotate_back

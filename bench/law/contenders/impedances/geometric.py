@@ -1,6 +1,6 @@
 """Impedance on the error of the rotation-matrix regulator: e = sin(theta) k.
 
-Fails: at 180° rotations from the goal the spring gives way to nothing.
+Limitations: at 180° rotations from the goal the spring gives way to nothing.
 """
 
 from bench.law import AT_REST, Goal, Impedance, kernel

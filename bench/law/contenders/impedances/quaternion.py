@@ -1,6 +1,6 @@
 """Impedance on the error quaternion of the shorter rotation: e = 2 sgn(eta) eps = 2 sin(theta/2) k.
 
-Fails: at 180° e jumps to -e; there the sign is that of `so3.quaternion_direction`.
+Limitations: at 180° e jumps to -e; there the sign is that of `so3.quaternion_direction`.
 """
 
 from bench.law import Impedance, driven, kernel, quaternion_direction, relative, rotate, sqrt

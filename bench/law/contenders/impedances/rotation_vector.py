@@ -1,6 +1,6 @@
 """Impedance on the rotation vector from the hand to the desired orientation: e = theta k, the spring of angle/axis.
 
-Fails: at 180° e jumps to -e.
+Limitations: at 180° e jumps to -e.
 """
 
 from bench.law import Impedance, driven, kernel, relative, rotate

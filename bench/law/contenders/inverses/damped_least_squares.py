@@ -4,7 +4,7 @@ Along a singular vector of W J with the value sigma the answer is sigma / (sigma
 1 / (2 lambda); the rest of the command, lambda^2 / (sigma^2 + lambda^2) of it, is lost. With lambda = 0.02 that is 1 %
 at sigma = 0.2, half at sigma = lambda, and never nothing.
 
-Fails: only where J itself is not finite; everywhere it gives less than was commanded.
+Limitations: only where J itself is not finite; everywhere it gives less than was commanded.
 """
 
 from bench.law import GREATEST_GAIN, Inverse, kernel, smaller_gram, solve_gram, weigh

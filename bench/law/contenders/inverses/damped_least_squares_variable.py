@@ -8,8 +8,8 @@ and A = S + lambda_max^2 I. A step y := A^-1 y turns y towards the vector of sig
 quotient of the last one, (y . A y) / (y . y), is never below the least eigenvalue of A, so that sigma is never taken
 for too small.
 
-Fails: as damped-least-squares does, but only within epsilon of a singularity; and where two singular values are near
-epsilon the estimate may lie between them.
+Limitations: as damped-least-squares does, but only within epsilon of a singularity; and where two singular values are
+near epsilon the estimate may lie between them.
 """
 
 from bench.law import (

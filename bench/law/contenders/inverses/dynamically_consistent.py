@@ -3,7 +3,7 @@
 On six joints it is D J^-1 a. On seven it is the torque of least kinetic energy, and leaves alone what the tool does not
 see. From D = L L^T and Y = L^-1 J^T, Lambda^-1 = Y^T Y, so that D is never inverted.
 
-Fails: where J loses rank Lambda is not finite; like pseudo-inverse it squares the condition number of J.
+Limitations: where J loses rank Lambda is not finite; like pseudo-inverse it squares the condition number of J.
 """
 
 from bench.law import Inverse, factor, gram, kernel, multiply_transposed, solve_factored, solve_lower

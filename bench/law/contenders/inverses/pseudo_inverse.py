@@ -3,8 +3,8 @@
 On more joints than rows J^T (J J^T)^-1 a; with a quaternion's seven rows on six joints (J^T J)^-1 J^T a, where the part
 of a that no motion can give lies along q alone and drops out, so that the answer depends on no unit.
 
-Fails: as `solve` does where J loses rank, and sooner: the equations square the condition number, so that beyond 1e8
-nothing is left of the digits.
+Limitations: as `solve` does where J loses rank, and sooner: the equations square the condition number, so that beyond
+1e8 nothing is left of the digits.
 """
 
 from bench.law import Inverse, kernel, smaller_gram, solve_gram

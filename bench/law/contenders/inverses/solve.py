@@ -1,6 +1,6 @@
 """The inverse of a square Jacobian, by elimination: x = J^-1 a (Murphy 1988, 2.2, 3.7).
 
-Fails: where J is singular x is not finite, and towards it x grows like 1 / sigma_min(J) without bound.
+Limitations: where J is singular x is not finite, and towards it x grows like 1 / sigma_min(J) without bound.
 """
 
 from bench.law import Inverse, kernel, solve

@@ -3,7 +3,7 @@
 The force that would give a unit mass of unit inertia the acceleration a. It needs no inverse and exists everywhere, but
 the arm is no unit mass: it does not linearize, its stiffness depends on the pose, and only rest at the goal is kept.
 
-Fails: nowhere, but the motion is that of another plant, slower or faster by the arm's own inertia.
+Limitations: the motion is that of another plant, slower or faster by the arm's own inertia.
 """
 
 from bench.law import Inverse, kernel, multiply_transposed

@@ -4,7 +4,7 @@ From W J with its rows turned until they are orthogonal (linalg/rotations.py): e
 with them is u_i . W a. Where all sigma_i are surely above TOLERANCE nothing is left out, and the normal equations give
 the same answer in a fifth of the time.
 
-Fails: nowhere, but the answer jumps where a singular value crosses the tolerance, and what was commanded along the
+Limitations: the answer jumps where a singular value crosses the tolerance, and what was commanded along the
 directions left out is not done at all.
 """
 

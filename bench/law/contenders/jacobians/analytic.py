@@ -4,7 +4,8 @@ In any representation. Of a quaternion there are four rows, (1/2) Xi(q) z_i, a J
 itself, out of the unit sphere, no motion can be commanded, and the drift leaves its own part -|omega|^2 / 4 q out. No
 inverse sees either: J_E^T (0, q) = 0, and each of them is J_E^T (J_E J_E^T + ...)^-1 a or (...) J_E^T a.
 
-Fails: where the coordinates are singular, B^-1 and with it J_E are not finite, and where the arm itself is singular.
+Limitations: where the coordinates are singular, B^-1 and with it J_E are not finite, and where the arm itself is
+singular.
 """
 
 from bench.law import AT_REST, Jacobian, cross, kernel

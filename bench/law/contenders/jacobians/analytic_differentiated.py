@@ -4,7 +4,7 @@ Joint i turns R at [z_i]x R for each rad/s, so its column is dE/dR along that; J
 along R's own motion at qddot = 0, Rdot = [omega]x R and Rddot = ([omegadot]x + [omega]x [omega]x) R. The same matrix
 as `analytic` to rounding: what the literature before the paper did, and the price that the paper compares with.
 
-Fails: as `analytic` does.
+Limitations: as `analytic` does.
 """
 
 from bench.law import Jacobian, Rotation, cross, kernel

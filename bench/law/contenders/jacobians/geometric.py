@@ -1,6 +1,6 @@
 """The Jacobian of the tool's velocity and angular velocity, both in the base frame (Murphy 1988, 2.2).
 
-Fails: nowhere; it loses rank where the arm itself is singular.
+Limitations: it loses rank where the arm itself is singular.
 """
 
 from bench.law import Jacobian, cross, kernel

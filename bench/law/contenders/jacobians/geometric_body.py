@@ -2,7 +2,7 @@
 
 The same accelerations of the joints as from the base frame, with an exact inverse; a damped or truncated one differs
 not either, as the weight on translations is the same in every direction.
-Fails: where the geometric one does.
+Limitations: where the geometric one does.
 """
 
 from bench.law import Jacobian, cross, kernel, rotate_back

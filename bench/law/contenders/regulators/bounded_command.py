@@ -9,10 +9,11 @@ saturated, whatever spin the law is switched on at.
 Source: Su, Zheng 2011, Globally asymptotic stabilization of spacecraft with simple saturated proportional-derivative
 control (there each component separately, and the quaternion's vector part).
 
-Fails: rests at exact 180° rotations; takes |omega|/Kp to stop a fast spin, where the damper alone would take 1/Kv.
+Limitations: rests at exact 180° rotations; takes |omega|/Kp to stop a fast spin, where the damper alone would take
+1/Kv.
 """
 
-from bench.law import SINE, Equation, Look, Regulator, dot, double_sine, kernel, spring_damper, sqrt
+from bench.law import SINE, Display, Equation, Law, Look, dot, double_sine, kernel, spring_damper, sqrt
 
 
 @kernel
@@ -23,7 +24,7 @@ def law(R, omega, goal, gains):
     return spring_damper(0.5 * gains.kp, double_sine(R, goal.R), damper, omega)
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="bounded-command",
     title="Sine of the angle, bounded damping",
     source="after Su & Zheng 2011",
@@ -31,12 +32,14 @@ REGULATOR = Regulator(
     law=law,
     property="almost global",
     later=True,
-    short="bounded command",
-    look=Look("green", "h", "dotted"),
-    family="On the matrix",
-    equation=Equation(
-        r"\sin\theta + K_v \dot\theta \bigl(1/\sqrt{1 + (K_v \dot\theta / K_p)^2} - 1\bigr)/K_p",
-        SINE.spring,
-        lambda theta, rate, kp, kv: kv * rate * (1.0 - 1.0 / sqrt(1.0 + (kv * rate / kp) * (kv * rate / kp))),
+    display=Display(
+        "bounded command",
+        Look("green", "h", "dotted"),
+        "On the matrix",
+        Equation(
+            r"\sin\theta + K_v \dot\theta \bigl(1/\sqrt{1 + (K_v \dot\theta / K_p)^2} - 1\bigr)/K_p",
+            SINE.spring,
+            lambda theta, rate, kp, kv: kv * rate * (1.0 - 1.0 / sqrt(1.0 + (kv * rate / kp) * (kv * rate / kp))),
+        ),
     ),
 )

@@ -1,9 +1,9 @@
 """Feedback linearization without the term Bdot Edot, and so without B^-1: u = Kp B (E_d - E) - Kv omega.
 
-Fails: where a coordinate jumps.
+Limitations: where a coordinate jumps.
 """
 
-from bench.law import Look, Regulator, kernel, minus, spring_damper
+from bench.law import Display, Law, Look, kernel, minus, spring_damper
 
 
 def law_in(representation):
@@ -20,7 +20,7 @@ def law_in(representation):
     return law
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="euler-gradient",
     title="Coordinates pushed forward",
     source="Ablation of Murphy 1988, (2.15)",
@@ -29,7 +29,5 @@ REGULATOR = Regulator(
     coordinates=("zyx-euler",),
     property="local",
     later=True,
-    short="Euler gradient",
-    look=Look("sky", "s", "dashed"),
-    family="Euler variants, controls",
+    display=Display("Euler gradient", Look("sky", "s", "dashed"), "Euler variants, controls"),
 )

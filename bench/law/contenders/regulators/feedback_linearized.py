@@ -13,10 +13,10 @@ Proved in Z-Y-X angles: from rest E - E_d = (E_0 - E_d) r(t), and 0 <= r <= 1 wh
 segment from E_0 to E_d, where |beta| < pi/2 and no angle jumps: every start at rest off the poles reaches every goal
 off them.
 
-Fails: where B^-1 does not exist (in Z-Y-Z at the identity itself), and where a coordinate jumps.
+Limitations: where B^-1 does not exist (in Z-Y-Z at the identity itself), and where a coordinate jumps.
 """
 
-from bench.law import Look, Regulator, kernel, minus, spring_damper
+from bench.law import Display, Law, Look, kernel, minus, spring_damper
 
 
 @kernel
@@ -66,7 +66,7 @@ def law_in(representation):
     return law
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="feedback-linearized",
     title="Feedback-linearized",
     source="Murphy 1988, (2.15)-(2.16)",
@@ -75,9 +75,11 @@ REGULATOR = Regulator(
     coordinate_law_in=coordinate_law_in,
     coordinates="any",
     property="local",
-    short="feedback-linearized",
-    look=Look("green", "^", "dash-dot"),
-    family="The paper's three",
     papers=3,
-    equation_in=lambda representation: representation.linear,
+    display=Display(
+        "feedback-linearized",
+        Look("green", "^", "dash-dot"),
+        "The paper's three",
+        lambda coordinates: coordinates.display.equation,
+    ),
 )

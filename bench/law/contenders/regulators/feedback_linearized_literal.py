@@ -1,10 +1,10 @@
 """(2.15) as the paper writes it, with B, its inverse and the inverse's derivative as matrices: a second costing.
 
 The same command as feedback-linearized to rounding; listed so that its price can be compared.
-Fails: as feedback-linearized does.
+Limitations: as feedback-linearized does.
 """
 
-from bench.law import Look, Regulator, cos, kernel, sin
+from bench.law import Display, Law, Look, cos, kernel, sin
 
 
 @kernel
@@ -64,7 +64,7 @@ def law_in(representation):
     return law
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="feedback-linearized-literal",
     title="Feedback-linearized, as printed",
     source="Murphy 1988, (2.15)",
@@ -73,5 +73,5 @@ REGULATOR = Regulator(
     coordinates=("zyx-euler",),
     property="local",
     costing_only=True,
-    look=Look("sky", "v", "dotted"),
+    display=Display(look=Look("sky", "v", "dotted")),
 )

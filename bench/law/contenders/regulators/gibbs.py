@@ -1,10 +1,10 @@
 """Rodrigues parameters (the Gibbs vector) of the turn to the goal: e = 2 tan(theta/2) k = 2 s/(1 + t), one division.
 
-Fails: the command, 2 Kp tan(theta/2), grows without bound towards 180 degrees and is not finite there.
+Limitations: the command, 2 Kp tan(theta/2), grows without bound towards 180 degrees and is not finite there.
 Starts that the maps count as lost exceed the judge's limit on the command: their share depends on that limit.
 """
 
-from bench.law import TANGENT, Look, Regulator, double_sine, half_cosine_squared, kernel, spring_damper, trace
+from bench.law import TANGENT, Display, Law, Look, double_sine, half_cosine_squared, kernel, spring_damper, trace
 
 
 @kernel
@@ -15,7 +15,7 @@ def law(R, omega, goal, gains):
     return spring_damper(scale, s, gains.kv, omega)
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="gibbs",
     title="Rodrigues parameters (Gibbs)",
     source="Rodrigues 1840; Tsiotras 1996",
@@ -24,8 +24,5 @@ REGULATOR = Regulator(
     property="almost global",
     margin=half_cosine_squared,
     later=True,
-    short="Gibbs",
-    look=Look("green", "s", "dashed"),
-    family="On three parameters",
-    equation=TANGENT,
+    display=Display("Gibbs", Look("green", "s", "dashed"), "On three parameters", TANGENT),
 )

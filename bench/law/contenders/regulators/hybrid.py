@@ -5,11 +5,11 @@ The error quaternion is followed from tick to tick, and its sign changed only wh
 continuous law without memory can do it (Bhat & Bernstein 2000). The memory outlives the goal: reset it before the first
 tick, after a pause, and when the goal jumps.
 
-Fails: nowhere known; up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it keeps turning the longer
+Limitations: up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it keeps turning the longer
 way, and so it may without a reset when the goal jumps.
 """
 
-from bench.law import CHORD, Look, Regulator, kernel, spring_damper, sqrt, turn_quaternion
+from bench.law import CHORD, Display, Law, Look, kernel, spring_damper, sqrt, turn_quaternion
 
 DELTA = 0.4
 """Half the width of the hysteresis, in eta = cos(theta/2)."""
@@ -31,7 +31,7 @@ def law(R, omega, goal, gains, memory):
     return u, (w, v[0], v[1], v[2])
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="hybrid",
     title="Hybrid, with one quaternion of memory",
     source="Mayhew, Sanfelice, Teel 2011",
@@ -40,8 +40,5 @@ REGULATOR = Regulator(
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
     later=True,
-    short="hybrid",
-    look=Look("vermillion", "P", "dashed"),
-    family="On the quaternion",
-    equation=CHORD,
+    display=Display("hybrid", Look("vermillion", "P", "dashed"), "On the quaternion", CHORD),
 )

@@ -4,10 +4,10 @@ It is run in MuJoCo, in place of our motors, with the goal as its control; the r
 computes, to rounding. Within 1e-15 rad of 180° rounding chooses the side, and at exactly 180° q and -q, one attitude,
 are pushed opposite ways.
 
-Fails: nowhere; at 180° the command jumps to its opposite.
+Limitations: at 180° the command jumps to its opposite.
 """
 
-from bench.law import Look, Regulator, atan2, dot, kernel, spring_damper, sqrt, turn_quaternion
+from bench.law import Display, Law, Look, atan2, dot, kernel, spring_damper, sqrt, turn_quaternion
 
 
 @kernel
@@ -19,7 +19,7 @@ def law(R, omega, goal, gains):
     return spring_damper(pull, v, gains.kv, omega)
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="in-engine",
     title="MuJoCo's orientation actuator",
     source="MuJoCo documentation, XML reference, actuator/orientation (3.11)",
@@ -28,7 +28,5 @@ REGULATOR = Regulator(
     property="almost global",
     later=True,
     in_engine=True,
-    short="MuJoCo's actuator",
-    look=Look("blue", "*", "dotted"),
-    family="On three parameters",
+    display=Display("MuJoCo's actuator", Look("blue", "*", "dotted"), "On three parameters"),
 )

@@ -16,11 +16,11 @@ it back and forth, if e + phi/2 < 90 degrees for an error e and a turn phi withi
 reset it before the first tick, after a pause, and when the goal jumps.
 
 Global: V = Kp U + |omega|^2/2 with U' = f has Vdot <= -(Kv/5) |omega|^2, and a change of side takes (13/6) Kp from it.
-Fails: nowhere known; up to 60 degrees beyond a 180° rotation it keeps turning the longer way, and so it may
+Limitations: up to 60 degrees beyond a 180° rotation it keeps turning the longer way, and so it may
 without a reset when the goal jumps.
 """
 
-from bench.law import Equation, Look, Regulator, cos, dot, kernel, quaternion_direction, sin, sqrt, turn_matrix
+from bench.law import Display, Equation, Law, Look, cos, dot, kernel, quaternion_direction, sin, sqrt, turn_matrix
 
 EASED = 0.8
 """Share of the damper that is gone at 180°; under 1, so that it never pushes."""
@@ -56,7 +56,7 @@ def law(R, omega, goal, gains, memory):
     return u, (w, x, y, z)
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="late-braking",
     title="Late braking, with a side kept in memory",
     source="this benchmark, 2026; after Luh, Walker, Paul 1980 and Mayhew, Sanfelice, Teel 2011",
@@ -65,12 +65,14 @@ REGULATOR = Regulator(
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
     later=True,
-    short="late braking",
-    look=Look("yellow", "D", "dash-dot"),
-    family="On the matrix",
-    equation=Equation(
-        r"\bigl(1 + \cos^2(\theta/2)\bigr) \sin(\theta/2) - 4 K_v \sin^2(\theta/2)\, \min(0, \dot\theta)/(5 K_p)",
-        lambda theta: (1.0 + cos(theta / 2.0) ** 2) * sin(theta / 2.0),
-        lambda theta, rate, kp, kv: EASED * kv * sin(theta / 2.0) ** 2 * min(0.0, rate),
+    display=Display(
+        "late braking",
+        Look("yellow", "D", "dash-dot"),
+        "On the matrix",
+        Equation(
+            r"\bigl(1 + \cos^2(\theta/2)\bigr) \sin(\theta/2) - 4 K_v \sin^2(\theta/2)\, \min(0, \dot\theta)/(5 K_p)",
+            lambda theta: (1.0 + cos(theta / 2.0) ** 2) * sin(theta / 2.0),
+            lambda theta, rate, kp, kv: EASED * kv * sin(theta / 2.0) ** 2 * min(0.0, rate),
+        ),
     ),
 )

@@ -1,10 +1,11 @@
 """PD on the Euler model linearized about zero, gains in the order that (2.14) asks for (Murphy 1988, 2.3).
 
 The paper writes u = -Kp E - Kd Edot and regulates to zero; here the goal's angles are subtracted, so that other goals
-can be asked for. Fails: far from zero angles, where B is no longer the permutation of (2.14), and through the pole.
+can be asked for. Limitations: far from zero angles, where B is no longer the permutation of (2.14), and through the
+pole.
 """
 
-from bench.law import Look, Regulator, kernel, minus, spring_damper
+from bench.law import Display, Law, Look, kernel, minus, spring_damper
 
 
 def law_in(representation):
@@ -22,7 +23,7 @@ def law_in(representation):
     return law
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="linearized-euler",
     title="Linearized Euler",
     source="Murphy 1988, (2.14)",
@@ -31,8 +32,6 @@ REGULATOR = Regulator(
     law_in=law_in,
     coordinates=("zyx-euler",),
     property="local",
-    short="linearized Euler",
-    look=Look("vermillion", "s", "dashed"),
-    family="The paper's three",
     papers=2,
+    display=Display("linearized Euler", Look("vermillion", "s", "dashed"), "The paper's three"),
 )

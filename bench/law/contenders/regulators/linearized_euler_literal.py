@@ -1,10 +1,10 @@
 """The linearized regulator typed as the paper prints it, u = -Kp E - Kd Edot: a negative control.
 
 (2.14) maps u_x to gammaddot and u_z to alphaddot; without that permutation alpha is driven by gamma and gamma by
-alpha. Fails: unstable at the goal itself.
+alpha. Limitations: unstable at the goal itself.
 """
 
-from bench.law import Look, Regulator, kernel, minus, spring_damper
+from bench.law import Display, Law, Look, kernel, minus, spring_damper
 
 
 def law_in(representation):
@@ -21,7 +21,7 @@ def law_in(representation):
     return law
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="linearized-euler-literal",
     title="Linearized Euler, as printed",
     source="Murphy 1988, 2.3, without the permutation of (2.14): negative control",
@@ -29,8 +29,6 @@ REGULATOR = Regulator(
     law_in=law_in,
     coordinates=("zyx-euler",),
     property="none",
-    short="control: literal",
-    look=Look("orange", "x", "dotted"),
-    family="Euler variants, controls",
     control=True,
+    display=Display("control: literal", Look("orange", "x", "dotted"), "Euler variants, controls"),
 )

@@ -1,9 +1,9 @@
 """The linearized regulator on the angles seen from the goal, the cure that the paper proposes (Murphy 1988, 2.4).
 
-Fails: as linearized-euler does, but at the same errors for every goal.
+Limitations: as linearized-euler does, but at the same errors for every goal.
 """
 
-from bench.law import Look, Regulator, kernel, relative, rotate, rotate_back
+from bench.law import Display, Law, Look, kernel, relative, rotate, rotate_back
 
 
 def law_in(representation):
@@ -25,7 +25,7 @@ def law_in(representation):
     return law
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="linearized-euler-relative",
     title="Linearized Euler, from the goal",
     source="Murphy 1988, 2.4",
@@ -34,7 +34,5 @@ REGULATOR = Regulator(
     coordinates=("zyx-euler",),
     relative=True,
     property="local",
-    short="linearized, from goal",
-    look=Look("purple", "D", "dash-dot"),
-    family="Euler variants, controls",
+    display=Display("linearized, from goal", Look("purple", "D", "dash-dot"), "Euler variants, controls"),
 )

@@ -1,9 +1,9 @@
 """Modified Rodrigues parameters of the turn to the goal, on the sheet within 180°: e = 4 tan(theta/4) k.
 
-Fails: nowhere; at 180° the command jumps to its opposite.
+Limitations: at 180° the command jumps to its opposite.
 """
 
-from bench.law import QUARTER, Look, Regulator, kernel, spring_damper, sqrt, turn_quaternion
+from bench.law import QUARTER, Display, Law, Look, kernel, spring_damper, sqrt, turn_quaternion
 
 
 @kernel
@@ -14,7 +14,7 @@ def law(R, omega, goal, gains):
     return spring_damper(scale, v, gains.kv, omega)
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="mrp",
     title="Modified Rodrigues parameters",
     source="Tsiotras 1996; Schaub & Junkins 2018",
@@ -22,8 +22,5 @@ REGULATOR = Regulator(
     law=law,
     property="almost global",
     later=True,
-    short="MRP",
-    look=Look("vermillion", "^", "solid"),
-    family="On three parameters",
-    equation=QUARTER,
+    display=Display("MRP", Look("vermillion", "^", "solid"), "On three parameters", QUARTER),
 )

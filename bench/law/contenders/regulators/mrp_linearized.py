@@ -4,11 +4,11 @@ With sigma = tan(theta/4) k of the turn from R to a fixed R_d, sigmaddot = -Kv s
 the shadow set, -sigma/|sigma|^2, is the shorter; a sheet is kept until |sigma|^2 is over SWITCH, so that the law does
 not chatter there. The memory outlives the goal: reset it before the first tick, after a pause, and when the goal jumps.
 
-Fails: nowhere within a turn; where the sheet changes the command jumps; a goal that jumps without a reset may be
+Limitations: where the sheet changes the command jumps; a goal that jumps without a reset may be
 reached the longer way.
 """
 
-from bench.law import LINEAR_MRP, Look, Regulator, dot, kernel, sqrt, turn_quaternion
+from bench.law import LINEAR_MRP, Display, Law, Look, dot, kernel, sqrt, turn_quaternion
 
 SWITCH = 1.5
 """|sigma|^2 at which the sheet changes: 23 degrees beyond 180°, where it is 1."""
@@ -39,7 +39,7 @@ def law(R, omega, goal, gains, memory):
     return u, (w, v[0], v[1], v[2])
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="mrp-linearized",
     title="Linear in modified Rodrigues parameters",
     source="Schaub, Akella, Junkins 2001",
@@ -48,8 +48,5 @@ REGULATOR = Regulator(
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
     later=True,
-    short="MRP made linear",
-    look=Look("purple", "v", "dash-dot"),
-    family="On three parameters",
-    equation=LINEAR_MRP,
+    display=Display("MRP made linear", Look("purple", "v", "dash-dot"), "On three parameters", LINEAR_MRP),
 )

@@ -2,11 +2,22 @@
 
 With a fixed goal epsddot = -Kv epsdot - Kp eps; for it eps must be divided by eta: eps/eta = s/(1 + t).
 
-Fails: the command, 2 Kp tan(theta/2) at rest, grows without bound towards 180 degrees and is not finite there.
+Limitations: the command, 2 Kp tan(theta/2) at rest, grows without bound towards 180 degrees and is not finite there.
 Starts that the maps count as lost exceed the judge's limit on the command: their share depends on that limit.
 """
 
-from bench.law import LINEAR_SINE, Look, Regulator, dot, double_sine, half_cosine_squared, kernel, spring_damper, trace
+from bench.law import (
+    LINEAR_SINE,
+    Display,
+    Law,
+    Look,
+    dot,
+    double_sine,
+    half_cosine_squared,
+    kernel,
+    spring_damper,
+    trace,
+)
 
 
 @kernel
@@ -17,7 +28,7 @@ def law(R, omega, goal, gains):
     return spring_damper(scale, s, gains.kv, omega)
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="paielli-bach",
     title="Linear in the quaternion",
     source="Paielli & Bach 1993",
@@ -26,8 +37,5 @@ REGULATOR = Regulator(
     property="almost global",
     margin=half_cosine_squared,
     later=True,
-    short="Paielli–Bach",
-    look=Look("yellow", "d", "solid"),
-    family="On the quaternion",
-    equation=LINEAR_SINE,
+    display=Display("Paielli–Bach", Look("yellow", "d", "solid"), "On the quaternion", LINEAR_SINE),
 )

@@ -1,10 +1,10 @@
 """The error quaternion (eta, eps) of the shorter rotation: e = 2 sgn(eta) eps = 2 sin(theta/2) k.
 
-Fails: nowhere; at 180° the command jumps to its opposite. sgn(0) is 1 here: a law that takes it for 0 rests
+Limitations: at 180° the command jumps to its opposite. sgn(0) is 1 here: a law that takes it for 0 rests
 there for ever.
 """
 
-from bench.law import CHORD, Look, Regulator, kernel, spring_damper, sqrt, turn_quaternion
+from bench.law import CHORD, Display, Law, Look, kernel, spring_damper, sqrt, turn_quaternion
 
 
 @kernel
@@ -15,7 +15,7 @@ def law(R, omega, goal, gains):
     return spring_damper(scale, eps, gains.kv, omega)
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="quaternion-shortest",
     title="Quaternion, the short way",
     source="Yuan 1988; Wie, Weiss, Arapostathis 1989",
@@ -23,8 +23,5 @@ REGULATOR = Regulator(
     law=law,
     property="almost global",
     later=True,
-    short="shortest quaternion",
-    look=Look("purple", "o", "solid"),
-    family="On the quaternion",
-    equation=CHORD,
+    display=Display("shortest quaternion", Look("purple", "o", "solid"), "On the quaternion", CHORD),
 )

@@ -5,10 +5,10 @@ of all quaternions do. There the law drives to eta = 1 by the longer rotation, u
 other sheet it would be quaternion-shortest. A reset begins on that sheet again; it is needed before the first tick,
 after a pause, and when the goal jumps.
 
-Fails: it settles everywhere but goes the wrong way.
+Limitations: it settles everywhere but goes the wrong way.
 """
 
-from bench.law import CHORD, Look, Regulator, kernel, spring_damper, sqrt, turn_quaternion
+from bench.law import CHORD, Display, Law, Look, kernel, spring_damper, sqrt, turn_quaternion
 
 
 @kernel
@@ -24,7 +24,7 @@ def law(R, omega, goal, gains, memory):
     return u, (eta, eps[0], eps[1], eps[2])
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="quaternion-unwinding",
     title="Quaternion without its sign",
     source="Wen & Kreutz-Delgado 1991; Bhat & Bernstein 2000",
@@ -33,9 +33,8 @@ REGULATOR = Regulator(
     memory=(-1.0, 0.0, 0.0, 0.0),
     property="none",
     later=True,
-    short="control: no sign",
-    look=Look("yellow", "x", "dotted"),
-    family="Euler variants, controls",
     control=True,
-    equation=CHORD._replace(the_long_way=True),
+    display=Display(
+        "control: no sign", Look("yellow", "x", "dotted"), "Euler variants, controls", CHORD._replace(the_long_way=True)
+    ),
 )

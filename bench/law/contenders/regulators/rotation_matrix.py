@@ -1,9 +1,10 @@
 """The regulator of Luh, Walker and Paul, on the columns of R (Murphy 1988, 2.12-2.13).
 
-Fails: every 180° rotation is a point of rest, for there sin(theta) = 0; settling time grows without bound towards it.
+Limitations: every 180° rotation is a point of rest, for there sin(theta) = 0; settling time grows without bound towards
+it.
 """
 
-from bench.law import SINE, Look, Regulator, cross, kernel
+from bench.law import SINE, Display, Law, Look, cross, kernel
 
 
 @kernel
@@ -25,16 +26,13 @@ def law(R, omega, goal, gains):
     )
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="rotation-matrix",
     title="Rotation matrix (Luh, Walker, Paul)",
     source="Luh, Walker, Paul 1980; Murphy 1988, (2.12)-(2.13)",
     formula=r"u = \tfrac{1}{2} K_p\,(n \times n_d + o \times o_d + a \times a_d) - K_v\,\omega",
     law=law,
     property="almost global",
-    short="rotation matrix",
-    look=Look("blue", "o", "solid"),
-    family="The paper's three",
     papers=1,
-    equation=SINE,
+    display=Display("rotation matrix", Look("blue", "o", "solid"), "The paper's three", SINE),
 )

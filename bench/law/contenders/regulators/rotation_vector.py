@@ -1,9 +1,9 @@
 """The rotation vector of the turn to the goal: e = theta k, a spring whose force grows with the angle to the end.
 
-Fails: nowhere; at 180° the command jumps to its opposite.
+Limitations: at 180° the command jumps to its opposite.
 """
 
-from bench.law import ANGLE, Look, Regulator, atan2, dot, kernel, spring_damper, sqrt, turn_quaternion
+from bench.law import ANGLE, Display, Law, Look, atan2, dot, kernel, spring_damper, sqrt, turn_quaternion
 
 
 @kernel
@@ -19,7 +19,7 @@ def law(R, omega, goal, gains):
     return spring_damper(scale, v, gains.kv, omega)
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="rotation-vector",
     title="Rotation vector",
     source="Bullo & Murray 1995; Caccavale et al. 1999 (angle/axis)",
@@ -27,8 +27,5 @@ REGULATOR = Regulator(
     law=law,
     property="almost global",
     later=True,
-    short="rotation vector",
-    look=Look("sky", "o", "solid"),
-    family="On three parameters",
-    equation=ANGLE,
+    display=Display("rotation vector", Look("sky", "o", "solid"), "On three parameters", ANGLE),
 )

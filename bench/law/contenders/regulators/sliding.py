@@ -5,10 +5,10 @@ z = omega - lambda eps obey zdot = -K z. Near the goal that is the double pole o
 K = Kv/2 + d, lambda/2 = Kv/2 - d, d^2 = Kv^2/4 - Kp. Gains whose poles are not real leave no surface to slide on: then
 d is taken for 0, and K lambda eps, which is 2 Kp eps, stays that.
 
-Fails: nowhere; at 180° the command jumps to its opposite.
+Limitations: at 180° the command jumps to its opposite.
 """
 
-from bench.law import CHORD, Equation, Look, Regulator, cos, cross, kernel, sqrt, turn_quaternion
+from bench.law import CHORD, Display, Equation, Law, Look, cos, cross, kernel, sqrt, turn_quaternion
 
 
 @kernel
@@ -40,7 +40,7 @@ def half_lambda(kp, kv):
     return kv / 2.0 - sqrt(max(0.0, kv * kv / 4.0 - kp))
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="sliding",
     title="Sliding on the quaternion",
     source="Egeland & Godhavn 1994; Lo & Chen 1995",
@@ -48,12 +48,14 @@ REGULATOR = Regulator(
     law=law,
     property="almost global",
     later=True,
-    short="sliding",
-    look=Look("orange", "v", "dash-dot"),
-    family="On the quaternion",
-    equation=Equation(
-        r"2 \sin(\theta/2) - \lambda\,(1 - \cos(\theta/2))\,\dot\theta/(2 K_p)",
-        CHORD.spring,
-        lambda theta, rate, kp, kv: half_lambda(kp, kv) * (1.0 - cos(theta / 2.0)) * rate,
+    display=Display(
+        "sliding",
+        Look("orange", "v", "dash-dot"),
+        "On the quaternion",
+        Equation(
+            r"2 \sin(\theta/2) - \lambda\,(1 - \cos(\theta/2))\,\dot\theta/(2 K_p)",
+            CHORD.spring,
+            lambda theta, rate, kp, kv: half_lambda(kp, kv) * (1.0 - cos(theta / 2.0)) * rate,
+        ),
     ),
 )

@@ -6,10 +6,10 @@ It is the error quaternion's vector part, of the shorter rotation, with one squa
 t < 0 that division would lose digits and at 180° divide zero by zero: there it is taken from the largest
 diagonal element (`so3.turn_quaternion`).
 
-Fails: nowhere; at 180° the command jumps to its opposite, and on it the sign is a rule's.
+Limitations: at 180° the command jumps to its opposite, and on it the sign is a rule's.
 """
 
-from bench.law import CHORD, Look, Regulator, double_sine, kernel, spring_damper, sqrt, trace, turn_quaternion
+from bench.law import CHORD, Display, Law, Look, double_sine, kernel, spring_damper, sqrt, trace, turn_quaternion
 
 
 @kernel
@@ -25,7 +25,7 @@ def law(R, omega, goal, gains):
     return spring_damper(scale, s, gains.kv, omega)
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="square-root",
     title="Square root of the trace",
     source="Lee 2012; equal to Yuan 1988",
@@ -33,8 +33,5 @@ REGULATOR = Regulator(
     law=law,
     property="almost global",
     later=True,
-    short="square root",
-    look=Look("blue", "D", "solid"),
-    family="On the matrix",
-    equation=CHORD,
+    display=Display("square root", Look("blue", "D", "solid"), "On the matrix", CHORD),
 )

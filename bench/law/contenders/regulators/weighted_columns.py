@@ -3,10 +3,10 @@
 With distinct weights the spring is zero only at the goal and at 180° rotations about n_d, o_d and a_d; those three
 are saddles. The price is a stiffness that depends on the axis: about column i half of the sum of the other two weights.
 
-Fails: at those three 180° rotations, exactly.
+Limitations: at those three 180° rotations, exactly.
 """
 
-from bench.law import Look, Regulator, cross, kernel
+from bench.law import Display, Law, Look, cross, kernel
 
 WEIGHTS = (0.8, 1.0, 1.2)
 """Distinct, and their sum 3, so that the stiffness is kp on the average: 1.1, 1.0 and 0.9 of it."""
@@ -24,7 +24,7 @@ def law(R, omega, goal, gains):
     )
 
 
-REGULATOR = Regulator(
+REGULATOR = Law(
     name="weighted-columns",
     title="Weighted columns",
     source="Chillingworth, Marsden, Wan 1982; Chaturvedi, Sanyal, McClamroch 2011",
@@ -33,7 +33,5 @@ REGULATOR = Regulator(
     property="almost global",
     stiffness=(1.1, 1.0, 0.9),
     later=True,
-    short="weighted columns",
-    look=Look("sky", "p", "dashed"),
-    family="On the matrix",
+    display=Display("weighted columns", Look("sky", "p", "dashed"), "On the matrix"),
 )

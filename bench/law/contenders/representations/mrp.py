@@ -6,7 +6,18 @@ reach. Beyond a 180° rotation the shadow set -sigma/sigma^2 takes over: E jumps
 
 from typing import NamedTuple
 
-from bench.law import LINEAR_MRP, Look, Representation, cross, dot, from_quaternion, kernel, quaternion_direction, sqrt
+from bench.law import (
+    LINEAR_MRP,
+    Coordinates,
+    Display,
+    Look,
+    cross,
+    dot,
+    from_quaternion,
+    kernel,
+    quaternion_direction,
+    sqrt,
+)
 
 
 class Chart(NamedTuple):
@@ -105,7 +116,7 @@ def margin(R):
     return 0.5 + 0.25 * q[0] / sqrt(t)
 
 
-REPRESENTATION = Representation(
+REPRESENTATION = Coordinates(
     name="mrp",
     title="Modified Rodrigues parameters",
     source="Wiener 1962; Tsiotras 1996; Schaub & Junkins 2003",
@@ -119,7 +130,5 @@ REPRESENTATION = Representation(
     angular_velocity=angular_velocity,
     generalized=generalized,
     margin=margin,
-    short="MRP",
-    look=Look("sky", "X", "dashed"),
-    linear=LINEAR_MRP,
+    display=Display("MRP", Look("sky", "X", "dashed"), equation=LINEAR_MRP),
 )

@@ -7,7 +7,7 @@ the one with w >= 0: E jumps to -E at 180° rotations.
 
 from typing import NamedTuple
 
-from bench.law import CHORD, Look, Representation, from_quaternion, kernel, quaternion_direction, sqrt
+from bench.law import CHORD, Coordinates, Display, Look, from_quaternion, kernel, quaternion_direction, sqrt
 
 
 class Chart(NamedTuple):
@@ -90,7 +90,7 @@ def margin(R):
     return 1.0
 
 
-REPRESENTATION = Representation(
+REPRESENTATION = Coordinates(
     name="quaternion",
     title="Unit quaternion",
     source="Shepperd 1978; Wie, Weiss, Arapostathis 1989",
@@ -105,7 +105,5 @@ REPRESENTATION = Representation(
     generalized=generalized,
     margin=margin,
     about=None,
-    short="quaternions",
-    look=Look("blue", "o", "solid"),
-    linear=CHORD,
+    display=Display("quaternions", Look("blue", "o", "solid"), equation=CHORD),
 )

@@ -7,8 +7,9 @@ from typing import NamedTuple
 
 from bench.law import (
     ANGLE,
+    Coordinates,
+    Display,
     Look,
-    Representation,
     atan2,
     cos,
     cross,
@@ -199,7 +200,7 @@ def margin(R):
     return 1.0
 
 
-REPRESENTATION = Representation(
+REPRESENTATION = Coordinates(
     name="rotation-vector",
     title="Rotation vector",
     source="Bullo & Murray 1995; Caccavale, Siciliano, Villani 1999",
@@ -213,7 +214,5 @@ REPRESENTATION = Representation(
     angular_velocity=angular_velocity,
     generalized=generalized,
     margin=margin,
-    short="rotation vectors",
-    look=Look("purple", "D", "dotted"),
-    linear=ANGLE,
+    display=Display("rotation vectors", Look("purple", "D", "dotted"), equation=ANGLE),
 )

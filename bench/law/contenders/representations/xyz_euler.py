@@ -4,7 +4,7 @@ Singular where cos(beta) = 0: at beta = +90 deg only alpha + gamma, at -90 deg o
 B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
 """
 
-from bench.law import Look, Representation, Rotation, atan2, cos, kernel, sin, sqrt
+from bench.law import Coordinates, Display, Look, Rotation, atan2, cos, kernel, sin, sqrt
 from bench.law.euler import EulerChart, derivatives_of, first_angle
 
 
@@ -96,7 +96,7 @@ def elements(R):
 
 differentiate, differentiate_twice = derivatives_of(elements)
 
-REPRESENTATION = Representation(
+REPRESENTATION = Coordinates(
     name="xyz-euler",
     title="X-Y-Z Euler angles",
     source="Craig 1986",
@@ -112,6 +112,5 @@ REPRESENTATION = Representation(
     margin=margin,
     differentiate=differentiate,
     differentiate_twice=differentiate_twice,
-    short="X-Y-Z angles",
-    look=Look("orange", "v", "dashed"),
+    display=Display("X-Y-Z angles", Look("orange", "v", "dashed")),
 )

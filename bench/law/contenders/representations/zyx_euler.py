@@ -4,7 +4,7 @@ Singular where cos(beta) = 0: at beta = +90 deg only alpha - gamma, at -90 deg o
 B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
 """
 
-from bench.law import Look, Representation, Rotation, atan2, cos, kernel, sin, sqrt
+from bench.law import Coordinates, Display, Look, Rotation, atan2, cos, kernel, sin, sqrt
 from bench.law.euler import EulerChart, accelerate, angular_velocity, derivatives_of, first_angle, generalized, rates
 
 
@@ -52,7 +52,7 @@ def elements(R):
 
 differentiate, differentiate_twice = derivatives_of(elements)
 
-REPRESENTATION = Representation(
+REPRESENTATION = Coordinates(
     name="zyx-euler",
     title="Z-Y-X Euler angles",
     source="Murphy 1988, (2.8)-(2.11); Craig 1986",
@@ -69,7 +69,6 @@ REPRESENTATION = Representation(
     about=(2, 1, 0),
     differentiate=differentiate,
     differentiate_twice=differentiate_twice,
-    short="Z-Y-X angles",
-    look=Look("vermillion", "s", "solid"),
     papers=True,
+    display=Display("Z-Y-X angles", Look("vermillion", "s", "solid")),
 )

@@ -4,7 +4,7 @@ Singular where sin(beta) = 0, the identity included: at beta = 0 only alpha + ga
 determined, and B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
 """
 
-from bench.law import Look, Representation, Rotation, atan2, cos, kernel, sin, sqrt
+from bench.law import Coordinates, Display, Look, Rotation, atan2, cos, kernel, sin, sqrt
 from bench.law.euler import EulerChart, accelerate, angular_velocity, derivatives_of, first_angle, generalized, rates
 
 
@@ -52,7 +52,7 @@ def elements(R):
 
 differentiate, differentiate_twice = derivatives_of(elements)
 
-REPRESENTATION = Representation(
+REPRESENTATION = Coordinates(
     name="zyz-euler",
     title="Z-Y-Z Euler angles",
     source="Murphy 1988, 2.2; Craig 1986",
@@ -69,6 +69,5 @@ REPRESENTATION = Representation(
     about=(2, 1, 0),
     differentiate=differentiate,
     differentiate_twice=differentiate_twice,
-    short="Z-Y-Z angles",
-    look=Look("green", "^", "dash-dot"),
+    display=Display("Z-Y-Z angles", Look("green", "^", "dash-dot")),
 )

@@ -4,9 +4,10 @@ Its source also moves goals and stiffness to their targets by a filter, and limi
 tick; the law here does not.
 """
 
-from bench.law.shipped import TORQUE, Shipped, logarithm
+from bench.law.kinds import TORQUE
+from bench.law.shipped import as_shipped, logarithm
 
-SHIPPED = Shipped(
+SHIPPED = as_shipped(
     "cartesian-impedance",
     "Cartesian-Impedance-Controller (Mayr, Salt-Ducaju)",
     "matthias-mayr/Cartesian-Impedance-Controller@b2a6137e1d14df85251692065c649e438f19076f",

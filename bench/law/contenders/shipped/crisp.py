@@ -5,7 +5,8 @@ to 0.5 N m a tick, and cancels the inertia on request; the law here does none of
 """
 
 from bench.law import kernel
-from bench.law.shipped import TORQUE, Shipped, clipped, logarithm
+from bench.law.kinds import TORQUE
+from bench.law.shipped import as_shipped, clipped, logarithm
 
 CLIP_RAD = 0.5
 
@@ -16,7 +17,7 @@ def error(q):
     return clipped(logarithm(q), CLIP_RAD)
 
 
-SHIPPED = Shipped(
+SHIPPED = as_shipped(
     "crisp",
     "crisp_controllers, Cartesian controller",
     "utiasDSL/crisp_controllers@2b33ab777caf3d3e5d0d3ff39b8ba036a75e9e68",

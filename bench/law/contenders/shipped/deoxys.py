@@ -6,7 +6,8 @@ repels joints from their limits; the law here does not.
 """
 
 from bench.law import kernel
-from bench.law.shipped import TORQUE, Shipped, vector_part
+from bench.law.kinds import TORQUE
+from bench.law.shipped import as_shipped, vector_part
 
 DEADBAND = 5e-3
 
@@ -26,7 +27,7 @@ def error(q):
     return (without(e[0]), without(e[1]), without(e[2]))
 
 
-SHIPPED = Shipped(
+SHIPPED = as_shipped(
     "deoxys",
     "deoxys_control, OSC_POSE",
     "UT-Austin-RPL/deoxys_control@49e63283db98c2217294a788404474192cc151eb",

@@ -5,9 +5,10 @@ vector; commit 1c3843a of 2018-12-13 changed its frame alone. Its source also fi
 change of a torque; the law here does not.
 """
 
-from bench.law.shipped import TORQUE, Shipped, vector_part
+from bench.law.kinds import TORQUE
+from bench.law.shipped import as_shipped, vector_part
 
-SHIPPED = Shipped(
+SHIPPED = as_shipped(
     "franka-ros",
     "franka_ros, Cartesian impedance example",
     "frankaemika/franka_ros@c11f000c2737acc22ed8dfeff40555b2644a4294",

@@ -5,9 +5,10 @@ where it has been since the first public commit of 2020. Its source also interpo
 law here does not.
 """
 
-from bench.law.shipped import TORQUE, Shipped, logarithm
+from bench.law.kinds import TORQUE
+from bench.law.shipped import as_shipped, logarithm
 
-SHIPPED = Shipped(
+SHIPPED = as_shipped(
     "frankapy",
     "frankapy, franka-interface's Cartesian impedance",
     "iamlab-cmu/franka-interface@c18b96e6b3b65d376ca33021559c26c50a9d8ba5",

@@ -9,7 +9,8 @@ turns the simulated joints; KDL takes angles below 1e-6 rad for none and loses d
 import math
 
 from bench.law import kernel
-from bench.law.shipped import POSITION, Shipped, logarithm, shortened
+from bench.law.kinds import POSITION
+from bench.law.shipped import as_shipped, logarithm, shortened
 
 LONGEST_RAD = 1.0
 STEP_S, LEFT, FASTER = 0.02, 0.9, 20.0
@@ -21,7 +22,7 @@ def error(q):
     return shortened(logarithm(q), LONGEST_RAD)
 
 
-SHIPPED = Shipped(
+SHIPPED = as_shipped(
     "fzi-motion",
     "cartesian_controllers (FZI), motion controller",
     "fzi-forschungszentrum-informatik/cartesian_controllers@f53f798029ea5e05993e8a5d1736c713379af0e2",

@@ -6,7 +6,8 @@ in single precision; the law here in double.
 """
 
 from bench.law import kernel
-from bench.law.shipped import TORQUE, Shipped
+from bench.law.kinds import TORQUE
+from bench.law.shipped import as_shipped
 
 
 @kernel
@@ -19,7 +20,7 @@ def error(q):
     return (0.0 * q[1], 0.0 * q[2], 0.0 * q[3])
 
 
-SHIPPED = Shipped(
+SHIPPED = as_shipped(
     "isaac-gym",
     "Isaac Gym Preview 4, Franka OSC example",
     "notAnyrobot/isaacgym@87649bb8d53cd085594c0255d146e3570c9b750c",

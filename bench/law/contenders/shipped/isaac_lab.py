@@ -4,9 +4,10 @@ By default it cancels no inertia, in spite of its name; tasks may ask for it. It
 Read in the wheel of the release, isaaclab 2.3.2.post1.
 """
 
-from bench.law.shipped import TORQUE, Shipped, logarithm
+from bench.law.kinds import TORQUE
+from bench.law.shipped import as_shipped, logarithm
 
-SHIPPED = Shipped(
+SHIPPED = as_shipped(
     "isaac-lab",
     "Isaac Lab, operational-space controller",
     "isaac-sim/IsaacLab@v2.3.2",

@@ -1,8 +1,9 @@
 """The Cartesian impedance example of libfranka: that of franka_ros without filters; its gains are in the source."""
 
-from bench.law.shipped import TORQUE, Shipped, vector_part
+from bench.law.kinds import TORQUE
+from bench.law.shipped import as_shipped, vector_part
 
-SHIPPED = Shipped(
+SHIPPED = as_shipped(
     "libfranka",
     "libfranka, Cartesian impedance example",
     "frankaemika/libfranka@155ddac80565975b58f53eb2feeb85b07a6b9e13",

@@ -4,9 +4,10 @@ Its error is the logarithm of SE(3), whose rotation this is, and joint rates are
 of 2024-10-02; release 1.3.0 computes the logarithm otherwise.
 """
 
-from bench.law.shipped import VELOCITY, Shipped, logarithm
+from bench.law.kinds import VELOCITY
+from bench.law.shipped import as_shipped, logarithm
 
-SHIPPED = Shipped(
+SHIPPED = as_shipped(
     "mink",
     "mink, frame task",
     "kevinzakka/mink@cf1a302ff31b1f620abecdcbdebfd2c42d125a54",
@@ -15,6 +16,6 @@ SHIPPED = Shipped(
     r"e = \log(R_d R^\top)",
     logarithm,
     1.0,
-    None,
+    0.0,
     "default gain 1, over the period",
 )

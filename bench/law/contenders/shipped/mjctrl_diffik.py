@@ -3,9 +3,10 @@
 The joints' position servos are between the command and the body; the law here has none.
 """
 
-from bench.law.shipped import VELOCITY, Shipped, logarithm
+from bench.law.kinds import VELOCITY
+from bench.law.shipped import as_shipped, logarithm
 
-SHIPPED = Shipped(
+SHIPPED = as_shipped(
     "mjctrl-diffik",
     "mjctrl, diffik.py",
     "kevinzakka/mjctrl@f1c82c257248e2e52b0e6c1beaf23c6a2026e4f2",
@@ -14,6 +15,6 @@ SHIPPED = Shipped(
     r"e = \log(R_d R^\top)",
     logarithm,
     1.0,
-    None,
+    0.0,
     "all of it in a tick",
 )

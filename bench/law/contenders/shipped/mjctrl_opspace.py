@@ -5,7 +5,8 @@ source also bounds the torques by the actuators' ranges.
 """
 
 from bench.law import kernel
-from bench.law.shipped import TORQUE, Shipped, logarithm
+from bench.law.kinds import TORQUE
+from bench.law.shipped import as_shipped, logarithm
 
 TWIST_GAIN = 0.95
 
@@ -17,7 +18,7 @@ def error(q):
     return (TWIST_GAIN * e[0], TWIST_GAIN * e[1], TWIST_GAIN * e[2])
 
 
-SHIPPED = Shipped(
+SHIPPED = as_shipped(
     "mjctrl-opspace",
     "mjctrl, opspace.py",
     "kevinzakka/mjctrl@f1c82c257248e2e52b0e6c1beaf23c6a2026e4f2",

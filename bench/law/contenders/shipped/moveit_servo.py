@@ -4,7 +4,8 @@ Its source also slows down near singularities and joint limits, and smooths; the
 """
 
 from bench.law import kernel
-from bench.law.shipped import VELOCITY, Shipped, logarithm, shortened
+from bench.law.kinds import VELOCITY
+from bench.law.shipped import as_shipped, logarithm, shortened
 
 FASTEST, PERIOD_S = 0.8, 0.01
 """[rad/s], [s]."""
@@ -16,7 +17,7 @@ def error(q):
     return shortened(logarithm(q), FASTEST * PERIOD_S)
 
 
-SHIPPED = Shipped(
+SHIPPED = as_shipped(
     "moveit-servo",
     "MoveIt Servo, pose tracking",
     "moveit/moveit2@8fcb5d2327767af3c764b1348a69a9b74c5efd18",
@@ -25,7 +26,7 @@ SHIPPED = Shipped(
     r"e = \min(\theta,\, 0.008)\,k",
     error,
     1.0,
-    None,
+    0.0,
     "all of it in a tick, at most 0.8 rad/s",
     unbounded=logarithm,
     bound=FASTEST * PERIOD_S,

@@ -5,7 +5,8 @@ Its docstring promises axis times angle, which this is near the goal alone. As d
 """
 
 from bench.law import kernel
-from bench.law.shipped import TORQUE, Shipped
+from bench.law.kinds import TORQUE
+from bench.law.shipped import as_shipped
 
 
 @kernel
@@ -14,7 +15,7 @@ def error(q):
     return (2.0 * q[0] * q[1], 2.0 * q[0] * q[2], 2.0 * q[0] * q[3])
 
 
-SHIPPED = Shipped(
+SHIPPED = as_shipped(
     "robosuite",
     "robosuite, OSC_POSE",
     "ARISE-Initiative/robosuite@v1.5.2",

@@ -4,11 +4,12 @@ It has no default gains: those here are of its own tests, about z. Stiffness and
 names; with equal ones about all axes the frame has no effect. Its source also damps the joints and filters the wrench.
 """
 
-from bench.law.shipped import POSITION, Shipped, logarithm
+from bench.law.kinds import POSITION
+from bench.law.shipped import as_shipped, logarithm
 
 INERTIA, STIFFNESS, DAMPING_RATIO = 10.1, 214.6, 2.828427
 
-SHIPPED = Shipped(
+SHIPPED = as_shipped(
     "ros2-admittance",
     "ros2_controllers, admittance controller",
     "ros-controls/ros2_controllers@94e74de35f9d04f313aca8f29df66c3a76004aa7",

@@ -5,7 +5,8 @@ dt; its gain is 0 as delivered, so that there is none here. Its source also filt
 """
 
 from bench.law import kernel
-from bench.law.shipped import TORQUE, Shipped, clipped, vector_part
+from bench.law.kinds import TORQUE
+from bench.law.shipped import as_shipped, clipped, vector_part
 
 CLIP = 0.05
 
@@ -16,7 +17,7 @@ def error(q):
     return clipped(vector_part(q), CLIP)
 
 
-SHIPPED = Shipped(
+SHIPPED = as_shipped(
     "serl-franka",
     "serl_franka_controllers, Cartesian impedance",
     "rail-berkeley/serl_franka_controllers@5576ce172b9e1414b078ddf8582aafccd741f3c7",

@@ -138,8 +138,8 @@ def spatialmath() -> list[Library]:
 
 def orientation_bench() -> list[Library]:
     """Return laws on R of this benchmark at rest, with kp = 1 and so the error itself."""
-    from bench.law.contender import AT_REST, Gains, Goal
     from bench.law.contenders.registry import find_contender
+    from bench.law.inputs import AT_REST, Gains, Goal
     from bench.law.so3 import IDENTITY, Rotation
 
     def law(word: str, form: str) -> Function:
@@ -165,13 +165,15 @@ def shipped() -> list[Library]:
     They run with the gains of the suite, so that what differs is the error; with those of their authors the experiment
     `shipped` runs them.
     """
-    from bench.law.contenders.registry import known_shipped
+    from bench.law.contenders.registry import contenders
 
     found = []
     for name, word in RESTATED.items():
-        one = known_shipped()[word]
+        one = contenders("shipped")[word]
         repository, _, revision = one.source.partition("@")
-        function = Function("orientation error", QUATERNION, lambda q, error=one.error: error(tuple(q.tolist())))
+        function = Function(
+            "orientation error", QUATERNION, lambda q, error=one.shipped.error: error(tuple(q.tolist()))
+        )
         found.append(Library(name, f"{repository}@{revision[:8]}", (function,), is_restated=True))
     return found
 

@@ -1,4 +1,6 @@
-"""The scalar equation of a law that turns a free body about one fixed axis from rest: what theory and figures use.
+"""What the book shows of a law or of coordinates: short name, look, family, and the equation of its angle.
+
+The equation is that of a free body that a law turns about one fixed axis from rest:
 
     theta'' = -Kp f(theta) - Kv theta' + g(theta, theta')       theta the angle to the goal, from rest
 
@@ -8,7 +10,25 @@ that need a tangent: a law's file has no mathematics but the dialect's.
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+COLOURS = ("blue", "vermillion", "green", "purple", "orange", "sky", "yellow")
+"""Okabe and Ito's, distinguished with any colour vision."""
+MARKERS = ("o", "s", "^", "v", "D", "d", "p", "P", "x", "X", "h", "*", "<")
+LINES = ("solid", "dashed", "dotted", "dash-dot")
+
+
+class Look(NamedTuple):
+    """One of COLOURS, one of MARKERS, one of LINES."""
+
+    colour: str
+    marker: str
+    line: str
+
+    @property
+    def is_known(self) -> bool:
+        """Whether the book can draw it."""
+        return self.colour in COLOURS and self.marker in MARKERS and self.line in LINES
 
 
 class Equation(NamedTuple):
@@ -45,3 +65,17 @@ LINEAR_SINE = Equation(
     lambda theta, rate, kp, kv: 0.5 * rate * rate * math.tan(theta / 2.0),
 )
 """sin(theta/2) obeys the linear equation."""
+
+
+class Display(NamedTuple):
+    """What the book shows, all of it optional; nothing is computed from it but theory of one axis.
+
+    short: the name beside a curve; of coordinates in the plural. look: how curves are drawn. family: the title of the
+    laws it is drawn with. equation: of the angle; of coordinates, what a linear motion of them from rest is. A law on
+    several coordinates gives a function of the coordinates instead.
+    """
+
+    short: str = ""
+    look: Look | None = None
+    family: str = ""
+    equation: Equation | Callable[[Any], Equation | None] | None = None

@@ -1,0 +1,246 @@
+"""The six kinds of contender: Law, Coordinates, Jacobian, Inverse, Impedance, Spring. A file of contenders/ holds one.
+
+Shapes: a vector is a tuple of 3 numbers, R a `Rotation`, E a tuple of 3 coordinates (4 of a quaternion). A buffer is an
+array A[i, j] or b[i] of numbers: float64, or counting scalars. Base frame, radians, seconds, SI units.
+"""
+
+import math
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from bench.law.display import Display
+from bench.law.inputs import PAPERS_GAINS, Gains
+
+ON_MATRIX = "rotation-matrix"
+"""The coordinates of a law that acts on R itself."""
+
+ACCELERATION, TORQUE, VELOCITY, POSITION = "acceleration", "torque", "velocity", "position"
+"""Levels: what a controller commands. Of a position, it simulates the plant that moves there."""
+
+OURS = "this benchmark"
+"""How the source of a law begins that was made here."""
+
+
+class State(NamedTuple):
+    """The state of a law that obeys a differential equation: a filter in place of the measured rate, or an integral.
+
+    begin(R): the state at the start, four numbers. measures_rate: whether the law reads omega. rejects: whether a
+    constant disturbance leaves no error. polynomial(kp, kv): of small angles, the coefficients (c2, c1, c0) of
+    s^3 + c2 s^2 + c1 s + c0; None of one whose state does nothing. bound(kp, kv): what |u| never exceeds [rad/s^2].
+    """
+
+    begin: Callable
+    polynomial: Callable | None
+    measures_rate: bool
+    rejects: bool
+    bound: Callable | None = None
+
+
+class AsShipped(NamedTuple):
+    """A controller as its authors set it, in words and numbers of its source; see `bench.law.shipped`.
+
+    error: kernel of the quaternion. path: the files of the law's source, repository@commit or release, that were read.
+    set_by: where the gains are set. shapes_inertia: whether the body that the gains act on is one of unit inertia
+    whatever the robot's. unbounded, bound: the error before its bound, and the bound of its components or of its
+    length, if it has one. thread: owner/name#number of a public thread on what its error does.
+    """
+
+    error: Callable
+    path: str
+    set_by: str
+    shapes_inertia: bool = False
+    unbounded: Callable | None = None
+    bound: float = math.inf
+    thread: str = ""
+
+
+class Law(NamedTuple):
+    """A law u = law(R, omega, goal, gains): commanded angular acceleration in the base frame [rad/s^2].
+
+    coordinates: "rotation-matrix" if the law acts on R; otherwise the names of the coordinates it acts on, or "any".
+    Such a law gives `law_in(coordinates)`, which returns the law in those coordinates.
+    relative: the coordinates are those of R_d^T R, so their margin is too.
+    memory: initial memory of a law with memory, law(R, omega, goal, gains, memory) -> (u, memory); else None.
+    state: of a law with a state, law(R, omega, goal, gains, state) -> (u, state'), state' the rates, which whoever runs
+    the law integrates over the control period. A memory is carried from tick to tick as it is, and needs no period.
+    property: what is proved: "local", "almost global", "global with memory", "none", or for which gains.
+    Of another law state is None, as shipped is of one that is not a controller as its authors ship it.
+    level: what is commanded. gains: those that the authors set, or the paper's.
+    shipped: of a controller as its authors ship it; its formula is that of the error, with clips and deadbands in their
+    order, and its gains are in N m/rad, in 1/s^2 where an inertia is cancelled or simulated, in 1/s of a velocity.
+    origin: the file of a user's law; empty for ours. later: one that the paper does not have: it runs on fewer starts.
+    costing_only: another way to write a law that is listed already: costed and tested, not run.
+    in_engine: MuJoCo's own actuator makes the command, on the free body in MuJoCo alone; `law` is what it computes,
+    which is what is tested and counted.
+    stiffness: near the goal, about n_d, o_d and a_d, over kp.
+    margin: of a law on R that is singular somewhere: margin(R, R_d) in [0, 1], 0 exactly there; else None.
+    coordinate_law_in: of a law that commands Eddot itself: coordinate_law_in(coordinates) returns
+    law(chart, E_d, Edot, gains) -> u_E, what the controller on an analytic Jacobian needs (Murphy 1988, 3.7).
+    assemble: of a baseline (contenders/baselines), assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory)
+    in place of (2.2) and (3.7). through: the Jacobian and the inverse of one that acts on the joints; else empty.
+    papers: its place among the paper's three laws; 0 of another. control: a negative one, here because it must fail.
+    """
+
+    name: str
+    title: str
+    source: str
+    formula: str
+    law: Callable | None = None
+    law_in: Callable | None = None
+    coordinates: str | tuple = ON_MATRIX
+    relative: bool = False
+    memory: tuple | None = None
+    state: State | Any = None
+    property: str = "local"
+    level: str = ACCELERATION
+    gains: Gains = PAPERS_GAINS
+    shipped: AsShipped | Any = None
+    origin: str = ""
+    costing_only: bool = False
+    later: bool = False
+    in_engine: bool = False
+    stiffness: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    margin: Callable | None = None
+    coordinate_law_in: Callable | None = None
+    assemble: Callable | None = None
+    through: tuple["Jacobian", "Inverse"] | tuple[()] = ()
+    papers: int = 0
+    control: bool = False
+    display: Display = Display()
+
+    def is_ours(self) -> bool:
+        """Whether the law was made here and nobody else has reviewed it: its source then begins with OURS."""
+        return self.source.startswith(OURS)
+
+
+class Coordinates(NamedTuple):
+    """Coordinates E of a rotation, with omega = B(E) Edot (Murphy 1988, 2.8): three, or four of a quaternion.
+
+    A `chart` is E together with what its extraction has computed already (sines and cosines, say), so that nothing is
+    computed twice in a tick; `chart.E` is E.
+
+    chart(R) -> chart
+    chart_of(E) -> chart
+    to_matrix(E) -> R
+    rates(chart, omega) -> Edot = B^-1 omega                     (2.9)
+    accelerate(chart, Edot, Eddot) -> B Eddot + Bdot Edot        (2.10 solved for u = omegadot)
+    angular_velocity(chart, Edot) -> B Edot                      (2.8)
+    generalized(chart, m) -> B^T m                               (3.12, rotational part)
+    margin(R) -> number in [0, 1], 0 exactly on the singular set
+
+    Of an extraction that can be differentiated element by element, as (3.5) does (else None):
+    differentiate(R, Rdot) -> Edot                               dE/dR along Rdot, Rdot by columns
+    differentiate_twice(R, Rdot, Rddot) -> Eddot
+
+    about: which coordinate a user takes for the turn about x, about y and about z; None if there is no such choice.
+    papers: whether they are the paper's own (Murphy 1988, 2.2).
+    """
+
+    name: str
+    title: str
+    source: str
+    formula: str
+    symbols: tuple
+    chart: Callable
+    chart_of: Callable
+    to_matrix: Callable
+    rates: Callable
+    accelerate: Callable
+    angular_velocity: Callable
+    generalized: Callable
+    margin: Callable
+    differentiate: Callable | None = None
+    differentiate_twice: Callable | None = None
+    about: tuple[int, int, int] | None = (0, 1, 2)
+    papers: bool = False
+    display: Display = Display()
+
+    @property
+    def goal_chart(self) -> Callable:
+        """The chart again, for the goal: a name of its own, so that its cost is a stage of its own."""
+        return self.chart
+
+
+class Jacobian(NamedTuple):
+    """Which motion of the tool the joint rates are mapped to: xdot = J qdot, of 6 or 7 rows, the linear ones first.
+
+    takes: "angular-acceleration" if the controller commands omegadot (Murphy 1988, 2.2), "coordinates" if it commands
+    Eddot (3.7).
+
+    An "angular-acceleration" Jacobian gives kernels_in(None) -> (fill, express):
+        fill(J, chain)          writes rows 0 to 5
+        express(chain, a)       the six numbers of a base-frame acceleration, in the frame of J
+    A "coordinates" Jacobian gives kernels_in(coordinates) -> (fill, drift):
+        fill(J, chain, at)                   writes its rows; `at` is the coordinates' chart of chain.R
+        drift(chain, at, Edot, omega, bias)  Jdot qdot as a tuple of its rows; `bias` is that of the geometric one
+    needs_derivatives: whether the coordinates must give `differentiate` and `differentiate_twice`.
+    """
+
+    name: str
+    title: str
+    source: str
+    formula: str
+    takes: str
+    kernels_in: Callable
+    needs_derivatives: bool = False
+
+
+class Inverse(NamedTuple):
+    """How a commanded acceleration a of the tool becomes one of the joints, or joint torques.
+
+    resolve(J, a, D, x, rows, n, scratch): from J (rows x n), a (rows) and the inertia matrix D (n x n) writes x (n).
+    J, a and D are left as they are.
+    gives: "acceleration" if J x = a, up to the inverse's own error; "torque" if x is the torque for it; "joint-torque"
+    of a baseline on the joints, if it is what gravity leaves to be added.
+    refuses(rows, n) -> why it cannot be used with a Jacobian of that shape; empty if it can, as any can by default.
+    """
+
+    name: str
+    title: str
+    source: str
+    formula: str
+    resolve: Callable
+    gives: str
+    refuses: Callable[[int, int], str] = lambda rows, n: ""
+
+
+class Impedance(NamedTuple):
+    """A law u = law(R, omega, m, R_d, gains, inertia): the hand's angular acceleration in the base frame [rad/s^2].
+
+    m: the moment on the hand plus the one it is to exert [N m], base frame. inertia: apparent, [kg m^2]. Near the
+    goal the stiffness is kp inertia [N m/rad]; of an impedance in coordinates it is that times B^-T B^-1.
+    law_in(coordinates) -> law, of an impedance in coordinates; `law` is then None.
+    relative: the coordinates are those of R_d^T R.
+    """
+
+    name: str
+    title: str
+    source: str
+    formula: str
+    law: Callable | None = None
+    law_in: Callable | None = None
+    relative: bool = False
+
+
+class Spring(NamedTuple):
+    """wrench(q, p, K, Kr) -> (f, m): force [N] and moment [N m] on the hand about its origin, in the hand's axes.
+
+    q, p: X = T_d^-1 T, the pose of the hand seen from the goal: the unit quaternion (w, x, y, z), w >= 0, and the place
+    of its origin [m] in the goal's axes. K: the stiffness of position, symmetric, by rows [N/m]. Kr: the stiffness of
+    orientation [N m/rad], the same number about every axis. potential(q, p, K, Kr) -> [J]; None if there is none for
+    every K. formula: of force and moment, in TeX.
+
+    is_rotational: the spring ignores p and K, its force is zero, and its Kr is a symmetric matrix by rows, for any of
+    which its potential holds. frames: the axes in which its moment may be taken, "tool" or "goal"; base axes are the
+    goal's, turned by a constant. stiffness: the share of Kr that is felt at the goal.
+    """
+
+    name: str
+    title: str
+    source: str
+    formula: str
+    wrench: Callable
+    potential: Callable | None = None
+    is_rotational: bool = False
+    frames: tuple[str, ...] = ("tool",)
+    stiffness: float = 1.0
