@@ -13,8 +13,8 @@ from bench.findings.perturbed import Threshold, Way
 from bench.findings.selection import gains, needs
 from bench.findings.selection.measured import measured
 from bench.findings.selection.words import leaders, standing
-from bench.law.contender import AT_REST, Gains, Goal
 from bench.law.contenders.registry import find_contender
+from bench.law.inputs import AT_REST, Gains, Goal
 from report.figures import index
 from report.figures.answer import which_law
 from report.figures.arms import arm_ranking, cost_on_arms

@@ -15,7 +15,7 @@ from bench.findings.selection.needs import Advice
 from bench.findings.selection.robots import VELOCITIES, advise_for
 from bench.findings.selection.words import standing
 from bench.findings.theory.velocity_limits import with_theory
-from bench.law.contenders.registry import known_inverses
+from bench.law.contenders.registry import contenders
 from report.figures.comparison.cells import by_law
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
@@ -156,7 +156,7 @@ def by_inverse(run: Run) -> list[tuple]:
     """A row an inverse, all arms that take it together."""
     rows, found = told(run), limits(run)
     lines = []
-    for name, one in known_inverses().items():
+    for name, one in contenders("inverses").items():
         own = rows[(rows["law"] == BY_EVERY_INVERSE) & (rows["inverse"] == name)]
         near = found[(found["inverse"] == name) & (found["lag_ticks"] == 0.0)]
         if own.empty or near.empty:

@@ -11,8 +11,8 @@ import pandas as pd
 from bench.base.files import read_json
 from bench.experiments.shipped import BENT_DEG, FELT_RAD
 from bench.findings.remedy import KEEP, fix_of, is_bent
-from bench.law.contenders.registry import known_shipped
-from bench.law.shipped import POSITION, TORQUE, VELOCITY, Shipped
+from bench.law.contenders.registry import contenders
+from bench.law.kinds import POSITION, TORQUE, VELOCITY, Law
 from bench.studies.restated.__main__ import STORED
 from report.figures.kit import html
 from report.figures.kit.page import Run, in_run
@@ -81,7 +81,7 @@ def facts(run: Run) -> dict:
 def held() -> dict:
     """Return what the study of sources found."""
     built = [one for one in restated().values() if "difference" in one]
-    fixes = {name: fix_of(name) for name in known_shipped()}
+    fixes = {name: fix_of(name) for name in contenders("shipped")}
     rises = [name for name, fix in fixes.items() if fix.after > 1.01 * fix.before]
     return {
         "fixed": sum(fix.words != KEEP for fix in fixes.values()),
@@ -105,7 +105,7 @@ def named(rows: pd.DataFrame) -> str:
 
 def tables(run: Run) -> dict:
     """Return what is measured, equals in one line; and the smallest fix, with a link to the source."""
-    ordered = sorted(known_shipped().values(), key=lambda one: (LEVELS.index(one.level), one.name))
+    ordered = sorted(contenders("shipped").values(), key=lambda one: (LEVELS.index(one.level), one.name))
     return {"measured": in_run(lambda: MEASURED(in_lines(shipped(run)))), "fixes": FIXES(fix(one) for one in ordered)}
 
 
@@ -137,7 +137,7 @@ def times(*settling: float) -> str:
     return html.together(", ".join("never" if math.isnan(one) else f"{one:.2g}" for one in settling))
 
 
-def fix(one: Shipped) -> tuple:
+def fix(one: Law) -> tuple:
     """Return the cells of a controller's fix: its bound, what to change, the greatest command before and after."""
     found = fix_of(one.name)
     repository, _, number = one.thread.partition("#")
