@@ -140,13 +140,15 @@ def times(*settling: float) -> str:
 def fix(one: Law) -> tuple:
     """Return the cells of a controller's fix: its bound, what to change, the greatest command before and after."""
     found = fix_of(one.name)
-    repository, _, number = one.thread.partition("#")
-    known = f" Thread: [{one.thread}]({HOST}/{repository}/issues/{number})." if one.thread else ""
-    unit = "rad/s²" if one.shapes_inertia else "N m"
+    repository, _, number = one.shipped.thread.partition("#")
+    known = f" Thread: [{one.shipped.thread}]({HOST}/{repository}/issues/{number})." if one.shipped.thread else ""
+    unit = "rad/s²" if one.shipped.shapes_inertia else "N m"
     source, _, revision = one.source.partition("@")
     return (
-        f"[{one.name}]({HOST}/{source}/blob/{revision}/{one.path.partition(',')[0]})",
-        None if math.isinf(one.bound) else f"{one.bound:g}, {'each component' if is_bent(one.error) else 'length'}",
+        f"[{one.name}]({HOST}/{source}/blob/{revision}/{one.shipped.path.partition(',')[0]})",
+        None
+        if math.isinf(one.shipped.bound)
+        else f"{one.shipped.bound:g}, {'each component' if is_bent(one.shipped.error) else 'length'}",
         found.words + known,
         None if one.level == VELOCITY else html.together(f"{found.before:.3g} → {found.after:.3g} {unit}"),
     )
