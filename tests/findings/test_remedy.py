@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from bench.findings import remedy
-from bench.law.contenders.registry import known_shipped
-from bench.law.shipped import VELOCITY, clipped, vector_part
+from bench.law.contenders.registry import contenders
+from bench.law.kinds import VELOCITY
+from bench.law.shipped import clipped, vector_part
 
-COMMANDED = [one for one in known_shipped().values() if one.level != VELOCITY]
+COMMANDED = [one for one in contenders("shipped").values() if one.level != VELOCITY]
 
 
 @pytest.mark.parametrize(
@@ -45,7 +46,7 @@ def test_bound_of_each_component_is_found_and_one_of_the_length_is_kept():
 
 
 def test_bounds_are_those_of_the_errors():
-    for one in known_shipped().values():
+    for one in contenders("shipped").values():
         if one.unbounded is not None:
             most = max(np.abs(one.error(remedy.about(k, math.pi))).max() for k in remedy.DIRECTIONS)
             assert most == pytest.approx(one.bound)

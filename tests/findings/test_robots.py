@@ -27,7 +27,7 @@ from bench.findings.selection.robots import (
     measure_velocities,
     word_of,
 )
-from bench.law.contenders.registry import known_shipped
+from bench.law.contenders.registry import contenders
 
 REFERENCE = RESULTS / "reference"
 FASTEST = "mrp"
@@ -35,7 +35,7 @@ FASTEST = "mrp"
 
 @functools.cache
 def shipped():
-    one = next(one for one in known_shipped().values() if one.level == "torque" and not one.shapes_inertia)
+    one = next(one for one in contenders("shipped").values() if one.level == "torque" and not one.shapes_inertia)
     return rows_of(Settings("quick"), Unit("shipped", selector=one.name, count=1, total=1, horizon_s=20.0))
 
 

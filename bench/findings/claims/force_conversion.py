@@ -13,8 +13,8 @@ from bench.findings.claims.side_by_side import PROBE
 from bench.findings.claims.tables import evidence, some
 from bench.findings.claims.verdict import claim, read_limits, word_of
 from bench.findings.theory.compliance_theory import matrix_B
-from bench.law.contender import Representation
-from bench.law.contenders.registry import known_representations, representation
+from bench.law.contenders.registry import contenders, representation
+from bench.law.kinds import Coordinates
 from bench.law.so3 import Rotation, from_quaternion
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ def experiment() -> tuple[pd.DataFrame, list[float]]:
     """`balances` of Z-Y-X at random and polar orientations, and the greatest gap of every other representation."""
     zyx = representation(COORDINATES)
     anywhere = [(AT_RANDOM, R) for R in random_orientations(LIMIT.TURNS, LIMIT.SEED)]
-    others = [one for one in known_representations().values() if one.name != COORDINATES]
+    others = [one for one in contenders("representations").values() if one.name != COORDINATES]
     elsewhere = [float(balances(one, anywhere[: LIMIT.TURNS_ELSEWHERE], LIMIT.SEED)["gap"].max()) for one in others]
     return balances(zyx, anywhere + polar_orientations(zyx, LIMIT.SEED), LIMIT.SEED), elsewhere
 
@@ -78,7 +78,7 @@ def random_orientations(count: int, seed: int) -> list[Rotation]:
     return [from_quaternion(tuple(quat)) for quat in quats.tolist()]
 
 
-def polar_orientations(zyx: Representation, seed: int) -> list[tuple[str, Rotation]]:
+def polar_orientations(zyx: Coordinates, seed: int) -> list[tuple[str, Rotation]]:
     """About both poles of Z-Y-X: (exact or near, R), at 10^-1 to 10^-12 rad and exactly."""
     rng, found = np.random.default_rng(seed), []
     for side in (1.0, -1.0):
@@ -90,7 +90,7 @@ def polar_orientations(zyx: Representation, seed: int) -> list[tuple[str, Rotati
     return found
 
 
-def balance(along: Representation, R: Rotation, moment: np.ndarray, rates: np.ndarray) -> dict:
+def balance(along: Coordinates, R: Rotation, moment: np.ndarray, rates: np.ndarray) -> dict:
     """Both sides of (3.10) at R for a moment and rates of the coordinates, each of length 1.
 
     Returns:
@@ -121,7 +121,7 @@ def balance(along: Representation, R: Rotation, moment: np.ndarray, rates: np.nd
     }
 
 
-def balances(along: Representation, places: list[tuple[str, Rotation]], seed: int) -> pd.DataFrame:
+def balances(along: Coordinates, places: list[tuple[str, Rotation]], seed: int) -> pd.DataFrame:
     """A row an orientation: `place` and what `balance` finds for random directions of moment and rates."""
     import pandas as pd
 

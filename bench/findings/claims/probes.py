@@ -13,8 +13,9 @@ from bench.engines.metrics.registry import metrics_of
 from bench.findings.claims.tables import some
 from bench.findings.theory.closed_form import linear, linear_settling
 from bench.findings.theory.compliance_theory import matrix_B
-from bench.law.contender import AT_REST, Contender, Gains, Goal
+from bench.law.contender import Contender
 from bench.law.contenders.registry import find_contender, inverse, jacobian, representation
+from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import IDENTITY, Rotation, from_quaternion
 from tasks.base import Start
 from tasks.sphere import axes

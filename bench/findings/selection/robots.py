@@ -35,7 +35,7 @@ from bench.findings.selection.needs import (
     advice,
 )
 from bench.findings.selection.tables import Tables, by_law, by_standard_inverse, common, tables_of
-from bench.law.shipped import TORQUE
+from bench.law.kinds import TORQUE
 
 FULL_TURN = 2.0
 """Way over the shortest, at the least, of a start at 120 degrees or less that goes the long way."""

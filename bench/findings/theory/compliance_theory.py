@@ -15,8 +15,8 @@ complies, sprung(t) where it is held, of inertia 1. A moment that is not convert
 
 With Z-Y-X angles B B^T has the eigenvalues 1 and 1 -+ sin beta, at any alpha and gamma: the closed forms below.
 
-Fails: no prediction (NaN) for moments that are not converted and yet cancelled, since what is not cancelled then acts
-on the whole arm; nor where B^-1 does not exist. Radians, N m.
+Limitations: no prediction (NaN) for moments that are not converted and yet cancelled, since what is not cancelled then
+acts on the whole arm; nor where B^-1 does not exist. Radians, N m.
 Source: Murphy 1988, 3.1 and 3.3; Hogan 1985 for stiffness in other coordinates, K -> B^-T K B^-1.
 """
 
@@ -26,10 +26,11 @@ import math
 
 import numpy as np
 
-from bench.law.contender import PAPERS_GAINS, Gains, Representation
 from bench.law.control.contact_controller import PAPERS_FORM, ContactController
 from bench.law.control.hybrid import conversion
 from bench.law.control.setpoint import TOUCH, ContactParameters
+from bench.law.inputs import PAPERS_GAINS, Gains
+from bench.law.kinds import Coordinates
 from bench.law.so3 import IDENTITY, Rotation
 from tasks.arm_model import Arm
 from tasks.contact import Specification
@@ -41,7 +42,7 @@ NOWHERE = 1e-12
 """Smallest singular value of B, over its largest, at which there is no B^-1: rounding of an angle of pi/2."""
 
 
-def matrix_B(representation: Representation, R: Rotation) -> np.ndarray:
+def matrix_B(representation: Coordinates, R: Rotation) -> np.ndarray:
     """Compute B of omega = B Edot (Murphy 1988, 2.8): what each coordinate turns the hand about, in its columns."""
     at = representation.chart(R)
     return np.array([representation.angular_velocity(at, tuple(rate)) for rate in np.eye(len(at.E)).tolist()]).T
@@ -168,7 +169,7 @@ def stiffness_axes(beta: float) -> float:
     return math.pi / 4.0 - abs(beta) / 2.0
 
 
-def lost_moment(representation: Representation, R: Rotation) -> tuple[np.ndarray, float]:
+def lost_moment(representation: Coordinates, R: Rotation) -> tuple[np.ndarray, float]:
     """The unit moment m of which B^T keeps least, and |B^T m|: exactly 0 where it is lost (rank of B below 3).
 
     With Z-Y-X angles at beta = +-90 deg it is about (cos alpha, sin alpha, 0); with Z-Y-Z at the identity about x.
