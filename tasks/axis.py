@@ -37,8 +37,9 @@ def spread(count: int, seed: int, level: float) -> list[Start]:
 class Axis(NamedTuple):
     """A perturbation: the constant AXIS of every tasks/conditions/<name>.py.
 
-    nominal: the level of no perturbation, None if there is none. changes(level) -> {field: its value}; fields: those
-    that this file declares. starts(count, seed, level) -> as many starts.
+    nominal: the level of no perturbation, None if there is none. fields: those that this file declares.
+    sets(level) -> {field: its value}; without it the level is the first field's value. starts(count, seed, level) -> as
+    many starts.
     """
 
     name: str
@@ -46,6 +47,10 @@ class Axis(NamedTuple):
     unit: str
     levels: tuple[float, ...]
     nominal: float | None
-    changes: Callable[[float], dict[str, Value]]
     fields: tuple[Field, ...] = ()
+    sets: Callable[[float], dict[str, Value]] | None = None
     starts: Callable[[int, int, float], list[Start]] = spread
+
+    def changes(self, level: float) -> dict[str, Value]:
+        """Return the values of fields at a level."""
+        return self.sets(level) if self.sets else {one.name: level for one in self.fields[:1]}

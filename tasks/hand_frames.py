@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Callable, Iterable
 
 from tasks.arm_model import Arm
 from tasks.base import Quat, Vector
-from tasks.rotations import about, multiply, to_base
+from tasks.contact import Specification, Trial
+from tasks.rotations import about, multiply, to_base, zyx
+
+BETAS, DENSE_BETAS = (0, 45, 75), (-60, 0, 30, 45, 60, 75)
+"""Frames of the hand of the tasks in contact, R = Ry(beta) at the goal, on a coarse grid and a dense one [deg]."""
+
+Stands = Callable[[Quat, float], tuple[Specification, Vector, Quat]]
+"""Specification of a hand, and place and orientation of surroundings that lean by a rotation and an angle [rad]."""
 
 
 def posture(arm: Arm) -> tuple[float, ...]:
@@ -44,3 +53,19 @@ def leaning(tilt_deg: float, azimuth_deg: float) -> Quat:
     """Turned by the tilt about the horizontal axis at this azimuth, counted from x towards y."""
     azimuth = math.radians(azimuth_deg)
     return about((math.cos(azimuth), math.sin(azimuth), 0.0), math.radians(tilt_deg))
+
+
+def leaning_trials(
+    arm: Arm, leans: Iterable[tuple[int, int]], betas: Iterable[int], stands: Stands
+) -> tuple[Trial, ...]:
+    """Return a trial for each way in which the surroundings lean, (tilt, azimuth) [deg], and each frame of the hand.
+
+    Those that differ in beta alone are the same mechanics.
+    """
+    q, found = posture(arm), []
+    for (tilt, azimuth), beta in itertools.product(leans, betas):
+        goal = zyx(0.0, math.radians(beta), 0.0)
+        specification, place, quat = stands(leaning(tilt, azimuth), math.radians(tilt))
+        pose, mount = f"tilt {tilt} about {azimuth}, beta{beta:+d}", mounts(arm, q, goal)
+        found.append(Trial(pose, pose, specification, q, goal, mount, place, quat, tilt=math.radians(tilt)))
+    return tuple(found)

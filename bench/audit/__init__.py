@@ -40,7 +40,7 @@ def audit(
     Errors:
         BadFunction: it returns three numbers neither of matrices nor of quaternions; or a word is unknown.
     """
+    from bench.audit.convention import Stated
     from bench.audit.examine import examine
-    from bench.audit.stated import Stated
 
     return examine(function, Stated(takes, frame, sign, stiffness, accept), name or getattr(function, "__name__", "f"))

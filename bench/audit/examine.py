@@ -8,14 +8,12 @@ from collections.abc import Callable
 import numpy as np
 
 from bench.audit import convention, pairs
-from bench.audit.asked import NO_THREE_NUMBERS, ask
-from bench.audit.convention import Convention
-from bench.audit.examined import Examined
+from bench.audit.convention import TAKES, Convention, Stated
+from bench.audit.examined import NO_THREE_NUMBERS, Examined, ask
 from bench.audit.fault import Finding
 from bench.audit.faults import every_fault
 from bench.audit.pairs import CLOSE, FINE, NEAR_IDENTITY, WIDE
 from bench.audit.report import Report
-from bench.audit.stated import TAKES, Stated
 from bench.base.errors import BadFunction
 
 

@@ -1,19 +1,76 @@
-"""A function with its answers to every pair."""
+"""A function with its answers to every pair, and models of answers of a function that mixes something up."""
 
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+import warnings
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
 
 import numpy as np
 
 from bench.audit import convention, pairs
-from bench.audit.asked import Answers, ask, inputs
-from bench.audit.convention import Convention
+from bench.audit.convention import Convention, Stated
 from bench.audit.fault import Evidence
 from bench.audit.forms import FORMS
-from bench.audit.pairs import Pairs
-from bench.audit.stated import Stated
+from bench.audit.pairs import WIDE, Pairs
+
+NO_THREE_NUMBERS = "it returned no three numbers, but "
+
+
+class Answers(NamedTuple):
+    """e (n x 3), NaN where there are no three numbers; raised (n): the reason there, else an empty string.
+
+    changed (n): whether the function wrote into what it was given.
+    """
+
+    e: np.ndarray
+    raised: list[str]
+    changed: np.ndarray
+
+
+def inputs(takes: str, pairs: Pairs) -> tuple[np.ndarray, np.ndarray]:
+    """Return what the function is given, pair by pair."""
+    if takes == "matrix":
+        return pairs.R, pairs.R_d
+    order = [0, 1, 2, 3] if takes == "wxyz" else [1, 2, 3, 0]
+    return pairs.q[:, order], pairs.q_d[:, order]
+
+
+def ask(function: Callable, takes: str, pairs: Pairs) -> Answers:
+    """Its answers to every pair, each from arrays of its own."""
+    return ask_of(function, *inputs(takes, pairs))
+
+
+def ask_of(function: Callable, now: np.ndarray, goal: np.ndarray) -> Answers:
+    """Return its answers to every pair of two arrays."""
+    e, raised, changed = np.full((len(now), 3), np.nan), [], np.zeros(len(now), bool)
+    with warnings.catch_warnings(), np.errstate(all="ignore"):
+        warnings.simplefilter("ignore")
+        for i, (one, other) in enumerate(zip(now, goal, strict=True)):
+            given = one.copy(), other.copy()
+            e[i], reason = _answer(function, *given)
+            raised.append(reason)
+            changed[i] = not (np.array_equal(given[0], one) and np.array_equal(given[1], other))
+    return Answers(e, raised, changed)
+
+
+def _answer(function: Callable, now: np.ndarray, goal: np.ndarray) -> tuple[np.ndarray | float, str]:
+    """Three numbers, or NaN and the reason."""
+    try:
+        said = function(now, goal)
+    except Exception as error:  # whatever it raises is its answer
+        return np.nan, f"{type(error).__name__}: {error}"
+    try:
+        numbers = np.asarray(said).astype(float)
+    except (TypeError, ValueError):
+        return np.nan, f"{NO_THREE_NUMBERS}{type(said).__name__}"
+    except RuntimeError as error:  # a tensor that keeps a gradient
+        return np.nan, f"{NO_THREE_NUMBERS}{type(said).__name__} ({error})"
+    if numbers.size != 3:
+        return np.nan, f"{NO_THREE_NUMBERS}an array of shape {numbers.shape}"
+    return numbers.reshape(3), ""
+
 
 UNDECIDED_RAD = 1e-7
 """Nearer to 180° than this, the long way is longer than the short one by less than a count of an encoder."""
@@ -78,3 +135,39 @@ class Examined:
         """Angle (n) between answers and where they should point [rad]."""
         angle = convention.apart(self.e, self.direction)
         return np.where(self.pairs.distance < UNDECIDED_RAD, np.minimum(angle, np.pi - angle), angle)
+
+
+Model = tuple[str, np.ndarray]
+"""Words, and vectors (n x 3)."""
+
+EXPLAINED_RAD = 1e-3
+"""Largest angle to a model's line; of two random directions one in two million is so near."""
+
+
+def explanation(examined: Examined, models: Callable[[Pairs], Iterable[Model]]) -> tuple[str, int] | None:
+    """The model along whose vectors most answers lie, in words, and a pair that shows it; None if there is none.
+
+    Args:
+        examined: a function whose convention is not known.
+        models: pairs -> (words, vectors n x 3) of each.
+    """
+    if examined.convention:
+        return None
+    here = np.flatnonzero(examined.at(WIDE))
+    best, share = None, convention.ENOUGH
+    for words, vectors in models(examined.pairs.chosen(here)):
+        angle = convention.apart(examined.e[here], vectors)
+        is_along = (angle < EXPLAINED_RAD) | (angle > np.pi - EXPLAINED_RAD)
+        if is_along.mean() > share:
+            best, share = (words, int(here[np.argmax(is_along)])), float(is_along.mean())
+    return best
+
+
+def axis_of(X: np.ndarray) -> np.ndarray:
+    """2 sin(theta) k of rotations X (n x 3 x 3)."""
+    return np.stack((X[:, 2, 1] - X[:, 1, 2], X[:, 0, 2] - X[:, 2, 0], X[:, 1, 0] - X[:, 0, 1]), axis=1)
+
+
+def rotated(X: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """X v (n x 3)."""
+    return np.einsum("nij,nj->ni", X, v)

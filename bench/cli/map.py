@@ -13,7 +13,7 @@ from bench.experiments.choice import check_numbers, check_workers
 from bench.experiments.map import plan_of
 from bench.experiments.tables.schema import RESULTS
 from bench.law.inputs import Gains
-from bench.running.schedulers.words import check_scheduler
+from bench.running.schedulers import check_scheduler
 
 MOST = 10**10
 

@@ -13,7 +13,7 @@ from bench.law.contender import Contender
 from bench.law.contenders import registry
 from bench.law.contenders.described_law import described
 from bench.law.kinds import Law
-from bench.running.schedulers.words import THREADS
+from bench.running.schedulers import THREADS
 
 LATEST = RESULTS / "latest"
 REFERENCE = RESULTS / "reference"

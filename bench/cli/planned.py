@@ -6,7 +6,7 @@ from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
 from bench.cli.screen import console, counted, shown_path
 from bench.experiments.plan import Plan
 from bench.experiments.suites import NOMINAL
-from bench.running.schedulers.words import THREADS
+from bench.running.schedulers import THREADS
 
 LAW, CONTROLLER, ARM = ("", "contender", "law"), ("", "contender", "controller"), (" on ", "arm", "arm")
 STARTS = (" from ", "selector", "start set")

@@ -12,7 +12,7 @@ from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, shown_path
 from bench.experiments.choice import IN_CONTACT, WITHOUT, Choice, check_workers
 from bench.law.inputs import Gains
-from bench.running.schedulers.words import check_scheduler
+from bench.running.schedulers import check_scheduler
 
 
 @click.command("run", epilog=examples("run"))

@@ -13,8 +13,7 @@ from bench.running.finish import finish
 from bench.running.precompile import compiling_ahead
 from bench.running.run_folder import begin, held, inspect, sweep, tidy
 from bench.running.sandbox import Sandbox
-from bench.running.schedulers import threads
-from bench.running.schedulers.words import THREADS, check_scheduler, kind
+from bench.running.schedulers import THREADS, check_scheduler, kind, threads
 
 
 def run(
@@ -30,7 +29,7 @@ def run(
     """Carry out what is not done yet; whether there was anything to do.
 
     Args:
-        workers: threads of this process. scheduler: who carries out the units (bench/running/schedulers/words.py).
+        workers: threads of this process. scheduler: who carries out the units (bench/running/schedulers/__init__.py).
         report: called with every unit when it is done. law_limit_s: how long a unit of a user's law may take; None for
             the rule of `bench.running.sandbox`.
     Errors:

@@ -29,7 +29,7 @@ from bench.experiments.choice import Choice
 from bench.experiments.plan import Plan
 from bench.law.contenders.registry import find_contender
 from bench.running import run
-from bench.running.schedulers.words import LOCAL, THREADS
+from bench.running.schedulers import LOCAL, THREADS
 from bench.studies.study import make_parser, make_parts
 
 LAW = "rotation-matrix"

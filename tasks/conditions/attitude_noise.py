@@ -11,6 +11,5 @@ AXIS = Axis(
     "rad",
     (0.0, 0.001, 0.003, 0.01, 0.03),
     0.0,
-    lambda level: {"attitude_noise": level},
     (Field("attitude_noise", 0.0, "standard deviation about each axis [rad]", lasts=True, is_drawn=True),),
 )

@@ -8,6 +8,5 @@ AXIS = Axis(
     "s",
     (0.0, 0.002, 0.005, 0.01, 0.015, 0.02),
     0.0,
-    lambda level: {"delay_s": level},
     (Field("delay_s", 0.0, "time from measuring to the command's effect [s]", lasts=False),),
 )

@@ -11,6 +11,5 @@ AXIS = Axis(
     "rad/s^2",
     (50.0, 100.0, 200.0, 400.0),
     None,
-    lambda level: {"peak": level},
     (Field("peak", 0.0, "greatest command from rest that the gains give [rad/s^2]; 0: gains as set", lasts=False),),
 )

@@ -26,7 +26,6 @@ AXIS = Axis(
     "rad",
     (0.0, 0.001, 0.01, 0.03, 0.1, 0.3, 1.0),
     0.0,
-    lambda level: {"worst_attitude_error": level},
     (Field("worst_attitude_error", 0.0, "how far the body is reported beyond 180° [rad]", lasts=False),),
-    starts,
+    starts=starts,
 )

@@ -8,6 +8,6 @@ AXIS = Axis(
     "1",
     (0.5, 0.7, 1.0, 1.4, 2.0),
     1.0,
-    lambda level: {"inertia": (level, level, level)},
     (Field("inertia", (1.0, 1.0, 1.0), "principal moments over the law's model, in the body's axes", lasts=False),),
+    sets=lambda level: {"inertia": (level, level, level)},
 )

@@ -9,9 +9,9 @@ AXIS = Axis(
     "rad/s",
     (0.0, 0.5, 1.0, 2.0, 5.0, 10.0),
     0.0,
-    lambda level: {"reference_amplitude": level, "feedforward": RATE_AND_ACCELERATION},
     (
         Field("reference_amplitude", 0.0, "peak rate of a goal that moves [rad/s]", lasts=True),
         Field("feedforward", RATE_AND_ACCELERATION, "what the law is given of the goal's motion", lasts=False),
     ),
+    sets=lambda level: {"reference_amplitude": level, "feedforward": RATE_AND_ACCELERATION},
 )

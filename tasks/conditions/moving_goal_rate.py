@@ -9,5 +9,5 @@ AXIS = Axis(
     "rad/s",
     (0.0, 0.5, 1.0, 2.0, 5.0, 10.0),
     0.0,
-    lambda level: {"reference_amplitude": level, "feedforward": RATE},
+    sets=lambda level: {"reference_amplitude": level, "feedforward": RATE},
 )

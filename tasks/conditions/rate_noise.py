@@ -11,6 +11,5 @@ AXIS = Axis(
     "rad/s",
     (0.0, 0.01, 0.03, 0.1, 0.3, 1.0),
     0.0,
-    lambda level: {"rate_noise": level},
     (Field("rate_noise", 0.0, "standard deviation about each axis [rad/s]", lasts=True, is_drawn=True),),
 )

@@ -10,6 +10,5 @@ AXIS = Axis(
     "rad/s^2",
     (10.0, 20.0, 50.0, 100.0, 300.0, 1000.0),
     None,
-    lambda level: {"bound": level},
     (Field("bound", math.inf, "what |u| is cut to [rad/s^2]", lasts=False),),
 )

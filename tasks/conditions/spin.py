@@ -16,4 +16,4 @@ def starts(count: int, seed: int, level: float) -> list[Start]:
     return found
 
 
-AXIS = Axis("spin", "Initial spin", "rad/s", (0.0, 5.0, 10.0, 15.0, 20.0), 0.0, lambda level: {}, starts=starts)
+AXIS = Axis("spin", "Initial spin", "rad/s", (0.0, 5.0, 10.0, 15.0, 20.0), 0.0, starts=starts)

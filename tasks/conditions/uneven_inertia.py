@@ -12,5 +12,5 @@ AXIS = Axis(
     "1",
     (0.0, 0.1, 0.2, 0.3, 0.4, 0.5),
     0.0,
-    lambda level: {"inertia": (1.0 - level, 1.0, 1.0 + level)},
+    sets=lambda level: {"inertia": (1.0 - level, 1.0, 1.0 + level)},
 )

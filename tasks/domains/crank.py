@@ -21,7 +21,7 @@ import math
 from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Specification, Surroundings, Trial, attribute
 from tasks.contact_rest import HORIZON_S
-from tasks.hand_frames import at, mounts, posture, wrist
+from tasks.hand_frames import BETAS, DENSE_BETAS, at, mounts, posture, wrist
 from tasks.rotations import columns, multiply, zyx
 
 RADIUS = 0.12  # of the crank [m]
@@ -33,8 +33,6 @@ MOVES_S = 2.5  # until when
 UP = (0.0, 1.0, 0.0, 0.0)  # turns the wrist's frame, which points down, to the scene's, whose z points up
 AZIMUTHS = (60, 105, -75)  # of the hinge [deg]; where it is negative the crank is turned towards -x
 DENSE_AZIMUTHS = (50, 60, 75, 105, 120, 130, -50, -60, -75, -105, -120, -130)
-BETAS = (0, 45, 75)  # degrees
-DENSE_BETAS = (-60, 0, 30, 45, 60, 75)
 
 
 def surroundings(arm: Arm) -> Surroundings:

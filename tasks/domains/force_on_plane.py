@@ -13,12 +13,12 @@ from __future__ import annotations
 
 import functools
 import itertools
-import math
 
 from tasks.arm_model import Arm
+from tasks.base import Quat, Vector
 from tasks.contact import ContactTask, Specification, Surroundings, Trial
-from tasks.hand_frames import at, leaning, mounts, posture
-from tasks.rotations import columns, zyx
+from tasks.hand_frames import BETAS, DENSE_BETAS, at, leaning_trials, posture
+from tasks.rotations import columns
 
 RADIUS = 0.01  # of the tip [m]
 TIP = (0.0, 0.0, 0.14)  # its middle, in the wrist's frame [m]
@@ -30,8 +30,6 @@ SPECIFICATION = Specification(
 # degrees: by how much the plane is tilted, and the azimuth of the axis it is tilted about: to climb, fall and lean
 PLANES = ((0, 0), (5, -45), (5, 135), (10, 35))
 DENSE_PLANES = ((0, 0), *itertools.product((2, 5, 10, 15), range(0, 360, 45)))
-BETAS = (0, 45, 75)  # degrees
-DENSE_BETAS = (-60, 0, 30, 45, 60, 75)
 
 
 def surroundings(arm: Arm) -> Surroundings:
@@ -47,18 +45,12 @@ def surroundings(arm: Arm) -> Surroundings:
 @functools.cache
 def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
     """Every plane with every frame of the hand, on a coarse grid or a dense one."""
-    grid = itertools.product(DENSE_PLANES, DENSE_BETAS) if dense else itertools.product(PLANES, BETAS)
-    q = posture(arm)
-    x, y, z = at(arm, q, TIP)
-    found = []
-    for (tilt, azimuth), beta in grid:
-        plane, goal = leaning(tilt, azimuth), zyx(0.0, math.radians(beta), 0.0)
-        place = (x, y, z - (RADIUS + CLEARANCE) / columns(plane)[2][2])
-        pose = f"tilt {tilt} about {azimuth}, beta{beta:+d}"
-        found.append(
-            Trial(pose, pose, SPECIFICATION, q, goal, mounts(arm, q, goal), place, plane, tilt=math.radians(tilt))
-        )
-    return tuple(found)
+    x, y, z = at(arm, posture(arm), TIP)
+
+    def stands(plane: Quat, tilt: float) -> tuple[Specification, Vector, Quat]:
+        return SPECIFICATION, (x, y, z - (RADIUS + CLEARANCE) / columns(plane)[2][2]), plane
+
+    return leaning_trials(arm, *((DENSE_PLANES, DENSE_BETAS) if dense else (PLANES, BETAS)), stands)
 
 
 TASK = ContactTask(

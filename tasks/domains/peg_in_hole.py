@@ -19,11 +19,11 @@ import itertools
 import math
 
 from tasks.arm_model import Arm
-from tasks.base import Vector
+from tasks.base import Quat, Vector
 from tasks.contact import ContactTask, Specification, Surroundings, Trial, attribute
 from tasks.contact_rest import HORIZON_S
-from tasks.hand_frames import at, leaning, mounts, plus, posture, wrist
-from tasks.rotations import about, multiply, to_base, zyx
+from tasks.hand_frames import BETAS, DENSE_BETAS, at, leaning_trials, plus, posture, wrist
+from tasks.rotations import about, multiply, to_base
 
 PEG = 0.0125  # half its side [m]
 CLEARANCE_SHARE = 0.02  # by which the hole is wider than the peg, of the peg's side
@@ -44,8 +44,6 @@ SPECIFICATION = Specification(
 # degrees: by how much the hole leans, and the azimuth of the axis it is turned about
 HOLES = ((2, 90), (4, 30), (8, 0), (8, 120))
 DENSE_HOLES = tuple(itertools.product((2, 4, 6, 8), range(0, 360, 45)))
-BETAS = (0, 45, 75)  # degrees
-DENSE_BETAS = (-60, 0, 30, 45, 60, 75)
 UP = (0.0, 1.0, 0.0, 0.0)  # turns the wrist's frame, which points down, so that z points up
 
 
@@ -88,20 +86,14 @@ def _box(name: str, size: Vector, pos: Vector, quarters: int, lean: float = 0.0)
 @functools.cache
 def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
     """Every hole with every frame of the hand, on a coarse grid or a dense one."""
-    grid = itertools.product(DENSE_HOLES, DENSE_BETAS) if dense else itertools.product(HOLES, BETAS)
-    q = posture(arm)
-    upright = multiply(wrist(arm, q)[1], UP)
-    tip = at(arm, q, TIP)
-    found = []
-    for (tilt, azimuth), beta in grid:
-        hole, goal = multiply(leaning(tilt, azimuth), upright), zyx(0.0, math.radians(beta), 0.0)
-        over = CLEARANCE + 2 * PEG * math.sin(math.radians(tilt))  # no corner is lower than that
-        place = plus(tip, to_base(hole, (-OFFSET[0], -OFFSET[1], -over)))
-        pose = f"tilt {tilt} about {azimuth}, beta{beta:+d}"
-        found.append(
-            Trial(pose, pose, SPECIFICATION, q, goal, mounts(arm, q, goal), place, hole, tilt=math.radians(tilt))
-        )
-    return tuple(found)
+    upright, tip = multiply(wrist(arm, posture(arm))[1], UP), at(arm, posture(arm), TIP)
+
+    def stands(lean: Quat, tilt: float) -> tuple[Specification, Vector, Quat]:
+        hole = multiply(lean, upright)
+        over = CLEARANCE + 2 * PEG * math.sin(tilt)  # no corner is lower than that
+        return SPECIFICATION, plus(tip, to_base(hole, (-OFFSET[0], -OFFSET[1], -over))), hole
+
+    return leaning_trials(arm, *((DENSE_HOLES, DENSE_BETAS) if dense else (HOLES, BETAS)), stands)
 
 
 TASK = ContactTask(

@@ -16,14 +16,13 @@ from __future__ import annotations
 
 import functools
 import itertools
-import math
 
 from tasks.arm_model import Arm
-from tasks.base import Vector
+from tasks.base import Quat, Vector
 from tasks.contact import ContactTask, Specification, Surroundings, Trial
 from tasks.contact_rest import HORIZON_S
-from tasks.hand_frames import at, leaning, mounts, posture, wrist
-from tasks.rotations import columns, zyx
+from tasks.hand_frames import BETAS, DENSE_BETAS, at, leaning_trials, posture, wrist
+from tasks.rotations import columns
 
 SIDE = 0.1  # of the face [m]
 TIP = (0.0, 0.0, 0.12)  # middle of the face, in the wrist's frame [m]
@@ -40,8 +39,6 @@ SPECIFICATION = Specification(
 # degrees: by how much the plate is tilted, and the azimuth of the axis it is tilted about
 PLATES = ((5, 90), (10, 30), (20, 0), (20, 120))
 DENSE_PLATES = tuple(itertools.product((5, 10, 15, 20), range(0, 360, 45)))
-BETAS = (0, 45, 75)  # degrees
-DENSE_BETAS = (-60, 0, 30, 45, 60, 75)
 
 
 def surroundings(arm: Arm) -> Surroundings:
@@ -58,16 +55,14 @@ def surroundings(arm: Arm) -> Surroundings:
 @functools.cache
 def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
     """Every plate with every frame of the hand, on a coarse grid or a dense one."""
-    grid = itertools.product(DENSE_PLATES, DENSE_BETAS) if dense else itertools.product(PLATES, BETAS)
     q = posture(arm)
-    found = []
-    for (tilt, azimuth), beta in grid:
-        plate, goal = leaning(tilt, azimuth), zyx(0.0, math.radians(beta), 0.0)
-        pose = f"tilt {tilt} about {azimuth}, beta{beta:+d}"
+
+    def stands(plate: Quat, tilt: float) -> tuple[Specification, Vector, Quat]:
         place = _below(arm, q, columns(plate)[2])
-        told = SPECIFICATION._replace(moves_s=(at(arm, q, TIP)[2] - place[2] + BELOW) / LOWERING)
-        found.append(Trial(pose, pose, told, q, goal, mounts(arm, q, goal), place, plate, tilt=math.radians(tilt)))
-    return tuple(found)
+        moves_s = (at(arm, q, TIP)[2] - place[2] + BELOW) / LOWERING
+        return SPECIFICATION._replace(moves_s=moves_s), place, plate
+
+    return leaning_trials(arm, *((DENSE_PLATES, DENSE_BETAS) if dense else (PLATES, BETAS)), stands)
 
 
 def _below(arm: Arm, q: tuple[float, ...], normal: Vector) -> Vector:

@@ -3,6 +3,7 @@
 import json
 import shutil
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,73 +13,13 @@ from bench.audit import audit
 from bench.audit.load import load
 from bench.base.errors import BadFunction, BadNumber, UnknownWord
 
-FILE = """
-import numpy as np
-
-def columns(R, R_d):
-    return 0.5 * sum(np.cross(R[:, i], R_d[:, i]) for i in range(3))
-
-def half(R, R_d):
-    return 0.5 * columns(R, R_d)
-
-def vector_part(q, q_d):
-    return 2.0 * (q[0] * q_d[1:] - q_d[0] * q[1:] - np.cross(q_d[1:], q[1:]))
-
-def four(R, R_d):
-    return np.zeros(4)
-
-def words(R, R_d):
-    return "abc"
-
-class Called:
-    def __call__(self, R, R_d):
-        return columns(R, R_d)
-
-class Controller:
-    gain = 100.0
-
-    def reset(self):
-        pass
-
-    def orientation_error(self, R, R_d, scale=1.0):
-        return scale * columns(R, R_d)
-
-class Two:
-    def error(self, R, R_d): pass
-    def torque(self, R, R_d): pass
-
-class None_:
-    pass
-
-class Wants:
-    def __init__(self, gain): pass
-"""
-
-C = """
-void columns(const double R[9], const double R_d[9], double e[3]) {
-    for (int k = 0; k < 3; k++) {
-        const int i = (k + 1) % 3, j = (k + 2) % 3;
-        e[k] = 0.0;
-        for (int c = 0; c < 3; c++) e[k] += 0.5 * (R[3 * i + c] * R_d[3 * j + c] - R[3 * j + c] * R_d[3 * i + c]);
-    }
-}
-
-/* xyzw; no sign */
-void vector_part(const double q[4], const double p[4], double e[3]) {
-    for (int k = 0; k < 3; k++) {
-        const int i = (k + 1) % 3, j = (k + 2) % 3;
-        e[k] = 2.0 * (q[3] * p[k] - p[3] * q[k] - (p[i] * q[j] - p[j] * q[i]));
-    }
-}
-
-void lazy(const double R[9], const double R_d[9], double e[3]) { e[0] = R[0]; }
-"""
+HERE = Path(__file__).parent
 
 
 @pytest.fixture
 def file(tmp_path):
     path = tmp_path / "my_file.py"
-    path.write_text(FILE)
+    shutil.copy(HERE / "errors.python", path)
     return path
 
 
@@ -87,8 +28,9 @@ def library(tmp_path_factory):
     if shutil.which("cc") is None:
         pytest.skip("this machine has no C compiler")
     folder = tmp_path_factory.mktemp("c")
-    (folder / "mine.c").write_text(C)
-    subprocess.run(["cc", "-shared", "-fPIC", "-O1", "-o", "libmine.so", "mine.c"], cwd=folder, check=True)
+    subprocess.run(
+        ["cc", "-shared", "-fPIC", "-O1", "-o", "libmine.so", str(HERE / "errors.c")], cwd=folder, check=True
+    )
     return folder / "libmine.so"
 
 

@@ -1,24 +1,16 @@
 """pytest --orientation-error."""
 
+from pathlib import Path
+
 import pytest
 
 pytest_plugins = ("pytester",)
-
-FILE = """
-import numpy as np
-
-def columns(R, R_d):
-    return 0.5 * sum(np.cross(R[:, i], R_d[:, i]) for i in range(3))
-
-def half(R, R_d):
-    return 0.5 * columns(R, R_d)
-"""
 
 
 @pytest.fixture
 def run(pytester):
     """run(words of pytest...) in a folder with the functions above and one test."""
-    pytester.makepyfile(mine=FILE, test_one="def test_one(): pass")
+    pytester.makepyfile(mine=Path(__file__).with_name("errors.python").read_text(), test_one="def test_one(): pass")
 
     def result(*words):
         return pytester.runpytest("-p", "bench.audit.plugin", "-p", "no:cacheprovider", *words)

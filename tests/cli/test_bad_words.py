@@ -80,13 +80,9 @@ def test_show_lists_what_the_run_has_when_asked_for_another(capsys, finished, op
     + [("--workers", "0"), ("--workers", "-1"), ("--workers", "1000"), ("--seed", "-1"), ("--seed", "4294967296")],
 )
 def test_impossible_number_names_the_option_and_the_range(capsys, finished, option, number):
-    line = refused_run(capsys, finished, option, number)
+    line = refused_run(capsys, finished, option, number, *["--dry-run"] * (number == "0"))
     assert line.startswith(f"error: {option} ")
     assert any(word in line for word in ("between", "must lie", "from 0 to"))
-
-
-def test_impossible_number_is_refused_in_a_dry_run_too(capsys, finished):
-    refused_run(capsys, finished, "--dry-run", "--workers", "0")
 
 
 @pytest.mark.parametrize(

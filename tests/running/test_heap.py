@@ -9,9 +9,9 @@ import pytest
 
 ASKED = """
 import ctypes, sys, threading
-from bench.running.schedulers import heap
+from bench.running.schedulers.threads import share_heap
 if sys.argv[1] == "shared":
-    assert heap.share()
+    assert share_heap()
 libc = ctypes.CDLL(None)
 libc.malloc.restype = ctypes.c_void_p
 begun = threading.Barrier(4)

@@ -13,22 +13,8 @@ from support.command_line import ALONE, bench, digest
 from bench.base.provenance import ROOT
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
+from bench.experiments.experiment import known_experiments
 from bench.running import run as running
-
-TABLES = [
-    *(
-        "boundaries.parquet",
-        "command-field.parquet",
-        "compensators.parquet",
-        "compliance.parquet",
-        "costs.parquet",
-        "episodes.parquet",
-    ),
-    *("goal-streams.parquet", "impedance-modes.parquet", "impedance.parquet"),
-    *("plan.json", "pose-springs.parquet", "poses.parquet", "provenance.json", "robustness.parquet"),
-    *("shipped.parquet", "springs.parquet"),
-    *("traces.parquet", "velocity-limits.parquet", "velocity.parquet"),
-]
 
 
 def python(*words, **options):
@@ -47,37 +33,25 @@ def killed(tmp_path_factory):
     return json.loads(out)
 
 
-def spoiled(runs: list[dict]) -> list[dict]:
-    """The killed runs that did not go on to the same files."""
-    return [one for one in runs if one["code"] != 0 or not one["same"]]
+@pytest.mark.slow
+@pytest.mark.parametrize("moments", ["at random moments", "while finishing", "while clearing"])
+def test_killed_run_goes_on_and_ends_with_the_same_files(killed, moments):
+    assert [one for one in killed[moments] if one["code"] != 0 or not one["same"]] == []
 
 
 @pytest.mark.slow
-def test_run_killed_at_random_moments_ends_with_the_same_files(killed):
+def test_kills_fall_where_they_are_meant_to(killed):
+    """Into the middle of a run, and at every file operation of its end and of the clearing before it."""
     assert len(killed["at random moments"]) == 4
-    assert spoiled(killed["at random moments"]) == []
-
-
-@pytest.mark.slow
-def test_random_moments_fall_into_the_middle_of_runs(killed):
     assert sum(0 < one["parts"] < killed["units"] for one in killed["at random moments"]) >= 1
-
-
-@pytest.mark.slow
-def test_run_killed_at_any_file_operation_of_its_end_ends_with_the_same_files(killed):
-    assert len(killed["while finishing"]) > 5 * len(TABLES)
-    assert spoiled(killed["while finishing"]) == []
-
-
-@pytest.mark.slow
-def test_run_killed_while_it_replaces_another_ends_with_the_same_files(killed):
+    assert len(killed["while finishing"]) > 5 * len(killed["files"])
     assert [".plan.json" in "".join(one["names"]) for one in killed["while clearing"]][-1]
-    assert spoiled(killed["while clearing"]) == []
 
 
 @pytest.mark.slow
 def test_finished_run_leaves_its_tables_and_nothing_else(killed):
-    assert killed["files"] == TABLES
+    tables = {f"{one.table.name}.parquet" for one in known_experiments().values() if one.name != "map"}
+    assert killed["files"] == sorted(tables | {"plan.json", "provenance.json"})
 
 
 @pytest.mark.slow
@@ -101,6 +75,17 @@ IN_CONTACT = (
     *("--workers", "1"),
 )
 """Four units of at most 36 trials."""
+
+
+def assert_goes_on(capsys, words, out, kept, units):
+    """The same command goes on after so many units, and ends with the files of an undisturbed run."""
+    said = bench(capsys, *words, "--out", out)
+    assert said.code == 0
+    assert f"going on: {kept} of {units} units are done" in said.out
+    assert bench(capsys, *words, "--out", out.with_name("undisturbed")).code == 0
+    resumed, undisturbed = digest(out), digest(out.with_name("undisturbed"))
+    assert resumed.pop("provenance.json") != undisturbed.pop("provenance.json")
+    assert resumed == undisturbed
 
 
 def heed_interrupts():
@@ -146,21 +131,9 @@ def test_stopped_run_in_contact_goes_on_and_ends_with_the_same_files(tmp_path, c
         running.run(plan, tmp_path / "stopped", workers=1, report=stop_after_two)
     kept = {path.stem for path in (tmp_path / "stopped" / "parts").iterdir()}
     assert set(keys) <= kept < {unit.key for unit in plan.units}
-    said = bench(capsys, *IN_CONTACT, "--out", tmp_path / "stopped")
-    assert f"going on: {len(kept)} of 4 units are done" in said.out
-    assert bench(capsys, *IN_CONTACT, "--out", tmp_path / "undisturbed").code == 0
-    resumed, undisturbed = digest(tmp_path / "stopped"), digest(tmp_path / "undisturbed")
-    assert resumed.pop("provenance.json") != undisturbed.pop("provenance.json")
-    assert resumed == undisturbed
+    assert_goes_on(capsys, IN_CONTACT, tmp_path / "stopped", len(kept), 4)
 
 
-def test_stopped_run_says_that_it_goes_on_and_ends_with_the_same_files(interrupted, tmp_path, capsys):
+def test_stopped_run_says_that_it_goes_on_and_ends_with_the_same_files(interrupted, capsys):
     out = interrupted[-1]
-    parts = len(list((out / "parts").iterdir()))
-    said = bench(capsys, *MANY, "--out", out)
-    assert said.code == 0
-    assert f"going on: {parts} of 15 units are done" in said.out
-    assert bench(capsys, *MANY, "--out", tmp_path / "undisturbed").code == 0
-    resumed, undisturbed = digest(out), digest(tmp_path / "undisturbed")
-    assert resumed.pop("provenance.json") != undisturbed.pop("provenance.json")
-    assert resumed == undisturbed
+    assert_goes_on(capsys, MANY, out, len(list((out / "parts").iterdir())), 15)

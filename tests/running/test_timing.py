@@ -86,7 +86,7 @@ def test_file_is_named_after_the_machine_and_says_where_it_comes_from(quick):
     assert about["quick"] is True
 
 
-def test_file_has_one_row_for_everything_timed(quick):
+def test_file_has_one_row_of_times_for_everything_timed(quick):
     rows = timing.read(quick[0])
     keys = set(zip(rows.what, rows.engine, rows.regulator, rows.representation, strict=True))
     laws = [tuple(f"{word}/".split("/")[:2]) for word in LAWS]
@@ -94,16 +94,10 @@ def test_file_has_one_row_for_everything_timed(quick):
     expected |= {(ENGINE, engine, *one) for engine in benchmarks.ENGINES for one in laws}
     assert keys == expected
     assert len(rows) == len(keys)
-
-
-def test_numbers_of_the_file_are_those_of_times(quick):
-    rows = timing.read(quick[0])
-    assert (rows[["ns_per_tick", "ns_reference_kernel", "ratio", "ratio_low"]] > 0).all(axis=None)
+    assert (rows[["ns_per_tick", "ns_reference_kernel", "ratio_low", "ticks"]] > 0).all(axis=None)
     assert rows.ratio.between(rows.ratio_low, rows.ratio_high).all()
     assert (rows.ratio_rollout.notna() == (rows.engine == "native")).all()
-    assert (rows.passes == QUICK_PASSES).all()
-    assert (rows.ticks > 0).all()
-    assert rows.ns_reference_kernel.nunique() == 1
+    assert ((rows.passes == QUICK_PASSES) & (rows.ns_reference_kernel == rows.ns_reference_kernel[0])).all()
 
 
 def test_pytest_benchmark_reads_the_samples_and_finds_the_same_medians(quick, tmp_path):
@@ -137,10 +131,7 @@ def test_interval_of_the_median_covers_95_percent_and_no_more_than_needed(passes
     assert low + high == passes - 1
     assert 1 - 2 * binom.cdf(low, passes, 0.5) >= 0.95
     assert 1 - 2 * binom.cdf(low + 1, passes, 0.5) < 0.95
-
-
-def test_interval_is_the_whole_range_when_there_are_few_passes():
-    assert ratio(np.array([3.0, 1.0, 2.0]), np.ones(3)) == (2.0, 1.0, 3.0)
+    assert ratio(np.array([3.0, 1.0, 2.0]), np.ones(3)) == (2.0, 1.0, 3.0)  # of few passes the whole range
 
 
 def test_law_is_timed_on_rotations_with_a_goal_of_their_own():

@@ -1,6 +1,6 @@
 """The study of many episodes: processes begin before they are measured, and a run is measured as meant."""
 
-from bench.running.schedulers.words import THREADS
+from bench.running.schedulers import THREADS
 from bench.studies import scale
 
 

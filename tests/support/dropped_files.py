@@ -166,7 +166,7 @@ STARTS = StartSet("dropped-starts", "Two starts about z", 2, build)
 
 from tasks.axis import Axis
 
-AXIS = Axis("dropped-axis", "A dropped axis", "rad/s^2", (60.0, 70.0), None, lambda level: {"bound": level})
+AXIS = Axis("dropped-axis", "A dropped axis", "rad/s^2", (60.0, 70.0), None, sets=lambda level: {"bound": level})
 ''',
     "bench/findings/claims/dropped_claim.py": '''
 """A claim about nothing."""

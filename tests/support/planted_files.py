@@ -52,7 +52,6 @@ AXIS = Axis(
     "rad/s",
     (0.0, 0.1),
     0.0,
-    lambda level: {"planted_bias": level},
     (Field("planted_bias", 0.0, "what the rate reads too much [rad/s]", lasts=True),),
 )
 '''

@@ -57,14 +57,7 @@ def test_singularity_that_was_near_is_the_cause_however_it_failed(outcome, margi
 def test_torque_is_the_cause_only_if_the_torque_rule_ended_it(margin):
     found = {outcome: cause(outcome, margin, FAR[1]) for outcome in FAILED}
     assert {outcome for outcome, word in found.items() if word == "torque"} == {"saturated", "singular"}
-    assert set(found.values()) == {"torque", "law"}
-
-
-@pytest.mark.parametrize("margin", [FAR[0], NEAR[0], math.nan])
-@pytest.mark.parametrize("condition", [FAR[1], NEAR[1]])
-@pytest.mark.parametrize("outcome", OUTCOMES)
-def test_every_answer_is_one_of_the_words(outcome, margin, condition):
-    assert cause(outcome, margin, condition) in CAUSES
+    assert set(found.values()) == {"torque", "law"} < set(CAUSES)
 
 
 def test_thresholds_themselves_are_not_near():

@@ -101,18 +101,14 @@ def test_uniform_is_near_the_pole_as_often_as_haar():
     assert (np.abs(beta) > math.radians(80)).mean() == pytest.approx(1 - math.cos(math.radians(10)), abs=0.004)
 
 
-def test_half_turn_angles_are_pi_minus_powers_of_ten():
+def test_half_turn_angles_are_pi_minus_powers_of_ten_or_exactly_pi():
+    for start in chosen("half-turn", "exact$"):
+        assert (start.quat_wxyz[0], angle(start.quat_wxyz, IDENTITY)) == (0.0, math.pi)
     for k in range(13):
         for start in chosen("half-turn", f"k{k:02d}$"):
             assert angle(start.quat_wxyz, IDENTITY) == pytest.approx(math.pi - 10.0**-k, abs=1e-15)
             # 2 |w| = 2 sin(delta/2), within delta^2/24 of delta
             assert 2 * start.quat_wxyz[0] == pytest.approx(2 * math.sin(10.0**-k / 2), rel=1e-15)
-
-
-def test_half_turn_is_exactly_pi_when_said_so():
-    for start in chosen("half-turn", "exact$"):
-        assert start.quat_wxyz[0] == 0.0
-        assert angle(start.quat_wxyz, IDENTITY) == math.pi
 
 
 def test_half_turn_has_axes_of_every_kind_at_every_distance():
@@ -128,12 +124,13 @@ def test_half_turn_random_axes_follow_the_seed():
     assert tasks.start_set("half-turn", seed=1)[13] != tasks.start_set("half-turn", seed=0)[13]
 
 
-@pytest.mark.parametrize(("pole", "sign"), [("plus", 1), ("minus", -1)])
-def test_poles_are_exact_when_said_so(pole, sign):
-    for start in chosen("poles", f"pole-{pole}-exact"):
-        n = columns(start.quat_wxyz)[0]
+def test_poles_are_exact_when_said_so():
+    exact = [(start.quat_wxyz, "plus" in start.id) for start in chosen("poles", "exact")]
+    exact += [(start.goal_wxyz, "plus" in start.id) for start in chosen("goals", "goal-pole")]
+    for quat, is_plus in exact:
+        n = columns(quat)[0]
         assert n[:2] == (0.0, 0.0)
-        assert abs(n[2] + sign) <= 2**-52
+        assert abs(n[2] + (1 if is_plus else -1)) <= 2**-52
 
 
 @pytest.mark.parametrize(("pole", "sign"), [("plus", 1), ("minus", -1)])
@@ -143,24 +140,15 @@ def test_poles_are_a_power_of_ten_away_when_not_exact(pole, sign):
         beta = euler_angles(starts)[1]
         # n_x and n_y round to about 2e-16
         np.testing.assert_allclose(math.pi / 2 - sign * beta, 10.0**-k, rtol=1e-9, atol=5e-16)
+    alpha, _, gamma = euler_angles(chosen("poles", f"pole-{pole}-k01-a1.0-g-0.5$"))
+    np.testing.assert_allclose([*alpha, *gamma], [1.0, -0.5], atol=1e-13)
 
 
-def test_near_poles_have_their_alpha_and_gamma():
-    starts = chosen("poles", "-k01-a1.0-g-0.5$")
-    alpha, _, gamma = euler_angles(starts)
-    np.testing.assert_allclose(alpha, 1.0, atol=1e-13)
-    np.testing.assert_allclose(gamma, -0.5, atol=1e-13)
-
-
-def test_wraps_are_exact_when_said_so():
-    for start in chosen("wraps", "wrap-alpha-exact"):
-        n = columns(start.quat_wxyz)[0]
-        assert n[1] == 0.0
-        assert n[0] < 0.0
-    for start in chosen("wraps", "wrap-gamma-exact"):
-        _, o, a = columns(start.quat_wxyz)
-        assert o[2] == 0.0
-        assert a[2] < 0.0
+@pytest.mark.parametrize(("name", "zero", "negative"), [("alpha", (0, 1), (0, 0)), ("gamma", (1, 2), (2, 2))])
+def test_wraps_are_exact_when_said_so(name, zero, negative):
+    for start in chosen("wraps", f"wrap-{name}-exact"):
+        R = columns(start.quat_wxyz)
+        assert R[zero[0]][zero[1]] == 0.0 > R[negative[0]][negative[1]]
 
 
 @pytest.mark.parametrize(("word", "sign"), [("plus", 1), ("minus", -1)])
@@ -171,11 +159,12 @@ def test_wraps_are_a_power_of_ten_away_when_not_exact(name, index, word, sign):
         np.testing.assert_allclose(sign * value, math.pi - 10.0**-k, rtol=0, atol=1e-15)
 
 
-def test_box_grid_and_inside_are_inside():
-    alpha, beta, gamma = euler_angles(chosen("box", "grid|inside"))
-    assert np.abs(alpha).max() < math.pi / 2
-    assert np.abs(beta).max() < math.pi / 2
-    assert np.abs(gamma).max() < math.pi
+def test_box_grid_and_inside_are_inside_and_outside_is_outside():
+    inside = np.abs(euler_angles(chosen("box", "grid|inside")))
+    assert (inside.max(axis=1) < (math.pi / 2, math.pi / 2, math.pi)).all()
+    alpha, _, _ = euler_angles(chosen("box", "outside"))
+    assert np.abs(alpha).min() > math.pi / 2
+    assert set(np.sign(alpha)) == {-1.0, 1.0}
 
 
 def test_box_inside_reaches_every_face_edge_and_corner():
@@ -191,12 +180,6 @@ def test_box_inside_reaches_every_face_edge_and_corner():
         assert len({tuple(row) for row in near.tolist()}) == 26
 
 
-def test_box_outside_is_outside():
-    alpha, _, _ = euler_angles(chosen("box", "outside"))
-    assert np.abs(alpha).min() > math.pi / 2
-    assert set(np.sign(alpha)) == {-1.0, 1.0}
-
-
 def test_box_on_is_on_the_boundary():
     for start in chosen("box", "box-on-"):
         n, _, a = columns(start.quat_wxyz)
@@ -204,16 +187,13 @@ def test_box_on_is_on_the_boundary():
         assert abs(n[0]) < 4e-16 or a[2] < 0.0
 
 
-def test_tumbling_speeds_are_uniform_up_to_the_limit():
-    speeds = np.linalg.norm([start.omega for start in tasks.start_set("tumbling")], axis=1)
+def test_tumbling_speeds_and_directions_are_uniform():
+    omega = np.array([start.omega for start in tasks.start_set("tumbling")])
+    speeds = np.linalg.norm(omega, axis=1)
     assert speeds.max() <= 20.0
     assert speeds.mean() == pytest.approx(10.0, abs=0.5)
     assert (speeds > 15.0).mean() == pytest.approx(0.25, abs=0.03)
-
-
-def test_tumbling_directions_are_uniform_on_the_sphere():
-    omega = np.array([start.omega for start in tasks.start_set("tumbling")])
-    unit = omega / np.linalg.norm(omega, axis=1, keepdims=True)
+    unit = omega / speeds[:, None]
     np.testing.assert_allclose(unit.mean(axis=0), 0.0, atol=0.05)
     np.testing.assert_allclose(unit.T @ unit / len(unit), np.eye(3) / 3, atol=0.05)
 
@@ -222,11 +202,6 @@ def test_goals_are_far_from_identity():
     uniform = chosen("goals", "uniform")
     assert min(angle(start.goal_wxyz, IDENTITY) for start in uniform) > math.pi / 2
     assert all(start.goal_wxyz != IDENTITY for start in tasks.start_set("goals"))
-
-
-def test_goals_on_a_pole_are_exact():
-    for start in chosen("goals", "goal-pole"):
-        assert columns(start.goal_wxyz)[0][:2] == (0.0, 0.0)
 
 
 @pytest.mark.parametrize(

@@ -51,16 +51,13 @@ def test_angle_is_pi_when_exactly_half_turn():
         assert haversine(quat, IDENTITY) == 1.0
 
 
-def test_angle_is_zero_when_goal_is_reached():
-    for quat in random_quats(50):
+def test_angle_is_zero_at_the_goal_and_ignores_the_sign_of_a_quaternion():
+    for quat, goal in zip(random_quats(50), random_quats(50, SEED + 1), strict=True):
+        opposite = tuple(-x for x in quat)
         assert angle(quat, quat) < ROUNDING
         assert haversine(quat, quat) < ROUNDING**2
-
-
-def test_angle_ignores_the_sign_of_a_quaternion():
-    for quat, goal in zip(random_quats(50), random_quats(50, SEED + 1), strict=True):
-        assert angle(tuple(-x for x in quat), goal) == angle(quat, goal)
-        assert haversine(tuple(-x for x in quat), goal) == haversine(quat, goal)
+        assert angle(opposite, goal) == angle(quat, goal)
+        assert haversine(opposite, goal) == haversine(quat, goal)
 
 
 def test_haversine_is_the_rational_value():

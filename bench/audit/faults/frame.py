@@ -2,9 +2,8 @@
 
 from collections.abc import Iterator
 
-from bench.audit.examined import Examined
+from bench.audit.examined import Examined, Model, explanation, rotated
 from bench.audit.fault import Fault, Found
-from bench.audit.models import Model, explanation, rotated
 from bench.audit.pairs import Pairs
 
 

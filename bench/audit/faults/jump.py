@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from bench.audit.asked import inputs
-from bench.audit.examined import Examined
+from bench.audit.examined import Examined, inputs
 from bench.audit.fault import Evidence, Fault, Found
 from bench.audit.pairs import CUBE_AXES, Pairs, diagonal, drawn_axes, drawn_orientations, made
 

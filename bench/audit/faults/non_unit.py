@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from bench.audit.asked import ask_of, inputs
-from bench.audit.examined import Examined
+from bench.audit.examined import Examined, ask_of, inputs
 from bench.audit.fault import NOTE, Evidence, Fault, Found
 from bench.audit.pairs import IDENTITY, NEAR_IDENTITY, WIDE
 

@@ -5,10 +5,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from bench.audit.asked import inputs
-from bench.audit.examined import Examined
+from bench.audit.examined import Examined, Model, explanation, inputs
 from bench.audit.fault import Fault, Found
-from bench.audit.models import Model, explanation
 from bench.audit.pairs import Pairs, product
 
 ORDERS = ("wxyz", "xyzw")

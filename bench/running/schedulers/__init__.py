@@ -1,1 +1,35 @@
-"""Who carries out the units of a plan."""
+"""Who carries out the units of a plan: threads, processes of this machine, or a cluster that is there already."""
+
+import re
+from importlib.util import find_spec
+
+from bench.base.errors import BadNumber, MissingTool, UnknownWord
+
+THREADS = "threads"
+LOCAL = "local:"
+MOST = 256
+
+
+def check_scheduler(word: str) -> None:
+    """Refuse a word that names no scheduler, or one that needs what is not installed.
+
+    Errors:
+        UnknownWord: none of the forms. BadNumber: a local cluster of so many processes. MissingTool: no Dask.
+    """
+    if word.startswith(LOCAL):
+        number = word.removeprefix(LOCAL)
+        if not (re.fullmatch("[0-9]{1,9}", number) and 1 <= int(number) <= MOST):
+            raise BadNumber(
+                f"--scheduler {word}: give between 1 and {MOST} processes (the number of cores is best: local:2)"
+            )
+    elif word != THREADS and not re.fullmatch(r"(tcp|tls)://.+:[0-9]{1,5}", word):
+        raise UnknownWord("scheduler", word, [THREADS, "local:N", "tcp://host:8786", "tls://host:8786"])
+    if word != THREADS and find_spec("distributed") is None:
+        raise MissingTool(
+            f"--scheduler {word}: needs Dask, which is not installed (try: make setup-cluster, or leave it away)"
+        )
+
+
+def kind(word: str) -> str:
+    """What it is, without the name of a host: threads, local, tcp or tls."""
+    return word.split(":")[0]

@@ -21,9 +21,8 @@ from bench.experiments.experiment import Unit
 from bench.experiments.plan import Plan
 from bench.running.run_folder import part
 from bench.running.sandbox import Sandbox
-from bench.running.schedulers import worker
+from bench.running.schedulers import LOCAL, worker
 from bench.running.schedulers.batches import in_batches
-from bench.running.schedulers.words import LOCAL
 from bench.running.wire_format import described
 
 AHEAD = 2
