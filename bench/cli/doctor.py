@@ -6,14 +6,28 @@ import subprocess
 import sys
 import tempfile
 import tomllib
+from collections.abc import Iterable
+from typing import Any
 
 import rich_click as click
 from click.exceptions import Exit
 from rich.text import Text
 
+import tasks
 from bench.base.provenance import ROOT
 from bench.cli.screen import console, examples, shown_path
+from bench.engines.metrics.registry import metrics_of
+from bench.experiments.contact import can_do
+from bench.experiments.experiment import Settings
 from bench.experiments.tables.schema import RESULTS
+from bench.law.contenders import combinations
+from bench.law.contenders.registry import all_contenders, papers_laws
+from bench.law.control.registry import find_controller
+from tasks.arm import arms
+from tasks.arm_model import Arm
+from tasks.errors import BadArm
+
+PAIR = ("reference", "native")
 
 CURE_INSTALL = "make setup (or: pip install --require-hashes -r requirements/base.txt)"
 
@@ -71,75 +85,51 @@ def _compiler() -> str:
     return f"numba compiles; cache {FOLDER} ({size / 1e6:.0f} MB; may be deleted at any time)"
 
 
-def _engines() -> str:
-    import tasks
-    from bench.engines.metrics.registry import metrics_of
-    from bench.engines.simulate import run
-    from bench.experiments.experiment import Settings
-    from bench.law.contenders.registry import papers_laws
-
-    law = papers_laws()[0]
-    metrics = metrics_of(on_arm=False)
-    starts = tasks.start_set("paper")[:1]
-    settings = Settings().limits(0.05)
-    both = [run(engine, law, "free-body", starts, settings, metrics) for engine in ("reference", "native")]
-    _check_equal(both, "the compiled engine")
-    return "50 ticks of the compiled engine equal the dm_control loop bit for bit"
-
-
-def _check_equal(both, where: str) -> None:
+def _equal(both: Iterable[Any], where: str, what: str) -> str:
     fast, slow = both
     if fast.tobytes() != slow.tobytes():
-        raise RuntimeError(f"{where} and the dm_control loop differ. Cure: {CURE_INSTALL}")
+        raise RuntimeError(f"{where} the compiled engine and the dm_control loop differ. Cure: {CURE_INSTALL}")
+    return f"{what} equal the dm_control loop bit for bit"
+
+
+def _engines() -> str:
+    from bench.engines.simulate import run
+
+    given = papers_laws()[0], "free-body", tasks.start_set("paper")[:1], Settings().limits(0.05), metrics_of(False)
+    return _equal((run(engine, *given) for engine in PAIR), "", "50 ticks of the compiled engine")
+
+
+def _usable_arms() -> list[Arm]:
+    return [one for one in arms().values() if not isinstance(one, BadArm)]
 
 
 def _arms() -> str:
-    import tasks
-    from bench.engines.metrics.registry import metrics_of
     from bench.engines.simulate_arms import run_arm as run
-    from bench.experiments.experiment import Settings
-    from bench.law.contenders import combinations
-    from bench.law.contenders.registry import all_contenders, papers_laws
-    from tasks.arm import arms
-    from tasks.errors import BadArm
 
-    broken = [str(one) for one in arms().values() if isinstance(one, BadArm)]
-    found = [one for one in arms().values() if not isinstance(one, BadArm)]
+    broken, found = [str(one) for one in arms().values() if isinstance(one, BadArm)], _usable_arms()
     if broken or not found:
-        raise RuntimeError(
-            f"{'; '.join(broken) or 'there is none'}. Cure: correct the file, or take it out of tasks/arms"
-        )
+        cure = "correct the file, or take it out of tasks/arms"
+        raise RuntimeError(f"{'; '.join(broken) or 'there is none'}. Cure: {cure}")
     arm = next((one for one in found if one.name == "ur5e"), found[0])
     laws = {one.name: one for one in all_contenders()}
     [law] = combinations.on((f"{papers_laws()[0].name}@geometric+standard",), laws, arm.joints)
-    metrics, settings = metrics_of(on_arm=True), Settings().limits(0.05)
     starts = tasks.start_set("clear", 1, arm=arm.name)
-    both = [
-        run(engine, law, "arm-regulation", arm.name, starts, settings, metrics) for engine in ("reference", "native")
-    ]
-    _check_equal(both, f"on {arm.name} the compiled engine")
-    return f"{', '.join(one.name for one in found)}: 50 ticks on {arm.name} equal the dm_control loop bit for bit"
+    given = law, "arm-regulation", arm.name, starts, Settings().limits(0.05), metrics_of(True)
+    names = ", ".join(one.name for one in found)
+    return _equal((run(engine, *given) for engine in PAIR), f"on {arm.name}", f"{names}: 50 ticks on {arm.name}")
 
 
 def _contact() -> str:
-    import tasks
     from bench.engines.simulate_contact import run_contact as run
-    from bench.experiments.contact import can_do
-    from bench.law.control.registry import find_controller
-    from tasks.arm import arms
-    from tasks.errors import BadArm
 
     task, one = tasks.contact_task("surface-alignment"), find_controller("hybrid-base+inverse")
-    able = [arm for arm in arms().values() if not isinstance(arm, BadArm) and can_do(task, arm)]
+    able = [arm for arm in _usable_arms() if can_do(task, arm)]
     if not able:
         raise RuntimeError("no arm has a site 'wrist'. Cure: add the site to an arm in tasks/arms")
     arm, pressing = able[-1], task._replace(horizon_s=0.15)  # it touches after 0.05 s
-    given = (pressing, arm, task.trials(arm)[:1])
-    [fast], [slow] = ([one.record for one in run(engine, one, *given)] for engine in ("native", "reference"))
-    _check_equal((fast, slow), "in contact the compiled engine")
-    return (
-        f"{', '.join(one.name for one in able)}: {len(fast)} ticks on {arm.name} equal the dm_control loop bit for bit"
-    )
+    [fast], [slow] = ([found.record for found in run(way, one, pressing, arm, task.trials(arm)[:1])] for way in PAIR)
+    names = ", ".join(one.name for one in able)
+    return _equal((fast, slow), "in contact", f"{names}: {len(fast)} ticks on {arm.name}")
 
 
 def _rendering() -> str:

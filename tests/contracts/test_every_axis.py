@@ -87,4 +87,4 @@ def test_field_that_no_verdict_could_be_given_of_is_refused(fields, reason):
 
 def test_axis_that_sets_an_undeclared_field_is_refused():
     with pytest.raises(BadValue, match="'delay' sets 'dela', a field that no file of tasks/conditions declares"):
-        condition_at(tasks.axis("delay")._replace(changes=lambda level: {"dela": level}), 0.0)
+        condition_at(tasks.axis("delay")._replace(sets=lambda level: {"dela": level}), 0.0)

@@ -1,13 +1,18 @@
 """What can be timed: a name, the work, and how many ticks of it a call does."""
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
 from mujoco.rollout import Rollout
 
+from bench.engines.binding import memory_of
+from bench.engines.curve import blank_curves
+from bench.engines.episode import TICKS, Settings, numbers, start_rows
+from bench.engines.simulate import simulate
 from bench.law.contender import Contender
+from tasks.base import Start
 
 KERNEL, LAW, LOOP, ENGINE, THREADS = "reference-kernel", "law", "loop", "engine", "threads"
 CONTROLLER = "controller"
@@ -50,3 +55,23 @@ def open_loop(
 
     call()
     return Benchmark(ENGINE, None, ROLLOUT, count * ticks, call, arm)
+
+
+def closed_loop(
+    engine: str, one: Contender, loop: Any, laws: tuple, world: Any, starts: list[Start], settings: Settings,
+    fresh: np.ndarray, arm: str = "", kept: Any = None,
+) -> Benchmark:  # fmt: skip
+    """The compiled loop of an engine from these starts; fresh: its rows before it.
+
+    kept: what the world holds the addresses of.
+    """
+    rows = fresh.copy()
+    given = memory_of(one), start_rows(starts), numbers(settings), rows, blank_curves(len(starts))
+
+    def call() -> Any:
+        rows[:] = fresh
+        simulate(loop, laws, world, *given)
+        return kept
+
+    call()
+    return Benchmark(ENGINE, one, engine, int(rows[:, TICKS].sum()), call, arm)

@@ -13,19 +13,18 @@ import numpy as np
 
 import tasks
 from bench.engines.binding import command_of, memory_of
-from bench.engines.curve import blank_curves
-from bench.engines.episode import TICKS, blank, numbers, start_rows
 from bench.engines.episode import Settings as EngineSettings
+from bench.engines.episode import blank
 from bench.engines.metrics.registry import metrics_of
 from bench.engines.native.libmujoco import model_of
 from bench.engines.plants import free_body
-from bench.engines.simulate import compiled_loop, evaluation, simulate
+from bench.engines.simulate import compiled_loop, evaluation
 from bench.engines.simulated import compiled_view
 from bench.experiments.experiment import Settings
 from bench.law.contender import Contender
 from bench.law.inputs import Gains
 from bench.running.timing import law, on_arms, reference_kernel
-from bench.running.timing.benchmark import ENGINE, KERNEL, LAW, LOOP, NEVER, Benchmark, open_loop
+from bench.running.timing.benchmark import KERNEL, LAW, LOOP, NEVER, Benchmark, closed_loop, open_loop
 from tasks.base import Start
 
 ENGINES = ("ideal-held", "ideal-rk4", "native")
@@ -106,18 +105,8 @@ def _engine(engine: str, one: Contender) -> Benchmark:
     if engine == "native":
         model, *kept = _simulation(starts)
         world = free_body.World(compiled_view(model, kept[0]), 0, kept[1])
-    rows = blank(len(starts), metrics)
-    fresh = rows.copy()
-    given = memory_of(one), start_rows(starts), numbers(_settings()), rows, blank_curves(len(starts))
-    law = (evaluation(one),)
-
-    def call() -> Any:
-        rows[:] = fresh
-        simulate(loop, law, world, *given)
-        return kept  # the view holds addresses only: this keeps what they point to
-
-    call()
-    return Benchmark(ENGINE, one, engine, int(rows[:, TICKS].sum()), call)
+    fresh = blank(len(starts), metrics)
+    return closed_loop(engine, one, loop, (evaluation(one),), world, starts, _settings(), fresh, kept=kept)
 
 
 def _simulation(starts: list[Start]) -> tuple[mujoco.MjModel, mujoco.MjData, np.ndarray]:

@@ -10,20 +10,17 @@ import numpy as np
 import tasks
 from bench.engines import simulate_arms
 from bench.engines.arm_episode import blank_arm
-from bench.engines.binding import memory_of
-from bench.engines.curve import blank_curves
-from bench.engines.episode import TICKS, numbers, start_rows
 from bench.engines.episode import Settings as EngineSettings
 from bench.engines.metrics.registry import metrics_of
 from bench.engines.native.libmujoco import model_of
-from bench.engines.simulate import compiled_loop, simulate
+from bench.engines.simulate import compiled_loop
 from bench.experiments.experiment import Settings
 from bench.experiments.suites import suite
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
 from bench.law.inputs import PAPERS_GAINS
 from bench.running.timing import dm_control_loop
-from bench.running.timing.benchmark import DM_CONTROL, ENGINE, NEVER, Benchmark, open_loop
+from bench.running.timing.benchmark import DM_CONTROL, ENGINE, NEVER, Benchmark, closed_loop, open_loop
 from bench.running.timing.controller import controller
 from tasks.base import Start
 
@@ -91,19 +88,9 @@ def _native(arm: str, one: Contender, start: Start, horizon_s: float, fewest: in
     metrics = metrics_of(on_arm=True)
     settings = _settings(horizon_s)
     kept, world = simulate_arms.arm_world(one, TASK, arm, [start], settings, "euler")
-    fresh = blank_arm(1, metrics)
-    rows, laws = fresh.copy(), simulate_arms.pointers(one)
-    loop = compiled_loop("arm", tuple(metrics))
-    given = memory_of(one), start_rows([start]), numbers(settings), rows, blank_curves(1)
-
-    def call() -> object:
-        rows[:] = fresh
-        simulate(loop, laws, world, *given)
-        return kept  # the world holds addresses: this keeps what they point to
-
-    call()
-    ticks = int(rows[0, TICKS])
-    return Benchmark(ENGINE, one, "native", ticks if ticks >= fewest else 0, call, arm)
+    loop, laws = compiled_loop("arm", tuple(metrics)), simulate_arms.pointers(one)
+    made = closed_loop("native", one, loop, laws, world, [start], settings, blank_arm(1, metrics), arm, kept)
+    return made if made.ticks >= fewest else made._replace(ticks=0)
 
 
 def rollout(arm: str) -> Benchmark:
