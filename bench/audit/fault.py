@@ -33,25 +33,25 @@ class Found(NamedTuple):
 
 
 class Fault(NamedTuple):
-    """One kind of fault, and how it is found.
+    """One kind of fault: the constant FAULT of a file of faults/, which has `find` too.
 
     Args:
-        name: word in reports and on the command line, anchor on the page.
         title: what it is.
         effect: what it does to a controller.
         cure: what to do.
         law: the name of a regulator that has it right.
-        find: examined -> Found, or None.
         unless: names of faults that explain this one: with any of them it is not reported.
+        name: of the file, with dashes: word in reports and on the command line, anchor on the page.
+        find: examined -> Found, or None.
     """
 
-    name: str
     title: str
     effect: str
     cure: str
     law: str
-    find: Callable
     unless: tuple[str, ...] = ()
+    name: str = ""
+    find: Callable = print
 
 
 class Finding(NamedTuple):

@@ -20,4 +20,4 @@ def test_every_finding_names_the_file_that_looks_for_it():
     findings = [one for function, _ in list(PLANTED.values())[::4] for one in audited(function).findings]
     assert findings
     for one in findings:
-        assert f'"{one.fault.name}"' in (ROOT / file(one)).read_text(encoding="utf-8")
+        assert one.fault.title in (ROOT / file(one)).read_text(encoding="utf-8")

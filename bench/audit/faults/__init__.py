@@ -10,5 +10,8 @@ from bench.audit.fault import Fault
 @functools.cache
 def every_fault() -> tuple[Fault, ...]:
     """Return all of them, by name."""
-    found = (importlib.import_module(f"{__name__}.{one.name}") for one in pkgutil.iter_modules(__path__))
-    return tuple(sorted((one.FAULT for one in found), key=lambda fault: fault.name))
+    names = sorted(one.name for one in pkgutil.iter_modules(__path__))
+    files = (importlib.import_module(f"{__name__}.{name}") for name in names)
+    return tuple(
+        one.FAULT._replace(name=name.replace("_", "-"), find=one.find) for name, one in zip(names, files, strict=True)
+    )

@@ -23,11 +23,9 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "axis-at-180",
     "wrong axis at 180°",
     "at 180°, and next to it, the robot starts about another axis than the shortest way has",
     "take the axis from the column of R + R^T with the largest diagonal element: signs and all",
     "rotation-vector",
-    find,
     unless=("digits-near-180", "euler-angles", "misaligned", "axis-clip"),
 )

@@ -32,10 +32,8 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "axis-clip",
     "each component is clipped: the direction is bent",
     "far from the goal the robot turns about another axis than the shortest way has",
     "scale the whole vector down to the limit",
     "rotation-vector",
-    find,
 )

@@ -16,10 +16,8 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "changes-inputs",
     "it changes its inputs",
     "the controller's own pose or goal is another after the call, and what is computed next is wrong",
     "copy what is changed inside: R = R.copy()",
     "rotation-matrix",
-    find,
 )

@@ -29,11 +29,9 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "dead-at-180",
     "zero at 180°",
     "a robot that starts 180° from its goal stays there, and leaves slowly from nearby",
     "take 1 for the sign of 0; a sine needs another form",
     "quaternion-shortest",
-    find,
     unless=("not-a-number", "raises"),
 )

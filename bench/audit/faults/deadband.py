@@ -25,11 +25,9 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "deadband",
     "a dead band",
     "the robot rests beside its goal, and an integral or a force near the edge makes it chatter",
     "leave it out; noise wants a filter",
     "rotation-vector",
-    find,
     unless=("single-precision",),
 )

@@ -37,11 +37,9 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "digits-near-0",
     "digits lost near the goal",
     "the command flickers, or is zero, at the goal",
     "no arc cosine of a trace or scalar part: atan2 of the vector's length and the scalar keeps every digit",
     "rotation-vector",
-    find,
     unless=("single-precision", "deadband", "euler-angles", "norm-clip", "axis-clip", "long-way"),
 )

@@ -27,11 +27,9 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "digits-near-180",
     "digits lost near 180°",
     "near 180° the command has a wrong size or a wrong axis, and flickers",
     "do not divide by sin(theta): begin with a quaternion from the largest diagonal element",
     "rotation-vector",
-    find,
     unless=("single-precision", "misaligned", "euler-angles", "axis-clip", "long-way"),
 )

@@ -13,11 +13,9 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "direction",
     "points the other way",
     "positive feedback: the robot runs away from the goal",
     "swap the arguments, or change the sign",
     "rotation-vector",
-    find,
     unless=("transpose",),
 )

@@ -28,10 +28,8 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "double-cover",
     "a goal and its antipode answered differently: unwinding",
     "the robot unwinds, by up to 360°, or tumbles when a stream of goals changes its sign",
     "change the sign of the error quaternion where its scalar part is negative",
     "quaternion-shortest",
-    find,
 )

@@ -22,11 +22,9 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "euler-angles",
     "Euler angles for an axis",
     "the robot takes a detour that depends on the orientation, and at the pole turns by any amount for none",
     "take an error along the axis, or map the angles' rates to angular velocity, and stay off the pole",
     "rotation-vector",
-    find,
     unless=("quaternion-order", "transpose", "frame"),
 )

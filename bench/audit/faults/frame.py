@@ -27,11 +27,9 @@ def models(pairs: Pairs) -> Iterator[Model]:
 
 
 FAULT = Fault(
-    "frame",
     "body for base, or base for body",
     "beside R = I the torque has another axis than the error; far from there the robot leaves the goal",
     "rotate a body-frame error by R before it meets base-frame quantities, once",
     "rotation-matrix",
-    find,
     unless=("transpose",),
 )

@@ -66,11 +66,9 @@ def narrowed(examined: Examined, q: np.ndarray, axis: np.ndarray, low: float, hi
 
 
 FAULT = Fault(
-    "jump",
     "a jump elsewhere than at 180°",
     "the command jumps while the robot passes, and chatters if it rests there",
     "let the two sides meet; only at 180° no error can be continuous",
     "rotation-vector",
-    find,
     unless=("long-way", "deadband", "euler-angles"),
 )

@@ -30,10 +30,8 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "long-way",
     "unwinding: a wrong wrap",
     "the robot turns by up to 360° where a little would do, and jumps where the wrap changes",
     "wrap angles to [-180°, 180°]; change the sign of the error quaternion where its scalar part is negative",
     "quaternion-shortest",
-    find,
 )

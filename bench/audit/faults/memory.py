@@ -24,10 +24,8 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "memory",
     "state, or noise: the same pair has two answers",
     "the error depends on what came before; this audit asks each pair for itself, and is void",
     "audit the function without its filter; hysteresis between the two signs of q may be meant, and accepted",
     "quaternion-shortest",
-    find,
 )

@@ -27,12 +27,10 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "misaligned",
     "not along the axis",
     "the robot takes a detour, or does not come to the goal",
     "begin with R_d R^T or q_d q*, and take its axis",
     "rotation-vector",
-    find,
     unless=(
         *("quaternion-order", "transpose", "frame", "euler-angles", "raises", "not-a-number"),
         *("axis-clip", "long-way", "deadband", "jump", "memory"),

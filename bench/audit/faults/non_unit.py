@@ -34,11 +34,9 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "non-unit",
     "input that is not quite of unit length",
     "rounding in a sensor or an integrator becomes a wrong error, or none",
     "normalize quaternions; keep arguments of acos in their range, or take atan2",
     "rotation-vector",
-    find,
     unless=("raises", "not-a-number", "deadband", "jump", "memory", "single-precision"),
 )

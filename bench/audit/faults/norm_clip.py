@@ -37,10 +37,8 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "norm-clip",
     "clipped in length",
     "beyond the limit the stiffness felt falls with the angle while the damping stays: a slow return",
     "clip the command, not the error; or accept it, for it bends nothing",
     "rotation-vector",
-    find,
 )

@@ -18,10 +18,8 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "not-a-number",
     "infinite, or not a number",
     "a command that is no number passes every comparison with a limit, and then reaches the motors",
     "divide by no length that can be zero; keep arguments of acos and sqrt in their range",
     "rotation-vector",
-    find,
 )

@@ -43,10 +43,8 @@ def models(takes: str, pairs: Pairs) -> Iterator[Model]:
 
 
 FAULT = Fault(
-    "quaternion-order",
     "wrong order of the quaternion",
     "the command has little to do with the error: the robot turns about another axis, and need not stop",
     "convert where quaternions of two libraries meet, and put wxyz or xyzw into names",
     "quaternion-shortest",
-    find,
 )

@@ -17,10 +17,8 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "raises",
     "no answer",
     "the control loop stops, or keeps its last command",
     "answer every pair of orientations: there is an error for each",
     "rotation-vector",
-    find,
 )

@@ -25,10 +25,8 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "single-precision",
     "single precision inside",
     "steps of 1e-7 rad in the error, which a derivative or high damping makes audible",
     "compute the difference of two orientations in double precision; what follows may be single",
     "rotation-vector",
-    find,
 )

@@ -43,11 +43,9 @@ def find(examined: Examined) -> Found | None:
 
 
 FAULT = Fault(
-    "stiffness",
     "stiffness felt is not stiffness set",
     "the stiffness felt is the slope times that set, and the damping ratio changes by one over the slope's root",
     "take radians; a vector part needs the factor 2, modified Rodrigues parameters 4; or divide the gain by the slope",
     "quaternion-shortest",
-    find,
     unless=("euler-angles",),
 )

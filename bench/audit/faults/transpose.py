@@ -26,10 +26,8 @@ def models(pairs: Pairs) -> Iterator[Model]:
 
 
 FAULT = Fault(
-    "transpose",
     "a matrix is transposed",
     "unless R is near the identity the command does not lead to the goal",
     "transpose once, R_d R^T or R^T R_d; mind libraries that store columns",
     "rotation-matrix",
-    find,
 )
