@@ -9,7 +9,7 @@ import pytest
 
 ASKED = """
 import ctypes, sys, threading
-from bench.running.schedulers.threads import share_heap
+from bench.running.schedulers import share_heap
 if sys.argv[1] == "shared":
     assert share_heap()
 libc = ctypes.CDLL(None)

@@ -125,8 +125,8 @@ def test_half_turn_random_axes_follow_the_seed():
 
 
 def test_poles_are_exact_when_said_so():
-    exact = [(start.quat_wxyz, "plus" in start.id) for start in chosen("poles", "exact")]
-    exact += [(start.goal_wxyz, "plus" in start.id) for start in chosen("goals", "goal-pole")]
+    exact = [(start.quat_wxyz, "pole-plus" in start.id) for start in chosen("poles", "exact")]
+    exact += [(start.goal_wxyz, "pole-plus" in start.id) for start in chosen("goals", "goal-pole")]
     for quat, is_plus in exact:
         n = columns(quat)[0]
         assert n[:2] == (0.0, 0.0)

@@ -1,8 +1,6 @@
 """Units carried out by threads of this process; those of a user's law, by processes that threads wait for."""
 
-import ctypes
 import importlib
-import sys
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -13,9 +11,7 @@ from bench.experiments.plan import Plan
 from bench.experiments.tables.store import write_table
 from bench.running.run_folder import part
 from bench.running.sandbox import Sandbox
-
-ARENA_MAX = -8
-"""M_ARENA_MAX of malloc.h."""
+from bench.running.schedulers import share_heap
 
 UNITS_A_PROCESS = 8
 """Of a user's law, beyond which a second process is worth its start of some seconds, if there is nothing of ours."""
@@ -56,15 +52,3 @@ def run(
             stop.set()
             sandbox.stopping = True
             raise
-
-
-def share_heap() -> bool:
-    """Let threads begun from now on share the main thread's heap; False where the C library has no such setting.
-
-    glibc's allocator gives every thread an arena of its own and seldom returns what one has freed: a default run then
-    holds two thirds more memory. Source: mallopt(3), M_ARENA_MAX.
-    """
-    if sys.platform != "linux":
-        return False
-    mallopt = getattr(ctypes.CDLL(None), "mallopt", None)
-    return mallopt is not None and mallopt(ARENA_MAX, 1) == 1
