@@ -50,7 +50,8 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
     def stands(plane: Quat, tilt: float) -> tuple[Specification, Vector, Quat]:
         return SPECIFICATION, (x, y, z - (RADIUS + CLEARANCE) / columns(plane)[2][2]), plane
 
-    return leaning_trials(arm, *((DENSE_PLANES, DENSE_BETAS) if dense else (PLANES, BETAS)), stands)
+    leans, betas = (DENSE_PLANES, DENSE_BETAS) if dense else (PLANES, BETAS)
+    return leaning_trials(arm, leans, betas, stands)
 
 
 TASK = ContactTask(

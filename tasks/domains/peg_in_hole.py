@@ -93,7 +93,8 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
         over = CLEARANCE + 2 * PEG * math.sin(tilt)  # no corner is lower than that
         return SPECIFICATION, plus(tip, to_base(hole, (-OFFSET[0], -OFFSET[1], -over))), hole
 
-    return leaning_trials(arm, *((DENSE_HOLES, DENSE_BETAS) if dense else (HOLES, BETAS)), stands)
+    leans, betas = (DENSE_HOLES, DENSE_BETAS) if dense else (HOLES, BETAS)
+    return leaning_trials(arm, leans, betas, stands)
 
 
 TASK = ContactTask(

@@ -62,7 +62,8 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
         moves_s = (at(arm, q, TIP)[2] - place[2] + BELOW) / LOWERING
         return SPECIFICATION._replace(moves_s=moves_s), place, plate
 
-    return leaning_trials(arm, *((DENSE_PLATES, DENSE_BETAS) if dense else (PLATES, BETAS)), stands)
+    leans, betas = (DENSE_PLATES, DENSE_BETAS) if dense else (PLATES, BETAS)
+    return leaning_trials(arm, leans, betas, stands)
 
 
 def _below(arm: Arm, q: tuple[float, ...], normal: Vector) -> Vector:
