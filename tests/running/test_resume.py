@@ -78,7 +78,7 @@ IN_CONTACT = (
 
 
 def assert_goes_on(capsys, words, out, kept, units):
-    """The same command goes on after so many units, and ends with the files of an undisturbed run."""
+    """Assert that the command goes on after so many units, and ends with the files of an undisturbed run."""
     said = bench(capsys, *words, "--out", out)
     assert said.code == 0
     assert f"going on: {kept} of {units} units are done" in said.out
