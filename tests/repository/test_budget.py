@@ -34,7 +34,7 @@ LINES = {
     "tests/repository": 615,
     "tests/running": 1_163,
     "tests/studies": 863,
-    "tests/support": 3_588,
+    "tests/support": 3_339,
     "tests/tasks": 2_228,
     "report": 10_500,
     "tasks": 5_160,
