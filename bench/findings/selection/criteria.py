@@ -53,6 +53,7 @@ class Criterion(NamedTuple):
 SLOW_HZ, LATE_S, BOUND, PEAK, HEAVY, SPIN, MOVING, NOISY_RAD = 20.0, 0.02, 10.0, 100.0, 2.0, 20.0, 10.0, 0.01
 """The level of each perturbation at which laws are asked: the hardest, but for peak (the paper's own, at kp = 100)
 and for noise, where it is what a cheap sensor has."""
+LATE_MS = 1e3 * LATE_S
 
 
 def of_one_law(measure: Callable[[Tables, str], float]) -> Measure:
@@ -176,7 +177,7 @@ def read_criteria() -> tuple[Criterion, ...]:
     for name, words in tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")).items():
         one: dict[str, Any] = {"measure": MEASURES[name], "least": 100.0 * MEASURABLE if name == "tick" else 0.0}
         for part, value in words.items():
-            one[part] = value.format(**globals(), LATE_MS=1e3 * LATE_S) if part in ("title", "meaning") else value
+            one[part] = value.format(**globals()) if part in ("title", "meaning") else value
         one["sense"] = GREATEST if one.pop("greater", False) else LEAST
         found.append(Criterion(name, **one | ({"level": None} if one.get("level") == "mean" else {})))
     return tuple(found)

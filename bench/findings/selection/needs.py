@@ -7,6 +7,7 @@ What any page, card or command says of which law to use comes of `advice`, and w
 from __future__ import annotations
 
 import functools
+import tomllib
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -82,32 +83,29 @@ MATTERS = 0.1
 changes a controller."""
 
 SURE = (TRIED, EVERYWHERE, QUIET)
+FACTS = {
+    **{"tried": TRIED, "everywhere": EVERYWHERE, "quiet": QUIET, "unheld": UNHELD},
+    **{"forgetful": FORGETFUL, "smooth": SMOOTH, "nearly": NEARLY},
+}
+"""By their words in situations.toml."""
 
-DEFAULT = Need("nothing else is known", (*SURE, UNHELD))
-"""What a law must have to be advised where nothing else is said."""
+SITUATIONS = tomllib.loads(Path(__file__).with_name("situations.toml").read_text(encoding="utf-8"))
 
-ARM = Need("a robot's arm whose goal is never exactly 180° away", (TRIED, NEARLY), ("arms", "within"), is_apart=True)
-FORGETS = Need("no memory in the controller", (*SURE, FORGETFUL))
-BOUNDED = Need(f"a command bounded by {criteria.BOUND:g} rad/s²", SURE, ("bounded",))
 
-NEEDS = (
-    Need("the fastest, at equal stiffness near the goal", SURE, ("time",)),
-    Need("the least spread of settling times", SURE, ("spread",)),
-    Need("least effort", SURE, ("effort",)),
-    Need("the smoothest command", SURE, ("variation",)),
-    Need("the smallest peak of the command", SURE, ("peak",)),
-    Need(f"gains that make the peak {criteria.PEAK:g} rad/s²", SURE, ("matched",)),
-    BOUNDED,
-    Need(f"a control rate of {criteria.SLOW_HZ:g} Hz", SURE, ("slow",)),
-    Need(f"{1e3 * criteria.LATE_S:g} ms of delay", SURE, ("late",)),
-    Need(f"an inertia {criteria.HEAVY:g} times the model's", SURE, ("heavy",)),
-    Need(f"a body that spins at {criteria.SPIN:g} rad/s", SURE, ("spinning",)),
-    Need(f"a goal that moves at {criteria.MOVING:g} rad/s, with feedforward", SURE, ("follows",)),
-    Need(f"orientation known to {criteria.NOISY_RAD:g} rad", SURE, ("noisy",)),
-    FORGETS,
-    Need("a continuous command", (TRIED, NEARLY, FORGETFUL, SMOOTH)),
-    ARM,
-)
+def read_needs(command: str) -> dict[str, Need]:
+    """Return the situations of robots that take a command, by name, the usual one first; SURE if no facts are named."""
+    found = {}
+    for name, one in SITUATIONS["needs"][command].items():
+        facts = tuple(FACTS[word] for word in one["facts"]) if "facts" in one else SURE
+        words = one["words"].format(**vars(criteria))
+        found[name] = Need(words, facts, tuple(one.get("by", ())), one.get("is_apart", False))
+    return found
+
+
+OF_TORQUES = read_needs("torques")
+DEFAULT, *_others = OF_TORQUES.values()
+NEEDS = tuple(_others)
+ARM, FORGETS = OF_TORQUES["arm"], OF_TORQUES["forgets"]
 
 
 class Advice(NamedTuple):

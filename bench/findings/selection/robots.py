@@ -21,19 +21,7 @@ from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.criteria import BY_NAME, CRITERIA
 from bench.findings.selection.measured import Measured
 from bench.findings.selection.measured import measure as measure_all
-from bench.findings.selection.needs import (
-    ARM,
-    DEFAULT,
-    EVERYWHERE,
-    FORGETFUL,
-    NEARLY,
-    NEEDS,
-    SMOOTH,
-    Advice,
-    Decision,
-    Need,
-    advice,
-)
+from bench.findings.selection.needs import OF_TORQUES, SITUATIONS, Advice, Decision, Need, advice, read_needs
 from bench.findings.selection.tables import Tables, by_law, by_standard_inverse, common, tables_of
 from bench.law.kinds import TORQUE
 
@@ -119,7 +107,7 @@ def _measured(tables: Tables, usual: tuple[str, ...], **values: dict[str, np.nda
 
 
 class Robot(NamedTuple):
-    """A kind of robot; the defaults are those of robots that take torques, with the inertia cancelled.
+    """A kind of robot.
 
     takes: the command. rows: what was run. page: its file in the book. need: its situation. measure: how laws are
     measured on it. usual: the default requirements. needs: the other situations.
@@ -129,61 +117,27 @@ class Robot(NamedTuple):
     rows: str
     page: str
     need: Need
-    measure: Callable[[Results], Measured] = measure_all
-    usual: Need = DEFAULT
-    needs: tuple[Need, ...] = NEEDS
+    measure: Callable[[Results], Measured]
+    usual: Need
+    needs: tuple[Need, ...]
 
 
-VELOCITY = Need("your robot takes velocities", (EVERYWHERE,))
-UNCANCELLED = Need("your robot takes torques and you cancel no inertia", (EVERYWHERE,))
-POSITION = Need("your robot takes positions", (EVERYWHERE,), ("late",))
-"""A position loop of time constant T that is given the integral of omega moves as a servo of velocity with lag T does:
-(q_d - q)/T is omega through 1/(T s + 1)."""
+MEASURES = {
+    **{"torques": measure_all, "uncancelled": measure_uncancelled},
+    **dict.fromkeys(("velocities", "positions"), measure_velocities),
+}
 
-VELOCITIES = Robot(
-    "velocities",
-    "first-order laws on the free body",
-    "17-velocity-commands",
-    VELOCITY,
-    measure_velocities,
-    VELOCITY,
-    (
-        Need("the fastest, at equal gain near the goal", (EVERYWHERE,), ("time",)),
-        Need("the smallest peak of the command", (EVERYWHERE,), ("peak",)),
-        Need("no memory in the controller", (EVERYWHERE, FORGETFUL)),
-        Need("a continuous command", (NEARLY, FORGETFUL, SMOOTH)),
-        Need("an arm commanded by joint rates from the standard inverse", (EVERYWHERE,), ("arms",)),
-    ),
-)
 
-ROBOTS = (
-    Robot(
-        "torques, and a model cancels the inertia",
-        "every law: the free body, every perturbation",
-        "15-comparison",
-        DEFAULT,
-    ),
-    Robot("the same, on an arm where exact 180° rotations do not come", "every law, four arms", "08-arms", ARM),
-    Robot(
-        "torques, no inertia cancelled",
-        "laws at the gains of shipped controllers",
-        "17-velocity-commands",
-        UNCANCELLED,
-        measure_uncancelled,
-        UNCANCELLED,
-        (),
-    ),
-    VELOCITIES,
-    Robot(
-        "positions, by a loop of its own that lags",
-        "first-order laws on four arms with lagging servos",
-        "17-velocity-commands",
-        POSITION,
-        measure_velocities,
-        POSITION,
-        (),
-    ),
-)
+def read_robot(command: str, need: str = "default", **texts: str) -> Robot:
+    """Return a robot of situations.toml, whose situation is the usual one of its command unless another is named."""
+    needs = OF_TORQUES if command == "torques" else read_needs(command)
+    usual, *others = needs.values()
+    return Robot(**texts, need=needs[need], measure=MEASURES[command], usual=usual, needs=tuple(others))
+
+
+ROBOTS = tuple(read_robot(**words) for words in SITUATIONS["robots"])
+_, _, _uncancelled, VELOCITIES, _positions = ROBOTS
+VELOCITY, UNCANCELLED, POSITION = VELOCITIES.need, _uncancelled.need, _positions.need
 
 
 def advise_for(robot: Robot, folder: Path) -> Advice:
