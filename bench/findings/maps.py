@@ -3,6 +3,7 @@
 import math
 from typing import NamedTuple
 
+import numpy as np
 import pandas as pd
 
 from bench.experiments.tables.read import with_contender
@@ -41,28 +42,22 @@ def lost_between(lost: int, unconverged: int, of: int) -> Estimate:
 
 def by_law(rows: pd.DataFrame) -> pd.DataFrame:
     """A line a law and speed: how many of the starts that converge are lost, in ppm with interval, and the slowest."""
+    key = ["contender", *SPEEDS]
     slowest = with_contender(rows[rows["row"] == "slowest"]).sort_values("settling_time_s")
-    last = slowest.drop_duplicates(["contender", *SPEEDS], keep="last").set_index(["contender", *SPEEDS])
-    lines = []
-    for one in counted(rows).to_dict("records"):
-        place = (one["contender"], *(one[name] for name in SPEEDS))
-        share = lost_share(one["lost"], one["starts"] - one["unconverged"])
-        has_slowest = place in last.index
-        lines.append(
-            {
-                "law": one["contender"],
-                "speed [rad/s]": speed_text(one["least_speed"], one["most_speed"]),
-                "starts": one["starts"],
-                "unconverged": one["unconverged"],
-                "lost": one["lost"],
-                **{
-                    f"{head} [ppm]": 1e6 * number for head, number in zip(("lost", "least", "most"), share, strict=True)
-                },
-                "slowest [s]": float(last.loc[place, "settling_time_s"]) if has_slowest else math.nan,
-                "from [deg]": int(last.loc[place, "ring_deg"]) if has_slowest else -1,
-            }
-        )
-    return pd.DataFrame(lines)
+    last = slowest.drop_duplicates(key, keep="last")[[*key, "settling_time_s", "ring_deg"]]
+    found = counted(rows).merge(last, how="left", on=key)
+    of = found["starts"] - found["unconverged"]
+    shares = 1e6 * np.array([lost_share(*pair) for pair in zip(found["lost"].tolist(), of.tolist(), strict=True)])
+    return pd.DataFrame(
+        {
+            "law": found["contender"],
+            "speed [rad/s]": [speed_text(*pair) for pair in found[SPEEDS].itertuples(index=False)],
+            **{name: found[name] for name in ("starts", "unconverged", "lost")},
+            **{f"{head} [ppm]": shares[:, k] for k, head in enumerate(("lost", "least", "most"))},
+            "slowest [s]": found["settling_time_s"],
+            "from [deg]": found["ring_deg"].fillna(-1).astype(int),
+        }
+    )
 
 
 def speed_text(least: float, most: float) -> str:
@@ -87,13 +82,8 @@ def spun(numbers: pd.DataFrame, law: str) -> list[Spun]:
         numbers: of `counted`.
     """
     own = numbers[(numbers["contender"] == law) & (numbers["least_speed"] == numbers["most_speed"])]
+    columns = own.sort_values("most_speed")[["most_speed", "starts", "lost", "unconverged"]]
     return [
-        Spun(
-            one["most_speed"],
-            one["starts"],
-            one["lost"],
-            one["unconverged"],
-            lost_between(one["lost"], one["unconverged"], one["starts"]),
-        )
-        for one in own.sort_values("most_speed").to_dict("records")
+        Spun(speed, starts, lost, unconverged, lost_between(lost, unconverged, starts))
+        for speed, starts, lost, unconverged in columns.itertuples(index=False, name=None)
     ]

@@ -8,6 +8,7 @@ arrange the same operations each in its way: what goes into vectors is counted o
 
 import os
 import shutil
+import string
 import subprocess
 import sys
 import tempfile
@@ -26,37 +27,13 @@ STORED = ROOT / "results" / "export" / "instructions.json"
 FLAGS = ("-std=c99", "-O2", "-ffp-contract=off")
 SWEEPS = 2
 
-LOOP = """#include "{name}.h"
-#include <stdio.h>
-#include <stdlib.h>
-
-int main(int count, char **words) {{
-    static double states[{states}][21];
-    FILE *file = fopen("states", "rb");
-    double chain = 0.0, kp, kv;
-    long sweep, k, sweeps;
-    {state}
-    if (count < 4 || !file || fread(states, sizeof states, 1, file) != 1) return 2;
-    sweeps = atol(words[1]), kp = atof(words[2]), kv = atof(words[3]);
-    for (sweep = 0; sweep < sweeps; sweep++)
-        for (k = 0; k < {states}; k++) {{
-            const double *s = states[k];
-            const double R[9] = {{{R}}};
-            const double omega[3] = {{{omega}}}, R_d[9] = {{{R_d}}};
-            double u[3];
-            {name}_command(R, omega, R_d, kp, kv, {passed}u);
-            chain = 0.0 * (u[0] + u[1] + u[2]);
-        }}
-    printf("%g\\n", chain);
-    return 0;
-}}
-"""
+LOOP = string.Template(Path(__file__).with_suffix(".c.template").read_text(encoding="utf-8"))
 
 
 def program(subject: Subject) -> str:
     """The loop over states in memory, by columns there as in ours."""
     by_rows = [3 * column + row for row in range(3) for column in range(3)]
-    return LOOP.format(
+    return LOOP.substitute(
         name=subject.identifier,
         states=law.STATES,
         state=f"{subject.identifier}_state state;\n    {subject.identifier}_reset(&state);" if subject.memory else "",
