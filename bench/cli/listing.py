@@ -14,6 +14,7 @@ from bench.cli.screen import console, examples, word_table
 from bench.engines.metrics.registry import known_contact_metrics, known_metrics
 from bench.experiments.contact import can_do
 from bench.experiments.experiment import known_experiments
+from bench.experiments.suites import SUITES
 from bench.law.contenders import registry
 from bench.law.control.contact_controller import HYBRIDS
 from bench.law.control.registry import all_controllers
@@ -92,13 +93,6 @@ def find_engines() -> Mapping[str, Any]:
     return {name: SimpleNamespace(title=title) for name, title in lines}
 
 
-def find_suites() -> Mapping[str, Any]:
-    """Return the suites."""
-    from bench.experiments.suites import SUITES
-
-    return SUITES
-
-
 def find_claims() -> Mapping[str, Any]:
     """Return the claims."""
     from bench.findings import claims
@@ -128,7 +122,7 @@ KINDS = {
     "starts": Kind("Start sets of the free body", lambda: find_starts(False), "starts title"),
     "arm-starts": Kind("Start sets of arms, starts on each arm at most", lambda: find_starts(True), "starts title"),
     "engines": Kind("Engines", find_engines),
-    "suites": Kind("Suites", find_suites),
+    "suites": Kind("Suites", lambda: SUITES),
     "experiments": Kind("Experiments", known_experiments, "table.name title"),
     "claims": Kind("Claims", find_claims, "section sentence"),
 }
@@ -139,10 +133,7 @@ def by_name(find: Callable[[str], Any], names) -> Mapping[str, Any]:
     return {name: find(name) for name in names}
 
 
-@click.command(
-    "list",
-    epilog=examples("list"),
-)
+@click.command("list", epilog=examples("list"))
 @click.argument("kind", required=False, metavar="[KIND]")
 @options.law
 def COMMAND(kind, laws):

@@ -1,4 +1,4 @@
-"""How far something is: a bar on a terminal; elsewhere, as in a log, a line now and then."""
+"""How far something is: a line that changes on a terminal; elsewhere, as in a log, a line now and then."""
 
 import threading
 import time
@@ -7,7 +7,6 @@ from contextlib import contextmanager
 from datetime import timedelta
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, ProgressColumn, Task, TextColumn
 from rich.text import Text
 
 from bench.cli.screen import console
@@ -18,9 +17,6 @@ LINE_S = 25.0
 SURE_S = 5.0
 """Nothing is said of the time left before so many seconds are counted."""
 
-WORDS = 30
-"""Characters for the current step, so that the bar keeps its place."""
-
 
 class Steps:
     """Hold the current step, the number done, the total (None if unknown) and the start time."""
@@ -30,14 +26,12 @@ class Steps:
         self.done, self.before = 0, 0
         self.total: int | None = None
         self.began = self.counting = clock()
-        self.changed: Callable[[], None] = lambda: None
 
     def now(self, doing: str, done: int = 0, total: int | None = None) -> None:
         """Say what is done now; with a total, how much of it."""
         if total is not None and self.total is None:
             self.counting, self.before = self.clock(), done
         self.doing, self.done, self.total = doing, done, total
-        self.changed()
 
     @property
     def line(self) -> str:
@@ -48,11 +42,8 @@ class Steps:
         share = f"{self.done:,} of {self.total:,} {self.unit} ({self.done / max(1, self.total):.0%})"
         return f"{passed}  {share}{self._left()}: {self.doing}"
 
-    @property
-    def numbers(self) -> str:
-        """What stands to the right of the bar."""
-        passed = f"{_clock(self.clock() - self.began)} so far"
-        return passed if self.total is None else f"{self.done:,}/{self.total:,}{self._left()}"
+    def __rich__(self) -> Text:
+        return Text(self.line, overflow="ellipsis", no_wrap=True)
 
     def _left(self) -> str:
         passed, made = self.clock() - self.counting, self.done - self.before
@@ -69,32 +60,8 @@ def _clock(seconds: float) -> str:
 def progress(unit: str, doing: str = "", screen: Console | None = None, line_s: float = LINE_S) -> Iterator[Steps]:
     """Shown on stderr, or another screen, until the block ends; `unit` is what is counted, as episodes."""
     steps, screen = Steps(unit, doing), screen or console(stderr=True)
-    with _bar(steps, screen) if screen.is_terminal else _lines(steps, screen, line_s):
+    with screen.status(steps) if screen.is_terminal else _lines(steps, screen, line_s):
         yield steps
-
-
-class Numbers(ProgressColumn):
-    """What stands to the right of the bar, as the steps have it at the moment."""
-
-    def __init__(self, steps: Steps):
-        self.steps = steps
-        super().__init__()
-
-    def render(self, task: Task) -> Text:
-        """The text."""
-        return Text(self.steps.numbers)
-
-
-@contextmanager
-def _bar(steps: Steps, screen: Console) -> Iterator[None]:
-    """A bar; while no number is known, one that moves to and fro."""
-    words = TextColumn(f"{{task.description:{WORDS}}}", markup=False)
-    with Progress(words, BarColumn(bar_width=16), Numbers(steps), console=screen, transient=True) as bar:
-        task = bar.add_task(steps.doing[:WORDS], total=None)
-        steps.changed = lambda: bar.update(
-            task, description=steps.doing[:WORDS], completed=steps.done, total=steps.total
-        )
-        yield
 
 
 @contextmanager
