@@ -1,4 +1,4 @@
-"""Low-discrepancy points on SO(3) and on the ball of initial angular velocities.
+"""Low-discrepancy points on SO(3), on the ball of initial angular velocities, and on the sphere.
 
 A scrambled Halton sequence in the unit cube, mapped to unit quaternions by the subgroup algorithm (K.
 Shoemake, "Uniform random rotations", Graphics Gems III, 1992), which carries the uniform density of the cube
@@ -9,6 +9,8 @@ to the Haar measure. The angle of such a rotation has the density (1 - cos theta
 from __future__ import annotations
 
 import math
+
+import numpy as np
 
 from tasks.base import Quat, Vector
 
@@ -34,3 +36,12 @@ def direction(v: float, w: float) -> Vector:
     z, azimuth = 2.0 * v - 1.0, math.tau * w
     radius = math.sqrt(1.0 - z * z)
     return (radius * math.cos(azimuth), radius * math.sin(azimuth), z)
+
+
+def axes(count: int) -> np.ndarray:
+    """Directions spread evenly over the sphere by the golden angle."""
+    k = np.arange(count) + 0.5
+    z = 1.0 - 2.0 * k / count
+    turn = math.pi * (3.0 - math.sqrt(5.0)) * k
+    radius = np.sqrt(1.0 - z * z)
+    return np.column_stack((radius * np.cos(turn), radius * np.sin(turn), z))

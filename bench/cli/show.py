@@ -6,7 +6,7 @@ import rich_click as click
 
 from bench.base.errors import BadResults
 from bench.cli import options
-from bench.cli.origin import origin
+from bench.cli.paragraphs import origin
 from bench.cli.screen import console, examples, frame_table, shown_path
 
 

@@ -20,7 +20,7 @@ from bench.experiments.suites import SHORT
 from bench.experiments.traces import laws
 from bench.law.contender import Contender
 from tasks.base import Start
-from tasks.sphere import axes
+from tasks.haar import axes
 from tasks.verdict import OUTCOMES, SETTLED
 
 SCAN = np.radians(np.arange(2.5, 178.0, 2.5))

@@ -27,8 +27,8 @@ from bench.law.contender import Contender
 from bench.law.inputs import Gains
 from bench.law.so3 import from_quaternion
 from tasks.base import IDENTITY, Quat
+from tasks.haar import axes
 from tasks.rotations import multiply
-from tasks.sphere import axes
 
 NAME = "command-field"
 

@@ -28,8 +28,8 @@ from bench.law.contenders.registry import contenders, find_contender
 from bench.law.kinds import VELOCITY, Law
 from bench.law.shipped import ANTIPODE, NEAR
 from tasks.base import Start
+from tasks.haar import axes
 from tasks.rotations import multiply
-from tasks.sphere import axes
 from tasks.verdict import SETTLED
 
 NAME = "shipped"

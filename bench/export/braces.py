@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 from bench.export.layout import INDENT, wrapped
-from bench.export.types import INDEX, REAL, Kind, Tuple, Typed, arguments, place_of
+from bench.export.program import INDEX, REAL, Kind, Tuple, Typed, arguments, place_of
 
 NAMES = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 SIGNS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}

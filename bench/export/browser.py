@@ -13,9 +13,9 @@ from typing import NamedTuple
 from bench.engines.ideal import angle_between, haversine, turned
 from bench.engines.rigid_body import bounded, step
 from bench.export.languages.js import COPYSIGN, write_function
+from bench.export.program import REAL, TRUTH, Kind, Tuple, Typed, numbers
 from bench.export.reading import Program
 from bench.export.subject import GAINS, MATRIX
-from bench.export.types import REAL, TRUTH, Kind, Tuple, Typed, numbers
 from bench.law.contender import Contender
 from bench.law.inputs import Goal
 from bench.law.so3 import from_quaternion, turn_quaternion

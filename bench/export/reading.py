@@ -12,8 +12,19 @@ from collections.abc import Callable
 from typing import Any
 
 from bench.base.errors import BadLaw
-from bench.export.program import Function, read_function
-from bench.export.types import INDEX, REAL, TRUTH, Kind, Tuple, Typed, arguments, kind_of_value, place_of
+from bench.export.program import (
+    INDEX,
+    REAL,
+    TRUTH,
+    Function,
+    Kind,
+    Tuple,
+    Typed,
+    arguments,
+    kind_of_value,
+    place_of,
+    read_function,
+)
 from bench.law.scalar import PRIMITIVES
 
 CALLS_OF_LIBM = {"sin", "cos", "acos", "atan2"}

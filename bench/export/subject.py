@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 
 from bench.base.errors import UnknownWord
 from bench.export.entries import Entry, of_impedance, of_law, of_representation
+from bench.export.program import REAL, Kind, Tuple, Typed, numbers
 from bench.export.reading import Program
 from bench.export.sprung import of_compensator, of_spring
-from bench.export.types import REAL, Kind, Tuple, Typed, numbers
 from bench.law.contender import Contender
 from bench.law.contenders import registry
 from bench.law.contenders.registry import contenders

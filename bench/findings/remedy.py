@@ -13,7 +13,7 @@ import numpy as np
 from bench.law.contenders.registry import contenders
 from bench.law.kinds import VELOCITY, Law
 from bench.law.shipped import logarithm
-from tasks.sphere import axes
+from tasks.haar import axes
 
 KEEP = "Keep it."
 NEAR_RAD, BEYOND_RAD = 0.05, math.radians(120.0)

@@ -18,7 +18,7 @@ from bench.findings.claims.verdict import NoEvidence
 from bench.law.contenders.registry import representation
 from bench.law.inputs import Gains
 from bench.law.so3 import IDENTITY, Rotation
-from tasks.sphere import axes
+from tasks.haar import axes
 
 ZYX = representation("zyx-euler")
 

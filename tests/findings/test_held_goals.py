@@ -13,8 +13,8 @@ from bench.findings.theory.held_goals import held_share, held_to, least_cosine
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import Gains
 from tasks.base import Start
+from tasks.haar import axes
 from tasks.rotations import about, multiply
-from tasks.sphere import axes
 from tasks.verdict import SETTLED
 
 LAW = find_contender("linearized-euler/zyx-euler")

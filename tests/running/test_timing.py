@@ -1,4 +1,4 @@
-"""Timing: the order of the passes, the reference kernel's value, the ratios, and the rows. No time is asserted."""
+"""Timing: the order of the passes, the reference kernel, ratios, rows, a user's law apart. No time is asserted."""
 
 import os
 import subprocess
@@ -9,11 +9,14 @@ import pandas as pd
 import pytest
 from scipy.stats import binom
 from support.command_line import bench
+from support.user_law import spring_text
 
+from bench.base.errors import BadLaw
 from bench.base.provenance import machine_key
 from bench.cli.time import folder_for
 from bench.law.contender import Contender
-from bench.law.contenders.registry import find_contender
+from bench.law.contenders.described_law import described
+from bench.law.contenders.registry import contenders_of, find_contender
 from bench.law.kinds import Law
 from bench.law.scalar import kernel, sqrt
 from bench.running import timing
@@ -188,3 +191,28 @@ def test_timings_go_into_the_folder_that_is_named(capsys, tmp_path):
     words = ("--quick", "--regulator", "gibbs", "--arm", "ur5e", "--out", tmp_path / "mine")
     assert bench(capsys, "time", *words).code == 0
     assert len(list((tmp_path / "mine").glob("*.parquet"))) == 1
+
+
+def contenders(tmp_path, *lines):
+    """A law of ours, and one of a user's with these lines."""
+    path = tmp_path / "own.py"
+    path.write_text(spring_text(*lines))
+    return [find_contender("rotation-matrix"), *contenders_of(described(path))]
+
+
+def test_law_of_a_user_is_timed_beside_ours(tmp_path):
+    told = []
+    given = {"quick": True, "report": told.append, "json_file": tmp_path / "samples.json"}
+    path = timing.run_apart(contenders(tmp_path), tmp_path / "timings", **given)
+    assert '"name": "law mine"' in given["json_file"].read_text()
+    rows = timing.read(path)
+    assert {"mine", "rotation-matrix"} <= set(rows["regulator"].astype(str))
+    assert {one.name for one in told if one.total == 0} == {"mine", "rotation-matrix"}
+    assert told[-1].done == told[-1].total > 0
+
+
+def test_law_that_ends_its_process_is_refused(tmp_path):
+    made = contenders(tmp_path, "if R.n[0] < 2.0 and omega[0] == omega[0]: os._exit(0)")
+    with pytest.raises(BadLaw, match=r"own\.py"):
+        timing.run_apart(made, tmp_path / "timings", quick=True)
+    assert not (tmp_path / "timings").exists()

@@ -2,7 +2,6 @@
 
 import math
 
-import mujoco
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -26,17 +25,6 @@ def poses(model, count=20, width=1.0, seed=SEED):
 
 def rotation(quat):
     return Rotation.from_quat(quat, scalar_first=True)
-
-
-def test_pose_is_that_of_the_sensors_bit_for_bit(model):
-    plant = mujoco.MjModel.from_xml_string(tasks.task("arm-regulation", model.arm.name).xml(1e-3))
-    data = mujoco.MjData(plant)
-    for q in poses(model):
-        data.qpos[:] = q
-        mujoco.mj_forward(plant, data)
-        p, quat = model.pose(q)
-        assert data.sensordata[12:16].tolist() == list(quat)
-        assert data.sensordata[16:19].tolist() == p.tolist()
 
 
 def test_jacobian_is_the_derivative_of_the_pose(model):

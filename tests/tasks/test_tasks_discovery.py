@@ -1,11 +1,13 @@
-"""One file adds a task, a start set or an arm."""
+"""One file adds a task, a start set or an arm; they load by the words of dm_control.suite too."""
 
 import os
 import subprocess
 import sys
 
+import pytest
+
 import tasks
-from tasks import starts
+from tasks import starts, suite
 from tasks.base import StartSet
 from tasks.discovery import constants
 
@@ -23,3 +25,17 @@ def test_loading_writes_nothing_to_stderr():
     command = [sys.executable, "-c", "import tasks; tasks.load().reset()"]
     done = subprocess.run(command, env=environ, capture_output=True, text=True, check=True)
     assert done.stderr == ""
+
+
+def test_every_task_loads_by_the_words_of_dm_control():
+    listed = suite.list_tasks()
+    assert {domain for domain, _ in listed} == {*tasks.names(), *tasks.contact_names()}
+    for domain, task in listed:
+        environment = suite.load(domain, task, environment_kwargs={"time_limit": 0.1, "control_timestep": 2e-3})
+        assert environment.control_timestep() == 2e-3
+
+
+def test_start_is_a_word_of_the_task():
+    start = tasks.start_set("uniform", 4)[3]
+    environment = suite.load("free-body", suite.NO_ARM, {"start": start})
+    assert environment.reset().observation["goal_quat"] == pytest.approx(start.goal_wxyz)

@@ -7,8 +7,7 @@ from pathlib import Path
 
 from bench.cli.details import parts
 from bench.cli.options import REFERENCE
-from bench.cli.origin import origin
-from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
+from bench.cli.paragraphs import Paragraph, listed, origin, print_paragraphs
 from bench.cli.progress import progress
 from bench.cli.screen import counted, shown_path
 from bench.cli.summary import answer, failures

@@ -13,8 +13,8 @@ from bench.export.entries import Entry
 from bench.export.heading import BY_ROWS, RESET, UNFUSED, heading
 from bench.export.language import Language, write_arguments
 from bench.export.layout import INDENT, WIDTH, wrapped
+from bench.export.program import INDEX, REAL, TRUTH, Kind, Tuple, Typed
 from bench.export.subject import MATRIX, Subject, translated
-from bench.export.types import INDEX, REAL, TRUTH, Kind, Tuple, Typed
 
 WORDS = """
 auto break case char const continue default do double else enum extern float for goto if inline int long

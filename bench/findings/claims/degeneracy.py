@@ -14,7 +14,7 @@ from bench.findings.claims.verdict import Word, claim, read_limits, word_of
 from bench.findings.theory.compliance_theory import matrix_B
 from bench.law.contenders.registry import representation
 from bench.law.so3 import Rotation
-from tasks.sphere import axes
+from tasks.haar import axes
 
 if TYPE_CHECKING:
     from scipy.spatial.transform import Rotation as Turn

@@ -15,7 +15,7 @@ from bench.findings.claims.verdict import claim, read_limits, word_of
 from bench.findings.theory import closed_form, held_goals
 from bench.law.inputs import Gains
 from tasks.base import IDENTITY, Start
-from tasks.sphere import axes
+from tasks.haar import axes
 
 LIMIT = read_limits(__file__)
 

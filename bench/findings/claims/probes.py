@@ -18,7 +18,7 @@ from bench.law.contenders.registry import find_contender, inverse, jacobian, rep
 from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import IDENTITY, Rotation, from_quaternion
 from tasks.base import Start
-from tasks.sphere import axes
+from tasks.haar import axes
 from tasks.verdict import OUTCOMES
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from bench.findings.claims.verdict import claim, read_limits, word_of
 from bench.findings.theory import closed_form
 from bench.law.inputs import Gains
 from bench.law.so3 import IDENTITY, Rotation, cross, from_quaternion
-from tasks.sphere import axes
+from tasks.haar import axes
 
 LIMIT = read_limits(__file__)
 

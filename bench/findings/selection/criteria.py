@@ -17,7 +17,7 @@ from bench.findings.selection.tables import Tables, by_law
 from bench.law.contender import Contender
 from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import from_quaternion
-from tasks.sphere import axes
+from tasks.haar import axes
 
 LEAST, GREATEST = 1.0, -1.0
 """Which is better."""

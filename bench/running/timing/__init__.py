@@ -17,8 +17,7 @@ threads            two threads against one, on the wall, after the passes
 passes, session    the samples, as pytest-benchmark runs them
 ratios             medians over passes, with intervals
 apart              the same beside a user's laws, in a process of its own
-rows, summary      from seconds to results/timings/<machine>.parquet, and to a table for the eye
-benchmark_json     from seconds to pytest-benchmark's own format
+rows, summary      from seconds to results/timings/<machine>.parquet, pytest-benchmark's JSON, and a table for the eye
 """
 
 from bench.running.timing.apart import run_apart

@@ -1,22 +1,24 @@
-"""From seconds to rows: results/timings/<machine>.parquet, one row for everything timed."""
+"""From seconds to rows: results/timings/<machine>.parquet, a row for everything timed; and pytest-benchmark's JSON."""
 
 import json
 import time
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 
+from bench.base.files import write_json
 from bench.base.provenance import describe, machine_key
 from bench.experiments.episode_rows import contender_columns
 from bench.experiments.tables.store import read_arrow, write_table
 from bench.law.contender import Contender
-from bench.running.timing import benchmark_json, threads
+from bench.running.timing import threads
 from bench.running.timing.benchmark import DM_CONTROL, KERNEL, ROLLOUT, THREADS, Benchmark
 from bench.running.timing.benchmarks import benchmarks
 from bench.running.timing.ratios import Ratio, ratio
-from bench.running.timing.session import measure
+from bench.running.timing.session import TIMER, measure
 
 PASSES, QUICK_PASSES = 31, 7
 """Odd, so that the median is a value. The interval covers the 10th to 22nd of 31, and all 7."""
@@ -49,7 +51,7 @@ def run(
     about = {**describe(), "date": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()), "quick": quick}
     write_table(path, rows, "timings", about)
     if json_file:
-        benchmark_json.write(Path(json_file), measured, seconds)
+        write_json_of_pytest_benchmark(Path(json_file), measured, seconds)
     return path
 
 
@@ -120,3 +122,33 @@ def about(path: Path) -> dict:
         BadResults: missing, truncated, or of another schema.
     """
     return json.loads(read_arrow(path, "timings").schema.metadata[b"about"])
+
+
+OPTIONS = {"timer": TIMER, "disable_gc": True}
+
+
+def write_json_of_pytest_benchmark(path: Path, measured: list[Benchmark], seconds: np.ndarray) -> None:
+    """Write the samples of a run as pytest-benchmark's own JSON, without what cannot be timed.
+
+    pytest-benchmark itself saw each pass of each benchmark as a test of its own. Here a benchmark is one, its rounds
+    are the passes, and its iterations are ticks, so that every time is seconds a tick. Compare files of one machine,
+    and with an eye on the reference kernel: they have no ratios.
+
+    Args:
+        seconds: one row a pass, one column a benchmark.
+    Errors:
+        BadResults: the file cannot be written.
+    """
+    from pytest_benchmark import plugin, stats, utils
+
+    nothing: dict = dict.fromkeys(("param", "params", "cprofile_stats", "has_error"))
+    kept = []
+    for one, times in zip(measured, seconds.T.tolist(), strict=True):
+        if one.ticks:
+            group = one._replace(contender=None).name
+            named = SimpleNamespace(name=one.name, fullname=one.name, group=group, extra_info={}, **nothing)
+            kept.append(stats.Metadata(named, one.ticks, OPTIONS))
+            for time in times:
+                kept[-1].update(time)
+    about = plugin.pytest_benchmark_generate_machine_info(), utils.get_commit_info()
+    write_json(path, plugin.pytest_benchmark_generate_json(None, kept, True, *about))
