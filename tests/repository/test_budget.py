@@ -11,17 +11,17 @@ LINES = {
     "bench/__main__.py": 29,
     "bench/audit": 1_991,
     "bench/base": 360,
-    "bench/cli": 2_385,
+    "bench/cli": 2_339,
     "bench/engines": 6_341,
     "bench/experiments": 5_874,
-    "bench/export": 1_976,
+    "bench/export": 1_984,
     "bench/findings": 6_316,
     "bench/law": 6_614,
     "bench/regression": 1_200,
-    "bench/running": 2_510,
+    "bench/running": 2_501,
     "bench/studies": 3_360,
     "tests/audit": 592,
-    "tests/cli": 759,
+    "tests/cli": 757,
     "tests/conftest.py": 85,
     "tests/contracts": 3_085,
     "tests/engines": 3_205,
@@ -32,15 +32,15 @@ LINES = {
     "tests/regression": 668,
     "tests/report": 2_596,
     "tests/repository": 618,
-    "tests/running": 1_163,
+    "tests/running": 1_155,
     "tests/studies": 863,
     "tests/support": 3_339,
-    "tests/tasks": 2_228,
+    "tests/tasks": 2_175,
     "report": 10_500,
-    "tasks": 5_160,
+    "tasks": 5_157,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
-FILES = {"bench/audit": 35, "bench/experiments": 47, "bench/export": 19, "bench/law": 116, "tasks": 77}
+FILES = {"bench/audit": 35, "bench/experiments": 47, "bench/export": 18, "bench/law": 116, "tasks": 76}
 """Python files of the rooms in which one file adds one thing: the lines of one new file may come on top."""
 LONGEST_FILE = 250
 TOO_LONG = {
