@@ -143,10 +143,3 @@ def test_what_is_free_is_an_integrated_damper():
         lambda _, s: (s[1], 1.0 / TOUCH.m_o - TOUCH.kc * s[1]), (0.0, 0.3), (0.0, 0.0), rtol=1e-11, atol=1e-14
     )
     assert compliance_theory.free(0.3) == pytest.approx(path.y[0, -1], rel=1e-8)
-
-
-@pytest.mark.parametrize("angle", [0.0, 1e-3, 0.1, 0.7, math.pi / 2])
-def test_a_square_loop_leaves_what_scipys_turns_leave(angle):
-    x, y = Turn.from_rotvec((angle, 0.0, 0.0)), Turn.from_rotvec((0.0, angle, 0.0))
-    left = (y.inv() * x.inv() * y * x).as_rotvec()
-    np.testing.assert_allclose(compliance_theory.square_loop(angle), left, atol=4 * EPS)

@@ -176,17 +176,3 @@ def lost_moment(representation: Coordinates, R: Rotation) -> tuple[np.ndarray, f
     """
     turned, sizes, _ = np.linalg.svd(matrix_B(representation, R))
     return turned[:, -1], float(sizes[-1])
-
-
-def square_loop(angle: float) -> np.ndarray:
-    """What is left [rad], as a rotation vector, of turns by an angle about x, y, -x and -y one after another.
-
-    Axes of the base frame, and no turn about z on the way: cos(theta/2) = 1 - 2 sin^4(angle/2), and theta is angle^2
-    about -z to leading order; a closed loop of what complies is not closed.
-    """
-    half = math.sin(angle / 2.0) ** 2
-    w = 1.0 - 2.0 * half * half
-    c, s = math.cos(angle / 2.0), math.sin(angle / 2.0)
-    v = 2.0 * s * s * np.array((c * s, -c * s, -c * c))
-    size = float(np.linalg.norm(v))
-    return 2.0 * math.atan2(size, w) / size * v if size > 0.0 else v

@@ -78,12 +78,3 @@ def near_goal(axis: str, grows: bool, kp: float, kv: float) -> float:
     else:
         return math.nan
     return FOLLOWED_RAD / left
-
-
-def beyond_limit(kp: float, limit: float) -> float:
-    """Return the share of uniform starts at rest whose command 2 Kp tan(theta/2) exceeds a limit: (x + sin x)/pi.
-
-    x is the angle to the 180° rotation at which the command of `gibbs` and `paielli-bach` is the limit.
-    """
-    x = 2.0 * math.atan(2.0 * kp / limit)
-    return (x + math.sin(x)) / math.pi
