@@ -161,14 +161,6 @@ def stiffness_condition(beta: float) -> float:
     return (1.0 + sine) / (1.0 - sine) if sine < 1.0 else math.inf
 
 
-def stiffness_axes(beta: float) -> float:
-    """Angle [rad] of x and z to the nearest principal axis of B B^T with Z-Y-X angles, alpha = 0, beta not 0.
-
-    In that plane B B^T is [[c^2, -s c], [-s c, 1 + s^2]], whose axes are at pi/4 - beta/2: pi/4 at once, and less then.
-    """
-    return math.pi / 4.0 - abs(beta) / 2.0
-
-
 def lost_moment(representation: Coordinates, R: Rotation) -> tuple[np.ndarray, float]:
     """The unit moment m of which B^T keeps least, and |B^T m|: exactly 0 where it is lost (rank of B below 3).
 

@@ -13,8 +13,6 @@ whatever the load.
 Source: Whitney 1982, "Quasi-static assembly of compliantly supported rigid parts", equations 16 to 20.
 """
 
-import numpy as np
-
 
 def margin(across: float, turning: float, reach: float, mu: float) -> float:
     """The greater of |x/z| mu and |m/(r z) - mu (1 + lambda) x/z| / lambda: it slides up to 1.
@@ -23,9 +21,3 @@ def margin(across: float, turning: float, reach: float, mu: float) -> float:
         across: x/z. turning: m/(r z). reach: lambda.
     """
     return max(abs(across) * mu, abs(turning - mu * (1.0 + reach) * across) / reach)
-
-
-def corners(reach: float, mu: float) -> np.ndarray:
-    """The four corners (x/z, m/(r z)) of the parallelogram in which a peg slides, around it, 4 x 2."""
-    right = [(1.0 / mu, 1.0), (1.0 / mu, 1.0 + 2.0 * reach)]
-    return np.array([*right, *(-np.array(right))])
