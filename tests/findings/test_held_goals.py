@@ -14,7 +14,6 @@ from bench.findings.theory.held_goals import held_share, least_cosine
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import AT_REST, Gains, Goal
 from tasks.base import Start
-from tasks.haar import axes
 from tasks.rotations import about, multiply
 from tasks.verdict import SETTLED
 
