@@ -35,7 +35,9 @@ FASTEST = "mrp"
 
 @functools.cache
 def shipped():
-    one = next(one for one in contenders("shipped").values() if one.level == "torque" and not one.shapes_inertia)
+    one = next(
+        one for one in contenders("shipped").values() if one.level == "torque" and not one.shipped.shapes_inertia
+    )
     return rows_of(Settings("quick"), Unit("shipped", selector=one.name, count=1, total=1, horizon_s=20.0))
 
 

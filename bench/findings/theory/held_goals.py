@@ -1,7 +1,7 @@
 """Which goals the linearized law holds if the goal's angles are subtracted: u = P (Kp (E_d - E) - Kd Edot).
 
-Near the goal e = E - E_d obeys e'' = -M (Kp e + Kd e'), M = B(E_d)^-1 P (Murphy 1988, 2.8, 2.14). Its alpha decays on its
-own; beta and gamma have T = trace and D = determinant of their block of M, cos(alpha_d) (1 + s) and s, s =
+Near the goal e = E - E_d obeys e'' = -M (Kp e + Kd e'), M = B(E_d)^-1 P (Murphy 1988, 2.8, 2.14). Its alpha decays
+on its own; beta and gamma have T = trace and D = determinant of their block of M, cos(alpha_d) (1 + s) and s, s =
 1/cos(beta_d), and the polynomial x^4 + T Kd x^3 + (T Kp + D Kd^2) x^2 + 2 D Kd Kp x + D Kp^2. By Routh and Hurwitz all
 its roots decay where T > 0 and T^2 Kp + 2 T D Kd^2 > 4 D Kp. gamma_d does not matter.
 """
