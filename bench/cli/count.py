@@ -12,6 +12,7 @@ from bench.base.errors import Incompatible
 from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, examples, frame_table
+from bench.experiments.chosen_words import BY_WORD_ALONE
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.experiments.plan import Plan
 from bench.experiments.suites import SUITES
@@ -112,7 +113,7 @@ def _controllers(laws: list[Contender], named: options.Named, joints: int) -> li
     """The controllers of the laws by the Jacobians and inverses that are named; the quick suite's if none is."""
     by_name = {one.name: one for one in laws}
     words = SUITES["quick"].on_arms.words
-    found = combinations.chosen(words, by_name, joints, named.jacobians, named.inverses)
+    found = combinations.chosen(words, by_name, joints, named.jacobians, named.inverses, BY_WORD_ALONE)
     if not found:
         reasons = combinations.refusals(laws, joints, named.jacobians, named.inverses)
         raise Incompatible(f"nothing to count: {combinations.shown(reasons)}")

@@ -10,7 +10,7 @@ import tasks
 from bench.base.errors import Incompatible
 from bench.engines.metrics.registry import metrics_of
 from bench.experiments.choice import Choice
-from bench.experiments.chosen_words import AT_INVERSES
+from bench.experiments.chosen_words import AT_INVERSES, BY_WORD_ALONE
 from bench.experiments.episode_rows import TABLE, frame
 from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, runs_on, starts_of, tasks_of
 from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit
@@ -62,7 +62,7 @@ def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice) -> Iterator[tupl
     if is_by_suite and not choice.narrows:
         usual = tuple(word for word in on_arms.words if word not in on_arms.few)  # on seven joints some are the same
         few = {*combinations.on(on_arms.few, by_name, joints)} - {*combinations.on(usual, by_name, joints)}
-    every = combinations.chosen(on_arms.words, by_name, joints, choice.jacobians, choice.inverses)
+    every = combinations.chosen(on_arms.words, by_name, joints, choice.jacobians, choice.inverses, BY_WORD_ALONE)
     if every and is_by_suite and not choice.is_of_some_laws:
         every += combinations.baselines(joints)
     for one in every:

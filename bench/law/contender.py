@@ -143,3 +143,17 @@ def contender(regulator: Law, representation: Coordinates | None = None) -> Cont
             "its gains are permuted for those coordinates"
         )
     return Contender(regulator, representation)
+
+
+def axes_of(representation: Coordinates) -> tuple[int, int, int]:
+    """Which coordinate is the one about x, about y and about z, near E = 0.
+
+    Errors:
+        Incompatible: there are four coordinates, or none for some axis.
+    """
+    if representation.about is None:
+        raise Incompatible(
+            f"'{representation.name}' has no coordinate for each of the axes x, y and z to be held or to comply "
+            "(try: zyx-euler)"
+        )
+    return representation.about

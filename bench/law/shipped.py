@@ -11,8 +11,9 @@ from typing import Any
 
 from bench.law.inputs import Gains
 from bench.law.kinds import AsShipped, Law
-from bench.law.scalar import atan2, kernel, sqrt
+from bench.law.scalar import kernel, sqrt
 from bench.law.so3 import dot, quaternion_direction, spring_damper, turn_matrix
+from bench.law.spring import rotation_vector
 
 NEAR, ANTIPODE = (1.0, 0.0, 0.0, 0.0), (-1.0, 0.0, 0.0, 0.0)
 """Memories from which an episode begins on the sheet with w >= 0, and on the other one."""
@@ -36,13 +37,7 @@ def vector_part(q):
 @kernel
 def logarithm(q):
     """theta k, theta = 2 atan2(sin(theta/2), cos(theta/2)) in [0, pi]."""
-    v = vector_part(q)
-    square = dot(v, v)
-    scale = 2.0
-    if square > 0.0:
-        size = sqrt(square)
-        scale = 2.0 * atan2(size, shorter(q)[0]) / size
-    return (scale * v[0], scale * v[1], scale * v[2])
+    return rotation_vector(shorter(q))
 
 
 @kernel

@@ -39,16 +39,10 @@ def poses(arm, count=100):
     return np.random.default_rng(3).uniform(-math.pi, math.pi, (count, arm.joints))
 
 
-def test_name_is_the_word_of_its_file(arm):
+def test_file_has_a_word_a_short_title_and_a_source_and_no_meshes(arm):
     assert WORD.fullmatch(arm.name)
-
-
-def test_title_is_short_and_source_says_where_from(arm):
     assert len(arm.title) <= 60
     assert len(arm.source) > 20
-
-
-def test_file_is_free_of_meshes(arm):
     assert not list(written(arm).iter("mesh"))
 
 

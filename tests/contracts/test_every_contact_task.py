@@ -90,12 +90,9 @@ def pushed(case) -> np.ndarray:
     return np.concatenate((push[:3], push[3:] + np.cross(arm, push[:3])))
 
 
-def test_task_is_named_as_its_file_and_says_what_it_is(case):
+def test_task_says_what_it_is_and_its_trials_are_the_same_at_every_call_with_names_of_their_own(case):
     assert case.task.name == case.word
     assert all((case.task.title, case.task.source))
-
-
-def test_trials_are_the_same_at_every_call_and_have_names_of_their_own(case):
     for dense in (False, True):
         found = case.task.trials(case.arm, dense=dense)
         assert found == case.task.trials(case.arm, dense=dense)
@@ -117,18 +114,14 @@ def test_hand_begins_at_its_goal(case):
         assert abs(1.0 - abs(seen @ trial.goal_wxyz)) <= ROUNDING
 
 
-def test_hands_frame_is_at_its_tip_however_it_is_drawn(case):
-    tip = np.array(case.around.tip)
+def test_hand_has_no_mass_and_its_frame_is_at_its_tip_however_it_is_drawn(case):
+    tip, hand = np.array(case.around.tip), case.model.body("hand").id
+    assert case.model.body_subtreemass[hand] == 0.0
+    assert (case.model.body_inertia[hand] == 0.0).all()
     for trial in case.trials:
         begin(case, trial)
         wrist, site = case.data.site("wrist"), case.data.site("hand")
         assert np.abs(wrist.xmat.reshape(3, 3).T @ (site.xpos - wrist.xpos) - tip).max() <= ROUNDING
-
-
-def test_hand_has_no_mass(case):
-    hand = case.model.body("hand").id
-    assert case.model.body_subtreemass[hand] == 0.0
-    assert (case.model.body_inertia[hand] == 0.0).all()
 
 
 def test_dynamics_of_the_arm_are_the_arms_alone(case):
@@ -148,15 +141,12 @@ def test_dynamics_of_the_arm_are_the_arms_alone(case):
             assert np.abs(here - there).max() <= ROUNDING * max(1.0, np.abs(there).max())
 
 
-def test_joints_and_motors_of_the_arm_come_first(case):
+def test_joints_and_motors_of_the_arm_come_first_and_sensors_where_an_observer_looks_for_them(case):
     n = case.arm.joints
     assert [case.model.joint(i).name for i in range(n)] == [case.alone.joint(i).name for i in range(n)]
     assert case.model.jnt_qposadr[:n].tolist() == case.model.jnt_dofadr[:n].tolist() == list(range(n))
     assert case.model.nu == n
     assert case.model.actuator_trnid[:, 0].tolist() == list(range(n))
-
-
-def test_sensors_stand_where_an_observer_looks_for_them(case):
     expected = [(name, size) for name, _, size in SENSORS] + [("p", 3), ("force", 3), ("moment", 3)]
     if case.model.npair:
         expected.append(("gap", 1))

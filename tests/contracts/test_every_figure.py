@@ -97,13 +97,10 @@ def test_response_bends_are_nothing_under_feedback_linearization():
     assert responses.bend_deg(own, 100.0, 20.0).max() < 1e-6
 
 
-def test_share_is_within_wilsons_interval():
+def test_share_is_within_wilsons_interval_and_that_of_none_or_all_ends_where_shares_end():
     # Wilson's interval of 1 in 10, two-sided 95 %: 0.0179 to 0.4042 (Newcombe 1998, table I's method 3)
     found = share(1, 10)
     assert (found.low, found.value, found.high) == pytest.approx((0.0179, 0.1, 0.4042), abs=5e-5)
-
-
-def test_share_of_none_or_all_ends_where_shares_end():
     assert share(0, 50).low == 0.0
     assert share(50, 50).high == 1.0
 

@@ -69,12 +69,9 @@ def arm_samples() -> list[ArmSample]:
     return [*found, *(found[100 + i]._replace(**fields) for i, fields in enumerate(SPOILED)), *found[:20]]
 
 
-def test_metric_says_its_unit_and_what_it_is(any_metric):
+def test_metric_says_what_it_is_and_its_compiled_update_is_the_plain_one_bit_for_bit_on_an_arm(any_metric):
     assert any_metric.unit
     assert any_metric.title
-
-
-def test_compiled_update_is_the_plain_update_bit_for_bit_on_an_arm(any_metric):
     register_kernels()
     compiled = numba.njit(**JIT)(any_metric.update)
     with np.errstate(all="ignore"):

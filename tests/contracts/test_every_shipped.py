@@ -29,24 +29,18 @@ def turns(count: int = 40):
             yield (math.cos(theta / 2.0), *(math.sin(theta / 2.0) * k).tolist())
 
 
-def test_fields_say_what_it_is(one):
+def test_fields_say_what_it_is_and_its_source_is_pinned(one):
     assert all((one.shipped.path, one.shipped.set_by))
     assert one.level in {TORQUE, VELOCITY, POSITION}
     assert (one.gains.kv == 0.0) == (one.level == VELOCITY)
     assert one.gains.kp > 0.0
-
-
-def test_source_is_pinned_to_a_commit_or_a_release(one):
     repository, _, revision = one.source.partition("@")
     assert repository.count("/") == 1
     assert revision.startswith("v") or (len(revision) == 40 and int(revision, 16))
 
 
-def test_error_is_zero_at_the_goal(one):
+def test_error_is_zero_at_the_goal_and_that_of_the_opposite_turn_is_the_opposite(one):
     assert not any(one.shipped.error((1.0, 0.0, 0.0, 0.0)))
-
-
-def test_error_of_the_opposite_turn_is_the_opposite(one):
     for w, x, y, z in turns():
         np.testing.assert_array_equal(one.shipped.error((w, -x, -y, -z)), np.negative(one.shipped.error((w, x, y, z))))
 

@@ -19,23 +19,15 @@ every_set = pytest.mark.parametrize(
 
 
 @every_set
-def test_ids_are_unique_plain_words(name, arm):
+def test_ids_are_unique_words_quaternions_unit_and_elements_plain_floats(name, arm):
     ids = [start.id for start in tasks.start_set(name, arm=arm)]
     assert len(set(ids)) == len(ids)
     assert all(re.fullmatch(r"[a-z0-9][a-z0-9.-]*", word) for word in ids)
     assert not arm or all(word.startswith(name) for word in ids)
-
-
-@every_set
-def test_quaternions_are_unit(name, arm):
     for start in tasks.start_set(name, arm=arm):
         for quat in (start.quat_wxyz, start.goal_wxyz):
             # MuJoCo normalizes no product along the chain of an arm: seven of them, each rounded to 2e-16
             assert math.hypot(*quat) == pytest.approx(1.0, abs=2e-15 if arm else 4e-16)
-
-
-@every_set
-def test_elements_are_plain_floats(name, arm):
     for start in tasks.start_set(name, arm=arm)[:40]:
         numbers = (*start.quat_wxyz, *start.omega, *start.goal_wxyz, *start.q, *start.qdot)
         assert len(numbers) == 11 + (2 * tasks.arm(arm).joints if arm else 0)

@@ -26,12 +26,9 @@ def some_starts(task):
     return [start for name in task.start_sets for start in tasks.start_set(name, COUNT, arm=task.arm)]
 
 
-def test_task_is_named_as_its_file(task):
+def test_task_is_named_as_its_file_says_title_and_source_and_names_known_start_sets(task):
     assert (task.name, task.arm) in tasks.pairs()
     assert tasks.task(task.name, task.arm) is task
-
-
-def test_task_says_title_and_source_and_names_known_start_sets(task):
     assert task.title
     assert task.source
     assert task.start_sets

@@ -141,6 +141,21 @@ def test_users_law_is_planned_on_every_arm_by_the_geometric_jacobian(capsys, own
         assert f"{arm}: clear 2 (each of 1 controller)" in said.out
 
 
+@pytest.mark.parametrize("suite", ["quick", "default"])
+def test_suite_runs_a_law_on_arms_that_none_of_its_words_names(suite):
+    laws = list(LAWS.values())
+    new = laws[0]._replace(regulator=laws[0].regulator._replace(name="new"))
+    usual, more = (
+        {one.name for one in planning.make(suite, some, Choice(arms=("ur5e",))).contenders}
+        for some in (laws, [*laws, new])
+    )
+    assert more - usual == {"new@geometric+solve"}
+    named = {*SUITES[suite].on_arms.words, *SUITES[suite].on_arms.varied}
+    assert {name.partition("@")[0] for name in usual if name.partition("@")[0] in LAWS} == {
+        word.partition("@")[0] for word in named
+    }
+
+
 def test_users_law_runs_on_an_arm(capsys, own, tmp_path):
     from bench.experiments.tables import store
 

@@ -25,8 +25,8 @@ from support.in_contact import (
 from support.states import vector
 
 import tasks
+from bench.law.contender import axes_of
 from bench.law.control.contact_controller import PAPERS_FORM, hybrid
-from bench.law.control.hybrid import axes_of
 from bench.law.control.impedance import law_of
 from bench.law.control.setpoint import TOUCH as TOUCHING
 from tasks.contact import Specification

@@ -8,35 +8,17 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.states import of_scipy, vector
 
-from bench.law.contenders.registry import find_contender
+from bench.law.contenders.registry import all_contenders, find_contender
 from bench.law.inputs import AT_REST, Gains, Goal
 
 GAINS = Gains(kp=100.0, kv=20.0)
 
-# The spring of each isotropic law, f in u = Kp f(theta) k - Kv omega, from rest, the short way round.
-SPRINGS = {
-    "rotation-matrix": math.sin,
-    "bounded-command": math.sin,
-    "square-root": lambda theta: 2.0 * math.sin(theta / 2.0),
-    "quaternion-shortest": lambda theta: 2.0 * math.sin(theta / 2.0),
-    "hybrid": lambda theta: 2.0 * math.sin(theta / 2.0),
-    "sliding": lambda theta: 2.0 * math.sin(theta / 2.0),
-    "mrp-linearized": lambda theta: 2.0 * math.sin(theta / 2.0),
-    "rotation-vector": lambda theta: theta,
-    "mrp": lambda theta: 4.0 * math.tan(theta / 4.0),
-    "gibbs": lambda theta: 2.0 * math.tan(theta / 2.0),
-    "paielli-bach": lambda theta: 2.0 * math.tan(theta / 2.0),
-    "late-braking": lambda theta: (1.0 + math.cos(theta / 2.0) ** 2) * math.sin(theta / 2.0),
+ISOTROPIC = {
+    one.name: one.equation
+    for one in all_contenders()
+    if one.equation and one.representation is None and not one.equation.the_long_way
 }
-
-# What the rate adds to thetadd = -Kp f - Kv thetad, of laws whose damping is no mere Kv omega.
-ADDED = {
-    "bounded-command": lambda theta, rate: 20.0 * rate * (1.0 - 1.0 / math.hypot(1.0, rate / 5.0)),
-    "paielli-bach": lambda theta, rate: 0.5 * rate**2 * math.tan(theta / 2.0),
-    "mrp-linearized": lambda theta, rate: -0.5 * rate**2 * math.tan(theta / 4.0),
-    "sliding": lambda theta, rate: 10.0 * (1.0 - math.cos(theta / 2.0)) * rate,
-    "late-braking": lambda theta, rate: 16.0 * math.sin(theta / 2.0) ** 2 * min(rate, 0.0),
-}
+"""The equation that each law's file gives for a rotation about one axis from rest, the short way round."""
 
 
 def command(word, R, omega=AT_REST, R_d=None, memory=None):
@@ -64,14 +46,14 @@ def test_weighted_columns_rests_at_three_half_turns_and_no_others():
         assert np.linalg.norm(u) > 1e-3 * GAINS.kp
 
 
-@pytest.mark.parametrize("word", SPRINGS)
+@pytest.mark.parametrize("word", ISOTROPIC)
 def test_response_from_rest_is_that_of_one_scalar_equation(word):
-    """thetadd = -Kp f(theta) - Kv thetad, as scipy integrates it; the law on scipy's three dimensions beside it."""
-    added = ADDED.get(word, lambda theta, rate: 0.0)
+    """Its file's equation, as scipy integrates it; the law on scipy's three dimensions beside it."""
+    equation = ISOTROPIC[word]
 
     def scalar(_, state):
         theta, rate = state
-        return rate, -GAINS.kp * SPRINGS[word](theta) - GAINS.kv * rate + added(theta, rate)
+        return rate, -GAINS.kp * equation.spring(theta) - GAINS.kv * rate + equation.added(theta, rate, *GAINS)
 
     times = np.linspace(0.0, 1.0, 21)
     for theta, k in zip((0.1, 1.0, 2.0, 3.0), axes(4, 5), strict=True):
@@ -169,3 +151,16 @@ def test_laws_with_memory_keep_their_side_beyond_a_half_turn_and_change_it_later
         for theta, sign in ((math.pi + 0.01, -1.0), (end - 0.01, -1.0), (end + 0.01, 1.0)):
             u, _ = command(word, ScipyRotation.from_rotvec((theta, 0.0, 0.0)), memory=memory)
             assert u[0] * sign > 0.0, (word, theta)
+
+
+def test_bounded_command_is_the_sine_and_a_damper_bounded_by_kp_at_any_spin():
+    """Far above w = Kp/Kv the damper is Kp against the motion, so that |u| <= 2 Kp, which it comes near to."""
+    draw = np.random.default_rng(6)
+    for R, size, k in zip(ScipyRotation.random(400, rng=draw), np.geomspace(1e-3, 1e6, 400), axes(400, 7), strict=True):
+        u, phi = command("bounded-command", R, size * k)[0], R.as_rotvec()
+        damper = GAINS.kv * size / math.hypot(1.0, size * GAINS.kv / GAINS.kp)
+        expected = -GAINS.kp * np.sinc(np.linalg.norm(phi) / math.pi) * phi - damper * k
+        np.testing.assert_allclose(u, expected, rtol=0.0, atol=1e-11 * GAINS.kp)
+        assert np.linalg.norm(u) <= 2.0 * GAINS.kp * (1.0 + 1e-14)
+    worst, _ = command("bounded-command", ScipyRotation.from_rotvec((math.pi / 2.0, 0.0, 0.0)), (1e6, 0.0, 0.0))
+    assert np.linalg.norm(worst) == pytest.approx(2.0 * GAINS.kp, rel=1e-6)

@@ -18,7 +18,7 @@ ALLOWED = {
     "bench/law/contenders/impedances/": "its own file",
     "bench/law/kinds.py": "ON_MATRIX, the word for what acts on R itself",
     "bench/law/control/contact_controller.py": "hybrid control in contact, whose words these are",
-    "bench/law/control/hybrid.py": "the cure in a refusal; a law's file asks no registry",
+    "bench/law/contender.py": "the cure in a refusal; it asks no registry",
     "bench/engines/simulate.py": "the module of a plant whose state is a quaternion",
     "bench/experiments/chosen_words.py": "what a suite runs",
     "bench/experiments/suites.py": "what a suite runs",

@@ -21,7 +21,7 @@ SOURCES = (
 
 CONTROLLER_SOURCES = (
     *SOURCES,
-    *("bench.law.control.hybrid", "bench.law.control.impedance"),
+    *("bench.law.contender", "bench.law.control.hybrid", "bench.law.control.impedance"),
     *(
         "bench.law.control.resolved_acceleration",
         "bench.base.errors",

@@ -63,18 +63,19 @@ def chosen(
     joints: int,
     jacobians: tuple[str, ...] = (),
     inverses: tuple[str, ...] = (),
+    by_word_alone: tuple[str, ...] = (),
 ) -> list[Contender]:
     """The contenders of the words on so many joints; of named Jacobians and inverses every one that fits.
 
-    A law that no word names is taken if it is a user's, or if no other is there: by the geometric Jacobian and the
-    standard inverse. No words at all: everything that fits.
+    A law that no word names is taken by the geometric Jacobian and the standard inverse, unless it is one of
+    `by_word_alone` and others are there. No words at all: everything that fits.
     """
     if jacobians or inverses or not words:
         wanted = _crossed(laws.values(), jacobians, inverses)
         return [one for one in wanted if not refusal(one, joints)]
     wordless = [name for name in laws if not any(word.startswith(f"{name}@") for word in words)]
     if len(wordless) < len(laws):
-        wordless = [name for name in wordless if laws[name].regulator.origin]
+        wordless = [name for name in wordless if laws[name].regulator.name not in by_word_alone]
     return on((*words, *(f"{name}@geometric+standard" for name in wordless)), laws, joints)
 
 

@@ -15,6 +15,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from bench.base.errors import BadNumber, Incompatible
+from bench.law.contender import axes_of
 from bench.law.contenders.registry import papers_coordinates
 from bench.law.control import hybrid as hybrid_control
 from bench.law.control.impedance import assembly, law_of
@@ -82,7 +83,7 @@ class ContactController(NamedTuple):
             return (1.0,) * 6
         turns = specification.selection[3:]
         if self.representation is not None:
-            of_coordinate = dict(zip(hybrid_control.axes_of(self.representation), turns, strict=True))
+            of_coordinate = dict(zip(axes_of(self.representation), turns, strict=True))
             turns = tuple(of_coordinate[k] for k in range(3))
         return tuple(map(float, (*specification.selection[:3], *turns)))
 
@@ -104,7 +105,7 @@ def hybrid(law: str, form: str, representation: Coordinates | None = None) -> Co
     if not takes and representation is not None:
         raise Incompatible(f"'{law}' selects along axes and takes no representation (try: {law}+{form})")
     if representation is not None:
-        hybrid_control.axes_of(representation)
+        axes_of(representation)
     return ContactController(law, representation, form)
 
 
@@ -120,7 +121,7 @@ def impedance_controller(one: Impedance, representation: Coordinates | None = No
     if one.law_in is None and representation is not None:
         raise Incompatible(f"'{word}' takes no representation (omit '{representation.name}')")
     if representation is not None:
-        hybrid_control.axes_of(representation)
+        axes_of(representation)
     return ContactController(word, representation, impedance=one)
 
 

@@ -14,32 +14,29 @@ tau = J^T (Lambda (S a - (I - S) kc v - Jdot qdot) + w) + fg (Khatib 1987). F ac
 through Lambda, and on what is held too.
 
 On seven joints J^-1 becomes J^# = D^-1 J^T Lambda, the dynamically consistent inverse, and y = J^# (... - J z) + z with
-z = -Kv/2 qdot (`resolved_acceleration.relax`). It alone has D J^# = J^T Lambda: by any other, as J^+, the paper's form
-is not Khatib's. The hand moves alike; but the elbow is driven by (I - J^+ J) D^-1 J^T (F + w), which a wrench at rest
-keeps up. By J^# no wrench turns it and its own motion dies out.
+z = -Kv/2 qdot (`resolved_acceleration.relax`). By any other inverse a wrench would turn the elbow.
 
 The others command what complies an acceleration, c_i = (F_i + h_i)/m_i - kc v_i with an apparent inertia m, and cancel
-F: impedances. `inverse` uses J^-1 S, `projected` the pseudo-inverse of what is held, S J, on seven joints too: of all
-joint motions that do what is held, the least (Fisher and Mujtaba 1991); what complies is dragged along by it.
+F: impedances. `inverse` uses J^-1 S, `projected` the pseudo-inverse of what is held, S J: of all joint motions that do
+what is held, the least (Fisher and Mujtaba 1991); what complies is dragged along by it.
 
 Three frames, and with each the wrench converted to it:
 
     base           J,             F
-    hand           diag(Q^T, Q^T) J,  diag(Q^T, Q^T) F,  Q = R R_d^T: the base's axes as the hand carries them along,
-                   and Q^T Jdot qdot: what is commanded is the acceleration along these axes, not of components in them
+    hand           diag(Q^T, Q^T) J,  diag(Q^T, Q^T) F,  Q = R R_d^T: the base's axes as the hand carries them along;
+                   what is commanded is the acceleration along these axes, not of components in them
     coordinates    J_E,           F_E = diag(I, B)^T F   (Murphy 1988, 3.12)
 
 `unconverted` is a negative control: the moment's components taken for generalized forces as they are.
 
-Limitations: where J is singular, and on coordinates where B^-1 does not exist; what complies there is then lost with
-it.
+Limitations: where J is singular, and on coordinates where B^-1 does not exist.
 Source: Raibert and Craig 1981; Murphy 1988, 3.3; Khatib 1987; Fisher and Mujtaba 1991.
 """
 
 from collections.abc import Callable
 
-from bench.base.errors import Incompatible
 from bench.law.chain import bias_acceleration, twist
+from bench.law.contender import axes_of
 from bench.law.contenders.inverses.dynamically_consistent import resolve as by_least_energy
 from bench.law.contenders.jacobians import analytic
 from bench.law.contenders.jacobians.geometric import fill
@@ -172,20 +169,6 @@ def conversion(representation: Coordinates, converts: bool = True) -> Callable:
         return (m[about_first], m[about_second], m[about_third])
 
     return convert
-
-
-def axes_of(representation: Coordinates) -> tuple[int, int, int]:
-    """Which coordinate is the one about x, about y and about z, near E = 0.
-
-    Errors:
-        Incompatible: there are four coordinates, or none for some axis.
-    """
-    if representation.about is None:
-        raise Incompatible(
-            f"'{representation.name}' has no coordinate for each of the axes x, y and z to be held or to comply "
-            "(try: zyx-euler)"
-        )
-    return representation.about
 
 
 INVERSE, PROJECTED, TRANSPOSE = 0, 1, 2
