@@ -30,7 +30,7 @@ from bench.engines.simulate import compiled_loop, evaluation, simulate
 from bench.engines.simulated import compiled_view
 from bench.law.contender import Contender
 from bench.law.control.resolved_acceleration import assembly
-from bench.law.control.unshaped import Damping
+from bench.law.kinds import Impedance
 from tasks.arm_model import Arm
 from tasks.velocity import servo
 
@@ -124,7 +124,7 @@ def limit_of(limit: Callable):
 
 
 @made_once
-def design_of(damping: Damping):
+def design_of(damping: Impedance):
     """Compile a design of damping for the loop."""
     return compile_function(damping.design, DESIGN)
 
@@ -163,7 +163,7 @@ def prepare_velocity(contender: Contender, limits) -> None:
 
 
 def run_impedance(
-    law: Contender, damping: Damping, springs: Springs, starts, settings: Settings, arm: str
+    law: Contender, damping: Impedance, springs: Springs, starts, settings: Settings, arm: str
 ) -> tuple[np.ndarray, np.ndarray]:
     """Rows of `plants.impedance`, and q and qdot at the end, one per start.
 

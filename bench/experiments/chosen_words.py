@@ -15,9 +15,9 @@ BEST = tuple(
 """The later laws that run on arms: those that no noise holds at a 180° rotation, and of the simplest others three whose
 springs differ. Whatever law is advised is among them (a test)."""
 BY_WORD_ALONE = (
-    *("bounded-command", "euler-gradient", "gibbs", "hybrid", "late-braking", "linearized-euler-literal", "mrp"),
-    *("mrp-linearized", "paielli-bach", "quaternion-shortest", "quaternion-unwinding", "rotation-vector", "sliding"),
-    *("square-root", "weighted-columns"),
+    *("bounded-command", "euler-gradient", "feedback-linearized-literal", "gibbs", "hybrid", "late-braking"),
+    *("linearized-euler-literal", "mrp", "mrp-linearized", "paielli-bach", "quaternion-shortest"),
+    *("quaternion-unwinding", "rotation-vector", "sliding", "square-root", "weighted-columns"),
 )
 """Laws that run on arms only where a suite's words name them; a law that is in no list here runs there too."""
 STREAMED = ("rotation-matrix", *(word.partition("@")[0] for word in BEST))

@@ -211,6 +211,9 @@ class Impedance(NamedTuple):
     goal the stiffness is kp inertia [N m/rad]; of an impedance in coordinates it is that times B^-T B^-1.
     law_in(coordinates) -> law, of an impedance in coordinates; `law` is then None.
     relative: the coordinates are those of R_d^T R.
+    design(K, Lambda, zeta, D, scratch): of one that shapes no inertia, in place of a law: write the damping D (6 x 6)
+    [N s/m, N m s/rad], base frame; from six stiffnesses K [N/m, N m/rad], the hand's inertia Lambda at the pose (6 x 6,
+    both halves) and the desired damping ratio zeta. Neither K nor Lambda is changed.
     """
 
     name: str
@@ -220,6 +223,7 @@ class Impedance(NamedTuple):
     law: Callable | None = None
     law_in: Callable | None = None
     relative: bool = False
+    design: Callable | Any = None
 
 
 class Spring(NamedTuple):

@@ -15,9 +15,7 @@ Limitations: where J loses rank, Lambda, and with it D of two designs, is not fi
 Source: Hogan 1985; Albu-Schaeffer et al. 2003; frankaemika/libfranka@155ddac8, cartesian_impedance_control.cpp.
 """
 
-from collections.abc import Callable
-from typing import NamedTuple
-
+from bench.law.kinds import Impedance
 from bench.law.linalg import factor, gram, multiply, multiply_transposed, orthogonalize, solve_factored, solve_lower
 from bench.law.scalar import kernel, sqrt
 
@@ -57,17 +55,6 @@ def damp_elbow(J, M, Lambda, qdot, v, n, w, x, tau):
     multiply(M, qdot, tau, n, n)
     for i in range(n):
         tau[i] = NULL_RATE * (x[i] - tau[i])
-
-
-class Damping(NamedTuple):
-    """design(K, Lambda, zeta, D, scratch): write the damping D (6 x 6) [N s/m, N m s/rad], base frame.
-
-    K: six stiffnesses [N/m, N m/rad]; Lambda: the hand's inertia at the pose, 6 x 6, both halves; zeta: the desired
-    damping ratio. Neither K nor Lambda is changed.
-    """
-
-    title: str
-    design: Callable
 
 
 @kernel
@@ -140,8 +127,29 @@ def damp_axes(K, Lambda, zeta, D, scratch):
 
 
 DAMPINGS = {
-    "diagonal": Damping("Twice the root of the stiffness", damp_by_stiffness),
-    "double-diagonalization": Damping("Double diagonalization", damp_modes),
-    "per-axis": Damping("A ratio for each axis", damp_axes),
+    one.name: one
+    for one in (
+        Impedance(
+            "diagonal",
+            "Twice the root of the stiffness",
+            "libfranka, impedance example",
+            r"D = 2\zeta\operatorname{diag}(\sqrt{K_i})",
+            design=damp_by_stiffness,
+        ),
+        Impedance(
+            "double-diagonalization",
+            "Double diagonalization",
+            "Albu-Schaeffer et al. 2003",
+            r"D = 2\zeta Q \operatorname{diag}(\omega_i) Q^\top",
+            design=damp_modes,
+        ),
+        Impedance(
+            "per-axis",
+            "A ratio for each axis",
+            "",
+            r"D = 2\zeta\operatorname{diag}(\sqrt{K_i \Lambda_{ii}})",
+            design=damp_axes,
+        ),
+    )
 }
 """The choices of D, by the word that rows have."""
