@@ -15,13 +15,13 @@ FACE = "bench.law"
 
 SOURCES = (
     *("bench.law.scalar", "bench.law.so3", "bench.law.linalg", "bench.law.weighting", "bench.law.display"),
-    *("bench.law.kinds", "bench.law.inputs", "bench.law.chain", "bench.law.euler"),
+    *("bench.law.kinds", "bench.law.inputs", "bench.law.euler"),
 )
 """Modules of ours a law may import from; and NamedTuple from typing, to name its tuples."""
 
 CONTROLLER_SOURCES = (
     *SOURCES,
-    *("bench.law.contender", "bench.law.control.hybrid", "bench.law.control.impedance"),
+    *("bench.law.chain", "bench.law.contender", "bench.law.control.hybrid", "bench.law.control.impedance"),
     *(
         "bench.law.control.resolved_acceleration",
         "bench.base.errors",
