@@ -11,27 +11,27 @@ LINES = {
     "bench/__main__.py": 29,
     "bench/audit": 1_991,
     "bench/base": 360,
-    "bench/cli": 2_339,
+    "bench/cli": 2_340,
     "bench/engines": 6_341,
-    "bench/experiments": 5_874,
+    "bench/experiments": 5_880,
     "bench/export": 1_984,
     "bench/findings": 6_135,
-    "bench/law": 6_614,
+    "bench/law": 6_620,
     "bench/regression": 1_200,
     "bench/running": 2_501,
     "bench/studies": 3_360,
     "tests/audit": 592,
     "tests/cli": 757,
     "tests/conftest.py": 85,
-    "tests/contracts": 3_085,
+    "tests/contracts": 2_947,
     "tests/engines": 3_205,
-    "tests/experiments": 2_474,
+    "tests/experiments": 2_485,
     "tests/export": 406,
     "tests/findings": 2_543,
-    "tests/law": 3_552,
+    "tests/law": 3_388,
     "tests/regression": 668,
     "tests/report": 2_596,
-    "tests/repository": 618,
+    "tests/repository": 616,
     "tests/running": 1_155,
     "tests/studies": 863,
     "tests/support": 3_339,
@@ -43,9 +43,7 @@ LINES = {
 FILES = {"bench/audit": 35, "bench/experiments": 47, "bench/export": 18, "bench/law": 116, "tasks": 76}
 """Python files of the rooms in which one file adds one thing: the lines of one new file may come on top."""
 LONGEST_FILE = 250
-TOO_LONG = {
-    "bench/law/control/hybrid.py": 261,
-}
+TOO_LONG: dict[str, int] = {}
 """Files that are still longer, with their lines."""
 
 
