@@ -65,26 +65,23 @@ def motions() -> dict[str, tuple[Motion, dict]]:
 
     import tasks
     from bench.engines.curve import ARM_NUMBERS, blank_curves
-    from bench.engines.metrics.registry import metrics_of
-    from bench.engines.simulate_arms import run_arm as run
-    from bench.experiments.episode_rows import frame
+    from bench.experiments.episodes import rows_from, simulate
     from bench.experiments.experiment import Settings, Unit
     from bench.experiments.suites import NOMINAL, ON_ARM
     from bench.findings.claims.probes import controller
 
     start = next(one for one in tasks.start_set(START_SET, None, SEED, arm=ARM) if one.id == START)
-    metrics, joints, settings = metrics_of(on_arm=True), tasks.arm(ARM).joints, Settings("media")
+    joints, settings = tasks.arm(ARM).joints, Settings("media")
     found = {}
     for word in CONTENDERS:
         one = controller(word)
         unit = Unit("arm", one.name, TASK, ARM, "native", START_SET, NOMINAL, count=1, horizon_s=ON_ARM)
-        judged = run("native", one, TASK, ARM, [start], settings.limits(ON_ARM), metrics)
         curves = blank_curves(1, round(LOOP_S / settings.dt_s), numbers=ARM_NUMBERS)
-        run("native", one, TASK, ARM, [start], settings.limits(LOOP_S), metrics, curves=curves)
+        simulate(settings, unit, [start], LOOP_S, curves)
         [ticks] = curves.samples
         first = ARM_NUMBERS.index("q_1")
         q = ticks[~np.isnan(ticks[:, 0]), first : first + joints].tolist()
-        row = frame(settings, unit, one, [start], judged, metrics).iloc[0].to_dict()
+        row = rows_from(settings, unit, [start]).iloc[0].to_dict()
         found[word] = Motion(settings.dt_s, q), row
     return found
 

@@ -122,9 +122,7 @@ def buffers(n: int, dtype=float) -> Buffers:
 
 def blank_arm(count: int, metrics) -> np.ndarray:
     """Rows to be filled: metrics at their start values, and no pose yet."""
-    poses = np.full((count, -POSE), np.nan)
-    poses[:, 0] = np.inf
-    return np.hstack((blank(count, metrics), poses))
+    return blank(count, metrics, (math.inf, *[math.nan] * MOST))
 
 
 @kernel

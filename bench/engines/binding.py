@@ -6,6 +6,7 @@ evaluate(R, omega, goal, gains, memory) -> (u, memory, margin)
 On an analytic Jacobian the command is that of the coordinates: command(chart, E_d, Edot, gains) -> u_E.
 """
 
+import functools
 import math
 
 import tasks
@@ -30,7 +31,7 @@ def command_of(contender: Contender):
     law = contender.law
     if contender.regulator.memory is not None:
         return _guarded_memory(law) if contender.regulator.origin else law
-    return _guarded(law) if contender.regulator.origin else _memoryless(law)
+    return _memoryless(_guarded_three(law) if contender.regulator.origin else law)
 
 
 def parts_for(contender: Contender) -> Parts:
@@ -54,13 +55,13 @@ def _coordinate_command_of(contender: Contender):
 
 def _guarded_three(law):
     @kernel
-    def command(at, E_d, Edot, gains):
+    def command(at, second, third, gains):
         try:
-            x, y, z = law(at, E_d, Edot, gains)
-            u_E = (1.0 * x, 1.0 * y, 1.0 * z)
+            x, y, z = law(at, second, third, gains)
+            u = (1.0 * x, 1.0 * y, 1.0 * z)
         except Exception:
-            u_E = CRASHED_COMMAND
-        return u_E
+            u = CRASHED_COMMAND
+        return u
 
     return command
 
@@ -98,19 +99,6 @@ def _memoryless(law):
     return command
 
 
-def _guarded(law):
-    @kernel
-    def command(R, omega, goal, gains, memory):
-        try:
-            x, y, z = law(R, omega, goal, gains)
-            u = (1.0 * x, 1.0 * y, 1.0 * z)
-        except Exception:
-            u = CRASHED_COMMAND
-        return u, memory
-
-    return command
-
-
 def _guarded_memory(law):
     @kernel
     def command(R, omega, goal, gains, memory):
@@ -136,6 +124,7 @@ def memory_of(contender: Contender) -> tuple:
     return (*(float(x) for x in memory), *NO_MEMORY[len(memory) :])
 
 
+@functools.cache
 def margin_of(contender: Contender):
     """The margin of the coordinates the law acts on; of a law on R its own, or NaN if it is singular nowhere."""
     if contender.representation is None:

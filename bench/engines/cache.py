@@ -8,15 +8,9 @@ import contextlib
 import os
 import shutil
 from pathlib import Path
-from typing import Any
 
+from bench.base.lock import held
 from bench.base.provenance import kept_in, source_digest
-
-fcntl: Any
-try:
-    import fcntl
-except ImportError:  # no such locks on this system: compile in one process at a time there
-    fcntl = None
 
 KEPT = 8
 """States of the sources whose compiled code is kept, the newest first: some 15 MB each."""
@@ -50,10 +44,6 @@ os.environ["NUMBA_DISABLE_INTEL_SVML"] = "1"
 @contextlib.contextmanager
 def to_itself():
     """Others wait, threads and processes: of two that write its index at once, one would find the other's code."""
-    if fcntl is None:
-        yield
-        return
     FOLDER.mkdir(parents=True, exist_ok=True)
-    with open(FOLDER / "lock", "w", encoding="utf-8") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    with held(FOLDER, waits=True):
         yield

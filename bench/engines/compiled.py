@@ -21,7 +21,7 @@ from bench.engines.arrays import Four, Three
 from bench.engines.cache import to_itself
 from bench.engines.curve import Curves
 from bench.engines.episode import Numbers
-from bench.engines.typed import type_of
+from bench.engines.typed import PART, type_of
 from bench.law import scalar
 from bench.law.chain import Chain, Scratch
 from bench.law.control.setpoint import ContactParameters, Rows, Setpoint
@@ -96,9 +96,9 @@ _registering = threading.Lock()
 def _register_primitive(function):
     libm = getattr(math, function.__name__)
     if function.__code__.co_argcount == 2:
-        overload(function, jit_options=JIT, strict=False)(lambda y, x: lambda y, x: libm(y, x))
+        overload(function, jit_options=PART, strict=False)(lambda y, x: lambda y, x: libm(y, x))
     else:
-        overload(function, jit_options=JIT, strict=False)(lambda x: lambda x: libm(x))
+        overload(function, jit_options=PART, strict=False)(lambda x: lambda x: libm(x))
     _registered.add(function)
 
 
@@ -117,7 +117,7 @@ def register(function):
     """Make one plain function callable from compiled code."""
     if function not in _registered:
         inlined = {"forceinline": True} if function.__module__.startswith(INLINED) else {}
-        register_jitable(error_model="numpy", **inlined)(function)
+        register_jitable(**PART, **inlined)(function)
         _registered.add(function)
     return function
 
@@ -160,6 +160,10 @@ def made_once(make):
             return made(*words)
 
     return asked
+
+
+part = made_once(compile_function)
+"""part(function, signature): a function of ours that loops call by pointer, compiled or taken from the disk cache."""
 
 
 @contextlib.contextmanager

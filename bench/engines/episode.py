@@ -146,8 +146,6 @@ def start_rows(starts) -> np.ndarray:
     return rows
 
 
-def blank(count: int, metrics) -> np.ndarray:
-    """Rows to be filled: every metric at its start value."""
-    rows = np.zeros((count, FIRST_METRIC + len(metrics)))
-    rows[:, FIRST_METRIC:] = [metric.start for metric in metrics]
-    return rows
+def blank(count: int, metrics=(), more: tuple[float, ...] = ()) -> np.ndarray:
+    """Rows to be filled: every metric at its start value, then the start values of columns behind them."""
+    return np.tile([0.0] * FIRST_METRIC + [metric.start for metric in metrics] + [*more], (count, 1))

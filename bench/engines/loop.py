@@ -111,20 +111,8 @@ def accelerate(laws, body, sensed, now, gains, memory, numbers):
 ACCELERATION = Controller(begin, accelerate)
 
 
-@kernel
-def no_account(row, body, state, sensed, act, tick, numbers):
-    """Keep nothing of a tick that is over."""
-    return None
-
-
-@kernel
-def no_close(row, body, state, k, numbers):
-    """Add nothing to an episode's row."""
-    return None
-
-
 class Record(NamedTuple):
-    """Functions that fill a row.
+    """Functions that fill a row; the last two may be missing.
 
     see(row, curves, now, body, sensed, act, before, numbers): before the plant moves; before: the u before this one.
     account(row, body, state, sensed, act, tick, numbers): after it has. close(row, body, state, k, numbers): at the
@@ -132,8 +120,8 @@ class Record(NamedTuple):
     """
 
     see: Callable
-    account: Callable = no_account
-    close: Callable = no_close
+    account: Callable | None = None
+    close: Callable | None = None
 
 
 def sampled(observe) -> Record:
@@ -180,9 +168,11 @@ def episodes_of(plant: Plant, controller: Controller, record: Record):
                 if failure != GOING:
                     break
                 watch = watched(watch, tick, sensed.haversine, start[11], sensed.turning, numbers.slow_squared)
-                account(row, body, state, sensed, act, tick, numbers)
+                if account is not None:
+                    account(row, body, state, sensed, act, tick, numbers)
             angle, failure = measure(body, state, sensed), blamed(failure, act.given)
             finish(row, failure, watch, tick, angle, sensed.rest, act.squared, numbers)
-            close(row, body, state, k, numbers)
+            if close is not None:
+                close(row, body, state, k, numbers)
 
     return episodes

@@ -1,6 +1,7 @@
 """Episodes of arms: by torques, by velocities, by impedances that shape no inertia, and in contact."""
 
 import functools
+import math
 from collections.abc import Callable
 
 import mujoco
@@ -19,9 +20,10 @@ from bench.engines.compiled import (
     compile_function,
     made_once,
     own_law,
+    part,
 )
 from bench.engines.curve import Curves
-from bench.engines.episode import Settings, numbers, start_rows
+from bench.engines.episode import Settings, blank, numbers, start_rows
 from bench.engines.native.libmujoco import model_of
 from bench.engines.plants import arm as on_arm
 from bench.engines.plants import impedance, velocity
@@ -97,36 +99,19 @@ def _model(task: str, arm: Arm, dt_s: float, integrator: str, variation: str) ->
 def pointers(contender: Contender) -> tuple:
     """Compile a contender's three functions, or take them from the disk cache; a user's law is compiled every time."""
     law = contender._replace(jacobian=None, inverse=None)
-    return _assemble(contender._replace(inverse=None)), resolution(contender.inverse), _margin(law)
+    return _assemble(contender._replace(inverse=None)), _resolve(contender), part(margin_of(law), MARGIN)
+
+
+def _resolve(contender: Contender):
+    """The inverse of a contender that has one."""
+    assert contender.inverse is not None
+    return part(contender.inverse.resolve, RESOLVE)
 
 
 @made_once
 def _assemble(contender: Contender):
     with own_law(contender.regulator.origin) as cache:
         return compile_function(assembly(parts_for(contender)), ASSEMBLE, cache)
-
-
-@made_once
-def resolution(inverse):
-    """An inverse as loops call it."""
-    return compile_function(inverse.resolve, RESOLVE)
-
-
-@made_once
-def _margin(contender: Contender):
-    return compile_function(margin_of(contender), MARGIN)
-
-
-@made_once
-def limit_of(limit: Callable):
-    """Compile a limiter for the loops."""
-    return compile_function(limit, LIMIT)
-
-
-@made_once
-def design_of(damping: Impedance):
-    """Compile a design of damping for the loop."""
-    return compile_function(damping.design, DESIGN)
 
 
 def run_velocity(
@@ -140,25 +125,28 @@ def run_velocity(
         lag_s: time constant of the joints' servos [s]; 0: none. Those of the free body have none.
     """
     pace = velocity.Pace(float(K), *map(float, servo(settings.dt_s, lag_s)))
-    law, rows = contender._replace(jacobian=None, inverse=None), velocity.blank_rows(len(starts), bool(arm))
+    law, rows = (
+        contender._replace(jacobian=None, inverse=None),
+        blank(len(starts), more=(*[0.0] * 5, 0.0 if arm else math.nan)),
+    )
     given = memory_of(law), start_rows(starts), numbers(settings), rows
-    functions = evaluation(law), limit_of(limit)
+    functions = evaluation(law), part(limit, LIMIT)
     if not arm:
         return simulate(compiled_loop("velocity"), functions, velocity.World(pace), *given)
     n, (model, data) = tasks.arm(arm).joints, _simulation(ARM_TASK, tasks.arm(arm), settings.dt_s)
     still, work = states([one._replace(qdot=(0.0,) * n) for one in starts], n), on_arm.work(n)
     work.D[:] = np.eye(n)
     world = velocity.ArmWorld(compiled_view(model, data), still, work, pace)
-    return simulate(compiled_loop("velocity-arm"), (*functions, resolution(contender.inverse)), world, *given)
+    return simulate(compiled_loop("velocity-arm"), (*functions, _resolve(contender)), world, *given)
 
 
 def prepare_velocity(contender: Contender, limits) -> None:
     """Compile what `run_velocity` will need, or take it from the disk cache."""
     evaluation(contender._replace(jacobian=None, inverse=None))
     for one in limits:
-        limit_of(one)
+        part(one, LIMIT)
     if contender.inverse:
-        resolution(contender.inverse)
+        _resolve(contender)
     compiled_loop("velocity-arm" if contender.inverse else "velocity")
 
 
@@ -176,7 +164,7 @@ def run_impedance(
     kept = [_simulation(ARM_TASK, one, settings.dt_s) for _ in range(2)]
     plant, still = (compiled_view(*sim) for sim in kept)
     world = impedance.world(plant, still, states(starts, one.joints), springs, one.rated)
-    rows, laws = impedance.blank_rows(len(starts)), (evaluation(law), design_of(damping))
+    rows, laws = blank(len(starts), more=impedance.COLUMNS), (evaluation(law), part(damping.design, DESIGN))
     simulate(compiled_loop("impedance"), laws, world, memory_of(law), start_rows(starts), limits, rows)
     del kept
     return rows, world.ends
@@ -186,5 +174,5 @@ def prepare_impedance(law: Contender, dampings) -> None:
     """Compile what `run_impedance` will need, or take it from the disk cache."""
     evaluation(law)
     for one in dampings:
-        design_of(one)
+        part(one.design, DESIGN)
     compiled_loop("impedance")

@@ -5,7 +5,7 @@ import functools
 import numpy as np
 
 from bench.engines.binding import memory_of
-from bench.engines.episode import Settings, numbers, start_rows
+from bench.engines.episode import Settings, blank, numbers, start_rows
 from bench.engines.plants import perturbed
 from bench.engines.simulate import compiled_loop, evaluation, simulate
 from bench.law.contender import Contender
@@ -32,7 +32,7 @@ def run_disturbed(
         settings: gains and limits; dt_s is the condition's.
         seed: of the noise, which is the same for every contender.
     """
-    rows, begun = perturbed.blank_rows(len(starts), metrics), start_rows(starts)
+    rows, begun = blank(len(starts), metrics, (0.0,) * perturbed.EXTRA), start_rows(starts)
     horizon_s = settings.ticks * settings.dt_s
     limits = perturbed.in_steps(numbers(settings), condition, RULES.hold_s, horizon_s)
     periods = limits.ticks // perturbed.steps_of(condition) + 1

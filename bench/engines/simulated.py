@@ -15,6 +15,7 @@ from numba.extending import overload
 from bench.engines.arrays import Matrix, Vector
 from bench.engines.native.libmujoco import mj_fullM as full_inertia
 from bench.engines.native.libmujoco import mj_fwdActuation, mj_resetData, mj_step, mj_step1, mj_step2
+from bench.engines.typed import PART
 
 
 class Simulated(NamedTuple):
@@ -84,7 +85,7 @@ def fill_inertia(body, D):
 
 
 def _compiled(function):
-    return overload(function, jit_options={"forceinline": True, "error_model": "numpy"})
+    return overload(function, jit_options=PART | {"forceinline": True})
 
 
 @_compiled(place)

@@ -8,17 +8,15 @@ from typing import TYPE_CHECKING
 
 import tasks
 from bench.base.errors import Incompatible
-from bench.engines.metrics.registry import metrics_of
+from bench.experiments import episodes
 from bench.experiments.choice import Choice
 from bench.experiments.chosen_words import AT_INVERSES, BY_WORD_ALONE
-from bench.experiments.episode_rows import TABLE, frame
-from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, runs_on, starts_of, tasks_of
+from bench.experiments.episode_rows import TABLE
 from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit
 from bench.experiments.rounding import judged_on_both_sides
 from bench.experiments.suites import NOMINAL, OnArms, Slice
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
-from tasks.base import Start
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -38,24 +36,28 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     Errors:
         Incompatible: no law, Jacobian and inverse that were named go together on any arm that was named.
     """
-    places, every_task = [], tasks_of(asked)
-    slices = narrowed(asked.suite.on_arms.slices, asked.choice)
+    places, every_task = [], episodes.tasks_of(asked)
+    slices = episodes.narrowed(asked.suite.on_arms.slices, asked.choice)
     for task in filter(tasks.is_for_arms, every_task):
         fitting = tasks.described(task).start_sets
         is_meant = any(part.start_set in fitting for part in slices)
         for arm in (asked.choice.arms or tasks.arm_names()) if is_meant else ():  # one is read by MuJoCo
             for part, one, variation in _on_arm(asked.suite.on_arms, asked.laws, tasks.arm(arm).joints, asked.choice):
-                if part.start_set in fitting and runs_on(part.engine, task, one) and _knows(one, part.start_set):
-                    places.append(Place(part, one, task, arm, variation))
+                if (
+                    part.start_set in fitting
+                    and episodes.runs_on(part.engine, task, one)
+                    and _knows(one, part.start_set)
+                ):
+                    places.append(episodes.Place(part, one, task, arm, variation))
     if every_task and not places and asked.choice.is_about_arms:
         _check_combinations(asked)
-    return tuple(cut("arm", places, asked, MOST))
+    return tuple(episodes.cut("arm", places, asked, MOST))
 
 
 def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice) -> Iterator[tuple[Slice, Contender, str]]:
     """(slice, contender, variation) of everything on one arm."""
     by_name = {one.name: one for one in laws}
-    slices = narrowed(on_arms.slices, choice)
+    slices = episodes.narrowed(on_arms.slices, choice)
     variations = choice.variations or (NOMINAL,)
     is_by_suite = not (choice.variations or choice.jacobians or choice.inverses)
     few: set[Contender] = set()
@@ -94,16 +96,8 @@ def _check_combinations(asked: Asked) -> None:
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return the rows of a unit, each doubtful one judged on both sides of its start."""
-    from bench.engines.simulate_arms import run_arm as run
-
-    starts, one, metrics = starts_of(settings, unit), settings.contender(unit.contender), metrics_of(on_arm=True)
-    limits = settings.limits(unit.horizon_s)
-
-    def simulated(some: list[Start]) -> pd.DataFrame:
-        given = (unit.task, unit.arm, some, limits, metrics, settings.integrator, unit.variation)
-        return frame(settings, unit, one, some, run(unit.engine, one, *given), metrics)
-
-    return judged_on_both_sides(simulated(starts), starts, simulated)
+    starts, again = episodes.starts_of(settings, unit), functools.partial(episodes.rows_from, settings, unit)
+    return judged_on_both_sides(again(starts), starts, again)
 
 
 EXPERIMENT = Experiment(
@@ -114,8 +108,8 @@ EXPERIMENT = Experiment(
     rows,
     takes=ON_ARMS,
     cost_s=lambda unit: unit.count * EPISODE_S[unit.engine],
-    prepare=prepare,
-    lost=lost,
+    prepare=episodes.prepare,
+    lost=episodes.lost,
     is_divisible=True,
     rank=1,
 )

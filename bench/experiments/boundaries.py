@@ -11,10 +11,9 @@ import math
 import numpy as np
 
 from bench.engines.episode import OUTCOME
-from bench.engines.metrics.registry import metrics_of
 from bench.experiments.columns import CONTENDER, CONTENDER_KEY, Column, Table, numbers, words
 from bench.experiments.episode_rows import contender_columns
-from bench.experiments.episodes import prepare
+from bench.experiments.episodes import prepare, simulate
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.suites import SHORT
 from bench.experiments.traces import laws
@@ -56,7 +55,7 @@ def of_law(one: Contender, count: int) -> Unit:
 
 def rows(settings: Settings, unit: Unit) -> dict:
     """Return one row an axis, as columns."""
-    one, directions = settings.contender(unit.contender), axes(unit.count)
+    directions = axes(unit.count)
     count = len(directions)
     first = np.full(count, len(SCAN))
     outcome = np.full(count, SETTLED)
@@ -64,7 +63,7 @@ def rows(settings: Settings, unit: Unit) -> dict:
         searching = np.flatnonzero(first == len(SCAN))
         if not len(searching):
             break
-        codes = _outcomes(settings, unit, one, directions[searching], np.full(len(searching), angle))
+        codes = _outcomes(settings, unit, directions[searching], np.full(len(searching), angle))
         failed = searching[codes != SETTLED]
         first[failed], outcome[failed] = place, codes[codes != SETTLED]
     settled = np.where(first > 0, SCAN[np.minimum(first, len(SCAN)) - 1], 0.0)
@@ -72,12 +71,12 @@ def rows(settings: Settings, unit: Unit) -> dict:
     found = np.flatnonzero(first < len(SCAN))
     for _ in range(BISECTIONS if len(found) else 0):
         middle = 0.5 * (settled[found] + fails[found])
-        codes = _outcomes(settings, unit, one, directions[found], middle)
+        codes = _outcomes(settings, unit, directions[found], middle)
         good = codes == SETTLED
         settled[found[good]] = middle[good]
         fails[found[~good]], outcome[found[~good]] = middle[~good], codes[~good]
     return {
-        **contender_columns(one),
+        **contender_columns(settings.contender(unit.contender)),
         **{f"axis_{axis}": directions[:, i] for i, axis in enumerate("xyz")},
         "settled_to_rad": settled,
         "fails_from_rad": fails,
@@ -85,15 +84,12 @@ def rows(settings: Settings, unit: Unit) -> dict:
     }
 
 
-def _outcomes(settings: Settings, unit: Unit, one: Contender, directions: np.ndarray, angles: np.ndarray) -> np.ndarray:
-    from bench.engines.simulate import run
-
+def _outcomes(settings: Settings, unit: Unit, directions: np.ndarray, angles: np.ndarray) -> np.ndarray:
     starts = [
         Start("", (math.cos(angle / 2), *(math.sin(angle / 2) * axis).tolist()))
         for axis, angle in zip(directions, angles, strict=True)
     ]
-    made = run(unit.engine, one, unit.task, starts, settings.limits(unit.horizon_s), metrics_of(on_arm=False))
-    return made[:, OUTCOME].astype(int)
+    return simulate(settings, unit, starts, unit.horizon_s)[:, OUTCOME].astype(int)
 
 
 EXPERIMENT = Experiment(

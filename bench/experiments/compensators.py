@@ -57,16 +57,14 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
     """Return a row a level of the disturbance."""
-    from bench.engines.compensated import LEFT, PEAK, SETTLED, run
-    from bench.engines.compensated import Asked as Disturbed
+    from bench.engines.simulate_quaternions import run_compensated
 
     one, starts = law_of(unit.selector), tasks.start_set("uniform", unit.count, seed=settings.seed)
     found = []
     for level in DISTURBANCES:
-        pushed = (level * x for x in DIRECTION)
-        asked = Disturbed(settings.dt_s, float(ticks(unit.horizon_s, settings.dt_s)), float(BAND_RAD), *pushed)
-        made = run(one, starts, settings.gains, asked)
-        times = made[np.isfinite(made[:, SETTLED]), SETTLED]
+        lasting, push = ticks(unit.horizon_s, settings.dt_s), tuple(level * x for x in DIRECTION)
+        ended = run_compensated(one, starts, settings.gains, settings.dt_s, lasting, float(BAND_RAD), push)
+        times = ended.settling_s[np.isfinite(ended.settling_s)]
         found.append(
             {
                 "law": one.name,
@@ -79,8 +77,8 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
                 "settled": len(times),
                 "settling_median_s": float(np.median(times)) if len(times) else None,
                 "settling_worst_s": float(np.max(times)) if len(times) else None,
-                "left_rad": float(np.max(made[:, LEFT])),
-                "peak_u": float(np.max(made[:, PEAK])),
+                "left_rad": float(np.max(ended.left_rad)),
+                "peak_u": float(np.max(ended.peak_u)),
             }
         )
     return found
@@ -88,7 +86,7 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
 
 def law_of(name: str) -> Law:
     """Return the law of that name; for an empty name the paper's on R."""
-    from bench.engines.compensated import without_state
+    from bench.engines.simulate_quaternions import without_state
 
     if name:
         return contenders("compensators")[name]
@@ -97,9 +95,11 @@ def law_of(name: str) -> Law:
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loop and the law."""
-    from bench.engines import compensated
+    from bench.engines.simulate import compiled_loop
+    from bench.engines.simulate_quaternions import parts_of
 
-    compensated.prepare(law_of(unit.selector))
+    compiled_loop("state")
+    parts_of(law_of(unit.selector))
 
 
 EXPERIMENT = Experiment(

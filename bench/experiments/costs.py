@@ -53,29 +53,24 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
     """
     one = settings.contender(unit.contender)
     try:
-        return count_controller(one, tasks.arm(unit.arm).joints) if unit.arm else count_law(one)
+        return count_operations(one, tasks.arm(unit.arm).joints if unit.arm else 0)
     except BadLaw:
         if unit.engine != BEYOND:
             raise
         return []
 
 
-def count_law(one: Contender) -> list[dict]:
-    """Count the operations of a law alone; those of ours are kept on disk, for counting all laws takes ten seconds."""
+def count_operations(one: Contender, joints: int = 0) -> list[dict]:
+    """Count the operations of a law alone, or of a controller on so many joints.
+
+    Those of ours are kept on disk, for counting all laws takes ten seconds.
+    """
     from bench.engines import counting
 
-    if one.regulator.origin:
-        return counting.rows([one])
-    return kept(f"costs/{one.name}", lambda: counting.rows([one]))
+    def rows() -> list[dict]:
+        return counting.rows_on_arm(one, joints) if joints else counting.rows([one])
 
-
-def count_controller(one: Contender, joints: int) -> list[dict]:
-    """Count the operations of a controller on so many joints; those of ours are kept on disk."""
-    from bench.engines import counting
-
-    if one.regulator.origin:
-        return counting.rows_on_arm(one, joints)
-    return kept(f"costs/{one.name}-{joints}", lambda: counting.rows_on_arm(one, joints))
+    return rows() if one.regulator.origin else kept(f"costs/{one.name}{f'-{joints}' if joints else ''}", rows)
 
 
 EXPERIMENT = Experiment(

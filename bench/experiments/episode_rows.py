@@ -121,42 +121,36 @@ def contender_columns(one: Contender) -> dict:
     return dict(zip(CONTENDER_KEY, (one.regulator.name, coordinates, *one.way), strict=True))
 
 
-def frame(settings: Settings, unit: Unit, contender: Contender, starts, numbers: np.ndarray, metrics) -> pd.DataFrame:
-    """Return the rows of one unit."""
+def frame(settings: Settings, unit: Unit, starts, numbers: np.ndarray) -> pd.DataFrame:
+    """Return the rows of one unit from these starts."""
     import pandas as pd
 
     angles = np.array([chart(from_quaternion(start.quat_wxyz)).E for start in starts])
     quats = np.array([start.quat_wxyz for start in starts])
     omegas = np.array([start.omega for start in starts])
     goals = np.array([start.goal_wxyz for start in starts])
-    angle0 = [angle(start.quat_wxyz, start.goal_wxyz) for start in starts]
-    judged = judged_columns(numbers, settings.dt_s)
+    ran = episode_columns(settings, starts, numbers, settings.dt_s, unit.horizon_s)
     found = {
-        "suite": settings.suite,
+        **ran,
         "task": unit.task,
         "arm": unit.arm,
         "variation": unit.variation,
-        **contender_columns(contender),
+        **contender_columns(settings.contender(unit.contender)),
         "engine": unit.engine,
         "start_set": unit.selector,
-        "start_id": [start.id for start in starts],
         **{f"quat_{axis}": quats[:, i] for i, axis in enumerate("wxyz")},
         **{name: angles[:, i] for i, name in enumerate(("alpha0", "beta0", "gamma0"))},
-        "angle0_rad": angle0,
         **{f"omega0_{axis}": omegas[:, i] for i, axis in enumerate("xyz")},
         **{f"goal_quat_{axis}": goals[:, i] for i, axis in enumerate("wxyz")},
         "kp": settings.gains.kp,
         "kv": settings.gains.kv,
-        "dt_s": settings.dt_s,
         "integrator": INTEGRATORS.get(unit.engine, settings.integrator),
         **_steps(numbers, settings.dt_s),
-        "horizon_s": unit.horizon_s,
         "tolerance": RULES.tolerance,
         "hold_s": RULES.hold_s,
-        **judged,
         "ticks": numbers[:, TICKS].astype(np.int64),
     }
-    found |= measured_columns(numbers, metrics, angle0, judged)
+    found |= measured_columns(numbers, metrics_of(on_arm=bool(unit.arm)), ran)
     seen = _seen_on_arm(unit.arm, numbers) if unit.arm else np.full(len(starts), np.nan)
     margins = found["min_margin"]
     return pd.DataFrame(
@@ -164,7 +158,7 @@ def frame(settings: Settings, unit: Unit, contender: Contender, starts, numbers:
             **dict.fromkeys((one.column for one in known_metrics().values()), np.nan),
             **found,
             "cond_jacobian_max": seen,
-            "cause": [cause(*near) if unit.arm else "" for near in zip(judged["outcome"], margins, seen, strict=True)],
+            "cause": [cause(*near) if unit.arm else "" for near in zip(ran["outcome"], margins, seen, strict=True)],
             BESIDE: "",
             CHANGE: np.nan,
         }
@@ -175,7 +169,7 @@ def lost_frame(settings: Settings, unit: Unit, starts, outcome: str) -> pd.DataF
     """Return rows of episodes that a user's law never came back from: the settings and the outcome, no measure."""
     metrics = metrics_of(on_arm=bool(unit.arm))
     numbers = lost_numbers((blank_arm if unit.arm else blank)(len(starts), metrics), outcome)
-    made = frame(settings, unit, settings.contender(unit.contender), starts, numbers, metrics)
+    made = frame(settings, unit, starts, numbers)
     return made.assign(**dict.fromkeys((metric.column for metric in metrics), np.nan), cond_jacobian_max=np.nan)
 
 
@@ -184,6 +178,18 @@ def lost_numbers(numbers: np.ndarray, outcome: str) -> np.ndarray:
     numbers[:, [OUTCOME, SETTLING_TICK, FAILURE_TICK]] = OUTCOMES.index(outcome), NEVER, NEVER
     numbers[:, FINAL_ANGLE] = np.nan
     return numbers
+
+
+def episode_columns(settings: Settings, starts, numbers: np.ndarray, dt_s: float, horizon_s: float) -> dict:
+    """Return what rows of several experiments say: the start of an episode, its times, and how it ended."""
+    return {
+        "suite": settings.suite,
+        "start_id": [start.id for start in starts],
+        "angle0_rad": np.array([angle(start.quat_wxyz, start.goal_wxyz) for start in starts]),
+        "dt_s": dt_s,
+        "horizon_s": horizon_s,
+        **judged_columns(numbers, dt_s),
+    }
 
 
 def judged_columns(numbers: np.ndarray, dt_s: float) -> dict:
@@ -196,11 +202,13 @@ def judged_columns(numbers: np.ndarray, dt_s: float) -> dict:
     }
 
 
-def measured_columns(numbers: np.ndarray, metrics, angle0: list[float], judged: dict) -> dict:
-    """Return the columns of the metrics, each finished by how its episode began and ended."""
+def measured_columns(numbers: np.ndarray, metrics, ran: dict) -> dict:
+    """Return the columns of the metrics, each finished by how its episode began and ended (`episode_columns`)."""
     endings = [
         Ending(start, final, RULES.band_rad(start), outcome)
-        for start, final, outcome in zip(angle0, judged["final_angle_rad"], judged["outcome"], strict=True)
+        for start, final, outcome in zip(
+            ran["angle0_rad"].tolist(), ran["final_angle_rad"], ran["outcome"], strict=True
+        )
     ]
     return {
         metric.column: [metric.finish(value, ending) for value, ending in zip(column.tolist(), endings, strict=True)]

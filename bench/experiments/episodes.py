@@ -15,7 +15,7 @@ from bench.base.errors import Incompatible
 from bench.engines.metrics.registry import metrics_of
 from bench.experiments import starts
 from bench.experiments.choice import Choice
-from bench.experiments.episode_rows import lost_frame
+from bench.experiments.episode_rows import frame, lost_frame
 from bench.experiments.experiment import Asked, Settings, Unit
 from bench.experiments.suites import HORIZON, NOMINAL, ON_ARM, SHORT, Slice
 from bench.law.contender import Contender
@@ -23,6 +23,8 @@ from tasks.base import Start
 
 if TYPE_CHECKING:
     import pandas as pd
+
+    from bench.engines.curve import Curves
 
 
 class Place(NamedTuple):
@@ -115,6 +117,24 @@ def starts_of(settings: Settings, unit: Unit) -> list[Start]:
     if unit.arm:
         return starts.on_arm(unit.selector, unit.total, settings.seed, unit.arm)[unit.first : end]
     return tasks.starts_between(unit.selector, unit.first, end, settings.seed)
+
+
+def simulate(settings: Settings, unit: Unit, some: list[Start], horizon_s: float, curves: Curves | None = None):
+    """Return what an engine gives back of a unit's contender from these starts, on the free body or its arm."""
+    one, limits, metrics = settings.contender(unit.contender), settings.limits(horizon_s), metrics_of(bool(unit.arm))
+    if unit.arm:
+        from bench.engines.simulate_arms import run_arm
+
+        given = (some, limits, metrics, settings.integrator, unit.variation or NOMINAL, curves)
+        return run_arm(unit.engine, one, unit.task, unit.arm, *given)
+    from bench.engines.simulate import run
+
+    return run(unit.engine, one, unit.task, some, limits, metrics, settings.integrator, curves, unit.total)
+
+
+def rows_from(settings: Settings, unit: Unit, some: list[Start]) -> pd.DataFrame:
+    """Return the rows of a unit from these starts."""
+    return frame(settings, unit, some, simulate(settings, unit, some, unit.horizon_s))
 
 
 def prepare(settings: Settings, unit: Unit) -> None:

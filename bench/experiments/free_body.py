@@ -6,10 +6,8 @@ import functools
 from typing import TYPE_CHECKING
 
 import tasks
-from bench.engines.metrics.registry import metrics_of
-from bench.experiments import arm
-from bench.experiments.episode_rows import TABLE, frame
-from bench.experiments.episodes import Place, cut, lost, narrowed, prepare, refuse_if_none, runs_on, starts_of, tasks_of
+from bench.experiments import arm, episodes
+from bench.experiments.episode_rows import TABLE
 from bench.experiments.experiment import OF_EPISODES, Asked, Experiment, Settings, Unit
 from bench.experiments.suites import Slice, Suite
 from bench.law.contender import Contender
@@ -33,15 +31,15 @@ def units(asked: Asked) -> tuple[Unit, ...]:
         Incompatible: no named task, engine and start set go together, here or on arms.
     """
     places = [
-        Place(part, one, task)
-        for task in tasks_of(asked)
+        episodes.Place(part, one, task)
+        for task in episodes.tasks_of(asked)
         if not tasks.is_for_arms(task)
         for one in asked.laws
-        for part in narrowed(slices_of(asked.suite, one), asked.choice)
-        if part.start_set in tasks.task(task).start_sets and runs_on(part.engine, task, one)
+        for part in episodes.narrowed(slices_of(asked.suite, one), asked.choice)
+        if part.start_set in tasks.task(task).start_sets and episodes.runs_on(part.engine, task, one)
     ]
-    found = tuple(cut("free-body", places, asked, MOST))
-    refuse_if_none(asked, found or arm.units(asked))
+    found = tuple(episodes.cut("free-body", places, asked, MOST))
+    episodes.refuse_if_none(asked, found or arm.units(asked))
     return found
 
 
@@ -54,12 +52,7 @@ def slices_of(suite: Suite, one: Contender) -> tuple[Slice, ...]:
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return the rows of a unit."""
-    from bench.engines.simulate import run
-
-    starts, one, metrics = starts_of(settings, unit), settings.contender(unit.contender), metrics_of(on_arm=False)
-    limits = settings.limits(unit.horizon_s)
-    numbers = run(unit.engine, one, unit.task, starts, limits, metrics, settings.integrator, total=unit.total)
-    return frame(settings, unit, one, starts, numbers, metrics)
+    return episodes.rows_from(settings, unit, episodes.starts_of(settings, unit))
 
 
 EXPERIMENT = Experiment(
@@ -70,8 +63,8 @@ EXPERIMENT = Experiment(
     rows,
     takes=OF_EPISODES,
     cost_s=lambda unit: unit.count * EPISODE_S[unit.engine],
-    prepare=prepare,
-    lost=lost,
+    prepare=episodes.prepare,
+    lost=episodes.lost,
     is_divisible=True,
     rank=0,
 )

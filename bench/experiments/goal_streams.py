@@ -42,7 +42,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
     """Return a row a stream and law; `law` is empty for the spring on the quaternion as it came."""
-    from bench.engines.streamed import run
+    from bench.engines.simulate_quaternions import run_stream
 
     dt, laws = settings.dt_s, [law for law in STREAMED if law in contenders("regulators")]
     truth = np.array([true_goal(k * dt) for k in range(round(LENGTH_S / dt))])
@@ -53,7 +53,7 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
         made = compute_steps(filled)
         goal = {"goal_rate_ratio": made.max() / steps.max(), "goal_way_ratio": made.sum() / steps.sum()}
         for law in (*laws, *[""] * stream.arrives.startswith(SIGNED)):
-            seen = run(find_contender(law or laws[0]), filled, truth, settings.gains, dt, is_raw=not law)
+            seen = run_stream(find_contender(law or laws[0]), filled, truth, settings.gains, dt, is_raw=not law)
             loop = {"peak_u": seen.peak_u, "off_rad": seen.off_rad, "way_ratio": seen.way_rad / steps.sum()}
             found.append({"stream": stream.name, "law": law, **goal, **loop})
     return found

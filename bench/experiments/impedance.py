@@ -13,12 +13,11 @@ import numpy as np
 from bench.engines.episode import FINAL_ANGLE
 from bench.experiments import arm, starts
 from bench.experiments.columns import ANGLE0, DT, HORIZON, JUDGED, SUITE, Column, Table, numbers, singles, words
-from bench.experiments.episode_rows import judged_columns
+from bench.experiments.episode_rows import episode_columns
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.suites import BY_EVERY_INVERSE, ON_ARM
 from bench.law.contenders.registry import find_contender
 from bench.law.control.unshaped import DAMPINGS
-from tasks.truth import angle
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -121,23 +120,18 @@ def _rows(settings: Settings, unit: Unit, stiffness: Stiffness, whole: int) -> d
     law, damping = find_contender(LAW), DAMPINGS[unit.selector]
     springs = Springs(*stiffness, ZETA, whole)
     numbers, _ = run(law, damping, springs, some, settings.limits(unit.horizon_s), unit.arm)
-    angle0 = np.array([angle(start.quat_wxyz, start.goal_wxyz) for start in some])
+    ran = episode_columns(settings, some, numbers, settings.dt_s, unit.horizon_s)
     left = compute_potential(stiffness, numbers[:, FINAL_ANGLE], numbers[:, LEFT]) + numbers[:, KINETIC]
     return {
-        "suite": settings.suite,
+        **ran,
         **setting_columns(unit, stiffness),
         "compensated": COMPENSATED[whole],
         "law": LAW,
         "start_set": START_SET,
-        "start_id": [start.id for start in some],
-        "angle0_rad": angle0,
-        "dt_s": settings.dt_s,
-        "horizon_s": unit.horizon_s,
-        **judged_columns(numbers, settings.dt_s),
         "overshoot": numbers[:, OVERSHOOT],
         "off_m": numbers[:, OFF],
         "strain": numbers[:, STRAIN],
-        "stored_j": compute_potential(stiffness, angle0, np.zeros(len(some))),
+        "stored_j": compute_potential(stiffness, ran["angle0_rad"], np.zeros(len(some))),
         "left_j": left,
         "damped_j": numbers[:, DAMPED],
         "elbow_j": numbers[:, ELBOW],

@@ -10,6 +10,7 @@ import numpy as np
 import tasks
 from bench.base.errors import Incompatible
 from bench.engines.episode import Settings as Limits
+from bench.engines.episode import blank
 from bench.engines.metrics.registry import metrics_of
 from bench.experiments.choice import Choice
 from bench.experiments.columns import (
@@ -26,7 +27,7 @@ from bench.experiments.columns import (
     singles,
     words,
 )
-from bench.experiments.episode_rows import judged_columns, lost_numbers, measured_columns
+from bench.experiments.episode_rows import episode_columns, lost_numbers, measured_columns
 from bench.experiments.equal_peak import gains_at
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit
 from bench.experiments.suites import Robustness
@@ -34,7 +35,6 @@ from bench.law.contender import Contender
 from bench.law.contenders.registry import papers_laws
 from bench.law.inputs import Gains
 from tasks.condition import Condition, condition_at
-from tasks.truth import angle
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -129,19 +129,20 @@ def simulated(settings: Settings, unit: Unit, simulate, gains=gains_at) -> pd.Da
     import pandas as pd
 
     one, axis, seed = settings.contender(unit.contender), tasks.axis(unit.selector), settings.seed
-    parts = []
+    metrics, parts = metrics_of(on_arm=False), []
     for level in axis.levels:
         condition = condition_at(axis, level)
         chosen = gains(one, condition.peak) if condition.peak else settings.gains
         if chosen is not None:
             some = axis.starts(unit.count, seed, level)
-            rows = _rows(one, some, condition, _limits(chosen, unit.horizon_s), seed, simulate)
+            limits = _limits(chosen, unit.horizon_s)
+            rows = _rows(settings, some, condition, limits, simulate(one, some, condition, limits, metrics, seed))
             parts.append(pd.DataFrame({"axis": axis.name, "level": level, **rows}))
     if not parts:
         return pd.DataFrame()
     coordinates = one.representation.name if one.representation else ""
     whole = pd.concat(parts, ignore_index=True)
-    return whole.assign(suite=settings.suite, regulator=one.regulator.name, representation=coordinates)
+    return whole.assign(regulator=one.regulator.name, representation=coordinates)
 
 
 def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
@@ -149,10 +150,10 @@ def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
 
     A row has the run's gains: only the law knows those that give a peak.
     """
-    from bench.engines.plants.perturbed import blank_rows
+    from bench.engines.plants.perturbed import EXTRA
 
     def simulate(_one, starts, _condition, _limits, metrics, _seed):
-        return lost_numbers(blank_rows(len(starts), metrics), outcome)
+        return lost_numbers(blank(len(starts), metrics, (0.0,) * EXTRA), outcome)
 
     nothing = dict.fromkeys((metric.column for metric in metrics_of(on_arm=False)), np.nan)
     return simulated(settings, unit, simulate, lambda _one, _peak: settings.gains).assign(**nothing, variation=np.nan)
@@ -163,28 +164,22 @@ def _limits(gains: Gains, horizon_s: float) -> Limits:
     return Limits(gains, 1e-6, round(1e6 * horizon_s), 1)
 
 
-def _rows(one: Contender, starts, condition: Condition, limits: Limits, seed: int, simulate) -> dict:
+def _rows(settings: Settings, starts, condition: Condition, limits: Limits, numbers: np.ndarray) -> dict:
     from bench.engines.plants import perturbed
 
-    metrics = metrics_of(on_arm=False)
-    numbers = simulate(one, starts, condition, limits, metrics, seed)
     step_s = condition.period_s / perturbed.steps_of(condition)
-    angle0 = [angle(start.quat_wxyz, start.goal_wxyz) for start in starts]
-    judged = judged_columns(numbers, step_s)
-    finals = judged["final_angle_rad"]
+    ran = episode_columns(settings, starts, numbers, step_s, limits.ticks * limits.dt_s)
+    finals = ran["final_angle_rad"]
     extra = numbers[:, -perturbed.EXTRA :]
     tail = extra[:, perturbed.TAIL_COUNT]
     has_tail = tail > 0
     rms = np.sqrt(extra[:, perturbed.TAIL_SQUARES] / np.where(has_tail, tail, 1.0))
     return {
-        "start_id": [start.id for start in starts],
-        "angle0_rad": angle0,
+        **ran,
         "kp": limits.gains.kp,
         "kv": limits.gains.kv,
         "dt_s": condition.period_s,
-        "horizon_s": limits.ticks * limits.dt_s,
-        **judged,
-        **measured_columns(numbers, metrics, angle0, judged),
+        **measured_columns(numbers, metrics_of(on_arm=False), ran),
         "tail_rms_rad": np.where(has_tail, rms, finals),
         "tail_max_rad": np.where(has_tail, extra[:, perturbed.TAIL_WORST], finals),
         "variation": extra[:, perturbed.VARIATION],

@@ -6,14 +6,12 @@ curves of theirs (`of_arm`), which no run keeps.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 import tasks
 from bench.engines.curve import ARM_NUMBERS, NUMBERS, blank_curves
-from bench.engines.metrics.registry import metrics_of
 from bench.experiments import free_body
 from bench.experiments.columns import (
     ARM,
@@ -28,7 +26,7 @@ from bench.experiments.columns import (
     words,
 )
 from bench.experiments.episode_rows import contender_columns, judged_columns
-from bench.experiments.episodes import prepare
+from bench.experiments.episodes import prepare, simulate
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.starts import on_arm
 from bench.experiments.suites import HORIZON, LONG, SHORT
@@ -99,35 +97,18 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     import pandas as pd
 
     every = max(1, round(EVERY_S / settings.dt_s))
-    one = settings.contender(unit.contender)
-    frames = [_on_arm(settings, unit, one, every)] if unit.arm else _on_free_body(settings, unit, one, every)
+    sets = ((unit.selector, unit.count),) if unit.arm else (("paper", None), ("uniform", unit.count))
+    place = {"task": unit.task, "arm": unit.arm, **contender_columns(settings.contender(unit.contender))}
+    frames = []
+    for name, count in sets:
+        starts = (on_arm if unit.arm else tasks.start_set)(name, count, settings.seed, unit.arm)
+        names = ARM_NUMBERS if unit.arm else NUMBERS
+        curves = blank_curves(len(starts), SAMPLES, every, names)
+        made = simulate(settings, unit, starts, unit.horizon_s if unit.arm else HORIZON.get(name, SHORT), curves)
+        endings = {"outcome": [""] * len(starts)} if unit.arm else judged_columns(made, settings.dt_s)
+        whose = {**place, "engine": unit.engine, "start_set": name}
+        frames.append(_frame(whose, starts, curves.samples, names, endings))
     return pd.concat(frames, ignore_index=True).reindex(columns=TABLE.names)
-
-
-def _on_free_body(settings: Settings, unit: Unit, one: Contender, every: int) -> Iterator[pd.DataFrame]:
-    from bench.engines.simulate import run
-
-    metrics = metrics_of(on_arm=False)
-    place = {"task": unit.task, "arm": "", **contender_columns(one), "engine": unit.engine}
-    for start_set, count in (("paper", None), ("uniform", unit.count)):
-        starts = tasks.start_set(start_set, count, settings.seed)
-        curves = blank_curves(len(starts), SAMPLES, every)
-        limits = settings.limits(HORIZON.get(start_set, SHORT))
-        given = (unit.engine, one, unit.task, starts, limits, metrics, settings.integrator, curves)
-        endings = judged_columns(run(*given), settings.dt_s)
-        yield _frame({**place, "start_set": start_set}, starts, curves.samples, NUMBERS, endings)
-
-
-def _on_arm(settings: Settings, unit: Unit, one: Contender, every: int) -> pd.DataFrame:
-    from bench.engines.simulate_arms import run_arm as run
-
-    metrics, limits = metrics_of(on_arm=True), settings.limits(unit.horizon_s)
-    place = {"task": unit.task, "arm": unit.arm, **contender_columns(one), "engine": unit.engine}
-    starts = on_arm(unit.selector, unit.count, settings.seed, unit.arm)
-    curves = blank_curves(len(starts), SAMPLES, every, ARM_NUMBERS)
-    run(unit.engine, one, unit.task, unit.arm, starts, limits, metrics, settings.integrator, curves=curves)
-    endings = {"outcome": [""] * len(starts)}
-    return _frame({**place, "start_set": unit.selector}, starts, curves.samples, ARM_NUMBERS, endings)
 
 
 def _frame(place: dict, starts, samples: np.ndarray, names, endings: dict) -> pd.DataFrame:

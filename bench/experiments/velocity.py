@@ -32,7 +32,7 @@ from bench.experiments.columns import (
     singles,
     words,
 )
-from bench.experiments.episode_rows import contender_columns, judged_columns
+from bench.experiments.episode_rows import contender_columns, episode_columns
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.limiters import LIMITERS, NONE
 from bench.experiments.suites import AT_VELOCITIES, BY_EVERY_INVERSE, SUITES, WITHOUT_FACTOR
@@ -42,7 +42,6 @@ from bench.law.contenders import combinations
 from bench.law.contenders.registry import contenders
 from bench.law.control.velocity import is_velocity_law
 from tasks.base import Start
-from tasks.truth import angle
 from tasks.verdict import OUTCOMES
 
 NAME = "velocity"
@@ -145,20 +144,15 @@ def rows(settings: Settings, unit: Unit) -> dict:
     lengths = [len(part.starts) for part in every]
     made = np.vstack([_run(settings, unit, part, part.starts) for part in every])
     some = [start for part in every for start in part.starts]
-    angle0 = np.array([angle(start.quat_wxyz, start.goal_wxyz) for start in some])
+    ran = episode_columns(settings, some, made, settings.dt_s, unit.horizon_s)
     one = settings.contender(unit.contender)
     found = {
-        "suite": settings.suite,
+        **ran,
         "arm": unit.arm,
         **contender_columns(one),
         **{name: np.repeat([getattr(part, name) for part in every], lengths) for name in PLACED},
-        "start_id": [start.id for start in some],
-        "angle0_rad": angle0,
         "gain": gain(settings),
-        "dt_s": settings.dt_s,
-        "horizon_s": unit.horizon_s,
-        **judged_columns(made, settings.dt_s),
-        "path_ratio": made[:, PATH] / angle0,
+        "path_ratio": made[:, PATH] / ran["angle0_rad"],
         "furthest_rad": np.fmax(2.0 * np.arcsin(np.sqrt(np.fmin(made[:, FURTHEST], 1.0))), made[:, FINAL_ANGLE]),
         "bent_rad": made[:, BENT],
         "peak_omega": made[:, PEAK],

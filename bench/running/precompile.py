@@ -83,10 +83,10 @@ def main(parent: int, work: list[str]) -> None:
 
 def count_one(name: str) -> None:
     """Count the operations of a law of ours, and keep them."""
-    from bench.experiments.costs import count_law
+    from bench.experiments.costs import count_operations
     from bench.law.contenders.registry import find_contender
 
-    count_law(find_contender(name))
+    count_operations(find_contender(name))
 
 
 def _end_without(parent: int) -> None:

@@ -11,11 +11,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+from bench.base import lock
 from bench.base.errors import BadResults
 from bench.base.files import is_leftover, make_folder, read_json, refuse_link, refused, write_atomically, write_json
 from bench.experiments.experiment import Unit, experiment_of, known_experiments
 from bench.experiments.plan import Plan
-from bench.experiments.tables import lock, trust
+from bench.experiments.tables import trust
 from bench.experiments.tables.store import check
 
 

@@ -8,7 +8,7 @@ import pytest
 from support.command_line import bench
 from support.in_contact import IMPEDANCES
 
-from bench.engines.counting.dialect import CONTROLLER_SOURCES, SOURCES, violations
+from bench.engines.counting.dialect import violations
 from bench.law.contenders import registry
 from bench.law.control import impedance
 from bench.law.scalar import KERNELS
@@ -22,7 +22,6 @@ PLAIN = {"refuses", "polynomial", "bound"}
 """Functions of a record that no loop calls."""
 MADE_HERE = {"springs"}
 """Kinds that may have no source."""
-MAY_IMPORT = {"impedances": CONTROLLER_SOURCES, "baselines": CONTROLLER_SOURCES}
 
 on_every = pytest.mark.parametrize(("kind", "one"), EVERY)
 
@@ -63,7 +62,7 @@ def test_impedance_in_coordinates_is_a_kernel(one):
 @pytest.mark.parametrize(("kind", "one"), [pair for pair in EVERY if pair.values[0] != "shipped"])
 def test_file_of_a_contender_keeps_to_the_dialect(kind, one):
     text = Path(module_of(kind, one).__file__).read_text()
-    assert violations(text, MAY_IMPORT.get(kind, SOURCES)) == []
+    assert violations(text) == []
 
 
 def test_every_contender_is_listed(capsys):

@@ -15,15 +15,13 @@ from support.on_arms import ARMS, LAWS, named
 
 import tasks
 from bench.engines.arm_episode import POSE
-from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
+from bench.engines.episode import OUTCOME
 from bench.engines.metrics.registry import metrics_of
-from bench.engines.simulate_arms import pointers
 from bench.engines.simulate_arms import run_arm as run
 from bench.experiments.choice import INTEGRATORS
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import contenders
 from tasks.kinematics import kinematics
-from tasks.variations import VARIATIONS
 from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR, STUCK, TIMED_OUT
 
 TASK = "arm-regulation"
@@ -151,19 +149,6 @@ def test_native_rows_are_the_reference_rows_when_the_plant_is_not_the_model(arm,
 
 
 @over_arms
-@pytest.mark.parametrize("integrator", INTEGRATORS)
-def test_second_model_equal_to_the_plant_changes_no_bit(arm, integrator, monkeypatch):
-    """The controller's own model is put into the plant's state in every tick, and sees what the plant sees."""
-    nothing = tasks.variation("nominal")._replace(name="no-difference")
-    monkeypatch.setitem(VARIATIONS, nothing.name, nothing)
-    starts, chosen, one = [of(arm, "clear", 3), of(arm, "uniform", 3)], settings(horizon_s=0.2), named(arm, PLAIN)
-    alone, beside = (
-        run("native", one, TASK, arm, starts, chosen, METRICS, integrator, word) for word in ("nominal", nothing.name)
-    )
-    assert different_rows(beside, alone) == []
-
-
-@over_arms
 def test_episode_gives_the_same_row_whatever_ran_before_it(arm):
     """Nothing leaks from one episode into the next: no state, no buffer; not even from one that failed."""
     starts = [*(of(arm, word, 1) for word in SETS), straight(arm)]
@@ -173,17 +158,6 @@ def test_episode_gives_the_same_row_whatever_ran_before_it(arm):
             for order in (starts, starts[::-1])
         )
         assert different_rows(forward, backward[::-1]) == []
-
-
-@over_arms
-def test_early_stop_changes_no_settling_tick(arm):
-    starts = [of(arm, word, at) for word in SETS for at in (0, 5)]
-    to_the_end, stopped = (
-        run("native", named(arm, PLAIN), TASK, arm, starts, settings(horizon_s=4.0, hold_ticks=hold), METRICS)
-        for hold in (10**9, 250)
-    )
-    assert different_rows(to_the_end[:, [OUTCOME, SETTLING_TICK]], stopped[:, [OUTCOME, SETTLING_TICK]]) == []
-    assert (stopped[:, TICKS] < to_the_end[:, TICKS]).any()
 
 
 def test_two_threads_give_the_rows_of_one():
@@ -199,13 +173,3 @@ def test_two_threads_give_the_rows_of_one():
         at_once = list(pool.map(rows, units))
     for unit, alone, beside in zip(units, one_by_one, at_once, strict=True):
         assert different_rows(beside, alone) == [], unit
-
-
-def test_inverse_is_compiled_apart_from_the_law():
-    """So that seven inverses cost seven compilations, not seven for each law."""
-    solved, damped = (
-        pointers(named(ARMS[-1], f"rotation-matrix@geometric+{word}"))
-        for word in ("pseudo-inverse", "damped-least-squares")
-    )
-    assert solved[0] is damped[0]
-    assert solved[1] is not damped[1]

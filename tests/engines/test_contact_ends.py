@@ -57,11 +57,6 @@ def test_time_to_align_is_when_a_fiftieth_of_the_angle_is_left():
     assert rest.time_to_align(pose(R=tilts.as_matrix())) == pytest.approx(T * math.log(50.0), abs=1.01 * DT)
 
 
-def test_time_to_align_of_what_stays_askew_is_none():
-    askew = Turn.from_euler("x", 160, degrees=True).as_matrix()
-    assert math.isnan(rest.time_to_align(pose(R=np.tile(askew, (TICKS, 1, 1)))))
-
-
 def test_overshoot_is_of_the_component_ordered():
     force = np.tile((100.0, 0.0, 20.0), (TICKS, 1))
     force[17, 2] = 75.0

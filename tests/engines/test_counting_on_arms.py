@@ -98,5 +98,5 @@ def asks_who_calls(J, a, D, x, rows, n, scratch):
 def test_controller_that_commands_other_torques_when_counted_is_refused():
     own = Inverse("own", "", "", "", asks_who_calls, "acceleration", lambda rows, n: "")
     one = named("ur5e", "rotation-matrix@geometric+solve")._replace(inverse=own)
-    with pytest.raises(BadLaw, match="commands other torques when counted"):
+    with pytest.raises(BadLaw, match="must not depend on the type of its numbers"):
         on_arms.cost_on_arm(one, "ur5e")

@@ -12,7 +12,7 @@ from support.driving import settings
 import tasks
 from bench.engines import rigid_body
 from bench.engines.binding import evaluation_of, memory_of, observer
-from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, SETTLING_TICK, TICKS, numbers, start_rows
+from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, SETTLING_TICK, TICKS, blank, numbers, start_rows
 from bench.engines.metrics.registry import metrics_of
 from bench.engines.plants import perturbed
 from bench.engines.simulate import run as run_unperturbed
@@ -59,7 +59,7 @@ EVERYTHING = Condition(
 def test_compiled_and_plain_loops_agree_bit_for_bit(word):
     one, horizon_s = find_contender(word), 0.1
     starts = [*tasks.start_set("tumbling", 3), *tasks.start_set("half-turn")[:2]]
-    rows = perturbed.blank_rows(len(starts), METRICS)
+    rows = blank(len(starts), METRICS, (0.0,) * perturbed.EXTRA)
     given = perturbed.in_steps(numbers(settings()), EVERYTHING, RULES.hold_s, horizon_s)
     noise = drawn(len(starts), given.ticks, 0, True)
     plain, world = perturbed.loop_of(observer(METRICS)), perturbed.world(EVERYTHING, noise)

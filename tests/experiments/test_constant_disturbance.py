@@ -9,9 +9,7 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from support.compensated import left, motion
 
 import tasks
-from bench.engines.compensated import LEFT, Asked, run
-from bench.engines.compensated import rows_of as rows_by
-from bench.engines.plants.quaternion import with_state
+from bench.engines.simulate_quaternions import run_compensated
 from bench.experiments.compensators import BAND_RAD, DISTURBANCES, law_of
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.law.contenders.registry import contenders
@@ -22,15 +20,15 @@ NAMES = ("", *contenders("compensators"))
 PUSHED = (3.0, -4.0, 2.0)
 
 
-def asked(ticks, disturbance=PUSHED, dt=1e-3):
-    return Asked(dt, float(ticks), float(BAND_RAD), *disturbance)
+def run(one, starts, gains, ticks, **more):
+    return run_compensated(one, starts, gains, 1e-3, ticks, float(BAND_RAD), PUSHED, **more)
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_compiled_rows_are_the_plain_loops_bit_for_bit(name):
-    one, starts, given = law_of(name), tasks.start_set("uniform", 3), asked(200)
-    plain = rows_by(with_state(), (one.law, one.state.begin), starts, Gains(np.float64(70.0), np.float64(13.0)), given)
-    np.testing.assert_array_equal(run(one, starts, Gains(70.0, 13.0), given), plain)
+    one, starts = law_of(name), tasks.start_set("uniform", 3)
+    plain = run(one, starts, Gains(np.float64(70.0), np.float64(13.0)), 200, is_plain=True)
+    np.testing.assert_array_equal(run(one, starts, Gains(70.0, 13.0), 200), plain)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -41,9 +39,9 @@ def test_end_of_an_episode_is_scipys(name):
     quat_wxyz, goal_wxyz = (tuple(turn.as_quat(scalar_first=True)) for turn in (first, goal))
     start = Start("one", quat_wxyz, (1.0, -2.0, 0.5), goal_wxyz)
     for seconds in (0.05, 0.2, 0.6):
-        rows = run(one, [start], Gains(), asked(round(1e3 * seconds)))
+        ended = run(one, [start], Gains(), round(1e3 * seconds))
         R, _, _ = motion(one, first, goal, Gains(), np.array((0.0, seconds)), start.omega, PUSHED)
-        assert rows[0, LEFT] == pytest.approx(np.linalg.norm(left(R[-1], goal)), abs=1e-6)
+        assert ended.left_rad[0] == pytest.approx(np.linalg.norm(left(R[-1], goal)), abs=1e-6)
 
 
 @functools.cache

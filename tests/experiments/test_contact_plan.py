@@ -11,7 +11,6 @@ from bench.experiments.choice import Choice
 from bench.experiments.contact import DENSE, can_do, cut, poses_of
 from bench.experiments.suites import SUITES
 from bench.law.contenders.registry import find_contender
-from bench.law.control.contact_controller import FORMS
 from bench.law.control.registry import all_controllers, find_controller
 
 LAW = [find_contender("rotation-matrix")]
@@ -157,11 +156,6 @@ def test_what_contact_does_not_take_leaves_it_out(words):
 
 
 # ----------------------------------------------------------------------------------------------- names
-
-
-def test_hybrids_come_in_every_form_and_impedances_in_one():
-    forms = {one.law: {other.form for other in all_controllers() if other.law == one.law} for one in all_controllers()}
-    assert all(found == ({""} if law.startswith("impedance-") else set(FORMS)) for law, found in forms.items())
 
 
 # ------------------------------------------------------------------------------------------ the command

@@ -137,15 +137,20 @@ def test_run_into_a_folder_that_leads_outside_touches_neither(capsys, theirs, tm
     assert [path.name for path in outside.iterdir()] == ["mine.txt"]
 
 
-@pytest.mark.parametrize(
-    "word", ["<script>alert(1)</script>", "a|b", "`x`", "$x$", "{eval-rst}", "[a](b)", "x\ny", "\x1b[2J", "&lt;"]
-)
-def test_word_that_a_page_would_take_for_its_own_is_refused(theirs, word):
-    path = theirs / "episodes.parquet"
+def rename_regulators(folder, word: str) -> None:
+    """Put one word in the place of every regulator's name."""
+    path = folder / "episodes.parquet"
     table = pq.read_table(path)
     at = table.schema.names.index("regulator")
     column = pa.array([word] * table.num_rows).dictionary_encode()
     pq.write_table(table.set_column(at, table.schema.field(at), column), path)
+
+
+@pytest.mark.parametrize(
+    "word", ["<script>alert(1)</script>", "a|b", "`x`", "$x$", "{eval-rst}", "[a](b)", "x\ny", "\x1b[2J", "&lt;"]
+)
+def test_word_that_a_page_would_take_for_its_own_is_refused(theirs, word):
+    rename_regulators(theirs, word)
     with pytest.raises(BadResults, match="is no word of ours"):
         store.read(theirs, "episodes")
 
@@ -161,11 +166,7 @@ def test_column_of_another_kind_is_refused(theirs, values):
 
 def test_path_in_a_word_leads_nowhere(theirs):
     """Words may hold dots and slashes, as contenders do: they name no file."""
-    path = theirs / "episodes.parquet"
-    table = pq.read_table(path)
-    at = table.schema.names.index("regulator")
-    column = pa.array(["../../outside"] * table.num_rows).dictionary_encode()
-    pq.write_table(table.set_column(at, table.schema.field(at), column), path)
+    rename_regulators(theirs, "../../outside")
     before = digest(theirs.parent)
     assert set(store.read(theirs, "episodes")["regulator"]) == {"../../outside"}
     assert digest(theirs.parent) == before

@@ -5,7 +5,7 @@ import pytest
 import tasks
 from bench.engines import cache, counting
 from bench.experiments import starts
-from bench.experiments.costs import count_controller, count_law
+from bench.experiments.costs import count_operations
 from bench.experiments.kept_rows import kept
 from bench.law.contenders.registry import find_contender
 
@@ -48,14 +48,14 @@ def test_without_room_are_made_each_time(of, made, tmp_path):
 
 def test_law_of_a_user_is_not_kept():
     own = LAW._replace(regulator=LAW.regulator._replace(name="nobody-s", origin="nobody_s.py"))
-    assert count_law(own) == counting.rows([own])
+    assert count_operations(own) == counting.rows([own])
     assert not list((cache.FOLDER / "costs").glob("*nobody-s*"))
 
 
 def test_what_is_kept_is_what_is_counted():
-    assert count_law(LAW) == counting.rows([LAW])
+    assert count_operations(LAW) == counting.rows([LAW])
     one = find_contender("rotation-matrix@geometric+solve")
-    assert count_controller(one, 6) == counting.rows_on_arm(one, 6)
+    assert count_operations(one, 6) == counting.rows_on_arm(one, 6)
 
 
 @pytest.mark.parametrize("count", [None, 1, 40])

@@ -9,13 +9,13 @@ import pytest
 from support.command_line import TINY, bench, digest, refused
 from support.user_law import law_text
 
+from bench.base import lock
 from bench.base.provenance import ROOT
-from bench.experiments.tables import lock
 
 RUN = ("run", *TINY, "--engine", "reference")
 HOLD = """
 import pathlib, sys
-from bench.experiments.tables import lock
+from bench.base import lock
 with lock.held(pathlib.Path(sys.argv[1])):
     print("held", flush=True)
     sys.stdin.read()

@@ -121,14 +121,6 @@ def test_pole_poses_of_a_family_hold_position_and_angles(frames):
     assert np.ptp(angles[:, [0, 2]], axis=0).max() <= 32 * EPS / 1e-6
 
 
-def test_polished_joints_are_closer_than_newton_left_them():
-    kin = Kinematics(tasks.arm("ur5e"))
-    p, quat = kin.pose(kin.arm.home)
-    near = np.array(kin.arm.home) + 1e-7
-    found = pose_sets.polished(kin, near, p, quat)
-    assert np.abs(found - kin.arm.home).max() < 1e-12 < np.abs(near - kin.arm.home).max()
-
-
 @pytest.mark.parametrize("name", ARMS)
 def test_slice_shows_both_kinds_of_singularity(name):
     kin = Kinematics(tasks.arm(name))

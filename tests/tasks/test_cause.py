@@ -75,7 +75,7 @@ def rows_of(word: str, starts, horizon_s: float = 3.0):
     one = named(ARM, word)
     unit = Unit("arm", one.name, "arm-regulation", ARM, "native", "clear", NOMINAL, horizon_s=horizon_s)
     numbers = run("native", one, unit.task, ARM, starts, settings(horizon_s=horizon_s), METRICS)
-    return frame(Settings(), unit, one, starts, numbers, METRICS)
+    return frame(Settings(), unit, starts, numbers)
 
 
 def test_condition_of_a_row_is_the_judges_largest_along_the_way():

@@ -61,7 +61,7 @@ def cost(contender: Contender) -> Cost:
 
 def rows(contenders: Iterable[Contender]) -> list[dict]:
     """Rows of costs.parquet: contender x branch x stage, the stage "total" last."""
-    return [row for contender in contenders for row in rows_of(cost(contender))]
+    return [row for contender in contenders for row in rows_of(cost(contender), contender_words(contender))]
 
 
 def flops(numbers: dict) -> int:
@@ -69,23 +69,19 @@ def flops(numbers: dict) -> int:
     return sum(numbers[name] for name in FLOPS)
 
 
-def rows_of(one: Cost, joints: int = 0) -> Iterator[dict]:
-    """The rows of one cost; of no joints for a law alone."""
-    representation, (jacobian, inverse) = one.contender.representation, one.contender.way
+def contender_words(one: Contender, joints: int = 0) -> dict:
+    """The first columns of a contender's rows; of no joints for a law alone."""
+    coordinates = one.representation.name if one.representation else ""
+    names = "regulator", "representation", "jacobian", "inverse", "joints"
+    return dict(zip(names, (one.regulator.name, coordinates, *one.way, joints), strict=True))
+
+
+def rows_of(one: Cost, words: dict, stages: tuple[str, ...] = STAGES) -> Iterator[dict]:
+    """A row for each branch and stage of a cost, the stage "total" last; words: its first columns."""
     for branch, counts in zip(BRANCHES, (one.typical, one.worst), strict=True):
-        for stage in (*STAGES, TOTAL):
+        for stage in (*stages, TOTAL):
             numbers = counts.of(stage)
-            yield {
-                "regulator": one.contender.regulator.name,
-                "representation": representation.name if representation else "",
-                "jacobian": jacobian,
-                "inverse": inverse,
-                "joints": joints,
-                "branch": branch,
-                "stage": stage,
-                **numbers,
-                "flops": flops(numbers),
-            }
+            yield words | {"branch": branch, "stage": stage, **numbers, "flops": flops(numbers)}
 
 
 def size(counts: Counts) -> tuple[int, int]:
@@ -123,29 +119,38 @@ def _call(
 ) -> tuple[Call, tuple]:
     """The call, and the memory the law left (empty for a law without, or if it raised)."""
     given = (state.R, state.omega, state.goal, GAINS, *memory)
+    tally.stage = "regulate"
+    call, want = checked(contender.name, state, tally, lambda: plain(*given), lambda: counting(*counted(given, tally)))
+    return call, want[1] if memory and want is not None else ()
+
+
+def checked(name: str, state: Any, tally: Tally, plain: Callable, counting: Callable) -> tuple[Call, Any]:
+    """A counted call, whose answer must be the plain one bit for bit; and that answer, None if it raised.
+
+    Args:
+        state: with an id and is_sampled.
+    """
     want, answer, trouble = None, None, None
     try:
-        want = plain(*given)
+        want = plain()
     except Exception as error:
         trouble = error
-    tally.stage = "regulate"
     try:
-        answer = counting(*counted(given, tally))
+        answer = counting()
     except OutsideDialect as error:
-        raise OutsideDialect(f"law '{contender.name}': {error}") from error
+        raise OutsideDialect(f"'{name}': {error}") from error
     except Exception as error:
         if trouble is None:
             raise BadLaw(
-                f"law '{contender.name}' cannot be counted: with counting scalars it raises "
-                f"{type(error).__name__}: {error}; use only the dialect of bench/law/scalar.py"
+                f"'{name}' cannot be counted: with counting scalars it raises {type(error).__name__}: {error}; use "
+                "only the dialect of bench/law/scalar.py"
             ) from error
     if bits(answer) != bits(want):
         raise BadLaw(
-            f"law '{contender.name}' returns {values(answer)} when counted and {values(want)} when "
-            f"called with floats, at {state.id}; a law must not depend on the type of its numbers"
+            f"'{name}' returns {values(answer)} when counted and {values(want)} when called with floats, at "
+            f"{state.id}; a law must not depend on the type of its numbers"
         )
-    after = want[1] if memory and want is not None else ()
-    return Call(state, tally.take(), state.is_sampled), after
+    return Call(state, tally.take(), state.is_sampled), want
 
 
 def counted(numbers: Any, tally: Tally) -> Any:

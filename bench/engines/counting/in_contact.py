@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from bench.engines.contact_episode import room, rows
-from bench.engines.counting.costs import BRANCHES, Call, Cost, flops
-from bench.engines.counting.counted import TOTAL, Tally
-from bench.engines.counting.on_arms import ARM_OF, ArmState, arm_states, checked, median_and_worst
+from bench.engines.counting.costs import Call, Cost, rows_of
+from bench.engines.counting.counted import Tally
+from bench.engines.counting.on_arms import ARM_OF, ArmState, arm_states, call_on_arm, median_and_worst
 from bench.engines.counting.states import GAINS
 from bench.law.chain import Chain
 from bench.law.control.contact_controller import FORMS, ContactController
@@ -41,13 +41,7 @@ def cost_in_contact(controller: ContactController, specification: Specification 
 
 def rows_in_contact(controller: ContactController) -> Iterator[dict]:
     """A line for each branch and stage of a controller's cost."""
-    cost = cost_in_contact(controller)
-    for branch, counts in zip(BRANCHES, (cost.typical, cost.worst), strict=True):
-        for stage in ("regulate", "invert", TOTAL):
-            numbers = counts.of(stage)
-            yield {
-                "controller": controller.name, "branch": branch, "stage": stage, **numbers, "flops": flops(numbers)
-            }  # fmt: skip
+    return rows_of(cost_in_contact(controller), {"controller": controller.name}, ("regulate", "invert"))
 
 
 def _call(controller: ContactController, held: Any, state: ArmState, draw: np.random.Generator) -> Call:
@@ -66,4 +60,4 @@ def _call(controller: ContactController, held: Any, state: ArmState, draw: np.ra
         comply(form, held, chain, D, fg, J, into, gains, touch, room(dtype), tau)
         return tuple(tau)
 
-    return checked(controller.name, state, tally, given, torques, torques)
+    return call_on_arm(controller.name, state, tally, given, torques, torques)

@@ -13,10 +13,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 import tasks
-from bench.base.errors import BadLaw
 from bench.engines.arm_episode import buffers
-from bench.engines.counting.costs import Call, Cost, bits, counted, rows_of, size
-from bench.engines.counting.counted import Counted, OutsideDialect, Tally
+from bench.engines.counting.costs import Call, Cost, checked, contender_words, counted, rows_of, size
+from bench.engines.counting.counted import Counted, Tally
 from bench.engines.counting.staged import in_stage, law_of, staged
 from bench.engines.counting.states import GAINS
 from bench.engines.episode import vector
@@ -105,7 +104,7 @@ def median_and_worst(one: Contender | ContactController, calls: list[Call]) -> C
 
 def rows_on_arm(contender: Contender, joints: int) -> list[dict]:
     """Rows of costs.parquet of a contender on so many joints."""
-    return list(rows_of(cost_on_arm(contender, ARM_OF[joints]), joints))
+    return list(rows_of(cost_on_arm(contender, ARM_OF[joints]), contender_words(contender, joints)))
 
 
 def _command(contender: Contender, tally: Tally | None) -> Any:
@@ -160,22 +159,16 @@ def _call(contender: Contender, plain: Callable, counting: Callable, tally: Tall
     memory = tuple(np.float64(x) for x in (*(contender.regulator.memory or ()), *NO_MEMORY)[: len(NO_MEMORY)])
     given = (state.chain, state.D, state.fg, state.goal, state.p_d, memory, GAINS)
     tally.stage = "linearize"
-    return checked(contender.name, state, tally, given, plain, counting)
+    return call_on_arm(contender.name, state, tally, given, plain, counting)
 
 
-def checked(name: str, state: ArmState, tally: Tally, given: tuple, plain: Callable, counting: Callable) -> Call:
-    """The counted call, whose answer must be the plain one bit for bit."""
-    want = plain(*given, float)
-    try:
-        answer = counting(*(as_counted(one, tally) for one in given), object)
-    except OutsideDialect as error:
-        raise OutsideDialect(f"'{name}': {error}") from error
-    if bits(answer) != bits(want):
-        raise BadLaw(
-            f"'{name}' commands other torques when counted than when called with floats, at {state.id}; a law must "
-            "not depend on the type of its numbers"
-        )
-    return Call(state, tally.take(), state.is_sampled)
+def call_on_arm(name: str, state: ArmState, tally: Tally, given: tuple, plain: Callable, counting: Callable) -> Call:
+    """A counted call of what takes the type of its buffers last."""
+
+    def counted_call() -> Any:
+        return counting(*(as_counted(one, tally) for one in given), object)
+
+    return checked(name, state, tally, lambda: plain(*given, float), counted_call)[0]
 
 
 def as_counted(numbers: Any, tally: Tally) -> Any:

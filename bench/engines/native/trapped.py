@@ -15,6 +15,7 @@ from numba import carray, int32, int64, types
 
 from bench.engines.compiled import compile_callback
 from bench.engines.native.libmujoco import library, mj_forward, mj_step, mj_step1, mj_step2
+from bench.engines.typed import PART
 
 BEGIN, STEP, RUNGE_KUTTA = 0, 1, 2
 
@@ -58,7 +59,7 @@ def advance_trapped(body):
     return 0
 
 
-@numba.extending.overload(advance_trapped, jit_options={"forceinline": True})
+@numba.extending.overload(advance_trapped, jit_options=PART | {"forceinline": True})
 def _advance_trapped(body):
     return lambda body: _mjb_apply(body.batch, 0, 1, body.callback, body.asked.ctypes.data, 0)
 

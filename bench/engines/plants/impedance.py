@@ -13,7 +13,7 @@ import numpy as np
 
 from bench.engines.arm_episode import MOST
 from bench.engines.arrays import Matrix, Vector
-from bench.engines.episode import FIRST_METRIC, blank
+from bench.engines.episode import FIRST_METRIC
 from bench.engines.loop import Act, Controller, Record, episodes_of
 from bench.engines.plants import arm
 from bench.engines.simulated import Simulated, compute, fill_inertia
@@ -30,6 +30,8 @@ OVERSHOOT, OFF, LEFT, STRAIN, KINETIC, DAMPED, ELBOW, ADDED = range(FIRST_METRIC
 """A row's columns after the judge's: greatest component of the error of orientation against its first direction, over
 its first length; greatest and last distance of the tool from its place [m]; greatest torque over the rated one; kinetic
 energy at the end [J]; and of the energy's account what is damped, lost in the elbow and added [J]."""
+COLUMNS = (0.0,) * 8
+"""Their start values."""
 
 
 class Springs(NamedTuple):
@@ -160,8 +162,3 @@ def close(row, body, state, k, numbers):
 def of_arm():
     """Return the loop, for all arms."""
     return episodes_of(arm.ARM, Controller(begin, command), Record(see, account, close))
-
-
-def blank_rows(count: int) -> np.ndarray:
-    """Rows to be filled."""
-    return np.hstack((blank(count, ()), np.zeros((count, 8))))

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.engines.arrays import Cube, Matrix
-from bench.engines.episode import FIRST_METRIC, Numbers
+from bench.engines.episode import Numbers
 from bench.engines.ideal import angle_between, haversine, plus, turned
 from bench.engines.loop import Act, Controller, Plant, Sensed, episodes_of, sampled
 from bench.engines.plants.ideal import measure
@@ -34,7 +34,8 @@ LEAD = 2.0
 
 TAIL_SQUARES, TAIL_COUNT, TAIL_WORST, VARIATION = range(4)
 EXTRA = 4
-"""Columns behind the metrics': sum of squared angles in the tail, how many, the largest, and the variation of u."""
+"""Columns behind the metrics', zero at first: sum of squared angles in the tail, how many, the largest, and the
+variation of u."""
 
 
 class Timing(NamedTuple):
@@ -222,13 +223,6 @@ def loop_of(observe):
 
     plant = Plant(reset, sense, advance, measure)
     return episodes_of(plant, Controller(begin, command), metrics._replace(see=see, account=account))
-
-
-def blank_rows(count: int, metrics) -> np.ndarray:
-    """Rows to be filled: every metric at its start value."""
-    rows = np.zeros((count, FIRST_METRIC + len(metrics) + EXTRA))
-    rows[:, FIRST_METRIC : FIRST_METRIC + len(metrics)] = [metric.start for metric in metrics]
-    return rows
 
 
 def in_steps(numbers: Numbers, condition: Condition, hold_s: float, horizon_s: float) -> Numbers:

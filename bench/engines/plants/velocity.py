@@ -7,11 +7,9 @@ Kinematics are MuJoCo's, the motion the judge's exact step: there is no dynamics
 import math
 from typing import NamedTuple
 
-import numpy as np
-
 from bench.engines.arm_episode import squared
 from bench.engines.arrays import Matrix
-from bench.engines.episode import FIRST_METRIC, blank
+from bench.engines.episode import FIRST_METRIC
 from bench.engines.loop import Act, Controller, Plant, Record, Sensed, episodes_of
 from bench.engines.plants import arm, quaternion
 from bench.engines.simulated import Simulated, compute
@@ -174,10 +172,3 @@ def of_arm():
     """Return the loop of arms."""
     plant = Plant(arm.reset, sense_unlimited, follow_with_joints, arm.measure)
     return episodes_of(plant, Controller(begin, command_joints), Record(see_arm, account))
-
-
-def blank_rows(count: int, on_arm: bool) -> np.ndarray:
-    """Rows to be filled."""
-    rows = np.hstack((blank(count, ()), np.zeros((count, 6))))
-    rows[:, OFF] = 0.0 if on_arm else math.nan
-    return rows

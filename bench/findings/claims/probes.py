@@ -210,8 +210,7 @@ def beside_poles(word: str, arm: str, poses: pd.DataFrame, gains: Gains) -> pd.D
     Errors:
         NoEvidence: the table has no such pose of the arm, or none of its family at 10^-1.
     """
-    from bench.engines.simulate_arms import run_arm as run
-    from bench.experiments.episode_rows import frame
+    from bench.experiments.episodes import rows_from
     from bench.experiments.experiment import Settings, Unit
     from bench.experiments.suites import NOMINAL, ON_ARM
     from tasks.kinematics import kinematics
@@ -227,10 +226,9 @@ def beside_poles(word: str, arm: str, poses: pd.DataFrame, gains: Gains) -> pd.D
         if not id.endswith("-1e-01") and (family := id.rpartition("-1e-")[0] or id.removesuffix("-exact")) in goals
     ]
     some(starts, f"pose of {arm} beside a pole")
-    one, metrics, settings = controller(word), metrics_of(on_arm=True), Settings(gains=gains)
-    unit = Unit("arm", one.name, TASK, arm, "native", "pole", NOMINAL, count=len(starts), horizon_s=ON_ARM)
-    numbers = run("native", one, TASK, arm, starts, settings.limits(ON_ARM), metrics)
-    return frame(settings, unit, one, starts, numbers, metrics)
+    name = controller(word).name
+    unit = Unit("arm", name, TASK, arm, "native", "pole", NOMINAL, count=len(starts), horizon_s=ON_ARM)
+    return rows_from(Settings(gains=gains), unit, starts)
 
 
 def largest(frame: pd.DataFrame) -> float:

@@ -152,7 +152,7 @@ class Session:
 
 def test_ticks(benchmark: Any, plugin: Session, name: str) -> None:
     """Time one benchmark for all its rounds, each in its turn."""
-    from bench.experiments.costs import count_law
+    from bench.experiments.costs import count_operations
     from bench.running.timing.ratios import ratio
 
     one = plugin.benchmarks[name]
@@ -169,7 +169,7 @@ def test_ticks(benchmark: Any, plugin: Session, name: str) -> None:
 
     benchmark.pedantic(one.call, setup=wait, teardown=plugin.turns.send, rounds=plugin.rounds, iterations=1)
     steps = list(ratio(np.array(benchmark.stats.stats.data) / one.ticks, np.array(kernels)))
-    costs = count_law(one.contender) if plugin.turns.line is None and one.what == "law" else []
+    costs = count_operations(one.contender) if plugin.turns.line is None and one.what == "law" else []
     flops = {row["branch"]: int(row["flops"]) for row in costs if row["stage"] == "total"}
     benchmark.extra_info.update(what=one.what, ticks=one.ticks, kernel_steps=steps, flops=flops)
 

@@ -1,0 +1,96 @@
+"""Episodes of bodies kept as a quaternion: behind goals that come as a stream, and by laws with a state."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from bench.engines.binding import memory_of
+from bench.engines.compiled import BEGIN_STATE, STATEFUL, made_once, part
+from bench.engines.episode import FINAL_ANGLE, SETTLING_TICK, START_WIDTH, Numbers, start_rows
+from bench.engines.plants import quaternion
+from bench.engines.simulate import compiled_loop, evaluation, simulate
+from bench.law.contender import Contender
+from bench.law.inputs import NO_MEMORY, Gains
+from bench.law.kinds import Law, State
+from bench.law.scalar import kernel
+
+
+class Seen(NamedTuple):
+    """Greatest |u| [rad/s^2], greatest angle to the true goal [rad], path turned [rad]."""
+
+    peak_u: float
+    off_rad: float
+    way_rad: float
+
+
+class Ended(NamedTuple):
+    """What became of each start, as arrays.
+
+    settling_s: time after which the angle stays in the band [s], NaN if it does not; left_rad: angle at the end [rad];
+    peak_u: greatest |u| [rad/s^2].
+    """
+
+    settling_s: np.ndarray
+    left_rad: np.ndarray
+    peak_u: np.ndarray
+
+
+def _unlimited(gains: Gains, dt: float, ticks: int) -> Numbers:
+    """Return a loop's numbers of so many ticks that no limit ends, nor does rest."""
+    return Numbers(*gains, dt, ticks, ticks + 1, 1, *(math.inf,) * 3, 0.0, 0.0)
+
+
+def run_stream(
+    contender: Contender, goals: np.ndarray, truth: np.ndarray, gains: Gains, dt: float, is_raw: bool = False
+) -> Seen:
+    """One episode from rest at the first true goal, as long as the stream lasts, whatever becomes of it.
+
+    Args:
+        goals, truth: one a tick (n x 4). is_raw: the spring on the quaternion as it came, in the law's place.
+    """
+    start, rows = np.zeros((1, START_WIDTH)), np.zeros((1, quaternion.PATH + 1))
+    start[0, 0:4], start[0, 7:11] = truth[0], goals[0]
+    stream, limits = quaternion.Stream(goals, truth, int(is_raw)), _unlimited(gains, dt, len(goals))
+    simulate(compiled_loop("stream"), (evaluation(contender),), stream, memory_of(contender), start, limits, rows)
+    return Seen(*rows[0, quaternion.PEAK :].tolist())
+
+
+def parts_of(one: Law) -> tuple:
+    """Compile a law with a state, or take it from the disk cache."""
+    return part(one.law, STATEFUL), part(one.state.begin, BEGIN_STATE)
+
+
+def run_compensated(
+    one: Law, starts, gains: Gains, dt: float, ticks: int, band: float, push: tuple, is_plain: bool = False
+) -> Ended:
+    """Simulate starts, from their orientation and angular velocity.
+
+    Args:
+        band: half its width [rad]. push: constant disturbance [rad/s^2], base frame. is_plain: by the loop in Python.
+    """
+    loop = quaternion.with_state() if is_plain else compiled_loop("state")
+    parts = (one.law, one.state.begin) if is_plain else parts_of(one)
+    begun, rows = start_rows(starts), np.zeros((len(starts), quaternion.PEAK + 1))
+    begun[:, 11] = math.sin(0.5 * band) ** 2
+    simulate(loop, parts, quaternion.Disturbance(push), NO_MEMORY, begun, _unlimited(gains, dt, ticks), rows)
+    left = rows[:, FINAL_ANGLE]
+    return Ended(np.where(left <= band, rows[:, SETTLING_TICK] * dt, math.nan), left, rows[:, quaternion.PEAK])
+
+
+@kernel
+def nothing(R):
+    """No state."""
+    return NO_MEMORY
+
+
+@made_once
+def without_state(one) -> Law:
+    """Return a law without memory as one with a state, which stays at zero."""
+    law = one.law
+
+    @kernel
+    def still(R, omega, goal, gains, state):
+        return law(R, omega, goal, gains), NO_MEMORY
+
+    return one._replace(law=still, state=State(nothing, None, measures_rate=True, rejects=False))
