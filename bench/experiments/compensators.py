@@ -57,7 +57,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
     """Return a row a level of the disturbance."""
-    from bench.engines.simulate_quaternions import run_compensated
+    from bench.engines.simulate_bodies import run_compensated
 
     one, starts = law_of(unit.selector), tasks.start_set("uniform", unit.count, seed=settings.seed)
     found = []
@@ -86,7 +86,7 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
 
 def law_of(name: str) -> Law:
     """Return the law of that name; for an empty name the paper's on R."""
-    from bench.engines.simulate_quaternions import without_state
+    from bench.engines.simulate_bodies import without_state
 
     if name:
         return contenders("compensators")[name]
@@ -96,7 +96,7 @@ def law_of(name: str) -> Law:
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loop and the law."""
     from bench.engines.simulate import compiled_loop
-    from bench.engines.simulate_quaternions import parts_of
+    from bench.engines.simulate_bodies import parts_of
 
     compiled_loop("state")
     parts_of(law_of(unit.selector))

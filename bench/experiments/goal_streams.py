@@ -42,7 +42,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
     """Return a row a stream and law; `law` is empty for the spring on the quaternion as it came."""
-    from bench.engines.simulate_quaternions import run_stream
+    from bench.engines.simulate_bodies import run_stream
 
     dt, laws = settings.dt_s, [law for law in STREAMED if law in contenders("regulators")]
     truth = np.array([true_goal(k * dt) for k in range(round(LENGTH_S / dt))])

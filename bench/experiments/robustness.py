@@ -113,7 +113,7 @@ def _takes_part(one: Contender, part: Robustness, choice: Choice) -> bool:
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return one row a level and start; none at a level whose command the law has no gains for."""
-    from bench.engines.simulate_perturbed import run_disturbed as run
+    from bench.engines.simulate_bodies import run_disturbed as run
 
     return simulated(settings, unit, run)
 

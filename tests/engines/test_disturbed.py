@@ -17,8 +17,8 @@ from bench.engines.metrics.registry import metrics_of
 from bench.engines.plants import perturbed
 from bench.engines.simulate import run as run_unperturbed
 from bench.engines.simulate import simulate
-from bench.engines.simulate_perturbed import drawn
-from bench.engines.simulate_perturbed import run_disturbed as run
+from bench.engines.simulate_bodies import drawn
+from bench.engines.simulate_bodies import run_disturbed as run
 from bench.law.contenders.registry import find_contender
 from bench.law.contenders.regulators.hybrid import DELTA
 from bench.law.so3 import Rotation

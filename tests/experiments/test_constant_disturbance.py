@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from support.compensated import left, motion
 
 import tasks
-from bench.engines.simulate_quaternions import run_compensated
+from bench.engines.simulate_bodies import run_compensated
 from bench.experiments.compensators import BAND_RAD, DISTURBANCES, law_of
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.law.contenders.registry import contenders

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from bench.engines.simulate_quaternions import run_stream as run
+from bench.engines.simulate_bodies import run_stream as run
 from bench.experiments.chosen_words import STREAMED
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.law.contenders.registry import find_contender

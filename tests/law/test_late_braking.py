@@ -11,7 +11,7 @@ from support.states import of_scipy, vector
 import tasks
 from bench.engines.episode import OUTCOME, SETTLING_TICK
 from bench.engines.metrics.registry import metrics_of
-from bench.engines.simulate_perturbed import run_disturbed as run
+from bench.engines.simulate_bodies import run_disturbed as run
 from bench.law.contenders.registry import find_contender
 from bench.law.contenders.regulators.late_braking import law
 from bench.law.inputs import AT_REST, Gains, Goal

@@ -13,7 +13,7 @@ MODULES = """
 import sys
 from bench.experiments.experiment import known_experiments
 from bench.experiments.jacobians import pose_sets
-from bench.engines import simulate, simulate_arms, simulate_contact, simulate_perturbed
+from bench.engines import simulate, simulate_arms, simulate_contact, simulate_bodies
 from bench.experiments.tables import store
 known_experiments()
 from bench.engines.counting import in_contact, on_arms

@@ -7,7 +7,7 @@ import numpy as np
 from bench.engines.curve import blank_curves
 from bench.engines.episode import FINAL_ANGLE, OUTCOME, SETTLING_TICK, TICKS, start_rows
 from bench.engines.simulate import run
-from bench.engines.simulate_perturbed import run_disturbed
+from bench.engines.simulate_bodies import run_disturbed
 from bench.export.subject import find_subject, translated
 from bench.law.contenders.registry import find_contender
 from support.driving import settings
