@@ -10,22 +10,22 @@ LINES = {
     "bench/__init__.py": 28,
     "bench/__main__.py": 29,
     "bench/audit": 1_991,
-    "bench/base": 360,
+    "bench/base": 437,
     "bench/cli": 2_340,
-    "bench/engines": 6_341,
-    "bench/experiments": 5_880,
+    "bench/engines": 6_205,
+    "bench/experiments": 5_773,
     "bench/export": 1_984,
-    "bench/findings": 6_135,
+    "bench/findings": 6_133,
     "bench/law": 6_620,
     "bench/regression": 1_200,
-    "bench/running": 2_501,
+    "bench/running": 2_502,
     "bench/studies": 3_360,
     "tests/audit": 592,
     "tests/cli": 757,
     "tests/conftest.py": 85,
-    "tests/contracts": 2_947,
-    "tests/engines": 3_205,
-    "tests/experiments": 2_485,
+    "tests/contracts": 2_946,
+    "tests/engines": 3_047,
+    "tests/experiments": 2_470,
     "tests/export": 406,
     "tests/findings": 2_543,
     "tests/law": 3_388,
@@ -36,11 +36,11 @@ LINES = {
     "tests/studies": 863,
     "tests/support": 3_339,
     "tests/tasks": 2_175,
-    "report": 10_500,
+    "report": 10_497,
     "tasks": 5_157,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
-FILES = {"bench/audit": 35, "bench/experiments": 47, "bench/export": 18, "bench/law": 116, "tasks": 76}
+FILES = {"bench/audit": 35, "bench/experiments": 46, "bench/export": 18, "bench/law": 116, "tasks": 76}
 """Python files of the rooms in which one file adds one thing: the lines of one new file may come on top."""
 LONGEST_FILE = 250
 TOO_LONG: dict[str, int] = {}
