@@ -29,9 +29,9 @@ class Field(NamedTuple):
 
 def spread(count: int, seed: int, level: float) -> list[Start]:
     """Return orientations spread evenly over SO(3), at rest: the same at every level."""
-    from tasks.starts.uniform import build
+    from tasks.starts.uniform import between
 
-    return build(count, seed)
+    return between(0, count, seed)
 
 
 class Axis(NamedTuple):

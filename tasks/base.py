@@ -40,14 +40,21 @@ class Start(NamedTuple):
 
 
 class StartSet(NamedTuple):
-    """A named family of starts: the constant STARTS of every tasks/starts/<name>.py."""
+    """A named family of starts: the constant STARTS of every tasks/starts/<name>.py, which gives one of two functions.
+
+    fixed(seed): all starts of a fixed set. between(first, end, seed): those starts alone of a sampled set, which has
+    any number, without those before.
+    """
 
     name: str
     title: str
     size: int  # number of starts by default; a fixed set has no more
-    build: Callable[[int, int], list[Start]]  # build(count, seed); a fixed set may return more than count
-    # between(first, end, seed) of a sampled set, which has any number: those starts alone, without those before
+    fixed: Callable[[int], list[Start]] | None = None
     between: Callable[[int, int, int], list[Start]] | None = None
+
+    def build(self, count: int, seed: int) -> list[Start]:
+        """Return the first starts; of a fixed set all."""
+        return self.between(0, count, seed) if self.between else self.fixed(seed) if self.fixed else []
 
 
 class ArmStartSet(NamedTuple):

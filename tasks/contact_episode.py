@@ -22,11 +22,11 @@ from tasks.contact import ContactTask, Trial, leg, prepare, refuse
 from tasks.contact_checks import check_contact, check_trial
 from tasks.contact_model import STANDARD, ContactModel, model_xml
 from tasks.discovery import pick
-from tasks.episode import INTEGRATORS, Physics, check, control, motors
+from tasks.episode import INTEGRATORS, Driven, Physics, check, control
 from tasks.rules import ticks
 
 
-class InContact(control.Task):
+class InContact(Driven):
     """Carry out an order; episodes end at the horizon only."""
 
     def __init__(self, trial: Trial, horizon_ticks: int):
@@ -41,14 +41,10 @@ class InContact(control.Task):
 
     def before_step(self, action: Any, physics: Physics) -> None:
         """The action is the motors' torques [N m]."""
-        physics.set_control(action)
+        super().before_step(action, physics)
         pushes = self.trial.pushes
         physics.named.data.xfrc_applied["hand"] = pushes[leg(len(pushes), self.tick, self.horizon_ticks)]
         self.tick += 1
-
-    def action_spec(self, physics: Physics) -> Any:
-        """See `motors` [N m]."""
-        return motors(physics)
 
     def get_observation(self, physics: Physics) -> dict[str, np.ndarray]:
         """R, omega [rad/s] and p [m] of the hand, q and qdot of the arm, F = (f, m) [N, N m], base frame.

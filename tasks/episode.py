@@ -81,7 +81,19 @@ def motors(physics: Physics) -> Any:
     return spec.replace(minimum=np.where(stated, low, spec.minimum), maximum=np.where(stated, high, spec.maximum))
 
 
-class Regulation(control.Task):
+class Driven(control.Task):
+    """Take the model's ctrl as the action; on an arm the motors' torques [N m]."""
+
+    def before_step(self, action: Any, physics: Physics) -> None:
+        """The action is the model's ctrl."""
+        physics.set_control(action)
+
+    def action_spec(self, physics: Physics) -> Any:
+        """See `motors`; [N m] on an arm."""
+        return motors(physics)
+
+
+class Regulation(Driven):
     """Bring the body from a Start to its goal and keep it there; episodes end at the horizon only."""
 
     def __init__(self, task: Task, start: Start):
@@ -93,14 +105,6 @@ class Regulation(control.Task):
         qpos, qvel = self.task.state(self.start)
         physics.data.qpos[:] = qpos
         physics.data.qvel[:] = qvel
-
-    def before_step(self, action: Any, physics: Physics) -> None:
-        """The action is the model's ctrl."""
-        physics.set_control(action)
-
-    def action_spec(self, physics: Physics) -> Any:
-        """See `motors`; [N m] on an arm."""
-        return motors(physics)
 
     def get_observation(self, physics: Physics) -> dict[str, np.ndarray]:
         """All that a contestant sees: R, omega [rad/s], goal_quat (w, x, y, z); on an arm also q, qdot, p.

@@ -27,7 +27,7 @@ EXCESSES = (0.001, 0.1, 0.5, 1.0, 1.4)
 OUTSIDE = ((0.0, 0.0), (0.7, -1.5), (-0.7, 2.5), (1.2, 0.5))
 
 
-def build(count: int, seed: int) -> list[Start]:
+def build(seed: int) -> list[Start]:
     """Grid, just inside, on, outside."""
     return _grid() + [start for depth in DEPTHS for start in _shell("inside", depth)] + _shell("on", 0.0) + _outside()
 

@@ -25,11 +25,6 @@ OFFSET = about((2.0, 1.0, -2.0), 1.0)
 GENERIC_GOAL = zyx(2.0, -0.6, 1.4)
 
 
-def build(count: int, seed: int) -> list[Start]:
-    """The directed pairs, then uniform ones up to `count`."""
-    return between(0, count, seed)
-
-
 def between(first: int, end: int, seed: int) -> list[Start]:
     """Return the goals from `first` to before `end`."""
     directed = _directed()
@@ -103,4 +98,4 @@ def _far_before(seed: int) -> list[int]:
     return [0]
 
 
-STARTS = StartSet("goals", "Goals far from the identity, directed and uniform pairs", 200, build, between)
+STARTS = StartSet("goals", "Goals far from the identity, directed and uniform pairs", 200, between=between)

@@ -34,7 +34,7 @@ RANDOM_AXES = 4
 DECADES = range(13)
 
 
-def build(count: int, seed: int) -> list[Start]:
+def build(seed: int) -> list[Start]:
     """Exact 180° rotations first, then every axis at pi - 1 rad, pi - 0.1 rad, ...; `seed` draws random axes."""
     axes = AXES | _random_axes(seed)
     exact = [Start(f"half-turn-{name}-exact", short_of_180_degrees(axis, 0.0)) for name, axis in axes.items()]

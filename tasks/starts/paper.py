@@ -15,7 +15,7 @@ from tasks.rotations import zyx
 FIGURES = {"2.3": (1.2, 0.6, -0.9), "2.4": (1.2, -0.8, 2.2), "2.5": (2.6, 1.2, -2.8)}
 
 
-def build(count: int, seed: int) -> list[Start]:
+def build(seed: int) -> list[Start]:
     """The three starts."""
     return [Start(f"figure-{figure}", zyx(*angles)) for figure, angles in FIGURES.items()]
 

@@ -29,7 +29,7 @@ TWISTS = {
 PAIRS = ((0.0, 0.0), (0.1, 0.2), (1.0, -0.5), (-2.0, 1.0), (2.5, 2.8))
 
 
-def build(count: int, seed: int) -> list[Start]:
+def build(seed: int) -> list[Start]:
     """Exact poles first, then both poles at every distance."""
     exact = [
         Start(f"pole-{pole}-exact-twist-{name}", on_pole(sign, twist))

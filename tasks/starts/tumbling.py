@@ -13,11 +13,6 @@ from tasks.haar import direction, halton, orientation
 SPEED_LIMIT = 20.0  # [rad/s]
 
 
-def build(count: int, seed: int) -> list[Start]:
-    """The first `count` points of the sequence of this seed."""
-    return between(0, count, seed)
-
-
 def between(first: int, end: int, seed: int) -> list[Start]:
     """The points from `first` to before `end`."""
     starts = []
@@ -28,4 +23,4 @@ def between(first: int, end: int, seed: int) -> list[Start]:
     return starts
 
 
-STARTS = StartSet("tumbling", "Uniform orientations turning at up to 20 rad/s", 200, build, between)
+STARTS = StartSet("tumbling", "Uniform orientations turning at up to 20 rad/s", 200, between=between)

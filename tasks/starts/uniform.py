@@ -6,15 +6,10 @@ from tasks.base import Start, StartSet
 from tasks.haar import halton, orientation
 
 
-def build(count: int, seed: int) -> list[Start]:
-    """The first `count` points of the sequence of this seed."""
-    return between(0, count, seed)
-
-
 def between(first: int, end: int, seed: int) -> list[Start]:
     """The points from `first` to before `end`."""
     points = enumerate(halton(end - first, 3, seed, first), first)
     return [Start(f"uniform-{i:05d}", orientation(*point)) for i, point in points]
 
 
-STARTS = StartSet("uniform", "Low-discrepancy orientations, Haar measure", 5000, build, between)
+STARTS = StartSet("uniform", "Low-discrepancy orientations, Haar measure", 5000, between=between)

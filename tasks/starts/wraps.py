@@ -19,7 +19,7 @@ NEAR = ((0.0, 0.0), (0.4, 0.3), (-0.9, -1.5))
 EXACT = ((0.0, 0.0), (0.4, 0.0), (-0.9, 0.0), (0.0, 0.3), (0.0, -1.5))
 
 
-def build(count: int, seed: int) -> list[Start]:
+def build(seed: int) -> list[Start]:
     """Exact ones first, then both jumps from both sides at every distance."""
     exact = [
         Start(f"wrap-{angle}-exact-b{beta}-o{other}", _start(angle, math.pi, beta, other))
