@@ -19,7 +19,7 @@ from bench.law.contenders.registry import find_contender
 from bench.running import run
 from bench.running.run_folder import begin, part
 from bench.running.schedulers import check_scheduler, cluster, kind, worker
-from bench.running.schedulers.batches import CHUNK_S, MOST_EPISODES, in_batches, seconds
+from bench.running.schedulers.cluster import CHUNK_S, MOST_EPISODES, in_batches, seconds
 from bench.running.wire_format import described
 
 

@@ -1,7 +1,10 @@
 """Units carried out by a Dask cluster: of processes of this machine, or one that is there already.
 
 Text travels to a worker (wire_format.py) and parquet travels back; the client writes it, so that no disk is shared. A
-chunk whose worker is lost is run again by another. Limitations: if a unit ends every worker that takes it.
+chunk takes a worker 10 to 60 s by what units usually cost: one of less is carried about more than worked on; of a longer
+one that is lost with its worker, and run again by another, more is done again.
+
+Limitations: a unit that ends every worker that takes it ends the run.
 """
 
 import contextlib
@@ -17,12 +20,11 @@ from dask import config
 
 from bench.base.errors import LostWorkers, MissingTool
 from bench.base.files import write_atomically
-from bench.experiments.experiment import Unit
+from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
 from bench.running.run_folder import part
 from bench.running.sandbox import Sandbox
 from bench.running.schedulers import LOCAL, worker
-from bench.running.schedulers.batches import in_batches
 from bench.running.wire_format import described
 
 AHEAD = 2
@@ -176,3 +178,36 @@ class Chunks:
                 write_atomically(path, lambda temporary, file=file: Path(temporary).write_bytes(file))
                 self.done(unit)
         del self.given[future]
+
+
+CHUNK_S = 25.0
+"""Seconds of a chunk: a unit may take 2.4 times what it usually does, or 0.4 of it, and stay within 10 to 60 s."""
+
+ROUNDS = 4
+"""Chunks that each worker has at least, so that none waits long for the last one of another."""
+
+MOST_EPISODES = 50_000
+"""Of a chunk: 10 MB of rows, which the worker and then the client hold."""
+
+
+def seconds(unit: Unit) -> float:
+    """What a unit usually takes a worker."""
+    return experiment_of(unit).cost_s(unit)
+
+
+def in_batches(units: Sequence[Unit], workers: int) -> list[tuple[Unit, ...]]:
+    """Cut the units, in their order, into chunks of at most CHUNK_S, or of one unit that takes longer.
+
+    Args:
+        workers: that are there; of little work each gets ROUNDS chunks all the same.
+    """
+    most_s = min(CHUNK_S, sum(map(seconds, units)) / (ROUNDS * max(1, workers)))
+    chunks: list[list[Unit]] = []
+    room_s, room = 0.0, 0
+    for unit in units:
+        if seconds(unit) > room_s or unit.episodes > room:
+            chunks.append([])
+            room_s, room = most_s, MOST_EPISODES
+        chunks[-1].append(unit)
+        room_s, room = room_s - seconds(unit), room - unit.episodes
+    return list(map(tuple, chunks))
