@@ -1,8 +1,8 @@
 """Units carried out by a Dask cluster: of processes of this machine, or one that is there already.
 
 Text travels to a worker (wire_format.py) and parquet travels back; the client writes it, so that no disk is shared. A
-chunk takes a worker 10 to 60 s by what units usually cost: one of less is carried about more than worked on; of a longer
-one that is lost with its worker, and run again by another, more is done again.
+chunk takes a worker 10 to 60 s by what units usually cost: one of less is carried about more than worked on; of one of
+more that is lost with its worker, and run again by another, more is done again.
 
 Limitations: a unit that ends every worker that takes it ends the run.
 """
