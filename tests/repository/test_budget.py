@@ -18,7 +18,7 @@ LINES = {
     "bench/findings": 6_133,
     "bench/law": 6_620,
     "bench/regression": 1_200,
-    "bench/running": 2_502,
+    "bench/running": 2_497,
     "bench/studies": 3_360,
     "tests/audit": 592,
     "tests/cli": 757,
@@ -37,7 +37,7 @@ LINES = {
     "tests/support": 3_339,
     "tests/tasks": 2_175,
     "report": 10_497,
-    "tasks": 5_157,
+    "tasks": 5_149,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
 FILES = {"bench/audit": 35, "bench/experiments": 46, "bench/export": 18, "bench/law": 116, "tasks": 76}
