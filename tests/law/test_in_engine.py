@@ -137,18 +137,12 @@ def test_suite_runs_it_in_mujoco_alone_on_sampled_starts_and_half_turns(word):
     assert {unit.arm for unit in units} == {""}
 
 
-@pytest.mark.parametrize(
-    ("choice", "reason"),
-    [
+def test_it_is_refused_where_mujoco_has_no_such_actuator():
+    for choice, reason in (
         (Choice(tasks=("free-body",), engines=("ideal-rk4",)), "ideal-rk4 simulates no actuator of MuJoCo"),
         (Choice(arms=("ur5e",)), "'in-engine' is an actuator of MuJoCo and turns the free body alone"),
-    ],
-)
-def test_it_is_refused_where_mujoco_has_no_such_actuator(choice, reason):
-    with pytest.raises(Incompatible, match=reason):
-        make("quick", [ONE], choice)
-
-
-def test_arm_has_no_such_actuator():
+    ):
+        with pytest.raises(Incompatible, match=reason):
+            make("quick", [ONE], choice)
     with pytest.raises(BadValue, match="'arm-regulation' has no model with an <orientation> actuator"):
         tasks.task("arm-regulation", "ur5e").with_servo(*GAINS)

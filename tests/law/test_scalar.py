@@ -95,27 +95,20 @@ def test_primitive_is_nan_outside_its_domain(function, given, kind):
     assert math.isnan(function(kind(given)))
 
 
-def test_sqrt_of_minus_zero_keeps_the_sign():
-    assert same_bits([sqrt(np.float64(-0.0))], [-0.0])
-
-
 @pytest.mark.parametrize(
-    ("y", "x", "angle"),
+    ("function", "given", "answer"),
     [
-        (0.0, 0.0, 0.0),
-        (-0.0, 0.0, -0.0),
-        (0.0, -0.0, math.pi),
-        (-0.0, -1.0, -math.pi),
-        (math.inf, math.inf, math.pi / 4),
+        (sqrt, (-0.0,), -0.0),
+        (atan2, (0.0, 0.0), 0.0),
+        (atan2, (-0.0, 0.0), -0.0),
+        (atan2, (0.0, -0.0), math.pi),
+        (atan2, (-0.0, -1.0), -math.pi),
+        (atan2, (math.inf, math.inf), math.pi / 4),
+        *((copysign, (-2.0, sign), math.copysign(2.0, sign)) for sign in (0.0, -0.0, 3.0, -3.0, math.inf, -math.inf)),
     ],
 )
-def test_atan2_follows_the_signs_of_zero_and_infinity(y, x, angle):
-    assert same_bits([atan2(np.float64(y), np.float64(x))], [angle])
-
-
-@pytest.mark.parametrize("sign", [0.0, -0.0, 3.0, -3.0, math.inf, -math.inf])
-def test_copysign_takes_the_sign_bit_of_zero_too(sign):
-    assert same_bits([copysign(np.float64(-2.0), np.float64(sign))], [math.copysign(2.0, sign)])
+def test_primitive_follows_the_signs_of_zero_and_infinity(function, given, answer):
+    assert same_bits([function(*map(np.float64, given))], [answer])
 
 
 def test_division_of_what_engines_pass_follows_ieee_754():

@@ -130,7 +130,7 @@ def check_fields(own: Law, path: Path) -> None:
             f"({' '.join(MARKERS)}) and a line ({', '.join(LINES)})",
         ),
         (
-            not (shown.equation is None or isinstance(shown.equation, Equation)),
+            not (shown.equation is None or isinstance(shown.equation, Equation) or callable(shown.equation)),
             f"its equation is {_shown(shown.equation)}; give a bench.law.Equation(formula, spring)",
         ),
         (

@@ -27,7 +27,6 @@ REGULATOR = Law(
     formula=r"u = K_p\, B\,(E_d - E) - K_v\,\omega",
     law_in=law_in,
     coordinates=("zyx-euler",),
-    property="local",
     later=True,
     display=Display("Euler gradient", Look("sky", "s", "dashed"), "Euler variants, controls"),
 )

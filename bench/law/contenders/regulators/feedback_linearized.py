@@ -74,7 +74,6 @@ REGULATOR = Law(
     law_in=law_in,
     coordinate_law_in=coordinate_law_in,
     coordinates="any",
-    property="local",
     papers=3,
     display=Display(
         "feedback-linearized",

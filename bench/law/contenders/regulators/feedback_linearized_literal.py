@@ -8,16 +8,6 @@ from bench.law import Display, Law, Look, cos, kernel, sin
 
 
 @kernel
-def times(rows, v):
-    """Matrix (three rows) times vector."""
-    return (
-        rows[0][0] * v[0] + rows[0][1] * v[1] + rows[0][2] * v[2],
-        rows[1][0] * v[0] + rows[1][1] * v[1] + rows[1][2] * v[2],
-        rows[2][0] * v[0] + rows[2][1] * v[1] + rows[2][2] * v[2],
-    )
-
-
-@kernel
 def inverse_times(sa, ca, sb, cb, omega):
     """B^-1 omega with the elements of (2.9); its two constant rows are not multiplied out."""
     return (
@@ -71,7 +61,6 @@ REGULATOR = Law(
     formula=r"u = B\,\bigl(u_E - \tfrac{d}{dt}(B^{-1})\,\omega\bigr)",
     law_in=law_in,
     coordinates=("zyx-euler",),
-    property="local",
     costing_only=True,
     display=Display(look=Look("sky", "v", "dotted")),
 )

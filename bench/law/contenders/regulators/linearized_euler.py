@@ -31,7 +31,6 @@ REGULATOR = Law(
     r"(\gamma, \beta, \alpha)",
     law_in=law_in,
     coordinates=("zyx-euler",),
-    property="local",
     papers=2,
     display=Display("linearized Euler", Look("vermillion", "s", "dashed"), "The paper's three"),
 )

@@ -33,6 +33,5 @@ REGULATOR = Law(
     law_in=law_in,
     coordinates=("zyx-euler",),
     relative=True,
-    property="local",
     display=Display("linearized, from goal", Look("purple", "D", "dash-dot"), "Euler variants, controls"),
 )
