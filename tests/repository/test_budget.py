@@ -33,7 +33,7 @@ LINES = {
     "tests/report": 2_596,
     "tests/repository": 616,
     "tests/running": 1_155,
-    "tests/studies": 863,
+    "tests/studies": 857,
     "tests/support": 3_339,
     "tests/tasks": 2_175,
     "report": 10_497,
