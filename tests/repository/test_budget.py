@@ -24,7 +24,7 @@ LINES = {
     "tests/cli": 757,
     "tests/conftest.py": 85,
     "tests/contracts": 2_946,
-    "tests/engines": 3_047,
+    "tests/engines": 3_044,
     "tests/experiments": 2_470,
     "tests/export": 406,
     "tests/findings": 2_543,
