@@ -3,8 +3,8 @@
     python report/media.py     renders into report/_static/media (needs GL)
 
 Joint angles come from the compiled engine, tick by tick, as in every episode of the results; MuJoCo draws them
-offscreen by EGL or else OSMesa, each tried in a process of its own. Where neither works the committed files stay.
-The loop needs imageio-ffmpeg (the dev extra).
+offscreen by EGL (or MUJOCO_GL=osmesa). Where that does not work the committed files stay. The loop needs
+imageio-ffmpeg (the dev extra).
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from __future__ import annotations
 import json
 import math
 import os
-import subprocess
 import sys
 from contextlib import closing
 from pathlib import Path
@@ -21,9 +20,6 @@ from drawing import HALF, MEDIA, Motion, View, loop, save, sheet, written
 
 REPORT = Path(__file__).resolve().parent
 FACTS = MEDIA / "media.json"
-BACKENDS = ("egl", "osmesa")
-DRAW = "--draw"
-NO_GL = 3  # exit status of a process that cannot draw
 
 ARM, START_SET, START, SEED = "ur5e", "pole", "pole-minus-1-k2", 0
 TASK = "arm-regulation"
@@ -115,8 +111,9 @@ def at_home() -> None:
     save(strip, "arms.png")
 
 
-def draw() -> int:
-    """All files, in this process; NO_GL if MuJoCo cannot draw here."""
+def main() -> None:
+    """Draw all files; leave them as they are where MuJoCo cannot draw."""
+    os.environ.setdefault("MUJOCO_GL", "egl")
     sys.path.insert(0, str(REPORT.parent))
     import contact_media
 
@@ -125,38 +122,19 @@ def draw() -> int:
     try:
         large = View(Puppet(ARM), HALF, CAMERA, CLOSE)
     except Exception as reason:  # what a missing GL raises depends on the backend
-        print(f"media: {os.environ['MUJOCO_GL']} does not draw here ({reason})", file=sys.stderr)
-        return NO_GL
+        sys.exit(f"media: nothing is drawn here ({reason}); the files stay (cure: apt-get install libegl1 libgl1)")
     MEDIA.mkdir(parents=True, exist_ok=True)
     found = motions()
-    shown = {CONTENDERS[word]: motion for word, (motion, _) in found.items()}
     at_home()
-    both = {title: (large, motion) for title, motion in shown.items()}
+    both = {CONTENDERS[word]: (large, motion) for word, (motion, _) in found.items()}
     loop("pole-loop", both, LOOP_S, SLOWER, f", played {SLOWER} times slower", POSTER_S)
     contact_media.tasks_in_contact()
     contact_media.on_the_plate()
-    commit = describe()["commit"]
-    text = json.dumps({**facts(found, commit), "contact": contact_media.facts()}, indent=1) + "\n"
-    FACTS.write_text(text, encoding="utf-8")
-    return 0
-
-
-def main() -> int:
-    """Try every way to draw; without one leave the files as they are."""
-    if DRAW in sys.argv[1:]:
-        return draw()
-    for backend in BACKENDS:
-        command = [sys.executable, str(Path(__file__).resolve()), DRAW]
-        status = subprocess.run(command, env={**os.environ, "MUJOCO_GL": backend}, check=False).returncode
-        if status == 0:
-            kilobytes = sum(path.stat().st_size for path in MEDIA.iterdir()) / 1e3
-            print(f"media: {kilobytes:.0f} kB in {MEDIA.relative_to(REPORT.parent)}, drawn by {backend}")
-            return 0
-        if status != NO_GL:
-            return status
-    print("media: no GL on this machine; the committed files stay (cure: apt-get install libegl1 libgl1)")
-    return 0
+    about = {**facts(found, describe()["commit"]), "contact": contact_media.facts()}
+    FACTS.write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8")
+    kilobytes = sum(path.stat().st_size for path in MEDIA.iterdir()) / 1e3
+    print(f"media: {kilobytes:.0f} kB in {MEDIA.relative_to(REPORT.parent)}")
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

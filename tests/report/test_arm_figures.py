@@ -15,13 +15,11 @@ from bench.experiments.tables import read, store
 from bench.law.contenders.registry import find_contender
 from bench.running import run
 from report.figures.arms import (
-    arm_advice,
     arm_pole,
     arm_ranking,
     arm_rows,
     arms,
     model_error,
-    model_rest,
 )
 from report.figures.kit.page import ABSENT, Run, run_in
 
@@ -90,7 +88,7 @@ def test_pole_distances_are_read_from_the_names_of_the_starts():
 
 def test_six_joints_rest_where_gravity_alone_leaves_them():
     # 1 % of a transient is left after 2.5 s at most: (1 + 25) exp(-25) of the first angle is far below it
-    ratios = model_rest.ratios(model_rest.predicted(model_error.compared(shown())))
+    ratios = model_error.ratios(model_error.predicted(model_error.compared(shown())))
     assert len(ratios) == STARTS * len(model_error.SHOWN)
     assert ratios.to_numpy() == pytest.approx(1.0, abs=0.02)
 
@@ -125,13 +123,3 @@ def test_baselines_are_compared_with_the_laws():
     assert [cells[0] for cells in found] == ["Resolved rate", "(2.2) MRP"]
     assert found[0][3].startswith("**100 (")
     assert found[1][3] == "25 (11 to 47)"
-
-
-def test_inverses_that_are_not_told_apart_tie():
-    rows = pd.concat(
-        rows_of({"rotation-matrix": count}, way=f"rotation-matrix@geometric+{inverse}")
-        for inverse, count in (("standard", 10), ("damped-least-squares", 12), ("transpose", 1))
-    )
-    said = arm_advice.inverses(rows)
-    assert "“damped least squares”, “inverse, or pseudo-inverse” tie, at up to 60 % (" in said
-    assert "leads: 50 % (" in arm_advice.inverses(rows[~rows["way"].str.endswith("squares")])

@@ -15,8 +15,7 @@ from bench.engines.counting import rows_on_arm
 from bench.experiments import jacobians as poses
 from bench.experiments.experiment import Settings
 from bench.experiments.tables.read import with_contender
-from bench.findings.claims.euler_jacobian import ROUNDINGS
-from bench.findings.claims.probes import controller
+from bench.findings.claims.arm_probes import controller
 from report.figures.arms import condition_maps, controller_costs, jacobians
 
 ARMS = ("puma560", "panda")
@@ -75,17 +74,6 @@ def test_slice_is_put_back_on_its_grid(seen):
     assert grid.x[column] == pytest.approx(math.degrees(at[f"q_{grid.first}"]))
     assert grid.y[row] == pytest.approx(math.degrees(at[f"q_{grid.second}"]))
     assert np.isfinite(grid.condition).all()
-
-
-def test_only_the_papers_coordinates_grow_towards_their_pole(seen):
-    least, most, others = (float(power) for power in jacobians.slopes(of(seen, "pole")).values())
-    assert (least, most) == pytest.approx((1.0, 1.0), abs=0.05)
-    assert others < 0.1
-
-
-def test_gap_is_nothing_but_rounding(seen):
-    found = jacobians.gaps(of(seen, representation="zyx-euler"))
-    assert max(found.values()) < ROUNDINGS
 
 
 def test_stages_add_up_to_the_total(counted):

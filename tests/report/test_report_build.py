@@ -7,7 +7,7 @@ import pytest
 
 
 def finished(folder):
-    folder.mkdir(parents=True)
+    folder.mkdir(parents=True, exist_ok=True)
     (folder / build.WRITTEN_LAST).write_text("{}")
     return folder
 
@@ -17,32 +17,24 @@ def unset(monkeypatch):
     monkeypatch.delenv(build.RESULTS_VARIABLE, raising=False)
 
 
-def test_report_prefers_the_latest_results(tmp_path):
-    latest = finished(tmp_path / "results" / "latest")
-    finished(tmp_path / "results" / "reference")
-    assert build.results_folder(tmp_path) == latest
-
-
-def test_report_takes_the_reference_when_the_latest_run_is_unfinished(tmp_path):
+@pytest.mark.parametrize(("done", "expected"), [(("latest", "reference"), "latest"), (("reference",), "reference")])
+def test_report_takes_the_latest_finished_results(tmp_path, done, expected):
     (tmp_path / "results" / "latest").mkdir(parents=True)
-    reference = finished(tmp_path / "results" / "reference")
-    assert build.results_folder(tmp_path) == reference
+    folders = {name: tmp_path / "results" / name for name in ("latest", "reference")}
+    for name in done:
+        finished(folders[name])
+    assert build.results_folder(tmp_path) == folders[expected]
 
 
 def test_report_takes_the_folder_the_environment_names(tmp_path, monkeypatch):
-    named = finished(tmp_path / "elsewhere")
-    monkeypatch.setenv(build.RESULTS_VARIABLE, str(named))
-    assert build.results_folder(tmp_path) == named
+    monkeypatch.setenv(build.RESULTS_VARIABLE, str(finished(tmp_path / "elsewhere")))
+    assert build.results_folder(tmp_path) == tmp_path / "elsewhere"
 
 
-def test_report_says_the_cure_when_there_are_no_results(tmp_path):
-    with pytest.raises(build.CannotBuild, match="cure: make bench"):
-        build.results_folder(tmp_path)
-
-
-def test_report_says_the_cure_when_the_named_folder_is_no_run(tmp_path, monkeypatch):
-    monkeypatch.setenv(build.RESULTS_VARIABLE, str(tmp_path))
-    with pytest.raises(build.CannotBuild, match=r"holds no provenance\.json"):
+@pytest.mark.parametrize(("named", "cure"), [("", "cure: make bench"), ("here", r"holds no provenance\.json")])
+def test_report_says_the_cure_when_there_are_no_results(tmp_path, monkeypatch, named, cure):
+    monkeypatch.setenv(build.RESULTS_VARIABLE, str(tmp_path) if named else "")
+    with pytest.raises(build.CannotBuild, match=cure):
         build.results_folder(tmp_path)
 
 

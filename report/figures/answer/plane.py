@@ -20,17 +20,11 @@ COLOURS = (style.MUTED, "#0072b2", "#d55e00")
 SECONDS = (0.5, 0.6, 0.7, 0.8, 1.0, 1.5, 2.0, 3.0)
 """Ticks of the upright axis, which is even in 1/time: fast laws get room, and "never" has a place."""
 
+LABEL_GAP = 0.05
+"""Least distance of two names beside the plane, as a share of the fastest rate."""
+
 ABBREVIATED = families.word(FEEDBACK), "f-l"
 """The longest name, and what stands for it on the plane."""
-
-CLOSE_PT = 12.0
-"""A name farther from its mark than this [pt] is joined to it by a line."""
-
-AROUND = sorted(
-    ((side * reach, lift) for reach in (7, 14, 24, 36, 50) for lift in range(-48, 49, 6) for side in (1, -1)),
-    key=lambda shift: math.hypot(shift[0], 1.5 * shift[1]),
-)
-"""Offsets of a name from its mark [pt], the best first."""
 
 
 def coverage(found: Measured, law: str) -> int:
@@ -78,49 +72,15 @@ def plane(found: Measured, *, narrow: bool = False):
     ticks = [tick for tick in SECONDS if 1.0 / tick < 1.12 * fastest]
     axes.set_yticks([*(1.0 / tick for tick in ticks), 0.0], [*(f"{tick:g}" for tick in ticks), "never"])
     axes.set(ylabel="99 % of all starts settled in [s]")
-    named = list(places)
-    if narrow:
-        named = [law for law in named if law in PAPERS or coverage(found, law) == len(COVERAGE) - 1]
+    named = [law for law in places if law in PAPERS or coverage(found, law) == len(COVERAGE) - 1]
     figure.legend(loc="outside upper left", ncols=1 if narrow else 3, columnspacing=1.4)
-    _label(axes, places, {law: COLOURS[coverage(found, law)] for law in reversed(named)})
+    heights = style.apart([places[law][1] for law in named], LABEL_GAP * fastest)
+    for law, height in zip(named, heights, strict=True):
+        colour, word = COLOURS[coverage(found, law)], families.word(law).replace(*ABBREVIATED)
+        line = {"arrowstyle": "-", "color": colour, "linewidth": 0.5, "shrinkA": 0, "shrinkB": 3}
+        at = {"xytext": (1.01 * edge, height), "ha": "left", "va": "center", "color": colour, "fontsize": 8.5}
+        axes.annotate(word, places[law], arrowprops=line, annotation_clip=False, **at)
     return figure, sentence(found)
-
-
-def _label(axes, places: dict[str, tuple[float, float]], colours: dict[str, str]) -> None:
-    """Name marks where a name meets no other name and no mark: at the first such place of AROUND, or not at all.
-
-    Args:
-        places: of all marks. colours: of the names, the first to be placed first.
-    """
-    figure = axes.figure
-    figure.draw_without_rendering()
-    taken = [_box(axes, [place], 4.0) for place in places.values()]
-    whole = axes.get_window_extent()
-    for law, colour in colours.items():
-        for shift in AROUND:
-            side = {"ha": "left" if shift[0] > 0 else "right", "va": "center", "color": colour, "fontsize": 8.5}
-            word = families.word(law).replace(*ABBREVIATED)
-            text = axes.annotate(word, places[law], shift, textcoords="offset points", **side)
-            spot = text.get_window_extent()
-            edges = (spot.x0, spot.y0, spot.x1, spot.y1)
-            is_inside = whole.x0 <= spot.x0 and spot.x1 <= whole.x1 and whole.y0 <= spot.y0 and spot.y1 <= whole.y1
-            if is_inside and not any(_meet(edges, other) for other in taken):
-                taken.append(edges)
-                if math.hypot(*shift) > CLOSE_PT:
-                    line = {"arrowstyle": "-", "color": colour, "linewidth": 0.5, "shrinkA": 0, "shrinkB": 3}
-                    axes.annotate("", places[law], shift, textcoords="offset points", arrowprops=line)
-                break
-            text.remove()
-
-
-def _box(axes, points: list[tuple[float, float]], margin: float) -> tuple[float, float, float, float]:
-    """The box around some points, in pixels."""
-    at = axes.transData.transform(points)
-    return (*(at.min(axis=0) - margin), *(at.max(axis=0) + margin))
-
-
-def _meet(one: tuple, other: tuple) -> bool:
-    return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
 
 
 def sentence(found: Measured) -> str:

@@ -10,9 +10,10 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from report.figures.arms import arm_advice, arm_pole, arm_ranking, arm_rows
+from bench.findings.selection import needs
+from report.figures.arms import arm_pole, arm_ranking, arm_rows
 from report.figures.arms.arm_rows import STANDARD
-from report.figures.kit import html
+from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import prose
 from report.figures.kit.tables import Table
@@ -39,8 +40,7 @@ def facts(run: Run) -> dict:
     causes = laws.loc[~arm_rows.settled(laws), "cause"]
     return {
         **arm_ranking.facts(rows),
-        "advised": arm_advice.advised(run),
-        "inverse_advice": arm_advice.inverses(rows),
+        "advised": advised(run),
         "pole_n": len(both),
         "pole_fails": int(both["fails"].sum()),
         "pole_fails_m": int(both["fails_matrix"].sum()),
@@ -51,7 +51,7 @@ def facts(run: Run) -> dict:
         "cond_m": html.number(both["cond_jacobian_max_matrix"].median()),
         "margin": f"{NEAR_MARGIN:g}",
         "condition": f"{NEAR_CONDITION:g}",
-        "both_ways": arm_advice.same_both_ways(rows),
+        "both_ways": same_both_ways(rows),
         "possible": f"{100.0 * float((laws['peak_torque_ratio'] <= 1.0).mean()):.0f}",
         "kinematic": int((causes == "kinematic").sum()),
         "failures": len(causes),
@@ -118,3 +118,19 @@ def at_the_wrist(rows: pd.DataFrame) -> Iterator[tuple]:
         named = arm_rows.title(controller), arm_rows.title_of_inverse(inverse), len(own)
         measured = strays.median(), strays.quantile(0.95), own["peak_torque_ratio"].median()
         yield *named, 100.0 * arm_rows.settled(own).mean(), *measured
+
+
+def advised(run: Run) -> str:
+    """Return the law that is advised for an arm (`selection.needs`)."""
+    law = in_run(lambda: needs.advice(run.folder).of(needs.ARM).law)
+    return families.word(law) if law else "none, for this run does not tell"
+
+
+def same_both_ways(rows: pd.DataFrame) -> str | None:
+    """How many episodes of the Euler law end alike by (2.2) with (2.15) and by (3.7)."""
+    pair = [arm_rows.of(rows, controller) for controller in (arm_rows.SAME_BOTH_WAYS, arm_rows.ON_ANGLES)]
+    both = pair[0].merge(pair[1], on=["arm", "start_set", "start_id"])
+    if both.empty:
+        return None
+    alike = int((both["outcome_x"] == both["outcome_y"]).sum())
+    return f"{alike} of {len(both)}"

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 import pandas as pd
 
-from bench.findings.claims.euler_jacobian import DIFFERENCED, EPS, NEAR, WELL_CONDITIONED
+from bench.findings.claims.euler_jacobian import WELL_CONDITIONED
 from bench.law.contenders.registry import papers_coordinates
 from report.figures.arms import arm_looks, condition_maps
 from report.figures.kit import html, media
@@ -15,8 +14,6 @@ from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
 
 PAPERS = papers_coordinates().name
-ON_THE_WAY = r"^(?P<family>.+)-1e-(?P<k>\d+)$"
-"""Id of a pose at 10^-k from the pole."""
 LOST = 1e12
 """A condition number beyond which the rest is rounding: what a double holds, less four digits."""
 FIRST_EXAMPLE = {"pose_set": "named", "arm": "puma560", "pose_id": "qn"}
@@ -47,8 +44,6 @@ def of_poses(run: Run) -> dict:
     return {
         **first_example(papers(run, **FIRST_EXAMPLE)),
         **most_spoilt(papers(run, pose_set="random")),
-        **{name: f"{value:.1f}" for name, value in gaps(every).items()},
-        **slopes(run.rows("poses", pose_set="pole")),
         "joints": joints(slices),
         "bad": f"{condition_maps.BAD:g}",
         "well": f"{WELL_CONDITIONED:g}",
@@ -82,35 +77,11 @@ def most_spoilt(rows: pd.DataFrame) -> dict[str, str]:
     return {"spoilt_least": least, "spoilt_most": most}
 
 
-def gaps(rows: pd.DataFrame) -> dict[str, float]:
-    """Largest gaps of J_E where the margin is NEAR or more, in the units of what rounding leaves, over the margin.
-
-    (3.3) against (3.5) and the determinants in eps; (3.3) against central differences in eps^(2/3).
-    """
-    near = rows[rows["margin"] >= NEAR]
-    units = {"derived": ("derivation_gap", EPS), "measured": ("difference_gap", DIFFERENCED)}
-    units["determinants"] = "det_gap", EPS
-    return {name: float((near[gap] * near["margin"] / unit).max()) for name, (gap, unit) in units.items()}
-
-
 def joints(rows: pd.DataFrame) -> str:
     """The joints of each slice and its number of poses, for a caption."""
     grids = {name: condition_maps.Grid(rows[rows["arm"] == name]) for name in arm_looks.arms(rows)}
     parts = [f"{arm_looks.title(name)}: joints {own.first} and {own.second}" for name, own in grids.items()]
     return f"{'; '.join(parts)} ({rows.groupby('arm', observed=True)['pose_id'].nunique().max()} poses each)"
-
-
-def slopes(rows: pd.DataFrame) -> dict[str, str]:
-    """Fit the power of 1/distance by which cond J_E grows on each path to the Z-Y-X pole, from 0.1 to 10^-8 rad.
-
-    In Z-Y-X angles the least and the most of any path; in all other coordinates the most.
-    """
-    ways = rows.join(rows["pose_id"].astype(str).str.extract(ON_THE_WAY)).dropna(subset="k")  # but those on the pole
-    at = ways.set_index(["representation", "arm", "family", ways["k"].astype(int)])["condition_analytic"].unstack("k")
-    powers = np.log10(at[8] / at[1]) / 7.0
-    papers = powers.index.get_level_values("representation") == PAPERS
-    least, most, others = powers[papers].min(), powers[papers].max(), powers[~papers].max()
-    return {"slope_least": f"{least:.3f}", "slope_most": f"{most:.3f}", "slope_others": f"{others:.3f}"}
 
 
 def filmed() -> dict[str, str]:

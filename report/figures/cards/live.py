@@ -9,6 +9,7 @@ import html as markup
 import itertools
 import json
 import math
+import tomllib
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -30,44 +31,14 @@ CONTROLS = Path(__file__).with_name("live.html")
 OPENING = {"a": "rotation-matrix", "b": "late-braking", "start": "half-turn-random0-k02"}
 """What the page shows first: the paper's first law beside half a turn, and one that leaves it at once."""
 
-PRESETS = (
-    ("Exactly half a turn", "rotation-matrix", "late-braking", "start=half-turn-random0-exact"),
-    ("A sign forgotten", "quaternion-shortest", "quaternion-unwinding", "start=goal-beyond-wrap-gamma-up"),
-    ("Beside a pole", "linearized-euler/zyx-euler", "euler-gradient/zyx-euler", "start=pole-plus-k02-a2.5-g2.8"),
-    ("Spinning", "feedback-linearized/zyx-euler", "mrp", "start=tumbling-0006"),
-    ("Late by 40 ms", "rotation-matrix", "square-root", "start=figure-2.3&delay=40"),
-    ("Weak motors", "quaternion-shortest", "late-braking", "start=tumbling-0006&bound=20"),
-)
-"""Title, laws A and B, the rest of the address: one click each."""
-
-STARTS = (
-    ("paper", "The paper's figures", "figure-2.3", "Figure 2.3 of the paper, {angle} to go"),
-    ("paper", "The paper's figures", "figure-2.4", "Figure 2.4 of the paper, {angle} to go"),
-    ("paper", "The paper's figures", "figure-2.5", "Figure 2.5 of the paper, {angle} to go"),
-    ("half-turn", "180° rotations", "half-turn-random0-k02", "Nearly 180°: {angle}"),
-    ("half-turn", "180° rotations", "half-turn-random0-k04", "Very nearly 180°: {angle}"),
-    ("half-turn", "180° rotations", "half-turn-random0-exact", "Exactly 180°, about a tilted axis"),
-    ("half-turn", "180° rotations", "half-turn-x-exact", "Exactly 180°, about x"),
-    ("poles", "Poles and jumps of Z-Y-X angles", "pole-plus-k02-a2.5-g2.8", "Beside a pole, {angle} to go"),
-    ("poles", "Poles and jumps of Z-Y-X angles", "pole-plus-exact-twist-plus-1.0", "Exactly on a pole, {angle} to go"),
-    (
-        "wraps",
-        "Poles and jumps of Z-Y-X angles",
-        "wrap-gamma-plus-k02-b-0.9-o-1.5",
-        "Before the jump of γ, {angle} to go",
-    ),
-    ("goals", "Other goals", "goal-beyond-wrap-gamma-up", "A goal beyond the jump of γ, {angle} away"),
-    ("goals", "Other goals", "goal-uniform-0000", "A goal far from zero, {angle} away"),
-    ("tumbling", "Spinning", "tumbling-0002", "Spinning at {speed}, {angle} to go"),
-    ("tumbling", "Spinning", "tumbling-0006", "Spinning at {speed}, {angle} to go"),
-)
-"""Start set, group, start, title: where laws part."""
+OFFERED = tomllib.loads(Path(__file__).with_name("live.toml").read_text(encoding="utf-8"))
+PRESETS = OFFERED["presets"]
 
 
 def starts() -> list[tuple[str, str, Start]]:
     """(group, title, start) of each."""
     found = []
-    for name, group, start_id, title in STARTS:
+    for name, group, start_id, title in OFFERED["starts"]:
         [one] = [start for start in tasks.start_set(name) if start.id == start_id]
         numbers = {
             "angle": degrees(angle(one.quat_wxyz, one.goal_wxyz)),

@@ -15,8 +15,6 @@ import pandas as pd
 import tasks
 from bench.findings.theory import compliance_theory as theory
 from bench.law.control.setpoint import ContactParameters
-from bench.law.inputs import Gains
-from report.figures.arms import arm_looks
 from report.figures.contact import rows as controllers
 from report.figures.kit.spelling import power
 
@@ -53,16 +51,4 @@ def facts(rows: pd.DataFrame) -> dict[str, str]:
         "transpose_spread": power(float((turns.agg(np.ptp) / turns.first()).max())),
         "transpose_gap": power(float((near["leak"] - near["theory"]).abs().max())),
         "transpose_to": f"{LISTED[-1]:g}°",
-        "yields": most_yielding(turns.first()),
     }
-
-
-def most_yielding(turns: pd.Series) -> str:
-    """State which arm's hand turns furthest about x by a moment where its frame is level, and how much further."""
-    if len(turns) < 2:
-        return "These are rows of one arm."
-    most, least = (arm_looks.title(arm) for arm in (turns.idxmax(), turns.idxmin()))
-    return (
-        "Arms differ by their inertia alone, with seven joints as with six: a moment turns the hand of the "
-        f"{most} {turns.max() / turns.min():.0f} times as far as that of the {least}."
-    )

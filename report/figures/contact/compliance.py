@@ -14,7 +14,6 @@ from bench.law.contenders.registry import contenders
 from bench.law.so3 import from_quaternion
 from report.figures.contact import by_transpose
 from report.figures.contact import rows as controllers
-from report.figures.contact.against_theory import COMPARED_TO, gaps
 from report.figures.contact.hand_axes import axes_of_turning, measured, shown_arm, turns
 from report.figures.contact.misalignment_map import misalignment
 from report.figures.kit import html
@@ -62,7 +61,6 @@ def probed(rows: pd.DataFrame) -> dict:
         "passive": passive(rows),
         "probe_arms": together(controllers.arms(rows)),
         "probe_rows": len(rows),
-        "gap": f"{power(max(gaps(rows).values()))} of the value (up to {COMPARED_TO:g}°)",
         "cartesian": cartesian(rows),
         "zyz": zyz(rows),
         "work_n": str(len(work)),

@@ -6,7 +6,6 @@ import functools
 
 import pandas as pd
 
-from bench.base.files import read_json
 from bench.engines.counting import OPERATIONS
 from bench.experiments.tables import read
 from bench.law.contenders.registry import all_contenders
@@ -18,8 +17,7 @@ from report.figures.kit.rows import FEEDBACK
 from report.figures.kit.tables import Table
 
 TIMES = Table(
-    "Law | Flops | Instructions, in C | Kernel steps:.2f | 95 % interval | ns:.0f"
-    " | ideal-rk4, ns:.0f | ideal-held, ns:.0f | native, ns:.0f"
+    "Law | Flops | Kernel steps:.2f | 95 % interval | ns:.0f | ideal-rk4, ns:.0f | ideal-held, ns:.0f | native, ns:.0f"
 )
 LEAN = {"lean": FEEDBACK, "literal": next(one.name for one in all_contenders() if one.regulator.costing_only)}
 """The linearizing law as we write it and as it is printed."""
@@ -39,7 +37,7 @@ def timed(run: Run) -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """The literal form against the lean one; time against flops."""
+    """Return the literal form against the lean one, and on which machine times were measured."""
     counted = costs(run)
     values: dict = {}
     for key, name in LEAN.items():
@@ -49,39 +47,17 @@ def facts(run: Run) -> dict:
     return values | {
         "branches": f"{len(branches_differ(counted))} of {counted['contender'].nunique()}",
         "timed_on": times.said(run),
-        "in_c": in_c(instructions(run)),
-        "against_time": against_time(times.alone(timed(run)), counted),
     }
 
 
 def tables(run: Run) -> dict:
     """Times."""
-    return {"tab_times": TIMES(by_time(timed(run), costs(run), instructions(run)))}
+    return {"tab_times": TIMES(by_time(timed(run), costs(run)))}
 
 
 def figures(run: Run) -> dict:
     """Operations by kind."""
     return {"operations": operations.operations(costs(run))}
-
-
-def instructions(run: Run) -> dict[str, dict[str, float]]:
-    """Law -> instructions a tick, by callgrind: "ours", compiled, and "c", exported; empty if none were counted."""
-    path = run.studies / "export" / "instructions.json"
-    return read_json(path)["laws"] if path.is_file() else {}
-
-
-def in_c(counts: dict[str, dict[str, float]]) -> str:
-    """How the two stand, in a sentence."""
-    if not counts:
-        return "None were counted (`python -m bench.studies.exported` does)."
-    ratios = [one["c"] / one["ours"] for one in counts.values()]
-    near = sum(abs(ratio - 1.0) <= 0.05 for ratio in ratios)
-    ends = (100 * (ratio - 1) for ratio in (min(ratios), max(ratios)))
-    least, most = (f"{end:+.0f}".replace("-", "\N{MINUS SIGN}") for end in ends)
-    return (
-        f"As C (exported, by gcc) a law takes {least} to {most} % more instructions than "
-        f"compiled here; {near} of {len(ratios)} are within 5 %. Two compilers arrange the same operations."
-    )
 
 
 def spent(flops: int, calls: int) -> str:
@@ -101,34 +77,14 @@ def branches_differ(counted: pd.DataFrame) -> list[str]:
     return [name for name in names if (both.loc[(name, "typical")] != both.loc[(name, "worst")]).any()]
 
 
-def by_time(measured: pd.DataFrame, counted: pd.DataFrame, counts: dict) -> list[tuple]:
-    """A row a law, the fastest first: flops, instructions, time a tick alone, and on the free body in each engine."""
+def by_time(measured: pd.DataFrame, counted: pd.DataFrame) -> list[tuple]:
+    """A row a law, the fastest first: flops, time a tick alone, and on the free body in each engine."""
     lines, flops = [], totals(counted)["flops"]
     on_body = measured[(measured["contender"] != "") & (measured["jacobian"] == "")]
     for name, own in on_body.groupby("contender", sort=False):
         law = own[own["what"] == "law"].iloc[0]
         loops = own[own["what"] == "engine"].set_index("engine")["ns_per_tick"]
         interval = f"{law['ratio_low']:.2f} to {law['ratio_high']:.2f}"
-        took = "{ours:.0f}, {c:.0f}".format(**counts[name]) if name in counts else html.MISSING
-        alone = html.law(name, laws.title(name)), flops.get(name), took, law["ratio"], interval, law["ns_per_tick"]
+        alone = html.law(name, laws.title(name)), flops.get(name), law["ratio"], interval, law["ns_per_tick"]
         lines.append((*alone, *(loops.get(engine) for engine in ("ideal-rk4", "ideal-held", "native"))))
-    return sorted(lines, key=lambda line: line[3])
-
-
-def against_time(alone: pd.DataFrame, counted: pd.DataFrame) -> str:
-    """A sentence on the two laws whose times differ most for what their flops differ; without times, on the counts."""
-    spent_by = totals(counted)
-    both = [
-        (row.contender, int(spent_by.at[row.contender, "flops"]), row.ratio)
-        for row in alone.itertuples()
-        if row.contender in spent_by.index
-    ]
-    pairs = [(one, two) for one in both for two in both if one != two]
-    if pairs:
-        one, two = max(pairs, key=lambda pair: pair[0][2] / pair[1][2] * pair[1][1] / pair[0][1])
-        return (
-            f"{laws.title(one[0])} takes {one[1]} flops and {laws.title(two[0])} {two[1]}, "
-            f"yet the first takes {one[2] / two[2]:.1f} times as long."
-        )
-    calls = spent_by[list(CALLS)].sum(axis=1)
-    return f"Up to {calls.max()} calls a tick stand outside the flops, and no count says what one of them takes."
+    return sorted(lines, key=lambda line: line[2])

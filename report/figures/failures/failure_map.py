@@ -2,6 +2,7 @@
 
 import functools
 import math
+import sys
 from collections.abc import Iterable
 
 import numpy as np
@@ -10,13 +11,18 @@ from scipy.spatial.transform import Rotation
 
 from bench.experiments.tables import read
 from bench.findings.theory import held_goals
-from bench.law.inputs import PAPERS_GAINS
+from bench.law.contender import PAPERS_GAINS
+from bench.law.contenders.registry import known_representations
 from report.figures.failures import ball, maps, world_map
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.rows import LINEARIZED, SHORT, lost, of
+from report.figures.kit.spelling import prose
+from report.figures.kit.tables import Table
 
 EXACT_RAD = 1e-13
 """Between the nearest of the near starts (1e-12 rad) and what rounding leaves of an exact one (4e-16 rad)."""
+
+COORDINATES = Table("Coordinates | Definition | Where it breaks | Source")
 
 NEAR_RAD = 0.1 + EXACT_RAD
 """Of a pole: the first decade of the set poles, 0.1 rad with its rounding."""
@@ -34,6 +40,8 @@ def facts(run: Run) -> dict:
         **maps.facts(),
         "held_level": f"{math.degrees(math.acos(held_goals.least_cosine(0.0, PAPERS_GAINS))):.1f}",
         "held_share": f"{100.0 * held_goals.held_share(PAPERS_GAINS):.1f}",
+        # |Edot| over |omega| half a degree off a pole
+        "gain": f"{1.0 / math.sqrt(1.0 - math.cos(math.radians(0.5))):.0f}",
         "mapped_l": maps.lost_at_rest(LINEARIZED),
         **(in_run(lambda: on_the_map(continuous(run))) or {}),
     }
@@ -56,8 +64,18 @@ def on_the_map(episodes: pd.DataFrame) -> dict:
 
 
 def tables(_: Run) -> dict:
-    """Return the maps of random starts."""
-    return {"tab_mapped": maps.table()}
+    """Return the maps of random starts, and coordinates."""
+    coordinates = (
+        (one.title, f"${one.formula}$", prose(where_it_breaks(one)), one.source)
+        for one in known_representations().values()
+    )
+    return {"tab_mapped": maps.table(), "representations": COORDINATES(coordinates)}
+
+
+def where_it_breaks(one) -> str:
+    """Return what the docstring of a representation's module says after its first paragraph."""
+    text = sys.modules[one.chart.__module__].__doc__ or ""
+    return " ".join(text.partition("\n\n")[2].split())
 
 
 def figures(run: Run) -> dict:

@@ -76,11 +76,6 @@ def in_run(make: Callable[..., Any], *arguments: Any) -> Any:
         return None
 
 
-def given(rows: pd.DataFrame, make: Callable[[pd.DataFrame], Any]) -> Any:
-    """Return make(rows); None if there are no rows."""
-    return make(rows) if len(rows) else None
-
-
 def page(*names: str) -> None:
     """Paste all of a page's modules, its own first: page("responses.settling_time", "responses.responses")."""
     from myst_nb import glue

@@ -18,6 +18,7 @@ from bench.law.contenders.registry import contenders
 from bench.law.kinds import Inverse, Jacobian
 from report.figures.kit import families, html, laws
 from report.figures.kit.page import Run
+from report.figures.kit.rows import small_error_settling_s
 from report.figures.kit.spelling import power, prose
 from report.figures.kit.tables import Table
 from report.figures.method import engines, steps
@@ -35,6 +36,7 @@ UNITS = {
     "rest_speed": "rad/s",
     "rest_command": "rad/s²",
 }
+HELD = Table("What | Value | Paper")
 JUDGES = Table("Rule | Value | Why")
 METRICS = Table("Column | Metric | Unit")
 JACOBIANS = Table("Jacobian | Formula | For | Source")
@@ -56,7 +58,7 @@ def facts(run: Run) -> dict:
     both, equal = engines.agreement(episodes(run), "reference", "native")
     orders = steps.orders(halved())
     rk4 = halved()[halved()["engine"] == "ideal-rk4"]
-    through, asked = steps.through_the_pole(), convergence(run)
+    asked = convergence(run)
     return {
         "both": both,
         "equal": equal,
@@ -66,15 +68,12 @@ def facts(run: Run) -> dict:
         "rk4_error": power(float(rk4.loc[rk4["dt_s"] == 1e-3, "error_rad"].max())),
         "at_s": steps.AT_S,
         "finest_ms": 1e3 * steps.FINEST_S,
-        "through_coarse": f"{through[1e-3]:.4f}",
-        "through_fine": f"{through[2e-5]:.4f}",
-        "through_finer": f"{through[5e-6]:.4f}",
-        "through_finest": f"{through[1e-6]:.4f}",
         "asked": len(asked),
         "shorter": int((asked["step_s"] < asked["dt_s"]).sum()),
         "unconverged": int((asked["converged"] == "no").sum()),
         "engines": episodes(run)["engine"].nunique(),
         "gains": describe_gains(episodes(run)),
+        "small": f"{small_error_settling_s(episodes(run)):.3f}",
         "later_ms": between(engines.later_ms(episodes(run), "native")),
         "hold_s": f"{RULES.hold_s:g}",
         "chatter": f"{CHATTER:g}",
@@ -108,6 +107,8 @@ def tables(run: Run) -> dict:
         "inverses": INVERSES(
             (word(one), lines(one.formula), prose(one.source)) for one in contenders("inverses").values()
         ),
+        "inverses": INVERSES((word(one), lines(one.formula), prose(one.source)) for one in known_inverses().values()),
+        "held": HELD(held(runs)),
         "starts": STARTS(start_sets(runs)),
         "tab_engines": ENGINES((f"`{name}`", prose(text), int(counts.get(name, 0)) or None) for name, text in listed),
         "tab_converged": CONVERGED(unconverged(run)),
@@ -170,3 +171,28 @@ def used(one: Jacobian) -> str:
 def lines(formula: str) -> str:
     """A formula, each of its equations on a line."""
     return "<br>".join(f"${equation}$" for equation in formula.split(r", \quad "))
+
+
+def held(episodes: pd.DataFrame) -> list[tuple]:
+    """Return gains, step, horizon, band: every value that occurs in the run, and whether the paper states it."""
+    horizons = [f"{value:g}" for value in sorted(episodes["horizon_s"].unique())]
+    return [
+        ("Position gain $K_p$", values(episodes, "kp", "1/s²"), "yes, but for regulator 1"),
+        ("Velocity gain $K_v$, $K_d$", values(episodes, "kv", "1/s"), "yes, but for regulator 1"),
+        ("Inertia", "identity", "yes"),
+        ("Control period and step", values(episodes, "dt_s", "s"), "no: ours"),
+        ("Horizon", f"{' or '.join(horizons)} s, by start set", "no: ours"),
+        ("Settling band", f"{values(episodes, 'tolerance', '')} of the initial angle", "no: ours"),
+        ("Engines", ", ".join(f"`{name}`" for name in sorted(episodes["engine"].unique())), "one: Simnon"),
+        ("Orientations", f"{html.number(starts(episodes))} starts a law", "no: ours"),
+    ]
+
+
+def values(episodes: pd.DataFrame, column: str, unit: str) -> str:
+    """Every value of a column, with its unit."""
+    return f"{', '.join(f'{value:g}' for value in sorted(episodes[column].unique()))} {unit}".strip()
+
+
+def starts(episodes: pd.DataFrame) -> int:
+    """Different starts of the continuous plant."""
+    return len(episodes.loc[episodes["engine"] == "ideal-rk4", ["start_set", "start_id"]].drop_duplicates())

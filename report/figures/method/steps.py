@@ -15,7 +15,6 @@ from bench.engines.simulate import run
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import Gains
 from report.figures.kit.laws import TITLES
-from report.figures.kit.rows import LINEARIZED
 from tasks import start_set
 
 AT_S = 0.4
@@ -25,9 +24,6 @@ FINEST_S = 1.25e-4
 ENGINES = ("ideal-rk4", "ideal-held", "native")
 STARTS = dict(zip(TITLES, ("figure-2.3", "figure-2.4", "figure-2.5"), strict=True))
 """Each law from the start of its own figure of the paper."""
-THROUGH_THE_POLE = LINEARIZED, "figure-2.5"
-POLE_STEPS_S = (1e-3, 2e-5, 5e-6, 1e-6)
-"""A law and a start that ask for shorter steps than the control period, and steps down to where it has its limit."""
 
 
 def settings(dt_s: float) -> Settings:
@@ -42,11 +38,6 @@ def angle_at(engine: str, name: str, start_id: str, dt_s: float) -> float:
     as_in_a_run = metrics_of(on_arm=False)  # with which the loops are compiled already
     given = find_contender(name), "free-body", starts, settings(dt_s), as_in_a_run
     return float(run(engine, *given, converge=False)[0, FINAL_ANGLE])
-
-
-def through_the_pole() -> dict[float, float]:
-    """Step -> angle at AT_S on the continuous plant, by steps of that length."""
-    return {dt_s: angle_at("ideal-rk4", *THROUGH_THE_POLE, dt_s) for dt_s in POLE_STEPS_S}
 
 
 def errors() -> pd.DataFrame:

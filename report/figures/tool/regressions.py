@@ -12,7 +12,7 @@ from bench.regression.history import read_history
 from bench.regression.revisions import timing
 from report.figures.kit import html, laws, style
 from report.figures.kit.inline import responsive_picture
-from report.figures.kit.page import Run, given
+from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
 
 FAULTS = Table("Planted | In | Caught by | In the words")
@@ -40,9 +40,9 @@ def facts(run: Run) -> dict:
         "rounds": timing.ROUNDS,
         "planted": len(planted) or None,
         "caught": sum(planted) if planted else None,
-        "noise": given(same, describe_noise),
-        "builds": given(builds, lambda rows: rows["commit"].nunique()),
-        "benchmarks": given(builds, lambda rows: rows["name"].nunique()),
+        "noise": describe_noise(same) if len(same) else None,
+        "builds": builds["commit"].nunique() if len(builds) else None,
+        "benchmarks": builds["name"].nunique() if len(builds) else None,
     }
 
 
@@ -73,7 +73,7 @@ def write_fault(one: dict[str, Any]) -> tuple:
 
 def figures(run: Run) -> dict:
     """Return times over the builds."""
-    return {"history": given(read_builds(run), draw_history)}
+    return {"history": draw_history(read_builds(run)) if len(read_builds(run)) else None}
 
 
 @responsive_picture

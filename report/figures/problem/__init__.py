@@ -1,1 +1,0 @@
-"""The plant, its coordinates, and the settings of a run."""
