@@ -5,7 +5,7 @@ import math
 import pytest
 
 from bench.findings.theory import closed_form, isotropic
-from bench.law.equation import ANGLE, LINEAR_MRP, SINE
+from bench.law.display import ANGLE, LINEAR_MRP, SINE
 
 GAINS = (100.0, 20.0, 0.02)
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bench.findings.theory import robustness_theory, thresholds
-from bench.law.equation import Equation
+from bench.law.display import Equation
 from tasks.condition import NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION
 from tasks.rules import RULES
 

@@ -11,8 +11,8 @@ from scipy.spatial.transform import Rotation
 
 from bench.experiments.tables import read
 from bench.findings.theory import held_goals
-from bench.law.contender import PAPERS_GAINS
-from bench.law.contenders.registry import known_representations
+from bench.law.contenders.registry import contenders
+from bench.law.inputs import PAPERS_GAINS
 from report.figures.failures import ball, maps, world_map
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.rows import LINEARIZED, SHORT, lost, of
@@ -67,7 +67,7 @@ def tables(_: Run) -> dict:
     """Return the maps of random starts, and coordinates."""
     coordinates = (
         (one.title, f"${one.formula}$", prose(where_it_breaks(one)), one.source)
-        for one in known_representations().values()
+        for one in contenders("representations").values()
     )
     return {"tab_mapped": maps.table(), "representations": COORDINATES(coordinates)}
 
