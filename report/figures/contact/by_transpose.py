@@ -15,6 +15,7 @@ import pandas as pd
 import tasks
 from bench.findings.theory import compliance_theory as theory
 from bench.law.control.setpoint import ContactParameters
+from bench.law.inputs import Gains
 from report.figures.contact import rows as controllers
 from report.figures.kit.spelling import power
 

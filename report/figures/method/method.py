@@ -107,9 +107,6 @@ def tables(run: Run) -> dict:
         "inverses": INVERSES(
             (word(one), lines(one.formula), prose(one.source)) for one in contenders("inverses").values()
         ),
-        "inverses": INVERSES(
-            (word(one), lines(one.formula), prose(one.source)) for one in contenders("inverses").values()
-        ),
         "held": HELD(held(runs)),
         "starts": STARTS(start_sets(runs)),
         "tab_engines": ENGINES((f"`{name}`", prose(text), int(counts.get(name, 0)) or None) for name, text in listed),
