@@ -18,7 +18,7 @@ from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import Results
 from bench.findings.selection.tables import tables_of
 from bench.law.contenders.registry import contenders_of
-from report.figures.cards import law_page
+from report.figures.cards import regulators
 from report.figures.kit.page import run_in
 from report.figures.method import provenance as origin
 
@@ -68,7 +68,7 @@ def evil(renamed, tmp_path, marker, monkeypatch):
 
 def test_law_from_elsewhere_is_shown_as_text_and_not_run(evil, marker):
     [own] = read.own_laws()
-    shown = law_page.page(contenders_of(own)[0], run_in(read.folder())).body
+    shown = regulators.page(contenders_of(own)[0], run_in(read.folder())).body
     assert (own.name, own.law, marker.exists()) == ("evil-law", None, False)
     assert "was not run" in shown
     assert "uniform starts settle" in shown

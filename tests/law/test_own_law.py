@@ -18,6 +18,7 @@ from bench.experiments.tables import read, store
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import contenders_of
 from report.figures.cards import regulators
+from report.figures.cards.card import fold
 from tasks.base import Start
 from tasks.verdict import CRASHED, SINGULAR
 
@@ -141,7 +142,7 @@ def test_run_keeps_a_law_of_ones_own_and_the_report_shows_it(tmp_path, monkeypat
     [own] = read.own_laws()
     assert own.name == "my-law"
     assert regulators.in_order()[-1].name == "my-law"
-    text = regulators.source(own)
+    text = fold(regulators.source(own))
     assert "laws/my_law.py" in text
     assert "REGULATOR" in text
 

@@ -2,39 +2,35 @@
 
 from __future__ import annotations
 
-import ast
-import html as markup
 import re
 from pathlib import Path
 
 import pandas as pd
-from pygments import highlight
-from pygments.formatters import HtmlFormatter
-from pygments.lexers import PythonLexer
 
 from bench.experiments.tables import read
 from bench.export.heading import RESET, SIDE
 from bench.findings import why
-from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection import needs
 from bench.law.contender import Contender
 from bench.law.contenders import regulators
 from bench.law.contenders.registry import all_contenders, contenders, contenders_of, papers_laws
 from bench.law.kinds import Law
+from report.figures.cards.card import (
+    LawPage,
+    Source,
+    docstring,
+    in_every_language,
+    make_card,
+    make_page,
+    say_property,
+    taken,
+)
 from report.figures.cards.card_map import MOST_SETTLED, card_map
 from report.figures.kit import families, html, laws, style
-from report.figures.kit.page import Run
+from report.figures.kit.page import Run, in_run
 from report.figures.kit.share import share
-from report.figures.kit.spelling import typeset
 from report.figures.kit.tables import Table
 
-PROPERTIES = {
-    "local": "Stable near the goal, by linearization.",
-    "almost global": "Stable from all starts but a set of measure zero. No continuous law without memory can do more "
-    "(Bhat & Bernstein 2000).",
-    "global with memory": "Stable from every start, with memory. No continuous law is without (Bhat & Bernstein 2000).",
-    "none": "Nothing.",
-}
 UNTRUSTED = (
     "A law of somebody else, by its rows alone: its file came with these results and was not run. If you have read it, "
     "python -m bench trust FILE lets it run, and its card then says what it is."
@@ -42,7 +38,6 @@ UNTRUSTED = (
 LAWS = Table("Law | Proved | Settles | On the command line", {"Settles": lambda share: f"{100 * share:.1f} %"})
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 EXAMPLE = re.compile(r" Shown by |, as from |, as at ")
-LIMITATIONS = re.compile(r"\bLimitations:\s*(.*)", re.DOTALL)
 
 
 def in_order() -> list[Law]:
@@ -57,25 +52,57 @@ def papers_first(regulator: Law) -> list[Contender]:
     return sorted(contenders_of(regulator), key=lambda one: one.is_elsewhere)
 
 
-def file_of(regulator: Law) -> Path:
-    """Return the path of a law's source."""
-    ours = Path(regulators.__path__[0]) / f"{regulator.name.replace('-', '_')}.py"
-    return Path(regulator.origin) if regulator.origin else ours
+def every_law() -> list[Contender]:
+    """Return each law in each of its coordinates, the run's own among them."""
+    return [one for regulator in in_order() for one in papers_first(regulator)]
+
+
+def source(regulator: Law) -> Source:
+    """Return a law's own file."""
+    name = f"{regulator.name.replace('-', '_')}.py"
+    if regulator.origin:
+        return Source(Path(regulator.origin), f"laws/{name}")
+    return Source(Path(regulators.__path__[0]) / name, f"bench/law/contenders/regulators/{name}")
 
 
 def text_of(regulator: Law) -> tuple[list[str], str]:
     """What its docstring says: paragraphs on what the law is, and where it fails; nothing of one that may not run."""
-    return docstring(file_of(regulator)) if regulator.law or regulator.law_in else ([UNTRUSTED], "")
+    return docstring(source(regulator).file) if regulator.law or regulator.law_in else ([UNTRUSTED], "")
 
 
-def docstring(file: Path) -> tuple[list[str], str]:
-    """A contender's file in words: paragraphs on what it is, and where it fails."""
-    text = ast.get_docstring(ast.parse(file.read_bytes())) or ""
-    found = LIMITATIONS.search(text)
-    fails = typeset(" ".join(found[1].split())) if found else ""
-    about = text[: found.start()] if found else text
-    paragraphs = [typeset(" ".join(one.split())) for one in about.split("\n\n") if one.strip()]
-    return paragraphs, fails[:1].upper() + fails[1:]
+def page(one: Contender, run: Run, live: str = "") -> LawPage:
+    """Return the page of a law.
+
+    Args:
+        live: the page on which laws run, from the site's root; empty where the site has none.
+    """
+    word, is_exported = one.on_free_body, not (one.regulator.origin or one.regulator.costing_only)
+    files = in_every_language(word) if is_exported else {}
+    title = laws.title_of(one)
+    return make_page(
+        families.anchor(word), title, card(one, run), taken(word, files, live), files, source(one.regulator)
+    )
+
+
+def card(one: Contender, run: Run) -> str:
+    """Return the card of one law: source, formula, words, costs, and the map of its failures."""
+    title, episodes = laws.title_of(one), run.any_rows("episodes", contender=one.name, engine=engine_of(one.regulator))
+    what, fails = text_of(one.regulator)
+    acts = one.representation.title if one.representation else "the rotation matrix"
+    fields = {
+        "Limitations": fails,
+        "Memory": f"{RESET} {SIDE}" if one.regulator.memory else "",
+        "Acts on": f"{acts[:1].upper()}{acts[1:]}.",
+        "Proved": say_property(one.regulator.property),
+        "Measured": measured(episodes, one.regulator),
+        "Its command": found_of(one, run),
+        "Advised": advised(one.name, run),
+    }
+    look, costs = html.both(style.look(one.name).colour), html.plain_table(costs_of(one, run))
+    drawn = f'<div class="card-map">{card_map(episodes, title)._repr_html_()}</div>' if len(episodes) else ""
+    return make_card(
+        one.regulator, title, (what, fields), look, f'<div class="card-costs" tabindex="0">{costs}</div>', drawn
+    )
 
 
 def costs_of(one: Contender, run: Run) -> pd.DataFrame:
@@ -113,60 +140,9 @@ def found_of(one: Contender, run: Run) -> str:
 
 def advised(law: str, run: Run) -> str:
     """The situations in which a law is advised (`selection.needs`), and those in which it ties with what is."""
-    try:
-        here, tied = needs.advice(run.folder).uses(law)
-    except NoEvidence:
-        return ""
+    here, tied = in_run(lambda: needs.advice(run.folder).uses(law)) or ((), ())
     said = {"If ": here, "No worse, and less simple, if ": tied}
     return " ".join(f"{start}{'; '.join(one.words for one in found)}." for start, found in said.items() if found)
-
-
-def card(one: Contender, run: Run) -> str:
-    """Card of one law: source, formula, words, costs, and the map of its failures."""
-    regulator, title = one.regulator, laws.title_of(one)
-    episodes = run.any_rows("episodes", contender=one.name, engine=engine_of(regulator))
-    drawn = f'<div class="card-map">{card_map(episodes, title)._repr_html_()}</div>' if len(episodes) else ""
-    formula = f'<div class="card-formula">{html.formula(regulator.formula)}</div>' if regulator.formula else ""
-    look, alone = html.both(style.look(one.name).colour), "" if drawn else " alone"
-    return (
-        f'<section class="law-card{alone}" style="--law: {look}" aria-label="{markup.escape(title, quote=True)}">'
-        f'<header><span class="card-source">{html.foreign(regulator.source)}</span></header>{formula}'
-        f'<div class="card-body"><div class="card-text">{said_of(one, episodes, run)}'
-        f'<div class="card-costs" tabindex="0">{html.plain_table(costs_of(one, run))}</div></div>{drawn}</div>'
-        "</section>"
-    )
-
-
-def said_of(one: Contender, episodes: pd.DataFrame, run: Run) -> str:
-    """What a law is, where it fails, what it acts on, what is proved, and what was measured."""
-    what, fails = text_of(one.regulator)
-    acts = one.representation.title if one.representation else "the rotation matrix"
-    words = {
-        "Limitations": fails,
-        "Memory": f"{RESET} {SIDE}" if one.regulator.memory else "",
-        "Acts on": f"{acts[:1].upper()}{acts[1:]}.",
-        "Proved": PROPERTIES.get(one.regulator.property, f"{one.regulator.property}."),
-        "Measured": measured(episodes, one.regulator),
-        "Its command": found_of(one, run),
-        "Advised": advised(one.name, run),
-    }
-    lines = [f'<p class="card-fact"><b>{head}.</b> {html.foreign(text)}</p>' for head, text in words.items() if text]
-    return "".join((*(f"<p>{html.foreign(one)}</p>" for one in what), *lines))
-
-
-def source(regulator: Law) -> str:
-    """The law's own file, folded."""
-    folder = "laws" if regulator.origin else "bench/law/contenders/regulators"
-    return folded(file_of(regulator), f"{folder}/{regulator.name.replace('-', '_')}.py")
-
-
-def folded(file: Path, where: str) -> str:
-    """A file's text behind its name."""
-    code = highlight(file.read_text(encoding="utf-8", errors="replace"), PythonLexer(), HtmlFormatter(nowrap=True))
-    return (
-        f'<details class="law-source"><summary>Its file, <code>{markup.escape(where)}</code></summary>'
-        f'<div class="highlight"><pre tabindex="0">{code}</pre></div></details>'
-    )
 
 
 def facts(run: Run) -> dict:
@@ -190,7 +166,7 @@ def facts(run: Run) -> dict:
 
 def tables(run: Run) -> dict:
     """Every law as a line."""
-    return {"laws": LAWS(line(one, run) for regulator in in_order() for one in papers_first(regulator))}
+    return {"laws": LAWS(line(one, run) for one in every_law())}
 
 
 def line(one: Contender, run: Run) -> tuple:
