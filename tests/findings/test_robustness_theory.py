@@ -42,14 +42,6 @@ def test_noise_leaves_what_a_drawn_sequence_leaves(attitude, rate):
     assert math.sqrt(np.mean(squares[200:])) == pytest.approx(expected, rel=0.05)
 
 
-def test_jitter_is_the_mean_length_of_drawn_differences():
-    noise = np.random.default_rng(7).standard_normal((100_000, 2, 3)) * np.array([[0.01], [0.1]])
-    u = KP * noise[:, 0] + KV * noise[:, 1]
-    assert np.linalg.norm(np.diff(u, axis=0), axis=1).mean() == pytest.approx(
-        robustness_theory.jitter(KP, KV, 0.01, 0.1), rel=0.01
-    )
-
-
 def test_lag_behind_a_slow_goal_told_nothing_is_the_frequency_response():
     # both axes sway at peak rates of 1/sqrt(2), with 2 and 3.1 rad/s (tasks/moving_goal.py), five seconds from t = 0
     times = np.linspace(4.0, 5.0, 2000)

@@ -3,7 +3,6 @@
 import fnmatch
 import re
 
-import build
 import pandas as pd
 import pytest
 
@@ -31,8 +30,6 @@ def shown():
 def test_every_law_has_a_page_with_its_source_and_its_files():
     every = [regulators.page(one, run_in(read.folder())) for one in regulators.every_law()]
     pages = {made.name: made for made in every}
-        made.name: made for made in (regulators.page(one, run_in(read.folder())) for one in regulators.every_law())
-    }
     assert len(pages) == len(regulators.every_law())
     for one in regulators.every_law():
         made, file = pages[families.anchor(one.on_free_body)], f"{one.regulator.name.replace('-', '_')}.py"
@@ -63,17 +60,6 @@ def test_engines_are_compared_where_both_have_rows():
     both, equal = engines.agreement(runs, "reference", "native")
     assert both == equal > 0
     assert -1.0 < engines.later_ms(runs, "native").min() <= engines.later_ms(runs, "native").max() < 10.0
-
-
-def test_build_copies_what_pages_link_to(tmp_path):
-    site, run = tmp_path / "site", tmp_path / "run"
-    (site / "pages").mkdir(parents=True)
-    run.mkdir()
-    (run / "costs.parquet").write_bytes(b"costs")
-    (run / "other.parquet").write_bytes(b"other")
-    (site / "pages" / "a.html").write_text('<a href="../data/costs.parquet" download>costs</a>')
-    build.offer_data(run, site)
-    assert [path.name for path in (site / "data").iterdir()] == ["costs.parquet"]
 
 
 @pytest.mark.parametrize(

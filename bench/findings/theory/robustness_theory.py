@@ -71,11 +71,6 @@ def noisy_rms(kp: float, kv: float, period_s: float, attitude: float = 0.0, rate
     return math.sqrt(3.0 * P[0, 0])
 
 
-def jitter(kp: float, kv: float, attitude: float = 0.0, rate: float = 0.0) -> float:
-    """Mean |u - u before| from tick to tick [rad/s^2] that white noise makes: sqrt(8/pi) sqrt(2) |(Kp a, Kv r)|."""
-    return MEAN_LENGTH * math.sqrt(2.0) * math.hypot(kp * attitude, kv * rate)
-
-
 @functools.cache
 def tracking_rms(
     kp: float, kv: float, feedforward: int, period_s: float, horizon_s: float, tail_s: float = 1.0

@@ -11,7 +11,6 @@ import pandas as pd
 from bench.experiments.tables import read
 from bench.findings.selection.measured import measured
 from bench.findings.selection.words import leaders
-from bench.findings.theory import closed_form
 from bench.law.contenders.registry import all_contenders
 from report.figures.comparison import cells, directed
 from report.figures.comparison.angle import curves, lateness
@@ -26,7 +25,6 @@ NEAR_DEG = 30, 60
 ANISOTROPIC = "weighted-columns"
 """Its stiffness is the others' on the average over its axes alone."""
 
-ACTUATOR = next(one.name for one in all_contenders() if one.regulator.in_engine)
 CONTROLS = {one.regulator.later: one.name for one in all_contenders() if one.regulator.control}
 LITERAL, UNWINDING = CONTROLS[False], CONTROLS[True]
 """The negative controls: a law of the paper as it is printed, and a later one."""
@@ -62,7 +60,6 @@ def facts(run: Run) -> dict:
         "most_late": f"{late.max():.2f}",
         "checked": len(late),
         **(in_run(lambda: of_peak(at_peak(run))) or {}),
-        **(in_run(lambda: of_actuator(run.rows("episodes", engine="native", contender=ACTUATOR))) or {}),
     }
 
 
@@ -134,21 +131,6 @@ def of_peak(rows: pd.DataFrame) -> dict:
     middle, longest = cells.medians(times)[MATRIX], times[MATRIX].max()
     matrix = f"{middle:.2f} s in the median, and {longest:.2f} s from its slowest start"
     return {"peak": html.number(cells.LEVEL), "peak_starts": len(times), "peak_matrix": matrix}
-
-
-def of_actuator(episodes: pd.DataFrame) -> dict:
-    """From how many starts at rest MuJoCo's actuator settles, and how far from the linear response."""
-    even, half_turns = (episodes[episodes["start_set"] == word] for word in ("uniform", "half-turn"))
-    linear = closed_form.linear_settling(*episodes.iloc[0][["kp", "kv", "tolerance"]])
-    late = pd.concat((even, half_turns))["settling_time_s"] - linear
-    return {
-        "servo_starts": len(even),
-        "servo_settled": int((even["outcome"] == "settled").sum()),
-        "half_turns": len(half_turns),
-        "half_turns_settled": int((half_turns["outcome"] == "settled").sum()),
-        "linear_s": f"{linear:.3f}",
-        "off_linear_ms": f"{1000 * late.abs().max():.1f}",
-    }
 
 
 def tables(run: Run) -> dict:

@@ -17,18 +17,15 @@ from report.figures.contact import rows as controllers
 from report.figures.contact.hand_axes import axes_of_turning, measured, shown_arm, turns
 from report.figures.contact.misalignment_map import misalignment
 from report.figures.kit import html
-from report.figures.kit.page import ABSENT, Run
+from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
 from report.figures.kit.tables import Table
 from tasks.rotations import zyx
 
 PROBE = "wrench-probe"
 LISTED = (0.0, 1.0, 5.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0, 89.0, 90.0)
-NEAR_ZERO_DEG = 15.0
 ORDER = "about x"
 EPS = sys.float_info.epsilon
-GIVEN_J = 1e-9
-"""Energy from which on a row gives any: a millionth of what the probe's moment does on a hand that yields."""
 
 
 def lost_work(value: float) -> str:
@@ -58,11 +55,9 @@ def probed(rows: pd.DataFrame) -> dict:
         "axes_arm": shown_arm(rows),
         **measured(turns(rows)),
         "off_by_accelerations": off_by_accelerations(rows),
-        "passive": passive(rows),
         "probe_arms": together(controllers.arms(rows)),
         "probe_rows": len(rows),
         "cartesian": cartesian(rows),
-        "zyz": zyz(rows),
         "work_n": str(len(work)),
         "work_eps": f"{work.max() / EPS:.1f}",
         **by_transpose.facts(rows),
@@ -87,46 +82,6 @@ def cartesian(rows: pd.DataFrame) -> str:
         f"the end, and it leaks at most {power(own['leakage_ratio'].max())} and turns at most "
         f"{power(np.degrees(own['misalignment_rad'].max()))} degrees away from the moment. It computes no Euler "
         "angles, so that it has none of their singularities."
-    )
-
-
-def zyz(rows: pd.DataFrame) -> str:
-    """What Z-Y-Z angles make of compliance about x near zero."""
-    own = controllers.level(controllers.of(rows, controllers.ZYZ, "about x"))
-    near = own[own["beta_deg"].abs() <= NEAR_ZERO_DEG]
-    if near.empty:
-        return f"Rows of Z-Y-Z angles are {ABSENT}."
-    share = 100.0 * near["c_xx"] / near["arm"].map(controllers.wanted(rows)).astype(float)
-    around = share[near["beta_deg"] != 0.0]
-    words = (
-        f"within {NEAR_ZERO_DEG:g} degrees of zero a moment about x turns the hand about x by {power(around.min())} to "
-        f"{power(around.max())} % of what it should."
-    )
-    ends = [
-        f"{one.arm}: {power(share[one.Index])} %" if one.outcome == "done" else f"{one.arm}: {one.outcome}"
-        for one in near[near["beta_deg"] == 0.0].itertuples()
-    ]
-    if not ends:
-        return words
-    return f"{words} At zero itself, on their singularity, rounding decides: {'; '.join(ends)}."
-
-
-def passive(rows: pd.DataFrame) -> str:
-    """Which controllers give energy to what pushes a hand that begins at rest and without an order to exert any."""
-    done = rows[rows["outcome"] == "done"]
-    gives = done[done["port_energy_peak_j"] > GIVEN_J]
-    plain, unconverted = (gives[gives["way"].str.contains("unconverted") == word] for word in (False, True))
-    of_these = int(done["way"].str.contains("unconverted").sum())
-    words = (
-        f"A passive hand cannot give energy to what pushes it from rest. Unconverted it does in {len(unconverted)} of "
-        f"{of_these} rows"
-    )
-    if plain.empty:
-        return f"{words}; no other controller does in any of {len(done) - of_these}."
-    near = " and the ".join(sorted({controllers.title(way) for way in plain["way"]}))
-    return (
-        f"{words}. Of the {len(done) - of_these} rows of other controllers {len(plain)} give energy, by at most "
-        f"{power(plain['port_energy_peak_j'].max())} J: those of the {near}."
     )
 
 

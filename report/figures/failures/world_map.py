@@ -36,10 +36,10 @@ def world(episodes: pd.DataFrame, narrow: bool):
         episodes: rows of one engine.
     """
     parts = laws.each(episodes[episodes["start_set"].isin(("uniform", *AT_REST))])
-    figure, places = _places(parts, narrow)
+    figure, places = style.grid(len(parts), 2.2, 2.2, narrow, top=0.5)
     said: list[str] = []
     met: dict[str, Line2D] = {}
-    for axes, (name, title, rows) in zip(places, parts, strict=True):
+    for axes, (name, title, rows) in zip(places.flat, parts, strict=False):
         _globe(axes)
         axes.set_title(title, color=style.look(name).colour)
         said.append(_starts(axes, title, rows, met))
@@ -51,18 +51,6 @@ def world(episodes: pd.DataFrame, narrow: bool):
         "Maps of the direction of the body's x axis at the start, with longitude alpha and latitude minus beta. "
         + " ".join(said)
     )
-
-
-def _places(parts, narrow: bool):
-    """One map below the other on a phone; else the linearized law's, which has most to show, above the others."""
-    if narrow or len(parts) != 3:
-        figure, axes = style.panels(len(parts), 1, height=2.2 * len(parts) + 0.5, narrow=narrow, squeeze=False)
-        return figure, list(axes.flat)
-    figure, ((left, right), (low_left, low_right)) = style.panels(2, 2, height=6.0, height_ratios=(1.75, 1))
-    grid = left.get_gridspec()
-    left.remove()
-    right.remove()
-    return figure, [low_left, figure.add_subplot(grid[0, :]), low_right]
 
 
 def _globe(axes) -> None:

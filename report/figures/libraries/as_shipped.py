@@ -22,9 +22,6 @@ from report.figures.kit.tables import Table
 LEVELS = (TORQUE, POSITION, VELOCITY)
 WEAK = 0.75
 """Of the stiffness set: what feels less feels as half, or as a deadband."""
-RIGHT = 0.99
-LIGHT = 0.1
-"""Inertia [kg m^2] for which a damping ratio is said, besides that of 1: a hand with a tool about its centre."""
 HOST = "https://github.com"
 
 MEASURED = Table(
@@ -66,9 +63,6 @@ FACTS: dict[str, Callable[[pd.DataFrame], object]] = {
     "unsettled": lambda own: named(own[own["settling_1_s"].isna() & (own["starts"] > 0)]),
     "away": lambda own: int((own["away"] > 0).sum()) or "none",
     "starts": lambda own: int(own["starts"].max()),
-    "heaviest": lambda own: named(heaviest(own)),
-    "light": lambda own: LIGHT,
-    "light_ratio": lambda own: f"{heaviest(own)['damping_ratio'].max() / math.sqrt(LIGHT):.2g}",
 }
 """What the text says, of one line a controller."""
 
@@ -91,11 +85,6 @@ def held() -> dict:
         "pairs": power(max(one["pairs"] for one in built)),
         "difference": power(max(one["difference"] for one in built)),
     }
-
-
-def heaviest(own: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows whose inertia is not cancelled, damped critically at the largest inertia."""
-    return own[own["critical"] >= own["critical"].max() * RIGHT]
 
 
 def named(rows: pd.DataFrame) -> str:

@@ -20,12 +20,9 @@ from report.figures.robustness.rows import (
     DEG,
     along,
     gains,
-    laws,
-    levels,
     losses,
     medians,
     nominal,
-    of,
     with_unit,
     worst,
 )
@@ -89,13 +86,9 @@ def delay(rows: pd.DataFrame) -> dict:
 def noise(attitude: pd.DataFrame, rate: pd.DataFrame) -> dict:
     """Return what noise leaves, by theory and in the episodes, and what it does to the command."""
     ratios = pd.concat([over_theory(attitude, "attitude-noise"), over_theory(rate, "rate-noise")])
-    variation, most = medians(rate, "variation"), max(levels(rate))
     return {
         "noise_low": f"{ratios.min(axis=None):.2f}",
         "noise_high": f"{ratios.max(axis=None):.2f}",
-        "jitter": f"{robustness_theory.jitter(*gains(rate), rate=most):.0f}",
-        "shake": f"{(variation.loc[most] / variation.loc[0.0]).median():.0f}",
-        "worst_r": with_unit(most, "rate-noise"),
         "losses_a": losses(attitude, "attitude-noise"),
         "losses_r": losses(rate, "rate-noise"),
     }
@@ -107,16 +100,9 @@ def spin(rows: pd.DataFrame) -> dict:
     fastest = worst(rows, "spin")
     last = rows[(rows["level"] == fastest) & rows["good"]]
     farthest = last.groupby("contender", observed=True)["turned_deg"].max()
-    mine = farthest[[law for law in laws(rows, controls=False) if law in farthest]]
-    hybrid, short = (of(last, law).set_index("start_id")["turned_deg"] for law in ("hybrid", "quaternion-shortest"))
-    ratio = (hybrid / short).dropna()
     return {
-        "turns": f"{fastest / (2.0 * math.pi):.1f}",
         "coast_deg": f"{DEG * fastest / gains(rows)[1]:.0f}",
-        "most": f"{mine.max():.0f}",
-        "most_law": families.word(mine.idxmax()),
         "unwound": f"{farthest.get('quaternion-unwinding', math.nan):.0f}",
-        "memory": f"{ratio.max():.2f}" if len(ratio) else None,
     }
 
 
