@@ -9,13 +9,13 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from bench.findings.claims.arm_probes import controller
 from support.pages import assert_is_drawn
 
 from bench.engines.counting import rows_on_arm
 from bench.experiments import jacobians as poses
 from bench.experiments.experiment import Settings
 from bench.experiments.tables.read import with_contender
+from bench.findings.claims.probes import controller
 from report.figures.arms import condition_maps, controller_costs, jacobians
 
 ARMS = ("puma560", "panda")

@@ -89,14 +89,7 @@ def in_full(flops: pd.DataFrame, calls: pd.DataFrame) -> dict[str, str]:
         "spread": percent(total[laws].max() / total[laws].min() - 1.0),
         "angles": str(total[arm_rows.ON_ANGLES]),
         "calls": str(calls.loc[arm_rows.ON_ANGLES].sum()),
-        "differentiated": differentiated(flops, total[arm_rows.ON_ANGLES]),
     }
-
-
-def differentiated(flops: pd.DataFrame, converted: int) -> str:
-    """What (3.5) costs more than (3.3), of the whole tick; a dash where it was not counted."""
-    name = arm_rows.ON_ANGLES.replace("@analytic", "@analytic-differentiated")
-    return percent(int(flops.loc[name].sum()) / converted - 1.0) if name in flops.index else html.MISSING
 
 
 def percent(value: float) -> str:

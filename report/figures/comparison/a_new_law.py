@@ -8,14 +8,12 @@ import numpy as np
 import pandas as pd
 
 from bench.experiments.tables import read
-from bench.findings.selection.criteria import BOUND, HEAVY
 from bench.findings.theory.closed_form import linear_settling
 from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, settling
 from bench.law.display import ANGLE, CHORD, Equation
 from bench.law.inputs import PAPERS_GAINS
 from report.figures.comparison import cells, comparison, new_law
 from report.figures.comparison.cells import LEVEL
-from report.figures.comparison.comparison import uniform
 from report.figures.comparison.new_law import greatest_pull, peak_gains, response
 from report.figures.cost.operations import CALLS
 from report.figures.kit import families, html
@@ -26,8 +24,6 @@ from tasks.rules import RULES
 NEW = "late-braking"
 RATIOS = 0.5, 0.7, 1.0, 1.5
 """Damping ratios at which it is compared with a linear system."""
-BESIDE = (NEW, "quaternion-shortest", MATRIX)
-"""Laws whose effort and overshoot are compared in the text."""
 
 LATE = EQUATIONS[NEW]
 
@@ -54,10 +50,6 @@ def facts(run: Run) -> dict:
         "effort": html.number(round(effort(LATE))),
         "chord_effort": html.number(round(effort(CHORD))),
         "straight_effort": html.number(round(effort(ANGLE))),
-        "medians": in_run(lambda: in_words(medians(uniform(run), "effort"), "{:.0f}")),
-        "factors": in_run(lambda: effort_factors(comparison.at_peak(run))),
-        "bounded": in_run(lambda: overshoots(run.rows("robustness", axis="saturation"), BOUND)),
-        "heavy": in_run(lambda: overshoots(run.rows("robustness", axis="inertia"), HEAVY)),
         "peak_s": f"{longest(LATE, *peak_gains(LATE)):.2f}",
         "peak_straight_s": f"{longest(ANGLE, *peak_gains(ANGLE)):.2f}",
         "peak_chord_s": f"{longest(CHORD, *peak_gains(CHORD)):.2f}",
@@ -93,29 +85,6 @@ def is_later(ratio: float) -> bool:
 def count_calls(row: pd.Series) -> dict[str, int]:
     """Return the square roots and the trigonometric calls of a row of costs.parquet."""
     return {"roots": int(row["sqrt"]), "calls": int(row[list(CALLS)].sum())}
-
-
-def medians(rows: pd.DataFrame, column: str) -> pd.Series:
-    """Compute the median of a column for each of the laws that are compared."""
-    return cells.medians(cells.costs(rows, column))[list(BESIDE)]
-
-
-def in_words(values: pd.Series, form: str) -> str:
-    """List a number of each of the laws that are compared."""
-    return ", ".join(f"{form.format(value)} ({families.word(law)})" for law, value in values.items())
-
-
-def effort_factors(rows: pd.DataFrame) -> str:
-    """Compare the median effort of this law at equal peak command with the others'."""
-    spent = medians(rows, "effort")
-    return " and ".join(f"{spent[NEW] / spent[law]:.1f} times the {families.word(law)}'s" for law in BESIDE[1:])
-
-
-def overshoots(rows: pd.DataFrame, level: float) -> str:
-    """List the greatest overshoot of the laws at one level of a perturbation, and the number of starts."""
-    there = rows[rows["level"] == level]
-    most = np.degrees(there.groupby(there["contender"].astype(str))["overshoot_rad"].max())[list(BESIDE)]
-    return f"{in_words(most, '{:.0f}°')} from {there['start_id'].nunique()} starts"
 
 
 def longest(equation: Equation, kp: float, kv: float) -> float:

@@ -98,13 +98,11 @@ def facts(_: Run) -> dict:
 def loop_facts() -> dict:
     """Return what the text says of closed loops: how many are run, how many stay at 180° or turn away; the weld's."""
     every = loops.responses()[loops.responses()["library"] != OURS]
-    functions, run, ours = (every[every["kind"] == kind] for kind in ("function", "controller", "our-loop"))
+    functions, run = (every[every["kind"] == kind] for kind in ("function", "controller"))
     (weld,) = run[run["function"] == WELD].itertuples()
     return {
         "loops": len(functions),
         "controllers": len(run),
-        "our_loop": named_loops(ours),
-        "our_loop_input": "; ".join(ours["title"].str.rpartition("; ")[2]),
         "loops_dead": int((functions["dead"] == functions["at_180"]).sum()),
         "loops_away": int((functions["away"] > 0).sum()),
         "axes_180": int(functions["at_180"].min()),
@@ -127,11 +125,6 @@ def names(some: pd.DataFrame) -> str:
     """Return `library's function, function; library's ...` as words, or none."""
     by_library = some.groupby("library", sort=False)["function"].agg(lambda found: ", ".join(dict.fromkeys(found)))
     return "; ".join(f"{library}: {found}" for library, found in by_library.items()) or "none"
-
-
-def named_loops(some: pd.DataFrame) -> str:
-    """Return controllers as code."""
-    return ", ".join(asked(one) for one in some.itertuples())
 
 
 def tables(_: Run) -> dict:

@@ -16,7 +16,7 @@ from bench.engines.metrics.registry import known_metrics
 from bench.findings.selection.needs import CHATTER
 from bench.law.contenders.registry import contenders
 from bench.law.kinds import Inverse, Jacobian
-from report.figures.kit import families, html, laws
+from report.figures.kit import families, html
 from report.figures.kit.page import Run
 from report.figures.kit.rows import small_error_settling_s
 from report.figures.kit.spelling import power, prose
@@ -43,7 +43,6 @@ JACOBIANS = Table("Jacobian | Formula | For | Source")
 INVERSES = Table("Inverse | Formula | Source")
 STARTS = Table("Set | What it holds | Starts | Horizon [s]")
 ENGINES = Table("Engine | What it is | Episodes")
-CONVERGED = Table("Law | Episodes | Shorter steps | Shortest that decides [µs] | Not converged")
 halved = functools.cache(steps.errors)
 
 
@@ -110,7 +109,6 @@ def tables(run: Run) -> dict:
         "held": HELD(held(runs)),
         "starts": STARTS(start_sets(runs)),
         "tab_engines": ENGINES((f"`{name}`", prose(text), int(counts.get(name, 0)) or None) for name, text in listed),
-        "tab_converged": CONVERGED(unconverged(run)),
     }
 
 
@@ -118,15 +116,6 @@ def convergence(run: Run) -> pd.DataFrame:
     """The episodes that are run until half the step moves their end no more."""
     runs = episodes(run)
     return runs[runs["converged"] != ""]
-
-
-def unconverged(run: Run) -> Iterator[tuple]:
-    """A row a law with episodes that asked for shorter steps: how many did, and how many did not converge even so."""
-    for name, own in convergence(run).groupby("contender", observed=True):
-        shorter, apart = own["step_s"] < own["dt_s"], own["converged"] == "no"
-        if (shorter | apart).any():
-            moved = f"{1e6 * own.loc[shorter & ~apart, 'step_s'].min():.2g}" if (shorter & ~apart).any() else None
-            yield html.law(name, laws.title(name)), len(own), int(shorter.sum()), moved, int(apart.sum())
 
 
 def start_sets(runs: pd.DataFrame) -> Iterator[tuple]:
