@@ -16,7 +16,7 @@ from bench.experiments import jacobians as poses
 from bench.experiments.experiment import Settings
 from bench.experiments.tables.read import with_contender
 from bench.findings.claims.probes import controller
-from report.figures.arms import condition_maps, controller_costs, jacobians
+from report.figures.arms import condition_maps, cost_on_arms, jacobians
 
 ARMS = ("puma560", "panda")
 WORDS = {
@@ -41,10 +41,10 @@ def seen():
 
 @pytest.fixture(scope="module")
 def counted():
-    """costs.parquet of a few controllers, as `controller_costs.counted` gives it."""
+    """costs.parquet of a few controllers, as `cost_on_arms.counted` gives it."""
     frames = [pd.DataFrame(rows_on_arm(controller(word), n)) for n, words in WORDS.items() for word in words]
     table = with_contender(pd.concat(frames, ignore_index=True))
-    return controller_costs.prepared(table[table["branch"] == "typical"])
+    return cost_on_arms.prepared(table[table["branch"] == "typical"])
 
 
 def of(seen, pose_set="", representation=""):
@@ -79,12 +79,12 @@ def test_slice_is_put_back_on_its_grid(seen):
 def test_stages_add_up_to_the_total(counted):
     totals = counted[counted["stage"] == "total"].set_index("contender")["flops"]
     for joints in WORDS:
-        own = controller_costs.standard(counted, joints)
-        for name, row in controller_costs.stages(own).iterrows():
+        own = cost_on_arms.standard(counted, joints)
+        for name, row in cost_on_arms.stages(own).iterrows():
             assert row.sum() in totals[[one for one in totals.index if one.startswith(f"{name}+")]].tolist()
 
 
 def test_quaternion_is_shown_with_the_inverse_that_fits_it(counted):
-    shown = set(controller_costs.standard(counted, 6)["contender"])
+    shown = set(cost_on_arms.standard(counted, 6)["contender"])
     assert "feedback-linearized/quaternion@analytic+pseudo-inverse" in shown
     assert "rotation-matrix@geometric+damped-least-squares" not in shown

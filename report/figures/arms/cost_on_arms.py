@@ -1,16 +1,23 @@
-"""What the page on the cost of arms shows: whole controllers by stage, inverses and what they buy, time a tick."""
+"""The page on the cost of arms: the law's share of a controller, and whole controllers by stage on six joints and on seven.
+
+What MuJoCo computes for every controller alike (D, fg, the forward kinematics) is not counted.
+"""
 
 from __future__ import annotations
 
+import functools
 import math
 
 import pandas as pd
 
+from bench.engines.counting import STAGES
 from bench.findings.claims import Results, judge
+from bench.findings.claims.controller_costs import INVERSES
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.selection.tables import ticks
-from report.figures.arms import arm_rows, controller_costs
+from report.figures.arms import arm_rows
 from report.figures.arms.arm_rows import ON_MATRIX
+from report.figures.cost.operations import CALLS
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX
@@ -25,7 +32,7 @@ def facts(run: Run) -> dict:
     """Return the law's share of a tick, what the Euler Jacobian adds, and claim C26."""
     return {
         "measurable": f"{100 * MEASURABLE:g}",
-        **(in_run(lambda: by_joints(controller_costs.counted(run))) or {}),
+        **(in_run(lambda: by_joints(counted(run))) or {}),
         **(in_run(lambda: share_of_time(run)) or {}),
         "c26": in_run(lambda: describe_claim(run)),
     }
@@ -58,10 +65,10 @@ def by_joints(rows: pd.DataFrame) -> dict[str, str]:
     """How much of a tick is the law, and what the Euler Jacobian adds, on six joints and on seven; of six in full."""
     found: dict[str, str] = {}
     for joints, key in ((6, "six"), (7, "seven")):
-        own = controller_costs.standard(rows, joints)
-        flops = controller_costs.stages(own)
+        own = standard(rows, joints)
+        flops = stages(own)
         if {*arm_rows.PAPERS_TWO, arm_rows.SAME_BOTH_WAYS} <= set(flops.index):
-            parts = shares(flops) | (in_full(flops, controller_costs.stages(own, "calls")) if joints == 6 else {})
+            parts = shares(flops) | (in_full(flops, stages(own, "calls")) if joints == 6 else {})
             found |= {f"{key}_{name}": text for name, text in parts.items()}
     return found
 
@@ -95,3 +102,40 @@ def in_full(flops: pd.DataFrame, calls: pd.DataFrame) -> dict[str, str]:
 def percent(value: float) -> str:
     """0.0677 as 6.8 %."""
     return f"{100.0 * value:.2g}\N{NO-BREAK SPACE}%"
+
+
+@functools.cache
+def counted(run: Run) -> pd.DataFrame:
+    """Rows of costs.parquet about arms, typical branch, with `calls` and the controller without its inverse."""
+    return prepared(run.rows("costs", branch="typical"))
+
+
+def prepared(rows: pd.DataFrame) -> pd.DataFrame:
+    """Return the rows about arms, with `calls` and the controller without its inverse."""
+    rows = rows[rows["joints"] > 0]
+    names = rows["contender"].astype(str)
+    return rows.assign(
+        contender=names,
+        controller=names.str.partition("+")[0],
+        inverse=rows["inverse"].astype(str),
+        stage=rows["stage"].astype(str),
+        calls=rows[list(CALLS)].sum(axis=1),
+    )
+
+
+def standard(rows: pd.DataFrame, joints: int) -> pd.DataFrame:
+    """Return the rows by the inverse of the claims; of a controller that it does not fit, by the cheapest that fits."""
+    own = rows[rows["joints"] == joints]
+    totals = own[own["stage"] == "total"].sort_values("flops", kind="stable")
+    kept = [
+        (of[of["inverse"] == INVERSES[joints]]["contender"].tolist() or of["contender"].tolist())[0]
+        for _, of in totals.groupby("controller", sort=False)
+    ]
+    return own[own["contender"].isin(kept)]
+
+
+def stages(rows: pd.DataFrame, column: str = "flops") -> pd.DataFrame:
+    """A row a controller, the cheapest first, a column a stage."""
+    table = rows[rows["stage"] != "total"].pivot_table(index="controller", columns="stage", values=column, sort=False)
+    table = table.reindex(columns=STAGES, fill_value=0).astype(int)
+    return table.loc[table.sum(axis=1).sort_values(kind="stable").index]
