@@ -1,4 +1,4 @@
-"""The page on the cost of arms: the law's share of a controller, and whole controllers by stage on six joints and on seven.
+"""The page on the cost of arms: the share of the law, and whole controllers by stage on six joints and on seven.
 
 What MuJoCo computes for every controller alike (D, fg, the forward kinematics) is not counted.
 """
