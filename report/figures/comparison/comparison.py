@@ -142,7 +142,7 @@ def tables(run: Run) -> dict:
 
 
 def all_laws(rows: pd.DataFrame, tried: pd.DataFrame, counted: pd.DataFrame) -> html.Markdown | None:
-    """Return a row a law: what settles, how fast, overshoot, effort, peak, operations, and directed starts lost."""
+    """Return a row a law: what settles, how fast, effort, peak, operations, and directed starts lost."""
     times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
 
     def line(name: str) -> dict:
@@ -152,8 +152,7 @@ def all_laws(rows: pd.DataFrame, tried: pd.DataFrame, counted: pd.DataFrame) -> 
             "Median [s]": cells.seconds(times[name]),
             "99 % [s]": cells.seconds(times[name], 0.99),
             "Worst start": cells.worst(own),
-            "Overshoot [deg]": f"{np.degrees(own['overshoot_rad'].max()):.0f}",
-            "Effort": cells.three_figures(efforts[name]),
+            "Effort": html.number(float(f"{cells.quantile(efforts[name].to_numpy(), 0.5):.3g}")),
             "Peak": cells.large(own["peak_u"].max()),
             "A tick": cells.tick(counted, name),
             "Directed, lost": directed.count_lost(tried[tried["contender"] == name]),

@@ -32,6 +32,12 @@ def speeds() -> list[float]:
     return sorted(set(numbers()["most_speed"]))
 
 
+def whole() -> list[str]:
+    """Return the laws that lose none of these starts, family by family."""
+    lost = numbers().groupby("contender")[["lost", "unconverged"]].sum().sum(axis=1)
+    return families.in_order(lost.index[lost == 0])
+
+
 def facts() -> dict:
     """Return how many starts there are, and what becomes of the paper's two laws on angles at the greatest speed."""
     fastest = max(speeds())
@@ -40,6 +46,7 @@ def facts() -> dict:
     return {
         "mapped": html.number(int(numbers()["starts"].min())),
         "fastest": f"{fastest:g}",
+        "none_lost": ", ".join(map(families.word, whole())) or "none",
         "apart_f": percent(linear.unconverged, linear.starts),
         "crossing_f": f"{100.0 * pole_crossings(fastest):.2f}",
         "lost_f": percent(linear.lost, linear.starts - linear.unconverged),
@@ -60,9 +67,9 @@ def percent(some: int, of: int) -> str:
 
 
 def table() -> html.Markdown | None:
-    """Return by law and speed the share lost, with its interval, and the share that does not converge."""
+    """Return the share lost by law and speed, with its interval, and the share that does not converge."""
     made = Table("Law | " + " | ".join(f"{speed:g} rad/s" if speed else "At rest" for speed in speeds()))
-    found = {law: spun(numbers(), law) for law in set(numbers()["contender"])}
+    found = {law: spun(numbers(), law) for law in set(numbers()["contender"]) - set(whole())}
     order = sorted(found, key=lambda law: (sum(one.lost + one.unconverged for one in found[law]), law))
     return made((html.law(law, families.word(law)), *map(cell, found[law])) for law in order)
 
