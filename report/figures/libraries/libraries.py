@@ -21,7 +21,7 @@ HOST = "https://github.com"
 WELD = "<weld>, by default"
 
 TO_USE = Table("Library | From a matrix | From a quaternion")
-FAULTS = Table("Function | Kind | Fault | Off by [rad] | In closed loop | Smallest fix | Reported")
+FAULTS = Table("Function | Kind | Fault | In closed loop | Smallest fix | Reported")
 VERSIONS = Table("Library | Version | Asked on | Python | numpy | Note")
 
 TAKES = ("matrix", "quaternion")
@@ -151,7 +151,7 @@ def faults(every: pd.DataFrame) -> Iterator[tuple]:
         kind = "angles" if is_angles else one.kind
         driven = html.MISSING if is_angles else loops.in_words(one)
         threads = html.MISSING if kind == "idiom" else reported(one.thread)
-        yield asked(one), kind, said(one), off(one), driven, instead(one, every), threads
+        yield asked(one), kind, said(one), driven, instead(one, every), threads
 
 
 def to_use(every: pd.DataFrame) -> list[tuple]:
@@ -182,11 +182,6 @@ def instead(one, every: pd.DataFrame) -> str:
 def said(one) -> str:
     """Return the verdict on a line's function."""
     return "; ".join(one.objections.values()) or loops.RIGHT
-
-
-def off(one) -> str:
-    """Return the largest error of a line's function [rad]; none where only the sign of the quaternion is wrong."""
-    return html.MISSING if set(one.objections) == {answers.SHEET} else power(one.turn)
 
 
 def reported(thread: str) -> str:
