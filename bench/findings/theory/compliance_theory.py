@@ -35,7 +35,6 @@ from bench.law.so3 import IDENTITY, Rotation
 from tasks.arm_model import Arm
 from tasks.contact import Specification
 from tasks.hand_frames import posture
-from tasks.kinematics import kinematics
 
 UNITS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 NOWHERE = 1e-12
@@ -113,6 +112,8 @@ def mobility(arm: Arm) -> np.ndarray:
 
     The rotational block of J D^-1 J^T; the hand adds no mass, and its frame changes nothing.
     """
+    from tasks.kinematics import kinematics  # MuJoCo takes a moment to import; naming claims needs it not
+
     return kinematics(arm).mobility(posture(arm))[3:, 3:]
 
 
