@@ -17,7 +17,6 @@ from bench.engines.metrics.registry import metrics_of
 from bench.law.contenders.registry import find_contender
 
 METRICS = metrics_of(on_arm=False)
-ENGINES = ("ideal-rk4", "ideal-held", "native")
 
 
 def test_threads_that_need_the_same_wait_for_the_first_to_make_it():
@@ -35,7 +34,7 @@ def test_threads_that_need_the_same_wait_for_the_first_to_make_it():
     assert all(one is found[0] for one in found)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("engine", ["ideal-rk4", "ideal-held", "native"])
 def test_loop_of_one_law_runs_every_other(engine):
     """So that a law costs its own compilation, not that of a loop: it is made for no law, and has one signature."""
     loop = engines.compiled_loop(engine, METRICS)
