@@ -151,7 +151,7 @@ def test_part_without_a_folder_is_of_the_usual_run(capsys, monkeypatch):
 def test_few_perturbations_are_shown_level_by_level(tables):
     rows = tables["robustness"]
     (_, whole), (head, levels) = robustness.tables(rows[rows["axis"] == "half-turn-noise"])
-    assert head == "half-turn-noise [rad], level by level (a/b: a of b starts settled)"
+    assert head == "half-turn-noise [rad], level by level (a/b: a of b starts go well)"
     assert list(levels) == ["law", "0", "0.001", "0.01", "0.03", "0.1", "0.3", "1"]
     assert list(levels["law"]) == list(whole["law"])[1:]  # the first line is theory's
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import tasks
+from bench.base.provenance import ROOT
 from bench.engines.plants import perturbed
 from tasks.axis import Field
 from tasks.condition import Condition, condition_at, declared_fields
@@ -83,6 +84,12 @@ def test_starts_are_as_many_as_asked_for_and_differ(axis, seed):
 def test_field_that_no_verdict_could_be_given_of_is_refused(fields, reason):
     with pytest.raises(BadValue, match=reason):
         declared_fields({"one": AXES[0]._replace(fields=tuple(fields))})
+
+
+def test_every_field_is_read_by_an_engine_or_the_experiment():
+    files = [*(ROOT / "bench/engines").rglob("*.py"), ROOT / "bench/experiments/robustness.py"]
+    texts = [path.read_text(encoding="utf-8") for path in files]
+    assert [name for name in Condition._fields if not any(f".{name}" in text for text in texts)] == []
 
 
 def test_axis_that_sets_an_undeclared_field_is_refused():

@@ -28,12 +28,11 @@ def tables(rows):
     yield title, table.drop(columns=alike)
     axes = sorted(rows["axis"].unique())
     for axis in axes if len(axes) <= FEW else ():
-        own = results.with_contender(rows[rows["axis"] == axis]).astype({"contender": str})
-        levels = (
-            own.groupby(["contender", "level"], sort=False)[["outcome"]].apply(settled).unstack().sort_index(axis=1)
-        )
-        shown = levels.rename(columns="{:g}".format).rename_axis("law").reset_index()
-        yield f"{axis} [{tasks.axis(axis).unit}], level by level ({OF_STARTS})", shown
+        own = results.with_contender(by_level(rows[rows["axis"] == axis])).astype({"contender": str})
+        cells = own.assign(well=own["good"].astype(str) + "/" + own["starts"].astype(str))
+        shown = cells.pivot(index="contender", columns="level", values="well").rename(columns="{:g}".format)
+        shown = shown.rename_axis("law").rename_axis(None, axis=1).reset_index()
+        yield f"{axis} [{tasks.axis(axis).unit}], level by level (a/b: a of b starts go well)", shown
 
 
 def summary(rows):

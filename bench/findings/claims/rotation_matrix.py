@@ -114,7 +114,8 @@ def c03(results, engine):
 def _slope(pairs, axis):
     """Least-squares slope of the second of each pair against the first."""
     from_mean = pairs - pairs.mean(axis=-2, keepdims=True)
-    return (from_mean[..., 0] * from_mean[..., 1]).sum(axis=-1) / (from_mean[..., 0] ** 2).sum(axis=-1)
+    with np.errstate(invalid="ignore"):  # one start has no slope
+        return (from_mean[..., 0] * from_mean[..., 1]).sum(axis=-1) / (from_mean[..., 0] ** 2).sum(axis=-1)
 
 
 @claim("C04")
