@@ -31,7 +31,7 @@ def tables(rows):
         own = results.with_contender(by_level(rows[rows["axis"] == axis])).astype({"contender": str})
         cells = own.assign(well=own["good"].astype(str) + "/" + own["starts"].astype(str))
         shown = cells.pivot(index="contender", columns="level", values="well").rename(columns="{:g}".format)
-        shown = shown.rename_axis("law").rename_axis(None, axis=1).reset_index()
+        shown = shown.loc[own["contender"].unique()].rename_axis("law").rename_axis(None, axis=1).reset_index()
         yield f"{axis} [{tasks.axis(axis).unit}], level by level (a/b: a of b starts go well)", shown
 
 
