@@ -59,12 +59,6 @@ def test_small_angles_die_out_for_all_gains(one):
         assert np.roots((1.0, *one.state.polynomial(*gains))).real.max() < 0.0
 
 
-def test_three_poles_are_one_at_critically_damped_gains(one):
-    c2, c1, c0 = one.state.polynomial(100.0, 20.0)
-    pole = c2 / 3.0
-    np.testing.assert_allclose((c1, c0), (3.0 * pole**2, pole**3), rtol=1e-14)
-
-
 BOUNDED = [one for one in contenders("compensators").values() if one.state.bound]
 
 
