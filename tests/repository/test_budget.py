@@ -23,7 +23,7 @@ LINES = {
     "tests/audit": 592,
     "tests/cli": 757,
     "tests/conftest.py": 85,
-    "tests/contracts": 2_953,
+    "tests/contracts": 2_945,
     "tests/engines": 3_043,
     "tests/experiments": 2_470,
     "tests/export": 406,
