@@ -5,7 +5,7 @@ import sys
 
 
 def main() -> int:
-    """The command line; imported late, so that importing this module costs nothing.
+    """Return the command line; imported late, so that importing this module costs nothing.
 
     A sign that the terminal's encoding lacks, as ° in ASCII, is printed as a question mark.
     """

@@ -54,7 +54,7 @@ class CannotBuild(Exception):
 
 
 def results_folder(root: Path = ROOT) -> Path:
-    """The folder of results the pages read: the environment's, else latest, else reference."""
+    """Return the folder of results the pages read: the environment's, else latest, else reference."""
     named = os.environ.get(RESULTS_VARIABLE)
     if named:
         folder = Path(named).expanduser().resolve()
@@ -73,7 +73,7 @@ def results_folder(root: Path = ROOT) -> Path:
 
 
 def without_links(folder: Path) -> Path:
-    """The folder, if all in it lies there itself: a link would show, and offer, a file of this machine."""
+    """Return the folder, if all in it lies there itself: a link would show, and offer, a file of this machine."""
     for path in folder.rglob("*"):
         if path.is_symlink():
             raise CannotBuild(f"{path} is a link (cure: put what it leads to in its place, if you trust it)")
@@ -115,7 +115,7 @@ def keys(results: Path, root: Path = ROOT) -> dict[str, str]:
 
 
 def finished_keys() -> dict[str, str]:
-    """The keys of the build that lies in _build, empty where none finished."""
+    """Return the keys of the build that lies in _build, empty where none finished."""
     if not STAMP.is_file() or not (SITE / "index.html").is_file():
         return {}
     return json.loads(STAMP.read_text(encoding="utf-8"))
@@ -132,7 +132,7 @@ def date_of_commit() -> str:
 
 
 def environment(results: Path) -> dict[str, str]:
-    """What the build and its kernels see: this interpreter first, the results, a fixed clock."""
+    """Return what the build and its kernels see: this interpreter first, the results, a fixed clock."""
     ours = {
         **os.environ,
         RESULTS_VARIABLE: str(results),
@@ -194,7 +194,7 @@ def offer_data(results: Path, site: Path = SITE) -> None:
 
 
 def complaints(log: str) -> list[str]:
-    """The lines of a failed build that say what is wrong: warnings, errors, and the cell that raised."""
+    """Return the lines of a failed build that say what is wrong: warnings, errors, and the cell that raised."""
     kept, in_cell = [], False
     for line in TERMINAL_COLOUR.sub("", log).splitlines():
         if line.startswith("Exception occurred"):  # here the log says it all a second time

@@ -60,7 +60,7 @@ class Page(HTMLParser):
         self.note_picture(tag, given)
 
     def note_picture(self, tag: str, given: dict[str, str]) -> None:
-        """A picture says in words what it shows; a figure holds at least one that does."""
+        """Note a picture: it says in words what it shows, and a figure holds at least one that does."""
         if tag == "figure":
             self.described_in_figure = False
         if tag == "img":
@@ -117,7 +117,7 @@ def problems(site: Path = SITE, budget_bytes: int = BUDGET_BYTES) -> list[str]:
 
 
 def problems_of_page(path: Path, page: Page, pages: dict[Path, Page], site: Path) -> list[str]:
-    """The problems of one page."""
+    """Return the problems of one page."""
     found = list(page.undescribed)
     found += [f"shows {start}, a directive taken for text (a backtick in its caption?)" for start in page.unparsed]
     found += [f"loads {url}" for style in page.styles for url in network_urls(style)]
@@ -150,17 +150,17 @@ def network_urls(text: str) -> list[str]:
 
 
 def html_files(site: Path) -> list[Path]:
-    """The pages of the site, the theme's templates left out."""
+    """Return the pages of the site, the theme's templates left out."""
     return [path for path in sorted(site.rglob("*.html")) if "_static" not in path.relative_to(site).parts]
 
 
 def site_bytes(site: Path) -> int:
-    """What the site weighs."""
+    """Return what the site weighs."""
     return sum(path.stat().st_size for path in site.rglob("*") if path.is_file())
 
 
 def front_bytes(site: Path, page: Page) -> int:
-    """What the front page weighs, uncompressed: itself, what it loads, and the fonts that its style sheets name."""
+    """Return the weight of the front page, uncompressed: itself, what it loads, and the fonts of its style sheets."""
     loaded = {(site / unquote(urlsplit(url).path)).resolve() for url in page.loads}
     sheets = [path for path in loaded if path.suffix == ".css" and path.is_file()]
     fonts = {(one.parent / name).resolve() for one in sheets for name in FONT.findall(one.read_text(encoding="utf-8"))}

@@ -94,7 +94,7 @@ def view(puppet: Puppet, azimuth: float, elevation: float, distance: float) -> V
 
 
 def tasks_in_contact() -> None:
-    """The strip of stills, one a task."""
+    """Draw the strip of stills, one a task."""
     width, height = HALF
     strip = sheet(width * len(SHOWN), height + LINE)
     for place, (task, (trial, distance)) in enumerate(SHOWN.items()):
@@ -108,7 +108,7 @@ def tasks_in_contact() -> None:
 
 
 def on_the_plate() -> None:
-    """The loop: Cartesian and Euler compliance on the same plate, at equal times."""
+    """Draw the loop: Cartesian and Euler compliance on the same plate, at equal times."""
     shown = {}
     for controller, title in CONTROLLERS.items():
         puppet, motion = seen(PLATE, TILTED, controller)
@@ -117,7 +117,7 @@ def on_the_plate() -> None:
 
 
 def facts() -> dict:
-    """What the files show."""
+    """Return what the files show."""
     return {
         "arm": ARM,
         "stills": {task: trial for task, (trial, _) in SHOWN.items()},

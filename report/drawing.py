@@ -31,7 +31,7 @@ class Motion(NamedTuple):
     poses: Sequence
 
     def at(self, time_s: float) -> Any:
-        """The pose at a time; the last one once the episode has ended."""
+        """Return the pose at a time; the last one once the episode has ended."""
         return self.poses[min(round(time_s / self.dt_s), len(self.poses) - 1)]
 
     def frames(self, until_s: float, frames_per_s: float = FRAMES_PER_S) -> Iterator:
@@ -57,7 +57,7 @@ class View:
         self.box = left, top, left + size[0], top + size[1]
 
     def picture(self, pose):
-        """A PIL image of the pose."""
+        """Return a PIL image of the pose."""
         from PIL import Image
 
         self.puppet.follow(pose)
@@ -70,7 +70,7 @@ class View:
 
 
 def written(image, place: tuple[int, int], text: str, size: int, **anchor):
-    """The image with a line of text on it."""
+    """Return the image with a line of text on it."""
     from PIL import ImageDraw, ImageFont
 
     ImageDraw.Draw(image).text(place, text, fill=INK, font=ImageFont.truetype(str(FACE), size), **anchor)
@@ -111,7 +111,7 @@ def loop(name: str, shown: dict[str, tuple[View, Motion]], until_s: float, slowe
 
 
 def encode(images: list, name: str, poster: int) -> None:
-    """A loop in both codecs, and one of its images as its poster."""
+    """Encode a loop in both codecs, and one of its images as its poster."""
     import imageio_ffmpeg
     import numpy as np
 

@@ -83,7 +83,7 @@ def motions() -> dict[str, tuple[Motion, dict]]:
 
 
 def facts(found: dict[str, tuple[Motion, dict]], commit: str) -> dict:
-    """What the files show and where they come from."""
+    """Return what the files show and where they come from."""
     numbers = ("settling_time_s", "failure_time_s", "path_ratio", "peak_torque_ratio", "position_error_m")
     episodes = [
         {
@@ -98,7 +98,7 @@ def facts(found: dict[str, tuple[Motion, dict]], commit: str) -> dict:
 
 
 def at_home() -> None:
-    """The strip of all arms."""
+    """Draw the strip of all arms."""
     import tasks
 
     names, (width, height) = tasks.arm_names(), STRIP

@@ -71,19 +71,19 @@ def missing() -> str:
 
 
 def chromium() -> str | None:
-    """The browser's program, under the first of its names that is here."""
+    """Return the browser's program, under the first of its names that is here."""
     return next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 
 
 def pages() -> list[Path]:
-    """The pages people read."""
+    """Return the pages people read."""
     found = sorted(path for path in SITE.rglob("*.html") if "_static" not in path.relative_to(SITE).parts)
     return [path for path in found if path.name not in GENERATED]
 
 
 @contextlib.contextmanager
 def browser() -> Iterator:
-    """A headless Chromium that keeps its console and its network log."""
+    """Open a headless Chromium that keeps its console and its network log."""
     from selenium import webdriver
     from selenium.webdriver.chrome.service import Service
 
@@ -139,12 +139,12 @@ def network_requests(driver) -> list[str]:
 
 
 def console_errors(driver) -> list[str]:
-    """What the console complained of since the last call."""
+    """Return what the console complained of since the last call."""
     return [entry["message"] for entry in driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
 
 
 def picture(driver, view: View) -> bytes:
-    """The whole page as PNG, window by window: in one taller capture Chromium shifts the page sideways."""
+    """Return the whole page as PNG, window by window: in one taller capture Chromium shifts the page sideways."""
     from PIL import Image
 
     length = int(driver.execute_script("return document.documentElement.scrollHeight"))
@@ -161,7 +161,7 @@ def picture(driver, view: View) -> bytes:
 
 
 def first_figure(driver) -> bytes:
-    """The page's first figure without its caption, as PNG at twice the size."""
+    """Return the page's first figure without its caption, as PNG at twice the size."""
     box = driver.find_element("css selector", "figure svg").rect
     shot = {"format": "png", "captureBeyondViewport": True, "clip": {**box, "scale": 2}}
     return base64.b64decode(driver.execute_cdp_cmd("Page.captureScreenshot", shot)["data"])

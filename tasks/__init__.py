@@ -65,14 +65,14 @@ def pairs() -> list[tuple[str, str]]:
 
 
 def described(name: str) -> Task | ArmTask:
-    """What the file of a task says of it, whether or not it needs an arm; UnknownName lists the known ones."""
+    """Return what the file of a task says of it, whether or not it needs an arm; UnknownName lists the known ones."""
     if name in _contact_tasks():
         raise UnknownName(f"task '{name}' is one in contact (try: tasks.load('{name}', arm='ur5e'))")
     return pick("task", name, constants(domains, "TASK"), "tasks/domains")
 
 
 def task(name: str, arm: str = "") -> Task:
-    """The task of this name, on this arm; UnknownName lists the known ones.
+    """Return the task of this name, on this arm; UnknownName lists the known ones.
 
     Errors:
         BadValue: a task for arms and no arm, or a task without one and an arm.
@@ -107,7 +107,7 @@ def load(
     arm: str = "",
     vary: Callable[[mujoco.MjModel], None] | None = None,
 ) -> Environment:
-    """A dm_control Environment that begins every episode at `start` and lasts `horizon` seconds.
+    """Return a dm_control Environment that begins every episode at `start` and lasts `horizon` seconds.
 
     Args:
         task: name of a task, also of one in contact, or a Task of the caller's own.
@@ -138,7 +138,7 @@ def start_set_names(arm: bool = False) -> list[str]:
 
 
 def start_set_title(name: str, arm: bool = False) -> str:
-    """What a start set is, in a few words."""
+    """Return what a start set is, in a few words."""
     return _find_set(name, arm).title
 
 
@@ -154,7 +154,7 @@ def knows_joints(name: str) -> bool:
 
 
 def start_set(name: str, count: int | None = None, seed: int = 0, arm: str = "") -> list[Start]:
-    """The starts of a set, always the same ones in the same order.
+    """Return the starts of a set, always the same ones in the same order.
 
     Args:
         name: one of `start_set_names(arm=bool(arm))`.
@@ -187,7 +187,7 @@ def start_set_length(name: str, count: int | None = None, seed: int = 0, arm: st
 
 
 def starts_between(name: str, first: int, end: int, seed: int = 0) -> list[Start]:
-    """The starts of the free body from the number `first` to before `end`: start_set(name, end, seed)[first:].
+    """Return the starts of the free body from the number `first` to before `end`: start_set(name, end, seed)[first:].
 
     Of a sampled set no other is made, so that a stretch of a million costs what it costs of a thousand.
     """
@@ -203,7 +203,7 @@ def axis_names() -> list[str]:
 
 
 def axis(name: str) -> Axis:
-    """The axis of this name; UnknownName lists the known ones."""
+    """Return the axis of this name; UnknownName lists the known ones."""
     return pick("axis", name, known_axes(), "tasks/conditions")
 
 
@@ -213,7 +213,7 @@ def variation_names() -> list[str]:
 
 
 def variation(name: str) -> Variation:
-    """The variation of this name; UnknownName lists the known ones."""
+    """Return the variation of this name; UnknownName lists the known ones."""
     return pick("variation", name, VARIATIONS, "tasks/variations.py")
 
 
@@ -223,7 +223,7 @@ def contact_names() -> list[str]:
 
 
 def contact_task(name: str) -> ContactTask:
-    """The task in contact of this name; UnknownName lists the known ones."""
+    """Return the task in contact of this name; UnknownName lists the known ones."""
     return pick("task in contact", name, _contact_tasks(), "tasks/domains")
 
 

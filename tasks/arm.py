@@ -32,7 +32,7 @@ def arm_names(folder: Path = ARMS) -> list[str]:
 
 
 def arm(name: str, folder: Path = ARMS) -> Arm:
-    """The arm of this name, checked.
+    """Return the arm of this name, checked.
 
     Errors:
         UnknownName: there is no such file.
@@ -81,7 +81,7 @@ def _listed(paths: list[Path]) -> str:
 
 @lru_cache(maxsize=64)
 def _xml_of(name: str, file: str, text: str) -> str:
-    """What xml() of a Python file returns; run from its text, because Python's own cache goes by the clock."""
+    """Return what xml() of a Python file returns; run from its text, because Python's own cache goes by the clock."""
     module = types.ModuleType(f"tasks.arms.{Path(file).stem}")
     try:
         exec(compile(text, file, "exec"), module.__dict__)

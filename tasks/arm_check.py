@@ -32,7 +32,7 @@ MODEL_TOLERANCE = 1e-6
 
 
 def checked(name: str, xml: str) -> Arm:
-    """The Arm of an MJCF text, or BadArm."""
+    """Return the Arm of an MJCF text, or BadArm."""
     found = _compiled(name, xml)
     model, root = found
     _check_chain(name, model)

@@ -42,7 +42,7 @@ class Arm(NamedTuple):
 
 
 def model_xml(arm: Arm, dt: float) -> str:
-    """The judge's MJCF model of an arm with integration step dt [s].
+    """Return the judge's MJCF model of an arm with integration step dt [s].
 
     Gravity as on Earth; no contacts, joint limits or automatic reset. Sensors of the site "tool": those of
     tasks.sensors.SENSORS, then its position p [m].

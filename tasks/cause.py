@@ -17,7 +17,7 @@ CAUSES = ("", "representation", "kinematic", "both", "torque", "law")
 
 
 def cause(outcome: str, min_margin: float, condition: float) -> str:
-    """The cause of a failure, in a word; empty for an episode that settled.
+    """Return the cause of a failure, in a word; empty for an episode that settled.
 
     "both" singularities were near; "torque": neither, and the torque rule ended it; "law": none of these, as at an
     equilibrium away from the goal or a jump of the coordinates, and whatever was near if the law crashed or hung.

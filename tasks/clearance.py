@@ -52,7 +52,7 @@ def is_clear_of_wraps(quats: Iterable[Quat]) -> bool:
 
 
 def clear_path(model: Kinematics, q: Sequence[float] | np.ndarray, quats: Sequence[Quat]) -> np.ndarray | None:
-    """The joint path through these orientations in place, None if it ends early or any of it is not clear."""
+    """Return the joint path through these orientations in place, None if it ends early or any of it is not clear."""
     path = []
     for now in model.walk(q, quats):
         if not model.within_range(now, RANGE) or model.condition(now) > CONDITION:

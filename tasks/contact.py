@@ -150,5 +150,5 @@ def attribute(numbers: Iterable[float]) -> str:
 
 
 def wrist_of(root: ElementTree.Element) -> Any:
-    """(the body, the site "wrist" in it), or None."""
+    """Return (the body, the site "wrist" in it), or None."""
     return next(((body, site) for body in root.iter("body") for site in body.findall("site[@name='wrist']")), None)

@@ -40,7 +40,7 @@ class InContact(Driven):
         self.tick = 0
 
     def before_step(self, action: Any, physics: Physics) -> None:
-        """The action is the motors' torques [N m]."""
+        """Apply the action: the motors' torques [N m]."""
         super().before_step(action, physics)
         pushes = self.trial.pushes
         physics.named.data.xfrc_applied["hand"] = pushes[leg(len(pushes), self.tick, self.horizon_ticks)]
@@ -77,7 +77,7 @@ def environment(
     contact: ContactModel = STANDARD,
     vary: Callable[[Any], None] | None = None,
 ) -> control.Environment:
-    """A dm_control Environment of one trial, the first if none is given; `vary` as in `tasks.load`.
+    """Return a dm_control Environment of one trial, the first if none is given; `vary` as in `tasks.load`.
 
     Errors:
         BadValue: the arm cannot be set the task, or the trial or the contact model is none.

@@ -63,7 +63,7 @@ def softness(contact: ContactModel, mobility: float) -> dict[str, str]:
 
 
 def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = STANDARD) -> str:
-    """The judge's MJCF model of a task on an arm, with integration step dt [s].
+    """Return the judge's MJCF model of a task on an arm, with integration step dt [s].
 
     Sensors of the site "hand": those of tasks.sensors.SENSORS, its position p [m], then force [N] and moment [N m] in
     the hand's frame as MuJoCo gives them, if anything can touch the gap at the deepest contact [m] (at most 0, and 0
@@ -92,7 +92,7 @@ def mobilities(task: ContactTask, arm: Arm) -> dict[str, float]:
 
 
 def _model(task: ContactTask, arm: Arm, dt: float, contact: ContactModel) -> ElementTree.Element:
-    """The model, its contacts as soft as MuJoCo's own."""
+    """Return the model, its contacts as soft as MuJoCo's own."""
     around = task.surroundings(arm)
     root = ElementTree.fromstring(arm.xml)
     option = ElementTree.SubElement(root, "option", timestep=repr(dt), gravity="0 0 -9.81", cone="elliptic")

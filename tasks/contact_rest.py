@@ -41,7 +41,7 @@ class RestNumbers(NamedTuple):
 
 
 def rest_numbers(rests: bool, moves_s: float, dt: float) -> RestNumbers:
-    """The rule for an episode whose place stops moving at moves_s; that of none if it has no end."""
+    """Return the rule for an episode whose place stops moving at moves_s; that of none if it has no end."""
     if not rests:
         return RestNumbers(0, 0, 0.0, 0.0)
     moved, turned = REST.speed * REST.hold_s, REST.rate * REST.hold_s

@@ -52,7 +52,7 @@ class Physics(engine.Physics):
         mujoco.mj_step1(self.model.ptr, self.data.ptr)
 
     def R(self) -> np.ndarray:
-        """The columns n, o, a of R, one after the other: 9 numbers."""
+        """Return the columns n, o, a of R, one after the other: 9 numbers."""
         return np.array(self.data.sensordata[0:9])
 
     def omega(self) -> np.ndarray:
@@ -85,7 +85,7 @@ class Driven(control.Task):
     """Take the model's ctrl as the action; on an arm the motors' torques [N m]."""
 
     def before_step(self, action: Any, physics: Physics) -> None:
-        """The action is the model's ctrl."""
+        """Apply the action: the model's ctrl."""
         physics.set_control(action)
 
     def action_spec(self, physics: Physics) -> Any:

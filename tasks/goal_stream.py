@@ -33,7 +33,7 @@ A_0, RATE, SWAY = math.radians(120.0), 1.0, 0.3
 
 
 def true_goal(time: float) -> tuple[float, float, float, float]:
-    """The goal's unit quaternion (w, x, y, z) at a time [s], of either sign."""
+    """Return the goal's unit quaternion (w, x, y, z) at a time [s], of either sign."""
     a, b = A_0 + RATE * time, SWAY * math.sin(2.0 * time)
     half = multiply(about(K, 0.5 * a), about(K, 0.5 * a))
     return multiply(half, about(M, b))
@@ -58,7 +58,7 @@ def rotation_vector(q: np.ndarray) -> np.ndarray:
 
 
 def of_rotation_vector(v: np.ndarray) -> np.ndarray:
-    """Unit quaternions (n x 4) of rotation vectors (n x 3)."""
+    """Return unit quaternions (n x 4) of rotation vectors (n x 3)."""
     half = 0.5 * np.linalg.norm(v, axis=1, keepdims=True)
     return np.hstack((np.cos(half), 0.5 * np.sinc(half / math.pi) * v))
 
@@ -105,7 +105,7 @@ class Stream(NamedTuple):
 
 
 def held(q: np.ndarray, s: np.ndarray) -> np.ndarray:
-    """The last goal that came."""
+    """Return the last goal that came."""
     return np.repeat(q[:-1], len(s), axis=0)
 
 
@@ -138,12 +138,12 @@ STREAMS = (
 
 
 def sent() -> np.ndarray:
-    """The goals that are sent (n x 4)."""
+    """Return the goals that are sent (n x 4)."""
     return np.array([true_goal(k * PERIOD_S) for k in range(round(LENGTH_S / PERIOD_S) + 1)])
 
 
 def goals(stream: Stream, dt: float) -> np.ndarray:
-    """The goal of every tick (n x 4), of the sign that the stream gives it, from its first period on.
+    """Return the goal of every tick (n x 4), of the sign that the stream gives it, from its first period on.
 
     Args:
         dt: control period [s], of which PERIOD_S is a multiple.

@@ -25,14 +25,14 @@ def halton(count: int, dimensions: int, seed: int, first: int = 0) -> list[list[
 
 
 def orientation(u: float, v: float, w: float) -> Quat:
-    """The unit quaternion of a point of the unit cube: Haar measure for uniform (u, v, w)."""
+    """Return the unit quaternion of a point of the unit cube: Haar measure for uniform (u, v, w)."""
     inner, outer = math.sqrt(1.0 - u), math.sqrt(u)
     p, q = math.tau * v, math.tau * w
     return (outer * math.cos(q), inner * math.sin(p), inner * math.cos(p), outer * math.sin(q))
 
 
 def direction(v: float, w: float) -> Vector:
-    """The unit vector of a point of the unit square: uniform on the sphere (z is uniform, by Archimedes)."""
+    """Return the unit vector of a point of the unit square: uniform on the sphere (z is uniform, by Archimedes)."""
     z, azimuth = 2.0 * v - 1.0, math.tau * w
     radius = math.sqrt(1.0 - z * z)
     return (radius * math.cos(azimuth), radius * math.sin(azimuth), z)

@@ -50,7 +50,7 @@ def plus(p: Vector, v: Vector) -> Vector:
 
 
 def leaning(tilt_deg: float, azimuth_deg: float) -> Quat:
-    """Turned by the tilt about the horizontal axis at this azimuth, counted from x towards y."""
+    """Return the frame turned by the tilt about the horizontal axis at this azimuth, from x towards y."""
     azimuth = math.radians(azimuth_deg)
     return about((math.cos(azimuth), math.sin(azimuth), 0.0), math.radians(tilt_deg))
 

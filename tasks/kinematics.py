@@ -55,7 +55,7 @@ class Kinematics:
         self._quat = np.zeros(4)
 
     def pose(self, q: Sequence[float] | np.ndarray) -> tuple[np.ndarray, Quat]:
-        """The tool's position [m] and orientation, as the sensors of an episode give them."""
+        """Return the tool's position [m] and orientation, as the sensors of an episode give them."""
         data = self._data
         data.qpos[:] = q
         mujoco.mj_kinematics(self.model, data)
@@ -87,7 +87,7 @@ class Kinematics:
         return J @ np.linalg.solve(self.inertia_matrix(q), J.T)
 
     def least_inertia(self, q: Sequence[float] | np.ndarray) -> float:
-        """The tool's inertia about the axis about which a moment turns it most [kg m^2]."""
+        """Return the tool's inertia about the axis about which a moment turns it most [kg m^2]."""
         return float(1.0 / np.linalg.eigvalsh(self.mobility(q)[3:, 3:])[-1])
 
     def into_range(self, q: Sequence[float] | np.ndarray) -> np.ndarray:
@@ -103,7 +103,7 @@ class Kinematics:
         )
 
     def reach(self, q: Sequence[float] | np.ndarray, p: np.ndarray, quat: Quat) -> np.ndarray | None:
-        """The joint angles of a pose, by Newton's method from nearby ones; None if it does not converge."""
+        """Return the joint angles of a pose, by Newton's method from nearby ones; None if it does not converge."""
         q = np.array(q, dtype=float)
         for _ in range(NEWTON_STEPS):
             error = self._error(q, p, quat)
@@ -131,7 +131,7 @@ class Kinematics:
         return None
 
     def walk(self, q: Sequence[float] | np.ndarray, quats: Iterable[Quat]) -> Iterator[np.ndarray]:
-        """The joint angles at each orientation in turn, the tool's position held; ends where it cannot go on."""
+        """Yield the joint angles at each orientation in turn, the tool's position held; ends where it cannot go on."""
         p, _ = self.pose(q)
         now = np.array(q, dtype=float)
         for quat in quats:
@@ -147,11 +147,11 @@ class Kinematics:
         return np.array(path) if len(path) == len(quats) else None
 
     def turn(self, q: Sequence[float] | np.ndarray, axis: Vector, angle: float, steps: int) -> np.ndarray | None:
-        """The joint path, (steps + 1) x n, that turns the tool by `angle` [rad] about a base-frame axis in place."""
+        """Return the joint path, (steps + 1) x n, that turns the tool by `angle` [rad] about a base-frame axis."""
         return self.follow(q, geodesic(self.pose(q)[1], axis, angle, steps))
 
     def rates(self, q: Sequence[float] | np.ndarray, omega: Vector) -> np.ndarray:
-        """The least joint rates [rad/s] at which the tool turns with omega [rad/s] in place.
+        """Return the least joint rates [rad/s] at which the tool turns with omega [rad/s] in place.
 
         Errors:
             BadValue: the arm is at a singularity.
@@ -169,7 +169,7 @@ class Kinematics:
         qdot: Sequence[float] | np.ndarray | None = None,
         **more: tuple[float, ...],
     ) -> Start:
-        """A start at these joint angles, its orientation and angular velocity being MuJoCo's; more: of its fields."""
+        """Return a start at these joint angles with MuJoCo's orientation and angular velocity; more: of its fields."""
         angles = tuple(map(float, q))
         rates = tuple(map(float, qdot)) if qdot is not None else (0.0,) * len(angles)
         _, quat = self.pose(angles)
@@ -197,7 +197,7 @@ _of_thread = threading.local()
 
 
 def kinematics(arm: Arm, site: str = "tool") -> Kinematics:
-    """The Kinematics of an arm, made once in each thread: its state is no two threads' business."""
+    """Return the Kinematics of an arm, made once in each thread: its state is no two threads' business."""
     made: dict[tuple[Arm, str], Kinematics] = vars(_of_thread).setdefault("made", {})
     if (arm, site) not in made:
         made[arm, site] = Kinematics(arm, site)

@@ -33,7 +33,7 @@ WEIGHT = 0.7
 
 
 def least_norm(A: np.ndarray, b: np.ndarray) -> np.ndarray | None:
-    """The shortest x with A x = b. A: m x n, m <= n; None if its rows are dependent to rounding."""
+    """Return the shortest x with A x = b. A: m x n, m <= n; None if its rows are dependent to rounding."""
     A = np.ascontiguousarray(A)
     gram = _gram(A)
     if mujoco.mju_cholFactor(gram, PIVOT) < len(A):
@@ -54,7 +54,7 @@ def damped(A: np.ndarray, b: np.ndarray, lambda_: float) -> np.ndarray:
 
 
 def of_lost_rank(A: np.ndarray, u: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """A^+ b where A has lost one rank, u being the unit vector with A^T u = 0, and b . u = 0.
+    """Return a^+ b where A has lost one rank, u being the unit vector with A^T u = 0, and b . u = 0.
 
     A A^T + u u^T is regular, and on all that A reaches it is A A^T.
     """
@@ -80,7 +80,7 @@ def smallest(A: np.ndarray) -> tuple[float, np.ndarray]:
 
 
 def largest(A: np.ndarray) -> np.ndarray:
-    """The right singular vector of the largest singular value of A, `signed`, by power iteration on A^T A."""
+    """Return the right singular vector of the largest singular value of A, `signed`, by power iteration on A^T A."""
     gram = _gram(np.ascontiguousarray(A.T))
     v = gram[gram.diagonal().argmax()]
     for _ in range(POWER_ITERATIONS):
@@ -104,7 +104,7 @@ def signed(v: np.ndarray) -> np.ndarray:
 
 
 def product(A: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """A v."""
+    """Return a v."""
     A = np.ascontiguousarray(A)
     result = np.empty(len(A))
     mujoco.mju_mulMatVec(result, A, np.ascontiguousarray(v))
@@ -120,7 +120,7 @@ def transposed_product(A: np.ndarray, v: np.ndarray) -> np.ndarray:
 
 
 def _gram(A: np.ndarray) -> np.ndarray:
-    """A A^T."""
+    """Return a A^T."""
     result = np.empty((len(A), len(A)))
     mujoco.mju_mulMatMatT(result, A, A)
     return result

@@ -15,7 +15,7 @@ NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION = range(3)
 
 
 def reference_column(time, amplitude, column):
-    """A column of R_d at a time, from what it is at time 0 (base frame).
+    """Return a column of R_d at a time, from what it is at time 0 (base frame).
 
     Args:
         time [s]; amplitude: peak rate [rad/s]; column: three numbers.

@@ -15,7 +15,7 @@ from tasks.rotations import about, columns, multiply, zyx
 
 
 def geodesic(quat: Quat, axis: Vector, angle: float, steps: int) -> list[Quat]:
-    """steps + 1 orientations, evenly from `quat` to `quat` turned by `angle` [rad] about a base-frame axis."""
+    """Return steps + 1 orientations, evenly from `quat` to `quat` turned by `angle` [rad] about a base-frame axis."""
     return [turned(quat, axis, angle * i / steps) for i in range(steps + 1)]
 
 
@@ -31,7 +31,7 @@ def straight_zyx(quat: Quat, goal: Quat, steps: int) -> list[Quat]:
 
 
 def to_vertical(quat: Quat, sign: int, steps: int) -> list[Quat]:
-    """steps + 1 orientations, the shortest way until the body's x axis n is (0, 0, sign)."""
+    """Return steps + 1 orientations on the shortest path until the body's x axis n is (0, 0, sign)."""
     n = columns(quat)[0]
     away = math.hypot(n[0], n[1])
     axis = (sign * n[1] / away, -sign * n[0] / away, 0.0) if away > 0.0 else (1.0, 0.0, 0.0)

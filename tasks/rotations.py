@@ -24,7 +24,7 @@ def multiply(p: Quat, q: Quat) -> Quat:
 
 
 def columns(q: Quat) -> tuple[Vector, Vector, Vector]:
-    """The columns n, o, a of R(q), by the formula and in the order of operations of MuJoCo's mju_quat2Mat.
+    """Return the columns n, o, a of R(q), by the formula and in the order of operations of MuJoCo's mju_quat2Mat.
 
     Bit-identical to the site matrix of a free body that has this orientation, so that "exactly on the pole"
     can be decided here.
@@ -52,7 +52,7 @@ def to_base(q: Quat, v: Vector) -> Vector:
 
 
 def unit(v: Vector) -> Vector:
-    """The vector v / |v|."""
+    """Return the vector v / |v|."""
     length = math.hypot(*v)
     return (v[0] / length, v[1] / length, v[2] / length)
 
@@ -128,7 +128,7 @@ def _half(theta: float) -> tuple[float, float]:
 
 
 def _neighbours(x: float, places: int) -> list[float]:
-    """The doubles within so many last places of x, nearest first; zero has none but itself."""
+    """Return the doubles within so many last places of x, nearest first; zero has none but itself."""
     offsets = sorted(range(-places, places + 1), key=abs) if x else [0]
     return [x + i * math.ulp(x) for i in offsets]
 

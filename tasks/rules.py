@@ -58,7 +58,7 @@ class Rules(NamedTuple):
         return 4.0 / self.hold_s**2
 
     def hold_ticks(self, dt: float) -> int:
-        """The hold window in control periods."""
+        """Return the hold window in control periods."""
         return ticks(self.hold_s, dt)
 
 

@@ -11,6 +11,6 @@ SENSORS = (
 
 
 def sensor_xml(site: str) -> str:
-    """The <sensor> element that every task's model must contain, for the site that is regulated."""
+    """Return the <sensor> element that every task's model must contain, for the site that is regulated."""
     lines = [f'    <{kind} name="{name}" objtype="site" objname="{site}"/>' for name, kind, _ in SENSORS]
     return "\n".join(["  <sensor>", *lines, "  </sensor>"])

@@ -71,7 +71,7 @@ def singularity_near(model: Kinematics, q: np.ndarray) -> Singularity | None:
 
 
 def rates_through(model: Kinematics, at: Singularity, axis: Vector) -> list[np.ndarray]:
-    """The joint rates, none to two of them, at which a turn about `axis` passes smoothly through a singularity."""
+    """Return the joint rates (0 to 2 of them) at which a turn about `axis` passes smoothly through a singularity."""
     least = of_lost_rank(model.jacobian(at.q), at.u, np.array((0.0, 0.0, 0.0, *axis)))
     slope = product(at.still, product(at.M + at.M.T, least))
     b = length(slope)
@@ -90,7 +90,7 @@ def rates_through(model: Kinematics, at: Singularity, axis: Vector) -> list[np.n
 def path_from(
     model: Kinematics, at: Singularity, axis: Vector, rates: np.ndarray, angles: list[float]
 ) -> np.ndarray | None:
-    """The joint path out of a singularity along a turn about `axis`, by these angles [rad]; None if it ends early."""
+    """Return the joint path out of a singularity along a turn about `axis` by these angles [rad], or None."""
     p, quat = model.pose(at.q)
     begin = math.copysign(BEGIN, angles[-1])
     guess = at.q + begin * rates

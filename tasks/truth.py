@@ -21,6 +21,7 @@ def haversine(quat, goal):
 
     Args:
         quat, goal: (w, x, y, z), not zero.
+
     Returns:
         a number from 0 (same orientation) to 1 (half a turn apart).
     """
@@ -39,6 +40,7 @@ def angle(quat, goal):
 
     Args:
         quat, goal: (w, x, y, z), of equal or any norm but zero.
+
     Returns:
         the angle between the two orientations [rad].
     """

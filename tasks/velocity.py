@@ -23,13 +23,13 @@ class Servo(NamedTuple):
 
 
 def servo(dt: float, lag: float) -> Servo:
-    """The servos of a time constant T = lag [s]."""
+    """Return the servos of a time constant T = lag [s]."""
     decay = math.exp(-dt / lag) if lag > 0.0 else 0.0
     return Servo(dt, decay, lag * (1.0 - decay))
 
 
 def turned(quat, turn):
-    """The unit quaternion after a rotation by the base-frame vector `turn` [rad]; with no turn it keeps every bit.
+    """Return the unit quaternion after a rotation by the base-frame vector `turn` [rad]; zero keeps every bit.
 
     Its length is corrected by a step of Newton's, so that it stays 1 over any number of ticks.
     """

@@ -32,12 +32,12 @@ class Watch(NamedTuple):
 
 
 def first_watch(haversine, band, speed_squared, slow_squared):
-    """The watch at tick 0."""
+    """Return the watch at tick 0."""
     return watched(Watch(0, 0, False, 0, 0), 0, haversine, band, speed_squared, slow_squared)
 
 
 def watched(watch, tick, haversine, band, speed_squared, slow_squared):
-    """The watch after seeing angle and speed at one tick. A hundredth of the angle is 1e-4 of its haversine."""
+    """Return the watch after seeing angle and speed at one tick. A hundredth of the angle is 1e-4 of its haversine."""
     inside = haversine <= band
     slow = speed_squared <= slow_squared * band
     entries = watch.entries + 1 if inside and watch.settled_since == tick else watch.entries
@@ -48,7 +48,7 @@ def watched(watch, tick, haversine, band, speed_squared, slow_squared):
 
 
 def check_command(squared, limit_squared):
-    """GOING, or why a command of this squared length [rad^2/s^4] cannot be applied: beyond the limit, or not finite.
+    """Return GOING, or why a command of this squared length [rad^2/s^4] cannot be applied: too large or not finite.
 
     Not finite is judged of the square, which overflows from 1.3e154 rad/s^2 on.
     """
@@ -58,12 +58,12 @@ def check_command(squared, limit_squared):
 
 
 def check_state(squared, limit_squared):
-    """GOING, or DIVERGED if the squared speed [rad^2/s^2] is beyond the limit or not finite."""
+    """Return GOING, or DIVERGED if the squared speed [rad^2/s^2] is beyond the limit or not finite."""
     return GOING if squared <= limit_squared else DIVERGED
 
 
 def verdict(failure, watch, tick, rest_ticks, speed_squared, command_squared, rest_speed_squared, rest_command_squared):
-    """The outcome's code at the end of an episode: a failure, or how it stands at the horizon.
+    """Return the outcome's code at the end of an episode: a failure, or how it stands at the horizon.
 
     settled      inside the band and slow, for the last rest_ticks
     stuck        outside the band, without speed or command

@@ -26,7 +26,7 @@ def audit(
     accept: tuple[str, ...] = (),
     name: str = "",
 ) -> Report:
-    """The convention of an orientation error, and what is wrong with it.
+    """Return the convention of an orientation error, and what is wrong with it.
 
     Args:
         function: f(R, R_d) or f(q, q_d) -> three numbers.

@@ -82,7 +82,7 @@ class Convention(NamedTuple):
 
 
 def directions(pairs: Pairs, frame: str) -> np.ndarray:
-    """The axis k (n x 3) in base or in body frame."""
+    """Return the axis k (n x 3) in base or in body frame."""
     return pairs.axis if frame == "base" else np.einsum("nij,ni->nj", pairs.R, pairs.axis)
 
 
@@ -94,7 +94,7 @@ def apart(e: np.ndarray, axis: np.ndarray) -> np.ndarray:
 
 
 def find(takes: str, pairs: Pairs, e: np.ndarray) -> tuple[float, Convention | None]:
-    """The best convention for answers e (n x 3), and the share of pairs whose direction it explains."""
+    """Return the best convention for answers e (n x 3), and the share of pairs whose direction it explains."""
     best: tuple[float, str, int] = (0.0, "", 0)
     for frame in FRAMES:
         angle = apart(e, directions(pairs, frame))
@@ -136,7 +136,7 @@ def form_of(pairs: Pairs, size: np.ndarray) -> tuple[str, float]:
 
 
 def is_nearest(pairs: Pairs) -> np.ndarray:
-    """The pairs (n) at NEAREST_RAD, as a mask."""
+    """Return the pairs (n) at NEAREST_RAD, as a mask."""
     return (pairs.place == NEAR_IDENTITY) & (pairs.angle >= NEAREST_RAD[0]) & (pairs.angle <= NEAREST_RAD[1])
 
 

@@ -28,7 +28,7 @@ class Angles(NamedTuple):
 
 @functools.lru_cache(maxsize=2)
 def find_angles(examined: Examined) -> Angles | None:
-    """The sequence whose angles e is, or whose difference; None if it is no such thing."""
+    """Return the sequence whose angles e is, or whose difference; None if it is no such thing."""
     if examined.convention and examined.convention.form:
         return None
     here = examined.pairs.chosen(examined.at(WIDE))

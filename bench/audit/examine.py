@@ -18,7 +18,7 @@ from bench.base.errors import BadFunction
 
 
 def examine(function: Callable, stated: Stated, name: str) -> Report:
-    """The report on a function; if it has no convention, of that input for which the mistake is known, if it is."""
+    """Report on a function; without a convention, on the input for which the mistake is known."""
     stated.check([one.name for one in every_fault()])
     reports = []
     with warnings.catch_warnings(), np.errstate(all="ignore"):  # answers may be infinite, or no numbers

@@ -109,7 +109,7 @@ class Examined:
         return along, self.slope * FORMS[self.convention.form].size(of.angle)[:, None] * along
 
     def at(self, *places: str) -> np.ndarray:
-        """The pairs of these places, as a mask."""
+        """Return the pairs of these places, as a mask."""
         return np.isin(self.pairs.place, places)
 
     def ask(self, of: Pairs) -> Answers:
@@ -117,7 +117,7 @@ class Examined:
         return ask(self.function, self.takes, of)
 
     def evidence(self, i: int, right: bool = True) -> Evidence:
-        """The pair of this number."""
+        """Return the pair of this number."""
         one = self.pairs.chosen(slice(i, i + 1))
         (now,), (goal,) = inputs(self.takes, one)
         truth = self.truth[i] if right and np.isfinite(self.truth[i]).all() else ""
@@ -145,7 +145,7 @@ EXPLAINED_RAD = 1e-3
 
 
 def explanation(examined: Examined, models: Callable[[Pairs], Iterable[Model]]) -> tuple[str, int] | None:
-    """The model along whose vectors most answers lie, in words, and a pair that shows it; None if there is none.
+    """Return the model along whose vectors most answers lie, in words, and a pair that shows it; None if there is none.
 
     Args:
         examined: a function whose convention is not known.

@@ -32,7 +32,7 @@ BUFFER = 16
 
 
 def load(target: str) -> Callable:
-    """The function that FILE:NAME or MODULE:NAME names. This runs the file.
+    """Return the function that FILE:NAME or MODULE:NAME names. This runs the file.
 
     Errors:
         BadFunction: nothing that can be asked is there.
@@ -52,14 +52,14 @@ def load(target: str) -> Callable:
 
 
 def existing(path: Path) -> Path:
-    """The path, if there is a file."""
+    """Return the path, if there is a file."""
     if not path.is_file():
         raise BadFunction(f"there is no file {path}; give the path of a Python file or of a shared library")
     return path
 
 
 def of_file(path: Path) -> ModuleType:
-    """A Python file as a module, its folder among those that it may import from."""
+    """Return a Python file as a module, its folder among those that it may import from."""
     spec: Any = importlib.util.spec_from_file_location(f"audited_{path.stem}", existing(path))
     module = importlib.util.module_from_spec(spec)
     sys.path.insert(0, str(path.resolve().parent))
@@ -73,7 +73,7 @@ def of_file(path: Path) -> ModuleType:
 
 
 def of_name(name: str) -> ModuleType:
-    """A module that can be imported from here."""
+    """Return a module that can be imported from here."""
     sys.path.insert(0, str(Path.cwd()))
     try:
         return importlib.import_module(name)
@@ -86,7 +86,7 @@ def of_name(name: str) -> ModuleType:
 
 
 def of_class(found: type, target: str) -> Callable:
-    """An instance's function: the instance itself, or its only public method that takes two things."""
+    """Return an instance's function: the instance itself, or its only public method that takes two things."""
     try:
         instance = found()
     except Exception as error:
@@ -121,7 +121,7 @@ def callable_one(found: Any, target: str) -> Callable:
 
 
 def of_library(path: Path, symbol: str) -> Callable:
-    """A function of C."""
+    """Return a function of C."""
     try:
         library = ctypes.CDLL(str(existing(path).resolve()))
     except OSError as error:

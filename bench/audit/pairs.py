@@ -98,7 +98,7 @@ CUBE_AXES = np.array(
 
 
 def diagonal(count: int) -> np.ndarray:
-    """The quaternions 1, i, j, k in turn, 1 first."""
+    """Return the quaternions 1, i, j, k in turn, 1 first."""
     return np.eye(4)[np.arange(count) % 4]
 
 
@@ -108,7 +108,7 @@ def drawn_axes(rng: np.random.Generator, count: int) -> np.ndarray:
 
 
 def drawn_orientations(rng: np.random.Generator, count: int) -> np.ndarray:
-    """Unit quaternions of integers, uniform: those of a cube within the ball."""
+    """Return unit quaternions of integers, uniform: those of a cube within the ball."""
     found = rng.integers(-LARGEST, LARGEST + 1, size=(8 * count, 4)).astype(float)
     square = (found * found).sum(axis=1)
     kept = found[(square <= LARGEST**2) & (square > 1.0)][:count]

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """The options."""
+    """Add the options."""
     group = parser.getgroup("orientation error")
     function = "check it, FILE.py:NAME, MODULE:NAME or LIBRARY.so:SYMBOL; repeatable"
     group.addoption("--orientation-error", action="append", default=[], metavar="FUNCTION", help=function)
@@ -26,7 +26,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_collection_modifyitems(session: pytest.Session, config: pytest.Config, items: list[pytest.Item]) -> None:
-    """The checks join what was collected."""
+    """Add the checks to the collected tests."""
     for target in config.getoption("orientation_error"):
         items.extend(checks(session, target, tuple(config.getoption("orientation_error_accept"))))
 
@@ -71,7 +71,7 @@ class Check(pytest.Item):
                 raise Faulty("\n".join((report.head(), "", paragraph(report.name, finding))))
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        """The report's paragraph, and no trace."""
+        """Return the report's paragraph, and no trace."""
         return str(excinfo.value) if excinfo.errisinstance(Faulty) else super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> tuple[Path, int | None, str]:

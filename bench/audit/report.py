@@ -25,7 +25,7 @@ class Report(NamedTuple):
         return tuple(one.fault.name for one in self.findings if one.is_fault)
 
     def text(self) -> str:
-        """The whole report."""
+        """Return the whole report."""
         return "\n\n".join((self.head(), *(paragraph(self.name, one) for one in self.findings))) + "\n"
 
     def head(self) -> str:
@@ -69,7 +69,7 @@ def paragraph(name: str, finding: Finding) -> str:
 
 
 def code(name: str, evidence: Evidence | None) -> list[str]:
-    """The pair as lines to paste."""
+    """Return the pair as lines to paste."""
     if evidence is None:
         return []
     now, goal = ("R", "R_d") if evidence.now.shape == (3, 3) else ("q", "q_d")

@@ -78,7 +78,7 @@ def versions() -> dict[str, str]:
 
 
 def cpu_name() -> str:
-    """The processor's name as the system gives it."""
+    """Return the processor's name as the system gives it."""
     info = Path("/proc/cpuinfo")
     if info.is_file():
         for line in info.read_text().splitlines():
@@ -100,14 +100,14 @@ def vectors() -> str:
 
 
 def rounded_on(origin: dict) -> str:
-    """A run's processor, and what made its libraries round as on another one, in words; of its provenance."""
+    """Return a run's processor, and what made its libraries round as on another one, in words; of its provenance."""
     arithmetic = origin.get("arithmetic")
     settings = [f"{name}={value}" for name, value in arithmetic.items()] if isinstance(arithmetic, dict) else []
     return ", ".join(filter(None, (*(str(origin.get(name, "")) for name in ("cpu", "vectors")), *settings)))
 
 
 def machine_key() -> str:
-    """A short, stable name for this kind of machine: processor and number of cores, nothing that identifies it."""
+    """Return a short, stable name of this kind of machine: processor and cores, nothing that identifies it."""
     words = "".join(c if c.isalnum() else "-" for c in f"{cpu_name()}-{os.cpu_count()}-cores".lower())
     return "-".join(part for part in words.split("-") if part)
 
@@ -132,7 +132,7 @@ def _git(*words: str) -> str:
 
 
 def _without_folders(word: str) -> str:
-    """A word of the command line; of an absolute path what is in this checkout, or its last name; of a host nothing."""
+    """Return a word of the command line without folders outside this checkout and without hosts."""
     scheme, is_address, _ = word.partition("://")
     if is_address:
         return f"{scheme}://..."

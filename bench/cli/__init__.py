@@ -36,7 +36,7 @@ def bench() -> None:
 
 
 def commands() -> list[click.Command]:
-    """The constant COMMAND of every module in this folder."""
+    """Return the constant COMMAND of every module in this folder."""
     modules = [importlib.import_module(f"{__name__}.{found.name}") for found in pkgutil.iter_modules(__path__)]
     return [module.COMMAND for module in modules if hasattr(module, "COMMAND")]
 
@@ -67,6 +67,6 @@ def _refused(reason: str) -> int:
 
 
 def _path(error: click.ClickException) -> str:
-    """The command that the mistake was made with."""
+    """Return the command that the mistake was made with."""
     context = getattr(error, "ctx", None)
     return context.command_path if context else "python -m bench"

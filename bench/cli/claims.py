@@ -13,7 +13,7 @@ from bench.cli.screen import console, examples
 @click.argument("folder", required=False, type=click.Path(path_type=Path))
 @click.option("--criteria", is_flag=True, help="Print each claim's quote and criteria too.")
 def COMMAND(folder, criteria):
-    """The claims of Murphy (1988): id, verdict, what is claimed, then the evidence (default: results/latest).
+    """List the claims of Murphy (1988): id, verdict, claim, then the evidence (default: results/latest).
 
     A run of some laws or starts has no rows about some claims; those are named at the end as not judged.
     """
@@ -35,7 +35,7 @@ def COMMAND(folder, criteria):
 
 
 def _record(one) -> tuple[str, ...]:
-    """The paper's words, the criterion, and those before it."""
+    """Return the paper's words, the criterion, and those before it."""
     claim = one.claim
     before = (f"Before ({old.written}): {old.criterion} By it: {old.word}." for old in claim.earlier)
     return f"Paper, {claim.place}: {claim.quote}", f"Criterion ({claim.written}): {claim.criterion}", *before

@@ -87,7 +87,7 @@ def _print(table: pd.DataFrame, title: str, stages: bool) -> None:
 
 
 def _in_contact(words: tuple[str, ...]) -> pd.DataFrame:
-    """The costs of the controllers of these names."""
+    """Return the costs of the controllers of these names."""
     import pandas as pd
 
     from bench.engines.counting.in_contact import rows_in_contact
@@ -97,7 +97,7 @@ def _in_contact(words: tuple[str, ...]) -> pd.DataFrame:
 
 
 def _joints(joints: str | None, arm: str | None) -> int:
-    """The number of joints that is meant."""
+    """Return the number of joints that is meant."""
     n = tasks.arm(arm).joints if arm else int(joints or 6)
     if joints and int(joints) != n:
         raise click.UsageError(f"arm '{arm}' has {n} joints, not {joints} (leave --joints away)")
@@ -105,12 +105,12 @@ def _joints(joints: str | None, arm: str | None) -> int:
 
 
 def _arm_of(joints: int) -> str:
-    """An arm of so many joints: counting takes nothing else of it."""
+    """Return an arm of so many joints: counting takes nothing else of it."""
     return next(name for name in tasks.arm_names() if tasks.arm(name).joints == joints)
 
 
 def _controllers(laws: list[Contender], named: options.Named, joints: int) -> list[Contender]:
-    """The controllers of the laws by the Jacobians and inverses that are named; the quick suite's if none is."""
+    """Return the controllers of the laws by the Jacobians and inverses that are named; the quick suite's if none is."""
     by_name = {one.name: one for one in laws}
     words = SUITES["quick"].on_arms.words
     found = combinations.chosen(words, by_name, joints, named.jacobians, named.inverses, BY_WORD_ALONE)

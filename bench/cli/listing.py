@@ -137,7 +137,7 @@ def by_name(find: Callable[[str], Any], names) -> Mapping[str, Any]:
 @click.argument("kind", required=False, metavar="[KIND]")
 @options.law
 def COMMAND(kind, laws):
-    """What there is to run, of one kind or of all.
+    """List what can be run, of one kind or of all.
 
     Kinds: regulators, representations, jacobians, inverses, controllers, impedances, shipped,
     springs, compensators, baselines, metrics, contact-metrics, tasks, arms, variations, axes, starts,

@@ -20,7 +20,7 @@ REFERENCE = RESULTS / "reference"
 
 
 def several(option: str, name: str, meaning: str, metavar: str = "NAME", **more):
-    """An option that may be given again and again."""
+    """Return an option that may be given again and again."""
     return click.option(option, name, multiple=True, metavar=metavar, help=f"{meaning}; repeatable.", **more)
 
 
@@ -101,7 +101,7 @@ def named(regulators, jacobians, inverses) -> Named:
 
 
 def own_laws(files: tuple[Path, ...]) -> tuple[Law, ...]:
-    """The regulators of these files, those that lie in bench/law/contenders too; two of one name are refused."""
+    """Return the regulators of these files, those that lie in bench/law/contenders too; two of one name are refused."""
     own = tuple(registry.regulator_in(file) or described(file) for file in files)
     names = [one.name for one in own]
     for name in names:
@@ -111,7 +111,7 @@ def own_laws(files: tuple[Path, ...]) -> tuple[Law, ...]:
 
 
 def chosen(files, regulators, representations, costings: bool = False) -> list[Contender]:
-    """The contenders that the options name; without names, all (the user's own included)."""
+    """Return the contenders that the options name; without names, all (the user's own included)."""
     own = own_laws(files)
     if regulators:
         picked = [one for word in regulators for one in _named(word, own)]

@@ -66,7 +66,7 @@ def progress(unit: str, doing: str = "", screen: Console | None = None, line_s: 
 
 @contextmanager
 def _lines(steps: Steps, screen: Console, line_s: float) -> Iterator[None]:
-    """A line every so many seconds, from a thread of its own."""
+    """Print a line every so many seconds, from its own thread."""
     ended = threading.Event()
 
     def repeat():

@@ -18,7 +18,7 @@ PIPED = 200
 
 
 def console(stderr: bool = False) -> Console:
-    """A console; wide enough for tables when piped into a file. It prints brackets, as in [1/s^2], as they are."""
+    """Return a console, wide enough for tables in a file; it prints brackets, as in [1/s^2], unchanged."""
     made = Console(stderr=stderr, highlight=False, markup=False, emoji=False)
     if not made.is_terminal:
         made.width = PIPED
@@ -26,13 +26,13 @@ def console(stderr: bool = False) -> Console:
 
 
 def shown_path(path: Path) -> str:
-    """A path as one would type it here: relative if it lies in the working directory, in quotes if it has a space."""
+    """Return a path as one types it here: relative if below the working directory, quoted if it has a space."""
     relative = os.path.relpath(path)
     return shlex.quote(str(path) if relative.startswith("..") else relative)
 
 
 def counted(number: int, word: str) -> str:
-    """A number and its noun: 1 law, 1,200 laws."""
+    """Return a number and its noun: 1 law, 1,200 laws."""
     return f"{number:,} {word}{'' if number == 1 else 's'}"
 
 
@@ -42,7 +42,7 @@ def _examples() -> dict:
 
 
 def examples(command: str) -> Text:
-    """What a command's help ends with: what each does, and its words on a line of their own: up to 60 characters."""
+    """Return the end of a command's help: what each example does, and its words on their own line (60 characters)."""
     said, own = Text(), _examples()[command]
     for what, words in own["examples"]:
         said.append(f"{what}:\n").append(f"  python -m bench {words}\n", "bold")
@@ -89,7 +89,7 @@ def word_table(names: Sequence[str], rows: Iterable[Sequence], title: str = "") 
 
 
 def frame_table(frame, title: str = "") -> Frame:
-    """A data frame, for a console to print."""
+    """Return a data frame, for a console to print."""
     columns = []
     for name in frame.columns:
         cells = ["" if value is None or value != value else str(value) for value in frame[name]]
@@ -98,7 +98,7 @@ def frame_table(frame, title: str = "") -> Frame:
 
 
 def _blocks(columns: list[Column], screen: Console, options: ConsoleOptions) -> list[list[Column]]:
-    """The columns in blocks that fit, the first column in each."""
+    """Return the columns in blocks that fit, the first column in each."""
 
     def fits(*some: Column) -> bool:
         return Measurement.get(screen, options.update_width(10**6), _table(some)).minimum <= options.max_width

@@ -19,7 +19,7 @@ from bench.cli.screen import console, examples, frame_table, shown_path
 @click.option("--outcomes", is_flag=True, help="The count of each outcome for every start set.")
 @options.regulator
 def COMMAND(folder, part, details, engine, starts, outcomes, regulators):
-    """A run in at most 40 lines, the answer first: which law, what failed, where to look (default: results/latest).
+    """Show a run in at most 40 lines, the answer first: law, failures, where to look (default: results/latest).
 
     FOLDER may be left out. PART is free-body, arms, contact or robustness: the tables of that part. In them a/b counts
     episodes: a of b settled (in contact: poses done). An option that names a law, start set or engine shows the
@@ -44,7 +44,7 @@ def COMMAND(folder, part, details, engine, starts, outcomes, regulators):
 
 
 def _meant(folder: str | None, part: str | None) -> tuple[Path, str | None]:
-    """The folder and the part that one or two words mean.
+    """Return the folder and the part that one or two words mean.
 
     Errors:
         UsageError: the second word is no part. BadResults: the first is neither a part nor a folder.

@@ -88,7 +88,7 @@ class Joints(NamedTuple):
 
 
 def controls(contender: Contender, has_own_model: bool, torque_limit: float) -> Controls:
-    """The numbers of a contender on an arm."""
+    """Return the numbers of a contender on an arm."""
     gives = GIVES[contender.inverse.gives] if contender.inverse else 0
     return Controls(contender.rows, gives, STANDING if gives == BY_JOINT else int(has_own_model), torque_limit**2)
 
@@ -101,7 +101,7 @@ def states(starts, n: int) -> np.ndarray:
 
 
 def joints(arm: Arm) -> Joints:
-    """The numbers of an arm's joints."""
+    """Return the numbers of an arm's joints."""
     from tasks.kinematics import kinematics  # MuJoCo takes a moment to import; the ideal plant needs none
 
     missing = MOST - arm.joints
@@ -127,7 +127,7 @@ def blank_arm(count: int, metrics) -> np.ndarray:
 
 @kernel
 def face_joints(J, a, q, q_d, inertia, n):
-    """What a baseline on the joints finds: a = q_d - q, and J = diag(inertia)."""
+    """Give a baseline on the joints a = q_d - q and J = diag(inertia)."""
     for i in range(n):
         a[i] = q_d[i] - q[i]
         for j in range(n):
@@ -152,7 +152,7 @@ def probe(row, chain, q, G, scratch):
 
 @kernel
 def seven(b, n):
-    """The first n numbers of a buffer, then zero, as a tuple."""
+    """Return the first n numbers of a buffer, then zero, as a tuple."""
     return (b[0], b[1], b[2], b[3], b[4], b[5], b[6] if n > 6 else 0.0)
 
 

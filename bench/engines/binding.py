@@ -20,7 +20,7 @@ from tasks.base import Task
 
 
 def command_of(contender: Contender):
-    """The law with a memory slot; in the place of a user's law that raises stands CRASHED_COMMAND.
+    """Return the law with a memory slot; in the place of a user's law that raises stands CRASHED_COMMAND.
 
     So it does for one that returns anything but three numbers in some state. Times 1.0 keeps every bit of a number.
     """
@@ -35,7 +35,7 @@ def command_of(contender: Contender):
 
 
 def parts_for(contender: Contender) -> Parts:
-    """The parts of a controller on an arm with its law as `command_of` has it."""
+    """Return the parts of a controller on an arm with its law as `command_of` has it."""
     parts = parts_of(contender, command_of(contender))
     if contender.regulator.origin and parts.coordinates is not None:
         return parts._replace(report=_passing_crashes_on(parts.coordinates.accelerate))
@@ -113,7 +113,7 @@ def _guarded_memory(law):
 
 
 def plant_of(contender: Contender, task: str, gains: Gains) -> Task:
-    """The judge's task, with MuJoCo's actuator in place of the motors if that makes the command."""
+    """Return the judge's task, with MuJoCo's actuator in place of the motors if that makes the command."""
     chosen = tasks.task(task)
     return chosen.with_servo(gains.kp, gains.kv) if contender.regulator.in_engine else chosen
 
@@ -126,7 +126,7 @@ def memory_of(contender: Contender) -> tuple:
 
 @functools.cache
 def margin_of(contender: Contender):
-    """The margin of the coordinates the law acts on; of a law on R its own, or NaN if it is singular nowhere."""
+    """Return the margin of the coordinates the law acts on; of a law on R its own, or NaN if it is singular nowhere."""
     if contender.representation is None:
         return contender.regulator.margin or _no_margin
     at = contender.representation.margin
@@ -155,7 +155,7 @@ def _margin_from_goal(at):
 
 
 def evaluation_of(contender: Contender):
-    """The law and its margin as one function, so that what both compute is computed once, and called once."""
+    """Return the law and its margin as one function, so that what both compute is computed once, and called once."""
     command, margin = command_of(contender), margin_of(contender)
 
     @kernel

@@ -17,12 +17,12 @@ KEPT = 8
 
 
 def home() -> Path:
-    """The folder that holds one cache for each state of the sources."""
+    """Return the folder that holds one cache for each state of the sources."""
     return kept_in("XDG_CACHE_HOME", ".cache") / "numba"
 
 
 def _chosen() -> Path:
-    """The cache of these sources, which NUMBA_CACHE_DIR overrides; the oldest of the others go."""
+    """Return the cache of these sources, which NUMBA_CACHE_DIR overrides; the oldest of the others go."""
     named = os.environ.get("NUMBA_CACHE_DIR")
     if named:
         return Path(named)

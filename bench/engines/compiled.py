@@ -123,7 +123,7 @@ def register(function):
 
 
 def compile_function(function, signature, cache: bool = True, **options):
-    """The function compiled for one signature with our options; cached on disk unless the law is a user's.
+    """Return the function compiled for one signature with our options; cached on disk unless the law is a user's.
 
     Args:
         options: of numba's; what a function calls inherits forceinline.
@@ -145,12 +145,12 @@ def compile_loop(episodes, laws: tuple, world: Any = None):
 
 
 def compile_callback(function, signature):
-    """The function as C code calls it, by its `address`; cached on disk."""
+    """Return the function as C code calls it, by its `address`; cached on disk."""
     return numba.cfunc(signature, nopython=True, cache=True)(function)
 
 
 def made_once(make):
-    """A cache of what takes long to make: threads that need the same wait for the first, rather than make it again."""
+    """Cache what takes long to make; threads that need the same wait for the first."""
     made = functools.cache(make)
     locks: dict[tuple, threading.Lock] = {}
 
@@ -187,7 +187,7 @@ def own_law(origin: str):
 
 
 def _deepest_reason(error: Exception) -> str:
-    """The one line of numba's report that is about the law: it tells each caller's trouble before the callee's."""
+    """Return the line of numba's report that is about the law; it reports each caller before the callee."""
     lines = [line.strip() for line in str(error).splitlines() if line.strip()] or [type(error).__name__]
     deepest = max((i for i, line in enumerate(lines[:-1]) if "Failed in nopython mode" in line), default=-1)
     reason, *after = lines[deepest + 1 :]

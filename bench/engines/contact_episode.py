@@ -104,7 +104,7 @@ USUAL = Conditions()
 
 
 def numbers(controller: ContactController, task: ContactTask, trial: Trial, rated, conditions: Conditions) -> Numbers:
-    """The numbers of one trial for one controller."""
+    """Return the numbers of one trial for one controller."""
     specification = trial.specification
     f_d, m_d = tuple(map(float, specification.desired_wrench[:3])), tuple(map(float, specification.desired_wrench[3:]))
     return Numbers(
@@ -140,7 +140,7 @@ def room(dtype=float) -> ContactBuffers:
 
 @kernel
 def wrench(R, s):
-    """The force and moment on the hand, base frame.
+    """Return the force and moment on the hand, base frame.
 
     MuJoCo's sensors say what the hand does to the wrist's side of them, in the hand's frame.
     """
@@ -149,7 +149,7 @@ def wrench(R, s):
 
 @kernel
 def sensed(f, m, record, tick, delay, noise):
-    """The wrench as the controller is given it: that of `delay` ticks ago, and noise."""
+    """Return the wrench as the controller is given it: that of `delay` ticks ago, and noise."""
     if tick < delay:
         f, m = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     elif delay > 0:
@@ -161,7 +161,7 @@ def sensed(f, m, record, tick, delay, noise):
 
 @kernel
 def setpoint(R_d, p_0, numbers, time):
-    """What is wanted at a time [s]: the place moves at v_d until moves_s."""
+    """Return what is wanted at a time [s]: the place moves at v_d until moves_s."""
     v, moved = numbers.v_d, time
     if time >= numbers.moves_s:
         v, moved = (0.0, 0.0, 0.0), numbers.moves_s
@@ -201,7 +201,7 @@ def write_record(record, time, R, omega, p, f, m, gap, turned, load):
 
 
 def made(record: np.ndarray, failure: int, ticks: int, message: str, data: Any) -> Ended:
-    """The episode of a filled record; broken if MuJoCo left out contacts or constraints for want of memory."""
+    """Return the episode of a filled record; broken if MuJoCo left out contacts or constraints for want of memory."""
     kinds = (mujoco.mjtWarning.mjWARN_CONTACTFULL, mujoco.mjtWarning.mjWARN_CNSTRFULL)
     left_out = [kind.name for kind in kinds if data.warning[kind].number]
     if failure != BROKEN and left_out:
@@ -210,7 +210,7 @@ def made(record: np.ndarray, failure: int, ticks: int, message: str, data: Any) 
 
 
 def blank(shape: Numbers) -> np.ndarray:
-    """A record to be filled."""
+    """Return a record to be filled."""
     return np.full((shape.ticks, WIDTH), np.nan)
 
 

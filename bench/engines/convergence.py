@@ -53,7 +53,7 @@ def coarser(settings: Settings) -> Settings:
 
 
 def at_level(numbers: Numbers, level: Level) -> Numbers:
-    """The numbers for `refined`."""
+    """Return the numbers for `refined`."""
     most = numbers.ticks + MORE_STEPS
     return numbers._replace(tolerance_squared=level.tolerance**2, divisions=level.divisions, most_steps=most)
 

@@ -80,7 +80,7 @@ FIRST_METRIC = 6
 
 
 def numbers(settings: Settings) -> Numbers:
-    """The settings for a compiled loop; limits squared, so that no loop takes a root to compare."""
+    """Return the settings for a compiled loop; limits squared, so that no loop takes a root to compare."""
     return Numbers(
         float(settings.gains.kp),
         float(settings.gains.kv),
@@ -138,7 +138,7 @@ def vector(three) -> tuple:
 
 
 def start_rows(starts) -> np.ndarray:
-    """The judge's starts as rows: quaternion, omega, goal, haversine of the settling band."""
+    """Return the judge's starts as rows: quaternion, omega, goal, haversine of the settling band."""
     rows = np.empty((len(starts), START_WIDTH))
     for row, start in zip(rows, starts, strict=True):
         band = RULES.band_haversine(angle(start.quat_wxyz, start.goal_wxyz))

@@ -76,7 +76,7 @@ def rotation_rate(R, omega):
 
 @kernel
 def weighted(a, b, c, d):
-    """(a + 2 b + 2 c + d): the weights of Runge-Kutta 4, times six."""
+    """Return a + 2 b + 2 c + d: the weights of Runge-Kutta 4, times six."""
     return (
         a[0] + 2.0 * (b[0] + c[0]) + d[0],
         a[1] + 2.0 * (b[1] + c[1]) + d[1],
@@ -86,7 +86,7 @@ def weighted(a, b, c, d):
 
 @kernel
 def held_turn(omega, u, dt):
-    """The rotation of one tick with u held: Magnus to fourth order in dt."""
+    """Return the rotation of one tick with u held: Magnus to fourth order in dt."""
     drift = cross(u, omega)
     half, twelfth = 0.5 * dt * dt, dt * dt * dt / 12.0
     return (
@@ -98,7 +98,7 @@ def held_turn(omega, u, dt):
 
 @kernel
 def held_step(R, omega, u, dt):
-    """The plant one tick on with u held: R moved by the Magnus vector, omega by u dt."""
+    """Return the plant one tick on with u held: R moved by the Magnus vector, omega by u dt."""
     return turned(R, held_turn(omega, u, dt)), plus(omega, dt, u)
 
 
@@ -119,7 +119,7 @@ def angle_between(R, R_d):
 
 @kernel
 def rk4_step(evaluate, R, omega, u, goal, gains, memory, dt):
-    """The closed loop one Runge-Kutta step on; the first stage's command u is the tick's and is given."""
+    """Return the closed loop one Runge-Kutta step on; the first stage's command u is the tick's and is given."""
     half = 0.5 * dt
     R1 = rotation_rate(R, omega)
     omega2, at2 = plus(omega, half, u), moved(R, half, R1)

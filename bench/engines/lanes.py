@@ -49,7 +49,7 @@ NONE = -1
 
 @kernel
 def three(x, row, i):
-    """A vector of lane i."""
+    """Return a vector of lane i."""
     return (x[row, i], x[row + 1, i], x[row + 2, i])
 
 
@@ -61,7 +61,7 @@ def set_three(x, row, i, v):
 
 @kernel
 def memory_at(x, i):
-    """The law's memory."""
+    """Return the law's memory."""
     return (x[MEMORY, i], x[MEMORY + 1, i], x[MEMORY + 2, i], x[MEMORY + 3, i])
 
 
@@ -74,7 +74,7 @@ def set_memory(x, i, memory):
 
 @kernel
 def rotation(x, row, i):
-    """A rotation of lane i."""
+    """Return a rotation of lane i."""
     return Rotation(three(x, row, i), three(x, row + 3, i), three(x, row + 6, i))
 
 
@@ -90,7 +90,7 @@ def set_state(x, i, at, omega, hav):
 
 @kernel
 def watch_of(n, i):
-    """What the judge remembers of lane i."""
+    """Return what the judge remembers of lane i."""
     return Watch(n[ENTRIES, i], n[SETTLED_SINCE, i], n[SLOW, i] > 0, n[REST, i], n[QUIET, i])
 
 
@@ -141,7 +141,7 @@ def copy(numbers, i, j):
 
 @kernel
 def _series(x, lanes, dt):
-    """The two coefficients of each lane's rotation in this tick: by series, and of large rotations one by one."""
+    """Compute the two coefficients of each lane's rotation: by series, and of large rotations one by one."""
     large = 0
     for i in range(lanes):
         turn = held_turn(three(x, OMEGA, i), three(x, U, i), dt)
@@ -181,7 +181,7 @@ EPISODES = types.void(FOUR, MATRIX, NUMBERS, MATRIX)
 
 
 def episodes_of(engine, evaluate, observe, metrics: int, cache: bool = True):
-    """The loop of one law: `episodes(memory0, starts, numbers, rows)` fills the last.
+    """Return the loop of one law: `episodes(memory0, starts, numbers, rows)` fills the last.
 
     Args:
         metrics: how many there are; none is allowed.

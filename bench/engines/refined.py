@@ -96,7 +96,7 @@ def refined_step(evaluate, R, omega, u, goal, gains, memory, numbers, effort):
 
 @kernel
 def step_of(effort, numbers):
-    """The shortest step taken [s], negative if some were too long; not a number if the episode was given up."""
+    """Return the shortest step taken [s], negative if some were too long; not a number if the episode was given up."""
     if effort.steps > numbers.most_steps:
         return float("nan")
     shortest = 0.5 * effort.shortest * (numbers.dt / numbers.divisions)

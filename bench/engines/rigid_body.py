@@ -26,7 +26,7 @@ def uneven_acceleration(R, omega, u, inertia):
 
 @kernel
 def uneven_step(R, omega, u, inertia, h):
-    """The body one Runge-Kutta step on under a torque held in the base frame."""
+    """Return the body one Runge-Kutta step on under a torque held in the base frame."""
     half = 0.5 * h
     a1, R1 = uneven_acceleration(R, omega, u, inertia), rotation_rate(R, omega)
     omega2, at2 = plus(omega, half, a1), moved(R, half, R1)
@@ -43,7 +43,7 @@ def uneven_step(R, omega, u, inertia, h):
 
 @kernel
 def step(R, omega, u, inertia, h):
-    """The body one step on under the torque u."""
+    """Return the body one step on under the torque u."""
     x, y, z = inertia
     if x < y or y < x or y < z or z < y:
         return uneven_step(R, omega, u, inertia, h)

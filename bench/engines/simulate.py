@@ -214,7 +214,7 @@ def prepare(engine: str, contender: Contender, metrics, total: int = 0) -> None:
 
 @made_once
 def loop_in_lanes(engine: str, contender: Contender, metrics: tuple):
-    """The loop of an ideal plant with a law compiled into it; see `evaluation`."""
+    """Return the loop of an ideal plant with a law compiled into it; see `evaluation`."""
     with own_law(contender.regulator.origin) as cache:
         return lanes.episodes_of(engine, evaluation_of(contender), observer(metrics), len(metrics), cache)
 

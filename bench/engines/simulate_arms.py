@@ -89,7 +89,7 @@ def _simulation(task: str, arm: Arm, dt_s: float, integrator: str = "euler", var
 
 @functools.lru_cache(maxsize=64)
 def _model(task: str, arm: Arm, dt_s: float, integrator: str, variation: str) -> mujoco.MjModel:
-    """A model that many simulations may share: stepping does not change it."""
+    """Return a model that many simulations may share: stepping does not change it."""
     model = model_of(tasks.task(task, arm.name).xml(dt_s), integrator)
     if variation != NOMINAL:
         tasks.variation(variation).apply(model, arm.rated)
@@ -103,7 +103,7 @@ def pointers(contender: Contender) -> tuple:
 
 
 def _resolve(contender: Contender):
-    """The inverse of a contender that has one."""
+    """Return the inverse of a contender that has one."""
     assert contender.inverse is not None
     return part(contender.inverse.resolve, RESOLVE)
 

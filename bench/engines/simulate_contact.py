@@ -80,7 +80,7 @@ def _check(
 
 
 def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: ContactModel = STANDARD) -> Scene:
-    """A fresh model of a task on an arm."""
+    """Return a fresh model of a task on an arm."""
     model = model_of(model_xml(task, arm, conditions.dt_s, contact), conditions.integrator)
     data = mujoco.MjData(model)
     asked = np.array((model._address, data._address, 0), np.int64)
@@ -121,7 +121,7 @@ def _loop():
 
 
 def pointer(controller: ContactController):
-    """The rows of a controller, compiled or taken from the disk cache."""
+    """Return the rows of a controller, compiled or taken from the disk cache."""
     return _pointer(controller._replace(form=""))
 
 

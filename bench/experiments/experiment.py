@@ -52,7 +52,7 @@ class Settings(NamedTuple):
         return find_contender(name, self.own)
 
     def limits(self, horizon_s: float) -> Limits:
-        """These numbers and the judge's rules, as engines take them."""
+        """Return these numbers and the judge's rules as engines take them."""
         from bench.engines.episode import Settings as Limits
 
         return Limits(self.gains, self.dt_s, ticks(horizon_s, self.dt_s), RULES.hold_ticks(self.dt_s))

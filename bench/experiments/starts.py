@@ -23,7 +23,7 @@ def on_arm(start_set: str, count: int | None, seed: int, arm: str) -> list[Start
 
 @functools.lru_cache(maxsize=128)
 def found(start_set: str, count: int, seed: int, arm: str, text: str) -> tuple[Start, ...]:
-    """Sets of one size, so that runs of fewer starts find what others have kept. text: digest of the arm's."""
+    """Return sets of one size, so that runs of fewer starts find what others have kept; text: digest of the arm's."""
 
     def search() -> list[dict]:
         return [start._asdict() for start in tasks.start_set(start_set, count, seed, arm)]

@@ -30,7 +30,7 @@ Parts = dict[tuple[str, str], list[pd.DataFrame]]
 
 
 def judged(regulators: Iterable[Law], limit_s: float = LIMIT_S) -> list[Judgement]:
-    """The judgement of every law of these.
+    """Return the judgement of every law of these.
 
     Args:
         limit_s: seconds of processor time until a unit counts as hung.
@@ -54,7 +54,7 @@ def judged(regulators: Iterable[Law], limit_s: float = LIMIT_S) -> list[Judgemen
 
 
 def plan_of(laws: list[Contender]) -> Plan:
-    """The command field, the episodes and the perturbations of some laws."""
+    """Return the command field, the episodes and the perturbations of some laws."""
     episodes = Choice(("free-body",), START_SETS, (ENGINE,), experiments=("free-body", "command-field"))
     first = planning.make("quick", laws, episodes)
     second = planning.make("quick", laws, Choice(experiments=("robustness",)))
@@ -62,7 +62,7 @@ def plan_of(laws: list[Contender]) -> Plan:
 
 
 def judgement(one: Contender, parts: Parts, is_lost: bool = False) -> Judgement:
-    """What its rows say of a law."""
+    """Return what its rows say of a law."""
     field, episodes, perturbed = (
         pd.concat([pd.DataFrame(), *parts[one.name, name]], ignore_index=True)
         for name in ("command-field", "free-body", "robustness")

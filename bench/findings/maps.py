@@ -13,7 +13,7 @@ SPEEDS = ["least_speed", "most_speed"]
 
 
 def lost_share(lost: int, of: int) -> Estimate:
-    """A share with its exact 95 % interval (C. Clopper, E. Pearson, Biometrika 26, 1934)."""
+    """Return a share with its exact 95 % interval (C. Clopper, E. Pearson, Biometrika 26, 1934)."""
     from scipy.stats import binomtest
 
     interval = binomtest(lost, of).proportion_ci(0.95, method="exact")
@@ -32,7 +32,7 @@ def counted(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def lost_between(lost: int, unconverged: int, of: int) -> Estimate:
-    """The share lost of those that converge; its exact 95 % interval if those that do not settle, and if they are lost.
+    """Return the share lost of those that converge, and its exact 95 % interval.
 
     The lower end is of the first, the upper end of the second.
     """
@@ -41,7 +41,7 @@ def lost_between(lost: int, unconverged: int, of: int) -> Estimate:
 
 
 def by_law(rows: pd.DataFrame) -> pd.DataFrame:
-    """A line a law and speed: how many of the starts that converge are lost, in ppm with interval, and the slowest."""
+    """Return a row a law and speed: starts that converge and are lost, in ppm with interval, and the slowest."""
     key = ["contender", *SPEEDS]
     slowest = with_contender(rows[rows["row"] == "slowest"]).sort_values("settling_time_s")
     last = slowest.drop_duplicates(key, keep="last")[[*key, "settling_time_s", "ring_deg"]]
@@ -61,7 +61,7 @@ def by_law(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def speed_text(least: float, most: float) -> str:
-    """The speed of all starts, or that up to which they are uniform."""
+    """Return the speed of all starts, or that up to which they are uniform."""
     return f"{most:g}" if least == most else f"{least:g} to {most:g}"
 
 
@@ -76,7 +76,7 @@ class Spun(NamedTuple):
 
 
 def spun(numbers: pd.DataFrame, law: str) -> list[Spun]:
-    """A law's starts at stated speeds, the slowest first; none if it is in no map.
+    """Return a law's starts at stated speeds, the slowest first; none if it is in no map.
 
     Args:
         numbers: of `counted`.

@@ -41,7 +41,7 @@ def told_apart(one: pd.Series, other: pd.Series) -> bool:
 
 
 def best(rows: pd.DataFrame, measure: str, by: str) -> list[str]:
-    """The controllers that no other is better than, the one that passes most first, then by name.
+    """Return the controllers that no other is better than, the one that passes most first, then by name.
 
     Args:
         rows: episodes, each start once for every controller. by: the column that names controllers.

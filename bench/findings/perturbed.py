@@ -98,7 +98,7 @@ def went_well(rows: pd.DataFrame) -> pd.Series:
 
 
 def by_level(rows: pd.DataFrame) -> pd.DataFrame:
-    """A row a perturbation, law and level of robustness.parquet: starts, how many go well, median and longest time [s].
+    """Return a row a perturbation, law and level: starts, how many go well, median and longest time [s].
 
     The median counts what never settles as infinite; the longest is of those that settle.
     """
@@ -139,5 +139,5 @@ def _threshold(shares: pd.Series, way: Way) -> Threshold:
 
 @functools.cache
 def studied(folder: Path = STUDY) -> pd.DataFrame:
-    """The study's rows with `contender`."""
+    """Return the study's rows with `contender`."""
     return with_contender(read(folder, "perturbed"))

@@ -39,7 +39,7 @@ FAULTS |= {"crashed": "raises or exits", "hung": "does not return"}
 
 
 def sentences(rows: pd.DataFrame, declared: str) -> list[Said]:
-    """What its rows of command-field.parquet say of a law; declared: its `property`."""
+    """Return what its rows of command-field.parquet say of a law; declared: its `property`."""
     if rows.empty:
         return [Said("Its command was not looked at: it crashed or hung.", FAILURES, "broken")]
     whats, said = dict(zip(rows["finding"].astype(str), rows["what"].astype(str), strict=True)), []
@@ -105,7 +105,7 @@ def perturbed(rows: pd.DataFrame) -> list[Said]:
 
 
 def beside(field: pd.DataFrame, episodes: pd.DataFrame, run_field: pd.DataFrame, run: pd.DataFrame) -> pd.DataFrame:
-    """A law and the MOST laws of a run nearest to it, a line each, from the starts that both were asked.
+    """Return a law and the MOST laws of a run nearest to it, a line each, from the starts that both were asked.
 
     Near is the pull at 90 degrees [kp], and the median settling time as a logarithm; run: by the law's own engine.
     """
@@ -120,7 +120,7 @@ def beside(field: pd.DataFrame, episodes: pd.DataFrame, run_field: pd.DataFrame,
 
 
 def _line(field: pd.DataFrame, rows: pd.DataFrame) -> dict:
-    """What is shown of a law."""
+    """Return what is shown of a law."""
     settles, sets = rows["outcome"] == "settled", rows["start_set"]
     uniform, times = rows[sets == "uniform"], rows.loc[settles & (sets == "uniform"), "settling_time_s"].to_numpy()
     return {
@@ -154,12 +154,12 @@ def describe_row(row: dict) -> dict[str, str]:
 
 
 def _state(quat_wxyz: list[float]) -> str:
-    """An orientation as a turn from the goal I: its angle and axis."""
+    """Return an orientation as a turn from the goal I: its angle and axis."""
     w, *v = (math.copysign(1.0, quat_wxyz[0]) * part for part in quat_wxyz)
     size = math.hypot(*v)
     return f"{math.degrees(2.0 * math.atan2(size, w)):.7g} deg about {vector(part / (size or 1.0) for part in v)}"
 
 
 def vector(numbers) -> str:
-    """Some numbers in brackets."""
+    """Return some numbers in brackets."""
     return f"({', '.join(f'{number + 0.0:.4g}' for number in numbers)})"

@@ -88,7 +88,7 @@ class Contender(NamedTuple):
 
 
 def bind(regulator: Law, representation: Coordinates | None) -> Callable:
-    """The law of a regulator, in a representation if it acts on one."""
+    """Return the law of a regulator, in a representation if it acts on one."""
     law = regulator.law
     if representation is not None and regulator.law_in is not None:
         law = regulator.law_in(representation)

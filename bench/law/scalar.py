@@ -66,7 +66,7 @@ def atan2(y, x):
 
 
 def copysign(magnitude, sign):
-    """The magnitude with the sign bit of the second number, signed zero included."""
+    """Return the magnitude with the sign bit of the second number, signed zero included."""
     if hasattr(magnitude, "tally"):
         return magnitude.copysign(sign)
     if hasattr(sign, "tally"):

@@ -21,7 +21,7 @@ NEAR, ANTIPODE = (1.0, 0.0, 0.0, 0.0), (-1.0, 0.0, 0.0, 0.0)
 
 @kernel
 def shorter(q):
-    """The quaternion of the same turn whose scalar is not negative; q itself where that is 0."""
+    """Return the quaternion of the same turn whose scalar is not negative; q itself where that is 0."""
     if q[0] < 0.0:
         return (-q[0], -q[1], -q[2], -q[3])
     return q
@@ -58,7 +58,7 @@ def clipped(e, limit):
 
 @kernel
 def shortened(e, limit):
-    """The vector, at most so long: the direction stays."""
+    """Return the vector, at most so long: the direction stays."""
     square = dot(e, e)
     if square > limit * limit:
         scale = limit / sqrt(square)

@@ -50,7 +50,7 @@ def compiling_ahead(contenders: Iterable[str]) -> Iterator[subprocess.Popen | No
 
 
 def compiler_of(name: str) -> Callable[[], object]:
-    """What compiles a contender of ours into the cache.
+    """Return what compiles a contender of ours into the cache.
 
     Errors:
         UnknownWord: there is none of this name.

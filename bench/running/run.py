@@ -64,7 +64,7 @@ def run(
 def _team(
     plan: Plan, todo: list[Unit], out: Path, workers: int, scheduler: str, sandbox: Sandbox
 ) -> Iterator[Callable]:
-    """What carries out the units, tells its argument of each, and returns the number of its workers.
+    """Return what carries out the units, reports each to its argument, and returns its number of workers.
 
     A cluster has answered when this yields, so that nothing is written, or replaced, for one that does not.
     """

@@ -49,7 +49,7 @@ def held(out: Path) -> Iterator[None]:
 
 
 def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
-    """What is done already in `out`; nothing is touched.
+    """Return what is done already in `out`; nothing is touched.
 
     Errors:
         BadResults: the folder holds another plan, or something that is no run of ours.
@@ -82,12 +82,12 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
 
 
 def part(out: Path, unit: Unit) -> Path:
-    """The file of a unit that is done."""
+    """Return the file of a unit that is done."""
     return out / "parts" / f"{unit.key}.parquet"
 
 
 def _content(out: Path) -> list[Path]:
-    """What lies in a folder, leftovers of killed writes apart; nothing if there is no folder yet."""
+    """Return what lies in a folder, leftovers of killed writes apart; nothing if there is no folder yet."""
     try:
         return [path for path in out.iterdir() if not is_leftover(path)]
     except FileNotFoundError:

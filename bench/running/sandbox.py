@@ -89,7 +89,7 @@ class Sandbox:
                 self._tried[unit] = self.rows(unit)
 
     def rows(self, unit: Unit) -> pa.Table:
-        """The rows of a unit, whatever becomes of its law.
+        """Return the rows of a unit, whatever becomes of its law.
 
         Errors:
             BadLaw: a law beyond the dialect. KeyboardInterrupt: the run stops before all episodes were tried.
@@ -129,7 +129,7 @@ class Sandbox:
         return as_table(lost_rows_of(self.plan.settings, unit, outcome), experiment_of(unit).table)
 
     def _rows(self, unit: Unit, some: Unit, patience_s: float) -> pa.Table:
-        """The rows of some of a unit's episodes."""
+        """Return the rows of some of a unit's episodes."""
         limit_s = patience_s + TICK_S[unit.engine] * experiment_of(unit).ticks(self.plan.settings, some)
         if self.limit_s is not None:
             limit_s = self.limit_s if some is unit else min(self.limit_s, limit_s)
@@ -142,7 +142,7 @@ class Sandbox:
 
     @staticmethod
     def _place(unit: Unit) -> tuple[str, str, str]:
-        """What a law is compiled for."""
+        """Return what a law is compiled for."""
         return unit.experiment, unit.contender, unit.engine
 
     def _prepare(self, process: Process, unit: Unit) -> None:
@@ -164,7 +164,7 @@ class Sandbox:
         print(text, file=sys.stderr)
 
     def _taken(self, unit: Unit) -> Process:
-        """An idle process of the law, or a new one."""
+        """Return an idle process of the law, or a new one."""
         with self._taking:
             found = next((one for one in reversed(self._idle) if one.law == unit.law), None)
             if found is None and len(self._all) >= MOST_KEPT and self._idle:

@@ -53,7 +53,7 @@ class Process:
             self.prepared.add(place)
 
     def ask(self, unit: Unit, some: Unit, limit_s: float) -> pa.Table:
-        """The rows of a unit, or of some of its starts.
+        """Return the rows of a unit, or of some of its starts.
 
         Errors:
             Lost: they did not come in time, or the process ended, or the law broke the judge. Mistake: the user's.

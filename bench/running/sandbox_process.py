@@ -40,7 +40,7 @@ READY_S = 120
 
 
 def answer(work: Callable[[], bytes]) -> bytes:
-    """What a request is answered with, by this process."""
+    """Return what a request is answered with, by this process."""
     try:
         return DONE + work()
     except BenchError as error:
@@ -50,7 +50,7 @@ def answer(work: Callable[[], bytes]) -> bytes:
 
 
 def prepared(plan: Plan, unit: Unit, run_of: Connection) -> bytes:
-    """The answer when all is compiled, imported and built that the unit's rows need, for all forks.
+    """Return the answer when all is compiled, imported and built that the unit's rows need, for all forks.
 
     A law beyond the dialect is tried: what always raises, or never returns, has no type, and is lost, no mistake.
     """
@@ -72,12 +72,12 @@ def prepared(plan: Plan, unit: Unit, run_of: Connection) -> bytes:
 
 
 def made(plan: Plan, unit: Unit) -> bytes:
-    """The rows of a unit."""
+    """Return the rows of a unit."""
     return packed(as_table(rows_of(plan.settings, unit), experiment_of(unit).table))
 
 
 def packed(table: pa.Table) -> bytes:
-    """A table as bytes."""
+    """Return a table as bytes."""
     sink = pa.BufferOutputStream()
     with pa.ipc.new_stream(sink, table.schema) as stream:
         stream.write_table(table)
@@ -85,7 +85,7 @@ def packed(table: pa.Table) -> bytes:
 
 
 def unpacked(content: bytes) -> pa.Table:
-    """The table of such bytes."""
+    """Return the table of such bytes."""
     return pa.ipc.open_stream(content).read_all()
 
 
@@ -137,7 +137,7 @@ def _heard(reading: int, child: int, longest_s: float, run_of: Connection) -> by
 
 
 def _ended(child: int) -> tuple[int, float]:
-    """The exit code of a fork, and its processor time; it is killed if it does not end now, with what it forked."""
+    """Return a fork's exit code and processor time; kill it, and what it forked, if it has not ended."""
     deadline = time.monotonic() + ENDING_S
     while not os.waitid(os.P_PID, child, os.WEXITED | os.WNOHANG | os.WNOWAIT) and time.monotonic() < deadline:
         time.sleep(0.001)

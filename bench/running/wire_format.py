@@ -21,7 +21,7 @@ from bench.law.kinds import Law
 
 
 def described(plan: Plan, units: Sequence[Unit]) -> dict:
-    """The units, and what they need of the plan, as JSON takes it; of the user's laws those that the units name."""
+    """Return the units and what they need of the plan as JSON; of the user's laws those that the units name."""
     named = {unit.law for unit in units}
     laws = [one.origin for one in plan.settings.own if one.name in named]
     return {
@@ -32,7 +32,7 @@ def described(plan: Plan, units: Sequence[Unit]) -> dict:
 
 
 def plan_of(content: dict, read: Callable[[Path], Law] = described_law.described) -> Plan:
-    """A plan of these units alone.
+    """Return a plan of these units alone.
 
     Args:
         read: makes a law of a user's file; in a law's own process, and there alone, `law_file.load_law`.

@@ -31,7 +31,7 @@ LOOP = string.Template(Path(__file__).with_suffix(".c.template").read_text(encod
 
 
 def program(subject: Subject) -> str:
-    """The loop over states in memory, by columns there as in ours."""
+    """Return the loop over states in memory, by columns there as in ours."""
     by_rows = [3 * column + row for row in range(3) for column in range(3)]
     return LOOP.substitute(
         name=subject.identifier,
@@ -121,7 +121,7 @@ def counted(names: tuple[str, ...] = ()) -> dict[str, dict[str, float]]:
 
 
 def main() -> None:
-    """The study's command."""
+    """Run the study."""
     make_parser("exported", __doc__).parse_args()
     compiler = subprocess.run(["gcc", "--version"], capture_output=True, text=True, check=True).stdout.splitlines()[0]
     content = {"laws": counted(), "gcc": compiler, "flags": " ".join(FLAGS), "provenance": describe()}

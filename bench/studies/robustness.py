@@ -45,7 +45,7 @@ def study(workers: int, starts: int = STARTS, folder: Path = STUDY) -> None:
 
 
 def main() -> None:
-    """The study's command."""
+    """Run the study."""
     study(make_parser("robustness", __doc__, workers=2).parse_args().workers)
 
 

@@ -73,7 +73,7 @@ def _same(a: pd.Series, b: pd.Series) -> np.ndarray:
 
 
 def main() -> None:
-    """The study's command."""
+    """Run the study."""
     chosen = make_parser("settings", __doc__, SETTINGS, STORED).parse_args()
     parts = {name: functools.partial(measure, variables) for name, variables in SETTINGS.items()}
     made = make_parts(chosen.out, parts, chosen.only)

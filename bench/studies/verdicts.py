@@ -84,7 +84,7 @@ def _is_in(wanted: dict[str, Callable[[Unit], bool]], unit: Unit) -> bool:
 
 
 def judged(name: str, workers: int) -> dict:
-    """The word of every claim on a run, and what it took."""
+    """Return the word of every claim on a run, and what it took."""
     plan, began = plan_of(name), time.process_time()
     with tempfile.TemporaryDirectory(prefix="orientation-bench-") as folder:
         out = Path(folder) / "run"
@@ -97,7 +97,7 @@ def judged(name: str, workers: int) -> dict:
 
 
 def words_of(results: Results) -> dict[str, str]:
-    """The word of every claim that the results decide, by its id."""
+    """Return the word of every claim that the results decide, by its id."""
     return {one.id: str(one.word) for one in claims.judge_possible(results)[0]}
 
 
@@ -136,7 +136,7 @@ def study(names: tuple[str, ...], workers: int, out: Path, again: bool) -> dict:
 
 
 def main() -> None:
-    """The study's command; exit code 1 if a word changes."""
+    """Run the study; exit with 1 if a word changes."""
     words = make_parser("verdicts", __doc__, RUNS, STORED, workers=2).parse_args()
     content = study(tuple(words.only or RUNS), words.workers, words.out, again=bool(words.only))
     raise SystemExit(1 if turned(content["runs"], content["reference"]) else 0)

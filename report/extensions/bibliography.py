@@ -10,7 +10,7 @@ ENTRY, ITEM = 'role="doc-biblioentry"', 'role="listitem"'
 
 
 def as_items(app, pagename: str, templatename: str, context: dict, doctree) -> None:
-    """The page's body with its entries as items."""
+    """Return the page's body with its entries as items."""
     if "body" in context:
         context["body"] = context["body"].replace(ENTRY, ITEM)
 

@@ -40,7 +40,7 @@ def only_used(app, exception) -> None:
 
 
 def reduced(script: str, used: set[str]) -> tuple[str, set[str]]:
-    """The script with the icons of these names or aliases alone, and which of them it has."""
+    """Return the script with the icons of these names or aliases alone, and which of them it has."""
     kept: set[str] = set()
 
     def entry(icon: re.Match) -> str:

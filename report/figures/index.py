@@ -38,7 +38,7 @@ SHORT_COMMIT = 10
 
 
 def facts(run: Run) -> dict:
-    """The answer, the laws, how many criteria were revised, and which edition this is."""
+    """Return the answer, the laws, how many criteria were revised, and which edition this is."""
     on_claims = judged.facts(run)
     return {
         **{name: on_claims[name] for name in ("decided", "changed", "turned")},
@@ -54,7 +54,7 @@ def facts(run: Run) -> dict:
 
 
 def tables(run: Run) -> dict:
-    """The answer with its code; a square for every verdict, and how many there are of each."""
+    """Return the answer with its code; a square for every verdict, and how many there are of each."""
     every = claims.judge_all()
     return {
         "answer": answer_box.answer(run),
@@ -65,12 +65,12 @@ def tables(run: Run) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """The paper's three laws from every angle."""
+    """Return the paper's three laws from every angle."""
     return {"hero": hero.hero(run.rows("episodes", engine="ideal-rk4"))}
 
 
 def of_the_paper(run: Run) -> dict:
-    """The paper's three laws on the continuous plant: what they settle, how fast, and what they cost."""
+    """Return the paper's three laws on the continuous plant: what they settle, how fast, and what they cost."""
     episodes = run.rows("episodes", engine="ideal-rk4")
     tallies = totals(run.rows("costs", **read.FREE_BODY))
     half, poles = of(episodes, MATRIX, "half-turn"), of(episodes, FEEDBACK, "poles")

@@ -36,7 +36,7 @@ SHORTENINGS = 30
 
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:
-    """The first `count` of the sequence of this seed."""
+    """Return the first `count` of the sequence of this seed."""
     model = kinematics(arm)
     turns = enumerate(clear_turns(model, count, seed))
     return [model.start(f"clear-{i:03d}-{degrees:03.0f}-degrees", q, goal) for i, (q, goal, degrees) in turns]
@@ -83,7 +83,7 @@ def around_home(arm: Arm, seed: int, width: float = AROUND_HOME) -> Iterator[tup
 
 
 def van_der_corput(i: int) -> float:
-    """The i-th number of the sequence 0, 1/2, 1/4, 3/4, 1/8, ...: the binary digits of i mirrored at the point."""
+    """Return the i-th number of 0, 1/2, 1/4, 3/4, 1/8, ...: i's binary digits mirrored at the point."""
     x, scale = 0.0, 0.5
     while i:
         x += scale * (i & 1)

@@ -34,7 +34,7 @@ OTHER_SEED = 2000
 
 
 def build(arm: Arm, count: int, seed: int) -> list:
-    """The first `count` of the sequence of this seed."""
+    """Return the first `count` of the sequence of this seed."""
     model, starts = kinematics(arm), []
     candidates = _pairs(arm, seed + OTHER_SEED)
     for i in range(count):
@@ -60,7 +60,7 @@ def _pairs(arm: Arm, seed: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
 
 
 def _moved(model: Kinematics, q: np.ndarray, aim: np.ndarray) -> np.ndarray | None:
-    """The joint angles at the end of the way from q to the pose of aim; None if there are none, or it is not clear."""
+    """Return the joint angles at the end of a clear path from q to the pose of aim, or None."""
     (p, quat), (p_d, quat_d) = model.pose(q), model.pose(aim)
     x, y, z = rotation_vector(quat_d, quat)
     way, angle = p_d - p, math.sqrt(x * x + y * y + z * z)

@@ -20,7 +20,7 @@ OTHER_SEED = 1000
 
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:
-    """The first `count` of the sequence of this seed."""
+    """Return the first `count` of the sequence of this seed."""
     model, starts = kinematics(arm), []
     directions = halton(count, 2, seed + OTHER_SEED)
     for i, (q, goal, _) in enumerate(clear_turns(model, count, seed + OTHER_SEED)):

@@ -26,7 +26,7 @@ MOST_TRIES = 50
 
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:
-    """The first `count` candidates whose goal is reachable."""
+    """Return the first `count` candidates whose goal is reachable."""
     model, n = kinematics(arm), arm.joints
     seeds = [spread(arm, point) for point in halton(SEEDS, n, SEED_OF_SEEDS)]
     starts: list[Start] = []
@@ -45,7 +45,7 @@ def build(arm: Arm, count: int, seed: int) -> list[Start]:
 
 
 def spread(arm: Arm, point: list[float]) -> np.ndarray:
-    """The joint angles of a point of the unit cube."""
+    """Return the joint angles of a point of the unit cube."""
     q = []
     for u, low, high in zip(point, arm.lower, arm.upper, strict=True):
         middle = 0.5 * (low + high) if high - low < math.inf else 0.0

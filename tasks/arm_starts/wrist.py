@@ -65,7 +65,7 @@ def build(arm: Arm, count: int, seed: int) -> list[Start]:
 
 
 def _families(model: Kinematics, seed: int) -> Iterator[list[Turn]]:
-    """The turns of one singularity after the other, as far as they can all be made."""
+    """Yield the turns of one singularity after the other, as far as they can all be made."""
     candidates = around_home(model.arm, seed)
     for _ in range(ROUNDS):
         found = [singularity_near(model, next(candidates)[0]) for _ in range(SEARCHED)]
@@ -81,7 +81,7 @@ def _rotation(at: Singularity) -> float:
 
 
 def _family(model: Kinematics, at: Singularity, drawn: list[Vector]) -> list[Turn] | None:
-    """The turn through the singularity, then those past it at every distance; None if any cannot be made."""
+    """Return the turn through the singularity, then those past it at every distance; None if any cannot be made."""
     turns = [_first(_through(model, at, axis) for axis in _across(at.u[3:], drawn))]
     for k in DECADES:
         if turns[-1]:
@@ -90,7 +90,7 @@ def _family(model: Kinematics, at: Singularity, drawn: list[Vector]) -> list[Tur
 
 
 def _across(lost: np.ndarray | Vector, drawn: list[Vector]) -> Iterator[Vector]:
-    """What is left of the drawn axes across the lost one, of unit length."""
+    """Yield what is left of the drawn axes across the lost one, of unit length."""
     along = unit((lost[0], lost[1], lost[2]))
     for axis in drawn:
         share = along[0] * axis[0] + along[1] * axis[1] + along[2] * axis[2]
@@ -124,7 +124,7 @@ def _past(model: Kinematics, at: Singularity, distance: float, drawn: list[Vecto
 
 
 def _turn(model: Kinematics, q: np.ndarray, axis: Vector, paths: Iterable[np.ndarray | None]) -> Turn | None:
-    """(start's q, goal) of the turn with the pose of q in its middle; the two paths lead away from there."""
+    """Return (start's q, goal) of the turn with the pose of q in its middle; the two paths lead away from there."""
     middle = model.pose(q)[1]
     if not is_clear_of_pole(turned(middle, axis, HALF_ANGLE * i / 8.0) for i in range(-8, 9)):
         return None

@@ -39,7 +39,7 @@ SHAPES: dict[str, tuple[list[tuple], float]] = {
 
 
 def xml() -> str:
-    """The MJCF text."""
+    """Return the MJCF text."""
     model = mujoco.MjModel.from_xml_path(str(files("dm_control") / "third_party" / "kinova" / "jaco_arm.xml"))
     motors = "\n".join(
         f'    <motor joint="{model.joint(i).name}" ctrlrange="-{rated} {rated}"/>' for i, rated in enumerate(RATED)
@@ -96,7 +96,7 @@ def _body(model: mujoco.MjModel, i: int) -> str:
 
 
 def _tool(model: mujoco.MjModel) -> str:
-    """The wrist site as the tool, with its axes n, o, a."""
+    """Return the wrist site as the tool, with its axes n, o, a."""
     site = model.site("wristsite")
     return f"""<body name="tool" pos="{_numbers(site.pos)}" quat="{_numbers(site.quat)}">
   <site name="tool" size=".002"/>

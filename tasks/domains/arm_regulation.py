@@ -29,7 +29,7 @@ def state(start: Start) -> tuple[tuple[float, ...], tuple[float, ...]]:
 
 @functools.cache
 def on(arm: Arm) -> Task:
-    """The task on one arm."""
+    """Return the task on one arm."""
     return Task(
         name=NAME,
         title=TITLE,

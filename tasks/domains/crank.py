@@ -36,7 +36,7 @@ DENSE_AZIMUTHS = (50, 60, 75, 105, 120, 130, -50, -60, -75, -105, -120, -130)
 
 
 def surroundings(arm: Arm) -> Surroundings:
-    """A hub with a hinge about the scene's x, a crank, and the hand's grip on it."""
+    """Return a hub with a hinge about the scene's x, a crank, and the hand's grip on it."""
     length, handle = TIP[2], f"{ASIDE} {ABOVE}"
     hand = f'<geom type="cylinder" size=".015 {length / 2}" pos="0 0 {length / 2}" mass="0" rgba=".3 .5 .8 1"/>'
     scene = f"""
@@ -75,7 +75,7 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
 
 
 def _turned(arm: Arm, azimuth: float) -> tuple[float, ...]:
-    """The posture with the wrist's x axis turned to this azimuth by the last joint, whose axis points down."""
+    """Return the posture with the wrist's x axis turned to this azimuth by the last joint, whose axis points down."""
     q = posture(arm)
     x = columns(wrist(arm, q)[1])[0]
     return (*q[:-1], q[-1] - math.remainder(azimuth - math.atan2(x[1], x[0]), math.tau))

@@ -33,7 +33,7 @@ DENSE_PLANES = ((0, 0), *itertools.product((2, 5, 10, 15), range(0, 360, 45)))
 
 
 def surroundings(arm: Arm) -> Surroundings:
-    """A ball on a stem, and a plane."""
+    """Return a ball on a stem, and a plane."""
     length = TIP[2]
     hand = (
         f'<geom type="cylinder" size=".006 {length / 2}" pos="0 0 {length / 2}" mass="0" rgba=".3 .5 .8 1"/>'

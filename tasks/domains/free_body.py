@@ -28,7 +28,7 @@ MOTORS = """<motor name="u_x" jointinparent="ball" gear="1 0 0 0 0 0"/>
 
 
 def xml(dt: float) -> str:
-    """The MJCF model with integration step dt [s]; ctrl is u in the base frame [rad/s^2]."""
+    """Return the MJCF model with integration step dt [s]; ctrl is u in the base frame [rad/s^2]."""
     return _xml(dt, MOTORS)
 
 
@@ -41,7 +41,7 @@ def servo_xml(dt: float, kp: float, kv: float) -> str:
 
 
 def _xml(dt: float, actuators: str) -> str:
-    """The model with these elements in <actuator>.
+    """Return the model with these elements in <actuator>.
 
     The motors' ctrlrange [rad/s^2] is for agents to draw from, and cuts nothing: commands of the paper's gains stay
     within it (944, tasks/rules.py). The look: a hand with two fingers along a and coloured base axes (red x, green y,

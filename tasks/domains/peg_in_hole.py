@@ -48,7 +48,7 @@ UP = (0.0, 1.0, 0.0, 0.0)  # turns the wrist's frame, which points down, so that
 
 
 def surroundings(arm: Arm, hole: float = HOLE) -> Surroundings:
-    """A peg on a stem, and four walls with their chamfers and a bottom; half the side of the hole [m]."""
+    """Return a peg on a stem, and four walls with their chamfers and a bottom; half the side of the hole [m]."""
     length = TIP[2]
     hand = (
         f'<geom type="cylinder" size=".008 {length / 2 - DEPTH}" pos="0 0 {length / 2 - DEPTH}" mass="0" '
@@ -62,12 +62,12 @@ def surroundings(arm: Arm, hole: float = HOLE) -> Surroundings:
 
 
 def with_clearance(share: float) -> ContactTask:
-    """The task with a hole that is wider than the peg by this share of the peg's side."""
+    """Return the task with a hole that is wider than the peg by this share of the peg's side."""
     return TASK._replace(surroundings=functools.partial(surroundings, hole=PEG * (1.0 + share)))
 
 
 def _side(k: int, hole: float) -> str:
-    """The wall and the chamfer in the direction of +x, turned by k quarters about z."""
+    """Return the wall and the chamfer in the direction of +x, turned by k quarters about z."""
     half, slope = WALL / 2, CHAMFER / math.sqrt(2)
     deep = (DEPTH - CHAMFER) / 2
     wall = _box(f"wall {k}", (half, hole + WALL, deep), (hole + half, 0.0, -CHAMFER - deep), k)

@@ -42,7 +42,7 @@ DENSE_PLATES = tuple(itertools.product((5, 10, 15, 20), range(0, 360, 45)))
 
 
 def surroundings(arm: Arm) -> Surroundings:
-    """A square tool on a stem, and a plate."""
+    """Return a square tool on a stem, and a plate."""
     half, thick, length = SIDE / 2, 0.008, TIP[2]
     hand = (
         f'<geom type="cylinder" size=".02 {length / 2}" pos="0 0 {length / 2}" mass="0" rgba=".3 .5 .8 1"/>'

@@ -75,7 +75,7 @@ DENSE_GRIDS = (
 
 
 def surroundings(arm: Arm) -> Surroundings:
-    """A bare rod of a hand, to be seen in a picture, and nothing else."""
+    """Return a bare rod of a hand, to be seen in a picture, and nothing else."""
     rod = '<geom type="cylinder" size=".02 .04" pos="0 0 .05" mass="0" rgba=".3 .5 .8 1"/>'
     return Surroundings(hand=rod, tip=(0.0, 0.0, 0.1))
 
@@ -106,7 +106,7 @@ def _at(
     angles: tuple[int, int, int],
     specifications: tuple[Specification, ...],
 ) -> Iterator[Trial]:
-    """The trials at one frame of the hand, by its Z-Y-X angles [deg]."""
+    """Yield the trials at one frame of the hand, by its Z-Y-X angles [deg]."""
     alpha, beta, gamma = angles
     goal = zyx(math.radians(alpha), math.radians(beta), math.radians(gamma))
     mount = mounts(arm, q, goal)

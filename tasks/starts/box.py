@@ -42,7 +42,7 @@ def _grid() -> list[Start]:
 
 
 def _shell(word: str, depth: float) -> list[Start]:
-    """The 26 directions of a cube, on the box drawn in by depth [rad]."""
+    """Return the 26 directions of a cube, on the box drawn in by depth [rad]."""
     starts = []
     for signs in itertools.product((-1, 0, 1), repeat=3):
         if any(signs):

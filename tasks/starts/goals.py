@@ -57,7 +57,7 @@ def _directed() -> list[Start]:
 
 
 def _pair(name: str, quat: Quat, goal: Quat, moved: bool = False) -> Start:
-    """A start at `quat`, or at the goal turned by `quat` about base axes."""
+    """Return a start at `quat`, or at the goal turned by `quat` about base axes."""
     return Start(name, multiply(quat, goal) if moved else quat, goal_wxyz=goal)
 
 
@@ -73,7 +73,7 @@ def _uniform(first: int, end: int, seed: int) -> list[Start]:
 
 
 def _far(block: int, seed: int) -> list[tuple[Quat, Quat]]:
-    """The pairs of a block of candidates whose goal is far."""
+    """Return the pairs of a block of candidates whose goal is far."""
     points = halton(BLOCK, 6, seed, block * BLOCK)
     pairs = [(orientation(*point[:3]), orientation(*point[3:])) for point in points]
     return [(quat, goal) for quat, goal in pairs if haversine(goal, IDENTITY) > FAR]
@@ -83,7 +83,7 @@ _counting = threading.Lock()
 
 
 def _block_of(place: int, seed: int) -> tuple[int, int]:
-    """The block that holds the far pair of this number, and how many are in blocks before it."""
+    """Return the block that holds the far pair of this number, and how many are in blocks before it."""
     with _counting:
         before = _far_before(seed)
         while before[-1] <= place:

@@ -47,7 +47,7 @@ def build(seed: int) -> list[Start]:
 
 
 def _random_axes(seed: int) -> dict[str, Vector]:
-    """Generic axes, uniform on the sphere: no element is zero and no two are equal."""
+    """Draw generic axes, uniform on the sphere: no element is zero and no two are equal."""
     generator = np.random.default_rng(seed)
     axes = {}
     for i in range(RANDOM_AXES):

@@ -16,7 +16,7 @@ FIGURES = {"2.3": (1.2, 0.6, -0.9), "2.4": (1.2, -0.8, 2.2), "2.5": (2.6, 1.2, -
 
 
 def build(seed: int) -> list[Start]:
-    """The three starts."""
+    """Return the three starts."""
     return [Start(f"figure-{figure}", zyx(*angles)) for figure, angles in FIGURES.items()]
 
 

@@ -14,7 +14,7 @@ SPEED_LIMIT = 20.0  # [rad/s]
 
 
 def between(first: int, end: int, seed: int) -> list[Start]:
-    """The points from `first` to before `end`."""
+    """Return the points from `first` to before `end`."""
     starts = []
     for i, point in enumerate(halton(end - first, 6, seed, first), first):
         x, y, z = direction(point[3], point[4])

@@ -7,7 +7,7 @@ from tasks.haar import halton, orientation
 
 
 def between(first: int, end: int, seed: int) -> list[Start]:
-    """The points from `first` to before `end`."""
+    """Return the points from `first` to before `end`."""
     points = enumerate(halton(end - first, 3, seed, first), first)
     return [Start(f"uniform-{i:05d}", orientation(*point)) for i, point in points]
 

@@ -8,7 +8,7 @@ from bench.audit.pairs import Pairs
 
 
 def find(examined: Examined) -> Found | None:
-    """It lies in the other frame than stated, or is rotated into none."""
+    """Find an error in the other frame than stated, or rotated into none."""
     stated, found = examined.stated, examined.convention
     if found and stated.frame and stated.frame != found.frame:
         return Found(f"stated to be in the {stated.frame} frame, it is in the {found.frame} frame")
@@ -17,7 +17,7 @@ def find(examined: Examined) -> Found | None:
 
 
 def models(pairs: Pairs) -> Iterator[Model]:
-    """The axis in base or body, rotated where it must not be, or the wrong way; R_d^T k is R^T k."""
+    """Yield the axis in base or body, rotated where it must not be, or the wrong way; R_d^T k is R^T k."""
     R, k = pairs.R, pairs.axis
     T, k_body = R.swapaxes(1, 2), rotated(R.swapaxes(1, 2), k)
     yield "R applied to an error that is in base already", rotated(R, k)

@@ -15,7 +15,7 @@ READ = {"wxyz": [0, 1, 2, 3], "xyzw": [3, 0, 1, 2], "xyzw, shifted the wrong way
 
 
 def find(examined: Examined) -> Found | None:
-    """It takes the other order than stated, or one order here and the other there."""
+    """Find the other order than stated, or one order here and the other there."""
     stated, found = examined.stated.takes, examined.convention
     if found and stated in ORDERS and found.takes in ORDERS and found.takes != stated:
         return Found(f"stated to take {stated}, it takes {found.takes}")

@@ -7,7 +7,7 @@ from bench.audit.fault import Fault, Found
 
 
 def find(examined: Examined) -> Found | None:
-    """It raises, or returns no three numbers."""
+    """Find calls that raise or that do not return three numbers."""
     silent = np.array([bool(reason) for reason in examined.raised])
     if not silent.any():
         return None

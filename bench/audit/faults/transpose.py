@@ -8,7 +8,7 @@ from bench.audit.pairs import Pairs
 
 
 def find(examined: Examined) -> Found | None:
-    """The axis of a product with one transpose less; or, if both are stated, the other frame and direction."""
+    """Return the axis of a product with one transpose less; or, if both are stated, the other frame and direction."""
     stated, found = examined.stated, examined.convention
     if found and None not in (stated.frame, stated.sign) and (stated.frame, stated.sign) != (found.frame, found.sign):
         return None if stated.frame == found.frame or stated.sign == found.sign else Found(

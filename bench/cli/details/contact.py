@@ -15,7 +15,7 @@ COLUMNS = {
 
 
 def tables(rows):
-    """A table for each arm."""
+    """Yield a table for each arm."""
     for arm, part in rows.groupby("arm", observed=True, sort=False):
         yield f"{arm}, contact (a/b: a of b poses done; then median and worst of these)", summary(part)
 

@@ -74,7 +74,7 @@ def summarize_laws(episodes):
 
 
 def _share(part) -> str:
-    """The share that settles, with its Wilson 95 % interval."""
+    """Return the share that settles, with its Wilson 95 % interval."""
     number = int((part["outcome"] == "settled").sum())
     low, high = binomtest(number, len(part)).proportion_ci(method="wilson")
     return f"{number / len(part):.2%} [{low:.2%}, {high:.2%}]"
@@ -102,7 +102,7 @@ def summarize_variations(episodes):
 
 
 def only(episodes, folder, column: str, words):
-    """The rows that have one of some words in a column; all if there are no words.
+    """Return the rows that have one of some words in a column; all if there are no words.
 
     Errors:
         UsageError: a word that no row has.
@@ -116,7 +116,7 @@ def only(episodes, folder, column: str, words):
 
 
 def of_laws(rows, folder, words):
-    """The rows of the laws: by regulator, with its representation, or with its Jacobian and inverse too.
+    """Return the rows of the laws: by regulator, with its representation, or with its Jacobian and inverse too.
 
     Errors:
         UsageError: a word that names no law of the rows.

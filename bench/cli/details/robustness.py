@@ -54,5 +54,5 @@ def summary(rows):
 
 
 def form(value: float) -> str:
-    """A number of a closed form; empty where there is none."""
+    """Return a number of a closed form; empty where there is none."""
     return "" if math.isnan(value) else f"{value:.3g}"

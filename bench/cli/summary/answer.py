@@ -15,7 +15,7 @@ NOISE = f"worst-case attitude noise up to {HELD_RAD:g} rad"
 
 
 def paragraphs(found: Measured) -> list[Paragraph]:
-    """The law to use, and the exceptions where there are laws to choose from."""
+    """Return the law to use, and the exceptions where there are laws to choose from."""
     advice = advise(found)
     said = [Paragraph("Which law", (_default(advice, found),))]
     said += _ours(found) if advice.default.law else []

@@ -17,7 +17,7 @@ HALF_TURNS = "half-turn"
 
 
 def paragraph(results: Results) -> Paragraph:
-    """A line or two for each part that the run has."""
+    """Return a line or two for each part that the run has."""
     episodes, contact, robustness = (results.table(name) for name in ("episodes", "compliance", "robustness"))
     is_free = episodes["arm"] == ""
     said = [

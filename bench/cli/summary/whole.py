@@ -93,7 +93,7 @@ def undecided(results: Results) -> Paragraph:
 
 
 def parts_in(results: Results) -> list[str]:
-    """The parts of a run, as `show` names them, that have rows."""
+    """Return the parts of a run, as `show` names them, that have rows."""
     episodes = results.table("episodes")
     tables = {"contact": "compliance"} | {name: one.table.name for name, one in known_experiments().items()}
     has = {"free-body": (episodes["arm"] == "").any(), "arms": (episodes["arm"] != "").any()}
@@ -101,7 +101,7 @@ def parts_in(results: Results) -> list[str]:
 
 
 def list_absent(results: Results) -> list[Paragraph]:
-    """The parts and the laws that are not in the run; nothing if all are."""
+    """Return the parts and the laws that are not in the run; nothing if all are."""
     episodes = results.table("episodes")
     present = parts_in(results)
     absent = [part.replace("-", " ") for part in parts() if part not in present]

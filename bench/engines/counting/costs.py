@@ -70,14 +70,14 @@ def flops(numbers: dict) -> int:
 
 
 def contender_words(one: Contender, joints: int = 0) -> dict:
-    """The first columns of a contender's rows; of no joints for a law alone."""
+    """Return the first columns of a contender's rows; of no joints for a law alone."""
     coordinates = one.representation.name if one.representation else ""
     names = "regulator", "representation", "jacobian", "inverse", "joints"
     return dict(zip(names, (one.regulator.name, coordinates, *one.way, joints), strict=True))
 
 
 def rows_of(one: Cost, words: dict, stages: tuple[str, ...] = STAGES) -> Iterator[dict]:
-    """A row for each branch and stage of a cost, the stage "total" last; words: its first columns."""
+    """Yield a row for each branch and stage of a cost, the stage "total" last; words: its first columns."""
     for branch, counts in zip(BRANCHES, (one.typical, one.worst), strict=True):
         for stage in (*stages, TOTAL):
             numbers = counts.of(stage)
@@ -85,7 +85,7 @@ def rows_of(one: Cost, words: dict, stages: tuple[str, ...] = STAGES) -> Iterato
 
 
 def size(counts: Counts) -> tuple[int, int]:
-    """What calls are ranked by: all operations, then flops."""
+    """Return what calls are ranked by: all operations, then flops."""
     numbers = counts.of(TOTAL)
     return sum(numbers[name] for name in OPERATIONS), flops(numbers)
 
@@ -117,7 +117,7 @@ def counted_calls(contender: Contender, over: Iterable[State] | None = None) -> 
 def _call(
     contender: Contender, plain: Callable, counting: Callable, tally: Tally, state: State, memory: tuple
 ) -> tuple[Call, tuple]:
-    """The call, and the memory the law left (empty for a law without, or if it raised)."""
+    """Return the call, and the memory the law left (empty for a law without, or if it raised)."""
     given = (state.R, state.omega, state.goal, GAINS, *memory)
     tally.stage = "regulate"
     call, want = checked(contender.name, state, tally, lambda: plain(*given), lambda: counting(*counted(given, tally)))
@@ -125,7 +125,7 @@ def _call(
 
 
 def checked(name: str, state: Any, tally: Tally, plain: Callable, counting: Callable) -> tuple[Call, Any]:
-    """A counted call, whose answer must be the plain one bit for bit; and that answer, None if it raised.
+    """Return a counted call, whose answer must be the plain one bit for bit; and that answer, None if it raised.
 
     Args:
         state: with an id and is_sampled.
@@ -162,7 +162,7 @@ def counted(numbers: Any, tally: Tally) -> Any:
 
 
 def values(answer: Any) -> Any:
-    """What a counted call returned, as nested tuples of floats."""
+    """Return what a counted call returned, as nested tuples of floats."""
     if isinstance(answer, tuple):
         return tuple(values(number) for number in answer)
     if isinstance(answer, Counted):
@@ -171,7 +171,7 @@ def values(answer: Any) -> Any:
 
 
 def bits(answer: Any) -> bytes:
-    """The numbers of an answer, bit by bit: NaN equals NaN, and 0.0 is not -0.0."""
+    """Return the numbers of an answer, bit by bit: NaN equals NaN, and 0.0 is not -0.0."""
     if isinstance(answer, tuple):
         return b"".join(bits(number) for number in answer)
     if isinstance(answer, Counted):

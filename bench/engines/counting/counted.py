@@ -58,7 +58,7 @@ class Tally:
         self.now = self._by_stage.setdefault(stage, [0] * len(OPERATIONS))
 
     def take(self) -> Counts:
-        """What was counted since the last time; then from zero again."""
+        """Return what was counted since the last time; then from zero again."""
         numbers, self._by_stage = self._by_stage, {}
         self.stage = self._stage
         nothing = (0,) * len(OPERATIONS)
@@ -86,7 +86,7 @@ def _dyadic(operation: str, compute: Callable) -> tuple[Callable, Callable]:
         return Counted(compute(self.value, value), self.tally)
 
     def reflected(self: "Counted", other: Any) -> Any:
-        """The other is a constant: of two counting scalars the first one's `forward` is called."""
+        """Return the other is a constant: of two counting scalars the first one's `forward` is called."""
         if not isinstance(other, int | float):
             return NotImplemented
         self.tally.now[place] += 1

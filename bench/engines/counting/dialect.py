@@ -26,7 +26,7 @@ FORMS = (
 
 
 def violations(source: str) -> list[str]:
-    """What a file contains that the dialect does not, in the order of its lines.
+    """Return what a file contains that the dialect does not, in the order of its lines.
 
     Args:
         source: the text of a law or representation file.

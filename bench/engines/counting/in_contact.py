@@ -40,7 +40,7 @@ def cost_in_contact(controller: ContactController, specification: Specification 
 
 
 def rows_in_contact(controller: ContactController) -> Iterator[dict]:
-    """A line for each branch and stage of a controller's cost."""
+    """Return a line for each branch and stage of a controller's cost."""
     return rows_of(cost_in_contact(controller), {"controller": controller.name}, ("regulate", "invert"))
 
 

@@ -95,7 +95,7 @@ def cost_on_arm(contender: Contender, arm: str) -> Cost:
 
 
 def median_and_worst(one: Contender | ContactController, calls: list[Call]) -> Cost:
-    """The cost that these calls show."""
+    """Return the cost that these calls show."""
     ranked = sorted((call.counts for call in calls if call.is_typical), key=size)
     typical = ranked[len(ranked) // 2]
     worst = max(calls, key=lambda call: size(call.counts))
@@ -108,7 +108,7 @@ def rows_on_arm(contender: Contender, joints: int) -> list[dict]:
 
 
 def _command(contender: Contender, tally: Tally | None) -> Any:
-    """The law as `resolved_acceleration.Parts` takes it; staged if there is a tally."""
+    """Return the law as `resolved_acceleration.Parts` takes it; staged if there is a tally."""
     if contender.jacobian is not None and contender.jacobian.takes == "coordinates":
         return contender.coordinate_law
     if contender.regulator.through:
@@ -163,7 +163,7 @@ def _call(contender: Contender, plain: Callable, counting: Callable, tally: Tall
 
 
 def call_on_arm(name: str, state: ArmState, tally: Tally, given: tuple, plain: Callable, counting: Callable) -> Call:
-    """A counted call of what takes the type of its buffers last."""
+    """Return a counted call of what takes the type of its buffers last."""
 
     def counted_call() -> Any:
         return counting(*(as_counted(one, tally) for one in given), object)

@@ -29,14 +29,14 @@ STAGE_OF = {
 
 
 def law_of(contender: Contender, tally: Tally) -> Callable:
-    """The contender's law, its coordinates staged on this tally."""
+    """Return the contender's law, its coordinates staged on this tally."""
     if contender.representation is None:
         return contender.law
     return bind(contender.regulator, staged(contender.representation, tally))
 
 
 def staged(representation: Coordinates, tally: Tally) -> Coordinates:
-    """A stand-in with the same fields, each function in its stage."""
+    """Return a stand-in with the same fields, each function in its stage."""
     fields = representation._asdict()
     for name, stage in STAGE_OF.items():
         function = getattr(representation, name)
@@ -45,7 +45,7 @@ def staged(representation: Coordinates, tally: Tally) -> Coordinates:
 
 
 def in_stage(tally: Tally, stage: str, function: Callable) -> Callable:
-    """The function, its operations counted in that stage."""
+    """Return the function, its operations counted in that stage."""
 
     def call(*numbers: Any) -> Any:
         before, tally.stage = tally.stage, stage

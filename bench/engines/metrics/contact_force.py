@@ -21,7 +21,7 @@ say when it ended."""
 
 
 def from_first_touch(pose: Pose) -> slice | None:
-    """The ticks of a pose's one response from the first touch on; None if nothing was touched."""
+    """Return the ticks of a pose's one response from the first touch on; None if nothing was touched."""
     if in_free_space(pose):
         return None
     one = pose.first
@@ -62,22 +62,22 @@ def rms(pose: Pose, error: np.ndarray) -> float:
 
 
 def peak(error: np.ndarray) -> float:
-    """The greatest length of N vectors, N x 3; NaN if there is none."""
+    """Return the greatest length of N vectors, N x 3; NaN if there is none."""
     return float(np.linalg.norm(error, axis=1).max()) if len(error) else np.nan
 
 
 def last(pose: Pose) -> Response | None:
-    """The one response of a pose if it ran to its end, at rest or at the horizon; else None."""
+    """Return the one response of a pose if it ran to its end, at rest or at the horizon; else None."""
     return pose.first if pose.first.outcome == "done" else None
 
 
 def scene_normal(trial: Trial) -> np.ndarray:
-    """The z axis of the scene, in the base frame: the normal of a plane that stands there."""
+    """Return the z axis of the scene, in the base frame: the normal of a plane that stands there."""
     return np.array(columns(trial.scene_wxyz)[2])
 
 
 def wrist_axis(one: Response) -> np.ndarray:
-    """The z axis of the wrist, out of it, N x 3 in the base frame, however the hand's frame is drawn on the hand."""
+    """Return the wrist's z axis, N x 3 in the base frame, whatever the hand's frame."""
     return one.R @ np.array(columns(one.trial.mount_wxyz))[:, 2]
 
 

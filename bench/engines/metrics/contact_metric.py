@@ -65,7 +65,7 @@ class ContactMetric(NamedTuple):
 
 
 def response(trial: Trial, ended: Ended) -> Response:
-    """The arrays of an episode's record; ticks at which it holds nothing finite stay as they are."""
+    """Return the arrays of an episode's record; ticks at which it holds nothing finite stay as they are."""
     from bench.engines.contact_episode import FORCE, GAP, LOAD, MOMENT, OMEGA, TIME, TURNED, P, R
 
     record = ended.record

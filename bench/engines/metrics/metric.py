@@ -32,12 +32,12 @@ class Metric(NamedTuple):
 
 
 def as_it_is(value, ending):
-    """The number itself."""
+    """Return the number itself."""
     return value
 
 
 def if_finite(value, ending):
-    """The number itself; none where it is infinite: nothing was seen, or it was lost."""
+    """Return the number itself; none where it is infinite: nothing was seen, or it was lost."""
     return value if value < math.inf else math.nan
 
 

@@ -27,7 +27,7 @@ def known_contact_metrics() -> dict:
 
 
 def metrics_of(on_arm: bool) -> tuple[Metric, ...]:
-    """The metrics that can be measured on an arm (all), or on the free body."""
+    """Return the metrics that can be measured on an arm (all), or on the free body."""
     return tuple(one for one in known_metrics().values() if on_arm or not one.arm_only)
 
 

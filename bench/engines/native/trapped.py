@@ -89,17 +89,17 @@ class Batch:
         return self._made
 
     def error(self) -> str:
-        """What MuJoCo said in the last step that failed."""
+        """Return what MuJoCo said in the last step that failed."""
         return library.mjb_error(self._made, 0).decode()
 
 
 def batch() -> Batch:
-    """The batch of this thread."""
+    """Return the batch of this thread."""
     if not hasattr(_of_thread, "batch"):
         _of_thread.batch = Batch()
     return _of_thread.batch
 
 
 def said() -> str:
-    """What MuJoCo said in the last step of this thread that failed and was plain."""
+    """Return what MuJoCo said in the last step of this thread that failed and was plain."""
     return getattr(_of_thread, "said", "")

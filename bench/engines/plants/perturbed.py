@@ -47,14 +47,14 @@ class Timing(NamedTuple):
 
 
 def timing(condition: Condition) -> Timing:
-    """The condition's times."""
+    """Return the condition's times."""
     steps = steps_of(condition)
     step_s = condition.period_s / steps
     return Timing(steps, round(condition.delay_s / step_s), round(TAIL_S / step_s))
 
 
 def steps_of(condition: Condition) -> int:
-    """Steps of the plant in a period of control: as few as STEP_S allows."""
+    """Return the plant's steps in a control period: as few as STEP_S allows."""
     return max(1, math.ceil(condition.period_s / STEP_S - 1e-9))
 
 
@@ -96,7 +96,7 @@ def goal_at(R_0, time, amplitude):
 
 @kernel
 def fed_forward(omega_d, alpha_d, feedforward):
-    """What the law is given of the goal's motion."""
+    """Return what the law is given of the goal's motion."""
     if feedforward < RATE:
         return AT_REST, AT_REST
     if feedforward < RATE_AND_ACCELERATION:
@@ -226,7 +226,7 @@ def loop_of(observe):
 
 
 def in_steps(numbers: Numbers, condition: Condition, hold_s: float, horizon_s: float) -> Numbers:
-    """The numbers with the plant's step for a tick; no episode stops early under a perturbation that lasts."""
+    """Return the numbers with the plant's step for a tick; no episode stops early under a perturbation that lasts."""
     step_s = condition.period_s / steps_of(condition)
     ticks = max(1, round(horizon_s / step_s))
     rest = max(1, round(hold_s / step_s))

@@ -123,7 +123,7 @@ def shifted(p, h, v):
 
 @kernel
 def spun(q, omega):
-    """The rate of the quaternion (w, x, y, z): (0, omega) o q/2, omega in the base frame."""
+    """Return the rate of the quaternion (w, x, y, z): (0, omega) o q/2, omega in the base frame."""
     v = (q[1], q[2], q[3])
     p, along = cross(omega, v), dot(omega, v)
     return (

@@ -143,7 +143,7 @@ def tallied(rows: pd.DataFrame, with_goal: bool) -> Operations:
 
 
 def ledger(results: Results) -> Ledger:
-    """What is known of the cost of laws of the free body, typical branch: without the goal's stage and with it."""
+    """Return the cost of laws of the free body, typical branch, without the goal's stage and with it."""
     rows = results.table("costs", **FREE_BODY, branch="typical")
     by_law = {str(name): own for name, own in rows.groupby("contender", observed=True)}
     alone, whole = ({name: tallied(own, goal) for name, own in by_law.items()} for goal in (False, True))
@@ -177,7 +177,7 @@ def is_kept_spinning(one: Adequacy) -> bool:
 
 
 def missed(one: Adequacy, known: Ledger, small_s: float, held: dict[str, tuple[int, int]]) -> str:
-    """The tests of C27's criterion that a law does not pass; (f) is among them if it was not tried.
+    """Return the tests of C27's criterion that a law does not pass; (f) is among them if it was not tried.
 
     Args:
         held: of `adequacy.held`.

@@ -18,7 +18,7 @@ RULE = (
 
 
 def other_gains(results: Results) -> list[Results]:
-    """The runs of results/gains; none for tables alone, or for one of these runs itself."""
+    """Return the runs of results/gains; none for tables alone, or for one of these runs itself."""
     folder = results.folder
     if folder is None or folder.resolve().parent == GAINS.resolve():
         return []
@@ -26,7 +26,7 @@ def other_gains(results: Results) -> list[Results]:
 
 
 def at_every_gain(decide: Callable) -> Callable:
-    """A judging function of results asked of the runs at other gains too: its word depends on them if they differ."""
+    """Wrap a judging function to ask the runs at other gains too; if its word differs, it depends on the gains."""
 
     @functools.wraps(decide)
     def judge(results: Results):
@@ -44,7 +44,7 @@ def at_every_gain(decide: Callable) -> Callable:
 
 
 def on_every_engine(decide: Callable) -> Callable:
-    """A judging function of (results, engine) asked of the main engine, then of the sampled ones that have rows."""
+    """Wrap a judging function of (results, engine) to ask the main engine, then the sampled ones that have rows."""
 
     @functools.wraps(decide)
     def judge(results: Results):

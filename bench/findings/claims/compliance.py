@@ -81,7 +81,7 @@ def _by_order(rows: pd.DataFrame, fact: str) -> str:
 
 
 def _greatest(numbers: np.ndarray) -> float:
-    """The greatest of those that were measured."""
+    """Return the greatest of those that were measured."""
     return float(np.nanmax(numbers, initial=-np.inf))
 
 

@@ -85,7 +85,7 @@ def _depends(task: str, rows: pd.DataFrame, forms: tuple[str, ...]) -> bool:
 
 
 def _compared(rows: pd.DataFrame) -> pd.DataFrame:
-    """The pairs with: turns, how many comply; is_turned; factor, NaN if both fail alike; parts; euler_is_worse."""
+    """Add to the pairs: turns, how many comply; is_turned; factor, NaN if both fail alike; parts; euler_is_worse."""
     worse_by = np.stack([_worse_by(rows, column) for column in PERFORMANCE], axis=1)
     most = worse_by[np.arange(len(rows)), np.abs(worse_by).argmax(axis=1)]
     ends, base_ends = rows["outcome"].astype(str), rows["outcome_base"].astype(str)

@@ -42,7 +42,7 @@ EULER = f"hybrid/{COORDINATES}"
 
 
 def words(controller: str, joints: int) -> dict[str, str]:
-    """The words of a controller's rows on so many joints."""
+    """Return the words of a controller's rows on so many joints."""
     law, _, by = controller.partition("@")
     regulator, _, representation = law.partition("/")
     return {"regulator": regulator, "representation": representation, "jacobian": by, "inverse": INVERSES[joints]}

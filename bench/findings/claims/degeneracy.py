@@ -71,7 +71,7 @@ def condition_of_angle_and_axis(E) -> float:
 
 
 def conditions(axis, angle) -> dict[str, float]:
-    """The condition number in three sets of coordinates of one rotation, by their names."""
+    """Return the condition number in three sets of coordinates of one rotation, by their names."""
     x, y, z = axis
     R = Rotation(*(tuple(column) for column in turn(axis, angle).T.tolist()))
     found = {name: condition_in(name, R) for name in ("zyz-euler", "rotation-vector")}

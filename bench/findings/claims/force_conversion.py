@@ -34,7 +34,7 @@ STEP = 2.0 ** (-52 / 3)
 
 @claim("C21")
 def c21(results):
-    """The balance at random and polar orientations, the loop's own work residual, and what is lost at the poles."""
+    """Judge the balance at random and polar orientations, the loop's work residual, and what poles lose."""
     looped = results.table("compliance", task=PROBE, controller="hybrid", representation=COORDINATES)
     looped = looped[(looped["outcome"] == "done") & looped["work_residual"].notna()]
     looped = some(looped, f"work residual of {PROBE} by hybrid/{COORDINATES}")
@@ -122,7 +122,7 @@ def balance(along: Coordinates, R: Rotation, moment: np.ndarray, rates: np.ndarr
 
 
 def balances(along: Coordinates, places: list[tuple[str, Rotation]], seed: int) -> pd.DataFrame:
-    """A row an orientation: `place` and what `balance` finds for random directions of moment and rates."""
+    """Return a row an orientation: `place` and what `balance` finds for random directions of moment and rates."""
     import pandas as pd
 
     rng, rows = np.random.default_rng(seed), []

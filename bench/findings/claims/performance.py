@@ -78,7 +78,7 @@ def _flops_alone(known: Ledger) -> str:
 @at_every_gain
 @on_every_engine
 def c17(results, engine):
-    """The three laws against the three tests of performance and the test of cost."""
+    """Return the three laws against the three tests of performance and the test of cost."""
     linear = closed_form.linear_settling(*results.gains())
     by_name = {one.name: one for one in adequacy.every(results, engine)}
     if not set(THREE) <= set(by_name):
@@ -167,7 +167,7 @@ def c31(results):
 
 
 def _gain(own: np.ndarray, other: np.ndarray):
-    """The other's time in which nearly all settle over its own; resampled by starts."""
+    """Return the other's time in which nearly all settle over its own; resampled by starts."""
 
     def ratio(drawn, axis):
         quantiles = quantile(drawn, LIMIT.NEARLY_ALL, axis=-2)

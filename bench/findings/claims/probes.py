@@ -58,7 +58,7 @@ ABOUT_Y = {180: (0.0, 0.0, 1.0, 0.0), 90: (HALF, 0.0, HALF, 0.0), -90: (HALF, 0.
 
 
 def least_of_B(quat: tuple) -> float:
-    """The smallest singular value of B at an orientation."""
+    """Return the smallest singular value of B at an orientation."""
     return float(np.linalg.svd(euler_B(from_quaternion(quat)), compute_uv=False)[-1])
 
 
@@ -74,12 +74,12 @@ def euler_angles_along(trace: pd.DataFrame) -> np.ndarray:
 
 
 def rotations(frame: pd.DataFrame, columns=QUAT) -> list[Rotation]:
-    """The orientation of each row."""
+    """Return the orientation of each row."""
     return [from_quaternion(tuple(quat)) for quat in frame[list(columns)].to_numpy().tolist()]
 
 
 def about(axis, angle: float) -> tuple:
-    """The quaternion of a rotation."""
+    """Return the quaternion of a rotation."""
     unit = np.asarray(axis, dtype=float) / np.linalg.norm(axis)
     return (math.cos(angle / 2), *(math.sin(angle / 2) * unit).tolist())
 
@@ -170,7 +170,7 @@ BENDS = ("bend_0", "bend_1", "bend_2")
 
 
 def controller(word: str) -> Contender:
-    """The contender of `law@jacobian+inverse`."""
+    """Return the contender of `law@jacobian+inverse`."""
     law, _, way = word.partition("@")
     by, _, through = way.partition("+")
     return find_contender(law)._replace(jacobian=jacobian(by), inverse=inverse(through))
@@ -232,6 +232,6 @@ def beside_poles(word: str, arm: str, poses: pd.DataFrame, gains: Gains) -> pd.D
 
 
 def largest(frame: pd.DataFrame) -> float:
-    """The largest bend of any angle [rad]; infinite if one is no number."""
+    """Return the largest bend of any angle [rad]; infinite if one is no number."""
     bends = frame[list(BENDS)].to_numpy()
     return float(np.abs(bends).max()) if np.isfinite(bends).all() else math.inf

@@ -173,7 +173,7 @@ def _size(R, R_d=IDENTITY) -> float:
 
 
 def _largest_product(R) -> float:
-    """The largest of the three cross products of (2.12), goal zero."""
+    """Return the largest of the three cross products of (2.12), goal zero."""
     return float(max(np.linalg.norm(cross(c, d)) for c, d in zip(R, IDENTITY, strict=True)))
 
 
@@ -196,7 +196,7 @@ def _pairs(frame) -> list[tuple[Rotation, Rotation]]:
 
 @claim("C32")
 def c32(results):
-    """Rounding of e against exact fractions, what the law is made of, and how its episodes end."""
+    """Judge the rounding of e against exact fractions, the parts of the law, and how its episodes end."""
     every = some(results.free_body("episodes", task="free-body", regulator=LAW), f"episode of {LAW}")
     ended = int(every["outcome"].isin(LIMIT.BROKEN).sum())
     frame = every.drop_duplicates(["start_set", "start_id"])

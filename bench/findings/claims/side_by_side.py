@@ -32,7 +32,7 @@ DECIDES = f"""
 
 
 def by_papers_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[..., tuple[Word, Evidence]]:
-    """A judging function of (results, forms) asked of the paper's force control, then of commanded accelerations."""
+    """Wrap a judging function of (results, forms) to ask the paper's force control, then commanded accelerations."""
 
     @functools.wraps(decide)
     def judge(results):

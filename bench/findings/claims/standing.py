@@ -103,7 +103,7 @@ class Ledger(NamedTuple):
 
 
 def agreed(signs: Iterable[int]) -> int:
-    """What all that decide say; undecided if two of them differ, or none decides."""
+    """Return what all that decide say; undecided if two of them differ, or none decides."""
     found = set(signs) - {UNDECIDED}
     return found.pop() if len(found) == 1 else UNDECIDED
 
@@ -122,7 +122,7 @@ def by_columns(cheap: Operations, dear: Operations) -> int:
 
 
 def by_price(cheap: Operations, dear: Operations, price: float) -> int:
-    """The order of both sums; undecided where the price is not known."""
+    """Return the order of both sums; undecided where the price is not known."""
     return int(np.nan_to_num(np.sign(dear.weighed(price) - cheap.weighed(price))))
 
 

@@ -56,7 +56,7 @@ class Results:
         self._chosen: dict[tuple, pd.DataFrame] = {}
 
     def found_by(self, experiment: Callable, *given):
-        """What an experiment finds, or what stands in its place."""
+        """Return what an experiment finds, or what stands in its place."""
         return self.experiments.get(experiment.__name__, experiment)(*given)
 
     def table(self, name: str, **words: str) -> pd.DataFrame:
@@ -91,12 +91,12 @@ class Results:
         return some(frame, f"episode of {regulator} by {engine} from {', '.join(start_sets) or 'any start set'}")
 
     def gains(self) -> Gains:
-        """The run's gains."""
+        """Return the run's gains."""
         row = some(self.table("episodes", **read.FREE_BODY, engine=MAIN_ENGINE), f"episode by {MAIN_ENGINE}").iloc[0]
         return Gains(float(row["kp"]), float(row["kv"]))
 
     def spun(self, law: str) -> list[Spun]:
-        """Starts of a law at stated speeds, from the maps that came with the benchmark; maybe none."""
+        """Return starts of a law at stated speeds, from the maps in the repository; maybe none."""
         from bench.experiments.tables.store import read as read_table
         from bench.findings.maps import counted, spun
 
@@ -152,7 +152,7 @@ Rows = TypeVar("Rows", bound=Sized)
 
 
 def some(frame: Rows, what: str) -> Rows:
-    """The frame, or a list, if it has rows.
+    """Return the frame, or a list, if it has rows.
 
     Errors:
         NoEvidence: it has none.
@@ -196,7 +196,7 @@ def interval(one: Share | Estimate, form: str) -> str:
 
 
 def lost(frame: pd.DataFrame) -> Estimate:
-    """The share of episodes that do not settle, of those that converge; the interval is that of `maps.lost_between`."""
+    """Return the share of converging episodes that do not settle; the interval is that of `maps.lost_between`."""
     from bench.findings.maps import lost_between
 
     sure = read.converged(frame)
@@ -204,7 +204,7 @@ def lost(frame: pd.DataFrame) -> Estimate:
 
 
 def lost_text(one: Spun) -> str:
-    """The share lost of starts at a stated speed, with its interval, and how many do not converge."""
+    """Return the share lost of starts at a stated speed, with its interval, and how many do not converge."""
     apart = f", {one.unconverged} not converged" if one.unconverged else ""
     at = f"at {one.speed:g} rad/s" if one.speed else "at rest"
     low, high = one.share.low, one.share.high

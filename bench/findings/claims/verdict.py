@@ -40,7 +40,7 @@ PLURAL = {
 
 
 def does(word: Word, number: int) -> str:
-    """What so many statements with a word do."""
+    """Return what so many statements with a word do."""
     return (
         "was open in 1988 and is answered since"
         if (word, number) == (Word.ANSWERED, 1)
@@ -56,7 +56,7 @@ MISPRINTS = """
 
 
 def word_of(holds: object, corrected: object) -> Word:
-    """What a criterion of two parts comes to: the first alone decides, if it is met."""
+    """Return what a criterion of two parts comes to: the first alone decides, if it is met."""
     return Word.HOLDS if holds else Word.CORRECTED if corrected else Word.FAILS
 
 

@@ -57,17 +57,17 @@ LATE_MS = 1e3 * LATE_S
 
 
 def of_one_law(measure: Callable[[Tables, str], float]) -> Measure:
-    """A measure from a function of one law."""
+    """Return a measure from a function of one law."""
     return lambda tables: {name: np.array([measure(tables, name)]) for name in tables.contenders}
 
 
 def over_uniform(column: str) -> Measure:
-    """A column of all uniform starts; infinite where the law does not settle."""
+    """Return a column of all uniform starts; infinite where the law does not settle."""
     return lambda tables: by_law(tables.uniform, column, math.inf)
 
 
 def perturbed(axis: str, level: float, column: str) -> Measure:
-    """A column at one level of a perturbation; infinite where the law does not settle."""
+    """Return a column at one level of a perturbation; infinite where the law does not settle."""
 
     def measure(tables):
         rows = tables.robustness

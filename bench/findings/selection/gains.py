@@ -53,7 +53,7 @@ def gains_of(found: Measured) -> tuple[float, float]:
 
 
 def gains_in_words(found: Measured) -> str:
-    """The gains with their units and the damping ratio."""
+    """Return the gains with their units and the damping ratio."""
     kp, kv = gains_of(found)
     return f"kp = {kp:g} 1/s², kv = {kv:g} 1/s (damping ratio {kv / (2.0 * math.sqrt(kp)):.2g})"
 
@@ -73,12 +73,12 @@ def compare(found: Measured, law: str, other: str) -> Beside:
 
 @functools.cache
 def committed() -> tuple[Measured, ...]:
-    """The runs at the four damping ratios."""
+    """Return the runs at the four damping ratios."""
     return tuple(measured(RESULTS / name) for name in COMMITTED)
 
 
 def by_other_rules(found: Measured) -> list[tuple[str, str | None, tuple[str, ...]]]:
-    """What each of OTHER_RULES advises, and the laws that tie with it."""
+    """Return what each of OTHER_RULES advises, and the laws that tie with it."""
     every = ((need.words, decide(need, found, general)) for need, general in OTHER_RULES)
     return [(words, one.law, one.tied) for words, one in every]
 

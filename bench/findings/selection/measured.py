@@ -45,7 +45,7 @@ class Measured(NamedTuple):
         return list(self.tables.contenders)
 
     def number(self, criterion: str, law: str) -> float:
-        """A criterion of a law; not a number if it was not asked."""
+        """Return a criterion of a law; not a number if it was not asked."""
         values = self.values[criterion].get(law)
         return math.nan if values is None or not len(values) else float(statistic(BY_NAME[criterion])(values))
 
@@ -77,12 +77,12 @@ class Measured(NamedTuple):
 
 @functools.lru_cache(maxsize=1024)
 def _drawn(criterion: str, values: bytes) -> np.ndarray:
-    """A law's number by each resample of the starts; drawn once, for it is held against many laws'."""
+    """Return a law's number by each resample of the starts; drawn once, for it is held against many laws'."""
     return resampled(np.frombuffer(values), statistic(BY_NAME[criterion]))
 
 
 def statistic(one: Criterion):
-    """What is made of a law's values: statistic(values, axis=-1) -> numbers."""
+    """Return what is made of a law's values: statistic(values, axis=-1) -> numbers."""
     if one.level is None:
         return np.mean
     return lambda values, axis=-1: quantile(values, one.level, axis)
@@ -105,7 +105,7 @@ GENERAL = ("time", "worst", "effort", "peak", "variation", "tick")
 
 
 def front(found: Measured, laws: Sequence[str], criteria: Sequence[str]) -> list[str]:
-    """The laws that no other of them dominates, in the order given.
+    """Return the laws that no other of them dominates, in the order given.
 
     Ties are not transitive, so that in a circle of laws each could dominate the next; then all are kept.
     """

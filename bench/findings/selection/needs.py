@@ -125,7 +125,7 @@ class Advice(NamedTuple):
         return [self.default, *self.exceptions, *self.others]
 
     def of(self, need: Need) -> Decision:
-        """What is advised in a situation: where it decides nothing the default's law, which ties with its best."""
+        """Return the advice in a situation; where it decides nothing, the default's law, which ties with its best."""
         one = next(each for each in self.every if each.need is need)
         law = self.default.law
         return (
@@ -133,7 +133,7 @@ class Advice(NamedTuple):
         )
 
     def uses(self, law: str) -> tuple[list[Need], list[Need]]:
-        """The situations in which a law is advised, and those in which it ties with what is advised."""
+        """Return the situations in which a law is advised, and those in which it ties with what is advised."""
         every = [self.default, *self.exceptions]
         return [one.need for one in every if one.law == law], [one.need for one in every if law in one.tied]
 

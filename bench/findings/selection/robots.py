@@ -30,7 +30,7 @@ FULL_TURN = 2.0
 
 
 def measure_velocities(results: Results) -> Measured:
-    """The criteria of every first-order law of a run at the full share of K, without a limiter; peak is of omega.
+    """Return the criteria of every first-order law at the full share of K, without a limiter; peak is of omega.
 
     Errors:
         NoEvidence: the run commands no robot by velocities.
@@ -62,7 +62,7 @@ def measure_velocities(results: Results) -> Measured:
 
 
 def measure_uncancelled(results: Results) -> Measured:
-    """The criteria of every law that was run at the gains of shipped controllers that cancel no inertia.
+    """Return the criteria of every law that was run at the gains of shipped controllers that cancel no inertia.
 
     They take torques, tau = K e - D omega: a value for each controller and angle of start.
 
@@ -101,7 +101,7 @@ def _of_laws(tables: Tables, known: Container[str]) -> Tables:
 
 
 def _measured(tables: Tables, usual: tuple[str, ...], **values: dict[str, np.ndarray]) -> Measured:
-    """Some criteria measured as ever, others by these values, and no number of the rest."""
+    """Return some criteria measured as ever, others by these values, and no number of the rest."""
     as_ever = {name: BY_NAME[name].measure(tables) for name in usual}
     return Measured(tables, {one.name: {} for one in CRITERIA} | as_ever | values)
 
@@ -150,7 +150,7 @@ def advise_for(robot: Robot, folder: Path) -> Advice:
 
 
 def word_of(robot: Robot, folder: Path) -> Decision | None:
-    """What is advised for a robot by the run in a folder; None where the run has no such rows."""
+    """Return what is advised for a robot by the run in a folder; None where the run has no such rows."""
     try:
         return advise_for(robot, folder).of(robot.need)
     except NoEvidence:

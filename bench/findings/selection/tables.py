@@ -98,7 +98,7 @@ def common(runs: pd.DataFrame) -> pd.DataFrame:
 
 
 def by_law(rows: pd.DataFrame, column: str, failed: float | None = None) -> dict[str, np.ndarray]:
-    """A column by law in the order of starts; `failed`, if given, where none settles. NoEvidence: no such column."""
+    """Return a column by law in the order of starts; `failed` where none settles. NoEvidence: no such column."""
     if column not in rows:
         raise NoEvidence(f"the run is older than the column {column}, and says nothing of it")
     values = rows[column].astype(float) if failed is None else rows[column].where(~rows["lost"], failed)
@@ -125,7 +125,7 @@ def by_standard_inverse(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def _own(results: Results) -> list[Contender]:
-    """The user's laws of the run; one that may not run cannot be asked how far it jumps, and is left out."""
+    """Return the user's laws of the run; one that may not run cannot be asked how far it jumps, and is left out."""
     laws = published.own_laws(results.folder) if results.folder else ()
     return [one for law in laws if law.law or law.law_in for one in contenders_of(law)]
 
@@ -150,7 +150,7 @@ def ticks(results: Results) -> dict[str, float]:
 
 
 def _machines(results: Results) -> list[pd.DataFrame]:
-    """Times of each machine; those of files that say nothing of arms are of no use."""
+    """Return the times of each machine whose file has arms."""
     from bench.experiments.tables.store import read_arrow
 
     if "timings" in results.frames:

@@ -29,7 +29,7 @@ def standing(one: Decision, called: Called) -> str:
 
 
 def together(words: Sequence[str]) -> str:
-    """ "a, b and c"; of many the first NAMED, and how many more."""
+    """Join names as "a, b and c"; of many, the first NAMED and how many more."""
     more = len(words) - NAMED
     if more > 1:
         return f"{', '.join(words[:NAMED])} and {more} more"
@@ -38,7 +38,7 @@ def together(words: Sequence[str]) -> str:
 
 
 def leaders(found: Measured, criterion: str, called: Called) -> str:
-    """What is best by a criterion, of all laws and of those that settle from every start: one law, or a tie."""
+    """Return what is best by a criterion, of all laws and of those that settle from every start: one law, or a tie."""
     every = best_by(found, criterion, found.laws)
     sure = best_by(found, criterion, [law for law in found.laws if has_all(found, law, SURE)])
     if not sure or set(every) <= set(sure):
@@ -76,7 +76,7 @@ def cost(found: Measured, law: str) -> str:
 
 
 def number(criterion: Criterion | str, value: float) -> str:
-    """A number with its unit, as its criterion writes it."""
+    """Return a number with its unit, as its criterion writes it."""
     one = BY_NAME[criterion] if isinstance(criterion, str) else criterion
     if math.isnan(value):
         return "not measured"

@@ -50,7 +50,7 @@ def response(z, one: Admittance, lag_s: float, late: int, dt: float):
 
 
 def lagged_limit(one: Admittance, lag_s: float, late: int, dt: float) -> float:
-    """The stiffness [N/m] up to which the loop over a lagged position settles; late: ticks of delay."""
+    """Return the stiffness [N/m] up to which the loop over a lagged position settles; late: ticks of delay."""
     phi = np.concatenate((np.geomspace(1e-5, 1e-2, ANGLES), np.linspace(1e-2, math.pi, ANGLES)[1:]))
 
     def imaginary(at):
@@ -83,7 +83,7 @@ class Loop(NamedTuple):
 
 
 def step(one: Admittance, loop: Loop, spring: Spring, dt: float) -> np.ndarray:
-    """The map of (x, xdot, c, cdot, F, commands of the last `late` ticks) over one tick; F is what a sensor has."""
+    """Return the map of (x, xdot, c, cdot, F, the last `late` commands) over one tick; F is the sensor's."""
     size = 5 + loop.late
     made = np.zeros((size, size))
     rate = np.zeros(size)

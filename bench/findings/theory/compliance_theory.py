@@ -76,7 +76,7 @@ def compliance(
 
 
 def directions(controller: ContactController, goal: Rotation) -> np.ndarray:
-    """What the rotational rows of a controller turn the hand about, 3 x 3, base frame; NaN if there is no B^-1."""
+    """Return the axes of a controller's rotational rows, 3 x 3, base frame; NaN if there is no B^-1."""
     if controller.representation is None:
         return np.eye(3)
     seen_from_goal = controller.impedance is not None and controller.impedance.relative
@@ -108,7 +108,7 @@ def through_inertia(
 
 @functools.cache
 def mobility(arm: Arm) -> np.ndarray:
-    """A [1/(kg m^2)], 3 x 3, base frame: angular acceleration of the hand per moment, in the posture of the tasks.
+    """Return A [1/(kg m^2)], 3 x 3, base frame: the hand's angular acceleration per moment in the tasks' posture.
 
     The rotational block of J D^-1 J^T; the hand adds no mass, and its frame changes nothing.
     """
@@ -152,7 +152,7 @@ def leakage_by_transpose(
 
 
 def least_yield(beta: float) -> float:
-    """The least eigenvalue of B B^T with Z-Y-X angles: 1 - |sin beta|; at the pole a moment is lost."""
+    """Return the least eigenvalue of B B^T with Z-Y-X angles: 1 - |sin beta|; at the pole a moment is lost."""
     return 1.0 - abs(math.sin(beta))
 
 
@@ -163,7 +163,7 @@ def stiffness_condition(beta: float) -> float:
 
 
 def lost_moment(representation: Coordinates, R: Rotation) -> tuple[np.ndarray, float]:
-    """The unit moment m of which B^T keeps least, and |B^T m|: exactly 0 where it is lost (rank of B below 3).
+    """Return the unit moment m of which B^T keeps least, and |B^T m|: exactly 0 where it is lost (rank of B below 3).
 
     With Z-Y-X angles at beta = +-90 deg it is about (cos alpha, sin alpha, 0); with Z-Y-Z at the identity about x.
     """

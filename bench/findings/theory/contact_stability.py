@@ -35,7 +35,7 @@ class Spring(NamedTuple):
 def acceleration(
     controller: ContactController, mobility: float, gains: Gains = PAPERS_GAINS, touch: ContactParameters = TOUCH
 ) -> tuple[float, float, float, float]:
-    """What zdd gets per z, zd, F and F' [1/s^2, 1/s, 1/kg, 1/kg]; mobility: A [1/kg]."""
+    """Return what zdd gets per z, zd, F and F' [1/s^2, 1/s, 1/kg, 1/kg]; mobility: A [1/kg]."""
     if controller.impedance is not None:
         return -gains.kp, -gains.kv, mobility, 1.0 / touch.m_p - mobility
     if controller.form == PAPERS_FORM:
@@ -44,7 +44,7 @@ def acceleration(
 
 
 def step(law: tuple[float, float, float, float], spring: Spring, late: int, dt: float) -> np.ndarray:
-    """The map of (z, zd, F of the last late + 1 ticks, the latest first) over one tick; late: of the sensor, ticks."""
+    """Return the map of (z, zd, last late + 1 forces, latest first) over one tick; late: of the sensor, ticks."""
     along, damped, own, fed_back = law
     size = 3 + late
     free = np.zeros(size)  # zdd without the F of this step

@@ -61,7 +61,7 @@ def hand_matrices(
 
 
 def longest_tick(arm: str, damping: str, stiffness: Stiffness, zeta: float, rotor: float = 0.0) -> float:
-    """The control period [s] from which on the sampled loop is unstable: 2/(D/Lambda) of the fastest pole, or less."""
+    """Return the control period [s] above which the loop is unstable: 2/(D/Lambda) of the fastest pole or less."""
     P, Q = hand_matrices(arm, damping, stiffness, zeta, rotor)
     return bisect(lambda dt: compute_radius(P, Q, dt) < 1.0, 0.0, 1.0, HALVINGS)[0]
 

@@ -15,7 +15,7 @@ Source: Whitney 1982, "Quasi-static assembly of compliantly supported rigid part
 
 
 def margin(across: float, turning: float, reach: float, mu: float) -> float:
-    """The greater of |x/z| mu and |m/(r z) - mu (1 + lambda) x/z| / lambda: it slides up to 1.
+    """Return the greater of |x/z| mu and |m/(r z) - mu (1 + lambda) x/z| / lambda: it slides up to 1.
 
     Args:
         across: x/z. turning: m/(r z). reach: lambda.

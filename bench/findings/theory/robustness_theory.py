@@ -54,7 +54,7 @@ def least_rate(kp: float, kv: float) -> float:
 
 
 def sampled(kp: float, kv: float, period_s: float) -> tuple[np.ndarray, np.ndarray]:
-    """(A, B) of the loop about one axis, closed and sampled: state (x, x') from tick to tick, noise (x, x') added."""
+    """Return (A, B) of the closed sampled loop about one axis: state (x, x') from tick to tick, noise (x, x') added."""
     h = period_s
     free, pushed = np.array([[1.0, h], [0.0, 1.0]]), np.array([[0.5 * h * h], [h]])
     gains = np.array([[kp, kv]])

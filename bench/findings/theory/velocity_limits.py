@@ -65,7 +65,7 @@ def derivative(one: Contender) -> np.ndarray:
 
 
 def far(equation: Equation, angles: np.ndarray) -> float:
-    """The least of 2 theta/f(theta) over these angles [rad]; NaN of a law that goes the long way."""
+    """Return the least of 2 theta/f(theta) over these angles [rad]; NaN of a law that goes the long way."""
     if equation.the_long_way:
         return math.nan
     return min(2.0 * angle / equation.spring(angle) for angle in map(float, angles))
@@ -99,7 +99,7 @@ def with_theory(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def of_row(row: dict) -> float:
-    """The closed form of one row."""
+    """Return the closed form of one row."""
     law = str(row["contender"]).partition("@")[0]
     if row["arm"]:
         plain = on_arm(row["arm"], tasks.arm(row["arm"]).home, inverse(row["inverse"]))

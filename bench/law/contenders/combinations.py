@@ -17,7 +17,7 @@ SHOWN = 3
 
 
 def on(words: tuple[str, ...], laws: dict[str, Contender], joints: int) -> list[Contender]:
-    """The contenders of the words that fit on so many joints, each once.
+    """Return the contenders of the words that fit on so many joints, each once.
 
     Args:
         laws: by name, the laws there are; a word of another one is left out. Of a baseline on the joints the word is
@@ -35,7 +35,7 @@ def baselines(joints: int) -> list[Contender]:
 
 
 def _of_word(word: str, laws: dict[str, Contender], joints: int) -> Contender | None:
-    """The contender of a word `law@jacobian+inverse` on so many joints; None if nothing fits.
+    """Return the contender of a word `law@jacobian+inverse` on so many joints; None if nothing fits.
 
     Args:
         laws: by name, the laws there are.
@@ -65,7 +65,7 @@ def chosen(
     inverses: tuple[str, ...] = (),
     by_word_alone: tuple[str, ...] = (),
 ) -> list[Contender]:
-    """The contenders of the words on so many joints; of named Jacobians and inverses every one that fits.
+    """Return the contenders of the words on so many joints; of named Jacobians and inverses every one that fits.
 
     A law that no word names is taken by the geometric Jacobian and the standard inverse, unless it is one of
     `by_word_alone` and others are there. No words at all: everything that fits.
@@ -90,7 +90,7 @@ def refusals(
 
 
 def shown(reasons: list[str]) -> str:
-    """The first of many reasons, on one line."""
+    """Return the first of many reasons, on one line."""
     return "; ".join(reasons[:SHOWN]) + (f"; and {len(reasons) - SHOWN} more" if len(reasons) > SHOWN else "")
 
 

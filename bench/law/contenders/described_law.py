@@ -39,7 +39,7 @@ WORDS = tuple(name for name in Law._fields if name not in (*FUNCTIONS, *ELSEWHER
 
 
 def described(path: Path, text: bytes | None = None, limit_s: float = LOAD_S, waits_s: float = WAITS_S) -> Law:
-    """The law of a file by its words: `law` and the other functions refuse to be called here.
+    """Return the law of a file by its words: `law` and the other functions refuse to be called here.
 
     Args:
         text: what the file holds, if it has been read already.
@@ -59,7 +59,7 @@ def described(path: Path, text: bytes | None = None, limit_s: float = LOAD_S, wa
 
 @functools.lru_cache(maxsize=32)
 def _described(path: Path, text: bytes, limit_s: float, waits_s: float) -> str:
-    """The fields as JSON; once for the same text."""
+    """Return the fields as JSON; once for the same text."""
     process = LawProcess(__name__, waits_s)
     said: list[dict] = []
     is_late = False
@@ -85,7 +85,7 @@ def _described(path: Path, text: bytes, limit_s: float, waits_s: float) -> str:
 
 
 def stand_in(content: str, path: Path) -> Law:
-    """The Law that these fields describe, of this file."""
+    """Return the Law that these fields describe, of this file."""
     fields: dict[str, Any] = json.loads(content)
     given: dict[str, Any] = dict.fromkeys(fields.pop("functions"), not_here)
     given |= {name: tuple(value) if isinstance(value, list) else value for name, value in fields.items()}
@@ -95,7 +95,7 @@ def stand_in(content: str, path: Path) -> Law:
 
 
 def fields_of(own: Law) -> dict[str, Any]:
-    """The words of a law, as JSON takes them."""
+    """Return the words of a law, as JSON takes them."""
     functions = [name for name in FUNCTIONS if getattr(own, name) is not None]
     shown = {name: getattr(own.display, name) for name in ("short", "look", "family")}
     return {**{name: getattr(own, name) for name in WORDS}, **shown, "functions": functions}

@@ -26,7 +26,7 @@ SHORT = re.compile(rf"[\w ,.'-]{{0,{LONGEST}}}")
 
 
 def read_law(path: Path) -> bytes:
-    """The text of a user's law file.
+    """Return the text of a user's law file.
 
     Errors:
         BadLaw: there is no such file, or it cannot be read.
@@ -46,7 +46,7 @@ def read_law(path: Path) -> bytes:
 
 
 def load_law(path: Path, text: bytes | None = None) -> Law:
-    """The REGULATOR of a file outside the package. This runs the file: in a law's own process alone.
+    """Return the REGULATOR of a file outside the package. This runs the file: in a law's own process alone.
 
     The module's name carries a digest of the file, so that nothing of an earlier version is ever reused.
 
@@ -89,7 +89,7 @@ def check_answers(own: Law) -> None:
 
 
 def _new_imports(text: bytes) -> str:
-    """What to write in place of imports from modules of ours that are there no more."""
+    """Return what to write in place of imports from modules of ours that are there no more."""
     old = [
         one
         for one in ast.walk(ast.parse(text))
@@ -105,7 +105,7 @@ TRIAL = Rotation((0.36, 0.48, -0.8), (-0.8, 0.6, 0.0), (0.48, 0.64, 0.6))
 
 
 def check_fields(own: Law, path: Path) -> None:
-    """What the fields of a user's REGULATOR must be, before anything is made of them."""
+    """Check the fields of a user's law before anything is made of them."""
     on_matrix = own.coordinates == ON_MATRIX
     needed = "law" if on_matrix else "law_in"
     memory, shown = own.memory or (), own.display
@@ -164,14 +164,14 @@ MISTAKES = (TypeError, NameError, AttributeError, ImportError)
 
 
 def _tried(one: Contender):
-    """What the law answers at TRIAL."""
+    """Return what the law answers at TRIAL."""
     first = one.regulator.memory
     memory = () if first is None else ((*first, *NO_MEMORY[len(first) :]),)
     return one.law(TRIAL, (0.1, 0.2, 0.3), Goal(), Gains(), *memory)
 
 
 def trial_error(one: Contender) -> str:
-    """What the law raises at TRIAL, and in which line of its file; nothing if it answers."""
+    """Return what the law raises at TRIAL, and in which line of its file; nothing if it answers."""
     try:
         _tried(one)
     except Exception as error:
@@ -180,7 +180,7 @@ def trial_error(one: Contender) -> str:
 
 
 def _said(error: BaseException, origin: str) -> str:
-    """An error, and the last line of the user's file that it passed."""
+    """Return an error, and the last line of the user's file that it passed."""
     lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == origin]
     where = f" in line {lines[-1]}" if lines else ""
     return f"{type(error).__name__}{where}: {error}"

@@ -62,7 +62,7 @@ class LawProcess:
         self.line = Connection(ours.detach())
 
     def hear(self, longest_s: float) -> bytes:
-        """The next thing that it says.
+        """Return the next thing that it says.
 
         Errors:
             TimeoutError: it said nothing for so long, or halted midway. EOFError, OSError: it has ended.
@@ -99,7 +99,7 @@ def end_all(token: str) -> None:
 
 
 def _carriers(entry: bytes) -> list[int]:
-    """Processes in whose environment the entry stands; those that have ended show none."""
+    """Return the processes that have the entry in their environment; those that have ended show none."""
     found = []
     for one in PROCESSES.glob("[0-9]*/environ"):
         with contextlib.suppress(OSError):

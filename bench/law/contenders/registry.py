@@ -56,7 +56,7 @@ def baselines_of_arms() -> dict[str, Contender]:
 
 
 def contenders_of(regulator: Law) -> list[Contender]:
-    """A regulator in every representation it acts on."""
+    """Return a regulator in every representation it acts on."""
     if regulator.coordinates == ON_MATRIX:
         return [contender(regulator)]
     every = contenders("representations")
@@ -71,24 +71,24 @@ def all_contenders(extra: tuple[Law, ...] = ()) -> list[Contender]:
 
 @functools.cache
 def papers_laws() -> tuple[Contender, ...]:
-    """The paper's three laws in its order and coordinates."""
+    """Return the paper's three laws in its order and coordinates."""
     found = (one for one in all_contenders() if one.regulator.papers and not one.is_elsewhere)
     return tuple(sorted(found, key=lambda one: one.regulator.papers))
 
 
 @functools.cache
 def papers_coordinates() -> Coordinates:
-    """The paper's own coordinates."""
+    """Return the paper's own coordinates."""
     return next(one for one in contenders("representations").values() if one.papers)
 
 
 def regulator(word: str, extra: tuple[Law, ...] = ()) -> Law:
-    """The regulator of that name, the user's own among them."""
+    """Return the regulator of that name, the user's own among them."""
     return _named("regulator", "regulators", word, extra)
 
 
 def regulator_in(file: Path) -> Law | None:
-    """The regulator of a file in bench/law/contenders/regulators/; None for a file elsewhere."""
+    """Return the regulator of a file in bench/law/contenders/regulators/; None for a file elsewhere."""
     is_here = (
         file.is_file()
         and file.resolve().parent == Path(importlib.import_module(f"{__package__}.regulators").__path__[0]).resolve()
@@ -97,17 +97,17 @@ def regulator_in(file: Path) -> Law | None:
 
 
 def representation(word: str) -> Coordinates:
-    """The representation of that name."""
+    """Return the representation of that name."""
     return _named("representation", "representations", word)
 
 
 def jacobian(word: str) -> Jacobian:
-    """The Jacobian of that name."""
+    """Return the Jacobian of that name."""
     return _named("Jacobian", "jacobians", word)
 
 
 def inverse(word: str) -> Inverse:
-    """The inverse of that name."""
+    """Return the inverse of that name."""
     return _named("inverse", "inverses", word)
 
 

@@ -89,7 +89,7 @@ class ContactController(NamedTuple):
 
 
 def hybrid(law: str, form: str, representation: Coordinates | None = None) -> ContactController:
-    """A hybrid controller, or refuse with the reason.
+    """Return a hybrid controller, or refuse with the reason.
 
     Errors:
         Incompatible: unknown words, a representation too many or too few, or one with no three coordinates.
@@ -110,7 +110,7 @@ def hybrid(law: str, form: str, representation: Coordinates | None = None) -> Co
 
 
 def impedance_controller(one: Impedance, representation: Coordinates | None = None) -> ContactController:
-    """An impedance controller, or refuse with the reason.
+    """Return an impedance controller, or refuse with the reason.
 
     Errors:
         Incompatible: a representation too many or too few, or one with no three coordinates.

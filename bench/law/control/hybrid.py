@@ -64,7 +64,7 @@ def hold_moving(p, pdot, setpoint, gains):
 
 @kernel
 def write(buffer, linear, angular):
-    """The six numbers of a row buffer."""
+    """Write the six numbers of a row buffer."""
     for i in range(3):
         buffer[i] = linear[i]
         buffer[3 + i] = angular[i]
@@ -128,7 +128,7 @@ def _carry_back(R, R_d, row):
 
 
 def in_coordinates(representation: Coordinates, converts: bool = True) -> Callable:
-    """The rows along the coordinates of a representation, on J_E = diag(I, B^-1) J.
+    """Return the rows along the coordinates of a representation, on J_E = diag(I, B^-1) J.
 
     Args:
         converts: F_E = (f, B^T m) (Murphy 1988, 3.12); otherwise m's components as they are, a negative control.

@@ -18,7 +18,7 @@ from bench.law.scalar import kernel
 
 
 def assembly(law: Callable) -> Callable:
-    """The rows of `hybrid.comply`, all of them held, for the law of an impedance."""
+    """Return the rows of `hybrid.comply`, all of them held, for the law of an impedance."""
 
     @kernel
     def assemble(chain, setpoint, f, m, gains, touch, J, rows):
@@ -37,7 +37,7 @@ def assembly(law: Callable) -> Callable:
 
 
 def law_of(impedance: Impedance, representation: Coordinates | None) -> Callable:
-    """The law, in a representation if it is one in coordinates."""
+    """Return the law, in a representation if it is one in coordinates."""
     if impedance.law_in is not None and representation is not None:
         return impedance.law_in(representation)
     assert impedance.law is not None

@@ -58,7 +58,7 @@ class Parts(NamedTuple):
 
 
 def parts_of(contender: Contender, command: Callable) -> Parts:
-    """The parts of a contender on an arm.
+    """Return the parts of a contender on an arm.
 
     Args:
         command: its law in the form `Parts.command` says.
@@ -75,7 +75,7 @@ def parts_of(contender: Contender, command: Callable) -> Parts:
 
 
 def assembly(parts: Parts) -> Callable:
-    """The first half of the controller; with coordinates among its parts that of (3.7), else that of (2.2)."""
+    """Return the first half of the controller; with coordinates among its parts that of (3.7), else that of (2.2)."""
     if parts.assemble is not None:
         return parts.assemble
     return _on_geometric(parts) if parts.coordinates is None else _on_analytic(parts, parts.coordinates)
@@ -143,7 +143,7 @@ def relax(J, a, chain, gains, rows, x):
 
 @kernel
 def damp(x, chain, gains):
-    """The damping z of `relax` added to the joint accelerations."""
+    """Add the damping z of `relax` to the joint accelerations."""
     half = 0.5 * gains.kv
     for i in range(chain.n):
         x[i] = x[i] - half * chain.qdot[i]

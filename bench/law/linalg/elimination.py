@@ -11,7 +11,7 @@ from bench.law.scalar import copysign, kernel
 
 @kernel
 def eliminate(A, b, n):
-    """A (n x n) to upper triangular form and b with it; returns -1.0 if its rows were swapped an odd number of times.
+    """Bring A (n x n) to upper triangular form and b with it; return -1.0 if rows were swapped an odd number of times.
 
     (2/3) n^3 flops to leading order. What is solved with it is right for a matrix within 1.5 n^3 growth EPS |A| of A,
     the growth of the pivots at most 2^(n-1) and in practice near 1 (Wilkinson; Higham 2002, theorem 9.5).

@@ -22,7 +22,7 @@ EPS_SQUARED = 2.0**-104
 
 @kernel
 def orthogonalize(A, b, rows, n):
-    """A := U^T A with orthogonal rows, b := U^T b; A of rows x n and any rank. Returns the sweeps it took.
+    """Return a := U^T A with orthogonal rows, b := U^T b; A of rows x n and any rank. Returns the sweeps it took.
 
     The rows are in no order; one that stands for a singular value of zero is zero to rounding of the largest.
     """

@@ -36,7 +36,7 @@ def check_scheduler(word: str) -> None:
 
 
 def kind(word: str) -> str:
-    """What it is, without the name of a host: threads, local, tcp or tls."""
+    """Return what it is, without the name of a host: threads, local, tcp or tls."""
     return word.split(":")[0]
 
 

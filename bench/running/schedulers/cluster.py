@@ -68,7 +68,7 @@ def run(
 
 @contextlib.contextmanager
 def client_of(word: str) -> Iterator[distributed.Client]:
-    """A client of the cluster that the word names; a local one lives as long as this.
+    """Open a client of the cluster that the word names; a local one lives as long as this.
 
     Args:
         word: local:N, or the address of a scheduler.
@@ -191,7 +191,7 @@ MOST_EPISODES = 50_000
 
 
 def seconds(unit: Unit) -> float:
-    """What a unit usually takes a worker."""
+    """Return what a unit usually takes a worker."""
     return experiment_of(unit).cost_s(unit)
 
 

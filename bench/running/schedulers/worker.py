@@ -41,7 +41,7 @@ def _file(table: pa.Table) -> bytes:
 
 
 def dask_setup(_: object) -> None:
-    """Called in the main thread of a worker that begins (--preload bench.running.schedulers.worker).
+    """Prepare the main thread of a worker that begins (--preload bench.running.schedulers.worker).
 
     Ctrl-C is the client's to answer, though a terminal sends it to all; and GLFW can be silenced in this thread only.
     """

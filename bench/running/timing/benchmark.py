@@ -61,7 +61,7 @@ def closed_loop(
     engine: str, one: Contender, loop: Any, laws: tuple, world: Any, starts: list[Start], settings: Settings,
     fresh: np.ndarray, arm: str = "", kept: Any = None,
 ) -> Benchmark:  # fmt: skip
-    """The compiled loop of an engine from these starts; fresh: its rows before it.
+    """Return the compiled loop of an engine from these starts; fresh: its rows before it.
 
     kept: what the world holds the addresses of.
     """

@@ -54,7 +54,7 @@ class Progress(NamedTuple):
 def benchmarks(
     contenders: list[Contender], report: Callable = lambda _: None, arms: tuple[str, ...] = ()
 ) -> list[Benchmark]:
-    """The reference kernel first, then everything else; all is compiled and has run once.
+    """Return the reference kernel first, then everything else; all is compiled and has run once.
 
     MuJoCo's own actuator is left out: no law of ours runs there.
 

@@ -48,7 +48,7 @@ class World(NamedTuple):
 
 
 def controller(task: str, arm: str, one: Contender, start: Start) -> Benchmark:
-    """The benchmark of a controller of an arm about a start."""
+    """Return the benchmark of a controller of an arm about a start."""
     model = model_of(tasks.task(task, arm).xml(1e-3), "euler")
     data, ticks = mujoco.MjData(model), SWEEPS * STATES
     tool = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_SITE, "tool")

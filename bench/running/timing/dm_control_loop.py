@@ -54,7 +54,7 @@ class Controller:
 
 
 def loop(task: str, arm: str, start: Start, dt_s: float, ticks: int, gains: Gains) -> Callable:
-    """A function that goes on with one long episode by so many ticks; a tick costs the same at any time of it."""
+    """Return a function that goes on with one long episode by so many ticks, whose cost does not change with time."""
     environment = tasks.load(task, start=start, dt=dt_s, horizon=HORIZON_S, arm=arm)
     environment.reset()
     controller = Controller(environment.physics, start, gains)

@@ -66,7 +66,7 @@ def is_standard(one: Contender, arm: str) -> bool:
 
 
 def _start(arm: str) -> Start:
-    """A turn of some 20 degrees."""
+    """Return a turn of some 20 degrees."""
     return tasks.start_set("clear", 8, arm=arm)[-1]
 
 
@@ -77,7 +77,7 @@ def _settings(horizon_s: float) -> EngineSettings:
 def native(
     arm: str, one: Contender, horizon_s: float = HORIZON_S, start: Start | None = None, fewest: int = FEWEST_TICKS
 ) -> Benchmark:
-    """A controller in the compiled loop; one that fails from the start is held at it, to last longer."""
+    """Return a controller in the compiled loop; one that fails from the start is held at it, to last longer."""
     start = start or _start(arm)
     benchmark = _native(arm, one, start, horizon_s, fewest)
     at_rest = start._replace(goal_wxyz=start.quat_wxyz)

@@ -24,7 +24,7 @@ TOLERANCE = 1e-14
 
 
 def chain(x, steps):
-    """The value after so many steps; plain Python gives the same."""
+    """Return the value after so many steps; plain Python gives the same."""
     for k in range(steps):
         x = sqrt(2.0 + sin(((0.1 * x + 0.2) * x + 0.3) * x + 0.001 * k))
     return x
@@ -32,5 +32,5 @@ def chain(x, steps):
 
 @functools.cache
 def compiled():
-    """The kernel compiled: compiled()(START, STEPS)."""
+    """Return the kernel compiled: compiled()(START, STEPS)."""
     return compile_function(chain, float64(float64, int64))

@@ -56,7 +56,7 @@ def run(
 
 
 def frame(measured: list[Benchmark], seconds: np.ndarray) -> pd.DataFrame:
-    """The rows of timings.parquet.
+    """Return the rows of timings.parquet.
 
     Args:
         seconds: one row a pass, one column a benchmark.
@@ -107,7 +107,7 @@ def _numbers(name: str, of: Ratio) -> dict:
 
 
 def read(path: Path) -> pd.DataFrame:
-    """The rows of a machine's file.
+    """Return the rows of a machine's file.
 
     Errors:
         BadResults: missing, truncated, or of another schema.

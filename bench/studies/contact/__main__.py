@@ -28,7 +28,7 @@ PARTS = {
 
 
 def main() -> None:
-    """The study's command."""
+    """Run the study."""
     chosen = make_parser("contact", __doc__, PARTS, STORED).parse_args()
     found = read_json(chosen.out) if chosen.out.is_file() else {}
     parts = {name: functools.partial(_written_rows, rows) for name, rows in PARTS.items()}

@@ -38,7 +38,7 @@ CALM_N = 1e-3
 
 
 def limits() -> list[dict]:
-    """A row a plant, lag and delay: the largest stiffness measured, and by theory [N/m]; null up to the stiffest."""
+    """Return a row a plant, lag and delay: largest stable stiffness, measured and by theory [N/m]; null: no limit."""
     return [*_servos(), *_arms()]
 
 
@@ -96,7 +96,7 @@ def is_damped(K: float, lag_s: float, late: int) -> bool:
 
 
 def pressed(stiffness: float, w: float, delay_ms: float) -> np.ndarray:
-    """The normal force [N] over the ticks of an episode on the arm."""
+    """Return the normal force [N] over the ticks of an episode on the arm."""
     (m, d, k), dt = SHIPPED, USUAL.dt_s
     c, rate, time, told = 0.0, 0.0, 0.0, deque([0.0] * round(1e-3 * delay_ms / dt))
 
@@ -124,7 +124,7 @@ def calms(force: np.ndarray) -> bool:
 
 
 def predicted(stiffness: float, w: float, delay_ms: float) -> bool:
-    """What theory says of the same."""
+    """Return what theory says of the same."""
     arm = tasks.arm(ARM)
     spring = Spring(stiffness, RELAXATION_S * stiffness, INERTANCE / (1.0 - INERTANCE) / scale(arm))
     return settles(SHIPPED, Loop(w, round(1e-3 * delay_ms / USUAL.dt_s), mobility(arm)), spring, USUAL.dt_s)

@@ -50,7 +50,7 @@ Torque = Callable[[Tick], np.ndarray]
 def episode(
     task: ContactTask, name: str, trial: Trial, torque: Torque, horizon_s: float, surface: ContactModel = STANDARD
 ) -> list[Tick]:
-    """The ticks of an episode on an arm; fewer if the hand is lost."""
+    """Return the ticks of an episode on an arm; fewer if the hand is lost."""
     arm, dt = tasks.arm(name), USUAL.dt_s
     model = mujoco.MjModel.from_xml_string(model_xml(task, arm, dt, surface))
     model.opt.integrator = MUJOCO_INTEGRATORS[USUAL.integrator]
@@ -102,7 +102,7 @@ def episode(
 
 
 def press(name: str, stiffness: float, torque: Torque, horizon_s: float) -> list[Tick]:
-    """The ticks of a press on a level plane of this stiffness [N/m], from a millimetre over it; nothing slides."""
+    """Return the ticks of a press on a level plane of this stiffness [N/m] from a millimetre over it."""
     task = tasks.contact_task("force-on-plane")
     trial = task.trials(tasks.arm(name))[0]
     still = trial.specification._replace(velocity=(0.0, 0.0, 0.0), desired_wrench=(0.0,) * 6)
@@ -110,7 +110,7 @@ def press(name: str, stiffness: float, torque: Torque, horizon_s: float) -> list
 
 
 def response(trial: Trial, ticks: list[Tick], horizon_s: float) -> Response:
-    """The episode as metrics of contact take it; its load is none of theirs here."""
+    """Return the episode as metrics of contact take it; its load is none of theirs here."""
 
     def each(name: str) -> np.ndarray:
         return np.array([getattr(now, name) for now in ticks])

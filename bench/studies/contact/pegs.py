@@ -40,12 +40,12 @@ VARIANTS = {
 
 
 def fits() -> list[dict]:
-    """A row an episode of each clearance, on contacts that are stiff beside it."""
+    """Return a row an episode of each clearance, on contacts that are stiff beside it."""
     return [{"clearance": share, **row} for share in CLEARANCES for row in episodes(share, TIGHT, TIGHT_DT_S)]
 
 
 def sensitivity() -> list[dict]:
-    """A row an episode of each variant of the contact model, with the usual fit."""
+    """Return a row an episode of each variant of the contact model, with the usual fit."""
     every = VARIANTS.items()
     return [{"variant": words, **row} for words, one in every for row in episodes(CLEARANCES[0], one, USUAL.dt_s)]
 
@@ -72,7 +72,7 @@ def episodes(share: float, contact: ContactModel, dt_s: float) -> Iterator[dict]
 
 
 def load(trial, ended, inside: float, mu: float) -> dict:
-    """What the hand pushes the peg with at the end, in the plane of the hole in which it is further from sliding.
+    """Return the hand's final push on the peg, in the plane of the hole in which it is further from sliding.
 
     inside: how far the peg is between the walls [m]: in the chamfer nothing jams it.
     """

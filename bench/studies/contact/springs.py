@@ -22,7 +22,7 @@ STIFFNESSES = (50.0, 20.0, 10.0, 5.0, 2.0)
 
 
 def rows() -> list[dict]:
-    """A row a stiffness, arm and plate: the angle left at rest [deg]."""
+    """Return a row a stiffness, arm and plate: the angle left at rest [deg]."""
     task, found = tasks.contact_task("surface-alignment"), []
     for stiffness in STIFFNESSES:
         for name in ARMS:
@@ -46,7 +46,7 @@ def rows() -> list[dict]:
 
 @functools.cache
 def softened(stiffness: float) -> ContactController:
-    """The impedance on columns of R with this rotational stiffness [N m/rad], as damped as before; places as before."""
+    """Return the impedance on columns of R with this rotational stiffness [N m/rad], otherwise unchanged."""
     share = stiffness / (PAPERS_GAINS.kp * TOUCH.m_o)
     slower, law = math.sqrt(share), geometric.law
 

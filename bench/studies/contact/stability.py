@@ -46,13 +46,13 @@ STEADY = 0.05
 
 
 def contact(stiffness: float) -> ContactModel:
-    """The plane."""
+    """Return the plane."""
     damping = RELAXATION_S * stiffness
     return STANDARD._replace(stiffness=stiffness, damping=damping, dmin=INERTANCE, dmax=INERTANCE, friction=SLICK)
 
 
 def pressed(controller: str, kf: float, stiffness: float, delay_s: float, noise: float = 0.0):
-    """The episode; the tip begins a millimetre over the plane."""
+    """Return the episode; the tip begins a millimetre over the plane."""
     task, arm = tasks.contact_task("force-on-plane")._replace(horizon_s=HORIZON_S), tasks.arm(ARM)
     trial = task.trials(arm)[0]
     trial = trial._replace(specification=trial.specification._replace(velocity=(0.0, 0.0, 0.0)))
@@ -67,7 +67,7 @@ def is_steady(ended) -> bool:
 
 
 def predicted(controller: str, kf: float, stiffness: float, late: int) -> bool:
-    """What theory says of the same."""
+    """Return what theory says of the same."""
     arm = tasks.arm(ARM)
     spring = Spring(stiffness, RELAXATION_S * stiffness, INERTANCE / (1.0 - INERTANCE) / scale(arm))
     law = acceleration(find_controller(controller), mobility(arm), touch=TOUCH._replace(kf=kf))
@@ -105,7 +105,7 @@ def bisect_stiffness(holds, low: float, high: float, halvings: int) -> float:
 
 
 def boundaries() -> list[dict]:
-    """A row a controller and delay: the boundary measured, and by theory [N/m]."""
+    """Return a row a controller and delay: the boundary measured, and by theory [N/m]."""
     return [
         {
             "controller": one,
@@ -120,7 +120,7 @@ def boundaries() -> list[dict]:
 
 
 def noise() -> list[dict]:
-    """A row a controller, stiffness and delay: what white noise of NOISE_N makes of the force [N, rms], once steady."""
+    """Return a row a controller, stiffness and delay: force [N, rms] from white noise of NOISE_N, once steady."""
     found = []
     for one, kf in CONTROLLERS:
         for stiffness in STIFFNESSES:

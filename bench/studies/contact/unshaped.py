@@ -57,7 +57,7 @@ def controller(damping: str, springs: Stiffness, deeper: np.ndarray, powers: lis
 
 
 def rows() -> list[dict]:
-    """A row an arm, design of damping, stiffness of the springs and of the plane."""
+    """Return a row an arm, design of damping, stiffness of the springs and of the plane."""
     return [
         {
             "arm": arm,
@@ -101,7 +101,7 @@ def energy(now: Tick, K: np.ndarray, deeper: np.ndarray) -> float:
 
 
 def in_tasks() -> list[dict]:
-    """A row a task, arm and design of damping; `shaped` names the impedance with inertia shaping."""
+    """Return a row a task, arm and design of damping; `shaped` names the impedance with inertia shaping."""
     return [
         {"task": task, "arm": arm, "damping": name, **done(task, arm, name)}
         for task in SCENES
@@ -111,7 +111,7 @@ def in_tasks() -> list[dict]:
 
 
 def done(name: str, arm: str, damping: str) -> dict:
-    """What was done to the scene by HORIZON_S, the most energy given [J], and the speed at the end [mm/s]."""
+    """Return what was done to the scene by HORIZON_S, the most energy given [J], and the speed at the end [mm/s]."""
     words, measure, unit = SCENES[name]
     task = tasks.contact_task(name)._replace(horizon_s=HORIZON_S, rests=False)
     trials = task.trials(tasks.arm(arm))
@@ -127,7 +127,7 @@ def done(name: str, arm: str, damping: str) -> dict:
 
 
 def pose(task, arm: str, one: ContactController, seen: Response) -> Pose:
-    """What a metric takes."""
+    """Return what a metric takes."""
     return Pose(task, tasks.arm(arm), one, (seen,))
 
 

@@ -144,7 +144,7 @@ def keep(tables: dict[str, pd.DataFrame], about: dict[str, dict]) -> None:
 
 
 def marked(new: pd.DataFrame, earlier: pd.DataFrame) -> pd.DataFrame:
-    """New verdicts, each with the faults that an earlier version had and it has no longer, and which version that was.
+    """Mark new verdicts with the faults that an earlier version had and this one has not, and that version.
 
     What was marked for this version stays marked when it is asked again.
     """

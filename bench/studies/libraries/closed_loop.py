@@ -91,7 +91,7 @@ def starts(angle_deg: float) -> Iterator[tuple]:
 
 @quiet
 def rows_of(function: Function) -> list[dict[str, Any]]:
-    """A function's rows: an angle and sheet each."""
+    """Return a function's rows: an angle and sheet each."""
     gains, rows = PAPERS_GAINS, []
     for angle_deg in (*ANGLES_DEG, 180.0):
         for sheet in (1.0, -1.0) if function.takes == QUATERNION else (1.0,):
@@ -104,7 +104,7 @@ def rows_of(function: Function) -> list[dict[str, Any]]:
 
 @quiet
 def rows_of_controller(controller: Controller) -> list[dict[str, Any]]:
-    """A controller's rows, an angle each."""
+    """Return a controller's rows, an angle each."""
     rows = []
     for angle_deg in (*ANGLES_DEG, 180.0):
         found = [response(controller.motion(one), controller.dt_s) for one in starts(angle_deg)]
@@ -213,12 +213,12 @@ def matrix(quat_wxyz: Quaternion) -> np.ndarray:
 
 
 def angle(quat_wxyz: Quaternion) -> float:
-    """The angle of a rotation in [0, pi] rad, of either sign of its quaternion."""
+    """Return the angle of a rotation in [0, pi] rad, of either sign of its quaternion."""
     w, x, y, z = quat_wxyz
     return 2.0 * math.atan2(math.hypot(x, y, z), abs(w))
 
 
 def conjugate(quat_wxyz: Quaternion) -> Quaternion:
-    """The opposite rotation: the body's orientation of what is left to go, and the reverse."""
+    """Return the opposite rotation: the body's orientation of what is left to go, and the reverse."""
     w, x, y, z = quat_wxyz
     return (w, -x, -y, -z)

@@ -40,7 +40,7 @@ class Form(NamedTuple):
 
 
 def _about(i: int, angle: float) -> np.ndarray:
-    """The turn by an angle about base axis i."""
+    """Return the turn by an angle about base axis i."""
     c, s = math.cos(angle), math.sin(angle)
     R = np.eye(3)
     j, k = (i + 1) % 3, (i + 2) % 3
@@ -102,7 +102,7 @@ KINDS = ("raised", "not-finite", "nought", "long-way", "astray")
 
 
 def ask(function: Function, turn: Turn, is_half_turn: bool, tolerance: float) -> Answer:
-    """What a function says of one turn."""
+    """Return what a function says of one turn."""
     try:
         e = said(function, turn)
     except Exception:  # whatever a library raises is its answer
@@ -127,7 +127,7 @@ def ask(function: Function, turn: Turn, is_half_turn: bool, tolerance: float) ->
 
 
 def said(function: Function, turn: Turn, sign: float = 1.0) -> np.ndarray:
-    """The three numbers of a turn, or of its other quaternion."""
+    """Return the three numbers of a turn, or of its other quaternion."""
     return answer(function, sign * turn.quat_wxyz if function.takes == QUATERNION else turn.R.copy())
 
 
@@ -178,5 +178,5 @@ def gap(one: np.ndarray, other: np.ndarray) -> float:
 
 
 def largest(numbers) -> float:
-    """The largest that is a number; NaN if none is."""
+    """Return the largest that is a number; NaN if none is."""
     return max((number for number in numbers if not math.isnan(number)), default=math.nan)

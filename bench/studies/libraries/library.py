@@ -75,12 +75,12 @@ class Library(NamedTuple):
 
 
 def answer(function: Function, value: np.ndarray) -> np.ndarray:
-    """The three numbers."""
+    """Return the three numbers."""
     return np.asarray(function.call(value), dtype=float).reshape(3)
 
 
 def quiet(asking: Callable) -> Callable:
-    """A library that warns is taken at its word all the same."""
+    """Return a library that warns is taken at its word all the same."""
 
     @functools.wraps(asking)
     def called(*given):

@@ -38,7 +38,7 @@ class TurnSet(NamedTuple):
 
 
 def of_quaternion(w, x, y, z) -> Turn:
-    """The turn of a quaternion of any length, exact or of 60 digits; w must not be negative."""
+    """Return the turn of a quaternion of any length, exact or of 60 digits; w must not be negative."""
     length = DIGITS.sqrt(w * w + x * x + y * y + z * z)
     w, x, y, z = (DIGITS.mpf(part) / length for part in (w, x, y, z))
     sine = DIGITS.sqrt(x * x + y * y + z * z)
@@ -56,13 +56,13 @@ def of_quaternion(w, x, y, z) -> Turn:
 
 
 def about(axis, half_cosine, half_sine) -> Turn:
-    """The turn with these functions of half its angle, about an axis of any length."""
+    """Return the turn with these functions of half its angle, about an axis of any length."""
     length = DIGITS.sqrt(sum(part * part for part in axis))
     return of_quaternion(half_cosine, *(half_sine * part / length for part in axis))
 
 
 def axes() -> list[tuple[int, int, int]]:
-    """The 26 to the faces, edges and corners of a cube, in exact integers, and some drawn."""
+    """Return the 26 to the faces, edges and corners of a cube, in exact integers, and some drawn."""
     steps = (-1, 0, 1)
     cube = [(x, y, z) for x in steps for y in steps for z in steps if (x, y, z) != (0, 0, 0)]
     drawn = np.random.default_rng(1).normal(scale=1000.0, size=(DRAWN_AXES, 3)).astype(int).tolist()

@@ -35,7 +35,7 @@ def left_to_go(q: np.ndarray, q_d: np.ndarray) -> np.ndarray:
 
 @quiet
 def report(function: Function) -> Report:
-    """The audit's."""
+    """Return the audit's."""
     return audit(of_pair(function), "matrix" if function.takes == MATRIX else "wxyz", name=function.name)
 
 

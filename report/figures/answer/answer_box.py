@@ -19,12 +19,12 @@ SYMBOLS = (
 
 
 def answer(run: Run) -> html.Markdown | None:
-    """The box by what the rule makes of a run."""
+    """Return the box by what the rule makes of a run."""
     return box(needs.advice(run.folder))
 
 
 def box(advice: needs.Advice) -> html.Markdown | None:
-    """Formula, exceptions and code of the law that is advised; None where no law meets the requirements.
+    """Return formula, exceptions and code of the advised law; None where no law meets the requirements.
 
     Of a user's law the exceptions alone: its file is the user's already.
     """
@@ -54,7 +54,7 @@ def exceptions(advice: needs.Advice) -> str:
 
 
 def _tab(title: str, word: str, subject: Subject) -> str:
-    """The file of the law, the first of an export, as a tab; as text, for colours would be four fifths of the page."""
+    """Return the law's file, the first of an export, as a tab of plain text: colours would be most of the page."""
     text = find_language(word).law(subject)[1]
     return f"````{{tab-item}} {title}\n```text\n{text}```\n````"
 

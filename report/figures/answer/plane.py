@@ -54,7 +54,7 @@ def across(found: Measured) -> tuple[dict[str, float], str]:
 
 @responsive_picture
 def plane(found: Measured, *, narrow: bool = False):
-    """What a tick costs, and the time in which 99 % of the uniform starts settle."""
+    """Return what a tick costs, and the time in which 99 % of the uniform starts settle."""
     figure, axes = style.panels(height=6.2 if narrow else 5.6, narrow=narrow)
     costs, label = across(found)
     places = {law: (cost, 1.0 / found.number("time", law)) for law, cost in costs.items()}
@@ -84,7 +84,7 @@ def plane(found: Measured, *, narrow: bool = False):
 
 
 def sentence(found: Measured) -> str:
-    """The laws that settle everywhere, in words."""
+    """Return the laws that settle everywhere, in words."""
     told = []
     for kind in (2, 1):
         named = ", ".join(

@@ -28,7 +28,7 @@ SHOWN = ("lost", "time", "worst", "tick", "memory", "held", "effort", "peak", "v
 
 
 def facts(run: Run) -> dict:
-    """The advice in a few sentences, and the numbers about it."""
+    """Return the advice in a few sentences, and the numbers about it."""
     found = measured(run.folder)
     whole = [law for law in shown(found) if needs.EVERYWHERE.has(found, law)]
     forgetful = [law for law in shown(found) if not found.number("memory", law) and law in found.values["held"]]
@@ -53,7 +53,7 @@ def facts(run: Run) -> dict:
 
 
 def front_page(run: Run) -> str:
-    """The advice in a few words."""
+    """Return the advice in a few words."""
     found, one = measured(run.folder), needs.advice(run.folder).default
     if one.law is None:
         return f"No law of this run settles from every start tried and is trapped by no noise up to {HELD_RAD:g} rad."
@@ -101,7 +101,7 @@ def tables(run: Run) -> dict:
 
 
 def by_robot(run: Run) -> html.Markdown:
-    """A line for each thing that a robot may take: the law to use, with whom it ties, the rows that say so."""
+    """Return a line for each thing that a robot may take: the law to use, with whom it ties, the rows that say so."""
     lines = []
     for robot in ROBOTS:
         one = word_of(robot, run.folder)
@@ -122,7 +122,7 @@ def by_robot(run: Run) -> html.Markdown:
 
 
 def decided(advice: needs.Advice, found: Measured) -> html.Markdown:
-    """A line a situation: the law to use, its numbers and the default's, and with what it ties."""
+    """Return a line a situation: the law to use, its numbers and the default's, and with what it ties."""
     usual = advice.default.law
     lines = [_line(one, usual, found) for one in (advice.default, *advice.exceptions)]
     return html.table(pd.DataFrame(lines).fillna(""))
@@ -147,14 +147,14 @@ def _has(one: needs.Decision, law: str, found: Measured) -> str:
 
 
 def told(criterion: Criterion, number: Estimate) -> str:
-    """A number with its unit, and its interval where it has one."""
+    """Return a number with its unit, and its interval where it has one."""
     value, low, high = (written(criterion, part) for part in number)
     span = "" if value == low == high else f" ({low} to {high})"
     return f"{value} {criterion.unit}{span}" if criterion.unit else f"{value}{span}"
 
 
 def written(criterion: Criterion, value: float) -> str:
-    """A number as its criterion writes it."""
+    """Return a number as its criterion writes it."""
     if math.isnan(value):
         return html.MISSING
     if math.isinf(value):
@@ -164,7 +164,7 @@ def written(criterion: Criterion, value: float) -> str:
 
 
 def every_law(found: Measured) -> html.Markdown | None:
-    """A row a law, a column a criterion; a dot marks the front of FRONT."""
+    """Return a row a law, a column a criterion; a dot marks the front of FRONT."""
     ahead = front(found, shown(found), FRONT)
 
     def line(law: str) -> dict:
@@ -184,7 +184,7 @@ def every_law(found: Measured) -> html.Markdown | None:
 
 
 def head(criterion: Criterion) -> str:
-    """A column's head."""
+    """Return a column's head."""
     return f"{criterion.title} [{criterion.unit}]" if criterion.unit else criterion.title
 
 

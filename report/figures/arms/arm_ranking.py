@@ -29,7 +29,7 @@ def of_laws(rows: pd.DataFrame, start_set: str) -> pd.DataFrame:
 
 
 def ranked(rows: pd.DataFrame) -> Iterator[tuple]:
-    """A row a controller, best within torque and range first; in bold the shares that no other controller here beats.
+    """Return a row a controller, best within torque and range first; bold: shares that no other controller beats.
 
     Args:
         rows: of `arm_rows.episodes`.

@@ -50,7 +50,7 @@ def varied(run: Run) -> pd.DataFrame:
 
 
 def named(frame: pd.DataFrame) -> pd.DataFrame:
-    """The frame with plain words, and columns law, controller (law@jacobian) and way (law@jacobian+inverse)."""
+    """Return the frame with plain words, and columns law, controller (law@jacobian) and way (law@jacobian+inverse)."""
     frame = frame.assign(**{word: frame[word].astype(str) for word in WORDS if word in frame})
     slash = np.where(frame["representation"] == "", "", "/")
     law = frame["regulator"] + slash + frame["representation"]
@@ -62,7 +62,7 @@ def named(frame: pd.DataFrame) -> pd.DataFrame:
 
 @functools.cache
 def standard(arm: str, law: str, jacobian: str) -> str:
-    """The inverse that this law and Jacobian take on that arm if none is named; empty if nothing fits."""
+    """Return the inverse that this law and Jacobian take on that arm if none is named; empty if nothing fits."""
     if law in baselines_of_arms() and baselines_of_arms()[law].inverse:
         return baselines_of_arms()[law].way[1]
     fitting = combinations.on((f"{law}@{jacobian}+{STANDARD}",), laws_by_name(), tasks.arm(arm).joints)
@@ -83,7 +83,7 @@ def with_standard(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def of_baselines(rows: pd.DataFrame) -> pd.DataFrame:
-    """Controllers that are no laws."""
+    """Return the rows of controllers that are no laws."""
     return rows[rows["regulator"].isin(baselines_of_arms())]
 
 
@@ -94,7 +94,7 @@ def of(rows: pd.DataFrame, controller: str, inverse: str = STANDARD, start_set: 
 
 
 def in_order(rows: pd.DataFrame) -> list[str]:
-    """The controllers that the rows hold: (2.2) first, by the order of the paper and then by name."""
+    """Return the controllers that the rows hold: (2.2) first, by the order of the paper and then by name."""
     first = (ON_MATRIX, "linearized-euler/zyx-euler@geometric", "linearized-euler-relative/zyx-euler@geometric")
     ranks = {name: place for place, name in enumerate((*first, SAME_BOTH_WAYS, ON_ANGLES))}
     return sorted(set(rows["controller"]), key=lambda name: (equation(name), ranks.get(name, len(ranks)), name))

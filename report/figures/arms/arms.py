@@ -71,12 +71,12 @@ def tables(run: Run) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """Turns that pass the pole."""
+    """Draw rotations that pass the pole."""
     return {"arm-pole": arm_pole.pole(standard(run))}
 
 
 def arm_row(name: str) -> tuple:
-    """An arm: joints, its Jacobian's condition number and the tool's beta at home, torques."""
+    """Return an arm: joints, its Jacobian's condition number and the tool's beta at home, torques."""
     one = tasks.arm(name)
     model = kinematics(one)
     beta = round(float(np.degrees(zyx_angles(model.pose(one.home)[1])[1]))) + 0
@@ -98,7 +98,7 @@ def start_sets(rows: pd.DataFrame) -> Iterator[tuple]:
 
 
 def first_paragraph(module: str) -> str:
-    """The summary of a module's docstring."""
+    """Return the summary of a module's docstring."""
     return " ".join((sys.modules[module].__doc__ or "").partition("\n\n")[0].split())
 
 
@@ -110,7 +110,7 @@ def at_the_pole(rows: pd.DataFrame) -> Iterator[tuple]:
 
 
 def at_the_wrist(rows: pd.DataFrame) -> Iterator[tuple]:
-    """Controller and inverse: starts, share that settles, how far the tool strays, torque over rated."""
+    """Return by controller and inverse: starts, share that settles, how far the tool strays, torque over rated."""
     starts = rows[(rows["start_set"] == "wrist") & rows["controller"].isin(arm_rows.PAPERS_TWO)]
     ways = [(*way.split("+"), own) for way, own in starts.groupby("way")]
     for controller, inverse, own in sorted(ways, key=lambda one: (one[0] != arm_rows.ON_MATRIX, one[1] != STANDARD)):

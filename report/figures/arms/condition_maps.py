@@ -36,7 +36,7 @@ class Grid:
         self.y, self.x = (np.degrees(np.sort(rows[f"q_{joint}"].unique())) for joint in (self.second, self.first))
 
     def matrix(self, place, values: pd.Series) -> np.ndarray:
-        """The values at their places; what is infinite or beyond stands at HIGHEST."""
+        """Return the values at their places; what is infinite or beyond stands at HIGHEST."""
         found = np.full((self.side, self.side), np.nan)
         found[place] = values.fillna(HIGHEST).clip(upper=HIGHEST)
         return found
@@ -50,7 +50,7 @@ class Grid:
 
 @responsive_picture
 def maps(rows: pd.DataFrame, *, narrow=False):
-    """A row of two maps for each arm; contours say which singularity is the arm's and which the coordinates'."""
+    """Return a row of two maps for each arm; contours say which singularity is the arm's and which the coordinates'."""
     names = arms(rows)
     height = (1.95 if narrow else 2.4) * len(names) + 1.0
     figure, grid = style.panels(len(names), 2, height=height, narrow=narrow, squeeze=False)
@@ -102,7 +102,7 @@ def _map(axes, own: Grid, column: str):
 
 
 def said(name: str, own: Grid) -> str:
-    """An arm's maps in words."""
+    """Return an arm's maps in words."""
     kinematic, near = own.condition > BAD, own.margin < NEAR
     added = (own.condition_analytic > BAD) & ~kinematic
     return (

@@ -74,7 +74,7 @@ def by_joints(rows: pd.DataFrame) -> dict[str, str]:
 
 
 def shares(flops: pd.DataFrame) -> dict[str, str]:
-    """The law on R over its whole tick; what (3.7) takes more than that, and than (2.2) with its own law."""
+    """Return the law on R over its whole tick; what (3.7) takes more than that, and than (2.2) with its own law."""
     total = flops.sum(axis=1)
     angles = total[arm_rows.ON_ANGLES]
     return {
@@ -135,7 +135,7 @@ def standard(rows: pd.DataFrame, joints: int) -> pd.DataFrame:
 
 
 def stages(rows: pd.DataFrame, column: str = "flops") -> pd.DataFrame:
-    """A row a controller, the cheapest first, a column a stage."""
+    """Return a row a controller, the cheapest first, a column a stage."""
     table = rows[rows["stage"] != "total"].pivot_table(index="controller", columns="stage", values=column, sort=False)
     table = table.reindex(columns=STAGES, fill_value=0).astype(int)
     return table.loc[table.sum(axis=1).sort_values(kind="stable").index]

@@ -24,7 +24,7 @@ FILM = (
 
 
 def condition(value: float) -> str:
-    """A condition number; one beyond all digits by its power alone."""
+    """Return a condition number; one beyond all digits by its power alone."""
     return html.MISSING if math.isnan(value) else (power(value) if value > LOST else f"{value:.1f}")
 
 
@@ -52,7 +52,7 @@ def of_poses(run: Run) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """Maps of two joints, and the film."""
+    """Draw the maps of two joints, and the film."""
     return {
         "condition-maps": in_run(lambda: condition_maps.maps(papers(run, pose_set="slice"))),
         "pole-loop": media.loop(FILM),
@@ -60,7 +60,7 @@ def figures(run: Run) -> dict:
 
 
 def first_example(rows: pd.DataFrame) -> dict[str, str]:
-    """The first example in words: beta, cond J, and cond J_E."""
+    """Return the first example in words: beta, cond J, and cond J_E."""
     at = rows.iloc[0]
     return {
         "qn_beta": f"{math.degrees(at['beta']):.0f}°",
@@ -78,7 +78,7 @@ def most_spoilt(rows: pd.DataFrame) -> dict[str, str]:
 
 
 def joints(rows: pd.DataFrame) -> str:
-    """The joints of each slice and its number of poses, for a caption."""
+    """Return the joints of each slice and its number of poses, for a caption."""
     grids = {name: condition_maps.Grid(rows[rows["arm"] == name]) for name in arm_looks.arms(rows)}
     parts = [f"{arm_looks.title(name)}: joints {own.first} and {own.second}" for name, own in grids.items()]
     return f"{'; '.join(parts)} ({rows.groupby('arm', observed=True)['pose_id'].nunique().max()} poses each)"

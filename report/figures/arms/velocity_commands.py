@@ -91,7 +91,7 @@ def facts(run: Run) -> dict:
 
 
 def log_limit(found: pd.DataFrame) -> str | None:
-    """The largest K dt of the logarithm near the goal, measured on the free body."""
+    """Return the largest K dt of the logarithm near the goal, measured on the free body."""
     own = found[(found["law"] == "rotation-vector") & (found["arm"] == "") & (found["share"] == 1.0)]
     own = own[own["reach"] == "near"]
     return f"{float(own['k_dt'].iloc[0]):.3g}" if len(own) else None
@@ -103,7 +103,7 @@ def named(laws) -> str:
 
 
 def lead(advice: Advice) -> str:
-    """What is advised, and with whom it ties."""
+    """Return what is advised, and with whom it ties."""
     if advice.default.law is None:
         return "No law of this run settles from every start when it commands velocities."
     said = standing(advice.default, families.word)
@@ -153,7 +153,7 @@ def of_limiter(run: Run, name: str) -> pd.DataFrame:
 
 
 def by_inverse(run: Run) -> list[tuple]:
-    """A row an inverse, all arms that take it together."""
+    """Return a row an inverse, all arms that take it together."""
     rows, found = told(run), limits(run)
     lines = []
     for name, one in contenders("inverses").items():
@@ -179,6 +179,6 @@ def by_inverse(run: Run) -> list[tuple]:
 
 
 def between(values: pd.Series) -> str:
-    """The least and the greatest, once if they look alike."""
+    """Return the least and the greatest, once if they look alike."""
     low, high = f"{values.min():.3g}", f"{values.max():.3g}"
     return low if low == high else f"{low} to {high}"

@@ -82,7 +82,7 @@ def say_property(name: str) -> str:
 
 
 def docstring(file: Path) -> tuple[list[str], str]:
-    """A contender's file in words: paragraphs on what it is, and where it fails."""
+    """Return a contender's file in words: paragraphs on what it is, and where it fails."""
     text = ast.get_docstring(ast.parse(file.read_bytes())) or ""
     found = LIMITATIONS.search(text)
     fails = typeset(" ".join(found[1].split())) if found else ""
@@ -108,7 +108,7 @@ def in_every_language(word: str) -> dict[str, tuple[str, str]]:
 
 
 def taken(word: str, files: dict[str, tuple[str, str]], live: str = "") -> str:
-    """What leads to its files and to the page on which it runs."""
+    """Return what leads to its files and to the page on which it runs."""
     if not files:
         return ""
     links = ", ".join(f'<a href="code/{name}" download>{title}</a>' for title, (name, _) in files.items())

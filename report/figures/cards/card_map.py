@@ -26,7 +26,7 @@ MOST_SETTLED = 800
 
 
 def at_rest(episodes: pd.DataFrame) -> pd.DataFrame:
-    """The rows that the map shows: one point an orientation."""
+    """Return the rows that the map shows: one point an orientation."""
     return episodes[episodes["start_set"].isin(AT_REST_TO_IDENTITY)]
 
 

@@ -49,7 +49,7 @@ def starts() -> list[tuple[str, str, Start]]:
 
 
 def page(contenders: list[Contender], costs) -> html.Html:
-    """Controls, hidden until the script is there; the laws' code, and what the script reads.
+    """Return controls, hidden until the script is there, the laws' code, and what the script reads.
 
     Args:
         costs: rows about the free body.
@@ -114,7 +114,7 @@ def _law_options(names: Iterable[str], chosen: str) -> str:
 
 
 def _start_options(every: list[tuple[str, str, Start]]) -> str:
-    """Starts by kind."""
+    """List starts by kind."""
     return "".join(
         _group(group, ((one.id, title) for _, title, one in own), OPENING["start"])
         for group, own in itertools.groupby(every, lambda one: one[0])
@@ -130,7 +130,7 @@ def _group(title: str, options: Iterable[tuple[str, str]], chosen: str) -> str:
 
 
 def degrees(angle_rad: float) -> str:
-    """An angle in degrees, with as many decimals as tell it from half a turn."""
+    """Return an angle in degrees, with as many decimals as tell it from half a turn."""
     angle = math.degrees(angle_rad)
     short = abs(180.0 - angle)
     decimals = max(0, math.ceil(-math.log10(short))) if short > 1e-9 else 0
@@ -162,6 +162,6 @@ def facts(run: Run) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """What the script brings to life."""
+    """Return what the script brings to life."""
     costs = run.any_rows("costs", **read.FREE_BODY)
     return {"two-laws": page(alive(costs["contender"].astype(str)) if len(costs) else alive(()), costs)}

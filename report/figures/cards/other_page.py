@@ -79,6 +79,6 @@ def tables(_: Run) -> dict:
 
 
 def line(one: Other) -> tuple:
-    """A link to its page, its kind, what is proved, its word on the command line."""
+    """Return a link to its page, its kind, what is proved, its word on the command line."""
     link = html.Html(f'<a href="{PAGES}/{one.name}.html">{html.foreign(one.record.title)}</a>')
     return link, one.kind, html.foreign(proved(one)) or html.MISSING, f"`{one.word}`"

@@ -41,14 +41,14 @@ EXAMPLE = re.compile(r" Shown by |, as from |, as at ")
 
 
 def in_order() -> list[Law]:
-    """The paper's three regulators, its variants by name, the later ones by name, the user's own of the run."""
+    """Return the paper's three regulators, its variants by name, the later ones by name, the user's own of the run."""
     first = [one.regulator for one in papers_laws()]
     others = [one for one in contenders("regulators").values() if one not in first]
     return [*first, *sorted(others, key=lambda one: (one.later, one.name)), *read.own_laws()]
 
 
 def papers_first(regulator: Law) -> list[Contender]:
-    """A law in every representation it acts on, the paper's own coordinates first."""
+    """Return a law in every representation it acts on, the paper's own coordinates first."""
     return sorted(contenders_of(regulator), key=lambda one: one.is_elsewhere)
 
 
@@ -66,7 +66,7 @@ def source(regulator: Law) -> Source:
 
 
 def text_of(regulator: Law) -> tuple[list[str], str]:
-    """What its docstring says: paragraphs on what the law is, and where it fails; nothing of one that may not run."""
+    """Return its docstring's paragraphs on what the law is and where it fails; none of a law that may not run."""
     return docstring(source(regulator).file) if regulator.law or regulator.law_in else ([UNTRUSTED], "")
 
 
@@ -132,14 +132,14 @@ def measured(episodes: pd.DataFrame, regulator: Law) -> str:
 
 
 def found_of(one: Contender, run: Run) -> str:
-    """What its command is as a function of state, without the states that show it, which `judge` prints."""
+    """Return what its command is as a function of state, without the states that show it, which `judge` prints."""
     rows = run.any_rows("command-field", contender=one.name)
     said = why.sentences(rows, one.regulator.property) if len(rows) else []
     return " ".join(EXAMPLE.split(each.text)[0].rstrip(".") + "." for each in said)
 
 
 def advised(law: str, run: Run) -> str:
-    """The situations in which a law is advised (`selection.needs`), and those in which it ties with what is."""
+    """Return the situations in which a law is advised (`selection.needs`), and those in which it ties with what is."""
     here, tied = in_run(lambda: needs.advice(run.folder).uses(law)) or ((), ())
     said = {"If ": here, "No worse, and less simple, if ": tied}
     return " ".join(f"{start}{'; '.join(one.words for one in found)}." for start, found in said.items() if found)
@@ -170,7 +170,7 @@ def tables(run: Run) -> dict:
 
 
 def line(one: Contender, run: Run) -> tuple:
-    """A link to a law's card, what is proved, what was measured, its word on the command line."""
+    """Return a link to a law's card, what is proved, what was measured, its word on the command line."""
     uniform = run.any_rows("episodes", contender=one.name, engine=engine_of(one.regulator), start_set="uniform")
     return (
         families.link(one.name, laws.title_of(one)),

@@ -41,7 +41,7 @@ def facts(_: Run) -> dict:
 
 
 def steady(study: dict, words: dict[str, str]) -> str:
-    """What the study of seeds, of half the step and of other gains found, in a sentence or two."""
+    """Return what the study of seeds, of half the step and of other gains found, in a sentence or two."""
     runs = study["runs"]
     seeds = sum(name != verdicts.HALF_STEP for name in runs)
     other = verdicts.turned(runs, words)
@@ -85,7 +85,7 @@ def tiles(every: list[Verdict]) -> html.Html:
 
 
 def strip(every: list[Verdict], page: str) -> html.Html:
-    """A square a claim in the colour of its word, leading to its section of the page."""
+    """Return a square a claim in the colour of its word, leading to its section of the page."""
     square = '<a class="{}" href="{}#{}" title="{}"><span>{}</span></a>'
     squares = (
         square.format(
@@ -101,7 +101,7 @@ def strip(every: list[Verdict], page: str) -> html.Html:
 
 
 def table(every: list[Verdict], page: str = "") -> html.Markdown | None:
-    """A row a claim, refuted ones first: the sentence with its value, the verdict, its history, and what is true.
+    """Return a row a claim, refuted ones first: sentence with value, verdict, history, and what is true.
 
     page: where the sections are; empty on their own page.
     """
@@ -126,19 +126,19 @@ def revised(one: Verdict) -> str:
 
 
 def quoted(one: Verdict) -> str:
-    """The paper's sentence, with its value if it gives one."""
+    """Return the paper's sentence, with its value if it gives one."""
     claim = one.claim
     value = "" if claim.value == "none given" else f" (Its value: {claim.value}.)"
     return f"“{claim.quote}”{value}" if claim.quote else claim.sentence
 
 
 def anchor(one: Verdict) -> str:
-    """What a claim's section is called in links."""
+    """Return what a claim's section is called in links."""
     return one.claim.id.lower()
 
 
 def section(one: Verdict) -> str:
-    """What decided a claim, folded under its sentence; a link to it opens it, for the anchor is inside."""
+    """Return what decided a claim, folded under its sentence; a link to it opens it, for the anchor is inside."""
     claim = one.claim
     rows = {
         "Evidence": marked_up(str(one.evidence)),

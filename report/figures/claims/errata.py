@@ -42,5 +42,5 @@ def facts(_: Run) -> dict:
 
 
 def tables(_: Run) -> dict:
-    """The computed slips, and those found by reading."""
+    """Return the computed slips, and those found by reading."""
     return {"computed": SLIPS(map(row, COMPUTED)), "read": SLIPS(map(row, READ))}

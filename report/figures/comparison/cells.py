@@ -34,14 +34,14 @@ def common(episodes: pd.DataFrame) -> pd.DataFrame:
 
 
 def in_families(rows: pd.DataFrame) -> pd.DataFrame:
-    """The rows with their laws family by family."""
+    """Return the rows with their laws family by family."""
     names = families.in_order(rows["contender"].unique())
     ordered = rows.assign(contender=pd.Categorical(rows["contender"].astype(str), names, ordered=True))
     return ordered.sort_values(["contender", "start_id"]).reset_index(drop=True)
 
 
 def costs(rows: pd.DataFrame, column: str) -> pd.DataFrame:
-    """A column by start and law, infinite where the law did not settle: shape (starts, laws)."""
+    """Return a column by start and law, infinite where the law did not settle: shape (starts, laws)."""
     settled = rows["outcome"] == "settled"
     return rows.assign(cost=rows[column].where(settled, np.inf)).pivot(
         index="start_id", columns="contender", values="cost"
@@ -60,7 +60,7 @@ def by_law(names: Iterable[str], line: Callable[[str], dict]) -> html.Markdown |
 
 
 def settles(own: pd.DataFrame) -> str:
-    """The share of a law's rows that settle [%], with its interval."""
+    """Return the share of a law's rows that settle [%], with its interval."""
     found = share(int((own["outcome"] == "settled").sum()), len(own))
     return with_interval(*map(percent, (found.value, found.low, found.high)))
 
@@ -78,43 +78,43 @@ def tick(counted: pd.DataFrame, name: str) -> str:
 
 
 def percent(part: float) -> str:
-    """A share in per cent, to a tenth, whole where it is all or nothing."""
+    """Return a share in per cent, to a tenth, whole where it is all or nothing."""
     return f"{100 * part:.0f}" if part in (0.0, 1.0) else f"{100 * part:.1f}"
 
 
 def slowest(values: pd.Series) -> str:
-    """The longest of some times."""
+    """Return the longest of some times."""
     return f"{values.max():.2f}" if np.isfinite(values.max()) else NEVER
 
 
 def seconds(values: pd.Series, level: float = 0.5) -> str:
-    """A quantile of times with its interval; among the failures it is never reached."""
+    """Return a quantile of times with its interval; among the failures it is never reached."""
     return spelled(quantile_estimate(values.to_numpy(), level), lambda value: f"{value:.3f}")
 
 
 def three_figures(values: pd.Series) -> str:
-    """The median of numbers of any size with its interval."""
+    """Return the median of numbers of any size with its interval."""
     return spelled(quantile_estimate(values.to_numpy(), 0.5), lambda value: html.number(float(f"{value:.3g}")))
 
 
 def large(value: float) -> str:
-    """A number to three figures, or as a power of ten where it stands for no bound."""
+    """Return a number to three figures, or as a power of ten where it stands for no bound."""
     return html.number(float(f"{value:.3g}")) if value < SMALL_PEAK else power(value)
 
 
 def spelled(found: Estimate, write: Callable[[float], str]) -> str:
-    """An estimate as words; where both ends are the number itself, the number alone."""
+    """Return an estimate as words; where both ends are the number itself, the number alone."""
     value, low, high = (write(one) if np.isfinite(one) else NEVER for one in found)
     return value if value == low == high else with_interval(value, low, high)
 
 
 def with_interval(value: str, low: str, high: str) -> str:
-    """A number, and its interval, which no line breaks."""
+    """Return a number, and its interval, which no line breaks."""
     return f"{value} {html.together(f'({low} to {high})')}"
 
 
 def worst(own: pd.DataFrame) -> str:
-    """The nearest start that fails, or else the slowest, by its angle."""
+    """Return the nearest start that fails, or else the slowest, by its angle."""
     failed = own[own["outcome"] != "settled"]
     if len(failed):
         return f"fails from {np.degrees(failed['angle0_rad'].min()):.0f}°"

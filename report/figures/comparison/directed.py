@@ -23,6 +23,6 @@ def count_lost(rows: pd.DataFrame) -> str:
 
 
 def left(rows: pd.DataFrame) -> list[str]:
-    """The laws that leave every directed start, family by family."""
+    """Return the laws that leave every directed start, family by family."""
     failed = set(rows.loc[rows["outcome"] != "settled", "contender"])
     return [name for name in families.in_order(rows["contender"].unique()) if name not in failed]

@@ -100,7 +100,7 @@ def in_free_motion(run: Run) -> dict:
 
 
 def needed_ticks(found: pd.DataFrame) -> str:
-    """The longest stable control period [ms] of the shipped rule on each arm, the shortest of its stiffnesses."""
+    """Return the longest stable control period [ms] of the shipped rule on each arm, the least over its stiffnesses."""
     own = found[found["damping"] == "diagonal"].drop_duplicates(["arm", "stiffness_n_m"])
     ticks = {
         (one.arm, one.stiffness_n_m): longest_tick(
@@ -189,7 +189,7 @@ def dt_of(run: Run) -> float:
 
 
 def ratio(own: pd.DataFrame) -> str:
-    """The least and the greatest of six modes."""
+    """Return the least and the greatest of six modes."""
     low, high = f"{own['ratio'].min():.2g}", f"{own['ratio'].max():.2g}"
     said = low if low == high else f"{low} to {high}"
     return html.together(f"{said}, unstable" if own["radius"].iloc[0] >= 1.0 else said)
@@ -205,7 +205,7 @@ def figures(run: Run) -> dict:
 
 @responsive_picture
 def ratios_felt(rows: pd.DataFrame, narrow: bool):
-    """The damping ratio of every mode over its frequency: marks measured, points theory."""
+    """Return the damping ratio of every mode over its frequency: marks measured, points theory."""
     figure, axes = style.panels(height=3.6 if narrow else 3.2, narrow=narrow)
     for name, look in LOOKS.items():
         own = rows[rows["damping"] == name]
@@ -226,7 +226,7 @@ def ratios_felt(rows: pd.DataFrame, narrow: bool):
 
 @responsive_picture
 def stiffest(rows: pd.DataFrame, narrow: bool):
-    """The stiffness up to which a press settles over the delay: marks measured, lines theory."""
+    """Return the stiffness up to which a press settles over the delay: marks measured, lines theory."""
     figure, axes = style.panels(height=3.6 if narrow else 3.2, narrow=narrow)
     words = []
     servos = rows[rows["plant"] == "servo"]

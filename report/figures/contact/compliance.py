@@ -29,7 +29,7 @@ EPS = sys.float_info.epsilon
 
 
 def lost_work(value: float) -> str:
-    """A residual of work: rounding in eps, more as a number."""
+    """Return a residual of work: rounding in eps, more as a number."""
     return f"{value / EPS:.1f} eps" if value < 1e3 * EPS else f"{value:.2g}"
 
 
@@ -74,7 +74,7 @@ def off_by_accelerations(rows: pd.DataFrame) -> str:
 
 
 def cartesian(rows: pd.DataFrame) -> str:
-    """What Cartesian compliance leaves of the same errors, over every frame and order."""
+    """Return what Cartesian compliance leaves of the same errors, over every frame and order."""
     own = rows[rows["way"].isin(("hybrid-base", "hybrid-hand"))]
     done = int((own["outcome"] == "done").sum())
     return (
@@ -86,7 +86,7 @@ def cartesian(rows: pd.DataFrame) -> str:
 
 
 def conversion(rows: pd.DataFrame) -> html.Markdown | None:
-    """A beta a line: what (3.12) does with moments, and what happens without it, complying about x."""
+    """Return a beta a line: what (3.12) does with moments, and what happens without it, complying about x."""
     own, full = controllers.level(rows[rows["complies"] == ORDER]), controllers.wanted(rows)
     lines = []
     for beta in controllers.nearest(own, LISTED):

@@ -47,7 +47,7 @@ def about_y(beta: float) -> np.ndarray:
 
 
 def box(middle, half) -> list[np.ndarray]:
-    """The six faces of a box along the axes, 4 x 3 each."""
+    """Return the six faces of a box along the axes, 4 x 3 each."""
     faces = []
     for axis in range(3):
         one, other = (k for k in range(3) if k != axis)
@@ -70,7 +70,7 @@ HAND = [
 
 
 def draw_hand(axes, beta: float) -> None:
-    """The hand at Ry(beta), its far faces first."""
+    """Draw the hand at Ry(beta), its far faces first."""
     turned = [face @ about_y(beta).T for face in HAND]
     for face in sorted(turned, key=depth):
         axes.add_patch(
@@ -79,7 +79,7 @@ def draw_hand(axes, beta: float) -> None:
 
 
 def draw_turn(axes, direction, size: float, colour: str, zorder: float, width: float, dashes="-") -> None:
-    """An axis through the hand, and a ring with a head that turns about it; both shrink with the size, 0 to 1."""
+    """Draw an axis through the hand, and a ring with a head around it; both shrink with the size, 0 to 1."""
     direction = np.asarray(direction) / np.linalg.norm(direction)
     reach = LENGTH * (0.4 + 0.6 * size)
     ends = eye([-0.85 * reach * direction, reach * direction])
@@ -105,7 +105,7 @@ def draw_turn(axes, direction, size: float, colour: str, zorder: float, width: f
 
 
 def draw_frame(axes) -> None:
-    """The base's axes, small, in a corner."""
+    """Draw the base's axes, small, in a corner."""
     at = np.array([-1.02, 0.0, -0.95])
     corner = eye(at)[0]
     for axis, name in zip(np.eye(3), "xyz", strict=True):
@@ -117,12 +117,12 @@ def draw_frame(axes) -> None:
 
 
 def shown_arm(rows: pd.DataFrame) -> str:
-    """The UR5e if it is there: its inertia, through which moments act, hardly couples x and z at home."""
+    """Return the UR5e if it is there: its inertia, through which moments act, hardly couples x and z at home."""
     return arms(rows)[-1]
 
 
 def turns(rows: pd.DataFrame) -> list[dict]:
-    """What is drawn, from the rows of one arm: one Cartesian panel and one of Euler angles for each beta, by moment.
+    """Return what is drawn of one arm: a Cartesian panel and one of Euler angles for each beta, by moment.
 
     A dictionary: contender, beta [deg], pushed ("x" or "z"), axis (3) that it turns about, share of the wanted
     rotation, off [deg] from the moment (NaN if it does not turn).
@@ -164,7 +164,7 @@ def measured(found: list[dict]) -> dict[str, str]:
 
 @responsive_picture
 def axes_of_turning(rows: pd.DataFrame, narrow: bool):
-    """A row a moment, a column a controller and beta; on a phone a column a moment.
+    """Return a row a moment, a column a controller and beta; on a phone a column a moment.
 
     Args:
         rows: of wrench-probe.

@@ -30,7 +30,7 @@ def cells(rows: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 @responsive_picture
 def misalignment(rows: pd.DataFrame, contenders: tuple[str, ...], narrow: bool):
-    """A panel a controller; a line an order, a column a frame of the hand.
+    """Return a panel a controller; a line an order, a column a frame of the hand.
 
     Args:
         rows: of wrench-probe. contenders: the controllers to show.

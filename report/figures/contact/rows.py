@@ -65,7 +65,7 @@ def of_task(run: Run, task: str) -> pd.DataFrame:
 
 
 def verdicts(run: Run, *ids: str) -> html.Markdown | None:
-    """These claims with their words, linked to their sections; None if no row speaks of them."""
+    """Return these claims with their words, linked to their sections; None without rows."""
     results = claims.Results(run.folder)
     return in_run(lambda: shown.table([claims.judge(one, results) for one in ids], "40-claims.html"))
 
@@ -98,7 +98,7 @@ def wanted(rows: pd.DataFrame) -> dict[str, float]:
 
 
 def arms(rows: pd.DataFrame) -> list[str]:
-    """The arms of the rows, sorted."""
+    """Return the arms of the rows, sorted."""
     return sorted(set(rows["arm"]))
 
 

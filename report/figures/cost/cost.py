@@ -51,7 +51,7 @@ def facts(run: Run) -> dict:
 
 
 def tables(run: Run) -> dict:
-    """Times."""
+    """Return the tables of times."""
     return {"tab_times": TIMES(by_time(timed(run), costs(run)))}
 
 
@@ -61,12 +61,12 @@ def figures(run: Run) -> dict:
 
 
 def spent(flops: int, calls: int) -> str:
-    """ "45 + 6": flops and calls."""
+    """Return flops and calls, as "45 + 6"."""
     return f"{flops} + {calls}" if calls else (f"{flops}" if flops else html.MISSING)
 
 
 def totals(counted: pd.DataFrame) -> pd.DataFrame:
-    """The row "total" of every contender's typical branch, by contender."""
+    """Return the row "total" of every contender's typical branch, by contender."""
     return counted[(counted["branch"] == "typical") & (counted["stage"] == "total")].set_index("contender")
 
 
@@ -78,7 +78,7 @@ def branches_differ(counted: pd.DataFrame) -> list[str]:
 
 
 def by_time(measured: pd.DataFrame, counted: pd.DataFrame) -> list[tuple]:
-    """A row a law, the fastest first: flops, time a tick alone, and on the free body in each engine."""
+    """Return a row a law, the fastest first: flops, time a tick alone, and on the free body in each engine."""
     lines, flops = [], totals(counted)["flops"]
     on_body = measured[(measured["contender"] != "") & (measured["jacobian"] == "")]
     for name, own in on_body.groupby("contender", sort=False):

@@ -24,7 +24,7 @@ LEAST_LABELLED = 2
 
 
 def by_kind(costs: pd.DataFrame, branch: str = "typical") -> pd.DataFrame:
-    """A row a contender, the cheapest first, a column a kind; the goal's stage included."""
+    """Return a row a contender, the cheapest first, a column a kind; the goal's stage included."""
     rows = costs[(costs["branch"] == branch) & (costs["stage"] == "total")].set_index("contender")
     kinds = pd.DataFrame({kind: rows[list(columns)].sum(axis=1) for kind, (columns, _) in KINDS.items()})
     return kinds.loc[kinds.sum(axis=1).sort_values(kind="stable").index]
@@ -53,7 +53,7 @@ def operations(costs: pd.DataFrame, *, narrow=False):
 
 
 def stack(axes, table: pd.DataFrame, colours: Mapping[str, str], height: float, least: float) -> pd.Series:
-    """A bar a row of pieces in these colours, each with its number if it is at least so long; gives their ends."""
+    """Draw a bar a row of coloured pieces, long ones with their number; return their ends."""
     left = pd.Series(0, index=table.index)
     for kind, colour in colours.items():
         look = {"color": colour, "height": height, "label": kind, "edgecolor": style.PAPER}
@@ -67,7 +67,7 @@ def stack(axes, table: pd.DataFrame, colours: Mapping[str, str], height: float, 
 
 
 def ink(colour: str) -> str:
-    """A colour for numbers on a bar that reads on both pages."""
+    """Return a colour for numbers on a bar that reads on both pages."""
     if colour == "#b9c3cf":  # the one whose twin is darker than itself
         return style.INK
     return style.PAPER if colour in ("#0072b2", "#d55e00") else style.ON_COLOUR

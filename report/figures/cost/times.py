@@ -18,7 +18,7 @@ def files(run: Run) -> list[Path]:
 
 
 def read(path: Path) -> pd.DataFrame:
-    """A machine's rows with `contender` added."""
+    """Return a machine's rows with `contender` added."""
     return with_contender(read_arrow(path, "timings").to_pandas())
 
 

@@ -19,7 +19,7 @@ DIGITS = 3
 
 
 def ball(episodes: pd.DataFrame, name: str = "failures") -> html.Html:
-    """The ball of one engine's failing starts, a colour for each law, whatever its outcome."""
+    """Return the ball of one engine's failing starts, a colour for each law, whatever its outcome."""
     at_rest = episodes[episodes["start_set"].isin(("uniform", *AT_REST))]
     groups, said = {}, []
     for contender, title, rows in laws.each(at_rest):

@@ -23,7 +23,7 @@ def rows() -> pd.DataFrame:
 
 @functools.cache
 def numbers() -> pd.DataFrame:
-    """Starts counted by law and speed."""
+    """Count starts by law and speed."""
     return counted(rows())
 
 
@@ -55,13 +55,13 @@ def facts() -> dict:
 
 
 def lost_at_rest(law: str) -> str:
-    """The share of random starts at rest that a law loses, with its exact 95 % interval."""
+    """Return the share of random starts at rest that a law loses, with its exact 95 % interval."""
     own = numbers()[(numbers()["contender"] == law) & (numbers()["most_speed"] == 0.0)]
     return percent(int(own["lost"].sum()), int(own["starts"].sum()))
 
 
 def percent(some: int, of: int) -> str:
-    """A share with its exact 95 % interval."""
+    """Return a share with its exact 95 % interval."""
     value, low, high = (100.0 * one for one in lost_share(some, of))
     return f"{value:.2f} % ({low:.2f} to {high:.2f})"
 
@@ -75,7 +75,7 @@ def table() -> html.Markdown | None:
 
 
 def cell(one) -> str:
-    """The share lost of those that converge, with the interval's ends, and below it the share that does not."""
+    """Return the share lost of those that converge, with the interval's ends, and below it the share that does not."""
     sure = one.starts - one.unconverged
     share, interval = percent(one.lost, sure).split(" (")
     apart = f"<br>not converged {percent(one.unconverged, one.starts)}" if one.unconverged else ""

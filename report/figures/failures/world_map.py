@@ -30,7 +30,7 @@ def hammer(longitude, latitude):
 
 @responsive_picture
 def world(episodes: pd.DataFrame, narrow: bool):
-    """A map a law: settled uniform starts in grey, failing ones by outcome, exact points of the directed sets larger.
+    """Draw a map a law: settled uniform starts in grey, failing ones by outcome, directed points larger.
 
     Args:
         episodes: rows of one engine.

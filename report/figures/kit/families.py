@@ -41,7 +41,7 @@ CONTROLS = tuple(one.name for one in all_contenders() if one.regulator.control)
 
 
 def present(names: Iterable[str]) -> list[Family]:
-    """The families of the laws of these names, the paper's first in theirs and controls last; at the end the others."""
+    """Return the families of these laws, the paper's first in their order, then the others, controls last."""
     found: dict[str, dict[str, str]] = {title: {} for title in FIRST}
     others = {}
     for name in sorted(set(names), key=_place):
@@ -59,22 +59,22 @@ def _place(name: str) -> tuple:
 
 
 def in_order(names: Iterable[str]) -> list[str]:
-    """The names, family by family."""
+    """Return the names, family by family."""
     return [name for one in present(names) for name in one.laws]
 
 
 def word(name: str) -> str:
-    """What a law is called where its family is not said too."""
+    """Return what a law is called where its family is not said too."""
     one = laws.contender(name)
     short = present([name])[0].laws[name]
     return f"{one.regulator.display.short} {short}" if one and short.startswith("in ") else short
 
 
 def anchor(name: str) -> str:
-    """What a law's page is called."""
+    """Return what a law's page is called."""
     return name.replace("/", "-")
 
 
 def link(name: str, text: str) -> html.Html:
-    """A law by this text, leading to its page."""
+    """Return a law by this text, leading to its page."""
     return html.Html(f'<a href="{PAGES}/{anchor(name)}.html">{html.law(name, text)}</a>')

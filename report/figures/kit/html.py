@@ -50,14 +50,14 @@ class Markdown(str):
 
 
 def badge(verdict: str) -> Html:
-    """A verdict as a word in its colour."""
+    """Return a verdict as a word in its colour."""
     if verdict not in VERDICTS:
         raise ValueError(f"verdict {verdict!r} is none of ours; known: {', '.join(VERDICTS)}")
     return Html(f'<span class="verdict {VERDICTS[verdict]}">{verdict}</span>')
 
 
 def law(name: str, text: str | None = None) -> Html:
-    """The name of a regulator with the colour it has in every figure."""
+    """Return the name of a regulator with the colour it has in every figure."""
     light = style.look(name).colour
     key = f'<span class="key" style="--key: {both(light)}"></span>'
     first, space, others = foreign(text or name).partition(" ")
@@ -65,7 +65,7 @@ def law(name: str, text: str | None = None) -> Html:
 
 
 def foreign(text: str) -> str:
-    """A text that we did not write, for HTML and for Markdown: it reads as it is, and nothing of it is markup.
+    """Return a text that we did not write, for HTML and for Markdown: it reads as it is, and nothing of it is markup.
 
     An entity is a letter to Markdown.
     """
@@ -78,14 +78,14 @@ def together(text: str) -> Html:
 
 
 def both(light: str) -> str:
-    """A colour for light and dark pages, as CSS."""
+    """Return a colour for light and dark pages, as CSS."""
     return f"light-dark({light}, {style.TWINS[light]})"
 
 
 def table(
     frame: pd.DataFrame, formats: Mapping[str, str | Callable[[Any], str]] | None = None, words: Iterable[str] = ()
 ) -> Markdown:
-    """A frame as a Markdown table: numbers to the right, words to the left, gaps as a dash.
+    """Return a frame as a Markdown table: numbers to the right, words to the left, gaps as a dash.
 
     Args:
         frame: one row per line of the table; the column labels are its head, the index is left out.
@@ -130,7 +130,7 @@ def cell(value: Any, form: str | Callable[[Any], str] | None = None) -> str:
 
 
 def number(value: Any) -> str:
-    """A number to three figures, or in full where it is whole, with thin spaces between thousands."""
+    """Return a number to three figures, or in full where it is whole, with thin spaces between thousands."""
     if not isinstance(value, numbers.Real):
         return str(value)
     value = float(value)
@@ -151,7 +151,7 @@ def formula(tex: str) -> str:
 
 
 def plain_table(frame: pd.DataFrame) -> str:
-    """A small HTML table for inside a card; the first column is words."""
+    """Return a small HTML table for inside a card; the first column is words."""
     head = "".join(f'<th scope="col">{html.escape(str(column))}</th>' for column in frame.columns)
     rows = "".join(
         "<tr>" + "".join(f"<td>{html.escape(cell(value))}</td>" for value in row) + "</tr>"
@@ -161,7 +161,7 @@ def plain_table(frame: pd.DataFrame) -> str:
 
 
 def ball(name: str, alt: str, points: Mapping[str, Any], radius_label: str = "π") -> Html:
-    """A ball of rotation vectors that the reader turns; the page loads `_extra/ball.js` to draw it.
+    """Return a ball of rotation vectors that the reader turns; the page loads `_extra/ball.js` to draw it.
 
     Args:
         name: unique on its page; the canvas's id is `ball-` and this.

@@ -72,7 +72,7 @@ def responsive_picture(draw: Callable[..., tuple[Figure, str]]) -> Callable[...,
 
 
 def svg(figure: Figure, alt: str, name: str) -> str:
-    """The figure as an `<svg>` element that names its colours and describes itself."""
+    """Return the figure as an `<svg>` element that names its colours and describes itself."""
     if not alt.strip():
         raise ValueError(
             f"figure {name} has no alternative text (cure: return (figure, 'what it shows, in a sentence'))"
@@ -127,5 +127,5 @@ def named_colours(text: str) -> str:
 
 
 def variable(colour: str) -> str:
-    """The name of a colour's variable."""
+    """Return the name of a colour's variable."""
     return f"--c{colour[1:].lower()}"

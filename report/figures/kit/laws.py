@@ -21,41 +21,41 @@ def each(frame: pd.DataFrame) -> list[tuple[str, str, pd.DataFrame]]:
 
 
 def without_later(frame: pd.DataFrame) -> pd.DataFrame:
-    """The rows of the paper's laws in any coordinates, and of the user's own: what the paper's chapters are about."""
+    """Return the rows of the paper's laws in any coordinates and of the user's own."""
     later = {name for name, one in contenders("regulators").items() if one.later}
     return frame[~frame["regulator"].isin(later)].reset_index(drop=True)
 
 
 def regulator(word: str) -> Law | None:
-    """The regulator of that name, the user's own of the run among them; None if there is none."""
+    """Return the regulator of that name, the user's own of the run among them; None if there is none."""
     return contenders("regulators").get(word) or _own(read.folder()).get(word)
 
 
 def contender(name: str) -> Contender | None:
-    """The contender of a name, as rows write it; None if there is none."""
+    """Return the contender of a name, as rows write it; None if there is none."""
     law = regulator(regulator_of(name))
     found = contenders_of(law) if law else []
     return next((one for one in found if one.name == name.partition("@")[0]), None)
 
 
 def title(name: str) -> str:
-    """The title of a law by its name; the name itself of a law that is not known."""
+    """Return the title of a law by its name; the name itself of a law that is not known."""
     one = contender(name)
     return title_of(one) if one else name
 
 
 def title_of(one: Contender) -> str:
-    """The law's title, and its coordinates where they are others than the paper's."""
+    """Return the law's title, and its coordinates where they are others than the paper's."""
     where, title = one.representation, one.regulator.title
     return f"{title} in {where.display.short or where.name}" if where and one.is_elsewhere else title
 
 
 def regulator_of(name: str) -> str:
-    """The regulator's word in a contender's name."""
+    """Return the regulator's word in a contender's name."""
     return name.partition("@")[0].partition("/")[0]
 
 
 @functools.cache
 def _own(folder: Path) -> dict[str, Law]:
-    """The user's laws of a run by name."""
+    """Return the user's laws of a run by name."""
     return {one.name: one for one in read.own_laws(folder)} if (folder / "laws").is_dir() else {}

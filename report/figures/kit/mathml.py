@@ -27,12 +27,12 @@ SCRIPTED = {"msup", "msub", "msubsup", "munder"}
 
 
 def inline(tex: str) -> str:
-    """A formula within a line."""
+    """Return a formula within a line."""
     return converted(tex, "inline")
 
 
 def block(tex: str) -> str:
-    """A formula on a line of its own, its number to the right where the TeX has a tag."""
+    """Return a formula on a line of its own, its number to the right where the TeX has a tag."""
     tag = TAG.search(tex)
     number = f'<span class="eqno">({tag[1]})</span>' if tag else ""
     return f'<div class="math">{converted(TAG.sub("", tex), "block")}{number}</div>'
@@ -73,7 +73,7 @@ def space(row: ElementTree.Element) -> None:
 
 
 def set_apart(children: list[ElementTree.Element]) -> Iterator[ElementTree.Element]:
-    """The children with what belongs between them."""
+    """Yield the children with what belongs between them."""
     for before, child, after in zip([None, *children], children, [*children[1:], None], strict=False):
         text = child.text or ""
         if kind(child) == "mo" and text in WITHOUT_SPACE:
@@ -108,5 +108,5 @@ def is_function(element: ElementTree.Element) -> bool:
 
 
 def thin_space() -> ElementTree.Element:
-    """What stands between a function's name and its argument."""
+    """Return what stands between a function's name and its argument."""
     return ElementTree.Element(f"{{{NAMESPACE}}}mspace", {"width": THIN})

@@ -23,7 +23,7 @@ def facts(folder: Path = FOLDER) -> dict:
 
 
 def loop(alt: str, name: str = "pole-loop") -> html.Html:
-    """A loop with its poster; a reader starts it. Where no video plays, the poster stands for it."""
+    """Return a loop with its poster; a reader starts it. Where no video plays, the poster stands for it."""
     words = escape.escape(alt, quote=True)
     sources = "".join(f'<source src="{SOURCE}/{name}.{kind}" type="{mime}">' for kind, mime in TYPES.items())
     poster = f"{SOURCE}/{name}.png"

@@ -88,20 +88,20 @@ def page(*names: str) -> None:
 
 
 def modules_of(text: str) -> list[str]:
-    """The modules that a page pastes, its own first; none of a page without results."""
+    """Return the modules that a page pastes, its own first; none of a page without results."""
     call = CALL.search(text)
     return re.findall(r'"([\w.]+)"', call[1]) if call else []
 
 
 def text_of(name: str) -> str:
-    """The Markdown of the page that a module belongs to."""
+    """Return the Markdown of the page that a module belongs to."""
     texts = (path.read_text(encoding="utf-8") for path in (REPORT / "index.md", *sorted(REPORT.glob("pages/*.md"))))
     (text,) = (text for text in texts if name in modules_of(text))
     return text
 
 
 def contents(module: ModuleType, run: Run, text: str) -> dict[str, Any]:
-    """What a page pastes of a module, as it pastes it, by the module's own keys."""
+    """Return what a page pastes of a module, as it pastes it, by the module's own keys."""
     found: dict[str, Any] = {}
     for part in PARTS:
         if hasattr(module, part):
@@ -120,7 +120,7 @@ def kinds_of(module: ModuleType, text: str) -> dict[str, str]:
 
 
 def word_of(module: ModuleType, text: str) -> str:
-    """What stands on a page before a module's keys: nothing if it is the page's own, else its word and a dot."""
+    """Return what stands on a page before a module's keys: nothing if it is the page's own, else its word and a dot."""
     name = module.__name__.removeprefix("report.figures.")
     return f"{name.rpartition('.')[2]}." if name in modules_of(text)[1:] else ""
 
@@ -132,7 +132,7 @@ def pasted(text: str) -> dict[str, str]:
 
 
 def as_pasted(value: Any, kind: str, key: str) -> Any:
-    """A fact as a word, a sentence or a table as Markdown, a drawing as it is; of each kind its own words for None."""
+    """Return a fact as a word, a sentence or Markdown, a drawing unchanged; for None the words of its kind."""
     if value is None:
         return absent(key, kind)
     if kind == "fact":
@@ -141,7 +141,7 @@ def as_pasted(value: Any, kind: str, key: str) -> Any:
 
 
 def absent(key: str, kind: str) -> Any:
-    """What stands in place of something that this run does not hold."""
+    """Return what stands in place of something that this run does not hold."""
     if kind == "figure":
         return blank(key.replace("-", " ").replace("_", " ").capitalize())
     if kind == "table":
@@ -151,5 +151,5 @@ def absent(key: str, kind: str) -> Any:
 
 @responsive_picture
 def blank(what: str, narrow: bool):
-    """The words alone, in the place of a figure."""
+    """Return the words alone, in the place of a figure."""
     return style.words(f"{what}: {ABSENT}", narrow, height=0.6), f"{what}: {ABSENT}. The default suite holds it."

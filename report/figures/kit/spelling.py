@@ -42,7 +42,7 @@ def typeset(text: str) -> str:
 
 
 def power(value: float) -> str:
-    """A number to one figure as a page spells it: 0.03, 2, 2·10⁻⁷."""
+    """Return a number to one figure as a page spells it: 0.03, 2, 2·10⁻⁷."""
     text = f"{value:.0e}" if value and not 1e-3 <= abs(value) < 1e4 else f"{value:.1g}"
     mantissa, found, exponent = text.partition("e")
     return raised(mantissa, int(exponent)) if found else text

@@ -105,19 +105,19 @@ def look(name: str) -> Look:
 
 
 def drawn(words: display.Look) -> Look:
-    """The look that these words name."""
+    """Return the look that these words name."""
     return Look(COLOURS[words.colour], words.marker, LINES[words.line])
 
 
 def spare(word: str) -> Look:
-    """A look chosen by a name."""
+    """Return a look chosen by a name."""
     rest, colour = divmod(mark(word), len(SPARE_COLOURS))
     rest, marker = divmod(rest, len(SPARE_MARKERS))
     return Look(SPARE_COLOURS[colour], SPARE_MARKERS[marker], SPARE_LINES[rest % len(SPARE_LINES)])
 
 
 def mark(text: str) -> int:
-    """A text's own number of 32 bits, equal in every process."""
+    """Return a text's own number of 32 bits, equal in every process."""
     return zlib.crc32(text.encode())
 
 
@@ -129,13 +129,13 @@ def register_fonts() -> None:
 
 
 def paper_style():
-    """The style all figures are drawn in, as a context."""
+    """Return the style all figures are drawn in, as a context."""
     register_fonts()
     return rc_context(fname=PAPER_STYLE)
 
 
 def panels(rows: int = 1, cols: int = 1, *, height: float = 3.2, narrow: bool = False, **subplots):
-    """A figure of the page's width, [in] high, and its axes; `narrow` is the same for a phone.
+    """Return a figure of the page's width, [in] high, and its axes; `narrow` is the same for a phone.
 
     Plain `Figure`, no pyplot: nothing is shown twice, nothing stays open, and no backend is
     chosen for anybody.
@@ -146,13 +146,13 @@ def panels(rows: int = 1, cols: int = 1, *, height: float = 3.2, narrow: bool = 
 
 
 def beside(count: int, height: float, narrow_height: float, narrow: bool, **subplots):
-    """A figure of panels side by side, one below the other on a phone, and its axes."""
+    """Return a figure of panels side by side, one below the other on a phone, and its axes."""
     shape = (count, 1) if narrow else (1, count)
     return panels(*shape, height=narrow_height if narrow else height, narrow=narrow, **subplots)
 
 
 def grid(count: int, height: float, narrow_height: float, narrow: bool, top: float = 0.0, **subplots):
-    """A figure of so many panels in two columns, one on a phone, with shared axes; heights of a row of them [in]."""
+    """Return a figure of panels in two columns, one on a phone, with shared axes; height of a row [in]."""
     columns = 1 if narrow else 2
     lines = -(-count // columns)
     height = (narrow_height if narrow else height) * lines + top
@@ -163,7 +163,7 @@ def grid(count: int, height: float, narrow_height: float, narrow: bool, top: flo
 
 
 def words(text: str, narrow: bool, height: float = 1.0) -> Figure:
-    """A figure that only says something."""
+    """Return a figure that only says something."""
     figure, axes = panels(height=height, narrow=narrow)
     axes.axis("off")
     axes.text(0.5, 0.5, text, ha="center", va="center", color=MUTED, linespacing=1.6, wrap=True)

@@ -60,7 +60,7 @@ def functions(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def parts(own: pd.DataFrame) -> dict[str, pd.DataFrame]:
-    """A function's rows by where its turns are."""
+    """Return a function's rows by where its turns are."""
     return {
         "small": own[own["angle_rad"].notna()],
         "drawn": drawn(own),
@@ -71,7 +71,7 @@ def parts(own: pd.DataFrame) -> dict[str, pd.DataFrame]:
 
 
 def drawn(own: pd.DataFrame) -> pd.DataFrame:
-    """The rows of uniform turns."""
+    """Return the rows of uniform turns."""
     return own[own["turn_set"] == "drawn"]
 
 

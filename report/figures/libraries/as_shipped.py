@@ -48,7 +48,7 @@ def restated() -> dict[str, dict]:
 
 
 def is_weak(own: pd.DataFrame) -> pd.Series:
-    """Controllers that feel much less than the stiffness set at 3°; a limit of speed is none."""
+    """Find controllers with much less than the stiffness set at 3°; a limit of speed is none."""
     return (own["stiffness_50mrad"] < WEAK) & (own["level"] != VELOCITY)
 
 

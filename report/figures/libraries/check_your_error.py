@@ -27,7 +27,7 @@ def facts(_: Run) -> dict:
 
 
 def tables(_: Run) -> dict:
-    """A row a fault, with the anchor that reports link to; a row a form."""
+    """Return a row a fault, with the anchor that reports link to; a row a form."""
     return {
         "tab_faults": FAULTS(
             (anchored(one.name), one.title, one.effect, one.cure, html.law(one.law)) for one in every_fault()
@@ -37,5 +37,5 @@ def tables(_: Run) -> dict:
 
 
 def anchored(name: str) -> str:
-    """A fault's name as code, with its anchor."""
+    """Return a fault's name as code, with its anchor."""
     return f'<span id="{name}"></span>`{name}`'

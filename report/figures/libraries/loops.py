@@ -17,7 +17,7 @@ RIGHT = "right"
 
 @functools.cache
 def verdicts() -> pd.DataFrame:
-    """A row a function: convention, faults, replacement; words as words."""
+    """Return a row a function: convention, faults, replacement; words as words."""
     return _words(read(FOLDER, "verdicts"))
 
 
@@ -29,7 +29,7 @@ def rows() -> pd.DataFrame:
 
 @functools.cache
 def responses() -> pd.DataFrame:
-    """A row a function or controller: its starts below 180° and at it.
+    """Return a row a function or controller: its starts below 180° and at it.
 
     Columns: library, function, kind, title, error, command; fastest, slowest [s], over all starts below 180°; slope,
     the stiffness felt over the one set; unsettled, away: of `starts` there; at_180, dead: of the starts at 180°, how

@@ -87,13 +87,13 @@ def describe_gains(runs: pd.DataFrame) -> str:
 
 
 def between(late: pd.Series) -> str:
-    """The least and the greatest of how much later laws settle, with the law of each."""
+    """Return the least and the greatest of how much later laws settle, with the law of each."""
     ends = late.idxmin(), late.idxmax()
     return " and ".join(f"{html.cell(float(late[law]), '+.1f')} ms ({families.word(law)})" for law in ends)
 
 
 def tables(run: Run) -> dict:
-    """The judge's rules, metrics, Jacobians, inverses, start sets and engines."""
+    """Return the judge's rules, metrics, Jacobians, inverses, start sets and engines."""
     runs = episodes(run)
     counts = runs["engine"].value_counts()
     listed = LISTED.findall(bench.engines.__doc__ or "")
@@ -113,7 +113,7 @@ def tables(run: Run) -> dict:
 
 
 def convergence(run: Run) -> pd.DataFrame:
-    """The episodes that are run until half the step moves their end no more."""
+    """Return the episodes that are run until half the step moves their end no more."""
     runs = episodes(run)
     return runs[runs["converged"] != ""]
 
@@ -127,7 +127,7 @@ def start_sets(runs: pd.DataFrame) -> Iterator[tuple]:
 
 
 def value(name: str) -> str:
-    """A number of the rules with its unit: in full, or as a power of ten."""
+    """Return a number of the rules with its unit: in full, or as a power of ten."""
     found = getattr(RULES, name)
     text = power(found) if "e" in f"{found:g}" else f"{found:g}"
     return f"{text}\N{NO-BREAK SPACE}{UNITS.get(name, '')}".strip()
@@ -152,12 +152,12 @@ def word(one: Jacobian | Inverse) -> str:
 
 
 def used(one: Jacobian) -> str:
-    """The paper's controller that uses it."""
+    """Return the paper's controller that uses it."""
     return "(2.2)" if one.takes == "angular-acceleration" else "(3.7)"
 
 
 def lines(formula: str) -> str:
-    """A formula, each of its equations on a line."""
+    """Return a formula, each of its equations on a line."""
     return "<br>".join(f"${equation}$" for equation in formula.split(r", \quad "))
 
 

@@ -39,7 +39,7 @@ def cited() -> dict[str, str]:
 
 
 def tables(run: Run) -> dict:
-    """The run and its files."""
+    """Return the run and its files."""
     return {
         "run": FACTS(said_of_itself(read.provenance()).items()),
         "tables": FILES(map(offered, files(run))),
@@ -52,14 +52,14 @@ def digest(path: Path) -> str:
 
 
 def spelled(hex_digits: str) -> str:
-    """A digest that may break into lines at every quarter, and is copied whole."""
+    """Return a digest that may break into lines at every quarter, and is copied whole."""
     quarter = len(hex_digits) // 4
     parts = [hex_digits[at : at + quarter] for at in range(0, len(hex_digits), quarter)]
     return f'<code class="digest">{"<wbr>".join(parts)}</code>'
 
 
 def files(run: Run) -> list[Path]:
-    """The files of the run, tables first, then every machine's timings."""
+    """Return the files of the run, tables first, then every machine's timings."""
     names = [*(f"{name}.parquet" for name in sorted(all_tables())), "provenance.json", "plan.json"]
     return [*(path for path in (run.folder / name for name in names) if path.is_file()), *times.files(run)]
 
@@ -87,27 +87,27 @@ def said_of_itself(given: dict) -> dict[str, str]:
 
 
 def code(text: str) -> str:
-    """A text as Markdown's code, in which nothing is markup: between more backticks than it holds in a row."""
+    """Return a text as Markdown's code, in which nothing is markup: between more backticks than it holds in a row."""
     text = " ".join(str(text).split())
     fence = "`" * (1 + max(map(len, re.findall("`+", text)), default=0))
     return f"{fence} {text} {fence}" if "`" in text else f"`{text}`"
 
 
 def escaped(value):
-    """A value of provenance.json as a page may show it: the file may come from anywhere."""
+    """Return a value of provenance.json as a page may show it: the file may come from anywhere."""
     if isinstance(value, dict):
         return {name: escaped(one) for name, one in value.items()}
     return html.foreign(value) if isinstance(value, str) else value
 
 
 def offered(path: Path) -> tuple:
-    """A file: a link to it, its rows, size and digest."""
+    """Return a file: a link to it, its rows, size and digest."""
     rows = pq.read_metadata(path).num_rows if path.suffix == ".parquet" else None
     return link(path), rows, size(path.stat().st_size), spelled(digest(path))
 
 
 def link(path: Path) -> str:
-    """The file as a link, or its bare name where it is too large to offer."""
+    """Return the file as a link, or its bare name where it is too large to offer."""
     name = f"timings/{path.name}" if path.parent.name == "timings" else path.name
     if path.stat().st_size > OFFERED_BYTES:
         return f"`{name}` (too large for this site)"

@@ -27,7 +27,7 @@ STARTS = dict(zip(TITLES, ("figure-2.3", "figure-2.4", "figure-2.5"), strict=Tru
 
 
 def settings(dt_s: float) -> Settings:
-    """The paper's gains to AT_S, without an early stop, by steps of one length."""
+    """Return the paper's gains to AT_S, without an early stop, by steps of one length."""
     ticks = round(AT_S / dt_s)
     return Settings(Gains(), dt_s, ticks, ticks + 1)
 

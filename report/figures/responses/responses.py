@@ -63,7 +63,7 @@ def facts(run: Run) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """The paper's figures 2.3 to 2.5."""
+    """Return the paper's figures 2.3 to 2.5."""
     traces, episodes = drawn(run)
     return {
         name: response(traces, SHORT[letter], start, **gains(episodes)) for name, (letter, start) in FIGURES.items()

@@ -49,7 +49,7 @@ def gains(rows: pd.DataFrame) -> tuple[float, float]:
 
 
 def starts(rows: pd.DataFrame) -> int:
-    """Starts of a law at a level."""
+    """Return the starts of a law at a level."""
     return int(rows.groupby(["contender", "level"], observed=True).size().max())
 
 

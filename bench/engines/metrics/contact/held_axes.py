@@ -8,7 +8,7 @@ from bench.engines.metrics.measured_compliance import compliance, complying, hel
 
 
 def leakage(pose: Pose) -> float:
-    """The largest ratio |(C e) held| / |(C e) complying| over the axes e that comply; NaN if all do, or none.
+    """Return the largest ratio |(C e) held| / |(C e) complying| over the axes e that comply; NaN if all do, or none.
 
     With Z-Y-X angles and compliance about x and y the moment about x leaks tan(beta) into z.
     """
@@ -21,7 +21,7 @@ def leakage(pose: Pose) -> float:
 
 
 def held_turn(pose: Pose) -> float:
-    """The largest rotation [rad] about held axes from start to end; NaN if none is held, or an episode broke off."""
+    """Return the largest rotation [rad] about held axes; NaN if none is held or an episode broke off."""
     about = held(pose)
     if not about.any() or any(one.outcome != "done" for one in pose.responses):
         return np.nan

@@ -31,7 +31,7 @@ def time_to_align(pose: Pose) -> float:
 
 
 def _late(pose: Pose) -> tuple[Response, slice, float] | None:
-    """The one response, its ticks of the last REST.hold_s, and how long [s] they last."""
+    """Return the one response, its ticks of the last REST.hold_s, and how long [s] they last."""
     one = last(pose)
     if one is None or not pose.task.rests or len(one.time) < 2:
         return None

@@ -15,13 +15,13 @@ ALIKE = 1e-3
 
 
 def misalignment(pose: Pose) -> float:
-    """The largest angle [rad] between e and C e over the axes e that comply; NaN if a moment turns nothing."""
+    """Return the largest angle [rad] between e and C e over the axes e that comply; NaN if a moment turns nothing."""
     angles = misaligned(compliance(pose), complying(pose))
     return float(angles.max()) if len(angles) else np.nan
 
 
 def mean_misalignment(pose: Pose) -> float:
-    """The mean angle [rad] between e and C e over the axes e that comply; NaN if a moment turns nothing."""
+    """Return the mean angle [rad] between e and C e over the axes e that comply; NaN if a moment turns nothing."""
     angles = misaligned(compliance(pose), complying(pose))
     return float(angles.mean()) if len(angles) else np.nan
 
@@ -41,7 +41,7 @@ def stiffness_asymmetry(pose: Pose) -> float:
 
 
 def stiffness_axes(pose: Pose) -> float:
-    """The largest angle [rad] of an axis that complies to the nearest principal axis (or plane) of (C + C^T)/2.
+    """Return the largest angle [rad] of an axis that complies to the nearest principal axis (or plane) of (C + C^T)/2.
 
     An isotropic stiffness has every axis as a principal one, and the angle is 0. With Z-Y-X angles it is 45 degrees
     less half of |beta| from the first bit of beta on, however little the stiffness then differs from axis to axis.

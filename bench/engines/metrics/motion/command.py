@@ -34,7 +34,7 @@ def largest_change(value, sample):
 
 
 def if_settled(value, ending):
-    """The root; no number where the body does not come to rest."""
+    """Return the root; no number where the body does not come to rest."""
     return math.sqrt(value) if ending.outcome == "settled" else math.nan
 
 

@@ -23,7 +23,7 @@ def largest_haversine(value, sample):
 
 
 def angle_outside(value, ending):
-    """The angle, if it lies outside the band; else 0."""
+    """Return the angle, if it lies outside the band; else 0."""
     angle = 2.0 * math.asin(min(1.0, math.sqrt(value)))
     return angle if angle > ending.band else 0.0
 

@@ -13,7 +13,7 @@ from bench.law import Inverse, Jacobian, Law, kernel
 
 @kernel
 def assemble(chain, goal, p_d, gains, memory, J, a):
-    """a = Kp (q_d - q) - Kv qdot, of a = q_d - q; u, for the record, is what the tool would get if all joints did a."""
+    """Compute a = Kp (q_d - q) - Kv qdot from a = q_d - q; u, for the record, is what the tool gets."""
     x = y = z = 0.0
     axes, qdot = chain.axes, chain.qdot
     for i in range(chain.n):

@@ -25,7 +25,7 @@ FOLLOWED = 1.5 * sqrt(3.0)
 
 @kernel
 def begin(R):
-    """The quaternion of R: the frame is where the body is."""
+    """Return the quaternion of R: the frame is where the body is."""
     quat_wxyz, _ = quaternion_direction(R)
     return quat_wxyz
 

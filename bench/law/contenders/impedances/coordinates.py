@@ -13,7 +13,7 @@ from bench.law import Impedance, driven, kernel
 
 
 def law_in(representation):
-    """The law in the coordinates of one representation."""
+    """Return the law in the coordinates of one representation."""
     chart, rates, accelerate = representation.chart, representation.rates, representation.accelerate
     generalized = representation.generalized
 

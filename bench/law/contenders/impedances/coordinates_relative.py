@@ -9,7 +9,7 @@ from bench.law.contenders.impedances import coordinates
 
 
 def law_in(representation):
-    """The law in the coordinates of one representation."""
+    """Return the law in the coordinates of one representation."""
     absolute = coordinates.law_in(representation)
 
     @kernel

@@ -40,7 +40,7 @@ ITERATIONS = 3
 
 @kernel
 def least_eigenvalue(L, y, before, n):
-    """An upper bound of the least eigenvalue of A = L L^T (as `factor` leaves it): y . A y / y . y of the last y.
+    """Return an upper bound of the least eigenvalue of A = L L^T (as `factor` leaves it): y . A y / y . y.
 
     y and before are overwritten. The first y is A^-1 (+-1, ...), each sign taken so that L^-1 (+-1, ...) is the larger.
     """

@@ -20,7 +20,7 @@ def fill(J, chain):
 
 @kernel
 def express(chain, a):
-    """The acceleration as it is: J is in the base frame."""
+    """Return the acceleration as it is: J is in the base frame."""
     return a
 
 

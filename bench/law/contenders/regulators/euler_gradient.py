@@ -7,7 +7,7 @@ from bench.law import Display, Law, Look, kernel, minus, spring_damper
 
 
 def law_in(representation):
-    """The law in the coordinates of one representation."""
+    """Return the law in the coordinates of one representation."""
     chart, goal_chart, push = representation.chart, representation.goal_chart, representation.angular_velocity
 
     @kernel

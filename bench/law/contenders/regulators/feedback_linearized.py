@@ -46,7 +46,7 @@ def coordinate_law_in(representation):
 
 
 def law_in(representation):
-    """The law in the coordinates of one representation."""
+    """Return the law in the coordinates of one representation."""
     chart, rates, accelerate = representation.chart, representation.rates, representation.accelerate
     goal_chart = representation.goal_chart
     pd = coordinate_law_in(representation)

@@ -33,7 +33,7 @@ def inverse_rate_times(sa, ca, sb, cb, Edot, omega):
 
 
 def law_in(representation):
-    """The law in Z-Y-X Euler angles."""
+    """Return the law in Z-Y-X Euler angles."""
     chart, goal_chart = representation.chart, representation.goal_chart
 
     @kernel

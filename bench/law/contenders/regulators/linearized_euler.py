@@ -9,7 +9,7 @@ from bench.law import Display, Law, Look, kernel, minus, spring_damper
 
 
 def law_in(representation):
-    """The law in Z-Y-X Euler angles."""
+    """Return the law in Z-Y-X Euler angles."""
     chart, rates, goal_chart = representation.chart, representation.rates, representation.goal_chart
 
     @kernel

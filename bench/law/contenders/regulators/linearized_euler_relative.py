@@ -7,7 +7,7 @@ from bench.law import Display, Law, Look, kernel, relative, rotate, rotate_back
 
 
 def law_in(representation):
-    """The law in the Z-Y-X Euler angles of R_d^T R."""
+    """Return the law in the Z-Y-X Euler angles of R_d^T R."""
     chart, rates = representation.chart, representation.rates
 
     @kernel

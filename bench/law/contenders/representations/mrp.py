@@ -40,7 +40,7 @@ def chart(R):
 
 @kernel
 def chart_of(E):
-    """The chart of given parameters."""
+    """Return the chart of given parameters."""
     return Chart(E, 0.5 - 0.5 * dot(E, E))
 
 

@@ -18,7 +18,7 @@ class Chart(NamedTuple):
 
 @kernel
 def chart(R):
-    """Unit quaternion of R with w >= 0; at 180° (w = 0) the element the extraction divides by is positive."""
+    """Return unit quaternion of R with w >= 0; at 180° (w = 0) the element the extraction divides by is positive."""
     (w, x, y, z), t = quaternion_direction(R)
     scale = 0.5 / sqrt(t)
     return Chart((scale * w, scale * x, scale * y, scale * z))
@@ -26,7 +26,7 @@ def chart(R):
 
 @kernel
 def chart_of(E):
-    """The chart of a given unit quaternion."""
+    """Return the chart of a given unit quaternion."""
     return Chart(E)
 
 

@@ -66,7 +66,7 @@ def chart(R):
 
 @kernel
 def chart_of(E):
-    """The chart of a given vector."""
+    """Return the chart of a given vector."""
     square = dot(E, E)
     if square > 0.0:
         half = 0.5 * sqrt(square)
@@ -119,7 +119,7 @@ def coefficients(at):
 
 @kernel
 def slopes(at, s, a, b):
-    """a' and b', where the time derivatives are a' (phi . phidot) and b' (phi . phidot); that of s is b - a."""
+    """Return a' and b', where the time derivatives are a' (phi . phidot) and b' (phi . phidot); that of s is b - a."""
     x = at.square
     if x > NEAR:
         inverse = 1.0 / x

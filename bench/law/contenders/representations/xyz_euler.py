@@ -23,7 +23,7 @@ def chart(R):
 
 @kernel
 def chart_of(E):
-    """The chart of given angles."""
+    """Return the chart of given angles."""
     return EulerChart(E, sin(E[0]), cos(E[0]), cos(E[1]), sin(E[1]))
 
 
