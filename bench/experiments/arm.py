@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 import tasks
@@ -14,7 +14,7 @@ from bench.experiments.chosen_words import AT_INVERSES, BY_WORD_ALONE
 from bench.experiments.episode_rows import TABLE
 from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit
 from bench.experiments.rounding import judged_on_both_sides
-from bench.experiments.suites import NOMINAL, OnArms, Slice
+from bench.experiments.suites import NOMINAL, OnArms
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
 
@@ -54,7 +54,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     return tuple(episodes.cut("arm", places, asked, MOST))
 
 
-def _on_arm(on_arms: OnArms, laws, joints: int, choice: Choice) -> Iterator[tuple[Slice, Contender, str]]:
+def _on_arm(on_arms: OnArms, laws: Iterable[Contender], joints: int, choice: Choice) -> Iterator[tuple]:
     """(slice, contender, variation) of everything on one arm."""
     by_name = {one.name: one for one in laws}
     slices = episodes.narrowed(on_arms.slices, choice)

@@ -170,13 +170,13 @@ def _half_turns(field: Field) -> Iterator[Finding]:
         yield _largest(field, finding, _set_of(k, is_one), sizes, is_one, quats)
 
 
-def _largest(field: Field, finding: str, what: str, sizes: np.ndarray, is_one: np.ndarray, quats) -> Finding:
+def _largest(field: Field, name: str, what: str, sizes: np.ndarray, is_one: np.ndarray, quats: np.ndarray) -> Finding:
     """Return the finding of some states; the one where its size is largest shows it."""
     if not is_one.any():
-        return Finding(finding, "none", of=len(quats))
+        return Finding(name, "none", of=len(quats))
     worst = int(np.argmax(np.where(is_one, sizes, -np.inf)))
     shown = {"quat": quats[worst], "u": field(quats[[worst]])[0] * field.gains.kp}
-    return Finding(finding, what, sizes[worst], found=int(is_one.sum()), of=len(quats), **shown)
+    return Finding(name, what, sizes[worst], found=int(is_one.sum()), of=len(quats), **shown)
 
 
 def _set_of(directions: np.ndarray, is_one: np.ndarray) -> str:

@@ -20,7 +20,7 @@ from bench.engines.episode import (
     TICKS,
     blank,
 )
-from bench.engines.metrics.metric import Ending
+from bench.engines.metrics.metric import Ending, Metric
 from bench.engines.metrics.registry import known_metrics, metrics_of
 from bench.experiments.columns import (
     ANGLE0,
@@ -44,6 +44,7 @@ from bench.experiments.rounding import BESIDE, CHANGE
 from bench.law.contender import Contender
 from bench.law.contenders.representations.zyx_euler import chart
 from bench.law.so3 import from_quaternion
+from tasks.base import Start
 from tasks.cause import cause
 from tasks.rules import RULES
 from tasks.truth import angle
@@ -121,7 +122,7 @@ def contender_columns(one: Contender) -> dict:
     return dict(zip(CONTENDER_KEY, (one.regulator.name, coordinates, *one.way), strict=True))
 
 
-def frame(settings: Settings, unit: Unit, starts, numbers: np.ndarray) -> pd.DataFrame:
+def frame(settings: Settings, unit: Unit, starts: list[Start], numbers: np.ndarray) -> pd.DataFrame:
     """Return the rows of one unit from these starts."""
     import pandas as pd
 
@@ -165,7 +166,7 @@ def frame(settings: Settings, unit: Unit, starts, numbers: np.ndarray) -> pd.Dat
     )
 
 
-def lost_frame(settings: Settings, unit: Unit, starts, outcome: str) -> pd.DataFrame:
+def lost_frame(settings: Settings, unit: Unit, starts: list[Start], outcome: str) -> pd.DataFrame:
     """Return rows of episodes that a user's law never came back from: the settings and the outcome, no measure."""
     metrics = metrics_of(on_arm=bool(unit.arm))
     numbers = lost_numbers((blank_arm if unit.arm else blank)(len(starts), metrics), outcome)
@@ -180,7 +181,9 @@ def lost_numbers(numbers: np.ndarray, outcome: str) -> np.ndarray:
     return numbers
 
 
-def episode_columns(settings: Settings, starts, numbers: np.ndarray, dt_s: float, horizon_s: float) -> dict:
+def episode_columns(
+    settings: Settings, starts: list[Start], numbers: np.ndarray, dt_s: float, horizon_s: float
+) -> dict:
     """Return what rows of several experiments say: the start of an episode, its times, and how it ended."""
     return {
         "suite": settings.suite,
@@ -202,7 +205,7 @@ def judged_columns(numbers: np.ndarray, dt_s: float) -> dict:
     }
 
 
-def measured_columns(numbers: np.ndarray, metrics, ran: dict) -> dict:
+def measured_columns(numbers: np.ndarray, metrics: tuple[Metric, ...], ran: dict) -> dict:
     """Return the columns of the metrics, each finished by how its episode began and ended (`episode_columns`)."""
     endings = [
         Ending(start, final, RULES.band_rad(start), outcome)

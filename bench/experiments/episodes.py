@@ -8,7 +8,7 @@ from __future__ import annotations
 import functools
 import importlib
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import tasks
 from bench.base.errors import Incompatible
@@ -119,7 +119,7 @@ def starts_of(settings: Settings, unit: Unit) -> list[Start]:
     return tasks.starts_between(unit.selector, unit.first, end, settings.seed)
 
 
-def simulate(settings: Settings, unit: Unit, some: list[Start], horizon_s: float, curves: Curves | None = None):
+def simulate(settings: Settings, unit: Unit, some: list[Start], horizon_s: float, curves: Curves | None = None) -> Any:
     """Return what an engine gives back of a unit's contender from these starts, on the free body or its arm."""
     one, limits, metrics = settings.contender(unit.contender), settings.limits(horizon_s), metrics_of(bool(unit.arm))
     if unit.arm:

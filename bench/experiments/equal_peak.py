@@ -9,6 +9,7 @@ import tasks
 from bench.law.contender import Contender
 from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import from_quaternion
+from tasks.base import Start
 
 LOOKED_AT = {"uniform": 500, "half-turn": None, "poles": None, "wraps": None}
 """Starts at rest over which a greatest command is sought, by set: they come close to where any of our laws has it."""
@@ -42,5 +43,5 @@ def greatest_command(one: Contender) -> float:
 
 
 @functools.cache
-def _starts():
+def _starts() -> list[Start]:
     return [start for name, count in LOOKED_AT.items() for start in tasks.start_set(name, count)]

@@ -6,7 +6,7 @@ with Coriolis torques too; the error of orientation is the logarithm.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -90,7 +90,7 @@ def columns() -> list[Column]:
     ]
 
 
-def units_on_arms(asked: Asked, name: str, **more) -> tuple[Unit, ...]:
+def units_on_arms(asked: Asked, name: str, **more: Any) -> tuple[Unit, ...]:
     """Return a unit a design of damping on each arm of the plan."""
     arms = dict.fromkeys(unit.arm for unit in arm.units(asked))
     return tuple(Unit(name, task="arm-regulation", arm=one, selector=word, **more) for one in arms for word in DAMPINGS)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -118,7 +119,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     return simulated(settings, unit, run)
 
 
-def simulated(settings: Settings, unit: Unit, simulate, gains=gains_at) -> pd.DataFrame:
+def simulated(settings: Settings, unit: Unit, simulate: Callable, gains: Callable = gains_at) -> pd.DataFrame:
     """Return one row a level and start; none at a level whose command the law has no gains for.
 
     The starts and the noise are the same for every law.
@@ -152,7 +153,7 @@ def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
     """
     from bench.engines.plants.perturbed import EXTRA
 
-    def simulate(_one, starts, _condition, _limits, metrics, _seed):
+    def simulate(_one: Contender, starts: list, _condition: Condition, _limits: Limits, metrics: tuple, _: int) -> Any:
         return lost_numbers(blank(len(starts), metrics, (0.0,) * EXTRA), outcome)
 
     nothing = dict.fromkeys((metric.column for metric in metrics_of(on_arm=False)), np.nan)
@@ -164,7 +165,7 @@ def _limits(gains: Gains, horizon_s: float) -> Limits:
     return Limits(gains, 1e-6, round(1e6 * horizon_s), 1)
 
 
-def _rows(settings: Settings, starts, condition: Condition, limits: Limits, numbers: np.ndarray) -> dict:
+def _rows(settings: Settings, starts: list, condition: Condition, limits: Limits, numbers: np.ndarray) -> dict:
     from bench.engines.plants import perturbed
 
     step_s = condition.period_s / perturbed.steps_of(condition)

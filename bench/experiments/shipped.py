@@ -167,7 +167,7 @@ def compute_bending(field: Field, angle: float) -> float:
 def findings(one: Law) -> tuple[str, ...]:
     """Return the faults and notes of the audit, for the error as a function of two quaternions with slope 1."""
 
-    def error(q, q_d):
+    def error(q: np.ndarray, q_d: np.ndarray) -> tuple[float, float, float]:
         (w, x, y, z), goal = q.tolist(), q_d.tolist()
         return one.shipped.error(multiply(tuple(goal), (w, -x, -y, -z)))
 

@@ -126,7 +126,7 @@ def compute_felt_stiffness(moment: Moment, K: np.ndarray) -> tuple[float, float]
     return min(ratios), max(ratios)
 
 
-def eigenpairs(K: np.ndarray):
+def eigenpairs(K: np.ndarray) -> list[tuple[float, np.ndarray]]:
     """Return (eigenvalue, eigenvector) of a symmetric matrix."""
     values, vectors = np.linalg.eigh(K)
     return list(zip(values.tolist(), vectors.T, strict=True))
@@ -178,10 +178,10 @@ def compute_energy_error(spring: Spring, moment: Moment, K: np.ndarray) -> float
 
     by_rows = tuple(map(tuple, K.tolist()))
 
-    def stored(q) -> float:
+    def stored(q: np.ndarray) -> float:
         return float(spring.potential(tuple(q.tolist()), ORIGIN, NO_STIFFNESS, by_rows)) if spring.potential else 0.0
 
-    def rate(_, state):
+    def rate(_: float, state: np.ndarray) -> np.ndarray:
         q, W = state[:4], state[4:7]
         near = q / np.linalg.norm(q)
         m = moment(near if near[0] >= 0.0 else -near)

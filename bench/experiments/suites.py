@@ -134,7 +134,7 @@ DIRECTED = ("box", "goals", "half-turn", "paper", "poles", "tumbling", "wraps")
 HORIZON = {"half-turn": LONG, "poles": LONG, "wraps": LONG}
 
 
-def _slices(engine: str, uniform: int, directed=DIRECTED) -> tuple[Slice, ...]:
+def _slices(engine: str, uniform: int, directed: tuple = DIRECTED) -> tuple[Slice, ...]:
     sampled = (Slice(engine, "uniform", uniform, SHORT),) if uniform else ()
     return sampled + tuple(Slice(engine, name, None, HORIZON.get(name, SHORT)) for name in directed)
 

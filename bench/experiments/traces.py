@@ -31,6 +31,7 @@ from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, U
 from bench.experiments.starts import on_arm
 from bench.experiments.suites import HORIZON, LONG, SHORT
 from bench.law.contender import Contender
+from tasks.base import Start
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -111,7 +112,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     return pd.concat(frames, ignore_index=True).reindex(columns=TABLE.names)
 
 
-def _frame(place: dict, starts, samples: np.ndarray, names, endings: dict) -> pd.DataFrame:
+def _frame(place: dict, starts: list[Start], samples: np.ndarray, names: tuple, endings: dict) -> pd.DataFrame:
     """Return the curves of all starts, one below the other; the end of an episode stands at all its samples."""
     import pandas as pd
 

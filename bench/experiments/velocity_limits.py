@@ -13,6 +13,7 @@ end anywhere. Where that holds the angle falls at every tick from everywhere, an
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -143,7 +144,7 @@ def far(settings: Settings, unit: Unit) -> float:
     return bisect(holds)
 
 
-def _run(settings: Settings, unit: Unit, begun, k_dt: float, ticks: int, lag_ticks: float = 0.0) -> np.ndarray:
+def _run(settings: Settings, unit: Unit, begun: list, k_dt: float, ticks: int, lag_ticks: float = 0.0) -> np.ndarray:
     """Return rows of `plants.velocity` of episodes that take so many ticks, unless the robot is lost before."""
     from bench.engines.simulate_arms import run_velocity as run
 
@@ -154,7 +155,7 @@ def _run(settings: Settings, unit: Unit, begun, k_dt: float, ticks: int, lag_tic
     return made
 
 
-def bisect(holds) -> float:
+def bisect(holds: Callable[[float], bool]) -> float:
     """Return the largest number below GREATEST up to which something holds."""
     low, high = 0.0, GREATEST
     for _ in range(BISECTIONS):

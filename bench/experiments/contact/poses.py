@@ -95,7 +95,7 @@ def frame(
 
 
 def _row(
-    task: ContactTask, arm: Arm, controller: ContactController, ended: list[tuple[Trial, Ended]], conditions
+    task: ContactTask, arm: Arm, controller: ContactController, ended: list[tuple[Trial, Ended]], conditions: Conditions
 ) -> dict:
     first = ended[0][0]
     outcome = max((one.outcome for _, one in ended), key=WORST_LAST.index)

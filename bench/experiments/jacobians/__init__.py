@@ -155,7 +155,7 @@ def _of(eye: Eye, seen: Seen, one: Coordinates) -> dict:
     }
 
 
-def filled(jacobian: str, representation: Coordinates | None, chains, charts) -> np.ndarray:
+def filled(jacobian: str, representation: Coordinates | None, chains: list[Chain], charts: list) -> np.ndarray:
     """Compute the Jacobian of that name at every pose, N x rows x n."""
     fill = contenders("jacobians")[jacobian].kernels_in(representation)[0]
     rows = 3 + len(representation.symbols) if representation else 6

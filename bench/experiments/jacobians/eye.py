@@ -1,5 +1,7 @@
 """An arm as MuJoCo sees it: the tool, the Jacobian, and what a controller is given of a pose."""
 
+from collections.abc import Sequence
+
 import mujoco
 import numpy as np
 
@@ -17,7 +19,7 @@ class Eye:
         self.site = self.model.site("tool").id
         self.n = arm.joints
 
-    def rotation(self, q) -> Rotation:
+    def rotation(self, q: Sequence[float] | np.ndarray) -> Rotation:
         """Return the tool's orientation."""
         self.data.qpos[:] = q
         mujoco.mj_kinematics(self.model, self.data)
@@ -28,7 +30,7 @@ class Eye:
         """Return its position, where `rotation` was last called [m]."""
         return self.data.site_xpos[self.site].copy()
 
-    def look(self, q) -> tuple[Chain, np.ndarray]:
+    def look(self, q: Sequence[float] | np.ndarray) -> tuple[Chain, np.ndarray]:
         """Return what a controller sees of a pose, at rest; and J."""
         R = self.rotation(q)
         mujoco.mj_comPos(self.model, self.data)

@@ -17,6 +17,7 @@ import numpy as np
 
 from tasks.arm_model import Arm
 from tasks.arm_starts.uniform import spread
+from tasks.base import Quat
 from tasks.haar import halton
 from tasks.kinematics import Kinematics, rotation_vector
 from tasks.linear_algebra import least_norm
@@ -130,7 +131,7 @@ def towards_pole(kin: Kinematics, q: np.ndarray, sign: float) -> list[tuple[floa
     return None
 
 
-def polished(kin: Kinematics, q: np.ndarray, p: np.ndarray, quat) -> np.ndarray:
+def polished(kin: Kinematics, q: np.ndarray, p: np.ndarray, quat: Quat) -> np.ndarray:
     """One more step of Newton's method: from the 1e-12 at which `reach` is content to rounding."""
     here, orientation = kin.pose(q)
     error = np.concatenate((p - here, rotation_vector(quat, orientation)))

@@ -6,7 +6,7 @@ nothing outside the folder is read or written; and a word holds no sign that a p
 
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import pandas as pd
@@ -74,7 +74,7 @@ def merge(path: Path, parts: Iterable[Path], table: str | Table, group: int = GR
     """Return all parts in their order as one table, at most `group` rows and one part in memory; the number of rows."""
     rows = 0
 
-    def write(temporary):
+    def write(temporary: str) -> None:
         nonlocal rows
         schema = table_of(table).schema()
         with pq.ParquetWriter(temporary, schema, **encoding(schema)) as writer:
@@ -117,7 +117,7 @@ def check(path: Path, table: str | Table) -> None:
     _checked(path, table_of(table).name, lambda: pq.read_schema(path).empty_table())
 
 
-def _checked(path: Path, table: str, opened) -> pa.Table:
+def _checked(path: Path, table: str, opened: Callable) -> pa.Table:
     refuse_link(Path(path))
     try:
         arrow = opened()
