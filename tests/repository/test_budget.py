@@ -13,7 +13,7 @@ LINES = {
     "bench/base": 437,
     "bench/cli": 2_339,
     "bench/engines": 6_205,
-    "bench/experiments": 5_773,
+    "bench/experiments": 5_783,
     "bench/export": 1_984,
     "bench/findings": 6_130,
     "bench/law": 6_605,
