@@ -9,7 +9,7 @@ import itertools
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -38,7 +38,7 @@ class Question(NamedTuple):
     tolerance: float = 1e-6
 
 
-def angle_between(a, b) -> float:
+def angle_between(a: Any, b: Any) -> float:
     """Return the angle between two vectors [deg]."""
     return float(np.degrees(np.arctan2(np.linalg.norm(np.cross(a, b)), np.dot(a, b))))
 

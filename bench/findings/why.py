@@ -6,6 +6,7 @@ faults of a law whose `property` is "almost global": the word says that they exi
 
 import math
 import tomllib
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -160,6 +161,6 @@ def _state(quat_wxyz: list[float]) -> str:
     return f"{math.degrees(2.0 * math.atan2(size, w)):.7g} deg about {vector(part / (size or 1.0) for part in v)}"
 
 
-def vector(numbers) -> str:
+def vector(numbers: Iterable) -> str:
     """Return some numbers in brackets."""
     return f"({', '.join(f'{number + 0.0:.4g}' for number in numbers)})"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
+from typing import Any
 
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results, evidence
@@ -29,7 +30,7 @@ def at_every_gain(decide: Callable) -> Callable:
     """Wrap a judging function to ask the runs at other gains too; if its word differs, it depends on the gains."""
 
     @functools.wraps(decide)
-    def judge(results: Results):
+    def judge(results: Results) -> Any:
         others = results.found_by(other_gains, results)
         if not others:
             return decide(results)
@@ -47,7 +48,7 @@ def on_every_engine(decide: Callable) -> Callable:
     """Wrap a judging function of (results, engine) to ask the main engine, then the sampled ones that have rows."""
 
     @functools.wraps(decide)
-    def judge(results: Results):
+    def judge(results: Results) -> Any:
         word, found = decide(results, MAIN_ENGINE)
         others, rows = {}, found.rows
         for engine in CHECK_ENGINES:

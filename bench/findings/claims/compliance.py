@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from bench.findings.claims import probes, side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.force_conversion import random_orientations
-from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import claim, read_limits, word_of
+from bench.findings.claims.tables import Results, evidence, some
+from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -24,7 +24,7 @@ LEVEL_PAIR = TWO_AXES[0]
 
 
 @claim("C22")
-def c22(results):
+def c22(results: Results) -> tuple[Word, Evidence]:
     """One angle against one axis, by both ways to control forces."""
     word, found = _one_axis(results)
     turns = random_orientations(LIMIT.POSES, 0)
@@ -39,7 +39,7 @@ def c22(results):
 
 
 @side_by_side.by_papers_form
-def _one_axis(results, forms):
+def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
     """Measured compliance of one angle against that of one axis, as it is and turned by the angles before."""
     rows = side_by_side.beside_base(results, COORDINATES, LIMIT.ONE_AXIS, forms)
     away = (rows["cos_beta"] >= LIMIT.CLOSE_TO_POLE).to_numpy()
@@ -87,7 +87,7 @@ def _greatest(numbers: np.ndarray) -> float:
 
 @claim("C23")
 @side_by_side.by_papers_form
-def c23(results, forms):
+def c23(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     """Measured compliance of two angles against that of two axes: apart or not, and by how much in theory."""
     rows = side_by_side.beside_base(results, COORDINATES, TWO_AXES, forms)
     rows = rows[rows["cos_beta"] >= LIMIT.CLOSE_TO_POLE].reset_index(drop=True)
@@ -133,7 +133,7 @@ def _leak(rows: pd.DataFrame, C: np.ndarray) -> np.ndarray:
 
 @claim("C24")
 @side_by_side.by_papers_form
-def c24(results, forms):
+def c24(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     """Rotation about x and z per moment about x with Z-Y-Z and with Z-Y-X angles, over what is wanted."""
     zyz, zyx = (_about_x(results, coordinates, forms) for coordinates in (LIMIT.ZYZ, COORDINATES))
     at_zero = some(
@@ -156,7 +156,7 @@ def c24(results, forms):
     )
 
 
-def _about_x(results, coordinates: str, forms: tuple[str, ...]) -> pd.DataFrame:
+def _about_x(results: Results, coordinates: str, forms: tuple[str, ...]) -> pd.DataFrame:
     """Poses near zero, order 'about x': c_xx over that of hybrid-base, |c_zx / c_xx|, and whether it is a problem."""
     rows = side_by_side.beside_base(results, coordinates, (LIMIT.ORDER,), forms)
     rows = rows[np.degrees(rows["from_zero"]) <= LIMIT.NEAR_DEG + LIMIT.SLACK_DEG].reset_index(drop=True)

@@ -9,8 +9,8 @@ import numpy as np
 from bench.engines.metrics.contact_force import WINDOW_S
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE, by_papers_form, paired
-from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import NoEvidence, claim, read_limits, word_of
+from bench.findings.claims.tables import Results, evidence, some
+from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from tasks.contact_rest import HORIZON_S
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ LIMITS_S = {"end": HORIZON_S, "window": WINDOW_S}
 
 @claim("C25")
 @by_papers_form
-def c25(results, forms):
+def c25(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     """Pairs of episodes in contact that differ in the Jacobian alone, by task."""
     what = f"pose of a task by hybrid/{COORDINATES} and {BASE}, +{' or +'.join(forms)}"
     rows = some(paired(results, COORDINATES, forms), what)

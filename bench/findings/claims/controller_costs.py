@@ -14,8 +14,8 @@ from bench.findings.claims import adequacy, probes, standing
 from bench.findings.claims.adequacy import CALLS, of_stage, tallied
 from bench.findings.claims.side_by_side import BASE
 from bench.findings.claims.standing import ORDERED, Operations, by_columns
-from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import claim, read_limits, word_of
+from bench.findings.claims.tables import Results, evidence, some
+from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.law.control.contact_controller import PAPERS_FORM
 from bench.law.inputs import Gains
 
@@ -48,7 +48,7 @@ def words(controller: str, joints: int) -> dict[str, str]:
     return {"regulator": regulator, "representation": representation, "jacobian": by, "inverse": INVERSES[joints]}
 
 
-def controller_costs(results, controller: str, joints: int) -> pd.DataFrame:
+def controller_costs(results: Results, controller: str, joints: int) -> pd.DataFrame:
     """Its rows of costs.parquet, typical branch, a row a stage."""
     rows = results.table("costs", **words(controller, joints), branch="typical")
     return some(rows[rows["joints"] == joints], f"cost of {controller} on {joints} joints")
@@ -65,7 +65,7 @@ class Bend(NamedTuple):
 
 
 @claim("C20")
-def c20(results):
+def c20(results: Results) -> tuple[Word, Evidence]:
     """Curves at two steps; outcomes at the poles against the law on R; stages and totals."""
     import pandas as pd
 
@@ -130,7 +130,7 @@ def _against(own: pd.DataFrame, other: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame({"start_id": both["start_id"].astype(str), "fails": fails})
 
 
-def _at_poles(results, found: pd.DataFrame, poses: pd.DataFrame, arm: str, gains: Gains) -> pd.DataFrame:
+def _at_poles(results: Results, found: pd.DataFrame, poses: pd.DataFrame, arm: str, gains: Gains) -> pd.DataFrame:
     import pandas as pd
 
     controllers = [f"{one}+{INVERSES[tasks.arm(arm).joints]}" for one in (BY_EULER, ON_MATRIX)]
@@ -138,7 +138,7 @@ def _at_poles(results, found: pd.DataFrame, poses: pd.DataFrame, arm: str, gains
     return pd.concat([_pairs(found, arm, "pole"), _against(*beside)], ignore_index=True)
 
 
-def _hidden(results, joints: int) -> tuple[bool, str]:
+def _hidden(results: Results, joints: int) -> tuple[bool, str]:
     """Whether the law seems cheaper and the controller is dearer, and the numbers in a sentence."""
     rows = {one: controller_costs(results, one, joints) for one in (BY_EULER, BY_COMMON, ON_MATRIX)}
     seen = {one: of_stage(own, "regulate") for one, own in rows.items()}
@@ -153,7 +153,7 @@ def _hidden(results, joints: int) -> tuple[bool, str]:
 
 
 @claim("C26")
-def c26(results):
+def c26(results: Results) -> tuple[Word, Evidence]:
     """Pairs of controllers on six and seven joints."""
     timed, stands, listed = results.controller_timings(), [], []
     for joints, inverse in INVERSES.items():
@@ -177,7 +177,7 @@ def c26(results):
 
 
 @claim("C33")
-def c33(results):
+def c33(results: Results) -> tuple[Word, Evidence]:
     """Flops and calls of both in contact."""
     price, told, is_more, is_few = adequacy.ledger(results).price, [], [], []
     for joints in INVERSES:

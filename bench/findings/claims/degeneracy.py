@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from bench.findings.claims import probes
 from bench.findings.claims.probes import at_boundary
-from bench.findings.claims.tables import MAIN_ENGINE, evidence, settled_of, some
-from bench.findings.claims.verdict import Word, claim, read_limits, word_of
+from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, settled_of, some
+from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.findings.theory.compliance_theory import matrix_B
 from bench.law.contenders.registry import representation
 from bench.law.so3 import Rotation
@@ -26,7 +27,7 @@ LOOPS_RAD = (0.1, 0.5, 1.0, math.pi / 2)
 
 
 @claim("C13")
-def c13(results):
+def c13(results: Results) -> tuple[Word, Evidence]:
     """Condition numbers near zero rotation."""
     decades = range(LIMIT.DECADES[0], LIMIT.DECADES[1] + 1)
     tables = [conditions(axis, 10.0**-k) for k in decades for axis in axes(LIMIT.DIRECTIONS)]
@@ -46,7 +47,7 @@ def c13(results):
     )
 
 
-def turn(axis, angle):
+def turn(axis: Sequence[float] | np.ndarray, angle: float) -> Any:
     """Rodrigues' formula, complex numbers allowed."""
     x, y, z = axis
     K = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
@@ -58,10 +59,10 @@ def condition_in(word: str, R: Rotation) -> float:
     return float(np.linalg.cond(matrix_B(representation(word), R)))
 
 
-def condition_of_angle_and_axis(E) -> float:
+def condition_of_angle_and_axis(E: Any) -> float:
     """Compute the condition number for angle and axis: column i is vee(dR/dE_i R^T)."""
 
-    def to_matrix(E):
+    def to_matrix(E: Sequence) -> Any:
         axis = (np.sin(E[1]) * np.cos(E[2]), np.sin(E[1]) * np.sin(E[2]), np.cos(E[1]))
         return turn(axis, E[0])
 
@@ -70,7 +71,7 @@ def condition_of_angle_and_axis(E) -> float:
     return float(np.linalg.cond(np.array([(S[2, 1], S[0, 2], S[1, 0]) for S in slopes]).T))
 
 
-def conditions(axis, angle) -> dict[str, float]:
+def conditions(axis: Sequence[float] | np.ndarray, angle: float) -> dict[str, float]:
     """Return the condition number in three sets of coordinates of one rotation, by their names."""
     x, y, z = axis
     R = Rotation(*(tuple(column) for column in turn(axis, angle).T.tolist()))
@@ -81,7 +82,7 @@ def conditions(axis, angle) -> dict[str, float]:
 
 
 @claim("C14")
-def c14(results):
+def c14(results: Results) -> tuple[Word, Evidence]:
     """B at half and quarter turns about Y, and what a simulation from there does."""
     least = {degrees: probes.least_of_B(quat) for degrees, quat in probes.ABOUT_Y.items()}
     turns = results.free_body("episodes", task="free-body", regulator="feedback-linearized", engine=MAIN_ENGINE)
@@ -99,7 +100,7 @@ def c14(results):
 
 
 @claim("C15")
-def c15(results):
+def c15(results: Results) -> tuple[Word, Evidence]:
     """R at both poles as alpha and gamma move against and with each other."""
     to_matrix = representation("zyx-euler").to_matrix
     grid = np.linspace(-3.0, 3.0, 8).tolist()
@@ -130,7 +131,7 @@ def c15(results):
 
 
 @claim("C16")
-def c16(results):
+def c16(results: Results) -> tuple[Word, Evidence]:
     """B at the run's orientations and at both poles."""
     frame = results.episodes("feedback-linearized", MAIN_ENGINE).drop_duplicates(["start_set", "start_id"])
     at_poles = at_boundary(frame, "pole", "exact pole")
@@ -151,7 +152,7 @@ def c16(results):
 
 
 @claim("C28")
-def c28(results):
+def c28(results: Results) -> tuple[Word, Evidence]:
     """Ways with the same ends, a loop of zero integral, and turns about one axis."""
     ends, loops, plane = results.found_by(ways, results.seed)
     is_none = ends.min() >= LIMIT.APART_RAD and all(
@@ -190,7 +191,7 @@ def ways(seed: int) -> tuple[np.ndarray, list[float], float]:
     return ends, loops, plane
 
 
-def _after(legs) -> Turn:
+def _after(legs: Sequence) -> Turn:
     """Compute the orientation after turns in the base frame, one after the other."""
     from scipy.spatial.transform import Rotation as Turn
 

@@ -4,9 +4,9 @@ Where a check can be computed it is a function that returns True if the erratum 
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -40,7 +40,7 @@ class Sentence(NamedTuple):
     why: str
 
 
-def _to_matrix(E):
+def _to_matrix(E: Sequence) -> Any:
     return representation("zyx-euler").to_matrix(E)
 
 
@@ -70,7 +70,7 @@ def printed_feedback_is_unstable() -> bool:
     """(2.14) under u = -Kp E - Kd Edot has a growing mode; with the permutation undone it has none."""
     gains, P = Gains(), np.eye(3)[::-1]
 
-    def growth(order):
+    def growth(order: np.ndarray) -> float:
         closed = P @ order
         system = np.block([[np.zeros((3, 3)), np.eye(3)], [-gains.kp * closed, -gains.kv * closed]])
         return np.linalg.eigvals(system).real.max()

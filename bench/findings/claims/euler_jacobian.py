@@ -11,8 +11,18 @@ from bench.experiments.tables.read import FREE_BODY
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims.degeneracy import condition_in
 from bench.findings.claims.feedback_linearized import LAW
-from bench.findings.claims.tables import MAIN_ENGINE, Share, evidence, same_starts, settled, settling_times, share, some
-from bench.findings.claims.verdict import NoEvidence, claim, read_limits, word_of
+from bench.findings.claims.tables import (
+    MAIN_ENGINE,
+    Results,
+    Share,
+    evidence,
+    same_starts,
+    settled,
+    settling_times,
+    share,
+    some,
+)
+from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from bench.law.contenders.registry import representation
 
 if TYPE_CHECKING:
@@ -42,7 +52,7 @@ rounding eps/step are both about eps^(2/3), over the margin."""
 
 
 @claim("C18")
-def c18(results):
+def c18(results: Results) -> tuple[Word, Evidence]:
     """Slopes towards the pole by family, the largest element on arrival, and the determinants' identity."""
     rows = some(results.table("poses", representation=COORDINATES), "pose of an arm")
     ways = _families(rows)
@@ -93,7 +103,7 @@ def _families(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 @claim("C19")
-def c19(results):
+def c19(results: Results) -> tuple[Word, Evidence]:
     """Both gaps at every pose away from the pole, in the units of what rounding leaves."""
     rows = some(results.table("poses", representation=COORDINATES), "pose of an arm")
     rows = some(rows[rows["margin"] >= NEAR], f"pose with cos(beta) of {NEAR:g} or more")
@@ -119,7 +129,7 @@ def c19(results):
 
 
 @claim("C34")
-def c34(results):
+def c34(results: Results) -> tuple[Word, Evidence]:
     """Pairs of forms by how their laws settle, and each form's Jacobian at its pole."""
     forms = (*LIMIT.REGULAR, LIMIT.AT_ZERO)
     episodes = results.table("episodes", **FREE_BODY, task="free-body", regulator=LAW, engine=MAIN_ENGINE)

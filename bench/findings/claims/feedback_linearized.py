@@ -15,6 +15,7 @@ from bench.findings.claims.at_gains import on_every_engine
 from bench.findings.claims.probes import EXACT_RAD, at_boundary
 from bench.findings.claims.tables import (
     MAIN_ENGINE,
+    Results,
     evidence,
     lost_text,
     settled,
@@ -22,7 +23,7 @@ from bench.findings.claims.tables import (
     share,
     some,
 )
-from bench.findings.claims.verdict import claim, read_limits, word_of
+from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form
 from bench.law.contenders.registry import representation
 from bench.law.inputs import AT_REST, Gains
@@ -41,7 +42,7 @@ MARGINS = ", ".join(f"{margin:g}" for margin in MARGINS_RAD)
 
 
 @claim("C09")
-def c09(results):
+def c09(results: Results) -> tuple[Word, Evidence]:
     """Traces against the linear closed form; outcomes off and on the boundary, spinning, and to far goals."""
     rows = results.free_body("traces", regulator=LAW)  # of starts that were not chosen for trouble
     rows = some(rows[rows["start_set"].isin(("paper", "uniform"))], "trace of the law")
@@ -74,7 +75,7 @@ def _bend(trace: pd.DataFrame, gains: Gains) -> float:
 
 
 @claim("C10")
-def c10(results):
+def c10(results: Results) -> tuple[Word, Evidence]:
     """Commands at exact poles and near them, and on both sides of the jumps; B itself at the poles."""
     gains = results.gains()
     exact = at_boundary(results.episodes(LAW, MAIN_ENGINE, "poles"), "pole", "exact pole")
@@ -125,7 +126,7 @@ def _jumps(gains: Gains) -> np.ndarray:
 
 @claim("C11")
 @on_every_engine
-def c11(results, engine):
+def c11(results: Results, engine: str) -> tuple[Word, Evidence]:
     """Erratic episodes among starts outside each margin, at rest and spinning."""
     frame = results.episodes(LAW, engine, "uniform", "half-turn", "poles", "wraps", "box", "tumbling")
     gains = results.gains()
@@ -158,7 +159,7 @@ def _is_erratic(rows: pd.DataFrame, limit: float) -> pd.Series:
 
 
 @claim("C30")
-def c30(results):
+def c30(results: Results) -> tuple[Word, Evidence]:
     """Both laws on bodies heavier and lighter than the model."""
     gains = results.gains()
     runs = [results.found_by(off_model, law, gains, results.seed) for law in (THREE[0], THREE[-1])]

@@ -10,8 +10,8 @@ import numpy as np
 
 from bench.findings.claims.euler_jacobian import COORDINATES, DIFFERENCED, EPS, ROUNDINGS
 from bench.findings.claims.side_by_side import PROBE
-from bench.findings.claims.tables import evidence, some
-from bench.findings.claims.verdict import claim, read_limits, word_of
+from bench.findings.claims.tables import Results, evidence, some
+from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.findings.theory.compliance_theory import matrix_B
 from bench.law.contenders.registry import contenders, representation
 from bench.law.kinds import Coordinates
@@ -33,7 +33,7 @@ STEP = 2.0 ** (-52 / 3)
 
 
 @claim("C21")
-def c21(results):
+def c21(results: Results) -> tuple[Word, Evidence]:
     """Judge the balance at random and polar orientations, the loop's work residual, and what poles lose."""
     looped = results.table("compliance", task=PROBE, controller="hybrid", representation=COORDINATES)
     looped = looped[(looped["outcome"] == "done") & looped["work_residual"].notna()]

@@ -1,6 +1,7 @@
 """C06 to C08 and C29: PD on Z-Y-X Euler angles linearized about zero (Murphy 1988, 2.14 and 2.4)."""
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -10,8 +11,8 @@ from bench.experiments.tables.statistics import quantile_estimate
 from bench.findings.claims import probes
 from bench.findings.claims.at_gains import on_every_engine
 from bench.findings.claims.rotation_matrix import GAINS, LOOSE_SETTLING, SMALL_ANGLES
-from bench.findings.claims.tables import evidence, interval, lost, settled, settled_of, share, some
-from bench.findings.claims.verdict import claim, read_limits, word_of
+from bench.findings.claims.tables import Results, evidence, interval, lost, settled, settled_of, share, some
+from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form, held_goals
 from bench.law.inputs import Gains
 from tasks.base import IDENTITY, Start
@@ -25,7 +26,7 @@ LAW, CURE = "linearized-euler", "linearized-euler-relative"
 
 @claim("C06")
 @on_every_engine
-def c06(results, engine):
+def c06(results: Results, engine: str) -> tuple[Word, Evidence]:
     """Shares that settle inside and outside the box, and the nearest boundary."""
     every = results.episodes(LAW, engine, "uniform", "box")
     sure = converged(every)
@@ -53,7 +54,7 @@ def c06(results, engine):
 
 @claim("C07")
 @on_every_engine
-def c07(results, engine):
+def c07(results: Results, engine: str) -> tuple[Word, Evidence]:
     """Outcome and peak command of episodes that come near the pole, against the rest."""
     frame = results.episodes(LAW, engine, "uniform")
     frame = frame[np.cos(frame["beta0"]) >= LIMIT.PASSING]
@@ -80,14 +81,14 @@ def c07(results, engine):
     )
 
 
-def _median_peak(frame):
+def _median_peak(frame: Any) -> Any:
     """Compute the median peak command of the episodes that converge, with its interval."""
     return quantile_estimate(some(converged(frame), "episode that converges")["peak_u"].to_numpy(), 0.5)
 
 
 @claim("C08")
 @on_every_engine
-def c08(results, engine):
+def c08(results: Results, engine: str) -> tuple[Word, Evidence]:
     """Far goals with E_d subtracted and with angles from the goal; near goals with E_d subtracted."""
     runs = ((LAW, "goals"), (CURE, "goals"), (CURE, "uniform"))
     base, cure, zero = (share(settled(results.episodes(law, engine, starts))) for law, starts in runs)
@@ -107,7 +108,7 @@ def c08(results, engine):
 
 
 @claim("C29")
-def c29(results):
+def c29(results: Results) -> tuple[Word, Evidence]:
     """Small rotations at several gains, then larger ones at the run's."""
 
     def off(angle: float, gains: Gains) -> float:

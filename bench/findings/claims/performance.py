@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import itertools
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from bench.findings.claims.at_gains import at_every_gain, on_every_engine
 from bench.findings.claims.standing import ORDERED, Ledger
 from bench.findings.claims.tables import (
     MAIN_ENGINE,
+    Results,
     evidence,
     interval,
     lost_text,
@@ -23,7 +25,7 @@ from bench.findings.claims.tables import (
     share,
     some,
 )
-from bench.findings.claims.verdict import NoEvidence, Word, claim, read_limits, word_of
+from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form
 
 if TYPE_CHECKING:
@@ -36,7 +38,7 @@ NAMES = [name.partition("/")[0] for name in THREE]
 
 
 @claim("C12")
-def c12(results):
+def c12(results: Results) -> tuple[Word, Evidence]:
     """Neighbours by time, and by flops and calls in both accountings."""
     known = adequacy.of_three(results)
     pairs = [known.stand(*pair) for pair in itertools.pairwise(THREE)]
@@ -77,7 +79,7 @@ def _flops_alone(known: Ledger) -> str:
 @claim("C17")
 @at_every_gain
 @on_every_engine
-def c17(results, engine):
+def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
     """Return the three laws against the three tests of performance and the test of cost."""
     linear = closed_form.linear_settling(*results.gains())
     by_name = {one.name: one for one in adequacy.every(results, engine)}
@@ -107,7 +109,7 @@ def _placed(one: Adequacy, known: Ledger) -> str:
 
 @claim("C27")
 @on_every_engine
-def c27(results, engine):
+def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
     """Each later law against the eight tests."""
     later = [one for one in adequacy.every(results, engine) if one.name not in PAPERS]
     held = adequacy.held(results, adequacy.HELD_RAD)
@@ -141,7 +143,7 @@ def _answer(one: Adequacy, known: Ledger) -> str:
     )
 
 
-def _of_the_three(results) -> list[pd.DataFrame]:
+def _of_the_three(results: Results) -> list[pd.DataFrame]:
     """Uniform starts from rest of each law, the same in the same order; one that does not converge settles nowhere."""
     found = [results.episodes(name, MAIN_ENGINE, "uniform") for name in NAMES]
     found = [one.assign(outcome=one["outcome"].astype(str).where(one["converged"] != "no", "unknown")) for one in found]
@@ -150,7 +152,7 @@ def _of_the_three(results) -> list[pd.DataFrame]:
 
 @claim("C31")
 @at_every_gain
-def c31(results):
+def c31(results: Results) -> tuple[Word, Evidence]:
     """Shares that settle, and ratios of the time in which nearly all do."""
     laws = _of_the_three(results)
     matrix, linearized, mine = ranges = [share(settled(one)) for one in laws]
@@ -166,10 +168,10 @@ def c31(results):
     )
 
 
-def _gain(own: np.ndarray, other: np.ndarray):
+def _gain(own: np.ndarray, other: np.ndarray) -> Any:
     """Return the other's time in which nearly all settle over its own; resampled by starts."""
 
-    def ratio(drawn, axis):
+    def ratio(drawn: np.ndarray, axis: Sequence[float] | np.ndarray) -> Any:
         quantiles = quantile(drawn, LIMIT.NEARLY_ALL, axis=-2)
         with np.errstate(invalid="ignore"):
             ratios = quantiles[..., 1] / quantiles[..., 0]
@@ -179,7 +181,7 @@ def _gain(own: np.ndarray, other: np.ndarray):
 
 
 @claim("C35")
-def c35(results):
+def c35(results: Results) -> tuple[Word, Evidence]:
     """Shares and medians of the three."""
     small, laws = closed_form.linear_settling(*results.gains()), _of_the_three(results)
     kept, times = (

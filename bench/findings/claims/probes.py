@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import functools
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -34,13 +35,13 @@ EXACT_RAD = 1e-13
 one (4e-16 rad)."""
 
 
-def doubles(numbers):
+def doubles(numbers: Iterable) -> Any:
     """Nested tuples with numpy's doubles, for which 1/0 is infinite as in every engine."""
     inside = [doubles(x) if isinstance(x, tuple) else np.float64(x) for x in numbers]
     return type(numbers)(*inside) if hasattr(numbers, "_fields") else tuple(inside)
 
 
-def command(contender: str, R: Rotation, omega=AT_REST, R_d: Rotation = IDENTITY, gains: Gains = PAPER) -> np.ndarray:
+def command(contender: str, R: Rotation, omega: Any = AT_REST, R_d: Rotation = IDENTITY, gains: Gains = PAPER) -> Any:
     """u of a law at one state."""
     goal = doubles(Goal(R_d))
     with np.errstate(all="ignore"):
@@ -73,12 +74,12 @@ def euler_angles_along(trace: pd.DataFrame) -> np.ndarray:
     return np.array([euler_angles(Rotation(*triple)) for triple in zip(n, o, a, strict=True)])
 
 
-def rotations(frame: pd.DataFrame, columns=QUAT) -> list[Rotation]:
+def rotations(frame: pd.DataFrame, columns: Sequence[str] = QUAT) -> list[Rotation]:
     """Return the orientation of each row."""
     return [from_quaternion(tuple(quat)) for quat in frame[list(columns)].to_numpy().tolist()]
 
 
-def about(axis, angle: float) -> tuple:
+def about(axis: Sequence[float] | np.ndarray, angle: float) -> tuple:
     """Return the quaternion of a rotation."""
     unit = np.asarray(axis, dtype=float) / np.linalg.norm(axis)
     return (math.cos(angle / 2), *(math.sin(angle / 2) * unit).tolist())
@@ -105,7 +106,7 @@ def episodes(contender: str, starts: list[Start], gains: Gains, dt_s: float, hor
     )
 
 
-def off_linear(contender: str, angle: float, about_axes, gains: Gains, dt_s: float) -> np.ndarray:
+def off_linear(contender: str, angle: float, about_axes: Any, gains: Gains, dt_s: float) -> np.ndarray:
     """Return how far rotations by an angle about some axes settle from the linear closed form, relatively.
 
     Returns:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 
@@ -11,8 +13,8 @@ from bench.findings.claims import probes
 from bench.findings.claims.adequacy import CALLS
 from bench.findings.claims.at_gains import on_every_engine
 from bench.findings.claims.probes import at_boundary
-from bench.findings.claims.tables import MAIN_ENGINE, evidence, settled, share, some
-from bench.findings.claims.verdict import claim, read_limits, word_of
+from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, settled, share, some
+from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form
 from bench.law.inputs import Gains
 from bench.law.so3 import IDENTITY, Rotation, cross, from_quaternion
@@ -38,7 +40,7 @@ ZERO_ERROR = EPS = 2.0**-52
 
 @claim("C01")
 @on_every_engine
-def c01(results, engine):
+def c01(results: Results, engine: str) -> tuple[Word, Evidence]:
     """Outcomes and final energies of uniform, half-turn and tumbling starts."""
     frame = results.episodes(LAW, engine, "uniform", "half-turn", "tumbling")
     speed = (frame[list(probes.OMEGA)] ** 2).sum(axis=1)
@@ -57,7 +59,7 @@ def c01(results, engine):
 
 
 @claim("C02")
-def c02(results):
+def c02(results: Results) -> tuple[Word, Evidence]:
     """Small rotations at several gains, and the small steps of the run."""
     off, allowed = [], []
     for gains in (Gains(*pair) for pair in GAINS):
@@ -83,7 +85,7 @@ def c02(results):
 
 @claim("C03")
 @on_every_engine
-def c03(results, engine):
+def c03(results: Results, engine: str) -> tuple[Word, Evidence]:
     """Judge the settling time by angle, its slope towards 180°, and the exact 180° rotations."""
     uniform = results.episodes(LAW, engine, "uniform")
     sure = some(uniform[settled(uniform)], "uniform start that settles")
@@ -111,7 +113,7 @@ def c03(results, engine):
     )
 
 
-def _slope(pairs, axis):
+def _slope(pairs: np.ndarray, axis: Sequence[float] | np.ndarray) -> Any:
     """Least-squares slope of the second of each pair against the first."""
     from_mean = pairs - pairs.mean(axis=-2, keepdims=True)
     with np.errstate(invalid="ignore"):  # one start has no slope
@@ -120,7 +122,7 @@ def _slope(pairs, axis):
 
 @claim("C04")
 @on_every_engine
-def c04(results, engine):
+def c04(results: Results, engine: str) -> tuple[Word, Evidence]:
     """Judge the error and its three cross products at exact 180° rotations, and how the episodes end."""
     exact = at_boundary(results.episodes(LAW, engine, "half-turn"), "half_turn", "exact 180° rotation")
     orientations = probes.rotations(exact)
@@ -138,7 +140,7 @@ def c04(results, engine):
 
 
 @claim("C05")
-def c05(results):
+def c05(results: Results) -> tuple[Word, Evidence]:
     """|e| over sin(angle), at every start of the run and as low as a search gets; what cancels at 180° rotations."""
     from scipy.optimize import minimize
 
@@ -163,39 +165,39 @@ def c05(results):
     )
 
 
-def error(R, R_d=IDENTITY) -> np.ndarray:
+def error(R: Rotation, R_d: Rotation = IDENTITY) -> np.ndarray:
     """e of (2.12): the law's command at rest over Kp."""
     return probes.command(LAW, R, R_d=R_d) / Gains().kp
 
 
-def _size(R, R_d=IDENTITY) -> float:
+def _size(R: Rotation, R_d: Rotation = IDENTITY) -> float:
     return float(np.linalg.norm(error(R, R_d)))
 
 
-def _largest_product(R) -> float:
+def _largest_product(R: Rotation) -> float:
     """Return the largest of the three cross products of (2.12), goal zero."""
     return float(max(np.linalg.norm(cross(c, d)) for c, d in zip(R, IDENTITY, strict=True)))
 
 
-def _turn(vector) -> Rotation:
+def _turn(vector: Sequence[float]) -> Rotation:
     """R of a rotation vector."""
     return from_quaternion(probes.about(vector, float(np.linalg.norm(vector))))
 
 
-def _ratio(vector) -> float:
+def _ratio(vector: Sequence[float]) -> float:
     angle = float(np.linalg.norm(vector))
     if not LIMIT.AWAY_RAD < angle < np.pi - LIMIT.AWAY_RAD:
         return 2.0  # out of bounds: more than any ratio
     return _size(_turn(vector)) / np.sin(angle)
 
 
-def _pairs(frame) -> list[tuple[Rotation, Rotation]]:
+def _pairs(frame: Any) -> list[tuple[Rotation, Rotation]]:
     """R and R_d of each start."""
     return list(zip(probes.rotations(frame), probes.rotations(frame, probes.GOAL_QUAT), strict=True))
 
 
 @claim("C32")
-def c32(results):
+def c32(results: Results) -> tuple[Word, Evidence]:
     """Judge the rounding of e against exact fractions, the parts of the law, and how its episodes end."""
     every = some(results.free_body("episodes", task="free-body", regulator=LAW), f"episode of {LAW}")
     ended = int(every["outcome"].isin(LIMIT.BROKEN).sum())

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bench.findings.claims.tables import evidence, some
+from bench.findings.claims.tables import Results, evidence, some
 from bench.findings.claims.verdict import Evidence, Word
 from bench.law.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM
 
@@ -35,7 +35,7 @@ def by_papers_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[...
     """Wrap a judging function of (results, forms) to ask the paper's force control, then commanded accelerations."""
 
     @functools.wraps(decide)
-    def judge(results):
+    def judge(results: Results) -> Any:
         word, papers = decide(results, (PAPERS_FORM,))
         other, ours = decide(results, ACCELERATION_FORMS)
         return word, evidence(
@@ -47,7 +47,7 @@ def by_papers_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[...
     return judge
 
 
-def beside_base(results, representation: str, orders: tuple[str, ...], forms: tuple[str, ...]) -> pd.DataFrame:
+def beside_base(results: Results, representation: str, orders: tuple[str, ...], forms: tuple[str, ...]) -> pd.DataFrame:
     """Rows of wrench-probe of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`).
 
     Returns:
@@ -69,7 +69,7 @@ def beside_base(results, representation: str, orders: tuple[str, ...], forms: tu
     return both.assign(cos_beta=np.cos(both["beta"]), from_zero=from_zero)
 
 
-def paired(results, representation: str, forms: tuple[str, ...], **words: str) -> pd.DataFrame:
+def paired(results: Results, representation: str, forms: tuple[str, ...], **words: str) -> pd.DataFrame:
     """Rows of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`), of some forms."""
     own = results.table("compliance", controller="hybrid", representation=representation, **words)
     base = results.table("compliance", controller=BASE, **words)

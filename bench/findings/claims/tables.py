@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Sized
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -55,7 +55,7 @@ class Results:
         self.experiments = experiments or {}
         self._chosen: dict[tuple, pd.DataFrame] = {}
 
-    def found_by(self, experiment: Callable, *given):
+    def found_by(self, experiment: Callable, *given: Any) -> Any:
         """Return what an experiment finds, or what stands in its place."""
         return self.experiments.get(experiment.__name__, experiment)(*given)
 
@@ -171,7 +171,7 @@ class Share(NamedTuple):
     low: float
     high: float
 
-    def __format__(self, _) -> str:
+    def __format__(self, _: Any) -> str:
         return f"{self.value:.2%} ({self.low:.2%} to {self.high:.2%}, n = {self.n:,})"
 
 

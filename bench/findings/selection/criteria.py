@@ -69,7 +69,7 @@ def over_uniform(column: str) -> Measure:
 def perturbed(axis: str, level: float, column: str) -> Measure:
     """Return a column at one level of a perturbation; infinite where the law does not settle."""
 
-    def measure(tables):
+    def measure(tables: Any) -> Any:
         rows = tables.robustness
         rows = rows[(rows["axis"] == axis) & (rows["level"] == level) & rows["contender"].isin(tables.contenders)]
         return by_law(rows.sort_values("start_id", kind="stable"), column, math.inf)
@@ -132,7 +132,7 @@ def _across(one: Contender, axis: np.ndarray) -> float:
 def on_arms(measure: str) -> Measure:
     """100 for each episode on arms from uniform starts that passes one of `on_arms.MEASURES`, 0 for the others [%]."""
 
-    def measured(tables):
+    def measured(tables: Any) -> Any:
         rows = tables.arms[tables.arms["contender"].isin(tables.contenders)]
         return by_law(rows.assign(passed_percent=100.0 * passed(rows)[measure]), "passed_percent")
 

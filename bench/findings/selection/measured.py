@@ -23,7 +23,7 @@ import functools
 import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -81,7 +81,7 @@ def _drawn(criterion: str, values: bytes) -> np.ndarray:
     return resampled(np.frombuffer(values), statistic(BY_NAME[criterion]))
 
 
-def statistic(one: Criterion):
+def statistic(one: Criterion) -> Any:
     """Return what is made of a law's values: statistic(values, axis=-1) -> numbers."""
     if one.level is None:
         return np.mean

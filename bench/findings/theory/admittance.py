@@ -21,7 +21,8 @@ Source: Hogan 1985; Eppinger and Seering 1987; Jury 1964 and Routh for the polyn
 """
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -40,7 +41,7 @@ class Admittance(NamedTuple):
     k: float = 0.0
 
 
-def response(z, one: Admittance, lag_s: float, late: int, dt: float):
+def response(z: Any, one: Admittance, lag_s: float, late: int, dt: float) -> Any:
     """H(z): place per force, at the boundary of stability -1/K."""
     a = math.exp(-dt / lag_s) if lag_s > 0.0 else 0.0
     admittance = (dt * dt / one.m) / (
@@ -53,7 +54,7 @@ def lagged_limit(one: Admittance, lag_s: float, late: int, dt: float) -> float:
     """Return the stiffness [N/m] up to which the loop over a lagged position settles; late: ticks of delay."""
     phi = np.concatenate((np.geomspace(1e-5, 1e-2, ANGLES), np.linspace(1e-2, math.pi, ANGLES)[1:]))
 
-    def imaginary(at):
+    def imaginary(at: Any) -> Any:
         return np.imag(response(np.exp(1j * at), one, lag_s, late, dt))
 
     values = imaginary(phi)
@@ -62,7 +63,7 @@ def lagged_limit(one: Admittance, lag_s: float, late: int, dt: float) -> float:
     return min(-1.0 / value for value in found if value < 0.0)
 
 
-def _root(function, low: float, high: float) -> float:
+def _root(function: Callable[[float], float], low: float, high: float) -> float:
     sign = math.copysign(1.0, function(low))
     return 0.5 * sum(bisect(lambda at: sign * function(at) > 0.0, low, high, 60))
 

@@ -12,6 +12,7 @@ phi costs ln 10 / r.
 import functools
 import math
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -24,7 +25,7 @@ CLOSEST, LINEAR_TO, FURTHEST = 1e-13, 1e-3, 1e-3
 """rad of pi - angle (the last: of angle) between which the curve is computed; up to LINEAR_TO it is straight."""
 
 
-def linear(times, kp: float, kv: float) -> np.ndarray:
+def linear(times: float | np.ndarray, kp: float, kv: float) -> np.ndarray:
     """Response of the linear system from x = 1 at rest; (1 + w t) exp(-w t) if it is critically damped, w = Kd/2."""
     t, decay = np.asarray(times), kv / 2
     square = decay * decay - kp
@@ -60,7 +61,7 @@ def settling(angle: float, kp: float, kv: float, tolerance: float, short: float 
     if short == 0.0:
         return math.inf
 
-    def edge(_, state):
+    def edge(_: Any, state: np.ndarray) -> Any:
         return abs(math.pi - state[0]) - tolerance * (math.pi - short)
 
     escape = max(0.0, -math.log10(short)) * decade_slope(kp, kv)

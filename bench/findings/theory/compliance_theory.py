@@ -88,7 +88,14 @@ def directions(controller: ContactController, goal: Rotation) -> np.ndarray:
 
 
 def through_inertia(
-    controller: ContactController, B: np.ndarray, goal: Rotation, held: np.ndarray, A: np.ndarray, time_s, gains, touch
+    controller: ContactController,
+    B: np.ndarray,
+    goal: Rotation,
+    held: np.ndarray,
+    A: np.ndarray,
+    time_s: float,
+    gains: Gains,
+    touch: ContactParameters,
 ) -> np.ndarray:
     """R(t) B^-1 A (I + kf B^-T (I - S) K), K what the controller takes of a moment: rates per moment, 3 x 3."""
     if not np.isfinite(B).all():

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import functools
 import math
+from typing import Any
 
 from scipy.integrate import solve_ivp
 
@@ -37,17 +38,17 @@ EQUATIONS = {one.name: one.equation for one in all_contenders() if one.equation}
 def settling(equation: Equation, angle: float, kp: float, kv: float, tolerance: float) -> float:
     """Last time [s] at which the angle to the goal is `tolerance` of the initial one [rad]."""
 
-    def rate(_, state):
+    def rate(_: Any, state: Any) -> Any:
         theta, speed = state
         return speed, -kp * equation.spring(theta) - kv * speed + equation.added(theta, speed, kp, kv)
 
-    def edge(_, state):
+    def edge(_: Any, state: Any) -> Any:
         return abs(state[0]) - tolerance * angle
 
-    def rest(_, state):
+    def rest(_: Any, state: Any) -> Any:
         return abs(state[0]) + abs(state[1]) / kv - tolerance * angle / REST
 
-    def turn(_, state):
+    def turn(_: Any, state: Any) -> Any:
         return state[1]
 
     rest.terminal = True  # type: ignore[attr-defined]  # how solve_ivp is asked to stop

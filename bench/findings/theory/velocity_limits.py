@@ -14,6 +14,7 @@ Limitations: far of a law whose axis turns on its way, as on Euler angles; not a
 """
 
 import math
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -81,7 +82,7 @@ def lagged(lag_ticks: float) -> float:
     return min(bound for bound in bounds if bound > 0.0)
 
 
-def on_arm(arm: str, q, by: Inverse) -> float:
+def on_arm(arm: str, q: Any, by: Inverse) -> float:
     """Compute the limit of f with F = I, by an inverse at joint angles q [rad], J the judge's."""
     J, n = kinematics(tasks.arm(arm)).jacobian(q), tasks.arm(arm).joints
     columns = []
