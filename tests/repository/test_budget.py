@@ -15,7 +15,7 @@ LINES = {
     "bench/engines": 6_205,
     "bench/experiments": 5_783,
     "bench/export": 1_984,
-    "bench/findings": 6_130,
+    "bench/findings": 6_162,
     "bench/law": 6_605,
     "bench/regression": 1_200,
     "bench/running": 2_497,
