@@ -2,6 +2,7 @@
 
 import shutil
 
+import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
@@ -214,3 +215,11 @@ def test_gate_catches_in_contact_what_no_rounding_decides(pair, pose, before, af
 def test_gate_refuses_a_folder_without_a_run(body, tmp_path, capsys):
     assert main(["compare", str(body), str(tmp_path)]) == 2
     assert "the folder holds no run of ours" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("law", "count"), [("a-new-law", 0), ("rotation-matrix", 3)])
+def test_rows_of_a_law_that_base_has_nowhere_are_no_difference(pair, law, count):
+    base, head = pair("body")
+    row = {"regulator": law, "representation": "", "start_id": ["new-1", "new-2", "new-3"]}
+    change(head, "episodes", lambda frame: pd.concat([frame, frame.head(3).assign(**row)]))
+    assert len(compare(base, head)) == count

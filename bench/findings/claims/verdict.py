@@ -16,7 +16,6 @@ from types import MappingProxyType, ModuleType, SimpleNamespace
 from typing import Any, NamedTuple
 
 from bench.base.errors import BenchError
-from bench.findings.claims.tables import Results
 
 
 class Word(StrEnum):
@@ -201,7 +200,7 @@ class Verdict(NamedTuple):
         return self.claim.earlier[0].word if self.claim.earlier else self.word
 
 
-def decide(claim: Claim, results: Results) -> Verdict:
+def decide(claim: Claim, results: Any) -> Verdict:
     """Judge one claim on a run's results.
 
     Errors:

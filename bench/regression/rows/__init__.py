@@ -1,11 +1,9 @@
 """Compare two runs row by row: `find_differences(base, head)`, and `compare(base, head)` for the same in lines.
 
 Schema, row keys, outcomes and operation counts must be the same; a settling time to less than half a tick; other
-numbers of settled episodes to RELATIVE. Numbers of an episode that failed are not compared: on its path it may pass a
-singular point, where the last bit of a library's sine decides them.
-
-An episode of an arm that passed such a point has been judged on both sides of its start (`rounding_change`): then one
-outcome of base must be one of head, and a number must agree to what it changed by.
+numbers of settled episodes to RELATIVE. Numbers of a failed episode are not compared: where it passes a singular point,
+the last bit of a sine decides them. An episode of an arm that passed such a point has been judged on both sides of its
+start (`rounding_change`): one outcome of base must be one of head, and a number must agree to what it changed by.
 """
 
 from collections import Counter
@@ -22,8 +20,8 @@ from bench.regression.rows.tables import RELATIVE, RULES, is_settled, within
 
 
 def compare(base: Path, head: Path) -> list[str]:
-    """Return what differs between two runs' folders, a line each; empty if nothing differs."""
-    return write_lines(find_differences(base, head))
+    """Return what differs between two runs' folders, a line each, without rows of names that base has nowhere."""
+    return write_lines(find_differences(base, head), [read(base, one) for one in known_tables().values()])
 
 
 def find_differences(base: Path, head: Path) -> list[Difference]:

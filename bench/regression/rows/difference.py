@@ -11,6 +11,7 @@ from bench.experiments.columns import Table
 
 MISSING, NEW, TWICE, COLUMN, CHANGED, JUDGE = "missing", "new", "twice", "column", "changed", "judge"
 SHOWN = 10  # lines of one kind
+NAMES = {"regulator", "law", "controller", "shipped", "axis"}  # columns that name a law or a perturbation
 
 
 class Difference(NamedTuple):
@@ -37,10 +38,11 @@ class Rule(NamedTuple):
     skipped: tuple[str, ...] = ()
 
 
-def write_lines(differences: Iterable[Difference]) -> list[str]:
-    """Return what differs in lines: SHOWN of a kind, and then how many more there are."""
-    lines = []
-    for (table, kind, column), group in groupby(differences, lambda one: (one.table, one.kind, one.column)):
+def write_lines(differences: Iterable[Difference], base: Iterable[pd.DataFrame]) -> list[str]:
+    """Return what differs in lines, SHOWN of a kind; a new row of a name that base has nowhere is no difference."""
+    known = {word for rows in base for name in NAMES & {*rows.columns} for word in rows[name].astype(str)} | {""}
+    lines, kept = [], [one for one in differences if one.kind != NEW or {one.row.get(x, "") for x in NAMES} <= known]
+    for (table, kind, column), group in groupby(kept, lambda one: (one.table, one.kind, one.column)):
         same = [one.says for one in group]
         shown = len(same) if kind == COLUMN else SHOWN
         lines += same[:shown]
