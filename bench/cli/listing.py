@@ -29,11 +29,13 @@ class Kind(NamedTuple):
     find: Callable[[], Mapping[str, Any]] | str
     attributes: str = "title source"
 
+    def find_all(self) -> Mapping[str, Any]:
+        """Return every thing by name."""
+        return registry.contenders(self.find) if isinstance(self.find, str) else self.find()
+
     def rows(self, own: tuple = ()) -> Iterator[tuple[str, ...]]:
         """Yield the name and the attributes of each thing, the user's own laws last."""
-        known = registry.contenders(self.find) if isinstance(self.find, str) else self.find()
-        found = {**known, **{one.name: one for one in own}}
-        for name, one in found.items():
+        for name, one in {**self.find_all(), **{one.name: one for one in own}}.items():
             yield name, *(write_cell(read_attribute(one, attribute)) for attribute in self.attributes.split())
 
 

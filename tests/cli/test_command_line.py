@@ -91,7 +91,7 @@ def test_list_names_everything_of_a_kind_and_nothing_else(capsys, kind):
     said = bench(capsys, "list", kind)
     rows = [line.split()[0] for line in said.out.splitlines()[2:] if line.strip() and not line.startswith(" ")]
     assert said.code == 0
-    assert sorted(rows) == sorted(KINDS[kind].find())
+    assert sorted(rows) == sorted(KINDS[kind].find_all())
 
 
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind.endswith("s")])

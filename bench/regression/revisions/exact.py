@@ -15,8 +15,7 @@ from bench.regression.revisions.comparison import CHANGE, IMPROVEMENT, REGRESSIO
 from bench.regression.rows import find_differences
 from bench.regression.rows.difference import CHANGED, COLUMN, JUDGE, MISSING, NEW, Difference
 
-EXACT, OPERATIONS = "exact", "operations"
-OF_LAW = ("regulator", "representation")
+EXACT, OPERATIONS, OF_LAW = "exact", "operations", ("regulator", "representation")
 GOOD, STUCK = ("settled", "done"), "stuck"
 SMALLER_IS_WORSE = ("fails_from_rad", "settled_to_rad")  # of boundaries: nothing fails up to there
 LARGER_IS_WORSE = {"effort": (1.25, 0.0), "peak_u": (1.25, 0.0), "rest_change": (2.0, 1.0)}
@@ -25,8 +24,9 @@ LARGER_IS_WORSE = {"effort": (1.25, 0.0), "peak_u": (1.25, 0.0), "rest_change": 
 
 def compare_runs(base: Path, head: Path) -> list[Finding]:
     """Return all findings between two runs' folders; first what head's run says of a law that crashed or hung."""
-    notes = read_json(head / "provenance.json").get("lost", [])
-    return [*(Finding(EXACT, REGRESSION, "", note) for note in notes), *sort_findings(find_differences(base, head))]
+    found = sort_findings(find_differences(base, head))  # first, for it refuses a folder without a finished run
+    lost = read_json(head / "provenance.json").get("lost", [])
+    return [*(Finding(EXACT, REGRESSION, "", note) for note in lost), *found]
 
 
 def sort_findings(differences: Iterable[Difference]) -> list[Finding]:

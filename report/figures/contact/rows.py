@@ -66,6 +66,8 @@ def of_task(run: Run, task: str) -> pd.DataFrame:
 
 def verdicts(run: Run, *ids: str) -> html.Markdown | None:
     """Return these claims with their words, linked to their sections; None without rows."""
+    if run.any_rows("compliance").empty:
+        return None
     results = claims.Results(run.folder)
     return in_run(lambda: shown.table([claims.judge(one, results) for one in ids], "40-claims.html"))
 
