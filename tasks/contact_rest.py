@@ -24,8 +24,8 @@ class Rest(NamedTuple):
 
 REST = Rest()
 HORIZON_S = 12.0
-"""Of tasks that have an end [s]. A tool on the paper's gains takes some 2 s to lie down; one whose coordinates let a
-sixth of the moment through, six times that."""
+"""Horizon of tasks that have an end [s]. A tool on the paper's gains takes some 2 s to lie down; one whose coordinates
+let a sixth of the moment through, six times that."""
 
 
 class RestNumbers(NamedTuple):

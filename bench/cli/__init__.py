@@ -22,7 +22,7 @@ click.rich_click.MAX_WIDTH = 110
 click.rich_click.STYLE_OPTIONS_TABLE_PAD_EDGE = False
 
 VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
-"""Of the checkout that runs, installed or not."""
+"""The version of the checkout that runs, installed or not."""
 
 
 @click.group(epilog=examples("bench"), context_settings={"help_option_names": ["-h", "--help"]})

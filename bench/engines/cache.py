@@ -38,7 +38,7 @@ def _chosen() -> Path:
 FOLDER = _chosen()
 
 os.environ["NUMBA_DISABLE_INTEL_SVML"] = "1"
-"""Where Intel's vector library is installed, numba would take sines of several lanes from it; they are not libm's."""
+"""Numba would take sines of several lanes from Intel's vector library if that is installed; they are not libm's."""
 
 
 @contextlib.contextmanager

@@ -32,7 +32,7 @@ from bench.law.so3 import Rotation, dot, from_quaternion
 from tasks.verdict import GOING, Watch, check_command, check_state, first_watch, watched
 
 LANES = 64
-"""Of 8 the compiler would make straight code, which is not faster than one start at a time."""
+"""Lanes of a block: of 8 the compiler would make straight code, which is not faster than one start at a time."""
 
 VECTOR = 8
 """Lanes that one instruction takes at most: a number of lanes that it divides leaves none to be done one by one."""

@@ -18,8 +18,8 @@ from bench.law.scalar import kernel, sqrt
 from bench.law.so3 import dot
 
 GROWS = 2.0**-12
-"""Of the squared tolerance: two halves so near to the whole would be near enough at twice the step, whose error is
-32 times as large."""
+"""Share of the squared tolerance: two halves so near to the whole would be near enough at twice the step, whose error
+is 32 times as large."""
 
 
 CRAWL, ROUGH = 3, 1e-2

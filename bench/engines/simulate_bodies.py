@@ -28,7 +28,7 @@ from tasks.condition import Condition
 from tasks.rules import RULES
 
 NOISE_BYTES = 64e6
-"""Of noise held at once: 266 starts of 5 s, asked every millisecond. A thousand would be 246 MB; they run in blocks.
+"""Bytes of noise held at once: 266 starts of 5 s, measured every millisecond. A thousand, 246 MB, run in blocks.
 The default suite's 24 are one block, so that all its laws share one draw."""
 
 

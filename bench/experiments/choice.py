@@ -15,7 +15,7 @@ WITHOUT, IN_CONTACT = "euler", "implicitfast"
 """Integrators if none is named: the default of MuJoCo, and what it recommends for contacts."""
 
 MOST_STARTS = 1_000_000
-"""Of each set, in one run."""
+"""Largest number of starts of each set in one run."""
 
 
 @dataclass(frozen=True)

@@ -75,7 +75,7 @@ REDUNDANT = (
     "hybrid-base+inverse",
     "hybrid/zyx-euler+inverse",
 )
-"""Of COMPLIANT those that an arm of seven joints runs: the paper's form and the other, on both Jacobians."""
+"""The part of COMPLIANT that an arm of seven joints runs: the paper's form and the other, on both Jacobians."""
 
 FIRST_SERIES, FIRST_SCENES = 48, 9
 """Poses on seven joints: of wrench-probe its first series up to beta = 75 degrees, of the other tasks all; of `quick`

@@ -39,7 +39,7 @@ GOALS = (IDENTITY, (0.8, 0.2, 0.4, 0.4), (0.4, -0.8, 0.4, 0.2))
 """The last two lie off the singular sets of all our coordinates."""
 
 TURN_RAD, RATE = 1e-4, 1e-3
-"""Of central differences: their error is under 1e-8, rounding leaves 1e-12."""
+"""Step of central differences: their error is under 1e-8, rounding leaves 1e-12."""
 
 SAME, BOUNDED = 1e-3, 1e3
 """Shares: by the first a stiffness may differ from what it is taken for; above the second it is a jump or a pole."""

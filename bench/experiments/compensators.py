@@ -17,9 +17,9 @@ DISTURBANCES = (0.0, 5.0, 20.0)
 """Lengths [rad/s^2]; over the paper's Kp they are the sine of what a law without an integral leaves: 2.9 and 11.5
 degrees."""
 DIRECTION = (1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0)
-"""Of the disturbance, in the base frame."""
+"""Direction of the disturbance, in the base frame."""
 BAND_RAD = np.deg2rad(1.0)
-"""The same for all starts: a disturbance leaves what it leaves wherever the body came from."""
+"""One band for all starts: what a disturbance leaves does not depend on the start."""
 STARTS = 64
 HORIZON_S = 8.0
 """[s]. The slowest of the starts, 2 degrees short of 180, is settled by half of it."""

@@ -31,7 +31,7 @@ from bench.law.control.unshaped import DAMPINGS
 NAME = "impedance-modes"
 
 STEP = 1e-4
-"""Of the differences [rad, rad/s]: they err by its square, 1e-8, and by rounding over it and the tick, 1e-9."""
+"""Steps of the differences [rad, rad/s]: they err by its square, 1e-8, and by rounding over it and the tick, 1e-9."""
 
 DESIGN_S = 0.01
 """CPU seconds a design of damping on an arm."""

@@ -28,7 +28,7 @@ TURNING = 10.0
 STARTS, REACH_M, ELSEWHERE_M = 8, 0.5, 0.2
 """Uniform orientations; distance from the goal; how far off the hand's origin is drawn."""
 STEP, STEPS = 0.1, 80
-"""Of Runge and Kutta's method, in units of 1/gain: e^-8 of the pose is left."""
+"""Step and end of Runge and Kutta's method, in units of 1/gain: e^-8 of the pose is left."""
 ALIKE = np.eye(3)
 
 SPRINGS = tuple(spring for spring in contenders("springs").values() if not spring.is_rotational)

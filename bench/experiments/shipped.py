@@ -41,21 +41,21 @@ CONTROLLER_S = 0.7
 """CPU seconds a controller, most of them for the audit and for compiling."""
 
 FELT_RAD = {"stiffness_1mrad": 1e-3, "stiffness_50mrad": 5e-2, "stiffness_1rad": 1.0}
-"""Where stiffness is felt: inside any deadband, outside it and under any clip of torques, and under clips."""
+"""Angles at which stiffness is measured: inside any deadband, outside it and under any clip of torques, under clips."""
 BENT_DEG = (10, 30, 90, 150)
-"""Where the direction of the command is looked at."""
+"""Angles at which the direction of the command is examined."""
 SETTLING_DEG = {"1": 1.0, "30": 30.0, "90": 90.0, "150": 150.0, "179": 179.0, "179_9": 179.9}
 
 BASE = np.eye(3)
 DIRECTIONS = 200
 AXES = np.concatenate((BASE[:1], -BASE[2:], axes(6)))
-"""Of episodes: two of the base, and some of no kind."""
+"""Axes of episodes: two of the base, and some of no kind."""
 BEFORE_180_RAD = 1e-6
 SETTLING_RAD = {f"settling_{name}_s": math.radians(angle) for name, angle in SETTLING_DEG.items()}
 SETTLING_RAD["settling_near_180_s"] = math.pi - BEFORE_180_RAD
 """The columns of settling times -> angles of the starts."""
 AWAY_RAD = math.radians(1.0)
-"""By more than this a spring that pulls the short way increases no angle of a body at rest."""
+"""Tolerance: a spring along the shorter rotation increases the angle of a body at rest by less."""
 SAMPLE_S = 0.02
 HAVERSINE = NUMBERS.index("haversine")
 

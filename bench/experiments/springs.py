@@ -29,7 +29,7 @@ LOOPS, POINTS, WIDTH = 10, 240, 1.2
 """Closed paths; points of each, so many that twice as many change nothing; greatest |a|, |b| and |c| [rad]."""
 STEP = 1e-5
 INERTIA, DAMPING, LENGTH_S = np.array([0.5, 1.0, 2.0]), 1.0, 4.0
-"""Of the motion whose energy is balanced: principal moments [kg m^2], N m s/rad, s."""
+"""The motion whose energy is balanced: principal moments [kg m^2], N m s/rad, s."""
 VANISHED = 1e-9
 
 Moment = Callable[[np.ndarray], np.ndarray]

@@ -43,13 +43,13 @@ AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 2.0, 3.0))
 FAR_AXIS, SCAN_RAD = (1.0, 2.0, 3.0), np.linspace(1e-3, math.pi - 1e-3, 400)
 
 BISECTIONS = 24
-"""Of 64: 4e-6."""
+"""Halvings of the interval up to 64: 4e-6 is left."""
 
 LAG_TICKS = (0.0, 0.25, 1.0, 4.0)
 """Time constants of servos over the control period."""
 
 DT_S = 0.1
-"""Of no matter to K dt, but that commands keep far from the judge's limit of speed."""
+"""The control period has no effect on K dt; with this one commands keep far from the judge's limit of speed."""
 
 
 def columns() -> list[Column]:

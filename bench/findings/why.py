@@ -36,7 +36,7 @@ Bach's does, to 0.005 rad."""
 
 FAULTS = {"oscillating": "oscillation", "creeping": "creeping", "stuck": "stuck"}
 FAULTS |= {"crashed": "raises or exits", "hung": "does not return"}
-"""Of an outcome; of any other the starts are lost."""
+"""Fault by outcome; starts of any other outcome are called lost."""
 
 
 def sentences(rows: pd.DataFrame, declared: str) -> list[Said]:
@@ -106,7 +106,7 @@ def perturbed(rows: pd.DataFrame) -> list[Said]:
 
 
 def beside(field: pd.DataFrame, episodes: pd.DataFrame, run_field: pd.DataFrame, run: pd.DataFrame) -> pd.DataFrame:
-    """Return a law and the MOST laws of a run nearest to it, a line each, from the starts that both were asked.
+    """Return a law and the MOST laws of a run nearest to it, a line each, from the starts that both ran.
 
     Near is the pull at 90 degrees [kp], and the median settling time as a logarithm; run: by the law's own engine.
     """

@@ -53,14 +53,14 @@ DRAWN = {
     "arm": lambda unit: _is_judged(unit),
     "jacobians": lambda unit: True,
 }
-"""By experiment, the units of a suite that depend on the seed and that claims look at."""
+"""Experiment -> the units of a suite that depend on the seed and that claims look at."""
 
 STEPPED = {
     **{name: wanted for name, wanted in DRAWN.items() if name != "jacobians"},
     "boundaries": lambda unit: True,
     "contact": lambda unit: True,
 }
-"""Those that depend on the step: Jacobians are of poses."""
+"""The experiments that depend on the step: Jacobians are of poses."""
 
 
 def _is_judged(unit: Unit) -> bool:

@@ -26,7 +26,7 @@ WORDS = (
     *("--regulator", "rotation-matrix", "--engine", "native"),
 )
 STEPS = {engine.run.__code__, store.write_table.__code__, store.merge.__code__, store.read.__code__}
-"""Where one looks at who waits."""
+"""Functions at which the waiting callers are recorded."""
 
 MOST = 15
 REFERENCE = ROOT / "results" / "reference"

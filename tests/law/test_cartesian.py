@@ -25,7 +25,7 @@ SEVEN = [arm for arm in ARMS if tasks.arm(arm).joints == 7]
 
 APPROXIMATE = ("damped-least-squares", "transpose")
 EXACT = [word for word in contenders("inverses") if word not in APPROXIMATE]
-"""Those that give J x = a wherever the damped and the truncated one leave J alone."""
+"""The inverses that give J x = a wherever the damped and the truncated one leave J alone."""
 
 WEIGHTS = np.array([1.0 / LENGTH] * 3 + [1.0] * 4)
 

@@ -39,11 +39,11 @@ def list_texts(path: Path) -> list[tuple[int, str]]:
 
 
 def find_fragments(path: Path) -> list[str]:
-    """Return the docstrings of a module that begin with a word that leaves out the verb."""
-    documented = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
-    nodes = [node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, documented)]
-    texts = [(getattr(node, "lineno", 1), ast.get_docstring(node) or "") for node in nodes]
-    return [f"{path}:{line}: {text.splitlines()[0]}" for line, text in texts if FRAGMENT.match(text)]
+    """Return the docstrings of a module, of constants too, that begin with a word that leaves out the verb."""
+    nodes = [node for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if isinstance(node, ast.Expr)]
+    texts = [(one.lineno, one.value.value) for one in nodes if isinstance(one.value, ast.Constant)]
+    found = [(line, text.strip()) for line, text in texts if isinstance(text, str)]
+    return [f"{path}:{line}: {text.splitlines()[0]}" for line, text in found if FRAGMENT.match(text)]
 
 
 def find_phrases(path: Path) -> list[str]:
@@ -67,7 +67,7 @@ def test_planted_fragment_and_phrases_are_found(tmp_path):
     planted.write_text(
         '"""Return it."""\n\n\ndef f(half_turn):\n    """Of a half\n    turn."""\n    return 1  # anew\n'
     )
-    assert find_fragments(planted) == [f"{planted}:4: Of a half"]
+    assert find_fragments(planted) == [f"{planted}:5: Of a half"]
     assert find_phrases(planted) == [f"{planted}:5: half turn", f"{planted}:7: anew"]
 
 

@@ -13,7 +13,7 @@ from bench.base.provenance import ROOT
 
 PATCHES = sorted((ROOT / "bench" / "studies" / "libraries" / "patches").glob("*.patch"))
 PACKAGES = {"mink": ("mink", "."), "numpy-quaternion": ("quaternion", "src")}
-"""By patch: the package, and its folder in the library's repository."""
+"""Patch -> the package, and its folder in the library's repository."""
 
 
 def outcome(folder: Path, source: str) -> int:

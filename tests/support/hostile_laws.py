@@ -66,7 +66,7 @@ COMPILED = table("compiled")
 """Run on the engine ideal-rk4: what becomes of all episodes, or of some; "" of a law that runs as a sound one."""
 
 IN_A_TICK = {law: tuple(told) for law, told in DATA["in-a-tick"].items()}
-"""The same, in Python: what a law answers in the first tick of an episode, one after the other."""
+"""Python code: what a law answers in the first tick of an episode, one after the other."""
 
 IN_TURN = """
 import atexit, ctypes, resource, signal, threading

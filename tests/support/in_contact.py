@@ -32,7 +32,7 @@ ARMS = [arm for arm in tasks.arm_names() if can_do(TASK, tasks.arm(arm))]
 HYBRIDS = [one for one in all_controllers() if one.impedance is None]
 IMPEDANCES = [one for one in all_controllers() if one.impedance is not None]
 COORDINATES = {word: one for word, one in contenders("representations").items() if one.about is not None}
-"""Those with a coordinate for each of the axes x, y and z."""
+"""Representations with a coordinate for each of the axes x, y and z."""
 
 # Not the defaults: what has those built in is found out.
 GAINS = Gains(kp=37.0, kv=9.0)

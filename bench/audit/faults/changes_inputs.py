@@ -7,7 +7,7 @@ from bench.audit.fault import Fault, Found
 
 
 def find(examined: Examined) -> Found | None:
-    """Return some inputs are others after the call."""
+    """Find inputs that differ after the call."""
     if not examined.changed.any():
         return None
     i = int(np.argmax(examined.changed))

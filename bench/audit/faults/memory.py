@@ -11,7 +11,7 @@ DIFFERENCE = 1e-12
 
 
 def find(examined: Examined) -> Found | None:
-    """Return some pairs are asked once more, in reverse order."""
+    """Call the function again for some pairs, in reverse order, and compare."""
     here = np.flatnonzero(examined.at(WIDE))[::-10]
     first, again = examined.e[here], examined.ask(examined.pairs.chosen(here)).e
     differs = np.linalg.norm(again - first, axis=1) > DIFFERENCE * examined.slope

@@ -86,7 +86,7 @@ def _dyadic(operation: str, compute: Callable) -> tuple[Callable, Callable]:
         return Counted(compute(self.value, value), self.tally)
 
     def reflected(self: "Counted", other: Any) -> Any:
-        """Return the other is a constant: of two counting scalars the first one's `forward` is called."""
+        """Apply the operation where the first operand is a constant; for two counting scalars `forward` is called."""
         if not isinstance(other, int | float):
             return NotImplemented
         self.tally.now[place] += 1

@@ -28,7 +28,7 @@ from bench.law.so3 import Rotation, from_quaternion
 from tasks.base import Start
 
 ARM_OF = {6: "ur5e", 7: "panda"}
-"""Whose states are used, by the number of joints."""
+"""The arm whose states are used, by the number of joints."""
 
 TASK = "arm-regulation"
 SAMPLED, DIRECTED = {"uniform": 12, "tumbling": 12}, {"pole": 6, "wrist": 6, "half-turn": 4}

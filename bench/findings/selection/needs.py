@@ -87,7 +87,7 @@ FACTS = {
     **{"tried": TRIED, "everywhere": EVERYWHERE, "quiet": QUIET, "unheld": UNHELD},
     **{"forgetful": FORGETFUL, "smooth": SMOOTH, "nearly": NEARLY},
 }
-"""By their words in situations.toml."""
+"""The facts by their words in situations.toml."""
 
 SITUATIONS = tomllib.loads(Path(__file__).with_name("situations.toml").read_text(encoding="utf-8"))
 

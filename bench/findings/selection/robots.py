@@ -101,7 +101,7 @@ def _of_laws(tables: Tables, known: Container[str]) -> Tables:
 
 
 def _measured(tables: Tables, usual: tuple[str, ...], **values: dict[str, np.ndarray]) -> Measured:
-    """Return some criteria measured as ever, others by these values, and no number of the rest."""
+    """Return criteria: some measured as for accelerations, others by these values, and the rest without a number."""
     as_ever = {name: BY_NAME[name].measure(tables) for name in usual}
     return Measured(tables, {one.name: {} for one in CRITERIA} | as_ever | values)
 

@@ -24,10 +24,10 @@ from bench.law.control.unshaped import DAMPINGS
 from tasks.kinematics import kinematics
 
 HALVINGS = 30
-"""Of a second: to a nanosecond."""
+"""Halvings of a second: to a nanosecond."""
 
 Stiffness = tuple[float, float]
-"""Of translation [N/m] and of rotation [N m/rad]."""
+"""Stiffness of translation [N/m] and of rotation [N m/rad]."""
 
 
 class Hand(NamedTuple):

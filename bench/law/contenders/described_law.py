@@ -29,7 +29,7 @@ ANSWERS = ("fields", "answers")
 crashes or hangs then is known all the same: its rows will say so."""
 
 WAITS_S, TRIAL_WAITS_S = 60.0, 10.0
-"""The same on the wall: for a law that waits, or is kept waiting by a busy machine."""
+"""The limit in wall time: for a law that waits, or is kept waiting by a busy machine."""
 
 FUNCTIONS = ("law", "law_in", "margin", "coordinate_law_in")
 ELSEWHERE = ("origin", "in_engine", "state", "shipped", "gains", "display")

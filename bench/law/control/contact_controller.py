@@ -24,7 +24,7 @@ from bench.law.inputs import PAPERS_GAINS, Gains
 from bench.law.kinds import Coordinates, Impedance
 
 FORMS = ("inverse", "projected", "transpose")
-"""Of `hybrid.comply`, in its numbers."""
+"""Forms of `hybrid.comply`, in the order of its numbers."""
 
 PAPERS_FORM = FORMS[hybrid_control.TRANSPOSE]
 ACCELERATION_FORMS = FORMS[:2]

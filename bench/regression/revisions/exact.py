@@ -19,7 +19,7 @@ EXACT, OPERATIONS, OF_LAW = "exact", "operations", ("regulator", "representation
 GOOD, STUCK = ("settled", "done"), "stuck"
 SMALLER_IS_WORSE = ("fails_from_rad", "settled_to_rad")  # of boundaries: nothing fails up to there
 LARGER_IS_WORSE = {"effort": (1.25, 0.0), "peak_u": (1.25, 0.0), "rest_change": (2.0, 1.0)}
-"""Of episodes: how many times as much is a regression, and what is too little: Kp/100 [rad/s^2] of a change at rest."""
+"""Columns of episodes: the factor of a regression, and what is too little: Kp/100 [rad/s^2] of a change at rest."""
 
 
 def compare_runs(base: Path, head: Path) -> list[Finding]:

@@ -187,7 +187,7 @@ ROUNDS = 4
 """Chunks that each worker has at least, so that none waits long for the last one of another."""
 
 MOST_EPISODES = 50_000
-"""Of a chunk: 10 MB of rows, which the worker and then the client hold."""
+"""Episodes of a chunk: 10 MB of rows, which the worker and then the client hold."""
 
 
 def seconds(unit: Unit) -> float:

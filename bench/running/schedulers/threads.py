@@ -14,7 +14,7 @@ from bench.running.sandbox import Sandbox
 from bench.running.schedulers import share_heap
 
 UNITS_A_PROCESS = 8
-"""Of a user's law, beyond which a second process is worth its start of some seconds, if there is nothing of ours."""
+"""Units of users' laws beyond which one more process is worth its start of some seconds, if no law of ours runs."""
 
 
 def run(

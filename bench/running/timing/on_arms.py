@@ -33,7 +33,7 @@ FEWEST_TICKS = 4000
 """A controller that fails sooner is not timed: what a call costs beside its ticks would show."""
 
 SLOW_TICKS = 50
-"""Of dm_control's loop, which takes as long for them as the compiled one for twenty times as many."""
+"""Ticks of dm_control's loop, which takes as long for them as the compiled one for twenty times as many."""
 
 PUSH = 0.02
 """Standard deviation of rollout's torques over the rated ones; the arm also falls, so that all joints turn."""

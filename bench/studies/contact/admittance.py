@@ -23,16 +23,16 @@ SHIPPED = Admittance(MASS, 2.0 * RATIO * math.sqrt(MASS * STIFFNESS), STIFFNESS)
 FORCE_N = 15.0
 LAGS_S = (0.0, 0.003, 0.01, 0.03)
 DOUBLE_POLES = (300.0, 100.0, 30.0)
-"""Of the arm's position loop [1/s]: its lag at low frequencies is 2/w."""
+"""Bandwidth w of the arm's position loop [1/s]: its lag at low frequencies is 2/w."""
 DELAYS_MS = (0, 2, 5, 10, 20)
 TICKS = 20_000
-"""Of a servo's episode: 1 % off the limit an error grows or falls by e^4 and more."""
+"""Length of a servo's episode: 1 % off the limit an error grows or falls by e^4 and more."""
 BISECTIONS = 16
-"""Of the logarithm of the stiffness, over eight decades: to 0.1 %."""
+"""Halvings of the logarithm of the stiffness over eight decades: to 0.1 %."""
 HALVINGS = 9
-"""Of the stiffness of the plane that the arm presses on: to 1 %."""
+"""Halvings of the stiffness of the plane that the arm presses on: to 1 %."""
 HORIZON_S, RAMP_S = 4.0, 1.0
-"""Of the press, and until when the force ordered rises to FORCE_N, so that the tip does not strike."""
+"""Length of the press, and the time until which the force ordered rises to FORCE_N, so that the tip does not strike."""
 CALM_N = 1e-3
 """A force that varies by less no longer varies."""
 

@@ -40,9 +40,9 @@ INERTANCE = 0.02
 SLICK = 1e-5
 """Friction: none, so that nothing but the controller and the spring damps."""
 HALVINGS = 6
-"""Of three decades: to a factor of 1.11."""
+"""Halvings of three decades: to a factor of 1.11."""
 STEADY = 0.05
-"""Of the force ordered, the largest deviation in the last quarter of an episode that has settled."""
+"""Share of the force ordered: the largest deviation in the last quarter of an episode that has settled."""
 
 
 def contact(stiffness: float) -> ContactModel:

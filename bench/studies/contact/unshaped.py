@@ -38,7 +38,7 @@ SCENES = {
     "peg-in-hole": ("", insertion_depth, 1e3),
     "crank": ("", crank_angle, 180.0 / np.pi),
 }
-"""Of each task the trial (the first where none is named), what is done to the scene, and its unit: degrees, mm."""
+"""Task -> its trial (the first where none is named), what is done to the scene, and its unit: degrees, mm."""
 
 
 def controller(damping: str, springs: Stiffness, deeper: np.ndarray, powers: list) -> Torque:

@@ -146,7 +146,7 @@ def keep(tables: dict[str, pd.DataFrame], about: dict[str, dict]) -> None:
 def marked(new: pd.DataFrame, earlier: pd.DataFrame) -> pd.DataFrame:
     """Mark new verdicts with the faults that an earlier version had and this one has not, and that version.
 
-    What was marked for this version stays marked when it is asked again.
+    What was marked for this version stays marked when it runs again.
     """
     before = earlier.set_index(KEY)
     rows = []

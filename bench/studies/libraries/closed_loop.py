@@ -34,8 +34,8 @@ AWAY_RAD = math.radians(1.0)
 NEAR = 0.1
 """An episode ends once the angle has stayed under this share of the band for the judge's hold."""
 SLOPE_AT_RAD = 1e-3
-"""Where stiffness is felt: near enough to the goal that every form is its own slope to 1e-6, and any number has its
-digits; deadbands of 0.005 are wider, and are felt as none."""
+"""Angle at which the stiffness is measured: near enough to the goal that every form is its own slope to 1e-6, and any
+number has its digits; deadbands of 0.005 are wider, and are felt as none."""
 
 
 class Response(NamedTuple):

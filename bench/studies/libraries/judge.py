@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from bench.studies.libraries.turns import Turn, TurnSet
 
 SINGLE_RAD = 4.0 * 2.0**-22
-"""The same as COUNT_RAD for a library of single precision: four units in the last place of pi, 9.5e-7 rad."""
+"""COUNT_RAD for a library of single precision: four units in the last place of pi, 9.5e-7 rad."""
 ZERO_SHARE = 1e-6
 """An answer smaller than this times the angle counts as zero."""
 WRONG_AXIS_RAD = 0.1

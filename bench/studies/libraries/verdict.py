@@ -93,4 +93,4 @@ def of_matrix(R: np.ndarray) -> np.ndarray:
 
 
 REPLACEMENTS = {MATRIX: of_matrix, QUATERNION: of_quaternion}
-"""By what a function takes."""
+"""Makes the replacement, by what a function takes."""

@@ -18,7 +18,7 @@ CHECKED = 12
 """At least so many starts of each law are held against its equation, at even steps through their sequence."""
 
 FOOT_S, TOP_S = 0.3, 3.0
-"""Of the panel, on a logarithmic axis: curves that go to infinity at 180° leave it."""
+"""Limits of the panel, on a logarithmic axis: curves that go to infinity at 180° leave it."""
 
 APART = 0.042
 """Least distance of two labels beside curves, in decades."""

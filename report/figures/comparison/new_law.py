@@ -16,10 +16,10 @@ from report.figures.kit import families, style
 from report.figures.kit.inline import responsive_picture
 
 DRAWN = {law: EQUATIONS[law] for law in ("rotation-matrix", "quaternion-shortest", "rotation-vector", "late-braking")}
-"""Of laws with one spring the first stands for all."""
+"""The first of the laws with one spring stands for all."""
 
 FROM_DEG, SHOWN_S = 175.0, 1.2
-"""Where the responses begin, five degrees from where the sine has no pull at all; and how long they are shown."""
+"""Angle at which the responses begin, five degrees from where the sine has no pull, and how long they are shown."""
 
 
 def peak_gains(equation: Equation) -> tuple[float, float]:

@@ -21,7 +21,7 @@ from tasks.contact_model import STANDARD
 from tasks.contact_rest import HORIZON_S, REST
 
 P_VALUE = 0.05
-"""Of Fisher's exact test, both sides: below it two shares of pegs differ significantly."""
+"""P-value of Fisher's exact test, both sides: below it two shares of pegs differ significantly."""
 PRESSING = ("surface-alignment", "peg-in-hole", "force-on-plane")
 """Tasks in which a force is ordered."""
 

@@ -55,7 +55,7 @@ MEASURES = {
         Measure("held_turn_rad", "turned about held axes", "deg", DEGREES),
     ),
 }
-"""Of each task the two numbers that say how it went, the tasks whose orders free turns first."""
+"""Task -> the two numbers that say how it went, the tasks whose orders free turns first."""
 
 OUTCOMES = Table(
     "Task | Measured | Episodes | Cartesian | Euler Jacobian, level | Euler Jacobian, leaning most | Springs",

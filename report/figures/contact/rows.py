@@ -29,7 +29,7 @@ LOOKS = {
     "impedance-geometric": style.Look("#009e73", "^", style.DASH_DOT),
     "impedance-coordinates/zyx-euler": style.Look("#cc79a7", "D", style.DOTTED),
 }
-"""Of the controllers that are drawn, which tables show first."""
+"""The controllers that are drawn, which tables show first."""
 
 TITLES = {
     "hybrid-base": "Cartesian",

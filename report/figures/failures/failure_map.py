@@ -25,7 +25,7 @@ EXACT_RAD = 1e-13
 COORDINATES = Table("Coordinates | Definition | Where it breaks | Source")
 
 NEAR_RAD = 0.1 + EXACT_RAD
-"""Of a pole: the first decade of the set poles, 0.1 rad with its rounding."""
+"""Distance to a pole: the first decade of the set poles, 0.1 rad with its rounding."""
 
 
 @functools.cache

@@ -13,7 +13,7 @@ from bench.law.contenders.registry import all_contenders
 from report.figures.kit import html, laws
 
 PAGES = "../laws"
-"""Where each law has a page, from a page of the book."""
+"""Folder of the pages of laws, from a page of the book."""
 
 OTHERS = "Others"
 """The family of a law that none names: a user's own, or a new one."""

@@ -35,7 +35,7 @@ BLOCK = re.compile(r"^\s*(?:`{3,}|:{3,})\{glue:?(md|figure|)\}\s+(\S+)", re.MULT
 
 
 class NotInRun(NoEvidence):
-    """The run lacks a table, or every row that is asked for."""
+    """The run lacks a table, or every row with the given words."""
 
 
 class Run:

@@ -21,7 +21,7 @@ from report.figures.kit.tables import Table
 
 LEVELS = (TORQUE, POSITION, VELOCITY)
 WEAK = 0.75
-"""Of the stiffness set: what feels less feels as half, or as a deadband."""
+"""Share of the stiffness set: what feels less feels as half, or as a deadband."""
 HOST = "https://github.com"
 
 MEASURED = Table(

@@ -26,7 +26,7 @@ FIGURES = {
     "response-linearized": ("l", "figure-2.4"),
     "response-feedback": ("f", "figure-2.5"),
 }
-"""Of each figure the letter of its law, and the start."""
+"""Figure -> the letter of its law, and the start."""
 
 
 @functools.cache

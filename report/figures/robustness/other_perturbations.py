@@ -29,7 +29,7 @@ from report.figures.robustness.rows import (
 from tasks.condition import condition_at
 
 TIMED = ("control-rate", "delay", "inertia", "uneven-inertia", "spin")
-"""Those under which laws settle; the others last."""
+"""Perturbations under which laws settle."""
 
 MOVING = ("moving-goal", "moving-goal-rate", "moving-goal-untold")
 

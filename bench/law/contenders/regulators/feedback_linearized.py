@@ -37,7 +37,7 @@ def pd_of_four(at, E_d, Edot, gains):
 
 
 PD = {3: pd_of_three, 4: pd_of_four}
-"""By the number of coordinates: compiled code knows the length of a tuple, not a loop over it."""
+"""The law by the number of coordinates: compiled code knows the length of a tuple, not a loop over it."""
 
 
 def coordinate_law_in(representation):

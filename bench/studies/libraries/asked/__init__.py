@@ -1,4 +1,4 @@
-"""Every library that is asked: a function each imports the library and returns its functions and controllers.
+"""Every library that is tested: a function each imports the library and returns its functions and controllers.
 
 A library that is not installed here is left out, with a line that says why.
 """

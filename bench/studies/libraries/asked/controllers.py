@@ -135,7 +135,7 @@ def pink() -> list[Library]:
 def placo() -> list[Library]:
     """Return the error of PlaCo's OrientationTask, and its kinematics solver as its users run it.
 
-    Its requirements contradict those of the other libraries, so it is asked in an environment of its own.
+    Its requirements contradict those of the other libraries, so it runs in an environment of its own.
     """
     import placo
     from pinocchio import Quaternion
@@ -200,7 +200,7 @@ def robosuite() -> list[Library]:
     """Return the error of robosuite's operational-space controller, in our loop with the gains of OSC_POSE.
 
     As delivered they are kp 150, damping_ratio 1, and control at the simulation's 500 Hz. Its requirements contradict
-    those of the other libraries, so it is asked in an environment of its own.
+    those of the other libraries, so it runs in an environment of its own.
     """
     import robosuite
     from robosuite.utils import transform_utils

@@ -230,7 +230,7 @@ def dm_control() -> list[Library]:
     from absl import logging
     from dm_control.utils import transformations as its
 
-    logging.set_verbosity(logging.ERROR)  # rmat_to_euler warns of every pole it is asked for
+    logging.set_verbosity(logging.ERROR)  # rmat_to_euler warns of every pole that it gets
     thread, fix = "google-deepmind/dm_control#555", "`quat_to_axisangle`"
     functions = (
         Function("quat_to_axisangle", QUATERNION, its.quat_to_axisangle),
