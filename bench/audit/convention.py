@@ -58,7 +58,7 @@ differ from one by the fourth power, 1e-8 and less. Single precision has 6e-8, s
 
 NEAREST_RAD, EVEN = (1e-4, 2e-3), 1e-5
 """Angles at which a form of no name, clipped as short as 0.002 rad, has its slope, if it is one there: to the square
-of the angle, 4e-6, and to what double precision leaves. Single precision, 6e-4 at 1e-4 rad, and dead bands have none."""
+of the angle, 4e-6, and to double precision. Single precision, 6e-4 at 1e-4 rad, and dead bands have none."""
 
 
 class Convention(NamedTuple):
