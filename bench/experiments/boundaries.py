@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from bench.engines.episode import OUTCOME
-from bench.experiments.columns import CONTENDER, CONTENDER_KEY, Column, Table, numbers, words
+from bench.experiments.columns import read_table
 from bench.experiments.episode_rows import contender_columns
 from bench.experiments.episodes import prepare, simulate
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
@@ -28,17 +28,6 @@ BISECTIONS = 10
 
 AXIS_S = 0.02
 """CPU seconds an axis."""
-
-
-def columns() -> list[Column]:
-    """boundaries.parquet: along the geodesic about one axis, where a law first fails."""
-    return [
-        *CONTENDER,
-        *numbers("1", "axis of the initial rotation, base frame", "axis_x", "axis_y", "axis_z"),
-        *numbers("rad", "largest angle of the scan below which every start settled", "settled_to_rad"),
-        *numbers("rad", "first failing angle, bisected; null if none fails", "fails_from_rad"),
-        *words(outcome="how it fails there; empty if it does not"),
-    ]
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
@@ -95,7 +84,7 @@ def _outcomes(settings: Settings, unit: Unit, directions: np.ndarray, angles: np
 EXPERIMENT = Experiment(
     "boundaries",
     "where a law first fails, along geodesics",
-    Table("boundaries", columns, (*CONTENDER_KEY, "axis_x", "axis_y", "axis_z")),
+    read_table(__file__, "boundaries"),
     units,
     rows,
     takes=OF_LAWS,

@@ -1,9 +1,19 @@
-"""What a column and a table are, and the columns that tables of several experiments share."""
+"""What a column and a table are. A table is declared by the TOML file of its name, beside the module that fills it.
+
+    about    the file, a row of it, and what else must be known; results/README.md shows it
+    key      the columns that name a row
+    columns  in order: name = "meaning" of a word, ["unit", "meaning"] of a number, {int64 = "meaning"} of a count,
+             {float = ["unit", "meaning"]} where seven digits are enough; several names, with spaces, share a meaning
+
+CAPITALS stand for columns that tables share (shared.toml), in a key too, or for those that a module adds by that name.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+import tomllib
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from tasks.verdict import CRASHED, OUTCOMES
 
@@ -25,35 +35,17 @@ class Column(NamedTuple):
     meaning: str
 
 
-def words(**meanings: str) -> list[Column]:
-    """Return columns of words."""
-    return [Column(name, WORD, "", meaning) for name, meaning in meanings.items()]
-
-
-def counts(**meanings: str) -> list[Column]:
-    """Return columns of whole numbers."""
-    return [Column(name, COUNT, "1", meaning) for name, meaning in meanings.items()]
-
-
-def singles(**meanings: tuple[str, str]) -> list[Column]:
-    """Return columns of single precision, each from its unit and meaning."""
-    return [Column(name, SINGLE, unit, meaning) for name, (unit, meaning) in meanings.items()]
-
-
-def numbers(unit: str, meaning: str, *names: str) -> list[Column]:
-    """Return columns of numbers with the same unit and meaning."""
-    return [Column(name, NUMBER, unit, meaning) for name in names]
-
-
 class Table(NamedTuple):
     """A table: the file <name>.parquet.
 
     columns() -> its columns, in order; they may depend on what metrics there are. key: the columns that name a row.
+    about: what it is, for results/README.md.
     """
 
     name: str
     columns: Callable[[], list[Column]]
     key: tuple[str, ...]
+    about: str
 
     @property
     def names(self) -> list[str]:
@@ -73,38 +65,41 @@ class Table(NamedTuple):
         return pa.schema(fields, metadata={"orientation-bench table": self.name, "orientation-bench schema": VERSION})
 
 
-CONTENDER = words(
-    regulator="the law",
-    representation="coordinates the law acts on; empty for a law on R",
-    jacobian="Jacobian of the arm; empty for the free body",
-    inverse="how the Jacobian is inverted; empty for the free body",
-)
-CONTENDER_KEY = tuple(one.name for one in CONTENDER)
+def read_columns(declared: dict[str, Any], groups: dict[str, Callable[[], list[Column]]]) -> list[Column]:
+    """Return the columns that a TOML file declares; groups: those that a name in capitals stands for."""
+    found: list[Column] = []
+    for names, said in declared.items():
+        if names in groups:
+            found += groups[names]()
+            continue
+        ((kind, text),) = (
+            said if isinstance(said, dict) else {NUMBER if isinstance(said, list) else WORD: said}
+        ).items()
+        unit, meaning = text if isinstance(text, list) else ("1" if kind == COUNT else "", text)
+        found += [Column(name, kind, unit, meaning) for name in names.split()]
+    return found
+
+
+def read_shared() -> dict[str, list[Column]]:
+    """Return the columns of shared.toml by the name that stands for them."""
+    text = Path(__file__).with_name("shared.toml").read_text(encoding="utf-8")
+    text = text.replace("{outcomes}", ", ".join(OUTCOMES[:CRASHED])).replace("{lost}", " or ".join(OUTCOMES[CRASHED:]))
+    return {name: read_columns(declared, {}) for name, declared in tomllib.loads(text).items()}
+
+
+SHARED = read_shared()
+CONTENDER_KEY = tuple(one.name for one in SHARED["CONTENDER"])
 """The columns that name a contender."""
 
-SUITE = words(suite="plan the row belongs to")
-ARM = words(arm="manipulator; empty for the free body")
-START = words(start_set="family of starts", start_id="start within its family")
-ANGLE0 = numbers("rad", "initial angle to the goal, by the judge", "angle0_rad")
-GAINS = [*numbers("1/s^2", "position gain", "kp"), *numbers("1/s", "velocity gain", "kv")]
-DT = numbers("s", "control period", "dt_s")
-STEPPED_DT = numbers("s", "control period and integration step", "dt_s")
-HORIZON = numbers("s", "longest time simulated", "horizon_s")
-JOINTS = numbers("rad", "joint angles; null where there is no such joint", *(f"q_{i}" for i in range(1, 8)))
-JUDGED = [
-    *words(outcome=f"{', '.join(OUTCOMES[:CRASHED])}; of a user's law also {' or '.join(OUTCOMES[CRASHED:])}"),
-    *numbers("s", "first time after which the angle stays in the band; null if it does not", "settling_time_s"),
-    *numbers("s", "time at which the episode failed; null if it did not", "failure_time_s"),
-    *numbers("rad", "angle to the goal at the end, by the judge", "final_angle_rad"),
-]
-"""How an episode ended."""
-LEVEL = [
-    *words(
-        axis="perturbation: python -m bench list axes",
-        regulator="the law",
-        representation="coordinates the law acts on; empty for a law on R",
-    ),
-    *numbers("the axis's", "how much of it", "level"),
-]
-"""The columns that name a law at a level of a perturbation."""
-LEVEL_KEY = ("axis", "level", "regulator", "representation")
+
+def read_table(file: str, name: str, **more: Callable[[], list[Column]]) -> Table:
+    """Return the table that <name>.toml beside a module's file declares; more: the groups of columns that it adds."""
+    words = tomllib.loads(Path(file).with_name(f"{name}.toml").read_text(encoding="utf-8"))
+    groups = {group: lambda columns=columns: columns for group, columns in SHARED.items()} | more
+    key = [one for word in words["key"] for one in (CONTENDER_KEY if word == "CONTENDER" else (word,))]
+    return Table(name, lambda: read_columns(words["columns"], groups), tuple(key), words["about"])
+
+
+def of_metrics(metrics: Iterable[Any], kind: str = NUMBER) -> list[Column]:
+    """Return a column for each metric."""
+    return [Column(one.column, kind, one.unit, one.title) for one in metrics]

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.experiments.columns import CONTENDER, CONTENDER_KEY, Column, Table, counts, numbers, words
+from bench.experiments.columns import read_table
 from bench.experiments.episode_rows import contender_columns
 from bench.experiments.episodes import prepare
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
@@ -64,23 +64,6 @@ class Finding(NamedTuple):
     quat: np.ndarray | tuple = (math.nan,) * 4
     goal: Quat = IDENTITY
     u: np.ndarray | tuple = (math.nan,) * 3
-
-
-def columns() -> list[Column]:
-    """command-field.parquet: a law as a function of state, a row a finding (bench/experiments/command_field.py)."""
-    return [
-        *CONTENDER,
-        *words(finding="what was looked at, as stiffness", what="what it is; none if there is nothing of it"),
-        *numbers("1", "its size: share of kp or kv; null if there is none", "value"),
-        *numbers("1", "least and most of it, over axes", "least", "most"),
-        *counts(
-            found="in how many states, or on how many geodesics",
-            of="of so many that were looked at",
-        ),
-        *numbers("1", "orientation that shows it, unit quaternion", "quat_w", "quat_x", "quat_y", "quat_z"),
-        *numbers("1", "goal there, unit quaternion", "goal_quat_w", "goal_quat_x", "goal_quat_y", "goal_quat_z"),
-        *numbers("rad/s^2", "command there, at rest, base frame", "u_x", "u_y", "u_z"),
-    ]
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
@@ -225,7 +208,7 @@ def _along_geodesics(field: Field) -> Iterator[Finding]:
 EXPERIMENT = Experiment(
     NAME,
     "commands over all states",
-    Table(NAME, columns, (*CONTENDER_KEY, "finding")),
+    read_table(__file__, NAME),
     units,
     rows,
     cost_s=lambda unit: LAW_S,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import tasks
-from bench.experiments.columns import GAINS, STEPPED_DT, Column, Table, counts, numbers, words
+from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.contenders.registry import contenders, papers_laws
 from bench.law.kinds import Law
@@ -25,25 +25,6 @@ HORIZON_S = 8.0
 """[s]. The slowest of the starts, 2 degrees short of 180, is settled by half of it."""
 LEVEL_S = 0.12
 """CPU seconds a level."""
-
-
-def columns() -> list[Column]:
-    """compensators.parquet: laws with a state of their own (bench/law/contenders/compensators), by disturbance.
-
-    Beside them the paper's law on R, whose spring they have. The free body starts at rest all over SO(3).
-    """
-    return [
-        *words(law="the law", reads_rate="whether it reads the angular velocity: yes or no"),
-        *numbers("rad/s^2", "constant disturbance of the angular acceleration, base frame", "disturbance"),
-        *GAINS,
-        *STEPPED_DT,
-        *numbers("s", "time simulated", "horizon_s"),
-        *counts(starts="episodes", settled="of them, those within 1° at the end"),
-        *numbers("s", "median of their times after which the angle stays within 1°; null of none", "settling_median_s"),
-        *numbers("s", "greatest of them", "settling_worst_s"),
-        *numbers("rad", "greatest angle at the end", "left_rad"),
-        *numbers("rad/s^2", "greatest command", "peak_u"),
-    ]
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
@@ -105,7 +86,7 @@ def prepare(settings: Settings, unit: Unit) -> None:
 EXPERIMENT = Experiment(
     NAME,
     "laws with a state of their own",
-    Table(NAME, columns, ("law", "disturbance")),
+    read_table(__file__, NAME),
     units,
     rows,
     cost_s=lambda unit: LEVEL_S * len(DISTURBANCES),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import tasks
 from bench.base.errors import BadLaw
 from bench.experiments import arm, free_body
-from bench.experiments.columns import CONTENDER, CONTENDER_KEY, Column, Table, counts, words
+from bench.experiments.columns import COUNT, Column, read_table
 from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.kept_rows import kept
 from bench.experiments.traces import laws
@@ -19,17 +19,11 @@ BEYOND = "reference"
 """The engine of a unit whose law may be beyond what can be counted, for this engine alone runs it."""
 
 
-def columns() -> list[Column]:
-    """costs.parquet: operations a tick, by stage and branch."""
+def operations() -> list[Column]:
+    """Return a column for each operation that is counted."""
     from bench.engines.counting import OPERATIONS
 
-    return [
-        *CONTENDER,
-        *counts(joints="joints of the arm; 0 on the free body, where a law is all there is"),
-        *words(branch="typical or worst", stage="part of the tick, or total"),
-        *counts(**{name: f"{name} operations a tick" for name in OPERATIONS}),
-        *counts(flops="add + mul + div + sqrt; transcendental functions apart"),
-    ]
+    return [Column(name, COUNT, "1", f"{name} operations a tick") for name in OPERATIONS]
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
@@ -76,7 +70,7 @@ def count_operations(one: Contender, joints: int = 0) -> list[dict]:
 EXPERIMENT = Experiment(
     "costs",
     "operations a tick",
-    Table("costs", columns, (*CONTENDER_KEY, "joints", "branch", "stage")),
+    read_table(__file__, "costs", OPERATIONS=operations),
     units,
     rows,
     takes=ON_ARMS,

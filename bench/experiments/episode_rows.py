@@ -22,23 +22,7 @@ from bench.engines.episode import (
 )
 from bench.engines.metrics.metric import Ending, Metric
 from bench.engines.metrics.registry import known_metrics, metrics_of
-from bench.experiments.columns import (
-    ANGLE0,
-    CONTENDER,
-    CONTENDER_KEY,
-    GAINS,
-    HORIZON,
-    JUDGED,
-    NUMBER,
-    START,
-    STEPPED_DT,
-    SUITE,
-    Column,
-    Table,
-    counts,
-    numbers,
-    words,
-)
+from bench.experiments.columns import CONTENDER_KEY, of_metrics, read_table
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.rounding import BESIDE, CHANGE
 from bench.law.contender import Contender
@@ -56,63 +40,7 @@ if TYPE_CHECKING:
 INTEGRATORS = {"ideal-rk4": "rk4", "ideal-held": "magnus4"}
 
 
-def columns() -> list[Column]:
-    """episodes.parquet: one row an episode; every metric found adds its column."""
-    return [
-        *SUITE,
-        *words(
-            task="plant and goal",
-            arm="manipulator; empty for the free body",
-            variation="how the plant differs from the controller's model of it; nominal if it does not",
-        ),
-        *CONTENDER,
-        *words(engine="what simulated the episode"),
-        *START,
-        *numbers("1", "initial orientation, body to base, unit quaternion", "quat_w", "quat_x", "quat_y", "quat_z"),
-        *numbers("rad", "Z-Y-X Euler angles of the initial orientation", "alpha0", "beta0", "gamma0"),
-        *ANGLE0,
-        *numbers("rad/s", "initial angular velocity, base frame", "omega0_x", "omega0_y", "omega0_z"),
-        *numbers("1", "goal orientation, unit quaternion", "goal_quat_w", "goal_quat_x", "goal_quat_y", "goal_quat_z"),
-        *GAINS,
-        *STEPPED_DT,
-        *words(integrator="how the plant is integrated"),
-        *numbers("s", "shortest step of integration", "step_s"),
-        *words(
-            converged="on ideal-rk4 yes or no: whether half the step changes no outcome and moves no settling time by "
-            "more than a control period; empty on others"
-        ),
-        *HORIZON,
-        *numbers("1", "settling band over initial angle", "tolerance"),
-        *numbers(
-            "s",
-            "time at rest required to count as settled; an early stop takes as long within 1 % of the band",
-            "hold_s",
-        ),
-        *JUDGED,
-        *(Column(one.column, NUMBER, one.unit, one.title) for one in known_metrics().values()),
-        *numbers(
-            "1",
-            "largest condition number of the tool's Jacobian (SI units), looked at every 8 ticks, by the judge",
-            "cond_jacobian_max",
-        ),
-        *words(
-            cause="what a failed episode on an arm was near: representation, kinematic, both, torque or law",
-            outcome_beside="on an arm, the other outcome of the same start with its joints turned by 1e-12 rad: "
-            "rounding decides; empty if there is none",
-        ),
-        *numbers(
-            "1",
-            "largest relative change of this row's numbers by those 1e-12 rad; null if the episode came near no "
-            "singularity and no hundredfold rated torque",
-            "rounding_change",
-        ),
-        *counts(ticks="control periods simulated"),
-    ]
-
-
-TABLE = Table(
-    "episodes", columns, ("suite", "task", "arm", "variation", *CONTENDER_KEY, "engine", "start_set", "start_id")
-)
+TABLE = read_table(__file__, "episodes", METRICS=lambda: of_metrics(known_metrics().values()))
 """The table of `free_body` and `arm`."""
 
 

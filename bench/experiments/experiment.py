@@ -1,7 +1,7 @@
 """What an experiment is, and the units of work that it is made of.
 
-An experiment is one file of this folder with a constant EXPERIMENT: `columns` says what its table holds, `units` plans
-the work, `rows` does a unit of it in whatever process. The rows of all units, in their order, are the table.
+An experiment is one file of this folder with a constant EXPERIMENT, and the TOML file of its table (`columns`): `units`
+plans the work, `rows` does a unit of it in whatever process. The rows of all units, in their order, are the table.
 
 Limitations: an experiment that imports a compiled engine, scipy or pandas outside its functions makes every plan, and
 `list`, wait for it.
@@ -148,9 +148,8 @@ Rows: TypeAlias = "pd.DataFrame | list[dict] | dict[str, Any]"
 class Experiment(NamedTuple):
     """The constant EXPERIMENT of a file: what there is to do, and what comes of it.
 
-    name: the file's, with dashes. table: its name, `columns` and the key of a row; the docstring of `columns` describes
-    it in results/README.md. units(asked) -> units, in the order of the table's rows. rows(settings, unit) -> what
-    `pandas.DataFrame` takes. cost_s(unit) -> seconds it usually takes.
+    name: the file's, with dashes. table: its columns and the key of a row (`columns.read_table`). units(asked): in the
+    order of the rows. rows(settings, unit) -> what `pandas.DataFrame` takes. cost_s(unit) -> seconds it usually takes.
 
     prepare(settings, unit): compile, import and build what its rows need, for all processes that are forked then.
     lost(settings, unit, outcome) -> what is left of a unit whose law crashed or hung. ticks(settings, unit) -> control

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from bench.experiments.chosen_words import STREAMED
-from bench.experiments.columns import Column, Table, numbers, words
+from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.contenders.registry import contenders, find_contender
 from tasks.goal_stream import LENGTH_S, STREAMS, goals, true_goal
@@ -18,21 +18,6 @@ NAME = "goal-streams"
 
 SIGNED = "quaternion,"
 """Streams that arrive so are also run by the spring on the quaternion as it came."""
-
-
-def columns() -> list[Column]:
-    """goal-streams.parquet: goals that arrive as a stream (tasks/goal_stream.py), a row a stream and law."""
-    return [
-        *words(
-            stream="how goals are sent and filled in",
-            law="the law; empty: 2 K_p vec(q_d q*) - K_v omega, the spring on the quaternion as it came",
-        ),
-        *numbers("1", "greatest rate of the goal as filled in, over the true goal's", "goal_rate_ratio"),
-        *numbers("1", "way that the goal as filled in turns, over the true goal's", "goal_way_ratio"),
-        *numbers("rad/s^2", "greatest command", "peak_u"),
-        *numbers("rad", "greatest angle of the body to the true goal", "off_rad"),
-        *numbers("1", "way that the body turns, over the true goal's", "way_ratio"),
-    ]
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
@@ -67,7 +52,7 @@ def compute_steps(q: np.ndarray) -> np.ndarray:
 EXPERIMENT = Experiment(
     NAME,
     "goals that arrive as a stream",
-    Table(NAME, columns, ("stream", "law")),
+    read_table(__file__, NAME),
     units,
     rows,
     cost_s=lambda unit: 1.0,

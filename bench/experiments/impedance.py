@@ -12,7 +12,7 @@ import numpy as np
 
 from bench.engines.episode import FINAL_ANGLE
 from bench.experiments import arm, starts
-from bench.experiments.columns import ANGLE0, DT, HORIZON, JUDGED, SUITE, Column, Table, numbers, singles, words
+from bench.experiments.columns import read_table
 from bench.experiments.episode_rows import episode_columns
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.suites import BY_EVERY_INVERSE, ON_ARM
@@ -50,44 +50,6 @@ UNBOUNDED = ("overshoot", "off_m", "strain", "left_j", "damped_j", "elbow_j", "a
 
 EPISODE_S = 0.02
 """CPU seconds an episode of five seconds at most, median."""
-
-WHAT = [
-    *words(arm="manipulator", damping="design of the damping"),
-    *numbers("N/m", "stiffness of translation", "stiffness_n_m"),
-    *numbers("N m/rad", "stiffness of turns, that of the error vector 1 rad long", "stiffness_nm_rad"),
-    *numbers("1", "damping ratio that is asked for", "zeta"),
-]
-
-
-def columns() -> list[Column]:
-    """impedance.parquet: tau = J^T (K e - D v) + g in free motion, from rest, and where its energy goes; an episode.
-
-    stored_j = left_j + damped_j + elbow_j - added_j + unaccounted: the integrator's, of the order of the tick.
-    """
-    return [
-        *SUITE,
-        *WHAT,
-        *words(
-            compensated="gravity, or bias: gravity, Coriolis torques and friction",
-            law="whose command at rest, over kp, is the error of orientation",
-            start_set="family of starts, all at rest",
-            start_id="start within its family",
-        ),
-        *ANGLE0,
-        *DT,
-        *HORIZON,
-        *JUDGED,
-        *singles(
-            overshoot=("1", "greatest error against the first one's direction, over the first one"),
-            off_m=("m", "greatest distance of the tool from its place"),
-            strain=("1", "greatest torque of a joint over its rated one"),
-            stored_j=("J", "potential energy of the springs at the start"),
-            left_j=("J", "potential and kinetic energy at the end"),
-            damped_j=("J", "energy taken by the damping of the hand"),
-            elbow_j=("J", "energy taken by the damping of the null space; 0 on six joints"),
-            added_j=("J", "work of what is compensated beside gravity; negative of friction that is not"),
-        ),
-    ]
 
 
 def units_on_arms(asked: Asked, name: str, **more: Any) -> tuple[Unit, ...]:
@@ -140,7 +102,7 @@ def _rows(settings: Settings, unit: Unit, stiffness: Stiffness, whole: int) -> d
 
 
 def setting_columns(unit: Unit, stiffness: Stiffness) -> dict:
-    """Return the values of the columns WHAT."""
+    """Return the values of the columns DESIGN."""
     return {
         "arm": unit.arm,
         "damping": unit.selector,
@@ -165,7 +127,7 @@ def prepare(settings: Settings, unit: Unit) -> None:
 EXPERIMENT = Experiment(
     NAME,
     "impedance without inertia shaping, in free motion",
-    Table(NAME, columns, ("suite", *KEY, "compensated", "start_set", "start_id")),
+    read_table(__file__, NAME),
     units,
     rows,
     takes=("tasks", "arms"),

@@ -12,19 +12,9 @@ from __future__ import annotations
 import numpy as np
 
 import tasks
-from bench.experiments.columns import DT, Column, Table, counts, numbers
+from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
-from bench.experiments.impedance import (
-    KEY,
-    LAW,
-    STIFFNESSES,
-    WHAT,
-    ZETA,
-    Stiffness,
-    prepare,
-    setting_columns,
-    units_on_arms,
-)
+from bench.experiments.impedance import LAW, STIFFNESSES, ZETA, Stiffness, prepare, setting_columns, units_on_arms
 from bench.law.contenders.registry import find_contender
 from bench.law.control.unshaped import DAMPINGS
 
@@ -35,22 +25,6 @@ STEP = 1e-4
 
 DESIGN_S = 0.01
 """CPU seconds a design of damping on an arm."""
-
-
-def columns() -> list[Column]:
-    """impedance-modes.parquet: modes about the goal, from one tick of the loop, differentiated at the arm's home.
-
-    What theory says of it: bench/findings/theory/impedance_modes.py.
-    """
-    return [
-        *WHAT,
-        *DT,
-        *counts(mode="place by frequency, from 1"),
-        *numbers("1/s", "natural frequency", "omega"),
-        *numbers("1", "damping ratio felt: of the mode's damping to its critical one", "ratio"),
-        *numbers("1/s", "slowest decay of all modes' errors; negative if one grows", "decay"),
-        *numbers("1", "greatest eigenvalue of the tick's map, as it is sampled; 1 and above is unstable", "radius"),
-    ]
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
@@ -109,7 +83,7 @@ def compute_tick_map(P: np.ndarray, Q: np.ndarray, dt: float) -> np.ndarray:
 EXPERIMENT = Experiment(
     NAME,
     "modes of impedance without inertia shaping",
-    Table(NAME, columns, (*KEY, "mode")),
+    read_table(__file__, NAME),
     units,
     rows,
     takes=("tasks", "arms"),

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bench.engines.episode import OUTCOME, SETTLING_TICK, START_WIDTH, STEP
-from bench.experiments.columns import CONTENDER, CONTENDER_KEY, COUNT, Column, Table, counts, numbers, words
+from bench.experiments.columns import CONTENDER_KEY, read_table
 from bench.experiments.episode_rows import contender_columns
 from bench.experiments.experiment import Experiment, Settings, Unit
 from bench.experiments.plan import Plan
@@ -49,34 +49,6 @@ CELL, SLOWEST, LOST = "cell", "slowest", "lost"
 PLACE = ["ring_deg", "band", "azimuth"]
 STATE = [*(f"quat_{part}" for part in "wxyz"), *(f"omega0_{axis}" for axis in "xyz")]
 LAW = [*CONTENDER_KEY, "engine", "seed", "least_speed", "most_speed"]
-
-
-def columns() -> list[Column]:
-    """map.parquet: millions of random starts of a law, counted in cells of SO(3) (`python -m bench map`).
-
-    A row a cell; one for the slowest start of each ring of 5 degrees; one for each start that is lost or does not
-    converge, the first thousand of a law and speed. Starts are numbers of a sequence that the seed names.
-    """
-    return [
-        *CONTENDER,
-        *words(engine="what simulated the episodes"),
-        *counts(seed="of the starts"),
-        *numbers("rad/s", "initial speeds are uniform between these two", "least_speed", "most_speed"),
-        *words(row="cell, slowest or lost"),
-        Column("ring_deg", COUNT, "deg", "initial angle to the goal: from this to 5 degrees more"),
-        *counts(band="z of the axis of the initial turn: 0 to 7, eighths of [-1, 1]"),
-        *counts(azimuth="its azimuth: 0 to 15, sixteenths of [-pi, pi]"),
-        *counts(start="number of the start; -1 for a cell"),
-        *counts(starts="how many"),
-        *counts(settled="how many of them converged and settled"),
-        *counts(unconverged="how many did not converge; the others are lost"),
-        *numbers("s", "largest settling time of those that settled; null if none did", "settling_time_s"),
-        *words(outcome="of a start; empty for a cell"),
-        *numbers(
-            "1", "orientation of the start, unit quaternion; null for a cell", *(f"quat_{part}" for part in "wxyz")
-        ),
-        *numbers("rad/s", "its angular velocity, base frame; null for a cell", *(f"omega0_{axis}" for axis in "xyz")),
-    ]
 
 
 def plan_of(
@@ -214,7 +186,7 @@ def prepare(settings: Settings, unit: Unit) -> None:
 EXPERIMENT = Experiment(
     "map",
     "laws from millions of random starts",
-    Table("map", columns, (*LAW, "row", *PLACE, "start")),
+    read_table(__file__, "map"),
     units=lambda asked: (),
     rows=rows,
     cost_s=lambda unit: unit.count * START_S,

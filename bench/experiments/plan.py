@@ -9,15 +9,7 @@ from dataclasses import dataclass
 import tasks
 from bench.base.errors import Incompatible
 from bench.base.provenance import source_digest
-from bench.experiments.choice import (
-    EVERYTHING,
-    IN_CONTACT,
-    INTEGRATORS,
-    WITHOUT,
-    Choice,
-    check_numbers,
-    check_word,
-)
+from bench.experiments.choice import EVERYTHING, IN_CONTACT, INTEGRATORS, WITHOUT, Choice, check_numbers, check_word
 from bench.experiments.columns import Table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit, known_experiments, known_tables
 from bench.experiments.suites import suite

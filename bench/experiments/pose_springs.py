@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.experiments.columns import Column, Table, counts, numbers, words
+from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.springs import LOOPS, POINTS, WIDTH, closed_path, draw_stiffness, right_jacobian
 from bench.law.contenders.registry import contenders
@@ -32,24 +32,6 @@ STEP, STEPS = 0.1, 80
 ALIKE = np.eye(3)
 
 SPRINGS = tuple(spring for spring in contenders("springs").values() if not spring.is_rotational)
-
-
-def columns() -> list[Column]:
-    """pose-springs.parquet: springs of position and orientation (bench/law/contenders/springs), a row a spring.
-
-    K is symmetric with eigenvalues 30, 10 and 3 N/m along drawn axes, kr is 10 N m/rad; ways are of velocity commands
-    with K = I and kr = 1, from uniform orientations, half a metre from the goal.
-    """
-    return [
-        *words(spring="the spring", potential="whether it has a potential: yes or no"),
-        *numbers("1", "largest work over a closed way, over what is stored where it is furthest", "work_share"),
-        *numbers("1", "the same with K = 10 I", "work_share_isotropic"),
-        *counts(starts="starts of the ways"),
-        *numbers("1", "way of the hand's origin over the straight one: median and most", "way_median", "way_most"),
-        *numbers(
-            "m", "distance of two ways of one point of the hand at most, the origin drawn 0.2 m elsewhere", "apart_m"
-        ),
-    ]
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
@@ -156,7 +138,7 @@ def apart(spring: Spring, turn: Rotation, p: np.ndarray, off: np.ndarray) -> flo
 EXPERIMENT = Experiment(
     NAME,
     "springs of position and orientation",
-    Table(NAME, columns, ("spring",)),
+    read_table(__file__, NAME),
     units,
     rows,
     cost_s=lambda unit: 3.0,

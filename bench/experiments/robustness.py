@@ -14,20 +14,7 @@ from bench.engines.episode import Settings as Limits
 from bench.engines.episode import blank
 from bench.engines.metrics.registry import metrics_of
 from bench.experiments.choice import Choice
-from bench.experiments.columns import (
-    ANGLE0,
-    DT,
-    GAINS,
-    HORIZON,
-    JUDGED,
-    LEVEL,
-    LEVEL_KEY,
-    SUITE,
-    Column,
-    Table,
-    singles,
-    words,
-)
+from bench.experiments.columns import SINGLE, of_metrics, read_table
 from bench.experiments.episode_rows import episode_columns, lost_numbers, measured_columns
 from bench.experiments.equal_peak import gains_at
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit
@@ -48,30 +35,6 @@ SHORTEST_S = 1e-4
 
 EPISODE_S = 6e-4
 """CPU seconds an episode, see `free_body`."""
-
-
-def columns() -> list[Column]:
-    """robustness.parquet: the perturbed free body, an episode a row; starts and noise are the same for every law.
-
-    The plant moves between commands, which are held; every metric of the free body adds its column, over the plant's
-    steps. Of an episode that ended early, what is left in its tail is the final angle.
-    """
-    return [
-        *SUITE,
-        *LEVEL,
-        *words(start_id="start; the axes' starts are their own"),
-        *ANGLE0,
-        *GAINS,
-        *DT,
-        *HORIZON,
-        *JUDGED,
-        *singles(**{one.column: (one.unit, one.title) for one in metrics_of(on_arm=False)}),
-        *singles(
-            tail_rms_rad=("rad", "root of the mean squared angle to the goal over the last second"),
-            tail_max_rad=("rad", "largest angle to the goal in the last second"),
-            variation=("rad/s^2", "variation of the command: sum of |u - u before| over control periods"),
-        ),
-    ]
 
 
 @functools.lru_cache(maxsize=8)
@@ -198,7 +161,7 @@ def prepare(settings: Settings, unit: Unit) -> None:
 EXPERIMENT = Experiment(
     "robustness",
     "laws on the free body under perturbations",
-    Table("robustness", columns, ("suite", *LEVEL_KEY, "start_id")),
+    read_table(__file__, "robustness", METRICS=lambda: of_metrics(metrics_of(on_arm=False), SINGLE)),
     units,
     rows,
     takes=(*OF_LAWS, "axes"),

@@ -19,7 +19,7 @@ from bench.engines.episode import OUTCOME, SETTLING_TICK, blank, start_rows
 from bench.engines.episode import numbers as numbers_of
 from bench.engines.metrics.registry import metrics_of
 from bench.experiments.chosen_words import BEST
-from bench.experiments.columns import Column, Table, counts, numbers, words
+from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.field import ENGINE, ZERO, Field, about, size
 from bench.experiments.suites import LONG
@@ -58,47 +58,6 @@ AWAY_RAD = math.radians(1.0)
 """Tolerance: a spring along the shorter rotation increases the angle of a body at rest by less."""
 SAMPLE_S = 0.02
 HAVERSINE = NUMBERS.index("haversine")
-
-
-def columns() -> list[Column]:
-    """shipped.parquet: controllers as they are shipped, and laws of ours at the same gains (contenders/shipped).
-
-    A row a controller, and one more for each law of ours in its place, with the same two gains. Of velocity commands
-    what is a function of the orientation alone.
-    """
-    times = {f"settling_{name}_s": f"{name.replace('_', '.')}°" for name in SETTLING_DEG}
-    return [
-        *words(
-            shipped="the controller whose gains they are",
-            law="empty: the controller as shipped; else the law of ours in its place",
-            level="what is commanded: torque, velocity or position",
-            shapes_inertia="whether unit inertia is felt whatever the body's: yes or no",
-        ),
-        *numbers("1/s^2", "stiffness as set, of unit inertia; of a velocity command 1/tick", "kp"),
-        *numbers("1/s", "damping as set, of unit inertia; null of a velocity command", "kv"),
-        *numbers("1", "command along a base axis over stiffness set times angle, the least of three", *FELT_RAD),
-        *numbers("1", "damping ratio felt at 50 mrad of a body of unit inertia; null of a velocity", "damping_ratio"),
-        *numbers("kg m^2", "inertia that is critically damped at 50 mrad; null where inertia is shaped", "critical"),
-        *numbers(
-            "rad",
-            "largest angle between command and axis at so many degrees, over directions; null where all rest",
-            *(f"bent_{angle}_rad" for angle in BENT_DEG),
-        ),
-        *counts(half_turns="exact 180° rotations that were looked at"),
-        *counts(dead="of them, those at which it rests for ever"),
-        *counts(starts="episodes, from both signs of the quaternion; 0 of a velocity"),
-        *counts(lost="of them, those that never settle"),
-        *counts(away="of them, those that turn away from the goal by more than 1°: that unwind"),
-        *(
-            one
-            for name, angle in times.items()
-            for one in numbers("s", f"settling time of the slowest start at {angle}; null if one is lost", name)
-        ),
-        *numbers("s", "likewise at 1e-6 rad before 180°", "settling_near_180_s"),
-        *words(
-            findings="what the audit says of its error, faults and notes, with commas between; empty of laws of ours"
-        ),
-    ]
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
@@ -202,7 +161,7 @@ def motion(contender: Contender, memories: tuple, settings: Settings, horizon_s:
 EXPERIMENT = Experiment(
     NAME,
     "controllers as they are shipped",
-    Table(NAME, columns, ("shipped", "law")),
+    read_table(__file__, NAME),
     units,
     rows,
     cost_s=lambda unit: CONTROLLER_S,

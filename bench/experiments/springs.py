@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.experiments.columns import Column, Table, counts, numbers, words
+from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.contenders.registry import contenders
 from tasks.rotations import columns as columns_of
@@ -38,32 +38,6 @@ Moment = Callable[[np.ndarray], np.ndarray]
 ROTATIONAL = tuple(spring for spring in contenders("springs").values() if spring.is_rotational)
 ORIGIN, NO_STIFFNESS = (0.0, 0.0, 0.0), ((0.0, 0.0, 0.0),) * 3
 """Place and stiffness of position, which a rotational spring ignores."""
-
-
-def columns() -> list[Column]:
-    """springs.parquet: rotational springs with a stiffness matrix (contenders/springs), a row a spring and frame.
-
-    K is symmetric with eigenvalues 30, 10 and 3 N m/rad along drawn axes.
-    """
-    return [
-        *words(
-            spring="the spring",
-            frame="in whose axes its three numbers are taken for a moment: tool or goal",
-            potential="whether it has a potential: yes or no",
-        ),
-        *numbers("1", "stiffness at the goal over that of K, least and most over K's axes", "felt_least", "felt_most"),
-        *numbers(
-            "1",
-            "largest work over a closed way, over what the greatest stiffness stores at the way's furthest angle",
-            "work_share",
-        ),
-        *numbers("1", "the same with K = 10 I", "work_share_isotropic"),
-        *counts(
-            loops="closed ways that were gone",
-            vanishes="of three, 180° rotations about K's axes at which it vanishes",
-        ),
-        *numbers("1", "largest change of the energy over a damped motion, over that at its start", "balance_share"),
-    ]
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
@@ -203,7 +177,7 @@ def compute_energy_error(spring: Spring, moment: Moment, K: np.ndarray) -> float
 EXPERIMENT = Experiment(
     NAME,
     "rotational springs with a stiffness matrix",
-    Table(NAME, columns, ("spring", "frame")),
+    read_table(__file__, NAME),
     units,
     rows,
     cost_s=lambda unit: 1.0,

@@ -13,18 +13,7 @@ import numpy as np
 import tasks
 from bench.engines.curve import ARM_NUMBERS, NUMBERS, blank_curves
 from bench.experiments import free_body
-from bench.experiments.columns import (
-    ARM,
-    CONTENDER,
-    CONTENDER_KEY,
-    JOINTS,
-    JUDGED,
-    START,
-    Column,
-    Table,
-    numbers,
-    words,
-)
+from bench.experiments.columns import SHARED, Column, read_table
 from bench.experiments.episode_rows import contender_columns, judged_columns
 from bench.experiments.episodes import prepare, simulate
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
@@ -46,26 +35,12 @@ CURVE_S = 0.05
 """CPU seconds a curve; most of it goes into its rows."""
 
 
-def columns() -> list[Column]:
-    """traces.parquet: an episode every few ticks."""
-    return [
-        *words(task="plant and goal"),
-        *ARM,
-        *CONTENDER,
-        *words(engine="what simulated the episode"),
-        *START,
-        *numbers("s", "time", "time_s"),
-        *numbers("1", "columns of R = [n o a], base frame", *(f"{c}_{x}" for c in "noa" for x in "xyz")),
-        *numbers("rad/s", "angular velocity, base frame", "omega_x", "omega_y", "omega_z"),
-        *numbers("rad/s^2", "command, base frame", "u_x", "u_y", "u_z"),
-        *numbers("rad", "angle to the goal", "angle_rad"),
-        *numbers("m", "distance of the tool from its place; null on the free body", "position_error_m"),
-        *JOINTS,
-        *(one._replace(meaning=f"of the episode: {one.meaning}; none on an arm") for one in JUDGED),
-    ]
+def endings() -> list[Column]:
+    """Return the columns that say how the episode of a curve ended."""
+    return [one._replace(meaning=f"of the episode: {one.meaning}; none on an arm") for one in SHARED["JUDGED"]]
 
 
-TABLE = Table("traces", columns, ("task", "arm", *CONTENDER_KEY, "engine", "start_set", "start_id", "time_s"))
+TABLE = read_table(__file__, "traces", ENDING=endings)
 
 
 def laws(asked: Asked) -> list[Contender]:

@@ -17,21 +17,7 @@ import numpy as np
 import tasks
 from bench.engines.episode import FINAL_ANGLE, OUTCOME
 from bench.experiments import arm, starts
-from bench.experiments.columns import (
-    ANGLE0,
-    ARM,
-    CONTENDER,
-    CONTENDER_KEY,
-    DT,
-    HORIZON,
-    JUDGED,
-    SUITE,
-    Column,
-    Table,
-    numbers,
-    singles,
-    words,
-)
+from bench.experiments.columns import read_table
 from bench.experiments.episode_rows import contender_columns, episode_columns
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.limiters import LIMITERS, NONE
@@ -59,8 +45,6 @@ BESIDE_RAD = 1e-12
 
 PLACED = ("share", "limiter", "lag_s", "start_set")
 
-SHARE = numbers("1", "of K that is used: 0.5 writes the quaternion's vector part where the law has twice it", "share")
-
 
 class Part(NamedTuple):
     """Starts of a unit that are run alike."""
@@ -70,39 +54,6 @@ class Part(NamedTuple):
     limiter: str = NONE
     share: float = 1.0
     lag_s: float = 0.0
-
-
-def columns() -> list[Column]:
-    """velocity.parquet: first-order laws omega = K f(R, R_d), f a law's command at rest over kp; a row an episode."""
-    seen: dict[str, tuple[str, str]] = {
-        "path_ratio": ("1", "way turned over the initial angle"),
-        "furthest_rad": ("rad", "greatest angle to the goal"),
-        "bent_rad": ("rad", "greatest angle by which the limiter turned a command off its direction"),
-        "peak_omega": ("rad/s", "greatest angular velocity commanded, as limited"),
-        "peak_rate": ("rad/s", "greatest length of the vector of joint rates commanded; null on the free body"),
-        "off_m": ("m", "greatest distance of the tool from its place; null on the free body"),
-        "rounding_change": (
-            "1",
-            "on arms, largest relative change of this row's numbers when its joints start 1e-12 rad further; null on "
-            "the free body",
-        ),
-    }
-    return [
-        *SUITE,
-        *ARM,
-        *CONTENDER,
-        *SHARE,
-        *words(limiter="what stands between the law and the robot"),
-        *numbers("s", "time constant of the joints' servos; 0 of servos that follow at once", "lag_s"),
-        *words(start_set="family of starts, all at rest", start_id="start within its family"),
-        *ANGLE0,
-        *numbers("1/s", "gain of the law, share left out", "gain"),
-        *DT,
-        *HORIZON,
-        *JUDGED,
-        *singles(**seen),
-        *words(outcome_beside="on arms, the other outcome 1e-12 rad beside: rounding decides; empty if there is none"),
-    ]
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
@@ -228,7 +179,7 @@ def prepare(settings: Settings, unit: Unit) -> None:
 EXPERIMENT = Experiment(
     NAME,
     "first-order laws: robots commanded in velocity",
-    Table(NAME, columns, ("suite", "arm", *CONTENDER_KEY, *PLACED, "start_id")),
+    read_table(__file__, NAME),
     units,
     rows,
     takes=(*OF_LAWS, "arms"),

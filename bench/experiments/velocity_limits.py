@@ -20,12 +20,11 @@ import numpy as np
 import tasks
 from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, NEVER
 from bench.experiments import arm, velocity
-from bench.experiments.columns import ARM, CONTENDER, CONTENDER_KEY, Column, Table, numbers, words
+from bench.experiments.columns import read_table
 from bench.experiments.episode_rows import contender_columns
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.limiters import pass_all
 from bench.experiments.suites import BY_EVERY_INVERSE, WITHOUT_FACTOR
-from bench.experiments.velocity import SHARE
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import find_contender
 from tasks.base import Start
@@ -50,24 +49,6 @@ LAG_TICKS = (0.0, 0.25, 1.0, 4.0)
 
 DT_S = 0.1
 """The control period has no effect on K dt; with this one commands keep far from the judge's limit of speed."""
-
-
-def columns() -> list[Column]:
-    """velocity-limits.parquet: the largest K dt at which a first-order law is stable, bisected.
-
-    What theory says of it: bench/findings/theory/velocity_limits.py.
-    """
-    return [
-        *ARM,
-        *CONTENDER,
-        *SHARE,
-        *words(
-            reach="near: errors of 1e-3 rad die out; far: no tick takes any start further away than it was, from 1e-3 "
-            "rad to 1e-3 rad short of 180 degrees"
-        ),
-        *numbers("1", "time constant of the servos over the control period", "lag_ticks"),
-        *numbers("1", "largest K dt, bisected", "k_dt"),
-    ]
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
@@ -167,7 +148,7 @@ def bisect(holds: Callable[[float], bool]) -> float:
 EXPERIMENT = Experiment(
     NAME,
     "the largest K dt of first-order laws",
-    Table(NAME, columns, ("arm", *CONTENDER_KEY, "share", "reach", "lag_ticks")),
+    read_table(__file__, NAME),
     units,
     rows,
     takes=(*OF_LAWS, "arms"),

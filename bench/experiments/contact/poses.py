@@ -13,7 +13,7 @@ import numpy as np
 from bench.engines.metrics.contact_metric import Pose, response
 from bench.engines.metrics.measured_compliance import compliance
 from bench.engines.metrics.registry import known_contact_metrics
-from bench.experiments.columns import GAINS, NUMBER, STEPPED_DT, SUITE, Column, Table, counts, numbers, words
+from bench.experiments.columns import of_metrics, read_table
 from bench.law.contenders.representations.zyx_euler import chart
 from bench.law.control.contact_controller import ContactController
 from bench.law.so3 import from_quaternion
@@ -33,44 +33,7 @@ AT_REST, CREEPING = "at-rest", "creeping"
 MEASURED = tuple(f"c_{i}{j}" for i in "xyz" for j in "xyz")
 
 
-def columns() -> list[Column]:
-    """compliance.parquet: a hand in contact, a row a pose and controller; every contact metric found adds its column.
-
-    Null where a number has no meaning: a metric of another task, or of an episode that broke off too early.
-    """
-    measured = [Column(one.column, NUMBER, one.unit, one.title) for one in known_contact_metrics().values()]
-    about = "measured rotation about {} per moment about {}, base frame; least squares over the pose's small moments"
-    return [
-        *SUITE,
-        *words(
-            task="what the hand does",
-            arm="manipulator",
-            controller="hybrid control along axes of the base or the hand, or coordinates; or an impedance",
-            representation="coordinates the controller acts on; empty for none",
-            form="inverse, projected or transpose: how a hybrid controller's rows become torques; empty for others",
-            pose="name of the hand's pose and of its task there",
-            complies="what the order lets comply; an impedance complies along and about all axes whatever it says",
-        ),
-        *numbers("rad", "Z-Y-X Euler angles of the hand's goal", "alpha", "beta", "gamma"),
-        *numbers("rad", "angle by which the surroundings differ from what the order supposes", "tilt"),
-        *GAINS,
-        *numbers("kg", "apparent mass", "m_p"),
-        *numbers("kg m^2", "apparent inertia", "m_o"),
-        *numbers("1/s", "damping of what complies", "kc"),
-        *numbers("1", "gain on the error of force, of the form transpose", "kf"),
-        *STEPPED_DT,
-        *words(integrator="how the plant is integrated"),
-        *numbers("s", "time simulated", "horizon_s"),
-        *counts(trials="episodes of the pose"),
-        *words(outcome="the worst of its episodes: done, singular, saturated, diverged or broken (MuJoCo gave up)"),
-        *words(rest="at-rest or creeping (not at rest by the horizon); empty of tasks without an end, and failures"),
-        *numbers("s", "time at which the first of the worst episodes failed; null if all are done", "failure_time_s"),
-        *measured,
-        *(Column(f"c_{i}{j}", NUMBER, "rad/(N m)", about.format(i, j)) for i in "xyz" for j in "xyz"),
-    ]
-
-
-TABLE = Table("compliance", columns, ("suite", "task", "arm", "controller", "representation", "form", "pose"))
+TABLE = read_table(__file__, "compliance", METRICS=lambda: of_metrics(known_contact_metrics().values()))
 
 
 def frame(

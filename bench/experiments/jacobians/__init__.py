@@ -16,7 +16,7 @@ import numpy as np
 
 import tasks
 from bench.experiments import arm as arms
-from bench.experiments.columns import JOINTS, Column, Table, numbers, singles, words
+from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.chain import Chain
 from bench.law.contenders.registry import contenders, papers_coordinates
@@ -44,34 +44,6 @@ second derivation is looked at on a slice too."""
 
 JUMP = 1.0
 """rad: a change of coordinates over one step that is none of the motion's but a wrap."""
-
-
-def columns() -> list[Column]:
-    """poses.parquet: Jacobians of an arm, a row a pose and representation; metres and radians."""
-    seen = {
-        "condition": "condition number of J, by the judge",
-        "kernel_gap": "largest difference between our J and the judge's, over the largest element",
-        "det": "determinant of J; null unless it is six by six",
-        "margin": "of the representation: 0 on its singular set",
-        "condition_analytic": "condition number of J_E = diag(I, B^-1) J, over six singular values",
-        "largest": "largest element of J_E's rows of orientation, in size",
-        "det_analytic": "determinant of J_E; null unless it is six by six",
-        "det_gap": "Z-Y-X: |det J_E + det J / cos(beta)|, our J, over the product of J_E's row norms",
-        "derivation_gap": "largest difference between J_E converted and differentiated, over the largest element; on a "
-        "slice of Z-Y-X alone",
-        "difference_gap": "Z-Y-X, but on a slice: likewise, J_E and central differences of the judge's kinematics",
-    }
-    return [
-        *words(
-            arm="manipulator",
-            pose_set="named, random, slice or pole",
-            pose_id="pose within its set",
-            representation="coordinates of J_E",
-        ),
-        *JOINTS,
-        *numbers("rad", "Z-Y-X angle beta of the tool", "beta"),
-        *singles(**{name: ("1", meaning) for name, meaning in seen.items()}),
-    ]
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
@@ -212,7 +184,7 @@ def _differences(eye: Eye, one: Coordinates, qs: np.ndarray, margin: np.ndarray)
 EXPERIMENT = Experiment(
     "jacobians",
     "Jacobians over an arm's poses",
-    Table("poses", columns, ("arm", "pose_set", "pose_id", "representation")),
+    read_table(__file__, "poses"),
     units,
     rows,
     takes=("tasks", "arms"),

@@ -41,7 +41,7 @@ def readme() -> str:
         "starts.",
     ]
     for table in all_tables().values():
-        lines += ["", f"## {table.name}.parquet", "", (table.columns.__doc__ or "").strip(), ""]
+        lines += ["", f"## {table.name}.parquet", "", table.about, ""]
         lines += ["| column | unit | meaning |", "| --- | --- | --- |"]
         lines += [f"| {one.name} | {one.unit} | {one.meaning} |" for one in table.columns()]
     return "\n".join(lines) + "\n"

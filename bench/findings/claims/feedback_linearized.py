@@ -13,16 +13,7 @@ from bench.findings.claims import probes
 from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.at_gains import on_every_engine
 from bench.findings.claims.probes import EXACT_RAD, at_boundary
-from bench.findings.claims.tables import (
-    MAIN_ENGINE,
-    Results,
-    evidence,
-    lost_text,
-    settled,
-    settled_of,
-    share,
-    some,
-)
+from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, lost_text, settled, settled_of, share, some
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form
 from bench.law.contenders.registry import representation
