@@ -16,7 +16,6 @@ from support.on_arms import ARMS, GAINS, LAWS, here, named, torques
 import tasks
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import contenders, representation
-from bench.law.inputs import Gains
 from bench.law.weighting import GREATEST_GAIN, LENGTH
 from tasks.kinematics import kinematics, rotation_vector
 
@@ -198,32 +197,3 @@ def test_analytic_jacobian_gives_the_torques_of_the_geometric_one_with_the_linea
 
 
 # ---------------------------------------------------------------------------- seven joints
-
-
-@pytest.mark.parametrize("arm", SEVEN)
-def test_motion_that_the_tool_does_not_see_dies_out_with_the_time_constant_2_over_kv(arm):
-    """At the goal with qdot in the null space: |qdot| = |qdot_0| exp(-Kv t/2), for J^+ (-Jdot qdot) is across qdot.
-
-    MuJoCo's Euler takes 1 - Kv dt/2 in a tick for exp(-Kv dt/2) and lets J turn under it: of first order in dt.
-    """
-    paper, one, seconds = Gains(), named(arm, "rotation-matrix@geometric+pseudo-inverse"), 0.2
-    q0 = np.array(tasks.arm(arm).home)
-    p_d, goal = kinematics(tasks.arm(arm)).pose(q0)
-    away = []
-    for ticks in (200, 400, 800):
-        q, dt = q0, seconds / ticks
-        first = 0.5 * np.linalg.svd(here(arm, q, np.zeros(7)).J)[2][6]
-        qdot = first
-        for _ in range(ticks):
-            at = here(arm, q, qdot)
-            tau, _ = torques(one, at, goal, p_d, paper)
-            at.acceleration(tau)
-            qdot = qdot + dt * at.data.qacc
-            q = q + dt * qdot
-        wanted = np.linalg.norm(first) * np.exp(-0.5 * paper.kv * seconds)
-        away.append(abs(np.linalg.norm(qdot) / wanted - 1.0))
-        moved = np.array([p - d for p, d in zip(kinematics(tasks.arm(arm)).pose(q)[0], p_d, strict=True)])
-        assert np.linalg.norm(moved) < dt  # the tool has stayed; the elbow has swung by 0.05 rad
-    assert away[0] < 0.02
-    assert 0.4 < away[1] / away[0] < 0.6
-    assert 0.4 < away[2] / away[1] < 0.6

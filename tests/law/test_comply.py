@@ -5,7 +5,6 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from support.bits import EPS
 from support.in_contact import GAINS, SELECTIONS, TOUCH, backward, damping
 
 from bench.engines.contact_episode import room, rows
@@ -105,15 +104,3 @@ def test_torques_are_the_formula_for_every_selection(n, form):
         )
         tau = complied(form, held, at)
         np.testing.assert_allclose(tau, at.D @ wanted + at.fg + at.J.T @ w, rtol=0.0, atol=allowed, err_msg=held)
-
-
-@IN_FORMS
-@ON_JOINTS
-def test_hand_stays_at_rest_where_the_wrench_is_the_wished_one(n, form):
-    """F = -h: the torques fg + J^T h are those that hold against it statically, and no joint moves."""
-    for at in given(n):
-        into = at.rows._replace(F=-at.rows.h, v=np.zeros(6), drift=np.zeros(6))
-        tau = complied(form, (0.0,) * 6, at._replace(rows=into, qdot=np.zeros(n)))
-        # six products a torque, and the row of J no longer than all of it
-        allowed = 12 * EPS * (np.linalg.norm(at.J) * np.linalg.norm(into.h) + np.linalg.norm(at.fg))
-        np.testing.assert_allclose(tau, at.fg + at.J.T @ into.h, rtol=0.0, atol=allowed)

@@ -10,7 +10,6 @@ from support.bits import EPS
 from support.exact import exact_B, motion
 from support.in_contact import (
     ARMS,
-    COORDINATES,
     GAINS,
     HYBRIDS,
     IMPEDANCES,
@@ -26,13 +25,12 @@ from support.states import vector
 
 import tasks
 from bench.law.contender import axes_of
-from bench.law.control.contact_controller import PAPERS_FORM, hybrid
+from bench.law.control.contact_controller import PAPERS_FORM
 from bench.law.control.impedance import law_of
 from bench.law.control.setpoint import TOUCH as TOUCHING
 from tasks.contact import Specification
 
 INERTIA = np.array([TOUCH.m_p] * 3 + [TOUCH.m_o] * 3)
-CONVERTED = [one for one in HYBRIDS if one.form == "inverse" and one.converts]
 UNCONVERTED = [one for one in HYBRIDS if not one.converts]
 # Sums of a few products of numbers that carry the rounding of n rotations each (test_chain).
 ROUNDING = 200 * EPS
@@ -143,18 +141,6 @@ def test_perfect_model_gives_the_hand_the_commanded_acceleration(arm, one):
 
 
 @over_arms
-@pytest.mark.parametrize("one", UNCONVERTED, ids=named)
-def test_acceleration_is_not_the_commanded_one_when_moments_are_left_unconverted(arm, one):
-    """The test above can fail: a wrench taken for generalized forces as it is is not the one that acts."""
-    for state, setpoint in drawn(arm):
-        at = hand(*state)
-        if regular(one, at):
-            M, bent = frame(one, at, setpoint)
-            got = M @ at.acceleration(tick(one, at, setpoint, SELECTIONS[0]).tau) - bent
-            assert np.abs(got - commanded(one, at, setpoint, SELECTIONS[0])).max() > 1e-2
-
-
-@over_arms
 @pytest.mark.parametrize("one", IMPEDANCES, ids=named)
 def test_perfect_model_gives_the_hand_the_acceleration_of_the_impedance(arm, one):
     """p as a mass, damper and spring; the turn as the law says."""
@@ -178,26 +164,6 @@ def test_perfect_model_gives_the_hand_the_acceleration_of_the_impedance(arm, one
 # ---------------------------------------------------------------------------- work (Murphy 1988, 3.10-3.12)
 
 
-@over_arms
-@pytest.mark.parametrize("one", CONVERTED, ids=named)
-def test_wrench_does_the_same_work_in_every_frame(arm, one):
-    """F_E . v_E = F . v and J_E^T F_E = J^T F."""
-    for state, setpoint in drawn(arm):
-        at = hand(*state)
-        if regular(one, at):
-            made = tick(one, at, setpoint, SELECTIONS[0])
-            into, terms = made.rows, np.linalg.norm(at.F) * np.linalg.norm(at.velocity)
-            # a moment passes through B^T, its rate through B^-1: 1/margin = 5 at most
-            assert abs(into.F @ into.v - at.F @ at.velocity) <= 5 * ROUNDING * terms
-            np.testing.assert_allclose(
-                made.J.T @ into.F,
-                at.J.T @ at.F,
-                rtol=0.0,
-                atol=5 * ROUNDING * np.linalg.norm(at.J, 2) * np.linalg.norm(at.F),
-            )
-            np.testing.assert_allclose(into.v, made.J @ at.chain.qdot, rtol=0.0, atol=25 * ROUNDING * terms)
-
-
 @pytest.mark.parametrize("one", UNCONVERTED, ids=named)
 def test_unconverted_moments_are_their_components_about_the_axes_that_the_coordinates_stand_for(one):
     for state, setpoint in drawn(ARMS[0]):
@@ -206,18 +172,6 @@ def test_unconverted_moments_are_their_components_about_the_axes_that_the_coordi
         _, m = felt(at)
         for row, moment in ((into.F, m), (into.h, setpoint.m_d)):
             assert tuple(row[3 + k] for k in axes_of(one.representation)) == tuple(moment)
-
-
-def test_generalized_forces_along_zyx_angles_are_the_moments_about_their_axes():
-    """About z, about the level axis, about the hand's own x: (alpha, beta, gamma) turn the hand about these."""
-    one = hybrid("hybrid", "inverse", COORDINATES["zyx-euler"])
-    for state, setpoint in drawn(ARMS[0]):
-        at = hand(*state)
-        alpha, _, _ = ScipyRotation.from_matrix(at.R).as_euler("ZYX")
-        m = at.F[3:]
-        about = (m[2], m @ (-np.sin(alpha), np.cos(alpha), 0.0), m @ at.R[:, 0])
-        F = tick(one, at, setpoint, SELECTIONS[0]).rows.F
-        np.testing.assert_allclose(F, (*at.F[:3], *about), rtol=0.0, atol=ROUNDING * np.linalg.norm(at.F))
 
 
 @over_arms

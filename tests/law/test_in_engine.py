@@ -82,24 +82,6 @@ def test_torque_is_kp_times_the_rotation_vector_and_minus_kv_times_the_rate(angl
         np.testing.assert_allclose(found, ours, rtol=0.0, atol=20 * EPS * scale)
 
 
-def test_exact_half_turn_is_pushed_with_full_strength_about_every_axis():
-    """One way or the other: rounding chooses."""
-    for k in axes(50, 3):
-        found = torque((0.0, *k), (1.0, 0.0, 0.0, 0.0))
-        expected = math.copysign(GAINS.kp * math.pi, found @ k) * k
-        np.testing.assert_allclose(found, expected, rtol=0.0, atol=20 * EPS * GAINS.kp * math.pi)
-
-
-def test_two_quaternions_of_one_half_turn_are_pushed_opposite_ways_and_of_no_other_turn():
-    """There alone the command is no function of R."""
-    for k in axes(20, 4):
-        for cosine in (0.0, 1e-3, 0.5, 0.9):
-            quat = np.array([cosine, *math.sqrt(1.0 - cosine**2) * k])
-            one, other = (torque(sign * quat, (1.0, 0.0, 0.0, 0.0)) for sign in (1.0, -1.0))
-            expected = -one if cosine == 0.0 else one
-            np.testing.assert_allclose(other, expected, rtol=0.0, atol=20 * EPS * GAINS.kp * math.pi)
-
-
 # ---------------------------------------------------------------------------- before the judge
 
 

@@ -132,13 +132,6 @@ def test_sliding_law_slides():
     np.testing.assert_allclose(z, z[0] * np.exp(-10.0 * times)[:, None], rtol=0.0, atol=1e-7)
 
 
-def test_unwinding_law_takes_the_long_way_that_hysteresis_does_not():
-    start = ScipyRotation.from_rotvec((0.1, 0.0, 0.0))
-    away, _ = command("quaternion-unwinding", start)
-    home, _ = command("hybrid", start)
-    assert away[0] > 0.0 > home[0]
-
-
 def test_laws_with_memory_keep_their_side_beyond_a_half_turn_and_change_it_later():
     """From just short of a half turn: hybrid to eta = -0.4, late-braking to -0.5, mrp-linearized to |sigma|^2 = 1.5."""
     ends = {
