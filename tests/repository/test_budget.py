@@ -28,7 +28,7 @@ LINES = {
     "tests/experiments": 2_470,
     "tests/export": 406,
     "tests/findings": 2_669,
-    "tests/law": 3_376,
+    "tests/law": 2_909,
     "tests/regression": 677,
     "tests/report": 2_416,
     "tests/repository": 616,
