@@ -38,7 +38,7 @@ def regular(draw, count=100):
 
 
 def test_linearized_euler_as_printed_exchanges_its_ends_and_relative_is_it_seen_from_the_goal(draw):
-    """That linearized-euler is its equation is test_counts_against_casadi's."""
+    """Hold the two to linearized-euler, whose equation test_counts_against_casadi has."""
     # angles move by 10 EPS over the margin, rates by 10 EPS |omega| over its square
     allowed = 20 * EPS * (GAINS.kp / REGULAR + GAINS.kv * 20.0 / REGULAR**2)
     for (R, omega), (goal, _) in zip(regular(draw), regular(draw), strict=True):
