@@ -1,4 +1,4 @@
-"""A controller as it is shipped, which each file of bench/law/contenders/shipped holds, as a law.
+"""A controller as it is shipped, as a law: what each file of bench/law/contenders/shipped holds or declares.
 
 The orientation error is a kernel of the unit quaternion (w, x, y, z) of the rotation from R to R_d in the base frame,
 of either sign, as its source has it; an error that takes matrices is the same for both signs. `law_of` makes a
@@ -6,7 +6,9 @@ law of it, u = K e - D omega, which carries the quaternion on from tick to tick 
 with the memory ANTIPODE an episode begins on the other sign.
 """
 
+import tomllib
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from bench.law.inputs import Gains
@@ -66,6 +68,27 @@ def shortened(e, limit):
     return e
 
 
+@kernel
+def scaled(e, factor):
+    """Return the vector times a factor."""
+    return (factor * e[0], factor * e[1], factor * e[2])
+
+
+ERRORS = {"logarithm": logarithm, "vector-part": vector_part}
+CHANGES = {"scale": scaled, "clip": clipped, "shorten": shortened}
+"""The errors that a TOML file may name, and what may be done to one, by a number: `scale` leaves it without a bound."""
+
+
+def changed(error: Callable, change: Callable, number: float) -> Callable:
+    """Return an error after one of CHANGES."""
+
+    @kernel
+    def changed_error(q):
+        return change(error(q), number)
+
+    return changed_error
+
+
 def law_of(error: Callable) -> Callable:
     """Return the law u = kp e - kv omega of an error, with its quaternion in memory."""
 
@@ -107,3 +130,22 @@ def as_shipped(
         gains=Gains(stiffness, damping),
         shipped=AsShipped(error, path, set_by, **more),
     )
+
+
+def read_shipped(path: Path) -> Law:
+    """Return the controller that a TOML file declares: an error, one of CHANGES to it, gains, and fields of a law.
+
+    stiffness: over the `inertia` that the source simulates, if it does. damping, or the damping_ratio with which 2√K
+    makes it.
+    """
+    words = tomllib.loads(path.read_text(encoding="utf-8"))
+    free = error = ERRORS[words.pop("error")]
+    for word in CHANGES.keys() & words:
+        number = words.pop(word)
+        error = changed(free, CHANGES[word], number)
+        words |= {} if word == "scale" else {"unbounded": free, "bound": number}
+    stiffness = words.pop("stiffness") / words.pop("inertia", 1.0)
+    damping = words.pop("damping", None)
+    if damping is None:
+        damping = 2.0 * words.pop("damping_ratio") * stiffness**0.5
+    return as_shipped(path.stem.replace("_", "-"), error=error, stiffness=stiffness, damping=damping, **words)

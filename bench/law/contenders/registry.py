@@ -1,7 +1,7 @@
-"""Finding what exists: every module of a folder that holds the one named constant.
+"""Finding what exists: every module of a folder that holds the one named constant, and every TOML file there.
 
 Nothing registers itself; dropping a file is enough. The file name, underscores turned to dashes, must be the
-constant's name.
+constant's name. A folder whose contenders may be declared by TOML files has `read(path)`.
 """
 
 import functools
@@ -37,17 +37,16 @@ def contenders(folder: str) -> dict[str, Any]:
     """
     package = importlib.import_module(f"{__package__}.{folder}")
     constant, kind = folder.removesuffix("s").upper(), FOLDERS[folder]
-    found: dict[str, Any] = {}
+    found = {path.stem: package.read(path) for path in Path(package.__path__[0]).glob("*.toml")}
     for module_info in pkgutil.iter_modules(package.__path__):
         module = importlib.import_module(f"{package.__name__}.{module_info.name}")
-        value: Any = getattr(module, constant, None)
+        value = found[module_info.name] = getattr(module, constant, None)
         if type(value) is not kind:
             raise BadLaw(f"{module.__file__} has no {constant} that is a {kind.__name__}; each file there needs one")
         word = module_info.name.replace("_", "-")
         if value.name != word:
             raise BadLaw(f"{module.__file__}: {constant}.name is '{value.name}', but the file's name makes it '{word}'")
-        found[word] = value
-    return found
+    return {name.replace("_", "-"): value for name, value in sorted(found.items())}
 
 
 def baselines_of_arms() -> dict[str, Contender]:
