@@ -40,12 +40,13 @@ def contenders(folder: str) -> dict[str, Any]:
     found = {path.stem: package.read(path) for path in Path(package.__path__[0]).glob("*.toml")}
     for module_info in pkgutil.iter_modules(package.__path__):
         module = importlib.import_module(f"{package.__name__}.{module_info.name}")
-        value = found[module_info.name] = getattr(module, constant, None)
+        value: Any = getattr(module, constant, None)
         if type(value) is not kind:
             raise BadLaw(f"{module.__file__} has no {constant} that is a {kind.__name__}; each file there needs one")
         word = module_info.name.replace("_", "-")
         if value.name != word:
             raise BadLaw(f"{module.__file__}: {constant}.name is '{value.name}', but the file's name makes it '{word}'")
+        found[module_info.name] = value
     return {name.replace("_", "-"): value for name, value in sorted(found.items())}
 
 
