@@ -16,14 +16,14 @@ LINES = {
     "bench/experiments": 5_120,
     "bench/export": 1_984,
     "bench/findings": 6_152,
-    "bench/law": 6_594,
+    "bench/law": 6_281,
     "bench/regression": 1_200,
     "bench/running": 2_497,
     "bench/studies": 3_360,
     "tests/audit": 592,
     "tests/cli": 757,
     "tests/conftest.py": 85,
-    "tests/contracts": 2_945,
+    "tests/contracts": 2_951,
     "tests/engines": 3_043,
     "tests/experiments": 2_470,
     "tests/export": 406,
@@ -40,7 +40,7 @@ LINES = {
     "tasks": 5_151,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
-FILES = {"bench/audit": 35, "bench/experiments": 46, "bench/export": 18, "bench/law": 116, "tasks": 76}
+FILES = {"bench/audit": 35, "bench/experiments": 46, "bench/export": 18, "bench/law": 102, "tasks": 76}
 """Python files of the rooms in which one file adds one thing: with one more, a room may have as many lines more."""
 LONGEST_FILE = 250
 TOO_LONG: dict[str, int] = {}
