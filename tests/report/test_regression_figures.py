@@ -1,6 +1,5 @@
 """The page on regressions: its numbers follow from the rows, and what is committed holds what the page says."""
 
-import pandas as pd
 import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make report)")
@@ -11,16 +10,6 @@ from report.figures.kit.page import Run
 from report.figures.tool import regressions
 
 COMMITTED = Run(RESULTS)
-SAME = pd.DataFrame(
-    {
-        "benchmarks": [29, 29],
-        "least_p": [1e-4, 0.5],
-        "least_ratio": [0.9, 0.99],
-        "largest_ratio": [1.2, 1.01],
-        "doubted": [["a"], []],
-        "alarms": [[], []],
-    }
-)
 
 
 def test_study_if_it_was_run_has_all_its_comparisons_and_no_false_alarm():
@@ -38,16 +27,6 @@ def test_every_planted_fault_is_caught_and_named_and_nothing_else_is():
     assert all(one["caught"] and one["named"] and not one["others_blamed"] for one in planted)
 
 
-def test_sentence_counts_doubts_and_alarms():
-    said = regressions.describe_noise(SAME)
-    assert "2 comparisons of 29 benchmarks: ratios from 0.90 to 1.20" in said
-    assert (
-        "By $p$ alone 1 comparisons would have alarmed; both conditions held in 1, and the second run confirmed 0"
-        in said
-    )
-
-
 def test_page_without_a_study_has_only_the_numbers_of_the_rule(tmp_path):
     facts = regressions.facts(Run(tmp_path, studies=tmp_path))
     assert {key for key, value in facts.items() if value is not None} == {"p", "ratio", "rounds"}
-    assert not any(regressions.tables(Run(tmp_path, studies=tmp_path)).values())

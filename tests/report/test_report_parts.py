@@ -15,7 +15,7 @@ from report.figures.cards import other_page, regulators
 from report.figures.cost import cost
 from report.figures.kit import families, spelling
 from report.figures.kit.page import Run, run_in
-from report.figures.method import engines
+from report.figures.method import method
 
 
 @pytest.fixture(autouse=True)
@@ -57,9 +57,10 @@ def test_page_says_so_when_nothing_was_timed(tmp_path):
 
 def test_engines_are_compared_where_both_have_rows():
     runs = read.episodes()
-    both, equal = engines.agreement(runs, "reference", "native")
+    both, equal = method.count_equal(runs, "reference", "native")
     assert both == equal > 0
-    assert -1.0 < engines.later_ms(runs, "native").min() <= engines.later_ms(runs, "native").max() < 10.0
+    late = method.compute_lateness_ms(runs, "native")
+    assert -1.0 < late.min() <= late.max() < 10.0
 
 
 @pytest.mark.parametrize(

@@ -176,7 +176,7 @@ def list_titles(folder, pattern):
 def recompute_checks():
     *most, last = list_titles("bench/export/languages", r'Language\("\w+", "([^"]+)"')
     faults = len(list_titles("bench/audit/faults", "(FAULT)"))
-    return {"languages": f"{', '.join(most)} and {last}", "check_your_error.faults": faults}
+    return {"languages": f"{', '.join(most)} and {last}", "faults": faults}
 
 
 def recompute_engines():

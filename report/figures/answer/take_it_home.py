@@ -1,51 +1,41 @@
-"""The page on exported laws: languages, entries, and how many subjects there are."""
+"""The page on checking an error and exporting a law: faults, forms and languages, as they are registered."""
 
 from __future__ import annotations
 
+from typing import Any
+
+from bench.audit.faults import every_fault
+from bench.audit.faults.digits_near_0 import COUNT_RAD
+from bench.audit.forms import FORMS
+from bench.audit.pairs import NEAR_IDENTITY, every_pair
 from bench.export.language import find_language, language_words
-from bench.export.subject import find_subject, subject_words
-from bench.export.vectors import CLOSE, vectors
-from bench.law.contenders.registry import all_contenders, contenders, papers_laws
+from bench.export.subject import subject_words
+from bench.export.vectors import CLOSE
+from report.figures.kit import html
 from report.figures.kit.page import Run
-from report.figures.kit.spelling import listed
+from report.figures.kit.spelling import listed, power
 from report.figures.kit.tables import Table
 
-LANGUAGES = Table("Language | `--to` | The law | Try it")
-ENTRIES = Table("Entry | Gives")
-SHOWN = papers_laws()[0].name
-"""The law whose files and entries are listed: it has no memory."""
+FAULTS = Table("Fault | What it is | What it does | Cure | Law")
 
 
-def facts(run: Run) -> dict:
-    """How many languages, vectors and subjects there are."""
-    words = [find_language(word).title for word in language_words()]
-    laws, coordinates = len(all_contenders()), len(contenders("representations"))
+def facts(_: Run) -> dict[str, Any]:
+    """Return the numbers and names in the text."""
+    pairs = every_pair()
     return {
-        "languages": listed(words),
-        "vectors": len(vectors(find_subject(SHOWN))),
+        "languages": listed([find_language(word).title for word in language_words()]),
+        "words": listed([f"`{word}`" for word in language_words()]),
         "close": f"{CLOSE:g}",
         "subjects": len(subject_words()),
-        "laws": laws,
-        "coordinates": coordinates,
-        "impedances": len(subject_words()) - laws - coordinates,
+        "faults": len(every_fault()),
+        "forms": listed([f"{one.title} (`{name}`)" for name, one in FORMS.items()]),
+        "pairs": len(pairs.angle),
+        "smallest": power(pairs.angle[pairs.place == NEAR_IDENTITY].min()),
+        "count": power(COUNT_RAD),
     }
 
 
-def tables(run: Run) -> dict:
-    """Languages with their commands; the entries of a law."""
-    subject = find_subject(SHOWN)
-    name = subject.identifier
-    lines = []
-    for word in language_words():
-        one = find_language(word)
-        files = [file for file in one.files(subject) if file not in ("vectors.json", "README.md")]
-        lines.append(
-            (one.title, f"`{word}`", ", ".join(f"`{file}`" for file in files), f"`{one.test.format(name=name)}`")
-        )
-    plain = (one for one in subject.entries if not one.name.endswith("_body"))
-    named = {"gains": "kp, kv"}
-    entries = [
-        (f"`{one.name}({', '.join(named.get(each.name, each.name) for each in one.parameters)})`", one.doc)
-        for one in plain
-    ]
-    return {"tab_languages": LANGUAGES(lines), "tab_entries": ENTRIES(entries)}
+def tables(_: Run) -> dict[str, Any]:
+    """Return a row a fault."""
+    rows = ((f"`{one.name}`", one.title, one.effect, one.cure, html.law(one.law)) for one in every_fault())
+    return {"tab_faults": FAULTS(rows)}

@@ -1,14 +1,17 @@
-"""What the page on provenance shows: the run, its tables with their digests, and links to take them."""
+"""What the page on provenance shows: the run, its files with links to take them, and tests of the tool itself."""
 
 from __future__ import annotations
 
-import hashlib
 import re
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
+import pandas as pd
 import pyarrow.parquet as pq
 
-from bench.base.provenance import ROOT, count_episodes, rounded_on
+from bench.base.files import read_json
+from bench.base.provenance import ROOT
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import all_tables
 from report.figures.cost import times
@@ -22,10 +25,11 @@ CITATION = ROOT / "CITATION.cff"
 SITE_DATA = "../data"
 """Seen from a page in pages/; report/build.py copies there what pages link to."""
 FACTS = Table("Fact | Value")
-FILES = Table("File | Rows | Size | SHA-256")
+FILES = Table("File | Rows | Size [kB]:.0f")
+TESTED = Table("Test | Command | Result")
 
 
-def facts(_: Run) -> dict:
+def facts(_: Run) -> dict[str, str]:
     """Return the title and the version that are cited, with its date."""
     said = cited()
     version = f"{said['version']} ({said['date-released']})" if "date-released" in said else said["version"]
@@ -38,86 +42,70 @@ def cited() -> dict[str, str]:
     return dict(re.findall(r"^(title|version|date-released): *[\"']?([^\"'\n]+)", text, re.MULTILINE))
 
 
-def tables(run: Run) -> dict:
-    """Return the run and its files."""
+def tables(run: Run) -> dict[str, Any]:
+    """Return the run, its files, and the tests that are too long for every test run."""
+    about = pd.json_normalize(read.provenance(), sep=" ").iloc[0]
     return {
-        "run": FACTS(said_of_itself(read.provenance()).items()),
-        "tables": FILES(map(offered, files(run))),
+        "run": FACTS((html.foreign(name), html.foreign(value)) for name, value in about.items()),
+        "tables": FILES(map(describe_file, list_files(run))),
+        "studies": TESTED(describe_studies(run)),
     }
 
 
-def digest(path: Path) -> str:
-    """SHA-256 of a file, in hex."""
-    return hashlib.sha256(path.read_bytes()).hexdigest()
-
-
-def spelled(hex_digits: str) -> str:
-    """Return a digest that may break into lines at every quarter, and is copied whole."""
-    quarter = len(hex_digits) // 4
-    parts = [hex_digits[at : at + quarter] for at in range(0, len(hex_digits), quarter)]
-    return f'<code class="digest">{"<wbr>".join(parts)}</code>'
-
-
-def files(run: Run) -> list[Path]:
+def list_files(run: Run) -> list[Path]:
     """Return the files of the run, tables first, then every machine's timings."""
     names = [*(f"{name}.parquet" for name in sorted(all_tables())), "provenance.json", "plan.json"]
     return [*(path for path in (run.folder / name for name in names) if path.is_file()), *times.files(run)]
 
 
-def said_of_itself(given: dict) -> dict[str, str]:
-    """provenance.json in words."""
-    said = {name: escaped(value) for name, value in given.items()}
-    changed = "yes: the sources had changes that no commit holds" if said["dirty"] else "no"
-    return {
-        "Suite": f"{code(given['suite'])}, {html.number(count_episodes(given))} episodes",
-        "Command": code(given["command"]),
-        "Seed": f"{said['seed']}",
-        "Finished": said["finished"].replace("T", " ").replace("Z", " UTC"),
-        "Wall time": f"{said['wall_s']:.0f} s with {said['workers']} workers",
-        "Resumed after a stop": "yes" if said["resumed"] else "no",
-        "Commit": code(given["commit"]) if said["commit"] else "none: not a checkout",
-        "Uncommitted changes": changed,
-        "Digest of the sources": code(given["sources"]),
-        "Digest of the plan": code(given["plan"]),
-        "Processor": f"{html.foreign(rounded_on(given))}, {said['cores']} cores",
-        "System": said["platform"],
-        **{html.foreign(name): version for name, version in sorted(said["versions"].items())},
-        "Lock requirements/base.txt, SHA-256": spelled(said["lock"]) if said["lock"] else "none",
-    }
-
-
-def code(text: str) -> str:
-    """Return a text as Markdown's code, in which nothing is markup: between more backticks than it holds in a row."""
-    text = " ".join(str(text).split())
-    fence = "`" * (1 + max(map(len, re.findall("`+", text)), default=0))
-    return f"{fence} {text} {fence}" if "`" in text else f"`{text}`"
-
-
-def escaped(value):
-    """Return a value of provenance.json as a page may show it: the file may come from anywhere."""
-    if isinstance(value, dict):
-        return {name: escaped(one) for name, one in value.items()}
-    return html.foreign(value) if isinstance(value, str) else value
-
-
-def offered(path: Path) -> tuple:
-    """Return a file: a link to it, its rows, size and digest."""
+def describe_file(path: Path) -> tuple:
+    """Return a link to a file, or its name where it is too large to offer; its rows and size."""
     rows = pq.read_metadata(path).num_rows if path.suffix == ".parquet" else None
-    return link(path), rows, size(path.stat().st_size), spelled(digest(path))
-
-
-def link(path: Path) -> str:
-    """Return the file as a link, or its bare name where it is too large to offer."""
     name = f"timings/{path.name}" if path.parent.name == "timings" else path.name
-    if path.stat().st_size > OFFERED_BYTES:
-        return f"`{name}` (too large for this site)"
-    return f'<a href="{SITE_DATA}/{name}" download>{name}</a>'
+    is_large = path.stat().st_size > OFFERED_BYTES
+    link = f"`{name}` (too large for this site)" if is_large else f'<a href="{SITE_DATA}/{name}" download>{name}</a>'
+    return link, rows, path.stat().st_size / 1e3
 
 
-def size(count: int) -> str:
-    """Bytes as a reader takes them in."""
+def describe_studies(run: Run) -> Iterator[tuple[str, str, str]]:
+    """Yield a row for each study of the tool that is in the results."""
+    for name, describe in (("scale", describe_scale), ("survival", describe_kills), ("settings", describe_settings)):
+        path = run.studies / name / f"{name}.json"
+        if path.is_file():
+            yield describe(read_json(path))
+
+
+def describe_scale(found: dict[str, Any]) -> tuple[str, str, str]:
+    """Return what an episode costs in small and large runs, and whether one thread and two processes agree."""
+    sizes, runs = pd.DataFrame(found["sizes"]), pd.DataFrame(found["schedulers"])
+    cost = (1e6 * sizes["cpu_s"] / sizes["episodes"]).groupby(sizes["episodes"]).median()
+    same = "the same" if runs["rows"].nunique() == 1 else "**other**"
+    few, many = html.number(cost.index.min()), html.number(cost.index.max())
     return (
-        f"{count / 1e6:.1f}\N{NO-BREAK SPACE}MB"
-        if count >= 1e6
-        else f"{max(1, round(count / 1e3))}\N{NO-BREAK SPACE}kB"
+        f"Runs of {few} to {many} episodes; one thread and two processes",
+        "`python -m bench.studies.scale`",
+        f"{cost.iloc[0]:.0f} µs of CPU an episode in the smallest run, {cost.iloc[-1]:.0f} µs in the largest; at most "
+        f"{sizes['peak_bytes'].max() / 1e6:.0f} MB of memory; two processes give {same} rows",
+    )
+
+
+def describe_kills(found: dict[str, Any]) -> tuple[str, str, str]:
+    """Return how many runs that were killed at random moments ended with the files of an undisturbed run."""
+    kills = found["kills"]
+    return (
+        f"{len(kills)} runs of {found['units']} units killed at random moments, then the same command again",
+        "`PYTHONPATH=tests python tests/studies/kill_study.py`",
+        f"{sum(one['same'] for one in kills)} ended with the files of an undisturbed run",
+    )
+
+
+def describe_settings(found: dict[str, Any]) -> tuple[str, str, str]:
+    """Return how many rows of the quick suite differ under settings that round as other processors do."""
+    runs = [one for machine in found.values() for one in machine.values()]
+    rows = pd.DataFrame([table for one in runs for table in one["tables"].values()]).sum()
+    return (
+        f"The quick suite under {len(runs)} settings of libraries and compiler that round as on other processors",
+        "`python -m bench.studies.settings`",
+        f"{html.number(rows['differ'])} of {html.number(rows['rows'])} rows differ in some bit from the published "
+        f"ones, {rows['outcomes']} in the outcome, {sum(one['gate'] for one in runs)} by more than the gate allows",
     )
