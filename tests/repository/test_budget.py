@@ -30,13 +30,13 @@ LINES = {
     "tests/findings": 2_669,
     "tests/law": 2_909,
     "tests/regression": 677,
-    "tests/report": 2_416,
+    "tests/report": 2_383,
     "tests/repository": 616,
     "tests/running": 1_155,
     "tests/studies": 857,
     "tests/support": 3_339,
     "tests/tasks": 2_175,
-    "report": 9_782,
+    "report": 9_383,
     "tasks": 5_151,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
