@@ -218,7 +218,7 @@ def main() -> int:
         if wanted != finished:
             build(results, wanted["cells"])
             offer_data(results)
-        problems = check_site.problems(SITE)
+        problems = check_site.find_problems(SITE)
         if problems:
             raise CannotBuild("\n".join([*problems, f"the page check found {len(problems)} problems"]))
     except CannotBuild as reason:

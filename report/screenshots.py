@@ -1,13 +1,9 @@
-"""The built report in headless Chromium: what a reader's browser sees, and pictures of it.
+"""The built report in headless Chromium: what a reader's browser sees.
 
-    python report/screenshots.py            every page, light and dark, wide and narrow
-    python report/screenshots.py index      only pages whose name holds a word
-    python report/screenshots.py --readme   the front page's figure alone, into report/_static/overview.png
+    python report/screenshots.py       the front page's figure, into report/_static/overview.png for the README
 
-Pictures go to report/_build/screenshots.
-
-tests/report/test_report_in_browser.py drives the same browser. Needs selenium (the dev extra) and Debian's
-chromium and chromium-driver; nothing is downloaded.
+The browser tests drive the same browser. Needs selenium (the dev extra) and Debian's chromium and chromium-driver;
+nothing is downloaded.
 """
 
 from __future__ import annotations
@@ -15,7 +11,6 @@ from __future__ import annotations
 import base64
 import contextlib
 import importlib.util
-import io
 import json
 import shutil
 import sys
@@ -25,7 +20,6 @@ from typing import NamedTuple
 
 SITE = Path(__file__).resolve().parent / "_build" / "html"
 README_PICTURE = Path(__file__).resolve().parent / "_static" / "overview.png"
-PICTURES = Path(__file__).resolve().parent / "_build" / "screenshots"
 THEMES = ("light", "dark")
 WIDTHS = (1280, 390)
 HEIGHT = 900
@@ -39,13 +33,6 @@ const done = arguments[arguments.length - 1];
 const frame = () => new Promise(requestAnimationFrame);
 document.fonts.ready.then(frame).then(frame).then(() => done(true));
 """
-
-
-UNSTICK = """
-for (const part of document.querySelectorAll("body *"))
-  if (getComputedStyle(part).position === "sticky") part.style.setProperty("position", "static", "important");
-"""
-"""What follows the reader down the page would hide a strip of each window."""
 
 
 class View(NamedTuple):
@@ -143,23 +130,6 @@ def console_errors(driver) -> list[str]:
     return [entry["message"] for entry in driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
 
 
-def picture(driver, view: View) -> bytes:
-    """Return the whole page as PNG, window by window: in one taller capture Chromium shifts the page sideways."""
-    from PIL import Image
-
-    length = int(driver.execute_script("return document.documentElement.scrollHeight"))
-    driver.execute_script(UNSTICK)
-    whole = Image.new("RGB", (view.width, max(length, HEIGHT)))
-    for top in range(0, length, HEIGHT):
-        driver.execute_script("window.scrollTo({top: arguments[0], behavior: 'instant'})", top)
-        settle(driver)
-        reached = int(driver.execute_script("return window.scrollY"))
-        whole.paste(Image.open(io.BytesIO(driver.get_screenshot_as_png())), (0, reached))
-    written = io.BytesIO()
-    whole.save(written, "PNG")
-    return written.getvalue()
-
-
 def first_figure(driver) -> bytes:
     """Return the page's first figure without its caption, as PNG at twice the size."""
     box = driver.find_element("css selector", "figure svg").rect
@@ -168,25 +138,13 @@ def first_figure(driver) -> bytes:
 
 
 def main() -> int:
-    """Save a picture of every page in every view."""
+    """Save the picture of the README."""
     if missing():
         print(f"screenshots: {missing()}", file=sys.stderr)
         return 2
-    if "--readme" in sys.argv[1:]:
-        with browser() as driver:
-            open_page(driver, SITE / "index.html", VIEWS[0])
-            README_PICTURE.write_bytes(first_figure(driver))
-        print(f"screenshots: the README's picture is {README_PICTURE}")
-        return 0
-    PICTURES.mkdir(parents=True, exist_ok=True)
-    chosen = [page for page in pages() if all(word in str(page.relative_to(SITE)) for word in sys.argv[1:])]
     with browser() as driver:
-        for page in chosen:
-            for view in VIEWS:
-                open_page(driver, page, view)
-                name = page.relative_to(SITE).with_suffix("").as_posix().replace("/", "-")
-                (PICTURES / f"{name}-{view.theme}-{view.width}.png").write_bytes(picture(driver, view))
-    print(f"screenshots: {len(chosen) * len(VIEWS)} pictures of {len(chosen)} pages in {PICTURES}")
+        open_page(driver, SITE / "index.html", VIEWS[0])
+        README_PICTURE.write_bytes(first_figure(driver))
     return 0
 
 

@@ -1,6 +1,4 @@
-"""What the front page shows: the answer, the paper's three laws in a line each, all verdicts, and the edition."""
-
-import numpy as np
+"""What the front page shows: the answer, all verdicts, the hero of the paper's three laws, and the edition."""
 
 from bench.base.provenance import count_episodes
 from bench.experiments.tables import read
@@ -9,16 +7,10 @@ from report.figures.answer import answer_box, which_law
 from report.figures.claims import claims as judged
 from report.figures.contact import compliance, in_contact
 from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER
-from report.figures.cost.cost import totals
-from report.figures.cost.operations import CALLS
-from report.figures.failures import maps
-from report.figures.failures.failure_map import EXACT_RAD
 from report.figures.kit import html
 from report.figures.kit.page import Run
-from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX, SHORT, lost, of
-from report.figures.kit.share import share
 from report.figures.method.provenance import cited
-from report.figures.responses import hero, settling_time
+from report.figures.responses import hero
 
 BIBTEX = """```bibtex
 @misc{{orientation-bench,
@@ -46,9 +38,6 @@ def facts(run: Run) -> dict:
         "pegs": in_contact.stuck(in_contact.all_rows(run), PAPERS, PAPERS_EULER),
         "pegs_by_accelerations": in_contact.stuck(in_contact.all_rows(run), CARTESIAN, EULER),
         "off": compliance.facts(run).get("off"),
-        **of_the_paper(run),
-        "mapped_l": maps.lost_at_rest(LINEARIZED),
-        "mapped": maps.facts()["mapped"],
         **edition(read.provenance()),
     }
 
@@ -67,33 +56,6 @@ def tables(run: Run) -> dict:
 def figures(run: Run) -> dict:
     """Return the paper's three laws from every angle."""
     return {"hero": hero.hero(run.rows("episodes", engine="ideal-rk4"))}
-
-
-def of_the_paper(run: Run) -> dict:
-    """Return the paper's three laws on the continuous plant: what they settle, how fast, and what they cost."""
-    episodes = run.rows("episodes", engine="ideal-rk4")
-    tallies = totals(run.rows("costs", **read.FREE_BODY))
-    half, poles = of(episodes, MATRIX, "half-turn"), of(episodes, FEEDBACK, "poles")
-    on_pole = poles[np.pi / 2.0 - poles["beta0"].abs() < EXACT_RAD]
-    _, exact = settling_time.near_and_exact(half)
-    values = {
-        "slope": f"{settling_time.slope(half):.3f}",
-        "stuck": len(lost(exact)),
-        "exact": len(exact),
-        "least": f"{np.floor(np.degrees(lost(of(episodes, LINEARIZED))['alpha0'].abs().min())):.0f}",
-        "polar": len(lost(on_pole)),
-        "on_pole": len(on_pole),
-    }
-    for letter in "mf":
-        name = SHORT[letter]
-        rows = of(episodes, name)
-        found = share(len(rows) - len(lost(rows)), len(rows))
-        interval = f"{100 * found.low:.1f} to {100 * found.high:.1f} %"
-        values[f"share_{letter}"] = f"{100 * found.value:.1f} % ({interval}, n = {html.number(found.n)})"
-        values[f"slowest_{letter}"] = f"{rows['settling_time_s'].max():.2f}"
-        values[f"flops_{letter}"] = int(tallies.loc[name, "flops"])
-        values[f"calls_{letter}"] = int(tallies.loc[name, list(CALLS)].sum())
-    return values
 
 
 def bibtex(values: dict) -> html.Markdown:

@@ -9,11 +9,11 @@ from support.planted import PLANTED, audited
 
 from bench.audit.report import file
 from bench.base.provenance import ROOT
-from report.figures.libraries import check_your_error
+from report.figures.answer import take_it_home
 
 
 def test_page_is_whole():
-    assert_is_whole(check_your_error, None)
+    assert_is_whole(take_it_home, None)
 
 
 def test_every_finding_names_the_file_that_looks_for_it():

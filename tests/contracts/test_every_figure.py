@@ -85,7 +85,7 @@ def test_map_keeps_areas():
     np.testing.assert_allclose(area / area.mean(), 1.0, rtol=1e-3)
 
 
-@pytest.mark.parametrize("facts", [index.of_the_paper, responses.facts, settling_time.facts, failure_map.facts])
+@pytest.mark.parametrize("facts", [responses.facts, settling_time.facts, failure_map.facts])
 def test_facts_of_a_page_are_numbers(facts):
     values = facts(run_in(read.folder()))
     assert all("nan" not in str(value) for value in values.values()), values

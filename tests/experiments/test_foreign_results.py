@@ -198,7 +198,7 @@ def test_json_of_absurd_size_is_not_read(tmp_path):
 
 def test_file_that_is_no_table_of_ours_is_not_offered(evil):
     (evil / "<img src=x onerror=alert(1)>.parquet").write_bytes((evil / "costs.parquet").read_bytes())
-    assert not any("img" in path.name for path in origin.files(run_in(read.folder())))
+    assert not any("img" in path.name for path in origin.list_files(run_in(read.folder())))
 
 
 @pytest.mark.parametrize("banned", ["import pickle", "from joblib import load", "import numpy as np\nnp.load('x')"])

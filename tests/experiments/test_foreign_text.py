@@ -107,7 +107,7 @@ def test_provenance_from_elsewhere_is_shown_as_it_is(text):
     versions = dict.fromkeys(usual["versions"], text)
     pages = []
     for said in (usual | dict.fromkeys(names, "word"), usual | dict.fromkeys(names, text) | {"versions": versions}):
-        pages.append(rendered(origin.FACTS(origin.said_of_itself(said).items())))
+        pages.append(rendered(origin.describe_run(said)))
     word, given = pages
     assert live(given) == live(word)
     assert as_read(markup.unescape(text)) in as_read(given.get_text()) or as_read(text) in as_read(given.get_text())

@@ -2,7 +2,6 @@
 
 import functools
 
-import numpy as np
 import pytest
 from support import advised
 from support.pages import assert_is_whole
@@ -22,14 +21,13 @@ from bench.findings.selection.needs import (
     ARM,
     DEFAULT,
     EVERYWHERE,
-    FORGETS,
     NEEDS,
     UNHELD,
     advice,
     advise,
     has_all,
 )
-from report.figures.answer import plane, which_law
+from report.figures.answer import which_law
 from report.figures.arms import arm_ranking, arm_rows
 from report.figures.cards import regulators
 from report.figures.kit import families
@@ -141,20 +139,6 @@ def test_open_question_has_the_advised_law_among_the_later_laws_that_were_judged
 
 
 # ---------------------------------------------------------------------------------------------- the page
-
-
-def test_plane_marks_what_settles_everywhere(found):
-    assert plane.coverage(found, decided().default.law) == 2
-    assert plane.coverage(found, decided().of(FORGETS).law) == 1
-    assert plane.coverage(found, "rotation-matrix") == 0
-
-
-def test_plane_has_time_across_where_all_are_timed_and_operations_elsewhere(found):
-    costs, label = plane.across(found._replace(values=found.values | {"tick": {}}))
-    assert "operations" in label
-    timed = {law: np.array([1.0]) for law in costs}
-    shares, label = plane.across(found._replace(values=found.values | {"tick": timed}))
-    assert ("time" in label, set(shares.values())) == (True, {1.0})
 
 
 def test_page_is_whole():

@@ -1,9 +1,8 @@
-"""The front page's box: the advised law with the text of its exports, and every exception, as the rule says them."""
+"""The front page's box: the advised law with a link to its code, and every exception, as the rule says them."""
 
 import pytest
 
 from bench.experiments.tables.schema import RESULTS
-from bench.export.language import find_language
 from bench.export.subject import find_subject
 from bench.findings.selection import needs
 from report.figures.answer import answer_box
@@ -21,13 +20,8 @@ def box(advice):
     return str(answer_box.box(advice))
 
 
-@pytest.mark.parametrize("word", answer_box.COPIED)
-def test_box_holds_the_exported_file(box, advice, word):
-    files = find_language(word).files(find_subject(advice.default.law))
-    assert f"```text\n{next(iter(files.values()))}```" in box
-
-
-def test_box_holds_the_formula(box, advice):
+def test_box_holds_the_formula_and_leads_to_the_code(box, advice):
+    assert f'href="laws/{advice.default.law}.html"' in box
     assert find_subject(advice.default.law).record.formula in box
 
 

@@ -15,11 +15,11 @@ from bench.findings.selection.measured import measured
 from bench.findings.selection.words import leaders, standing
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import AT_REST, Gains, Goal
-from report.figures import index
 from report.figures.answer import which_law
 from report.figures.arms import arm_ranking, cost_on_arms
 from report.figures.comparison import a_new_law, comparison
 from report.figures.contact import as_arms_run, hand_axes, in_contact
+from report.figures.failures import failure_map
 from report.figures.kit.page import Run
 from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX
 from report.figures.libraries import answers, libraries, loops
@@ -208,7 +208,7 @@ SENTENCES = {
     "loops": (plant_loops, [({}, "3 dead, 4 away"), ({"dead": 0, "away": 1}, "0 dead, 55 away")]),
     "unstable": (plant_fact(as_arms_run.in_free_motion, "unstable"), [({}, "Panda"), ({"radius": 0.5}, "none")]),
     "noise": (plant_fact(half_turn_noise.facts, "blind_middle"), [({}, "25"), ({"outcome": "settled"}, "100")]),
-    "least": (plant_fact(index.of_the_paper, "least"), [({}, "135"), ({"alpha0": 0.1}, "5")]),
+    "least": (plant_fact(failure_map.facts, "least"), [({}, "135"), ({"alpha0": 0.1}, "5")]),
     "gains": (plant_kv, [({}, "kv = 20"), ({"kv": 7.0}, "kv = 7")]),
     "held": (plant_advice, [({}, "cannot hold the body"), ({"held": 0.01}, "No law of this run settles")]),
     "lost": (plant_advice, [({}, "it settles from every start"), ({"lost": 1.0}, "No law of this run settles")]),

@@ -2,7 +2,7 @@
 
 import build
 import check_site
-import icons
+import offline
 import pytest
 
 
@@ -128,17 +128,17 @@ GOOD = '<html><article><h1>Title</h1><p id="here"><a href="#here">on</a></p></ar
 )
 def test_page_check_refuses(tmp_path, markup, problem):
     (tmp_path / "index.html").write_text(GOOD.replace("</article>", f"{markup}</article>"))
-    assert check_site.problems(tmp_path) == [f"index.html: {problem}"]
+    assert check_site.find_problems(tmp_path) == [f"index.html: {problem}"]
 
 
 def test_page_check_accepts_a_good_page(tmp_path):
     (tmp_path / "index.html").write_text(GOOD)
-    assert check_site.problems(tmp_path) == []
+    assert check_site.find_problems(tmp_path) == []
 
 
 def test_page_check_keeps_the_size_budget(tmp_path):
     (tmp_path / "index.html").write_text(GOOD)
-    assert "above its budget" in check_site.problems(tmp_path, budget_bytes=10)[0]
+    assert "above its budget" in check_site.find_problems(tmp_path, budget_bytes=10)[0]
 
 
 def test_front_page_keeps_its_own_budget_with_what_it_loads_and_its_fonts(tmp_path):
@@ -146,27 +146,27 @@ def test_front_page_keeps_its_own_budget_with_what_it_loads_and_its_fonts(tmp_pa
     (tmp_path / "big.woff2").write_bytes(bytes(check_site.FRONT_BYTES))
     markup = '<link rel="stylesheet" href="style.css?v=1"></article>'
     (tmp_path / "index.html").write_text(GOOD.replace("</article>", markup))
-    [problem] = check_site.problems(tmp_path)
+    [problem] = check_site.find_problems(tmp_path)
     assert problem.startswith("index.html loads 1.50 MB, above its budget")
 
 
 def test_icons_that_no_page_names_are_left_out_and_an_alias_keeps_its_icon():
     script = 'x={"arrow-up":[1,2,[],"f0",["M0","M1"]],bars:[3,4,["menu"],"f1","M2"],moon:[5,6,[9,"night"],"f2","M3"]};y'
-    assert icons.reduced(script, {"menu", "night", "solid"}) == (
+    assert offline.reduce_icons(script, {"menu", "night", "solid"}) == (
         'x={bars:[3,4,["menu"],"f1","M2"],moon:[5,6,[9,"night"],"f2","M3"]};y',
         {"menu", "night"},
     )
 
 
 def test_page_check_says_the_cure_when_nothing_is_built(tmp_path):
-    assert "cure: make report" in check_site.problems(tmp_path)[0]
+    assert "cure: make report" in check_site.find_problems(tmp_path)[0]
 
 
 def test_number_and_unit_stay_on_one_line_wherever_the_text_is_cut():
     nodes = pytest.importorskip("docutils.nodes", reason="the report extra is not installed (cure: make setup)")
-    import units
+    import typesetting
 
     pasted = nodes.inline("", "", nodes.Text("12"))
     block = nodes.paragraph("", "", pasted, nodes.Text(" % (n = 3) of starts in 5 ms, "), nodes.literal("", "2 s"))
-    units.close_up(block)
+    typesetting.close_up(block)
     assert block.astext() == "12\u00a0% (n\u00a0=\u00a03) of starts in 5\u00a0ms, 2 s"

@@ -1,15 +1,11 @@
-"""The box on the front page: the law that is advised, its formula, its code to copy, and where another is better."""
+"""The box on the front page: the law that is advised, its formula, its page with code, and where another is better."""
 
 from __future__ import annotations
 
-from bench.export.language import find_language
-from bench.export.subject import Subject, find_subject, subject_words
+from bench.export.subject import find_subject, subject_words
 from bench.findings.selection import needs
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
-
-COPIED = {"python": "Python", "cpp": "C++", "c": "C"}
-"""Languages whose file can be copied, with the head of their tab."""
 
 SYMBOLS = (
     r"$R_d R^\top$ turns by $\theta$ about $k$; $t$ is its trace and $(\eta, \epsilon) = (\cos\tfrac\theta2, "
@@ -24,7 +20,7 @@ def answer(run: Run) -> html.Markdown | None:
 
 
 def box(advice: needs.Advice) -> html.Markdown | None:
-    """Return formula, exceptions and code of the advised law; None where no law meets the requirements.
+    """Return formula, exceptions and a link to the code of the advised law; None where no law meets the requirements.
 
     Of a user's law the exceptions alone: its file is the user's already.
     """
@@ -33,12 +29,11 @@ def box(advice: needs.Advice) -> html.Markdown | None:
     if advice.default.law not in subject_words():
         return html.Markdown(exceptions(advice))
     subject = find_subject(advice.default.law)
-    tabs = "\n".join(_tab(title, word, subject) for word, title in COPIED.items())
     parts = (
         f"$$\n{subject.record.formula}\n$$",
         SYMBOLS,
         f"Use another law if one of these applies:\n\n{exceptions(advice)}",
-        f"`````{{tab-set}}\n{tabs}\n`````",
+        f"Its code in every language, with test vectors: {_linked(advice.default.law)}.",
     )
     return html.Markdown("\n\n".join(parts))
 
@@ -51,12 +46,6 @@ def exceptions(advice: needs.Advice) -> str:
             situations.setdefault(one.law, []).append(one.need.words)
     lines = [f"- {_linked(law)}: {'; '.join(words)}" for law, words in situations.items()]
     return "\n".join(lines)
-
-
-def _tab(title: str, word: str, subject: Subject) -> str:
-    """Return the law's file, the first of an export, as a tab of plain text: colours would be most of the page."""
-    text = find_language(word).law(subject)[1]
-    return f"````{{tab-item}} {title}\n```text\n{text}```\n````"
 
 
 def _linked(law: str) -> str:

@@ -15,7 +15,6 @@ from bench.findings.selection.criteria import BY_NAME, Criterion
 from bench.findings.selection.measured import GENERAL, Measured, front, measured
 from bench.findings.selection.robots import ROBOTS, word_of
 from bench.findings.selection.words import cost, faster_under_a_bound, standing, together
-from report.figures.answer.plane import plane, shown
 from report.figures.cost.cost import spent
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
@@ -25,6 +24,11 @@ FRONT = ("unsettled", "lost", *GENERAL)
 
 SHOWN = ("lost", "time", "worst", "tick", "memory", "held", "effort", "peak", "variation")
 """Criteria of the table of all laws, beside the share that settles and the operations."""
+
+
+def shown(found: Measured) -> list[str]:
+    """Return all laws but the negative controls."""
+    return [law for law in found.laws if law not in families.CONTROLS]
 
 
 def facts(run: Run) -> dict:
@@ -186,8 +190,3 @@ def every_law(found: Measured) -> html.Markdown | None:
 def head(criterion: Criterion) -> str:
     """Return a column's head."""
     return f"{criterion.title} [{criterion.unit}]" if criterion.unit else criterion.title
-
-
-def figures(run: Run) -> dict:
-    """Cost against settling time."""
-    return {"answer-plane": plane(measured(run.folder))}

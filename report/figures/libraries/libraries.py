@@ -7,7 +7,6 @@ from collections.abc import Iterator
 
 import pandas as pd
 
-from bench.law.contenders.registry import contenders
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
@@ -16,7 +15,6 @@ from report.figures.libraries import answers, loops
 
 OURS = "orientation-bench"
 """Our own laws in results/libraries, asked like the libraries."""
-EVERYWHERE = ["small", "drawn", "near", "at", "pole"]
 HOST = "https://github.com"
 WELD = "<weld>, by default"
 
@@ -53,9 +51,6 @@ def facts(_: Run) -> dict:
     rows, every = answers.table(), lines()
     others = every[every["library"] != OURS]
     functions, idioms = errors(others), errors(others, "idiom")
-    kinds = functions["objections"].map(set)
-    dead = functions[kinds.map(lambda found: answers.ZERO in found) & (functions["form"] != answers.SINE)]
-    sheets = functions[kinds.map(lambda found: answers.SHEET in found)]
     sines, angles = functions[functions["form"] == answers.SINE], every[every["form"] == answers.ANGLES]
     small, near = (rows[rows[name] > 0.0] for name in ("angle_rad", "distance_rad"))
     good = right(functions)
@@ -69,27 +64,18 @@ def facts(_: Run) -> dict:
         "count": power(answers.COUNT_RAD),
         "single_count": power(answers.SINGLE_RAD),
         "single_names": ", ".join(dict.fromkeys(good[single]["library"])),
-        "sines": len(sines),
-        "sine_names": names(sines),
-        "sine_error": power(sines[EVERYWHERE].to_numpy().max()),
-        "dead": names(dead),
-        "dead_else": power(dead[["small", "drawn", "near", "pole"]].to_numpy().max()) if len(dead) else "0",
-        "sheets": len(sheets),
-        "sheet_names": names(sheets),
-        "digits": int(
-            kinds.map(lambda found: bool(found & {answers.DIGITS, answers.MISALIGNED, answers.NO_NUMBER})).sum()
+        "kinds": "; ".join(
+            f"{kind} {n}" for kind, n in functions["objections"].map(list).explode().value_counts().items()
         ),
-        "long_names": names(functions[kinds.map(lambda found: answers.LONG_WAY in found)]),
+        "sines": len(sines),
         "worst_right": power(good[~single]["turn"].max()),
         "worst_single": power(good[single]["turn"].max()),
         "axes": int(near["turns"].max()),
         "drawn": int(rows[rows["turn_set"] == "drawn"]["turns"].max()),
         "smallest": power(small["angle_rad"].min()),
         "nearest": power(near["distance_rad"].min()),
-        "angles_off": f"{angles['off'].min():.1f}",
         "angle_functions": len(angles),
         "angles_exact": len(right(angles)),
-        "angles_wrong": names(faulty(angles)),
         "known": int(faulty(functions)["thread"].ne("").sum()),
         **loop_facts(),
     }
@@ -107,24 +93,8 @@ def loop_facts() -> dict:
         "loops_away": int((functions["away"] > 0).sum()),
         "axes_180": int(functions["at_180"].min()),
         "fixed": int((loops.verdicts()["fixed"] != "").sum()),
-        "mink_version": answers.origins()["mink"]["version"],
-        "mink_commit": contenders("shipped")["mink"].source.partition("@")[2][:7],
-        "weld_settings": weld.title,
         "weld_loop": loops.in_words(weld),
-        "weld_most": f"{pulls()['pull_ratio'].max():.2g}",
     }
-
-
-def pulls() -> pd.DataFrame:
-    """Return the acceleration from rest of the weld over its slope, a row an angle."""
-    rows = loops.rows()
-    return rows[rows["function"] == WELD].sort_values("angle_deg")
-
-
-def names(some: pd.DataFrame) -> str:
-    """Return `library's function, function; library's ...` as words, or none."""
-    by_library = some.groupby("library", sort=False)["function"].agg(lambda found: ", ".join(dict.fromkeys(found)))
-    return "; ".join(f"{library}: {found}" for library, found in by_library.items()) or "none"
 
 
 def tables(_: Run) -> dict:

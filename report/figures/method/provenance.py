@@ -44,12 +44,17 @@ def cited() -> dict[str, str]:
 
 def tables(run: Run) -> dict[str, Any]:
     """Return the run, its files, and the tests that are too long for every test run."""
-    about = pd.json_normalize(read.provenance(), sep=" ").iloc[0]
     return {
-        "run": FACTS((html.foreign(name), html.foreign(value)) for name, value in about.items()),
+        "run": describe_run(read.provenance()),
         "tables": FILES(map(describe_file, list_files(run))),
         "studies": TESTED(describe_studies(run)),
     }
+
+
+def describe_run(given: dict[str, Any]) -> html.Markdown | None:
+    """Return the facts of provenance.json, which may come from anywhere, as a table."""
+    facts = pd.json_normalize(given, sep=" ").iloc[0]
+    return FACTS((html.foreign(name), html.foreign(value)) for name, value in facts.items())
 
 
 def list_files(run: Run) -> list[Path]:
