@@ -22,20 +22,6 @@ PERTURBED = {
     "uneven": Condition(inertia=(0.5, 1.0, 2.0), period_s=0.005),
 }
 
-COPIED = """
-require('./laws.js');
-const { laws, functions, plant } = globalThis.live, wrong = [];
-for (const [word, { law, memory, needs }] of Object.entries(laws)) {
-    const text = needs.map(name => functions[name].toString()).join('\\n');
-    const alone = new Function(`${text}\\nreturn ${needs[needs.length - 1]};`)();
-    const [R, R_d] = [[0.36, 0.48, 0.64, 0.48], [1, 0, 0, 0]].map(plant.from_quaternion);
-    const goal = [R_d, [0, 0, 0], [0, 0, 0]];
-    const [a, b] = [alone, law].map(one => JSON.stringify(one(R, [0.1, 0.2, 0.3], goal, [100, 20], memory)));
-    if (a !== b || a.includes('null')) wrong.push(word);
-}
-console.log(JSON.stringify([Object.keys(laws).length, wrong]));
-"""
-
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
@@ -94,7 +80,7 @@ def test_perturbed_episodes_end_as_the_compiled_loop_ends_them(folder, starts, n
 @needs("node")
 def test_what_a_reader_copies_of_a_law_runs_alone(folder):
     """The functions that the page names, and nothing else, make the law's command."""
-    (folder / "copied.js").write_text(COPIED)
+    shutil.copy(Path(__file__).with_name("copied.js"), folder)
     ended = subprocess.run(["node", "copied.js"], cwd=folder, env={"PATH": NODE}, capture_output=True, text=True)
     assert (ended.stderr, json.loads(ended.stdout)) == ("", [len(laws()), []])
 

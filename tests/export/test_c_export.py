@@ -15,35 +15,28 @@ NOTHING = {"PATH": "/usr/bin:/bin"}
 
 EIGEN = Path("/usr/include/eigen3")
 EXACT = ("-O2", "-ffp-contract=off")
-BATCH = """
-void {name}_batch(const double *rows, double *answers, long count) {{
-    long k;
-    for (k = 0; k < count; k++) {{
-        const double *s = rows + {width} * k;
-        double *answer = answers + {answers} * k;
-        {before}
-        {name}_command(s, s + 9, s + 12, {kp!r}, {kv!r}, {state}answer);
-        {after}
-    }}
-}}
-"""
 
 
 def batch(subject) -> str:
     """A function that asks a law's command at many states."""
     has_memory = subject.memory is not None
     copied = "; ".join(f"{{}}[{at}] = {{}}[{at}]" for at in range(4))
-    return BATCH.format(
-        name=subject.identifier,
-        width=WIDTH,
-        answers=ANSWERS,
-        kp=KP,
-        kv=KV,
-        before=f"{subject.identifier}_state state; " + copied.format(*["state.memory", "(s + 21)"] * 4) + ";"
-        if has_memory
-        else "",
-        state="&state, " if has_memory else "",
-        after=copied.format(*["(answer + 3)", "state.memory"] * 4) + ";" if has_memory else "",
+    return (
+        Path(__file__)
+        .with_name("batch.c")
+        .read_text()
+        .format(
+            name=subject.identifier,
+            width=WIDTH,
+            answers=ANSWERS,
+            kp=KP,
+            kv=KV,
+            before=f"{subject.identifier}_state state; " + copied.format(*["state.memory", "(s + 21)"] * 4) + ";"
+            if has_memory
+            else "",
+            state="&state, " if has_memory else "",
+            after=copied.format(*["(answer + 3)", "state.memory"] * 4) + ";" if has_memory else "",
+        )
     )
 
 

@@ -13,21 +13,6 @@ from bench.export.subject import find_subject, translated
 
 NODE = str(Path(shutil.which("node") or "/usr/bin/node").parent)
 SOME = 20_000
-ASK = """
-const fs = require('fs');
-const states = new Float64Array(fs.readFileSync('states').buffer.slice(0));
-for (const name of JSON.parse(fs.readFileSync('laws.json', 'utf8'))) {
-    const law = require(`./js/${name}/${name}.js`);
-    const answers = new Float64Array(WIDTH_OUT * COUNT);
-    for (let k = 0; k < COUNT; k++) {
-        const s = states.subarray(25 * k, 25 * k + 25);
-        const state = { memory: Array.from(s.subarray(21, 25)) };
-        const u = law.command(s.subarray(0, 9), s.subarray(9, 12), s.subarray(12, 21), KP, KV, state);
-        answers.set([...u, ...state.memory], WIDTH_OUT * k);
-    }
-    fs.writeFileSync(`${name}.answers`, Buffer.from(answers.buffer));
-}
-"""
 
 
 @needs("node")
@@ -50,7 +35,7 @@ def test_algebraic_laws_give_our_bits_in_node(tmp_path):
     (tmp_path / "states").write_bytes(states()[:: len(states()) // SOME].tobytes())
     (tmp_path / "laws.json").write_text(json.dumps(names))
     numbers = {"WIDTH_OUT": ANSWERS, "COUNT": SOME, "KP": KP, "KV": KV}
-    text = ASK
+    text = Path(__file__).with_name("ask.js").read_text()
     for word, number in numbers.items():
         text = text.replace(word, str(number))
     (tmp_path / "ask.js").write_text(text)

@@ -5,19 +5,82 @@ PYTHONPATH=tests python tests/studies/kill_study.py --kills 10 --out try.json
 """
 
 import argparse
+import contextlib
+import functools
+import multiprocessing
+import os
+import random
+import signal
+import sys
 import tempfile
 import time
 from collections.abc import Iterator
 from importlib.metadata import version
 from pathlib import Path
 
-from support.killed_clusters import LOCAL, STUDIED, gone_on_alone, gone_on_with
-from support.killed_runs import Undisturbed, at_random_moments, undisturbed
+from support.killed_runs import ON_THREE, SEED, Undisturbed, at_random_moments, files_of, how_far, plan_of, undisturbed
 
 from bench.base import files
 from bench.base.provenance import ROOT, describe
+from bench.running import run
 
-SHARES = {"threads": (at_random_moments, 0.6), LOCAL: (gone_on_with, 0.2), "worker": (gone_on_alone, 0.2)}
+LOCAL = "local:2"
+LONGEST_S = 30.0
+"""After which what a killed run left behind is taken to stay."""
+STUDIED = plan_of(("rotation-matrix",), *ON_THREE)
+"""Free body, an arm and contact, on three engines."""
+
+
+def on_processes(_, out: Path, __) -> int:
+    """Begin a run of STUDIED with a session of its own: a fork would lack Dask's threads. Return its id."""
+    words = f"from kill_study import *; run.run(STUDIED, Path({str(out)!r}), scheduler=LOCAL)"
+    folders = (ROOT, ROOT / "tests", ROOT / "tests" / "studies")
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join(map(str, folders))}
+    return os.posix_spawn(sys.executable, [sys.executable, "-W", "ignore", "-c", words], environment, setsid=True)
+
+
+def measure(session: int) -> dict:
+    """Return how long the processes of a killed run stay; LONGEST_S if they do, and are killed now."""
+    began = time.monotonic()
+    while (waited := time.monotonic() - began) < LONGEST_S:
+        if session not in sessions():
+            return {"left_s": waited}
+        time.sleep(0.01)
+    os.killpg(session, signal.SIGKILL)
+    return {"left_s": LONGEST_S}
+
+
+def sessions() -> Iterator[int]:
+    """Yield the session of every process of this machine that has not ended."""
+    for path in Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError):  # it ended in this moment
+            state, _, _, session = path.read_text().rpartition(") ")[2].split()[:4]
+            if state != "Z":
+                yield int(session)
+
+
+def at_random_units(wanted: Undisturbed, folder: Path, kills: int) -> Iterator[dict]:
+    """One of two workers killed when a random unit but the last is done; the run goes on with the other."""
+    chance = random.Random(SEED)
+    for k in range(kills):
+        out, todo, at = folder / f"worker-{k}", list(wanted.plan.units), []
+        last = chance.randrange(1, len(todo))
+
+        def kill_a_worker(_, out=out, todo=todo, at=at, last=last):
+            todo.pop()
+            if len(todo) == last:
+                at.append(how_far(out))
+                chance.choice(multiprocessing.active_children()).kill()
+
+        run.run(wanted.plan, out, scheduler=LOCAL, report=kill_a_worker)
+        yield {**at[0], "by": "itself", "code": 0, "same": files_of(out) == wanted.files}
+
+
+SHARES = {
+    "threads": (at_random_moments, 0.6),
+    LOCAL: (functools.partial(at_random_moments, begin=on_processes, measure=measure), 0.2),
+    "worker": (at_random_units, 0.2),
+}
 """What is killed -> how, and its share of the kills. Runs with Dask come last: a fork would lack its threads."""
 
 

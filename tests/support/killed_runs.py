@@ -46,12 +46,8 @@ def plan_of(words: tuple, start_sets: tuple, engines: tuple, count: int, kp: flo
     return dataclasses.replace(made, units=tuple(units))
 
 
-LONG = plan_of(
-    ("rotation-matrix", "feedback-linearized/zyx-euler"),
-    ("half-turn", "paper"),
-    ("ideal-rk4", "native", "reference"),
-    12,
-)
+ON_THREE = ("half-turn", "paper"), ("ideal-rk4", "native", "reference"), 12
+LONG = plan_of(("rotation-matrix", "feedback-linearized/zyx-euler"), *ON_THREE)
 """Units of every experiment but robustness, on three engines: some seconds, most of them for curves and poses."""
 
 SHORT, OTHER = (plan_of(("rotation-matrix",), ("paper", "tumbling"), ("ideal-rk4",), 3, kp) for kp in (100.0, 50.0))
@@ -112,22 +108,41 @@ def how_far(out: Path) -> dict:
     return {"names": names, "parts": len(list((out / "parts").glob("*.parquet")))}
 
 
-def at_random_moments(wanted: Undisturbed, folder: Path, kills: int = KILLS) -> Iterator[dict]:
-    """Runs killed after a random time each, on one thread or two, and resumed on one or two."""
-    chance, found = random.Random(SEED), 0
-    began = time.monotonic()
-    ended(start(wanted.plan, folder / "timed", 2))
-    longest = time.monotonic() - began
-    for k in range(TRIES * kills):
+def on_threads(one: plan.Plan, out: Path, chance: random.Random) -> int:
+    """A run on one thread or two; its id."""
+    return start(one, out, chance.choice((1, 2)))
+
+
+def until_it_writes(out: Path, child: int) -> float:
+    """Wait for the first file of a run, or its end; the time."""
+    while not (out / "plan.json").is_file() and not os.waitid(
+        os.P_PID, child, os.WEXITED | os.WNOHANG | os.WNOWAIT
+    ):  # fmt: skip
+        time.sleep(0.01)
+    return time.monotonic()
+
+
+def at_random_moments(
+    wanted: Undisturbed, folder: Path, kills: int = KILLS, begin=on_threads, measure=lambda child: {}
+) -> Iterator[dict]:
+    """Runs killed a random time after their first file, and resumed in the same way or on threads."""
+    chance, found, longest = random.Random(SEED), 0, 0.0
+    for k in range(TRIES * kills + 1):
         if found == kills:
             return
-        out = folder / f"random-{k}"
-        child = start(wanted.plan, out, chance.choice((1, 2)))
-        time.sleep(chance.uniform(0.0, longest))
-        os.kill(child, signal.SIGKILL)
+        out = folder / f"{begin.__name__}-{k}"
+        child = begin(wanted.plan, out, chance)
+        began = until_it_writes(out, child)
+        if k:
+            time.sleep(chance.uniform(0.0, longest))
+            os.kill(child, signal.SIGKILL)
         if ended(child) == -signal.SIGKILL:
             found += 1
-            yield resumed(wanted, out, chance.choice((1, 2)))
+            goes_on = chance.choice((on_threads, begin))
+            far = how_far(out) | {"by": goes_on.__name__} | measure(child)
+            code = ended(goes_on(wanted.plan, out, chance))
+            yield {**far, "code": code, "same": files_of(out) == wanted.files}
+        longest = longest or time.monotonic() - began  # the first is left alone, and tells how long a run takes
 
 
 def is_file_below(out: Path, path, _, flags: int) -> bool:
