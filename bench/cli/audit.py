@@ -17,7 +17,10 @@ from bench.cli.screen import examples
 @click.option("--stiffness", type=float, default=1.0, show_default=True, help="Slope that your gains reckon with.")
 @click.option("--accept", multiple=True, metavar="FAULT", help="A fault that is meant; repeatable.")
 @click.option("--json", "json_file", type=click.Path(path_type=Path), metavar="FILE", help="All of it for machines.")
-def COMMAND(function: str, takes, frame, sign, stiffness, accept, json_file: Path | None):
+def COMMAND(
+    function: str, takes: str | None, frame: str | None, sign: str | None, stiffness: float, accept: tuple[str, ...],
+    json_file: Path | None,
+) -> None:  # fmt: skip
     """Check an orientation error of yours: its convention, and what is wrong with it, each with a pair to reproduce.
 
     FUNCTION is FILE.py:NAME, MODULE:NAME or LIBRARY.so:SYMBOL. It takes (R, R_d), 3 x 3, or (q, q_d), and returns three

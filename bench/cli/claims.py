@@ -1,6 +1,7 @@
 """`claims`: the paper's sentences, judged on a run."""
 
 from pathlib import Path
+from typing import Any
 
 import rich_click as click
 
@@ -12,7 +13,7 @@ from bench.cli.screen import console, examples
 @click.command("claims", epilog=examples("claims"))
 @click.argument("folder", required=False, type=click.Path(path_type=Path))
 @click.option("--criteria", is_flag=True, help="Print each claim's quote and criteria too.")
-def COMMAND(folder, criteria):
+def COMMAND(folder: Path | None, criteria: bool) -> None:
     """List the claims of Murphy (1988): id, verdict, claim, then the evidence (default: results/latest).
 
     A run of some laws or starts has no rows about some claims; those are named at the end as not judged.
@@ -34,7 +35,7 @@ def COMMAND(folder, criteria):
         print_paragraphs(Paragraph("Not judged", (f"This run has no rows about {listed(list(lacks))}.",)))
 
 
-def _record(one) -> tuple[str, ...]:
+def _record(one: Any) -> tuple[str, ...]:
     """Return the paper's words, the criterion, and those before it."""
     claim = one.claim
     before = (f"Before ({old.written}): {old.criterion} By it: {old.word}." for old in claim.earlier)

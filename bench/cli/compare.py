@@ -1,6 +1,7 @@
 """`compare`: two runs, or two revisions of the code, through the gates."""
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import rich_click as click
@@ -24,7 +25,10 @@ from tasks.errors import TaskError
 @click.option("--no-timing", is_flag=True, help="Do not compare time.")
 @click.option("--benchmarks", type=click.Path(path_type=Path), metavar="FOLDER", help="Keep base.json and head.json.")
 @click.option("--summary", type=click.Path(path_type=Path), metavar="FILE", help="Markdown for a pull request.")
-def COMMAND(base, head, laws, no_timing, benchmarks, summary):
+def COMMAND(
+    base: str | None, head: str | None, laws: options.Files, no_timing: bool, benchmarks: Path | None,
+    summary: Path | None,
+) -> None:  # fmt: skip
     """Compare HEAD with BASE, each a results folder or a git revision: what got worse, by how much, how sure.
 
     HEAD defaults to the working tree. BASE defaults to the commit where HEAD left main (on main: the commit before;
@@ -39,10 +43,10 @@ def COMMAND(base, head, laws, no_timing, benchmarks, summary):
     compares the whole. --benchmarks keeps files of pytest-benchmark. The summary is also added to
     $GITHUB_STEP_SUMMARY.
     """
-    written = map(Path, filter(None, (summary, os.environ.get("GITHUB_STEP_SUMMARY"))))
+    written = [Path(one) for one in (summary, os.environ.get("GITHUB_STEP_SUMMARY")) if one]
     before = {path: path.read_text(encoding="utf-8") if path.exists() else "" for path in written}
 
-    def leave(text):
+    def leave(text: str) -> None:
         for path, said in before.items():
             path.write_text(said + text, encoding="utf-8")
 
@@ -54,16 +58,19 @@ def COMMAND(base, head, laws, no_timing, benchmarks, summary):
         raise
 
 
-def _compare(base, head, laws, no_timing, benchmarks, leave) -> None:
+def _compare(
+    first: str | None, second: str | None, laws: options.Files, no_timing: bool, benchmarks: Path | None,
+    leave: Callable[[str], None],
+) -> None:  # fmt: skip
     import pandas as pd
 
     from bench.regression import rows
     from bench.regression.revisions import gates
 
-    base, head, folders = _resolve_sides(base, head, laws)
+    base, head, folders = _resolve_sides(first, second, laws)
     if folders:
-        said = gates.compare_folders(Path(base), Path(head))
-        differences = rows.compare(Path(base), Path(head))
+        said = gates.compare_folders(*folders)
+        differences = rows.compare(*folders)
     else:
         means = gates.Means(rounds=0) if no_timing else gates.USUAL
         with progress("steps", "checking out") as steps:
@@ -83,8 +90,8 @@ def _compare(base, head, laws, no_timing, benchmarks, leave) -> None:
             write_json(benchmarks / f"{name}.json", content)
     leave(words.write_markdown(said))
     if folders:
-        for folder in (base, head):
-            made_on = rounded_on(read_json(Path(folder, "provenance.json"))) or "an unknown machine"
+        for folder in folders:
+            made_on = rounded_on(read_json(folder / "provenance.json")) or "an unknown machine"
             console().print(f"{folder} was made on: {made_on}")
         agree = f"{len(differences)} differences between {base} and {head}"
         console().print(agree if differences else f"{head} agrees with {base}")
@@ -94,8 +101,8 @@ def _compare(base, head, laws, no_timing, benchmarks, leave) -> None:
         raise Exit(1)
 
 
-def _resolve_sides(base: str | None, head: str | None, laws) -> tuple[str, str | None, bool]:
-    """Return base, head, and whether they are folders.
+def _resolve_sides(base: str | None, head: str | None, laws: options.Files) -> tuple[str, str | None, list[Path]]:
+    """Return base, head, and both as folders if they are.
 
     Errors:
         UsageError: one is a folder and the other is not; or a user's law is to be judged in folders.
@@ -105,17 +112,18 @@ def _resolve_sides(base: str | None, head: str | None, laws) -> tuple[str, str |
 
     if base is None:
         try:
-            return commits.find_default_base(commits.find_repository(laws), head), None, False
+            return commits.find_default_base(commits.find_repository(laws), head), None, []
         except Incompatible:
             if laws or (commits.ROOT / ".git").exists():
                 raise
-            return str(options.REFERENCE), str(options.REFERENCE.with_name("quick")), True
+            base, head = str(options.REFERENCE), str(options.REFERENCE.with_name("quick"))
+            return base, head, [Path(base), Path(head)]
     folders = [commits.is_folder(word) for word in (base, head) if word is not None]
     if not any(folders):
-        return base, head, False
+        return base, head, []
     if head is None or not all(folders):
         other = f"HEAD '{head}' is none" if head else "HEAD is not named"
         raise click.UsageError(f"'{base}' is a folder and {other}; compare two folders, or two revisions")
     if laws:
         raise click.UsageError("--law is judged in revisions; a folder's run has its laws already (leave --law away)")
-    return base, head, True
+    return base, head, [Path(base), Path(head)]

@@ -34,7 +34,10 @@ if TYPE_CHECKING:
 @click.option("--joints", type=click.Choice(["6", "7"]), help="Joints of the arm (default: 6, or those of --arm).")
 @click.option("--arm", metavar="NAME", help="An arm, for its number of joints.")
 @click.option("--stages", is_flag=True, help="A line for each stage of the tick, not only the total.")
-def COMMAND(laws, regulators, representations, jacobians, inverses, controllers, joints, arm, stages):
+def COMMAND(
+    laws: options.Files, regulators: options.Words, representations: options.Words, jacobians: options.Words,
+    inverses: options.Words, controllers: options.Words, joints: str | None, arm: str | None, stages: bool,
+) -> None:  # fmt: skip
     """Count the operations of each law per tick: typical and worst branch, transcendental functions apart.
 
     --law FILE: count this law and any law given with --regulator.
@@ -53,8 +56,7 @@ def COMMAND(laws, regulators, representations, jacobians, inverses, controllers,
     chosen = options.chosen(laws, alone, representations, costings=True)
     if joints or arm or named.jacobians or named.inverses:
         n = _joints(joints, arm)
-        controllers = _controllers(chosen, named, n)
-        table = _rows(controllers, arm or _arm_of(n))
+        table = _rows(_controllers(chosen, named, n), arm or _arm_of(n))
         title = f"Operations per tick of a controller of {n} joints"
     else:
         table = _rows(chosen)

@@ -33,7 +33,7 @@ CURE_INSTALL = "make setup (or: pip install --require-hashes -r requirements/bas
 
 
 @click.command("doctor", epilog=examples("doctor"))
-def COMMAND():
+def COMMAND() -> None:
     """Check versions, compiler, engines, arms, rendering, results; say the cure. Exit code 1: a needed one is bad."""
     failed = 0
     for name, check in CHECKS.items():

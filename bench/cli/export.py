@@ -19,7 +19,7 @@ FOLDER = Path("export")
 @click.option("--to", "language", required=True, metavar="LANGUAGE", help="c, cpp, js or python.")
 @click.option("--out", type=options.PATH, help="Folder to write to (default: export/LANGUAGE/LAW).")
 @options.law
-def COMMAND(law: str, language: str, out: Path | None, laws: tuple[Path, ...]):
+def COMMAND(law: str, language: str, out: Path | None, laws: options.Files) -> None:
     """Write a LAW as code for your controller, translated from its one source, with test vectors.
 
     A law is named as in `list regulators`, with its coordinates where it has several; representation-NAME are the

@@ -22,13 +22,13 @@ folder = click.option(
 
 
 @click.group("history", epilog=examples("history"))
-def COMMAND():
+def COMMAND() -> None:
     """Measure every build, and show how its costs changed."""
 
 
 @COMMAND.command("add")
 @folder
-def add(folder):
+def add(folder: Path) -> None:
     """Time each law and some engines of this commit, count operations, and add a file to the history."""
     from bench.regression.history import append_build
 
@@ -40,7 +40,7 @@ def add(folder):
 
 @COMMAND.command("show")
 @folder
-def show(folder):
+def show(folder: Path) -> None:
     """Show the newest builds: the time of a tick in steps of the reference kernel, and flops of the typical branch."""
     _show(folder)
 

@@ -9,21 +9,25 @@ from bench.cli import options
 from bench.cli.paragraphs import Paragraph, print_paragraphs
 from bench.cli.screen import console, counted, examples, frame_table
 from bench.findings.judgement import Judgement
+from bench.law.contenders import registry
 
 
 @click.command("judge", epilog=examples("judge"))
-@click.argument("law", type=options.PATH)
+@click.argument("law")
 @click.option(
     "--law-limit", type=click.FloatRange(0.1), default=5.0, show_default=True, help="Time limit per unit [s]."
 )
-def COMMAND(law: Path, law_limit: float):
-    """Judge your law on the free body and explain the result. It takes seconds and writes no file.
+def COMMAND(law: str, law_limit: float) -> None:
+    """Judge a law on the free body and explain the result. It takes seconds and writes no file.
+
+    LAW is a file of yours, or the name of a law of the benchmark.
 
     It examines the command over all states (stiffness and damping at three goals, equilibria away from the goal,
     jumps), episodes from uniform, spinning and other starts (which are lost, and how they rest), and robustness. It
     lists the laws of results/reference that are most like yours.
     """
-    own = options.own_laws((law,))
+    is_file = Path(law).suffix or Path(law).exists()
+    own = options.own_laws((Path(law),)) if is_file else (registry.regulator(law),)
     from bench.findings.judged import judged  # after the file is known to hold a law, for it takes a second
 
     with console(stderr=True).status("compiling and judging"):

@@ -1,7 +1,7 @@
 """`list`: what there is to run, by kind."""
 
 import functools
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from types import SimpleNamespace
 from typing import Any, NamedTuple
 
@@ -74,7 +74,7 @@ def find_tasks() -> Mapping[str, Any]:
     return found
 
 
-def describe_arm(one) -> Any:
+def describe_arm(one: Any) -> Any:
     """Return an arm; for one that cannot be used, the reason as its title."""
     return SimpleNamespace(title=f"cannot be used: {one}") if isinstance(one, BadArm) else one
 
@@ -130,7 +130,7 @@ KINDS = {
 }
 
 
-def by_name(find: Callable[[str], Any], names) -> Mapping[str, Any]:
+def by_name(find: Callable[[str], Any], names: Iterable[str]) -> Mapping[str, Any]:
     """Return find(name) for every name."""
     return {name: find(name) for name in names}
 
@@ -138,7 +138,7 @@ def by_name(find: Callable[[str], Any], names) -> Mapping[str, Any]:
 @click.command("list", epilog=examples("list"))
 @click.argument("kind", required=False, metavar="[KIND]")
 @options.law
-def COMMAND(kind, laws):
+def COMMAND(kind: str | None, laws: options.Files) -> None:
     """List what can be run, of one kind or of all.
 
     Kinds: regulators, representations, jacobians, inverses, controllers, impedances, shipped,

@@ -1,6 +1,7 @@
 """`map`: millions of random starts of a law, counted in cells of SO(3)."""
 
 from pathlib import Path
+from typing import Any
 
 import rich_click as click
 from click.exceptions import Exit
@@ -10,6 +11,7 @@ from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, frame_table, shown_path
 from bench.experiments.choice import check_numbers, check_workers
+from bench.experiments.experiment import Unit
 from bench.experiments.map import plan_of
 from bench.experiments.tables.schema import RESULTS
 from bench.law.inputs import Gains
@@ -50,8 +52,10 @@ MOST = 10**10
     "--out", type=options.PATH, default=RESULTS / "latest-map", show_default="results/latest-map", help="Folder."
 )
 def COMMAND(
-    laws, regulators, starts, seed, spin, stated, engine, dt_s, horizon_s, kp, kv, workers, scheduler, out, replace
-):
+    laws: options.Files, regulators: options.Words, starts: int, seed: int, spin: float, stated: tuple[float, ...],
+    engine: str, dt_s: float, horizon_s: float, kp: float, kv: float, workers: int, scheduler: str, out: Path,
+    replace: bool,
+) -> None:  # fmt: skip
     """Simulate millions of uniformly random starts of a law on the ideal plant and count those that do not settle.
 
     Kept are counts by cell of SO(3), the slowest start of each 5 degrees of initial angle, and the first thousand
@@ -69,13 +73,13 @@ def COMMAND(
     if spin and stated:
         raise click.UsageError("--spin draws speeds and --speed states them (give one of the two)")
     speeds = tuple((speed, speed) for speed in dict.fromkeys(stated)) or ((0.0, spin),)
-    numbers = {"dt_s": dt_s, "horizon_s": horizon_s, "gains": Gains(kp, kv)}
+    numbers: dict[str, Any] = {"dt_s": dt_s, "horizon_s": horizon_s, "gains": Gains(kp, kv)}
     plan = plan_of(chosen, starts, seed=seed, speeds=speeds, engine=engine, **numbers)
     console().print(f"{counted(len(chosen), 'law')} from {starts:,} starts, into {shown_path(out)}")
     done = 0
     with progress("starts") as steps:
 
-        def report(unit):
+        def report(unit: Unit) -> None:
             nonlocal done
             done += unit.episodes
             steps.now(unit.label, done, plan.episodes())

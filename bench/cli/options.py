@@ -4,7 +4,7 @@ import functools
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import rich_click as click
 
@@ -19,12 +19,14 @@ LATEST = RESULTS / "latest"
 REFERENCE = RESULTS / "reference"
 
 
-def several(option: str, name: str, meaning: str, metavar: str = "NAME", **more):
+def several(option: str, name: str, meaning: str, metavar: str = "NAME", **more: Any) -> Callable:
     """Return an option that may be given again and again."""
     return click.option(option, name, multiple=True, metavar=metavar, help=f"{meaning}; repeatable.", **more)
 
 
 PATH = click.Path(path_type=Path)
+Words: TypeAlias = tuple[str, ...]
+Files: TypeAlias = tuple[Path, ...]
 
 law = several("--law", "laws", "A file of your own with a constant REGULATOR", "FILE", type=PATH)
 regulator = several(
@@ -43,7 +45,7 @@ controller = several(
 arm = several("--arm", "arms", "Only this arm")
 
 
-def numbered(name: str, default: float, meaning: str, python_name: str = "", **more) -> Callable:
+def numbered(name: str, default: float, meaning: str, python_name: str = "", **more: Any) -> Callable:
     """Return an option that takes a number and has a default."""
     names = [name, python_name] if python_name else [name]
     return click.option(*names, type=type(default), default=default, help=meaning, **{"show_default": True, **more})
@@ -76,12 +78,12 @@ carried_out = stacked(
 class Named(NamedTuple):
     """What --regulator, --jacobian and --inverse name together."""
 
-    regulators: tuple[str, ...]
-    jacobians: tuple[str, ...]
-    inverses: tuple[str, ...]
+    regulators: Words
+    jacobians: Words
+    inverses: Words
 
 
-def named(regulators, jacobians, inverses) -> Named:
+def named(regulators: Words, jacobians: Words, inverses: Words) -> Named:
     """Contenders of arms by their whole name, `law@jacobian+inverse`, taken apart; everything else as it is.
 
     Errors:
@@ -100,7 +102,7 @@ def named(regulators, jacobians, inverses) -> Named:
     return Named(tuple(word.partition("@")[0] for word in whole), (by,), (through,))
 
 
-def own_laws(files: tuple[Path, ...]) -> tuple[Law, ...]:
+def own_laws(files: Files) -> tuple[Law, ...]:
     """Return the regulators of these files, those that lie in bench/law/contenders too; two of one name are refused."""
     own = tuple(registry.regulator_in(file) or described(file) for file in files)
     names = [one.name for one in own]
@@ -110,7 +112,7 @@ def own_laws(files: tuple[Path, ...]) -> tuple[Law, ...]:
     return own
 
 
-def chosen(files, regulators, representations, costings: bool = False) -> list[Contender]:
+def chosen(files: Files, regulators: Words, representations: Words, costings: bool = False) -> list[Contender]:
     """Return the contenders that the options name; without names, all (the user's own included)."""
     own = own_laws(files)
     if regulators:
@@ -130,7 +132,7 @@ def chosen(files, regulators, representations, costings: bool = False) -> list[C
     return list(dict.fromkeys(picked))
 
 
-def _named(word: str, own) -> list[Contender]:
+def _named(word: str, own: tuple[Law, ...]) -> list[Contender]:
     if "/" in word:
         return [registry.find_contender(word, own)]
     return registry.contenders_of(registry.regulator(word, own))

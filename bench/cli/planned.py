@@ -1,9 +1,12 @@
 """What `run` prints of a plan: its size in a few lines, or everything in it."""
 
+from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 
 from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
 from bench.cli.screen import console, counted, shown_path
+from bench.experiments.experiment import Unit
 from bench.experiments.plan import Plan
 from bench.experiments.suites import NOMINAL
 from bench.running.schedulers import THREADS
@@ -36,7 +39,12 @@ def size(plan: Plan, out: Path, workers: int, scheduler: str) -> list[Paragraph]
 
 
 def _sizes(plan: Plan) -> list[Paragraph]:
-    size = f"{counted(plan.episodes(*PARTS), 'episode')} in {counted(len(plan.units), 'unit')}"
+    episodes, all_units = plan.episodes(*PARTS), counted(len(plan.units), "unit")
+    size = (
+        f"{counted(episodes, 'episode')} in {all_units}"
+        if episodes
+        else f"{all_units}, which make rows without episodes"
+    )
     found = [Paragraph("plan", (f"suite {plan.settings.suite}: {size}",))]
     for name, (head, word, counts) in PARTS.items():
         units = plan.of(name)
@@ -49,7 +57,7 @@ def _sizes(plan: Plan) -> list[Paragraph]:
     return [*found, Paragraph("also", (listed(list(others)),))] if others else found
 
 
-def _few(units, field: str, word: str) -> str:
+def _few(units: Sequence[Unit], field: str, word: str) -> str:
     names = list(dict.fromkeys(getattr(unit, field) for unit in units))
     return listed(names) if 0 < len(names) <= FEW else counted(len(names), word)
 
@@ -61,38 +69,23 @@ def _settings(plan: Plan, workers: int, scheduler: str) -> Paragraph:
 
 
 def print_all(plan: Plan) -> None:
-    """Every law, engine, arm, start set, perturbation, controller and task of a plan."""
+    """Print every law and controller of a plan, and how many episodes each has, by place and start set or task."""
+    touching = dict.fromkeys(unit.contender for unit in plan.of("contact"))
+    if touching:
+        console().print(f"controllers in contact: {', '.join(touching)}")
     ours = [one for one in plan.contenders if one.regulator.assemble is None]
     baselines = [one for one in plan.contenders if one.regulator.assemble is not None]
     if ours:
         console().print(f"\nlaws: {', '.join(dict.fromkeys(one.on_free_body for one in ours))}")
     if baselines:
         console().print(f"baselines: {', '.join(dict.fromkeys(one.on_free_body for one in baselines))}")
-    alone, contacts, perturbed = plan.of("free-body", "arm"), plan.of("contact"), plan.of("robustness")
-    sizes: dict = {}
-    for unit in alone:
-        place = f"{unit.engine}, {unit.arm}" if unit.arm else unit.engine
-        varied = "" if unit.variation == NOMINAL else " under each variation"
-        sizes.setdefault(place, {}).setdefault(unit.selector + varied, unit.total)
+    sizes: dict[str, dict[str, Counter[str]]] = {}
+    for unit in plan.of(*PARTS):
+        what = unit.task if unit.experiment == "contact" else unit.selector
+        place = ", ".join(filter(None, (unit.experiment, unit.engine, unit.arm)))
+        varied = "" if unit.variation in ("", NOMINAL) else " with model errors"
+        sizes.setdefault(place, {}).setdefault(what + varied, Counter())[unit.contender] += unit.episodes
     for place, sets in sizes.items():
-        on = {unit.contender for unit in alone if unit.arm and place.endswith(f", {unit.arm}")}
-        each = f"each of {counted(len(on), 'controller')}" if on else "each law"
-        console().print(f"{place}: " + ", ".join(f"{name} {total}" for name, total in sets.items()) + f" ({each})")
-    if perturbed:
-        levels = {unit.selector: unit.episodes // unit.count for unit in perturbed}
-        each = ", ".join(f"{name} {number} x {perturbed[0].count}" for name, number in levels.items())
-        laws = counted(len({unit.contender for unit in perturbed}), "law")
-        console().print(f"perturbations, levels x starts: {each} (each of {laws})")
-    if contacts:
-        _print_contacts(contacts)
-
-
-def _print_contacts(units) -> None:
-    console().print(f"controllers in contact: {', '.join(dict.fromkeys(unit.contender for unit in units))}")
-    trials: dict = {}
-    for unit in units:
-        of_task = trials.setdefault(unit.arm, {}).setdefault(unit.task, {})
-        of_task[unit.contender] = of_task.get(unit.contender, 0) + unit.episodes
-    for arm, by_task in trials.items():
-        each = ", ".join(f"{task} {max(counts.values())}" for task, counts in by_task.items())
-        console().print(f"in contact, {arm}: {each} (each controller, an impedance fewer)")
+        each = counted(len(set().union(*sets.values())), "contender")
+        most = ", ".join(f"{name} {max(counts.values())}" for name, counts in sets.items())
+        console().print(f"{place}: {most} (each of {each}, at most)")

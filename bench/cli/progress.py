@@ -69,7 +69,7 @@ def _lines(steps: Steps, screen: Console, line_s: float) -> Iterator[None]:
     """Print a line every so many seconds, from its own thread."""
     ended = threading.Event()
 
-    def repeat():
+    def repeat() -> None:
         while not ended.wait(line_s):
             screen.print(steps.line, soft_wrap=True)
 

@@ -2,6 +2,8 @@
 
 import time
 from datetime import timedelta
+from pathlib import Path
+from typing import Any
 
 import rich_click as click
 from click.exceptions import Exit
@@ -11,6 +13,7 @@ from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, shown_path
 from bench.experiments.choice import IN_CONTACT, WITHOUT, Choice, check_workers
+from bench.experiments.experiment import Unit
 from bench.law.inputs import Gains
 from bench.running.schedulers import check_scheduler
 
@@ -51,9 +54,10 @@ from bench.running.schedulers import check_scheduler
 )
 @click.option("--dry-run", is_flag=True, help="Print the whole plan; run nothing.")
 def COMMAND(
-    suite, laws, count, dt_s, horizon_s, kp, kv, integrator, seed, workers, scheduler, out, law_limit, replace, dry_run,
-    **words,
-):  # fmt: skip
+    suite: str, laws: options.Files, count: int | None, dt_s: float, horizon_s: float | None, kp: float, kv: float,
+    integrator: str | None, seed: int, workers: int, scheduler: str, out: Path, law_limit: float | None, replace: bool,
+    dry_run: bool, **words: Any,
+) -> None:  # fmt: skip
     """Run a suite and store its episodes; a run that was stopped goes on where it was.
 
     The free body has laws alone; an arm also needs a Jacobian and an inverse. The suite has its own for each law. Name
@@ -71,7 +75,7 @@ def COMMAND(
 
     check_workers(workers)  # at once: a plan of arms' starts takes seconds
     check_scheduler(scheduler)
-    choice = Choice(**{**words, **options.named(*map(words.get, options.Named._fields))._asdict()})
+    choice = Choice(**{**words, **options.named(*(words[name] for name in options.Named._fields))._asdict()})
     plan = planning.make(
         suite,
         options.chosen(laws, choice.regulators, choice.representations),
@@ -98,7 +102,7 @@ def COMMAND(
         total = plan.episodes()
         steps.now("compiling the laws")
 
-        def report(unit):
+        def report(unit: Unit) -> None:
             if left.pop(unit.key, None) is None:
                 return
             missing = sum(left.values())
@@ -107,7 +111,7 @@ def COMMAND(
             else:
                 steps.now(f"{counted(len(left), 'unit')} left" if left else "joining the tables")
 
-        by = {"workers": workers, "scheduler": scheduler, "law_limit_s": law_limit}
+        by: dict[str, Any] = {"workers": workers, "scheduler": scheduler, "law_limit_s": law_limit}
         did = running.run(plan, out, replace=replace, report=report, **by)
     took = f" in {timedelta(seconds=round(time.monotonic() - began))}" if did else ""
     console().print(

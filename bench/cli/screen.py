@@ -6,7 +6,7 @@ import shlex
 import tomllib
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from rich.console import Console, ConsoleOptions, JustifyMethod, RenderableType
 from rich.measure import Measurement
@@ -88,7 +88,7 @@ def word_table(names: Sequence[str], rows: Iterable[Sequence], title: str = "") 
     return Frame([Column(name, [*map(str, own)]) for name, own in zip(names, cells, strict=True)], title)
 
 
-def frame_table(frame, title: str = "") -> Frame:
+def frame_table(frame: Any, title: str = "") -> Frame:
     """Return a data frame, for a console to print."""
     columns = []
     for name in frame.columns:

@@ -14,20 +14,17 @@ from bench.cli.screen import console, examples, frame_table, shown_path
 @click.argument("folder", required=False)
 @click.argument("part", required=False)
 @click.option("--details", is_flag=True, help="Every table instead of the summary.")
-@click.option("--engine", metavar="NAME", help="Only this engine's episodes.")
-@click.option("--starts", metavar="NAME", help="Only this start set, with the count of each outcome.")
 @click.option("--outcomes", is_flag=True, help="The count of each outcome for every start set.")
 @options.regulator
-def COMMAND(folder, part, details, engine, starts, outcomes, regulators):
+def COMMAND(folder: str | None, part: str | None, details: bool, outcomes: bool, regulators: options.Words) -> None:
     """Show a run in at most 40 lines, the answer first: law, failures, where to look (default: results/latest).
 
     FOLDER may be left out. PART is free-body, arms, contact or robustness: the tables of that part. In them a/b counts
-    episodes: a of b settled (in contact: poses done). An option that names a law, start set or engine shows the
-    tables of free body and arms that have it.
+    episodes: a of b settled (in contact: poses done). --regulator and --outcomes show tables of
+    free body and arms.
     """
     path, part = _meant(folder, part)
-    narrowed = {"--engine": engine, "--starts": starts, "--outcomes": outcomes, "--regulator": regulators}
-    given = [option for option, value in narrowed.items() if value]
+    given = ["--outcomes"] * outcomes + ["--regulator"] * bool(regulators)
     if not (details or part or given):
         from bench.cli.summary.whole import print_summary  # what judges claims takes seconds to import
 
@@ -35,7 +32,7 @@ def COMMAND(folder, part, details, engine, starts, outcomes, regulators):
         return
     if part not in (None, "free-body", "arms") and given:
         raise click.UsageError(f"{part} takes no {given[0]}, which is about episodes from start sets; leave it away")
-    found = _tables(path, part, engine, starts, outcomes, regulators)
+    found = _tables(path, part, outcomes, regulators)
     console().print(origin(path))
     for title, frame in found:
         console().print(frame_table(frame, f"\n{title}"))
@@ -65,33 +62,31 @@ def _meant(folder: str | None, part: str | None) -> tuple[Path, str | None]:
     return path, part
 
 
-def _tables(folder: Path, part, engine, starts, outcomes, regulators) -> list:
+def _tables(folder: Path, part: str | None, outcomes: bool, regulators: options.Words) -> list:
     """Titles and tables of a part, or of all."""
     from bench.cli.details import contact, robustness
-    from bench.cli.details.episodes import of_laws, only, outcome_table, places, tables_of_arms, tables_of_free_body
+    from bench.cli.details.episodes import of_laws, outcome_table, places, tables_of_arms, tables_of_free_body
     from bench.experiments.experiment import known_experiments
     from bench.experiments.tables.store import read
 
     episodes = read(folder, "episodes")
     if part in ("free-body", "arms"):
         episodes = episodes[(episodes["arm"] != "") == (part == "arms")]
-    for column, word in (("engine", engine), ("start_set", starts)):
-        episodes = only(episodes, shown_path(folder), column, (word,) if word else ())
     episodes = of_laws(episodes, shown_path(folder), regulators)
-    if outcomes or starts:
+    if outcomes:
         return [(place, outcome_table(rows)) for place, rows in places(episodes)]
     found: list = []
     if part in (None, "free-body"):
         found += tables_of_free_body(episodes[episodes["arm"] == ""])
     if part in (None, "arms"):
         found += tables_of_arms(episodes[episodes["arm"] != ""])
-    if part == "contact" or not (part or engine or regulators):
+    if part == "contact" or not (part or regulators):
         found += contact.tables(read(folder, "compliance"))
-    if part == "robustness" or not (part or engine or regulators):
+    if part == "robustness" or not (part or regulators):
         rows = read(folder, "robustness")
         found += robustness.tables(rows) if len(rows) else ()
     for one in known_experiments().values():
-        if one.summary and (part == one.name or not (part or engine or regulators)):
+        if one.summary and (part == one.name or not (part or regulators)):
             frame = one.summary(read(folder, one.table))
             found += [(one.title, frame)] if len(frame) else []
     return found

@@ -1,6 +1,7 @@
 """`time`: nanoseconds a tick on this machine, through pytest-benchmark."""
 
 from pathlib import Path
+from typing import Any
 
 import rich_click as click
 
@@ -18,14 +19,16 @@ WHOLE, PARTIAL = RESULTS / "timings", RESULTS / "timings-partial"
 @options.representation
 @options.arm
 @click.option("--quick", is_flag=True, help="Fewer passes: rougher numbers in a fraction of the time.")
-@click.option("--benchmark-json", default="", metavar="FILE", help="The samples, as pytest-benchmark reads them.")
 @click.option(
     "--out",
     type=options.PATH,
     metavar="FOLDER",
     help="Folder of the machine's file; by default results/timings for everything, results/timings-partial for less.",
 )
-def COMMAND(laws, regulators, representations, arms, quick, benchmark_json, out: Path | None):
+def COMMAND(
+    laws: options.Files, regulators: options.Words, representations: options.Words, arms: options.Words, quick: bool,
+    out: Path | None,
+) -> None:  # fmt: skip
     """Time every law, engine and arm per tick, interleaved with a fixed reference kernel.
 
     results/timings is under version control. A run with --quick, or of less or more than everything, does not write
@@ -39,18 +42,18 @@ def COMMAND(laws, regulators, representations, arms, quick, benchmark_json, out:
         tasks.arm(arm)  # a word that names none is refused before anything is compiled
     with progress("samples") as steps:
 
-        def report(done):
+        def report(done: timing.Progress) -> None:
             steps.now(f"{'timing' if done.total else 'compiling'} {done.name}", done.done, done.total or None)
 
         chosen = options.chosen(laws, regulators, representations, costings=True)
         run = timing.run_apart if laws else timing.run
         folder = out or folder_for(laws, regulators, representations, arms, quick)
-        path = run(chosen, folder, quick=quick, report=report, arms=named, json_file=benchmark_json)
-    console().print(frame_table(timing.table(path), "Time per tick"))
-    console().print(frame_table(timing.arm_table(path), "Time per tick on arms"))
-    console().print(f"wrote {shown_path(path)}" + (f" and {benchmark_json}" if benchmark_json else ""))
+        path = run(chosen, folder, quick=quick, report=report, arms=named)
+    for arm, table in timing.tables(path):
+        console().print(frame_table(table, f"\nTime per tick{f' on {arm}' if arm else ''}"))
+    console().print(f"wrote {shown_path(path)}")
 
 
-def folder_for(*narrowing) -> Path:
+def folder_for(*narrowing: Any) -> Path:
     """Return the default folder of timings: the one under version control only if everything was timed."""
     return PARTIAL if any(narrowing) else WHOLE

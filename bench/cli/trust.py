@@ -11,7 +11,7 @@ from bench.experiments.tables import trust
 
 @click.command("trust")
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
-def COMMAND(files):
+def COMMAND(files: tuple[Path, ...]) -> None:
     """Let these law files run when a results folder that holds them is read, as your own do. Read them first.
 
     A law is Python: it can do all that you can. Without this, a law in a folder from elsewhere is shown by its rows,

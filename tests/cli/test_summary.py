@@ -170,7 +170,7 @@ def test_unknown_part_is_refused_with_the_parts(capsys, words):
 
 
 def test_option_that_a_part_does_not_take_is_refused(capsys, finished):
-    assert "contact takes no --starts" in refused(capsys, "show", finished, "contact", "--starts", "paper")
+    assert "contact takes no --outcomes" in refused(capsys, "show", finished, "contact", "--outcomes")
 
 
 # ------------------------------------------------------------------------------------------ its tables

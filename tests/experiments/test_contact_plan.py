@@ -169,4 +169,4 @@ def test_dry_run_counts_trials_of_each_arm_and_task(capsys):
     assert f"{18 * len(ABLE)} episodes in {len(ABLE)} unit" in said.out
     assert f"controllers in contact: {EULER}" in said.out
     for arm in ABLE:
-        assert f"in contact, {arm}: wrench-probe 18 " in said.out
+        assert f"contact, {arm}: wrench-probe 18 " in said.out

@@ -1,11 +1,8 @@
 """Timing: the order of the passes, the reference kernel, ratios, rows, a user's law apart. No time is asserted."""
 
 import os
-import subprocess
-import sys
 
 import numpy as np
-import pandas as pd
 import pytest
 from scipy.stats import binom
 from support.command_line import bench
@@ -21,7 +18,7 @@ from bench.law.kinds import Law
 from bench.law.scalar import kernel, sqrt
 from bench.running import timing
 from bench.running.timing import benchmarks, law, reference_kernel
-from bench.running.timing.benchmark import ENGINE, KERNEL, LAW, LOOP, ROLLOUT, Benchmark
+from bench.running.timing.benchmark import ENGINE, KERNEL, LAW, LOOP, Benchmark
 from bench.running.timing.ratios import ranks, ratio
 from bench.running.timing.rows import QUICK_PASSES, frame
 from bench.running.timing.session import measure, order
@@ -35,7 +32,7 @@ def quick(tmp_path_factory):
     told = []
     contenders = [find_contender(word) for word in LAWS]
     folder = tmp_path_factory.mktemp("timings")
-    path = timing.run(contenders, folder, quick=True, report=told.append, json_file=folder / "samples.json")
+    path = timing.run(contenders, folder, quick=True, report=told.append)
     assert [one.name for one in told if one.total == 0] == list(LAWS)
     return path, [one for one in told if one.total]
 
@@ -46,13 +43,12 @@ def benchmark(name, call=lambda: None, ticks=10):
 
 
 def three(drift):
-    """A kernel of 1, rollout of 2 and a native loop of 3 s a sample, each pass slowed by its drift."""
+    """A kernel of 1 and a native loop of 3 s a sample, each pass slowed by its drift."""
     every = [
         Benchmark(KERNEL, None, "", 10, lambda: None),
-        Benchmark(ENGINE, None, ROLLOUT, 10, lambda: None),
         benchmark("one")._replace(what=ENGINE, engine="native"),
     ]
-    return every, np.outer(drift, (1.0, 2.0, 3.0))
+    return every, np.outer(drift, (1.0, 3.0))
 
 
 def test_reference_kernel_is_the_same_arithmetic_as_ever():
@@ -75,7 +71,7 @@ def test_run_visits_everything_in_every_pass(quick):
     each = len(told) // QUICK_PASSES
     passes = [[one.name for one in told[k * each : (k + 1) * each]] for k in range(QUICK_PASSES)]
     assert all(sorted(names) == sorted(passes[0]) for names in passes)
-    assert len(set(passes[0])) == each == 1 + len(LAWS) + 3 * len(LAWS) + 2
+    assert len(set(passes[0])) == each == 1 + len(LAWS) + 3 * len(LAWS) + 1
     assert len({tuple(names) for names in passes}) > 1
     assert [one.done for one in told] == list(range(1, len(told) + 1))
     assert {one.total for one in told} == {len(told)}
@@ -93,30 +89,19 @@ def test_file_has_one_row_of_times_for_everything_timed(quick):
     rows = timing.read(quick[0])
     keys = set(zip(rows.what, rows.engine, rows.regulator, rows.representation, strict=True))
     laws = [tuple(f"{word}/".split("/")[:2]) for word in LAWS]
-    expected = {(LAW, "", *one) for one in laws} | {(LOOP, "", "", ""), (ENGINE, ROLLOUT, "", "")}
+    expected = {(LAW, "", *one) for one in laws} | {(LOOP, "", "", "")}
     expected |= {(ENGINE, engine, *one) for engine in benchmarks.ENGINES for one in laws}
     assert keys == expected
     assert len(rows) == len(keys)
     assert (rows[["ns_per_tick", "ns_reference_kernel", "ratio_low", "ticks"]] > 0).all(axis=None)
     assert rows.ratio.between(rows.ratio_low, rows.ratio_high).all()
-    assert (rows.ratio_rollout.notna() == (rows.engine == "native")).all()
     assert ((rows.passes == QUICK_PASSES) & (rows.ns_reference_kernel == rows.ns_reference_kernel[0])).all()
 
 
-def test_pytest_benchmark_reads_the_samples_and_finds_the_same_medians(quick, tmp_path):
-    given = ["compare", quick[0].with_name("samples.json"), "--columns=median,rounds,iterations", "--csv=read"]
-    subprocess.run([sys.executable, "-m", "pytest_benchmark", *given], cwd=tmp_path, check=True, capture_output=True)
-    rows, read = timing.read(quick[0]), pd.read_csv(tmp_path / "read.csv")
-    expected = {*rows.ns_per_tick.round(6), round(rows.ns_reference_kernel[0], 6)}
-    assert {*(read["median"] * 1e9).round(6)} == expected
-    assert (read.rounds == QUICK_PASSES).all()
-    assert {*rows.ticks} <= {*read.iterations}
-
-
-def test_table_has_a_line_for_each_law_and_two_for_comparison(quick):
-    lines = timing.table(quick[0])
-    assert list(lines.law) == [*LAWS, "(empty loop)", "(mujoco.rollout)"]
-    assert lines.equals(timing.table(timing.read(quick[0])))
+def test_table_has_a_line_for_each_law_and_one_for_comparison(quick):
+    [(arm, lines)] = timing.tables(quick[0])
+    assert (arm, list(lines.law)) == ("", [*LAWS, "(empty loop)"])
+    assert lines.equals(dict(timing.tables(timing.read(quick[0])))[""])
     assert all(isinstance(cell, str) for cell in lines.to_numpy().ravel())
 
 
@@ -124,8 +109,6 @@ def test_ratio_is_taken_within_a_pass_whatever_the_machine_does_between():
     rows = frame(*three(drift=(1.0, 5.0, 0.5, 2.0, 3.0, 1.0, 7.0))).set_index("engine")
     assert rows.loc["native", ["ratio", "ratio_low", "ratio_high"]].tolist() == [3.0, 3.0, 3.0]
     assert rows.loc["native", "ns_per_tick"] == 0.6e9  # in the middle one of the passes
-    rollout = rows.loc["native", ["ratio_rollout", "ratio_rollout_low", "ratio_rollout_high"]].tolist()
-    assert rollout == pytest.approx([1.5, 1.5, 1.5], rel=1e-15)
 
 
 @pytest.mark.parametrize("passes", [6, 7, 20, 31, 61, 400])
@@ -158,7 +141,7 @@ def test_law_without_a_finite_command_is_a_row_without_a_time():
     every, seconds = three(drift=np.ones(7))
     rows = frame([*every, one], np.column_stack((seconds, np.ones(7))))
     assert rows[["ns_per_tick", "ratio"]].iloc[-1].isna().all()
-    assert timing.table(rows).iloc[-1]["alone [ns]"] == "fails"
+    assert dict(timing.tables(rows))[""].iloc[-1]["alone [ns]"] == "fails"
 
 
 def test_measuring_takes_the_fastest_round_and_writes_nothing_to_the_terminal(capfd):
@@ -202,9 +185,7 @@ def contenders(tmp_path, *lines):
 
 def test_law_of_a_user_is_timed_beside_ours(tmp_path):
     told = []
-    given = {"quick": True, "report": told.append, "json_file": tmp_path / "samples.json"}
-    path = timing.run_apart(contenders(tmp_path), tmp_path / "timings", **given)
-    assert '"name": "law mine"' in given["json_file"].read_text()
+    path = timing.run_apart(contenders(tmp_path), tmp_path / "timings", quick=True, report=told.append)
     rows = timing.read(path)
     assert {"mine", "rotation-matrix"} <= set(rows["regulator"].astype(str))
     assert {one.name for one in told if one.total == 0} == {"mine", "rotation-matrix"}

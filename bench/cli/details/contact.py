@@ -1,6 +1,7 @@
 """Tasks in contact: how many trials of each controller are done, and how well the hand complies."""
 
 import math
+from collections.abc import Iterator
 
 import pandas as pd
 
@@ -14,13 +15,13 @@ COLUMNS = {
 """Columns of compliance.parquet that are summarized: as what, in which unit."""
 
 
-def tables(rows):
+def tables(rows: pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
     """Yield a table for each arm."""
     for arm, part in rows.groupby("arm", observed=True, sort=False):
         yield f"{arm}, contact (a/b: a of b poses done; then median and worst of these)", summary(part)
 
 
-def summary(rows):
+def summary(rows: pd.DataFrame) -> pd.DataFrame:
     """One line for each controller: poses whose trials are all done, and median and worst of COLUMNS over them.
 
     at rest: of the poses that have an end.

@@ -1,5 +1,7 @@
 """Free body and arms: what each law or controller settles from each start set, and counts of outcomes."""
 
+from collections.abc import Iterator
+
 import pandas as pd
 import rich_click as click
 from scipy.stats import binomtest
@@ -10,47 +12,50 @@ from tasks.cause import CAUSES
 from tasks.verdict import CRASHED, OUTCOMES
 
 FIRST = ("law", "settled of SO(3)", "median s", "worst s")
+Rows = Iterator[tuple[str, pd.DataFrame]]
+"""Titles or names, each with its rows."""
+
 OF_STARTS = "a/b: a of b starts settled"
 """Above every table that has such cells."""
 
 
-def settled(rows) -> str:
+def settled(rows: pd.DataFrame) -> str:
     """How many episodes settled, of how many."""
     return f"{(rows['outcome'] == 'settled').sum()}/{len(rows)}"
 
 
-def seconds(rows) -> dict[str, str]:
+def seconds(rows: pd.DataFrame) -> dict[str, str]:
     """Median and worst settling time."""
     times = rows["settling_time_s"].dropna()
     median, worst = (f"{times.median():.3f}", f"{times.max():.3f}") if len(times) else ("never", "never")
     return {"median s": median, "worst s": worst}
 
 
-def by_contender(rows):
+def by_contender(rows: pd.DataFrame) -> Rows:
     """Name of a law or controller, its rows."""
     for name, own in results.with_contender(rows).groupby("contender", observed=True, sort=False):
         yield str(name), own
 
 
-def places(episodes):
+def places(episodes: pd.DataFrame) -> Rows:
     """Arm, or "free body", and engine; its rows."""
     for (engine, arm), part in episodes.groupby(["engine", "arm"], observed=True, sort=False):
         yield f"{arm or 'free body'}, {engine}", part
 
 
-def by_start_set(rows) -> dict[str, str]:
+def by_start_set(rows: pd.DataFrame) -> dict[str, str]:
     """Return the settled of each start set."""
     groups = rows.groupby("start_set", observed=True, sort=True)
     return {str(start_set): settled(part) for start_set, part in groups}
 
 
-def tables_of_free_body(episodes):
+def tables_of_free_body(episodes: pd.DataFrame) -> Rows:
     """Yield a table for each engine."""
     for place, part in places(episodes):
         yield f"{place} ({OF_STARTS}; share of SO(3) and times from uniform starts)", summarize_laws(part)
 
 
-def tables_of_arms(episodes):
+def tables_of_arms(episodes: pd.DataFrame) -> Rows:
     """Yield a table for each arm, then one for each whose plant is not the controller's model."""
     is_nominal = episodes["variation"] == NOMINAL
     for place, part in places(episodes[is_nominal]):
@@ -60,7 +65,7 @@ def tables_of_arms(episodes):
         yield title, summarize_variations(part)
 
 
-def summarize_laws(episodes):
+def summarize_laws(episodes: pd.DataFrame) -> pd.DataFrame:
     """One line for each law: share of SO(3) settled, settling times [s], and what settled of other start sets."""
     lines = []
     for name, own in by_contender(episodes):
@@ -73,14 +78,14 @@ def summarize_laws(episodes):
     return table[first + [name for name in table if name not in first]]
 
 
-def _share(part) -> str:
+def _share(part: pd.DataFrame) -> str:
     """Return the share that settles, with its Wilson 95 % interval."""
     number = int((part["outcome"] == "settled").sum())
     low, high = binomtest(number, len(part)).proportion_ci(method="wilson")
     return f"{number / len(part):.2%} [{low:.2%}, {high:.2%}]"
 
 
-def summarize_controllers(episodes):
+def summarize_controllers(episodes: pd.DataFrame) -> pd.DataFrame:
     """One line for each controller: settled of each start set, settling times [s], and the causes of its failures."""
     lines = []
     for name, rows in by_contender(episodes):
@@ -90,7 +95,7 @@ def summarize_controllers(episodes):
     return pd.DataFrame(lines)
 
 
-def summarize_variations(episodes):
+def summarize_variations(episodes: pd.DataFrame) -> pd.DataFrame:
     """One line for each controller, one column for each variation of the plant: settled, and the median angle left."""
     lines = []
     for name, rows in by_contender(episodes):
@@ -101,21 +106,7 @@ def summarize_variations(episodes):
     return pd.DataFrame(lines)
 
 
-def only(episodes, folder, column: str, words):
-    """Return the rows that have one of some words in a column; all if there are no words.
-
-    Errors:
-        UsageError: a word that no row has.
-    """
-    known = sorted(episodes[column].unique())
-    for word in words:
-        if word not in known:
-            kind = column.replace("_", " ")
-            raise click.UsageError(f"{folder} has no {kind} '{word}'; it has: {', '.join(known) or 'none'}")
-    return episodes[episodes[column].isin(words)] if words else episodes
-
-
-def of_laws(rows, folder, words):
+def of_laws(rows: pd.DataFrame, folder: str, words: tuple[str, ...]) -> pd.DataFrame:
     """Return the rows of the laws: by regulator, with its representation, or with its Jacobian and inverse too.
 
     Errors:
@@ -133,7 +124,7 @@ def of_laws(rows, folder, words):
     return rows[names.isin(words).any(axis=1).to_numpy()]
 
 
-def outcome_table(episodes):
+def outcome_table(episodes: pd.DataFrame) -> pd.DataFrame:
     """One line for each start set and law: counts of outcomes, then median and worst settling time [s]."""
     varies = "variation" in episodes and (episodes["variation"] != NOMINAL).any()
     keys = ["start_set", "variation", "law"] if varies else ["start_set", "law"]

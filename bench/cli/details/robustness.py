@@ -1,6 +1,7 @@
 """Robustness: up to which level each law withstands each perturbation, beside the closed forms."""
 
 import math
+from collections.abc import Iterator
 
 import pandas as pd
 
@@ -15,7 +16,7 @@ FEW = 3
 """Perturbations up to which each has a table of its own."""
 
 
-def tables(rows):
+def tables(rows: pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
     """Thresholds; of few perturbations one more table for each."""
     table = summary(rows)
     laws = table[(table["law"] != NEAR) & ~(table == "none").sum(axis=1).gt(FEW)]
@@ -35,7 +36,7 @@ def tables(rows):
         yield f"{axis} [{tasks.axis(axis).unit}], level by level (a/b: a of b starts go well)", shown
 
 
-def summary(rows):
+def summary(rows: pd.DataFrame) -> pd.DataFrame:
     """One line for each law and one of theory near the goal: a threshold for each way, theory's at 180° beside it."""
     named = results.with_contender(rows)
     kp, kv = float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0])

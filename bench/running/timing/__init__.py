@@ -5,23 +5,22 @@ after does not. So everything is timed in one run, in passes: each pass samples 
 benchmark in a random order of its own, and a ratio is taken within a pass.
 
 An interval says how sure the median of this run is, on a machine in this state. Three full runs, minutes apart on two
-shared cores, agreed within 1 % for laws alone and within 3 % for native over rollout; beside three processes that
-kept both cores busy, some ideal loops were up to 12 % slower, far outside their intervals.
+shared cores, agreed within 1 % for laws alone; beside three processes that kept both cores busy, some ideal loops were
+up to 12 % slower, far outside their intervals.
 
 reference_kernel   what a ratio is to
 law                a law alone, one command waiting for the other
 benchmark, benchmarks      all that is timed, engines included
-on_arms            the same of every arm: each controller of the default suite, rollout,
-dm_control_loop      and a loop in dm_control and numpy, for the speed-up
-threads            two threads against one, on the wall, after the passes
+on_arms            the same of every arm: each controller of the default suite
 passes, session    the samples, as pytest-benchmark runs them
 ratios             medians over passes, with intervals
 apart              the same beside a user's laws, in a process of its own
-rows, summary      from seconds to results/timings/<machine>.parquet, pytest-benchmark's JSON, and a table for the eye
+rows, summary      from seconds to results/timings/<machine>.parquet, and tables for the eye
 """
 
 from bench.running.timing.apart import run_apart
+from bench.running.timing.benchmarks import Progress
 from bench.running.timing.rows import about, read, run
-from bench.running.timing.summary import arm_table, table
+from bench.running.timing.summary import tables
 
-__all__ = ["about", "arm_table", "read", "run", "run_apart", "table"]
+__all__ = ["Progress", "about", "read", "run", "run_apart", "tables"]

@@ -28,7 +28,6 @@ def run_apart(
     quick: bool = False,
     report: Callable = lambda _: None,
     arms: tuple[str, ...] = (),
-    json_file: str = "",
     silent_s: float = SILENT_S,
 ) -> Path:
     """Time contenders as `run` does, where some of them are a user's.
@@ -38,7 +37,7 @@ def run_apart(
     """
     contenders = list(contenders)
     files = sorted({one.regulator.origin for one in contenders if one.regulator.origin})
-    how = {"folder": str(folder), "quick": quick, "arms": arms, "json_file": str(json_file)}
+    how = {"folder": str(folder), "quick": quick, "arms": arms}
     asked = {"files": files, "names": [one.name for one in contenders], "how": how}
     process = LawProcess(__name__)
     try:

@@ -1,8 +1,6 @@
-"""All that is timed: the reference kernel, every law, every law in every compiled engine, rollout, and the arms.
+"""All that is timed: the reference kernel, every law, every law in every compiled engine, and the arms.
 
-An engine runs its real loop, all metrics on, from fixed starts, with no early stop. `rollout` is MuJoCo's own
-open-loop loop (mujoco.rollout) over the same model, starts and number of ticks, with commands that were drawn
-beforehand and outputs allocated beforehand: what a closed loop can hope to approach.
+An engine runs its real loop, all metrics on, from fixed starts, with no early stop.
 """
 
 from collections.abc import Callable
@@ -24,7 +22,7 @@ from bench.experiments.experiment import Settings
 from bench.law.contender import Contender
 from bench.law.inputs import Gains
 from bench.running.timing import law, on_arms, reference_kernel
-from bench.running.timing.benchmark import KERNEL, LAW, LOOP, NEVER, Benchmark, closed_loop, open_loop
+from bench.running.timing.benchmark import KERNEL, LAW, LOOP, NEVER, Benchmark, closed_loop
 from tasks.base import Start
 
 ENGINES = ("ideal-held", "ideal-rk4", "native")
@@ -35,9 +33,6 @@ HORIZON_S = 0.4
 
 STARTS = {"ideal-held": 128, "ideal-rk4": 128, "native": 8}
 """Uniform starts; a sample takes from three milliseconds to twenty, 0.05 ms of them to hand the loop its arguments."""
-
-PUSH = 10.0
-"""Standard deviation of rollout's commands [rad/s^2]; they need only keep the body turning."""
 
 
 class Progress(NamedTuple):
@@ -72,7 +67,7 @@ def benchmarks(
         laws.append(_law(LAW, one))
     empty = _law(LOOP, Contender(law.EMPTY))._replace(contender=None)
     kernel = Benchmark(KERNEL, None, "", reference_kernel.STEPS, _kernel())
-    found = [kernel, *laws, *loops, empty, _rollout()]
+    found = [kernel, *laws, *loops, empty]
     for arm in arms:
         report(Progress(arm, 0, 0))
         found += on_arms.of_arm(arm, [one for one in contenders if not one.regulator.costing_only])
@@ -113,10 +108,3 @@ def _simulation(starts: list[Start]) -> tuple[mujoco.MjModel, mujoco.MjData, np.
     task = tasks.task(TASK)
     model = model_of(task.xml(_settings().dt_s), "euler")
     return model, mujoco.MjData(model), np.array([[*qpos, *qvel] for qpos, qvel in map(task.state, starts)])
-
-
-def _rollout() -> Benchmark:
-    starts = tasks.start_set("uniform", STARTS["native"])
-    model, data, states = _simulation(starts)
-    size = (len(starts), _settings().ticks, model.nu)
-    return open_loop(model, data, states, np.random.default_rng(0).normal(scale=PUSH, size=size))

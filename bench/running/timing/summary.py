@@ -1,87 +1,35 @@
-"""The timings as tables for the eye: a line a law, and a line a controller of an arm."""
+"""The timings as tables for the eye: one of the free body and one of each arm, a line a law or controller."""
 
 import math
+from collections.abc import Iterator
 from pathlib import Path
 
 import pandas as pd
 
-from bench.running.timing.benchmark import DM_CONTROL, ENGINE, LOOP, ROLLOUT, THREADS
-from bench.running.timing.benchmarks import ENGINES
+from bench.experiments.tables.read import with_contender
 from bench.running.timing.rows import read
 
-ALONE, TO_KERNEL, TO_ROLLOUT = "alone [ns]", "alone / kernel", "native / rollout"
-NOT_TIMED = "fails"
+NOT_TIMED, EMPTY = "fails", "(empty loop)"
 
 
-def table(timings: Path | pd.DataFrame) -> pd.DataFrame:
-    """All columns are text: ns a tick alone and in each engine, and ratios with their intervals.
+def tables(timings: Path | pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
+    """Yield the arm, empty for the free body, and its table: ns a tick alone and in each engine.
 
-    Two lines are of no law: the empty loop, which the time of every law alone holds, and mujoco.rollout.
-
-    Args:
-        timings: a machine's file, or its rows.
-    """
-    rows = _rows(timings)
-    rows = rows[rows["arm"] == ""]
-    in_engine = {engine: f"{engine} [ns]" for engine in ENGINES}
-    blank = dict.fromkeys((ALONE, TO_KERNEL, *in_engine.values(), TO_ROLLOUT), "")
-    lines: dict[str, dict] = {}
-    for row in rows.itertuples():
-        name = _name(row.what, row.regulator, row.representation)
-        line = lines.setdefault(name, {"law": name, **blank})
-        if row.what == ENGINE:
-            line[in_engine["native" if row.engine == ROLLOUT else row.engine]] = _number(row.ns_per_tick)
-        else:
-            line[ALONE] = _number(row.ns_per_tick)
-            line[TO_KERNEL] = _interval(row.ratio, row.ratio_low, row.ratio_high)
-        if row.engine == "native":
-            line[TO_ROLLOUT] = _interval(row.ratio_rollout, row.ratio_rollout_low, row.ratio_rollout_high)
-    return pd.DataFrame(list(lines.values()))
-
-
-def arm_table(timings: Path | pd.DataFrame) -> pd.DataFrame:
-    """All columns are text: ns a tick on every arm, over rollout's; of two lines how many times as fast.
-
-    Those are dm_control's loop with numpy, which native is so many times as fast as, and two threads against one.
+    What is alone has its ratio to the reference kernel too. The empty loop is what the time of every law alone holds.
 
     Args:
         timings: a machine's file, or its rows.
     """
-    rows = _rows(timings)
-    lines = []
-    for row in rows[rows["arm"] != ""].itertuples():
-        law = f"{row.regulator}/{row.representation}" if row.representation else row.regulator
-        said = {ROLLOUT: "(mujoco.rollout)", DM_CONTROL: f"(dm_control and numpy) {law}"}.get(row.engine, law)
-        by = f"{row.jacobian}+{row.inverse}" if row.jacobian else ""
-        line = {
-            "arm": row.arm,
-            "law": f"(two threads, wall) {law}" if row.what == THREADS else said,
-            "by": by,
-            "a tick [ns]": _number(row.ns_per_tick),
-        }
-        compared = row.engine in ("native", DM_CONTROL) and row.what != THREADS
-        line["/ rollout"] = (
-            _interval(row.ratio_rollout, row.ratio_rollout_low, row.ratio_rollout_high) if compared else ""
-        )
-        is_other = row.engine == DM_CONTROL or row.what == THREADS
-        line["speed-up"] = _interval(row.speedup, row.speedup_low, row.speedup_high) if is_other else ""
-        lines.append(line)
-    return pd.DataFrame(lines)
-
-
-def _rows(timings: Path | pd.DataFrame) -> pd.DataFrame:
-    return timings if isinstance(timings, pd.DataFrame) else read(timings)
-
-
-def _name(what: str, regulator: str, representation: str) -> str:
-    if not regulator:
-        return "(empty loop)" if what == LOOP else "(mujoco.rollout)"
-    return f"{regulator}/{representation}" if representation else regulator
-
-
-def _number(ns: float) -> str:
-    return f"{ns:.1f}" if math.isfinite(ns) else NOT_TIMED
-
-
-def _interval(middle: float, low: float, high: float) -> str:
-    return f"{middle:.3f} [{low:.3f}, {high:.3f}]" if math.isfinite(middle) else NOT_TIMED
+    every = with_contender(timings if isinstance(timings, pd.DataFrame) else read(timings))
+    for arm, rows in every.groupby("arm", observed=True, sort=False):
+        lines: dict[str, dict[str, str]] = {}
+        for row in rows.itertuples():
+            name = str(row.contender) if row.regulator else EMPTY
+            line = lines.setdefault(name, {"law": name})
+            line[f"{row.engine or 'alone'} [ns]"] = (
+                f"{row.ns_per_tick:.1f}" if math.isfinite(row.ns_per_tick) else NOT_TIMED
+            )
+            if not row.engine:
+                interval = f"{row.ratio:.3f} [{row.ratio_low:.3f}, {row.ratio_high:.3f}]"
+                line["alone / kernel"] = interval if math.isfinite(row.ratio) else NOT_TIMED
+        yield str(arm), pd.DataFrame(list(lines.values())).fillna("")

@@ -1,1 +1,1 @@
-"""What tasks in contact depend on: stiffness, delay, noise; admittance, shaped inertia; fit of a peg; springs."""
+"""What tasks in contact depend on: stiffness, delay; admittance, shaped inertia; fit of a peg; springs."""

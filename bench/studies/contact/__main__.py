@@ -17,10 +17,8 @@ STORED = ROOT / "results" / "contact" / "contact.json"
 
 PARTS = {
     "boundary": stability.boundaries,
-    "noise": stability.noise,
     "springs": springs.rows,
     "fits": pegs.fits,
-    "sensitivity": pegs.sensitivity,
     "admittance": admittance.limits,
     "unshaped": unshaped.rows,
     "unshaped-tasks": unshaped.in_tasks,

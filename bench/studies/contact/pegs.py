@@ -1,4 +1,4 @@
-"""Pegs of several fits, run to rest: how deep, what holds those that stick, and what the contact's constants do."""
+"""Pegs of several fits, run to rest: how deep, and what holds those that stick."""
 
 import math
 from collections.abc import Iterator
@@ -6,14 +6,15 @@ from collections.abc import Iterator
 import numpy as np
 
 import tasks
-from bench.engines.contact_episode import FORCE, MOMENT, USUAL
+from bench.engines.contact_episode import FORCE, MOMENT, USUAL, Ended
 from bench.engines.metrics.contact.rest import remaining_speed
 from bench.engines.metrics.contact.scene import IN, insertion_depth
 from bench.engines.metrics.contact_metric import Pose, response
 from bench.engines.simulate_contact import run_contact as run
 from bench.findings.theory import jamming
 from bench.law.control.registry import find_controller
-from tasks.contact_model import STANDARD, ContactModel
+from tasks.contact import Trial
+from tasks.contact_model import STANDARD
 from tasks.domains.peg_in_hole import CHAMFER, PEG, with_clearance
 from tasks.rotations import columns
 
@@ -25,39 +26,21 @@ TIGHT = STANDARD._replace(stiffness=1e7, damping=2e4)
 """Stiff enough for the closest fit: 30 N press it in by 3 micrometres, of 12.5 on each side."""
 TIGHT_DT_S = 2e-4
 """What TIGHT takes to be stepped: a fifth of its time constant."""
-VARIANTS = {
-    "as in all results": STANDARD,
-    "impratio 1": STANDARD._replace(impratio=1.0),
-    "impratio 100": STANDARD._replace(impratio=100.0),
-    "no second solver": STANDARD._replace(noslip=0),
-    "dmax 0.9": STANDARD._replace(dmin=0.9, dmax=0.9),
-    "dmax 0.5": STANDARD._replace(dmin=0.5, dmax=0.5),
-    "solimp from 0.5 to 0.9": STANDARD._replace(dmin=0.5, dmax=0.9),
-    "20,000 N/m": STANDARD._replace(stiffness=2e4, damping=4e2),
-    "friction 0.1": STANDARD._replace(friction=0.1),
-    "friction 0.4": STANDARD._replace(friction=0.4),
-}
 
 
 def fits() -> list[dict]:
     """Return a row an episode of each clearance, on contacts that are stiff beside it."""
-    return [{"clearance": share, **row} for share in CLEARANCES for row in episodes(share, TIGHT, TIGHT_DT_S)]
+    return [{"clearance": share, **row} for share in CLEARANCES for row in episodes(share)]
 
 
-def sensitivity() -> list[dict]:
-    """Return a row an episode of each variant of the contact model, with the usual fit."""
-    every = VARIANTS.items()
-    return [{"variant": words, **row} for words, one in every for row in episodes(CLEARANCES[0], one, USUAL.dt_s)]
-
-
-def episodes(share: float, contact: ContactModel, dt_s: float) -> Iterator[dict]:
+def episodes(share: float) -> Iterator[dict]:
     """Every hole by every controller: depth [m], speed at the end [m/s], and the load in both planes of the hole."""
     task, arm = with_clearance(share), tasks.arm(ARM)
-    conditions = USUAL._replace(dt_s=dt_s)
+    conditions = USUAL._replace(dt_s=TIGHT_DT_S)
     for name, betas in CONTROLLERS.items():
         one = find_controller(name)
         trials = [each for each in task.trials(arm) if int(each.id.rpartition("beta")[2]) in betas]
-        for trial, ended in zip(trials, run("native", one, task, arm, trials, conditions, contact), strict=True):
+        for trial, ended in zip(trials, run("native", one, task, arm, trials, conditions, TIGHT), strict=True):
             pose = Pose(task, arm, one, (response(trial, ended),))
             depth = insertion_depth(pose)
             yield {
@@ -67,11 +50,11 @@ def episodes(share: float, contact: ContactModel, dt_s: float) -> Iterator[dict]
                 "rested": ended.rested,
                 "depth_m": depth,
                 "speed_m_per_s": remaining_speed(pose),
-                **(load(trial, ended, depth - CHAMFER, contact.friction) if IN > depth > CHAMFER else {}),
+                **(load(trial, ended, depth - CHAMFER, TIGHT.friction) if IN > depth > CHAMFER else {}),
             }
 
 
-def load(trial, ended, inside: float, mu: float) -> dict:
+def load(trial: Trial, ended: Ended, inside: float, mu: float) -> dict:
     """Return the hand's final push on the peg, in the plane of the hole in which it is further from sliding.
 
     inside: how far the peg is between the walls [m]: in the chamfer nothing jams it.

@@ -1,16 +1,17 @@
-"""A tip pressed on a level plane of any stiffness, by a sensor that is late and noisy: does it settle?
+"""A tip pressed on a level plane of any stiffness, by a sensor that is late: does it settle?
 
 The boundary is found by bisection of the stiffness for each delay, and held against findings/theory.
 """
 
 import functools
 import math
+from collections.abc import Callable
 
 import mujoco
 import numpy as np
 
 import tasks
-from bench.engines.contact_episode import FORCE, USUAL, Sensor
+from bench.engines.contact_episode import FORCE, USUAL, Ended, Sensor
 from bench.engines.simulate_contact import run_contact as run
 from bench.findings.theory.bisection import bisect
 from bench.findings.theory.contact_stability import Spring, acceleration, settles
@@ -30,8 +31,6 @@ CONTROLLERS = (
 
 DECADES, LEAST = (3.0, 6.0), 1e3
 DELAYS_MS = (0, 1, 2, 3, 5, 7, 10, 15, 20)
-STIFFNESSES = tuple(10.0**k for k in (3, 3.5, 4, 4.5, 5, 5.5, 6))
-NOISE_N = 1.0
 HORIZON_S = 3.0
 RELAXATION_S = 2e-3
 """Damping over stiffness of what is pressed on: little, so that a controller has to see to it."""
@@ -51,16 +50,16 @@ def contact(stiffness: float) -> ContactModel:
     return STANDARD._replace(stiffness=stiffness, damping=damping, dmin=INERTANCE, dmax=INERTANCE, friction=SLICK)
 
 
-def pressed(controller: str, kf: float, stiffness: float, delay_s: float, noise: float = 0.0):
+def pressed(controller: str, kf: float, stiffness: float, delay_s: float) -> Ended:
     """Return the episode; the tip begins a millimetre over the plane."""
     task, arm = tasks.contact_task("force-on-plane")._replace(horizon_s=HORIZON_S), tasks.arm(ARM)
     trial = task.trials(arm)[0]
     trial = trial._replace(specification=trial.specification._replace(velocity=(0.0, 0.0, 0.0)))
-    conditions = USUAL._replace(sensor=Sensor(delay_s, noise), touch=TOUCH._replace(kf=kf))
+    conditions = USUAL._replace(sensor=Sensor(delay_s), touch=TOUCH._replace(kf=kf))
     return next(run("native", find_controller(controller), task, arm, [trial], conditions, contact(stiffness)))
 
 
-def is_steady(ended) -> bool:
+def is_steady(ended: Ended) -> bool:
     """Whether the force is what it will stay."""
     late = ended.record[-len(ended.record) // 4 :, FORCE + 2]
     return ended.outcome == "done" and float(np.ptp(late)) <= STEADY * 15.0 and float(late.min()) > 0.0
@@ -92,12 +91,12 @@ def mobility(arm: Arm) -> float:
     return float(J[2] @ np.linalg.solve(D, J[2]))
 
 
-def boundary(is_stable) -> float:
+def boundary(is_stable: Callable[..., bool]) -> float:
     """Return the stiffness [N/m] up to which it is stable: LEAST if never, infinite if everywhere in DECADES."""
     return bisect_stiffness(is_stable, *DECADES, HALVINGS) if is_stable(LEAST) else LEAST
 
 
-def bisect_stiffness(holds, low: float, high: float, halvings: int) -> float:
+def bisect_stiffness(holds: Callable[..., bool], low: float, high: float, halvings: int) -> float:
     """Return the stiffness [N/m] up to which something holds, between powers of ten; infinite if at the highest too."""
     if holds(10.0**high):
         return math.inf
@@ -117,16 +116,3 @@ def boundaries() -> list[dict]:
         for one, kf in CONTROLLERS
         for delay in DELAYS_MS
     ]
-
-
-def noise() -> list[dict]:
-    """Return a row a controller, stiffness and delay: force [N, rms] from white noise of NOISE_N, once steady."""
-    found = []
-    for one, kf in CONTROLLERS:
-        for stiffness in STIFFNESSES:
-            for delay in (0, 5):
-                ended = pressed(one, kf, stiffness, 1e-3 * delay, NOISE_N)
-                late = ended.record[-len(ended.record) // 2 :, FORCE + 2]
-                shake = float(np.std(late)) if ended.outcome == "done" else math.nan
-                found.append({"controller": one, "kf": kf, "stiffness": stiffness, "delay_ms": delay, "shake_n": shake})
-    return found
