@@ -29,7 +29,6 @@ ALLOWED = {
     "bench/findings/theory/thresholds.py": "where the memory of each law ends",
     "bench/studies/": "what a study was designed for",
     "bench/regression/revisions/timed.py": "what is timed on every revision",
-    "bench/running/timing/": "what the loop in numpy computes",
     "bench/cli/": "examples of --help",
     "tasks/goal_stream.py": "what goals arrive as",
     **dict.fromkeys((f"report/figures/{chapter}/" for chapter in CHAPTERS), "what a page of the book is about"),
