@@ -33,7 +33,7 @@ class Found(NamedTuple):
 
 
 class Fault(NamedTuple):
-    """One kind of fault: the constant FAULT of a file of faults/, which has `find` too.
+    """One kind of fault: what the docstring of a file of faults/ says of it, and its `find`.
 
     Args:
         title: what it is.

@@ -175,7 +175,7 @@ def list_titles(folder, pattern):
 
 def recompute_checks():
     *most, last = list_titles("bench/export/languages", r'Language\("\w+", "([^"]+)"')
-    faults = len(list_titles("bench/audit/faults", "(FAULT)"))
+    faults = len(list_titles("bench/audit/faults", "(def find)"))
     return {"languages": f"{', '.join(most)} and {last}", "faults": faults}
 
 

@@ -1,8 +1,13 @@
-"""Faults of an orientation error: one file each, with a constant FAULT."""
+"""Faults of an orientation error, one file each: its words are the docstring, and `find(examined)` looks for it.
+
+The first sentence is the title; `effect`, `cure`, `law` and `unless` are fields of `Fault`, names with commas between.
+"""
 
 import functools
 import importlib
+import inspect
 import pkgutil
+import re
 
 from bench.audit.fault import Fault
 
@@ -10,8 +15,13 @@ from bench.audit.fault import Fault
 @functools.cache
 def every_fault() -> tuple[Fault, ...]:
     """Return all of them, by name."""
-    names = sorted(one.name for one in pkgutil.iter_modules(__path__))
-    files = (importlib.import_module(f"{__name__}.{name}") for name in names)
-    return tuple(
-        one.FAULT._replace(name=name.replace("_", "-"), find=one.find) for name, one in zip(names, files, strict=True)
-    )
+    return tuple(read_fault(name) for name in sorted(one.name for one in pkgutil.iter_modules(__path__)))
+
+
+def read_fault(name: str) -> Fault:
+    """Return the fault of a file."""
+    module = importlib.import_module(f"{__name__}.{name}")
+    title, _, text = (inspect.getdoc(module) or "").partition(".\n\n")
+    words = {key: " ".join(said.split()) for key, said in re.findall(r"^(\w+): (.*(?:\n .*)*)", text, re.MULTILINE)}
+    unless = tuple(filter(None, words.pop("unless", "").split(", ")))
+    return Fault(title, **words, unless=unless, name=name.replace("_", "-"), find=module.find)

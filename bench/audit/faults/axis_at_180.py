@@ -1,9 +1,15 @@
-"""Another axis at exactly 180°."""
+"""wrong axis at 180°.
+
+effect: at 180°, and next to it, the robot starts about another axis than the shortest way has
+cure: take the axis from the column of R + R^T with the largest diagonal element: signs and all
+law: rotation-vector
+unless: digits-near-180, euler-angles, misaligned, axis-clip
+"""
 
 import numpy as np
 
 from bench.audit.examined import Examined
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import Found
 from bench.audit.faults.dead_at_180 import ZERO
 from bench.audit.pairs import AT_180
 
@@ -20,12 +26,3 @@ def find(examined: Examined) -> Found | None:
         return None
     text = f"{bad.sum()} of {examined.at(AT_180).sum()} rotations by 180° are answered with another axis"
     return Found(text, examined.evidence(int(np.argmax(bad))))
-
-
-FAULT = Fault(
-    "wrong axis at 180°",
-    "at 180°, and next to it, the robot starts about another axis than the shortest way has",
-    "take the axis from the column of R + R^T with the largest diagonal element: signs and all",
-    "rotation-vector",
-    unless=("digits-near-180", "euler-angles", "misaligned", "axis-clip"),
-)

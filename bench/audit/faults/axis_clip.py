@@ -1,9 +1,14 @@
-"""Each component clipped for itself."""
+"""each component is clipped: the direction is bent.
+
+effect: far from the goal the robot turns about another axis than the shortest way has
+cure: scale the whole vector down to the limit
+law: rotation-vector
+"""
 
 import numpy as np
 
 from bench.audit.examined import Examined
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import Found
 from bench.audit.pairs import CLOSE, POLE, WIDE
 
 FEWEST = 10
@@ -29,11 +34,3 @@ def find(examined: Examined) -> Found | None:
         f"no component exceeds {limit:.6g}; the direction is bent by up to {np.degrees(astray[worst]):.3g}°",
         examined.evidence(worst),
     )
-
-
-FAULT = Fault(
-    "each component is clipped: the direction is bent",
-    "far from the goal the robot turns about another axis than the shortest way has",
-    "scale the whole vector down to the limit",
-    "rotation-vector",
-)

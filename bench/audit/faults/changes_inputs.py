@@ -1,9 +1,14 @@
-"""The function writes into the arrays that it is given."""
+"""it changes its inputs.
+
+effect: the controller's own pose or goal is another after the call, and what is computed next is wrong
+cure: copy what is changed inside: R = R.copy()
+law: rotation-matrix
+"""
 
 import numpy as np
 
 from bench.audit.examined import Examined
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import Found
 
 
 def find(examined: Examined) -> Found | None:
@@ -13,11 +18,3 @@ def find(examined: Examined) -> Found | None:
     i = int(np.argmax(examined.changed))
     text = f"{examined.changed.sum()} of {len(examined.changed)} calls changed the orientations that they were given"
     return Found(text, examined.evidence(i, False))
-
-
-FAULT = Fault(
-    "it changes its inputs",
-    "the controller's own pose or goal is another after the call, and what is computed next is wrong",
-    "copy what is changed inside: R = R.copy()",
-    "rotation-matrix",
-)

@@ -1,9 +1,15 @@
-"""No error at exactly 180°."""
+"""zero at 180°.
+
+effect: a robot that starts 180° from its goal stays there, and leaves slowly from nearby
+cure: take 1 for the sign of 0; a sine needs another form
+law: quaternion-shortest
+unless: not-a-number, raises
+"""
 
 import numpy as np
 
 from bench.audit.examined import Examined
-from bench.audit.fault import NOTE, Fault, Found
+from bench.audit.fault import NOTE, Found
 from bench.audit.pairs import AT_180
 
 ZERO = 1e-6
@@ -26,12 +32,3 @@ def find(examined: Examined) -> Found | None:
     if is_form:
         text += "; its form itself vanishes there"
     return Found(text, examined.evidence(int(np.argmax(dead)), right=not is_form), NOTE if is_form else "fault")
-
-
-FAULT = Fault(
-    "zero at 180°",
-    "a robot that starts 180° from its goal stays there, and leaves slowly from nearby",
-    "take 1 for the sign of 0; a sine needs another form",
-    "quaternion-shortest",
-    unless=("not-a-number", "raises"),
-)

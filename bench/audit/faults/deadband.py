@@ -1,9 +1,15 @@
-"""Nothing is said of small errors."""
+"""a dead band.
+
+effect: the robot rests beside its goal, and an integral or a force near the edge makes it chatter
+cure: leave it out; noise wants a filter
+law: rotation-vector
+unless: single-precision
+"""
 
 import numpy as np
 
 from bench.audit.examined import Examined
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import Found
 from bench.audit.pairs import CLOSE, FINE, NEAR_IDENTITY
 
 SMALLEST_RAD = 1e-7
@@ -22,12 +28,3 @@ def find(examined: Examined) -> Found | None:
     angle = examined.pairs.angle
     i = int(np.flatnonzero(zero)[np.argmax(angle[zero])])
     return Found(f"e = 0 up to {angle[i]:.3g} rad", examined.evidence(i))
-
-
-FAULT = Fault(
-    "a dead band",
-    "the robot rests beside its goal, and an integral or a force near the edge makes it chatter",
-    "leave it out; noise wants a filter",
-    "rotation-vector",
-    unless=("single-precision",),
-)

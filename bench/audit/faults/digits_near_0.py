@@ -1,10 +1,15 @@
-"""Digits lost near the goal."""
+"""digits lost near the goal.
+
+effect: the command flickers, or is zero, at the goal
+cure: no arc cosine of a trace or scalar part: atan2 of the vector's length and the scalar keeps every digit
+law: rotation-vector
+unless: single-precision, deadband, euler-angles, norm-clip, axis-clip, long-way
+"""
 
 import numpy as np
 
 from bench.audit.examined import Examined
-from bench.audit.fault import FAULT as IS_FAULT
-from bench.audit.fault import NOTE, Fault, Found
+from bench.audit.fault import FAULT, NOTE, Found
 from bench.audit.pairs import IDENTITY, NEAR_IDENTITY
 
 LARGEST_RAD = 0.01
@@ -32,14 +37,5 @@ def find(examined: Examined) -> Found | None:
     return Found(
         text if is_felt else f"{text}: less than a count of an encoder of 24 bits",
         examined.evidence(worst),
-        IS_FAULT if is_felt else NOTE,
+        FAULT if is_felt else NOTE,
     )
-
-
-FAULT = Fault(
-    "digits lost near the goal",
-    "the command flickers, or is zero, at the goal",
-    "no arc cosine of a trace or scalar part: atan2 of the vector's length and the scalar keeps every digit",
-    "rotation-vector",
-    unless=("single-precision", "deadband", "euler-angles", "norm-clip", "axis-clip", "long-way"),
-)

@@ -1,9 +1,15 @@
-"""Digits lost near 180°."""
+"""digits lost near 180°.
+
+effect: near 180° the command has a wrong size or a wrong axis, and flickers
+cure: do not divide by sin(theta): begin with a quaternion from the largest diagonal element
+law: rotation-vector
+unless: single-precision, misaligned, euler-angles, axis-clip, long-way
+"""
 
 import numpy as np
 
 from bench.audit.examined import Examined
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import Found
 from bench.audit.faults.digits_near_0 import COUNT_RAD
 from bench.audit.pairs import NEAR_180
 
@@ -24,12 +30,3 @@ def find(examined: Examined) -> Found | None:
     worst = int(np.nanargmax(error))
     distance = examined.pairs.distance[worst]
     return Found(f"off by up to {error[worst]:.2g} rad, {distance:.2g} rad before 180°", examined.evidence(worst))
-
-
-FAULT = Fault(
-    "digits lost near 180°",
-    "near 180° the command has a wrong size or a wrong axis, and flickers",
-    "do not divide by sin(theta): begin with a quaternion from the largest diagonal element",
-    "rotation-vector",
-    unless=("single-precision", "misaligned", "euler-angles", "axis-clip", "long-way"),
-)

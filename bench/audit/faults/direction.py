@@ -1,7 +1,13 @@
-"""The other direction than stated."""
+"""points the other way.
+
+effect: positive feedback: the robot runs away from the goal
+cure: swap the arguments, or change the sign
+law: rotation-vector
+unless: transpose
+"""
 
 from bench.audit.examined import Examined
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import Found
 
 
 def find(examined: Examined) -> Found | None:
@@ -10,12 +16,3 @@ def find(examined: Examined) -> Found | None:
     if not found or stated.sign in (None, found.sign):
         return None
     return Found(f"stated to point {stated.sign}, it points {found.sign}: swapped arguments, or another sign")
-
-
-FAULT = Fault(
-    "points the other way",
-    "positive feedback: the robot runs away from the goal",
-    "swap the arguments, or change the sign",
-    "rotation-vector",
-    unless=("transpose",),
-)

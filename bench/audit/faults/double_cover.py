@@ -1,9 +1,14 @@
-"""q and -q are one orientation, and have two answers."""
+"""a goal and its antipode answered differently: unwinding.
+
+effect: the robot unwinds, by up to 360°, or tumbles when a stream of goals changes its sign
+cure: change the sign of the error quaternion where its scalar part is negative
+law: quaternion-shortest
+"""
 
 import numpy as np
 
 from bench.audit.examined import Examined, ask_of, inputs
-from bench.audit.fault import Evidence, Fault, Found
+from bench.audit.fault import Evidence, Found
 from bench.audit.pairs import WIDE
 
 OTHERWISE = 1e-3
@@ -25,11 +30,3 @@ def find(examined: Examined) -> Found | None:
             text = f"{bad.sum()} of {len(here)} pairs are answered otherwise with {other}, the same orientation"
             return Found(text, Evidence(given[0][i], given[1][i], said[i], examined.e[here[i]]))
     return None
-
-
-FAULT = Fault(
-    "a goal and its antipode answered differently: unwinding",
-    "the robot unwinds, by up to 360°, or tumbles when a stream of goals changes its sign",
-    "change the sign of the error quaternion where its scalar part is negative",
-    "quaternion-shortest",
-)

@@ -1,10 +1,16 @@
-"""Euler angles taken for an error."""
+"""Euler angles for an axis.
+
+effect: the robot takes a detour that depends on the orientation, and at the pole turns by any amount for none
+cure: take an error along the axis, or map the angles' rates to angular velocity, and stay off the pole
+law: rotation-vector
+unless: quaternion-order, transpose, frame
+"""
 
 import numpy as np
 
 from bench.audit.euler import find_angles
 from bench.audit.examined import Examined
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import Found
 from bench.audit.pairs import WIDE
 
 
@@ -19,12 +25,3 @@ def find(examined: Examined) -> Found | None:
         f"e is {angles.how} (intrinsic {angles.sequence}): no axis, and a pole where the middle angle is 90°",
         examined.evidence(worst, False),
     )
-
-
-FAULT = Fault(
-    "Euler angles for an axis",
-    "the robot takes a detour that depends on the orientation, and at the pole turns by any amount for none",
-    "take an error along the axis, or map the angles' rates to angular velocity, and stay off the pole",
-    "rotation-vector",
-    unless=("quaternion-order", "transpose", "frame"),
-)

@@ -1,9 +1,15 @@
-"""The other frame, or one that is none."""
+"""body for base, or base for body.
+
+effect: beside R = I the torque has another axis than the error; far from there the robot leaves the goal
+cure: rotate a body-frame error by R before it meets base-frame quantities, once
+law: rotation-matrix
+unless: transpose
+"""
 
 from collections.abc import Iterator
 
 from bench.audit.examined import Examined, Model, explanation, rotated
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import Found
 from bench.audit.pairs import Pairs
 
 
@@ -24,12 +30,3 @@ def models(pairs: Pairs) -> Iterator[Model]:
     yield "R_d applied to an error that is in base already", rotated(pairs.R_d, k)
     yield "R^T applied to an error that is in body already", rotated(T, k_body)
     yield "R_d^T applied to an error that is in body already", rotated(pairs.R_d.swapaxes(1, 2), k_body)
-
-
-FAULT = Fault(
-    "body for base, or base for body",
-    "beside R = I the torque has another axis than the error; far from there the robot leaves the goal",
-    "rotate a body-frame error by R before it meets base-frame quantities, once",
-    "rotation-matrix",
-    unless=("transpose",),
-)

@@ -1,9 +1,15 @@
-"""A discontinuity elsewhere than at 180°."""
+"""a jump elsewhere than at 180°.
+
+effect: the command jumps while the robot passes, and chatters if it rests there
+cure: let the two sides meet; only at 180° no error can be continuous
+law: rotation-vector
+unless: long-way, deadband, euler-angles
+"""
 
 import numpy as np
 
 from bench.audit.examined import Examined, inputs
-from bench.audit.fault import Evidence, Fault, Found
+from bench.audit.fault import Evidence, Found
 from bench.audit.pairs import CUBE_AXES, Pairs, diagonal, drawn_axes, drawn_orientations, made
 
 SEED = 11
@@ -63,12 +69,3 @@ def narrowed(examined: Examined, q: np.ndarray, axis: np.ndarray, low: float, hi
         else:
             low = middle
     return low, high
-
-
-FAULT = Fault(
-    "a jump elsewhere than at 180°",
-    "the command jumps while the robot passes, and chatters if it rests there",
-    "let the two sides meet; only at 180° no error can be continuous",
-    "rotation-vector",
-    unless=("long-way", "deadband", "euler-angles"),
-)

@@ -1,10 +1,15 @@
-"""Unwinding: the error is the longer of the two rotations to the goal."""
+"""unwinding: a wrong wrap.
+
+effect: the robot turns by up to 360° where a little would do, and jumps where the wrap changes
+cure: wrap angles to [-180°, 180°]; change the sign of the error quaternion where its scalar part is negative
+law: quaternion-shortest
+"""
 
 import numpy as np
 
 from bench.audit.euler import SAME_RAD, find_angles
 from bench.audit.examined import Examined
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import Found
 from bench.audit.pairs import AT_180, IDENTITY, NEAR_180, WIDE
 
 AGAINST_RAD = 0.1
@@ -27,11 +32,3 @@ def find(examined: Examined) -> Found | None:
     if not bad.any():
         return None
     return Found(f"for {bad.sum()} of {here.sum()} pairs", examined.evidence(int(np.argmax(bad))))
-
-
-FAULT = Fault(
-    "unwinding: a wrong wrap",
-    "the robot turns by up to 360° where a little would do, and jumps where the wrap changes",
-    "wrap angles to [-180°, 180°]; change the sign of the error quaternion where its scalar part is negative",
-    "quaternion-shortest",
-)

@@ -1,9 +1,14 @@
-"""Another answer to the same question."""
+"""state, or noise: the same pair has two answers.
+
+effect: the error depends on what came before; this audit asks each pair for itself, and is void
+cure: audit the function without its filter; hysteresis between the two signs of q may be meant, and accepted
+law: quaternion-shortest
+"""
 
 import numpy as np
 
 from bench.audit.examined import Examined
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import Found
 from bench.audit.pairs import WIDE
 
 DIFFERENCE = 1e-12
@@ -21,11 +26,3 @@ def find(examined: Examined) -> Found | None:
         f"{differs.sum()} of {len(here)} pairs have another answer when they are asked again, in reverse order",
         examined.evidence(int(here[np.argmax(differs)])),
     )
-
-
-FAULT = Fault(
-    "state, or noise: the same pair has two answers",
-    "the error depends on what came before; this audit asks each pair for itself, and is void",
-    "audit the function without its filter; hysteresis between the two signs of q may be meant, and accepted",
-    "quaternion-shortest",
-)

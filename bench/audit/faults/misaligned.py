@@ -1,9 +1,16 @@
-"""Not along the axis, for no reason that is known here."""
+"""not along the axis.
+
+effect: the robot takes a detour, or does not come to the goal
+cure: begin with R_d R^T or q_d q*, and take its axis
+law: rotation-vector
+unless: quaternion-order, transpose, frame, euler-angles, raises, not-a-number, axis-clip, long-way, deadband, jump,
+  memory
+"""
 
 import numpy as np
 
 from bench.audit.examined import Examined
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import Found
 from bench.audit.pairs import CLOSE, WIDE
 
 BENT_RAD = 1e-3
@@ -24,15 +31,3 @@ def find(examined: Examined) -> Found | None:
         f"{bent} of {len(here)} answers are off the axis, by up to {np.degrees(angle[worst]):.3g}°",
         examined.evidence(int(here[worst])),
     )
-
-
-FAULT = Fault(
-    "not along the axis",
-    "the robot takes a detour, or does not come to the goal",
-    "begin with R_d R^T or q_d q*, and take its axis",
-    "rotation-vector",
-    unless=(
-        *("quaternion-order", "transpose", "frame", "euler-angles", "raises", "not-a-number"),
-        *("axis-clip", "long-way", "deadband", "jump", "memory"),
-    ),
-)

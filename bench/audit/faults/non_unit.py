@@ -1,9 +1,15 @@
-"""Input that is not quite of unit length, or not quite orthogonal."""
+"""input that is not quite of unit length.
+
+effect: rounding in a sensor or an integrator becomes a wrong error, or none
+cure: normalize quaternions; keep arguments of acos in their range, or take atan2
+law: rotation-vector
+unless: raises, not-a-number, deadband, jump, memory, single-precision
+"""
 
 import numpy as np
 
 from bench.audit.examined import Examined, ask_of, inputs
-from bench.audit.fault import NOTE, Evidence, Fault, Found
+from bench.audit.fault import NOTE, Evidence, Found
 from bench.audit.pairs import IDENTITY, NEAR_IDENTITY, WIDE
 
 OFF = 1e-6
@@ -31,12 +37,3 @@ def find(examined: Examined) -> Found | None:
             elif not np.linalg.norm(said.e[i] - right) <= AMPLIFIED * examined.slope:
                 return Found(f"input that is off by {OFF:g} is answered otherwise", evidence)
     return refused
-
-
-FAULT = Fault(
-    "input that is not quite of unit length",
-    "rounding in a sensor or an integrator becomes a wrong error, or none",
-    "normalize quaternions; keep arguments of acos in their range, or take atan2",
-    "rotation-vector",
-    unless=("raises", "not-a-number", "deadband", "jump", "memory", "single-precision"),
-)

@@ -1,10 +1,15 @@
-"""The whole vector shortened to a limit."""
+"""clipped in length.
+
+effect: beyond the limit the stiffness felt falls with the angle while the damping stays: a slow return
+cure: clip the command, not the error; or accept it, for it bends nothing
+law: rotation-vector
+"""
 
 import numpy as np
 
 from bench.audit.convention import is_nearest
 from bench.audit.examined import Examined
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import Found
 from bench.audit.pairs import CLOSE, WIDE
 
 FEWEST = 10
@@ -34,11 +39,3 @@ def find(examined: Examined) -> Found | None:
         if len(at_limit) >= FEWEST:
             return Found(f"the {what} never exceeds {limit:.6g}", examined.evidence(int(at_limit[-1])))
     return None
-
-
-FAULT = Fault(
-    "clipped in length",
-    "beyond the limit the stiffness felt falls with the angle while the damping stays: a slow return",
-    "clip the command, not the error; or accept it, for it bends nothing",
-    "rotation-vector",
-)

@@ -1,9 +1,14 @@
-"""Infinite, or not a number."""
+"""infinite, or not a number.
+
+effect: a command that is no number passes every comparison with a limit, and then reaches the motors
+cure: divide by no length that can be zero; keep arguments of acos and sqrt in their range
+law: rotation-vector
+"""
 
 import numpy as np
 
 from bench.audit.examined import Examined
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import Found
 
 
 def find(examined: Examined) -> Found | None:
@@ -15,11 +20,3 @@ def find(examined: Examined) -> Found | None:
     i = int(np.argmax(bad))
     places = ", ".join(dict.fromkeys(examined.pairs.place[bad]))
     return Found(f"no finite numbers for {bad.sum()} of {len(bad)} pairs ({places})", examined.evidence(i))
-
-
-FAULT = Fault(
-    "infinite, or not a number",
-    "a command that is no number passes every comparison with a limit, and then reaches the motors",
-    "divide by no length that can be zero; keep arguments of acos and sqrt in their range",
-    "rotation-vector",
-)

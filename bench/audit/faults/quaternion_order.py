@@ -1,4 +1,9 @@
-"""Scalar first or last, mixed up."""
+"""wrong order of the quaternion.
+
+effect: the command has little to do with the error: the robot turns about another axis, and need not stop
+cure: convert where quaternions of two libraries meet, and put wxyz or xyzw into names
+law: quaternion-shortest
+"""
 
 import itertools
 from collections.abc import Iterator
@@ -6,7 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from bench.audit.examined import Examined, Model, explanation, inputs
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import Found
 from bench.audit.pairs import Pairs, product
 
 ORDERS = ("wxyz", "xyzw")
@@ -40,11 +45,3 @@ def models(takes: str, pairs: Pairs) -> Iterator[Model]:
         for one, other in ((p_d, negated * p), (p, negated * p_d)):
             for whole in (product(one, other), product(other, one)):
                 yield words, whole[:, part]
-
-
-FAULT = Fault(
-    "wrong order of the quaternion",
-    "the command has little to do with the error: the robot turns about another axis, and need not stop",
-    "convert where quaternions of two libraries meet, and put wxyz or xyzw into names",
-    "quaternion-shortest",
-)

@@ -1,9 +1,14 @@
-"""No answer at all."""
+"""no answer.
+
+effect: the control loop stops, or keeps its last command
+cure: answer every pair of orientations: there is an error for each
+law: rotation-vector
+"""
 
 import numpy as np
 
 from bench.audit.examined import Examined
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import Found
 
 
 def find(examined: Examined) -> Found | None:
@@ -14,11 +19,3 @@ def find(examined: Examined) -> Found | None:
     i = int(np.argmax(silent))
     places = ", ".join(dict.fromkeys(examined.pairs.place[silent]))
     return Found(f"no answer for {silent.sum()} of {len(silent)} pairs ({places})", examined.evidence(i))
-
-
-FAULT = Fault(
-    "no answer",
-    "the control loop stops, or keeps its last command",
-    "answer every pair of orientations: there is an error for each",
-    "rotation-vector",
-)

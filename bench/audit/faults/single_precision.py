@@ -1,9 +1,14 @@
-"""Single precision inside."""
+"""single precision inside.
+
+effect: steps of 1e-7 rad in the error, which a derivative or high damping makes audible
+cure: compute the difference of two orientations in double precision; what follows may be single
+law: rotation-vector
+"""
 
 import numpy as np
 
 from bench.audit.examined import Examined
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import Found
 from bench.audit.pairs import CLOSE, WIDE
 
 LEAST, MOST = 1e-9, 1e-4
@@ -22,11 +27,3 @@ def find(examined: Examined) -> Found | None:
         return None
     i = int(here[np.flatnonzero(fits)[np.argmax(across[fits])]])
     return Found(f"answers are off by {np.median(across[fits]):.1g} of their size everywhere", examined.evidence(i))
-
-
-FAULT = Fault(
-    "single precision inside",
-    "steps of 1e-7 rad in the error, which a derivative or high damping makes audible",
-    "compute the difference of two orientations in double precision; what follows may be single",
-    "rotation-vector",
-)

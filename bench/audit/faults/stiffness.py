@@ -1,10 +1,15 @@
-"""Another slope at the goal than the gains reckon with."""
+"""stiffness felt is not stiffness set.
+
+effect: the stiffness felt is the slope times that set, and the damping ratio changes by one over the slope's root
+cure: take radians; a vector part needs the factor 2, modified Rodrigues parameters 4; or divide the gain by the slope
+law: quaternion-shortest
+unless: euler-angles
+"""
 
 import numpy as np
 
 from bench.audit.examined import Examined
-from bench.audit.fault import FAULT as IS_FAULT
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import FAULT, Found
 from bench.audit.pairs import NEAR_IDENTITY
 
 DEVIATION = 1e-3
@@ -38,14 +43,5 @@ def find(examined: Examined) -> Found | None:
     evidence = examined.evidence(i, False)._replace(right=examined.e[i] / ratio)
     effect = f"the robot is {ratio:.3g} times as stiff as set, and damped {ratio**-0.5:.2g} times as much for it"
     if abs(ratio * np.radians(1.0) - 1.0) <= DEVIATION:
-        return Found(f"e is in degrees: the slope is {ratio:.6g} = 180/pi", evidence, IS_FAULT, effect, RADIANS)
-    return Found(f"the stiffness felt is {ratio:.4g} of the stiffness set", evidence, IS_FAULT, effect)
-
-
-FAULT = Fault(
-    "stiffness felt is not stiffness set",
-    "the stiffness felt is the slope times that set, and the damping ratio changes by one over the slope's root",
-    "take radians; a vector part needs the factor 2, modified Rodrigues parameters 4; or divide the gain by the slope",
-    "quaternion-shortest",
-    unless=("euler-angles",),
-)
+        return Found(f"e is in degrees: the slope is {ratio:.6g} = 180/pi", evidence, FAULT, effect, RADIANS)
+    return Found(f"the stiffness felt is {ratio:.4g} of the stiffness set", evidence, FAULT, effect)

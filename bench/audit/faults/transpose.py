@@ -1,9 +1,14 @@
-"""A transpose too many, or one missing."""
+"""a matrix is transposed.
+
+effect: unless R is near the identity the command does not lead to the goal
+cure: transpose once, R_d R^T or R^T R_d; mind libraries that store columns
+law: rotation-matrix
+"""
 
 from collections.abc import Iterator
 
 from bench.audit.examined import Examined, Model, axis_of, explanation
-from bench.audit.fault import Fault, Found
+from bench.audit.fault import Found
 from bench.audit.pairs import Pairs
 
 
@@ -23,11 +28,3 @@ def models(pairs: Pairs) -> Iterator[Model]:
     """Products of two rotations without a transpose; with two the line is that of the other order."""
     yield "R_d R, not of R_d R^T", axis_of(pairs.R_d @ pairs.R)
     yield "R R_d, not of R^T R_d", axis_of(pairs.R @ pairs.R_d)
-
-
-FAULT = Fault(
-    "a matrix is transposed",
-    "unless R is near the identity the command does not lead to the goal",
-    "transpose once, R_d R^T or R^T R_d; mind libraries that store columns",
-    "rotation-matrix",
-)
