@@ -12,10 +12,9 @@ from bench.base.errors import Incompatible
 from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, examples, frame_table
-from bench.experiments.chosen_words import BY_WORD_ALONE
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.experiments.plan import Plan
-from bench.experiments.suites import SUITES
+from bench.experiments.suites import BY_WORD_ALONE, SUITES
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
 from bench.law.control.registry import find_controller

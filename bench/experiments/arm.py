@@ -10,11 +10,10 @@ import tasks
 from bench.base.errors import Incompatible
 from bench.experiments import episodes
 from bench.experiments.choice import Choice
-from bench.experiments.chosen_words import AT_INVERSES, BY_WORD_ALONE
 from bench.experiments.episode_rows import TABLE
 from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit
 from bench.experiments.rounding import judged_on_both_sides
-from bench.experiments.suites import NOMINAL, OnArms
+from bench.experiments.suites import AT_INVERSES, BY_WORD_ALONE, NOMINAL, OnArms
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
 

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from bench.experiments.chosen_words import STREAMED
 from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
+from bench.experiments.suites import STREAMED
 from bench.law.contenders.registry import contenders, find_contender
 from tasks.goal_stream import LENGTH_S, STREAMS, goals, true_goal
 from tasks.truth import angle

@@ -18,11 +18,10 @@ from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.episode import OUTCOME, SETTLING_TICK, blank, start_rows
 from bench.engines.episode import numbers as numbers_of
 from bench.engines.metrics.registry import metrics_of
-from bench.experiments.chosen_words import BEST
 from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.field import ENGINE, ZERO, Field, about, size
-from bench.experiments.suites import LONG
+from bench.experiments.suites import BEST_LAWS, LONG
 from bench.law.contender import Contender
 from bench.law.contenders.registry import contenders, find_contender
 from bench.law.kinds import VELOCITY, Law
@@ -33,9 +32,6 @@ from tasks.rotations import multiply
 from tasks.verdict import SETTLED
 
 NAME = "shipped"
-
-LAWS = tuple(word.partition("@")[0] for word in BEST)
-"""What is compared with them, whatever is advised: that is among these."""
 
 CONTROLLER_S = 0.7
 """CPU seconds a controller, most of them for the audit and for compiling."""
@@ -66,8 +62,8 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
-    """Return the row of the controller, then that of each of LAWS at its gains."""
-    laws = [law for law in LAWS if law.partition("/")[0] in contenders("regulators")]
+    """Return the row of the controller, then that of each of BEST_LAWS at its gains."""
+    laws = [law for law in BEST_LAWS if law.partition("/")[0] in contenders("regulators")]
     return compare(contenders("shipped")[unit.selector], laws, settings, unit.horizon_s)
 
 

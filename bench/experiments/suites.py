@@ -1,22 +1,11 @@
-"""Suites: which engines run which start sets, how many starts, how long; on arms and in contact also by what."""
+"""Suites: what suites.toml declares as plans; its lists of contenders, controllers and start sets."""
 
-from typing import NamedTuple
+import tomllib
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any, NamedTuple
 
 from bench.base.errors import UnknownWord
-from bench.experiments.chosen_words import (
-    ANALYTIC,
-    BEST,
-    COMPLIANT,
-    FIRST_FRAMES,
-    FIRST_SCENES,
-    FIRST_SERIES,
-    INVERSES,
-    LAWS,
-    MORE_COMPLIANT,
-    REDUNDANT,
-    TWINS,
-    VARIED,
-)
 
 ENGINES = ("ideal-rk4", "ideal-held", "native", "reference")
 
@@ -26,10 +15,6 @@ grows there by a decade every 0.56 s, so that what has not left after 10 s of it
 
 ON_ARM = 5.0
 """Horizon on arms [s]: eight settling times of a small error. What has not settled by then is called timed-out."""
-
-VARIED_S = 2.5
-"""Horizon of the study of model errors [s]: four settling times; most of it never settles, and how far off it stays
-shows by then."""
 
 NOMINAL = "nominal"
 """The variation in which the plant is the controller's model."""
@@ -130,90 +115,60 @@ class Suite(NamedTuple):
     velocity: Velocity
 
 
-DIRECTED = ("box", "goals", "half-turn", "paper", "poles", "tumbling", "wraps")
 HORIZON = {"half-turn": LONG, "poles": LONG, "wraps": LONG}
 
-
-def _slices(engine: str, uniform: int, directed: tuple = DIRECTED) -> tuple[Slice, ...]:
-    sampled = (Slice(engine, "uniform", uniform, SHORT),) if uniform else ()
-    return sampled + tuple(Slice(engine, name, None, HORIZON.get(name, SHORT)) for name in directed)
-
-
-def _on_arms(**sizes: int | None) -> tuple[Slice, ...]:
-    return tuple(Slice("native", name.replace("_", "-"), size, ON_ARM) for name, size in sizes.items())
+DECLARED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+LISTS: dict[str, tuple[str, ...]] = {name: tuple(words) for name, words in DECLARED.pop("lists").items()}
+LAWS, BEST, BY_WORD_ALONE, AT_INVERSES = (LISTS[name] for name in ("LAWS", "BEST", "BY_WORD_ALONE", "AT_INVERSES"))
+BEST_LAWS = tuple(word.partition("@")[0] for word in BEST)
+STREAMED = ("rotation-matrix", *BEST_LAWS)
+"""What follows goals that arrive as a stream: the paper's first law, and the best of later ones."""
 
 
-SUITES = {
-    suite.name: suite
-    for suite in (
-        Suite(
-            "quick",
-            "the slice that continuous integration reruns and compares",
-            _slices("ideal-rk4", 1000)
-            + _slices("native", 200, ("half-turn", "paper", "poles"))
-            + _slices("reference", 0, ("paper",)),
-            _slices("ideal-rk4", 200, ("half-turn", "paper", "poles")),
-            traces=12,
-            boundary_axes=64,
-            on_arms=OnArms(
-                (*LAWS, *ANALYTIC, *BEST[:2]),
-                _on_arms(clear=4, wrist=4, pole=4, half_turn=4, uniform=4, tumbling=4, reach=4),
-                (LAWS[0], ANALYTIC[0]),
-                (Slice("native", "clear", 2, VARIED_S),),
-                poses=200,
-            ),
-            in_contact=InContact(COMPLIANT, FIRST_FRAMES, redundant=REDUNDANT[:2], redundant_poses=FIRST_SCENES),
-            robustness=Robustness(4),
-            in_engine=_slices("native", 200, ("half-turn", "paper", "poles")),
-            velocity=Velocity(24, 8, 1),
-        ),
-        Suite(
-            "default",
-            "what `make bench` runs and the report shows",
-            _slices("ideal-rk4", 1000)
-            + _slices("ideal-held", 1000)
-            + _slices("native", 250)
-            + _slices("reference", 0, ("paper",)),
-            _slices("ideal-rk4", 1000) + _slices("native", 100, ("half-turn",)),
-            traces=24,
-            boundary_axes=128,
-            on_arms=OnArms(
-                (*LAWS, *ANALYTIC, *TWINS, *INVERSES, *BEST),
-                _on_arms(clear=12, wrist=20, pole=32, half_turn=12, uniform=32, tumbling=12, reach=12),
-                VARIED,
-                (Slice("native", "clear", 4, VARIED_S),),
-                (*TWINS, *INVERSES),
-                poses=1000,
-            ),
-            in_contact=InContact((*COMPLIANT, *MORE_COMPLIANT), redundant=REDUNDANT, redundant_poses=FIRST_SERIES),
-            robustness=Robustness(24),
-            in_engine=_slices("native", 250) + _slices("reference", 0, ("paper",)),
-            velocity=Velocity(100, 16, 4),
-        ),
-        Suite(
-            "full",
-            "fifty times the uniform starts, and every combination on arms",
-            _slices("ideal-rk4", 50_000)
-            + _slices("ideal-held", 50_000)
-            + _slices("native", 50_000)
-            + _slices("reference", 0, ("paper",)),
-            _slices("ideal-rk4", 50_000) + _slices("ideal-held", 50_000) + _slices("native", 50_000),
-            traces=64,
-            boundary_axes=1024,
-            on_arms=OnArms(
-                (),
-                _on_arms(clear=None, wrist=None, pole=None, half_turn=None, uniform=None, tumbling=None, reach=None),
-                VARIED,
-                (Slice("native", "clear", None, ON_ARM),),
-                poses=1000,
-            ),
-            in_contact=InContact((), dense=True, in_free_space=()),
-            robustness=Robustness(1024, None),
-            in_engine=_slices("native", 50_000) + _slices("reference", 0, ("paper",)),
-            velocity=Velocity(1000, 100, 12),
-        ),
+def expanded(words: Iterable[str]) -> tuple[str, ...]:
+    """Return words, in place of the name of a list its words."""
+    return tuple(one for word in words for one in LISTS.get(word, (word,)))
+
+
+def number_of(size: int | str) -> int | None:
+    """Return a number of starts; None for "all"."""
+    return size if isinstance(size, int) else None
+
+
+def read_slices(declared: list[list]) -> tuple[Slice, ...]:
+    """Return the slices of engines on uniform starts, if there are some, and on the directed ones."""
+    found = []
+    for engine, uniform, *directed in declared:
+        found += [Slice(engine, "uniform", uniform, SHORT)] if uniform else []
+        found += [
+            Slice(engine, name, None, HORIZON.get(name, SHORT)) for name in expanded(*directed or (["DIRECTED"],))
+        ]
+    return tuple(found)
+
+
+def read_on_arms(sizes: dict, varied_size: int | str, varied_s: float, poses: int, **words: Any) -> OnArms:
+    """Return the part of a suite on arms."""
+    return OnArms(
+        slices=tuple(Slice("native", name, number_of(size), ON_ARM) for name, size in sizes.items()),
+        varied_slices=(Slice("native", "clear", number_of(varied_size), varied_s),),
+        poses=poses,
+        **{name: expanded(those) for name, those in words.items()},
     )
-}
+
+
+def read_suite(name: str, declared: dict[str, Any]) -> Suite:
+    """Return a suite from its table in suites.toml."""
+    said, perturbed = dict(declared), declared["robustness"]
+    said |= {part: read_slices(said[part]) for part in ("slices", "beyond", "in_engine")}
+    contact: dict[str, Any] = {
+        part: expanded(one) if isinstance(one, list) else one for part, one in said["in_contact"].items()
+    }
+    said["on_arms"], said["in_contact"] = read_on_arms(**said["on_arms"]), InContact(**contact)
+    said["robustness"] = Robustness(**perturbed | ({"others": None} if perturbed.get("others") == "all" else {}))
+    return Suite(name, **said | {"velocity": Velocity(**said["velocity"])})
+
+
+SUITES = {name: read_suite(name, declared) for name, declared in DECLARED.items()}
 
 
 def suite(word: str) -> Suite:

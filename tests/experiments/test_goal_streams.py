@@ -8,8 +8,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from bench.engines.simulate_bodies import run_stream as run
-from bench.experiments.chosen_words import STREAMED
 from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.suites import STREAMED
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import PAPERS_GAINS
 from tasks.rotations import about

@@ -20,7 +20,6 @@ ALLOWED = {
     "bench/law/control/contact_controller.py": "hybrid control in contact, whose words these are",
     "bench/law/contender.py": "the cure in a refusal; it asks no registry",
     "bench/engines/simulate.py": "the module of a plant whose state is a quaternion",
-    "bench/experiments/chosen_words.py": "what a suite runs",
     "bench/experiments/suites.py": "what a suite runs",
     "bench/findings/claims/": "sentences about them",
     "bench/findings/questions.py": "a goal stream",
