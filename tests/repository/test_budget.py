@@ -9,11 +9,11 @@ ROOT = Path(__file__).parents[2]
 LINES = {
     "bench/__init__.py": 28,
     "bench/__main__.py": 29,
-    "bench/audit": 1_991,
+    "bench/audit": 1_928,
     "bench/base": 437,
-    "bench/cli": 2_353,
+    "bench/cli": 2_352,
     "bench/engines": 6_205,
-    "bench/experiments": 5_120,
+    "bench/experiments": 4_984,
     "bench/export": 1_984,
     "bench/findings": 6_152,
     "bench/law": 6_281,
@@ -31,7 +31,7 @@ LINES = {
     "tests/law": 2_909,
     "tests/regression": 677,
     "tests/report": 2_371,
-    "tests/repository": 615,
+    "tests/repository": 614,
     "tests/running": 1_086,
     "tests/studies": 901,
     "tests/support": 3_303,
@@ -40,7 +40,7 @@ LINES = {
     "tasks": 5_151,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
-FILES = {"bench/audit": 35, "bench/experiments": 46, "bench/export": 18, "bench/law": 102, "tasks": 76}
+FILES = {"bench/audit": 35, "bench/experiments": 45, "bench/export": 18, "bench/law": 102, "tasks": 76}
 """Python files of the rooms in which one file adds one thing: with one more, a room may have as many lines more."""
 LONGEST_FILE = 250
 TOO_LONG: dict[str, int] = {}
