@@ -16,9 +16,10 @@ from bench.findings.selection.words import leaders, standing
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import AT_REST, Gains, Goal
 from report.figures.answer import which_law
-from report.figures.arms import arm_ranking, cost_on_arms
+from report.figures.arms import arm_ranking
 from report.figures.comparison import a_new_law, comparison
 from report.figures.contact import as_arms_run, hand_axes, in_contact
+from report.figures.cost import cost
 from report.figures.failures import failure_map
 from report.figures.kit.page import Run
 from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX
@@ -140,14 +141,14 @@ def plant_peak(**columns):
 
 def plant_order(*times):
     """State which of the paper's three laws takes least time alone."""
-    return cost_on_arms.order_papers_laws(dict(zip((MATRIX, LINEARIZED, FEEDBACK), times, strict=True)))
+    return cost.order_papers_laws(dict(zip((MATRIX, LINEARIZED, FEEDBACK), times, strict=True)))
 
 
 def plant_dearest(law):
     """Name the law that takes most time alone."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(cost_on_arms, "ticks", lambda results: {MATRIX: 1.0, LINEARIZED: 1.5, FEEDBACK: 2.0, law: 3.0})
-        return cost_on_arms.share_of_time(Run(FOLDER))["time_most_law"]
+        patch.setattr(cost, "ticks", lambda results: {MATRIX: 1.0, LINEARIZED: 1.5, FEEDBACK: 2.0, law: 3.0})
+        return cost.share_of_time(Run(FOLDER))["time_most_law"]
 
 
 def plant_kv(**columns):

@@ -16,8 +16,6 @@ from report.figures.contact import as_arms_run
 from report.figures.kit.page import ABSENT, run_in
 
 RUN = run_in(RESULTS / "reference")
-FROM_STUDIES = {"admittance-limits", *as_arms_run.in_contact()}
-"""Keys of the page on impedance that a committed study holds and no run."""
 
 
 @pytest.mark.parametrize("page", [a_new_law, as_arms_run, comparison, velocity_commands])
@@ -26,12 +24,12 @@ def test_page_is_whole(page, monkeypatch):
     assert_is_whole(page, RUN)
 
 
-@pytest.mark.parametrize(("page", "there"), [(as_arms_run, FROM_STUDIES), (velocity_commands, set())])
-def test_run_without_a_pages_tables_says_so(page, there, tmp_path):
+@pytest.mark.parametrize("page", [as_arms_run, velocity_commands])
+def test_run_without_a_pages_tables_says_so(page, tmp_path):
     for name in ("episodes", "costs"):
         shutil.copy(RESULTS / "reference" / f"{name}.parquet", tmp_path)
     shown = pasted(page, run_in(tmp_path))
-    assert {key for key, value in shown.items() if ABSENT not in getattr(value, "alt", str(value))} == there
+    assert all(ABSENT in getattr(value, "alt", str(value)) for value in shown.values())
 
 
 def test_key_that_no_page_pastes_is_an_error(monkeypatch):

@@ -11,7 +11,6 @@ import media as rendering
 import tasks
 from bench.engines.contact_episode import P, R
 from bench.findings.claims.probes import controller
-from report.figures.arms import jacobians
 from report.figures.kit import media
 
 ABOUT = media.facts()
@@ -86,8 +85,3 @@ def test_motion_is_still_that_of_the_two_controllers():
     assert geometric["path_ratio"] == pytest.approx(1.0, abs=0.01)
     assert euler["peak_torque_ratio"] > 100.0
     assert euler["outcome"] != "settled" or euler["path_ratio"] > 3.0
-
-
-def test_how_near_the_pole_is_read_off_the_starts_name():
-    assert jacobians.miss("pole-minus-1-k3") == "past the pole at 0.001 rad"
-    assert jacobians.miss("pole-plus-0-exact") == "through the pole itself"

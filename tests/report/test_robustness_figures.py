@@ -19,7 +19,7 @@ from bench.law.contenders.registry import find_contender
 from bench.running import run
 from report.figures.cards import regulators
 from report.figures.kit.page import run_in
-from report.figures.robustness import half_turn_noise, other_perturbations, robustness, rows, saturation
+from report.figures.robustness import half_turn_noise, other_perturbations, robustness, rows
 from tasks.condition import condition_at
 from tasks.rules import RULES
 
@@ -36,7 +36,7 @@ def test_cards_of_laws_with_memory_say_how_far_they_keep_to_their_way(law):
 
 # ---------------------------------------------------------------------------------------------- pages, from a small run
 
-PAGES = (robustness, half_turn_noise, saturation, other_perturbations)
+PAGES = (robustness, half_turn_noise)
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -86,7 +86,7 @@ def test_rotation_vector_is_the_linear_loop_from_rest_at_every_level_and_angle(n
 
 
 def test_no_law_settles_sooner_than_the_bound_on_its_command_allows(small_run):
-    assert saturation.bounded(small_run)["over_least"].min() >= 1.0
+    assert other_perturbations.bounded(small_run)["over_least"].min() >= 1.0
 
 
 def test_theory_says_which_laws_the_worst_noise_holds_at_the_half_turn(small_run):

@@ -189,11 +189,11 @@ def recompute_times():
     share = shares_of_time().loc[lambda own: ~own.index.str.contains("literal/zyx")]
     three = share[[MATRIX, LINEARIZED, FEEDBACK]]
     found = {"matrix": share[MATRIX], "late": share[LATE], "most": share.max()}
-    said = {f"cost_on_arms.time_{name}": [float(f"{value:.2g}")] for name, value in found.items()}
-    said["cost_on_arms.time_most_law"] = word(share.idxmax())
+    said = {f"time_{name}": [float(f"{value:.2g}")] for name, value in found.items()}
+    said["time_most_law"] = word(share.idxmax())
     is_papers = (three.idxmin(), three.idxmax()) == (MATRIX, FEEDBACK)
-    said["cost_on_arms.paper_order"] = [word(three.idxmin()), word(three.idxmax())]
-    said["cost_on_arms.paper_order"] += ["as the paper" if is_papers else "other than the paper"]
+    said["paper_order"] = [word(three.idxmin()), word(three.idxmax())]
+    said["paper_order"] += ["as the paper" if is_papers else "other than the paper"]
     return said
 
 

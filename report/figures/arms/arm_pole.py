@@ -5,7 +5,6 @@ from __future__ import annotations
 import pandas as pd
 
 from report.figures.arms import arm_rows
-from report.figures.arms.arm_looks import arms
 from report.figures.kit import html, style
 from report.figures.kit.inline import responsive_picture
 
@@ -31,37 +30,32 @@ def pole(rows: pd.DataFrame, narrow: bool):
     """
     starts = rows[(rows["start_set"] == "pole") & rows["controller"].isin(arm_rows.PAPERS_TWO)]
     starts = starts.assign(k=decade(starts["start_id"]))
-    names = arms(starts)
+    names = arm_rows.order_arms(starts)
     figure, grid = style.grid(len(names), 1.9, 1.75, narrow, top=0.8, sharey=True)
     said = []
     for axes, arm in zip(grid.flat, names, strict=False):
-        told = []
         for step, controller in enumerate(arm_rows.PAPERS_TWO):
             own = starts[(starts["arm"] == arm) & (starts["controller"] == controller)]
-            look, place = style.look(controller), own["k"] + 0.16 * (2 * step - 1)
-            good = arm_rows.settled(own)
-            face = {"color": look.colour, "linestyle": "none"}
-            axes.plot(place[good], own.loc[good, "peak_torque_ratio"], marker=look.marker, markersize=4, **face)
-            axes.plot(place[~good], own.loc[~good, "peak_torque_ratio"], marker="x", markersize=6, **face)
-            told.append(
-                f"{arm_rows.title(controller)} fails {int((~good).sum())} of {len(own)}, median peak torque "
+            look, good = style.look(controller), arm_rows.settled(own)
+            for chosen, marker, size in ((good, look.marker, 4), (~good, "x", 6)):
+                place, torque = own["k"][chosen] + 0.16 * (2 * step - 1), own.loc[chosen, "peak_torque_ratio"]
+                axes.plot(place, torque, marker, markersize=size, color=look.colour)
+            said.append(
+                f"{arm}, {arm_rows.title(controller)} fails {int((~good).sum())} of {len(own)}, median peak torque "
                 f"{html.number(own['peak_torque_ratio'].median())} times the rated one"
             )
         axes.axhline(1.0, color=style.INK, linewidth=0.9, linestyle=style.DASHED)
         axes.set(title=arm, yscale="log")
         axes.minorticks_off()
-        said.append(f"{arm}: {', '.join(told)}")
     steps = sorted(set(starts["k"]))
-    labels = [f"$10^{{-{k}}}$" for k in steps[:-1]] + ["0"]
     for axes in grid[-1]:
-        axes.set_xticks(steps, labels)
+        axes.set_xticks(steps, [*(f"$10^{{-{k}}}$" for k in steps[:-1]), "0"])
         axes.set_xlabel("passes the pole at [rad]")
     for controller in arm_rows.PAPERS_TWO:
         look = style.look(controller)
         axes.plot([], [], look.marker, color=look.colour, label=arm_rows.title(controller), markersize=5)
-    axes.plot([], [], "x", color=style.INK, label="fails", markersize=6, linestyle="none")
-    handles, words = axes.get_legend_handles_labels()
-    figure.legend(handles, words, loc="outside lower center", ncols=1 if narrow else 3)
+    axes.plot([], [], "x", color=style.INK, label="fails", markersize=6)
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=1 if narrow else 3)
     style.label_rows(figure, "peak torque over rated")
     return figure, f"Turns that pass the pole. {'; '.join(said)}."
 
@@ -69,16 +63,11 @@ def pole(rows: pd.DataFrame, narrow: bool):
 def side_by_side(rows: pd.DataFrame) -> pd.DataFrame:
     """Pole starts by (3.7) and by (2.2) with the law on R, joined: a row a start."""
     starts = rows[rows["start_set"] == "pole"]
-    columns = ["arm", "start_id", "outcome", "path_ratio", "peak_torque_ratio", "cond_jacobian_max", "min_margin"]
-    own, other = (arm_rows.of(starts, controller)[columns] for controller in (arm_rows.ON_ANGLES, arm_rows.ON_MATRIX))
+    columns = ["arm", "start_id", "outcome", "peak_torque_ratio"]
+    own, other = (starts.loc[starts["controller"] == name, columns] for name in reversed(arm_rows.PAPERS_TWO))
     both = own.merge(other, on=["arm", "start_id"], suffixes=("", "_matrix"))
     return both.assign(
         fails=both["outcome"] != "settled",
         fails_matrix=both["outcome_matrix"] != "settled",
         harder=both["peak_torque_ratio"] / both["peak_torque_ratio_matrix"],
     )
-
-
-def hammers(both: pd.DataFrame) -> pd.Series:
-    """Return, for the rows of `side_by_side`, whether (3.7) fails or hammers the arm."""
-    return both["fails"] | (both["harder"] > HAMMERED)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pandas as pd
 
 from bench.findings.on_arms import MEASURES, best, passed
-from report.figures.arms import arm_looks, arm_rows
+from report.figures.arms import arm_rows
 from report.figures.kit import html
 from report.figures.kit.share import Share, share
 from report.figures.kit.spelling import listed
@@ -16,9 +16,6 @@ from report.figures.kit.tables import Table
 RANKED = Table("Controller | Settled [%] | Within torque | and range | Reach, settled | within torque and range")
 SETS = ("uniform", "reach")
 COLUMNS = (*(("uniform", measure) for measure in MEASURES), ("reach", "settled"), ("reach", "range"))
-RANGE_RAD = 0.1
-"""[rad]: 6 degrees beyond the end of a joint's range is beyond its bumper."""
-
 FEW = 4
 """Names up to this number are said, more are counted; the table has them."""
 
@@ -70,21 +67,6 @@ def told(rows: pd.DataFrame, controller: str, measure: str) -> str:
     return f"{100 * found.value:.0f} % ({100 * found.low:.0f} to {100 * found.high:.0f} %, n = {found.n})"
 
 
-def facts(rows: pd.DataFrame) -> dict[str, str]:
-    """Who is best, in a sentence; by arm, what settles within torque; how far joints leave their range."""
-    uniform = of_laws(rows, SETS[0])
-    if uniform.empty:
-        return {}
-    settled = uniform[passed(uniform)["settled"]]
-    shares = passed(uniform)["torque"].groupby(uniform["arm"]).mean()
-    return {
-        "lead": lead(uniform),
-        "by_arm": ", ".join(f"{100 * value:.0f} % on {name}" for name, value in shares.items()),
-        "beyond": f"{100 * float((settled['range_excess_rad'] > RANGE_RAD).mean()):.0f}",
-        "beyond_rad": f"{RANGE_RAD:g}",
-    }
-
-
 def lead(uniform: pd.DataFrame) -> str:
     """Who is best within torque and range, what the Euler controller does, who settles most, and the torques.
 
@@ -93,7 +75,7 @@ def lead(uniform: pd.DataFrame) -> str:
     """
     over = uniform["peak_torque_ratio"] > 1.0
     passes = passed(uniform)["range"].groupby(uniform["arm"]).any()
-    never = [arm_looks.title(arm) for arm in passes.index[~passes]]
+    never = [arm_rows.name_arm(arm) for arm in passes.index[~passes]]
     others = uniform[uniform["arm"].map(passes)]
     is_split = bool(never) and len(others) > 0
     first = told(others, best(uniform, "range", "controller")[0], "range") if is_split else ""

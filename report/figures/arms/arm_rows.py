@@ -17,7 +17,6 @@ from bench.experiments.tables import read
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import all_contenders, baselines_of_arms, contenders, contenders_of
-from report.figures.arms.arm_looks import short_title
 from report.figures.kit import families
 from report.figures.kit.page import Run
 
@@ -26,11 +25,19 @@ WORDS = ("arm", "variation", "regulator", "representation", "jacobian", "inverse
 ON_MATRIX, ON_ANGLES = "rotation-matrix@geometric", "feedback-linearized/zyx-euler@analytic"
 PAPERS_TWO = ON_MATRIX, ON_ANGLES
 """The law on R by (2.2), and the paper's (3.7)."""
-SAME_BOTH_WAYS = "feedback-linearized/zyx-euler@geometric"
-"""(2.2) with (2.15): the law of (3.7), by the geometric Jacobian."""
+COMPARED = (ON_MATRIX, "feedback-linearized/zyx-euler@geometric", ON_ANGLES)
+"""The law on R, and that of (3.7) by the geometric Jacobian and by its own."""
 PAPERS_JACOBIANS = ("geometric", "analytic")
-SETS = ("clear", "pole", "wrist", "half-turn", "uniform", "tumbling", "reach")
-"""Nothing in the way, then what the paper warns of, then the rest."""
+
+
+def order_arms(rows: pd.DataFrame) -> list[str]:
+    """Return the names of the arms that the rows are about, the paper's own first."""
+    return sorted(set(rows["arm"].astype(str)), key=lambda name: (name != "puma560", name))
+
+
+def name_arm(arm: str) -> str:
+    """Return what an arm is called."""
+    return tasks.arm(arm).title if arm in tasks.arm_names() else arm
 
 
 @functools.cache
@@ -87,19 +94,6 @@ def of_baselines(rows: pd.DataFrame) -> pd.DataFrame:
     return rows[rows["regulator"].isin(baselines_of_arms())]
 
 
-def of(rows: pd.DataFrame, controller: str, inverse: str = STANDARD, start_set: str = "") -> pd.DataFrame:
-    """Rows by one controller and inverse, from one start set or from all."""
-    rows = rows[rows["way"] == f"{controller}+{inverse}"]
-    return rows[rows["start_set"] == start_set] if start_set else rows
-
-
-def in_order(rows: pd.DataFrame) -> list[str]:
-    """Return the controllers that the rows hold: (2.2) first, by the order of the paper and then by name."""
-    first = (ON_MATRIX, "linearized-euler/zyx-euler@geometric", "linearized-euler-relative/zyx-euler@geometric")
-    ranks = {name: place for place, name in enumerate((*first, SAME_BOTH_WAYS, ON_ANGLES))}
-    return sorted(set(rows["controller"]), key=lambda name: (equation(name), ranks.get(name, len(ranks)), name))
-
-
 def equation(controller: str) -> str:
     """Which of the paper's two controllers it is; of a baseline none."""
     if controller.partition("@")[0] in baselines_of_arms():
@@ -114,7 +108,7 @@ def title(controller: str) -> str:
     if law in baselines_of_arms():
         return baselines_of_arms()[law].regulator.title
     regulator, _, coordinates = law.partition("/")
-    which = short_title(coordinates) if coordinates else ""
+    which = contenders("representations")[coordinates].title.removesuffix(" angles") if coordinates else ""
     known = contenders("regulators")
     name = known[regulator].title.partition(" (")[0] if regulator in known else regulator
     if regulator in known and known[regulator].later:
@@ -127,11 +121,6 @@ def title(controller: str) -> str:
         said = which
     frame = "" if jacobian in PAPERS_JACOBIANS else f", {contenders('jacobians')[jacobian].title.lower()}"
     return f"{equation(controller)} {said}{frame}"
-
-
-def title_of_inverse(inverse: str) -> str:
-    """How an inverse is called in a figure."""
-    return "Inverse, or pseudo-inverse" if inverse == STANDARD else contenders("inverses")[inverse].title
 
 
 def settled(rows: pd.DataFrame) -> pd.Series:

@@ -12,10 +12,11 @@ import numpy as np
 import pandas as pd
 from matplotlib.patches import FancyArrowPatch, Polygon
 
-from report.figures.contact.rows import LOOKS, PAPERS, PAPERS_EULER, arms, compliance, level, nearest, of
+from report.figures.contact.rows import PAPERS, PAPERS_EULER, compliance, level, nearest, of
 from report.figures.kit import style
 from report.figures.kit.inline import responsive_picture
 
+COLOURS = {PAPERS: "#0072b2", PAPERS_EULER: "#d55e00"}
 BETAS = (0, 30, 60, 85)
 ORDER = "about x and y"
 PUSHED = (("x", "A moment about x, where it should comply"), ("z", "A moment about z, where it should hold"))
@@ -118,7 +119,7 @@ def draw_frame(axes) -> None:
 
 def shown_arm(rows: pd.DataFrame) -> str:
     """Return the UR5e if it is there: its inertia, through which moments act, hardly couples x and z at home."""
-    return arms(rows)[-1]
+    return max(rows["arm"])
 
 
 def turns(rows: pd.DataFrame) -> list[dict]:
@@ -186,7 +187,7 @@ def axes_of_turning(rows: pd.DataFrame, narrow: bool):
             who = "Cartesian" if contender == PAPERS else "Euler"
             if i == 0:
                 heading = "Cartesian, any β" if who == "Cartesian" else f"Euler, β = {beta:.0f}°"
-                axes.set_title(heading, color=LOOKS[contender.partition("+")[0]].colour)
+                axes.set_title(heading, color=COLOURS[contender])
             words.append(f"{who}, beta {beta:.0f} degrees, moment about {pushed}: {does}")
     _head(figure, grid, narrow)
     return figure, (
@@ -218,7 +219,7 @@ def _panel(axes, one: dict) -> str:
     draw_frame(axes)
     moment = np.eye(3)["xyz".index(one["pushed"])]
     draw_turn(axes, moment, 1.0, style.INK, 5.0, 1.1, (0, (4, 2.5)))
-    colour = LOOKS[one["contender"].partition("+")[0]].colour
+    colour = COLOURS[one["contender"]]
     if math.isnan(one["off"]):
         words = "stays" if one["pushed"] == "z" else "does not turn"
     else:

@@ -1,8 +1,10 @@
-"""The page on tasks in contact."""
+"""The page on tasks in contact: a plate, a peg, a crank and a plane, by controller and frame of the hand."""
 
 from __future__ import annotations
 
 import functools
+from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -12,18 +14,55 @@ import tasks
 from bench.base.files import read_json
 from bench.engines.metrics.contact.scene import IN
 from bench.studies.contact.__main__ import STORED
-from report.figures.contact.outcomes import MEASURES, table_of_tasks
-from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER, of, of_task, verdicts
-from report.figures.kit import media
+from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER, of, of_task
+from report.figures.kit import html, media
 from report.figures.kit.page import ABSENT, NotInRun, Run, in_run
-from report.figures.kit.spelling import power
+from report.figures.kit.tables import Table
 from tasks.contact_model import STANDARD
 from tasks.contact_rest import HORIZON_S, REST
 
 P_VALUE = 0.05
 """P-value of Fisher's exact test, both sides: below it two shares of pegs differ significantly."""
-PRESSING = ("surface-alignment", "peg-in-hole", "force-on-plane")
-"""Tasks in which a force is ordered."""
+SPRINGS = "impedance-geometric"
+DEGREES = 180.0 / np.pi
+LOOP = (
+    "Two arms press a square tool onto a tilted plate. With Cartesian compliance the tool turns until it lies flat; "
+    "with the Euler Jacobian it stays level, on one edge."
+)
+
+
+class Measure(NamedTuple):
+    """A column of compliance.parquet in the table: its words, unit there and factor to it, a format.
+
+    middle: what stands for several episodes, "median", or "mean" of what is counted.
+    failed: what an episode counts as that fails before it has a value: the worst there is.
+    """
+
+    column: str
+    title: str
+    factor: float = 1.0
+    form: str = ".2f"
+    middle: str = "median"
+    failed: float = np.inf
+
+    def of(self, rows: pd.DataFrame) -> str:
+        """Return the median or mean of the rows; a dash where at least half of the episodes failed."""
+        value = (rows[self.column] * self.factor).fillna(self.failed).agg(self.middle)
+        return f"{value:{self.form}}" if np.isfinite(value) else html.MISSING
+
+
+MEASURES = {
+    "surface-alignment": Measure("alignment_error_rad", "tool to plate at the end [deg]", DEGREES),
+    "peg-in-hole": Measure("jam", "not in at the end [%]", 100.0, ".0f", "mean", 100.0),
+    "crank": Measure("crank_angle_rad", "turned by [deg]", DEGREES, ".1f", failed=-np.inf),
+    "force-on-plane": Measure("normal_force_error_n", "normal force, rms error [N]"),
+}
+"""Task -> the number that says how it went, the tasks whose orders free turns first."""
+
+OUTCOMES = Table(
+    "Task | Measured | Episodes | Cartesian | Euler Jacobian, level | Euler Jacobian, leaning most | Springs",
+    words=("Cartesian", "Euler Jacobian, level", "Euler Jacobian, leaning most", "Springs"),
+)
 
 
 @functools.cache
@@ -35,20 +74,10 @@ def all_rows(run: Run) -> pd.DataFrame:
     return pd.concat(found, ignore_index=True)
 
 
-@functools.cache
-def study(part: str) -> pd.DataFrame:
-    """Return a part of the committed study of contact."""
-    return pd.DataFrame(read_json(STORED)[part])
-
-
 def facts(run: Run) -> dict:
     """Return how episodes end, and what they are."""
-    return {
-        **describe_tasks(),
-        **limits(),
-        **(in_run(lambda: of_run(all_rows(run))) or {}),
-        "fits": said_of_fits(study("fits")),
-    }
+    fits = pd.DataFrame(read_json(STORED)["fits"])
+    return describe_tasks() | (in_run(lambda: of_run(all_rows(run))) or {}) | {"fits": said_of_fits(fits)}
 
 
 def describe_tasks() -> dict[str, str]:
@@ -73,8 +102,6 @@ def of_run(rows: pd.DataFrame) -> dict[str, str]:
     return {
         **plate(rows),
         "betas": ", ".join(f"{beta:.0f}°" for beta in sorted(set(rows["beta_deg"]))),
-        "rest": rested(rows),
-        "overshoot": overshot(rows),
         "flat": flat(rows),
         "stuck": stuck(rows, PAPERS, PAPERS_EULER),
         "other_stuck": stuck(rows, CARTESIAN, EULER),
@@ -82,54 +109,19 @@ def of_run(rows: pd.DataFrame) -> dict[str, str]:
 
 
 def plate(rows: pd.DataFrame) -> dict[str, str]:
-    """Return what the loop shows: the angles [deg] at the end of its two episodes, and whether that is rest."""
+    """Return what the loop shows, and the angles [deg] at the end of its two episodes."""
     about = media.facts()["contact"]
-    shown, values = about["plate"], {"plate_arm": tasks.arm(about["arm"]).title}
-    trials = tasks.contact_task(shown["task"]).trials(tasks.arm(about["arm"]))
-    trial = next(one for one in trials if one.id == shown["trial"])
-    values["plate_tilt"] = f"{np.degrees(trial.tilt):.0f}"
-    values["plate_force"] = f"{np.linalg.norm(trial.specification.desired_wrench[:3]):.0f}"
-    values["plate_beta"] = trial.id.rpartition("beta+")[2]
+    shown, arm = about["plate"], tasks.arm(about["arm"])
+    trial = next(one for one in tasks.contact_task(shown["task"]).trials(arm) if one.id == shown["trial"])
     own = rows[(rows["task"] == shown["task"]) & (rows["arm"] == about["arm"]) & (rows["pose"] == shown["trial"])]
-    for word, contender in zip(("plate_cartesian", "plate_euler"), shown["controllers"], strict=True):
-        for _, one in own[own["contender"] == contender].iterrows():
-            values |= {word: f"{np.degrees(one['alignment_error_rad']):.1f}", f"{word}_rest": word_of_rest(one)}
-    return values
-
-
-def word_of_rest(row: pd.Series) -> str:
-    """Return at rest, or creeping and how fast."""
-    if row["rest"] == "at-rest":
-        return "at rest"
-    rate, speed = np.degrees(row["remaining_rate_rad_per_s"]), 1e3 * row["remaining_speed_m_per_s"]
-    return f"creeping at {power(rate)} °/s and {power(speed)} mm/s"
-
-
-def rested(rows: pd.DataFrame) -> str:
-    """State how many are at rest by the paper's force control, and how fast the others creep."""
-    own = rows[rows["contender"].isin((PAPERS, PAPERS_EULER)) & (rows["rest"] != "")]
-    late = own[own["rest"] == "creeping"]
-    words = f"{len(own) - len(late)} of {len(own)} are at rest."
-    if late.empty:
-        return words
-    speed, rate = 1e3 * late["remaining_speed_m_per_s"], np.degrees(late["remaining_rate_rad_per_s"])
-    return f"{words} The others creep, at most at {power(speed.max())} mm/s and {power(rate.max())} °/s."
-
-
-def overshot(rows: pd.DataFrame) -> str:
-    """State the largest force of each pressing task, by the paper's force control and by accelerations."""
-    own = rows[rows["task"].isin(PRESSING) & (rows["outcome"] == "done")]
-    peaks = own.groupby(["task", "contender"])["peak_force_n"].median().unstack()
-    over = of(own, PAPERS).groupby("task")["force_overshoot"].median()
-    parts = [
-        f"{task.replace('-', ' ')} {peaks.loc[task, PAPERS]:.0f} N ({1.0 + over[task]:.1f} times the order along it; "
-        f"by accelerations {peaks.loc[task, CARTESIAN]:.0f} N)"
-        for task in PRESSING
-        if task in over.index and CARTESIAN in peaks
-    ]
-    if not parts:
-        return f"How hard they strike is {ABSENT}."
-    return f"No controller limits the impact. The largest force is, in the median, {'; '.join(parts)}."
+    ends = np.degrees(own.set_index("contender")["alignment_error_rad"]).reindex(shown["controllers"])
+    return {
+        "plate_arm": arm.title,
+        "plate_tilt": f"{np.degrees(trial.tilt):.0f}",
+        "plate_force": f"{np.linalg.norm(trial.specification.desired_wrench[:3]):.0f}",
+        "plate_beta": trial.id.rpartition("beta+")[2],
+        **{word: f"{end:.1f}" for word, end in zip(("plate_cartesian", "plate_euler"), ends, strict=True)},
+    }
 
 
 def stuck(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
@@ -169,21 +161,6 @@ def flat(rows: pd.DataFrame) -> str:
     return "; ".join(parts)
 
 
-def limits() -> dict[str, str]:
-    """Return from the study what springs leave, and where a press becomes unstable."""
-    springs, boundary = study("springs"), study("boundary")
-    steep = springs[springs["tilt_deg"] > 15.0].groupby("stiffness")["left_deg"].max().sort_index(ascending=False)
-    is_ours = boundary["controller"] == PAPERS
-    ours, others = boundary[is_ours & (boundary["kf"] == 0.5)], boundary[~is_ours]
-    return {
-        "springs_left": ", ".join(f"{left:.2g}° by {k:g} N m/rad" for k, left in steep.items()),
-        "springs_soft": f"{steep.index[-1]:g}",
-        "boundary_papers": f"{int(ours['measured'].isna().sum())} of {len(ours)}",
-        "boundary_off": f"{100.0 * (others['measured'] / others['theory'] - 1.0).abs().max():.0f}",
-        "boundary_longest": f"{ours['delay_ms'].max():g}",
-    }
-
-
 def said_of_fits(fits: pd.DataFrame) -> str:
     """How many pegs go in at each clearance, the widest first, and whether closer fits take fewer."""
     counts = (fits["depth_m"] >= IN).groupby(fits["clearance"]).agg(["sum", "size"]).sort_index(ascending=False)
@@ -193,14 +170,17 @@ def said_of_fits(fits: pd.DataFrame) -> str:
 
 
 def tables(run: Run) -> dict:
-    """Return the verdict, and one table of all tasks."""
-    return {"verdicts": verdicts(run, "C25"), "outcomes": table_of_tasks(all_rows(run))}
+    """Return one table of all tasks."""
+    return {"outcomes": OUTCOMES(compare_tasks(all_rows(run)))}
 
 
-LOOP = (
-    "Two arms press a square tool onto a tilted plate. With Cartesian compliance the tool turns until it lies flat; "
-    "with the Euler Jacobian it stays level, on one edge."
-)
+def compare_tasks(rows: pd.DataFrame) -> Iterator[tuple]:
+    """Return a row a task: Cartesian control, the Euler Jacobian by frame of the hand, springs."""
+    for task, own in rows.groupby("task", sort=False):
+        euler, plain, measure = of(own, PAPERS_EULER), of(own, PAPERS), MEASURES[str(task)]
+        leaning = euler[euler["beta_deg"] == euler["beta_deg"].max()]
+        columns = plain, euler[euler["beta_deg"] == 0.0], leaning, of(own, SPRINGS)
+        yield str(task).replace("-", " "), measure.title, len(plain), *map(measure.of, columns)
 
 
 def figures(_: Run) -> dict:

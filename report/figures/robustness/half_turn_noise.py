@@ -8,29 +8,20 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 
 from bench.experiments.tables import read
-from bench.findings.theory.isotropic import EQUATIONS
-from bench.findings.theory.thresholds import HALF_TURN, UNBOUNDED, WITH_MEMORY, keeps, least
+from bench.findings.theory.thresholds import HALF_TURN, WITH_MEMORY, keeps, least
 from bench.law.contenders.registry import find_contender
 from bench.law.contenders.regulators import hybrid, mrp_linearized
 from bench.law.kinds import Law
-from report.figures.kit import families, html, style
+from report.figures.kit import families, style
 from report.figures.kit.inline import responsive_picture
 from report.figures.kit.page import Run
-from report.figures.kit.spelling import power
-from report.figures.kit.tables import Table
 from report.figures.robustness.rows import along, gains, laws, starts
 
 FOOT, TOP = 1e-4, 1.6
-
-
-def jump(law: str, kp: float) -> float:
-    """Return half the jump of a law's command at 180° [rad/s^2]; NaN for a law without a scalar equation."""
-    return kp * EQUATIONS[law].spring(math.pi) if law in EQUATIONS and law not in UNBOUNDED else math.nan
 
 
 def leaving(rows: pd.DataFrame) -> pd.DataFrame:
@@ -84,39 +75,6 @@ def regulator_of(law: str) -> Law:
     return find_contender(law, read.own_laws()).regulator
 
 
-def _noise(value: float) -> str:
-    return "any" if value == 0.0 else power(value) if value < 1e-3 else f"{value:.3g}"
-
-
-LAWS = Table(
-    "Law | Proved | Memory | Jump [rad/s²]:.0f | Held from, by theory [rad] | Starts at 180° left [%]:.0f | Measured",
-    {"Held from, by theory [rad]": _noise},
-)
-
-
-def table(rows: pd.DataFrame) -> html.Markdown | None:
-    """Return a law a row: its property, half the jump of its command, the least noise by theory and as measured."""
-    kp, kv = gains(rows)
-    shares, lines = leaving(rows), []
-    for law in laws(rows):
-        regulator = regulator_of(law)
-        words = (families.link(law, families.word(law)), html.foreign(regulator.property))
-        numbers = (2.0 * jump(law, kp), least(law, kp, kv), 100.0 * float(shares[law].get(0.0, np.nan)))
-        lines.append((*words, "yes" if regulator.memory else "no", *numbers, measured(shares[law])))
-    return LAWS(lines)
-
-
-def measured(shares: pd.Series) -> str:
-    """Between which levels a law begins to be held: at the first it leaves all starts, at the second it does not."""
-    noisy = shares[shares.index > 0]
-    held = noisy.index[noisy < 1.0]
-    if not len(held):
-        return "never held"
-    free = noisy.index[noisy.index < held[0]]
-    begin = "any" if not len(free) else f"{free[-1]:g} to {held[0]:g}"
-    return begin if (noisy[noisy.index >= held[0]] == 0.0).all() else f"{begin}, in part"
-
-
 def facts(run: Run) -> dict:
     """Whom noise holds, by theory and in the episodes; laws with memory and without."""
     rows = along(run, HALF_TURN)
@@ -147,11 +105,6 @@ def facts(run: Run) -> dict:
         "delta": f"{hybrid.DELTA:g}",
         "switch": f"{mrp_linearized.SWITCH:g}",
     }
-
-
-def tables(run: Run) -> dict:
-    """Return what was measured of every law, beside what theory says."""
-    return {"tab_half_turn": table(along(run, HALF_TURN))}
 
 
 def figures(run: Run) -> dict:

@@ -1,37 +1,31 @@
-"""The page on the perturbations that act on all laws through the linear loop that all are near the goal.
-
-Control rate, delay, noise, inertia, initial spin and goals that move: facts of a paragraph each.
-"""
+"""Perturbations under which the linear loop near the goal decides, a bound on the command, goal streams, integrals."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
 
 import tasks
 from bench.findings.perturbed import FOLLOWED_RAD
+from bench.findings.selection.measured import measured
+from bench.findings.selection.words import leaders
 from bench.findings.theory import robustness_theory
+from bench.law.contenders.registry import contenders
 from report.figures.kit import families
 from report.figures.kit.page import Run, in_run
-from report.figures.robustness.rows import (
-    DEG,
-    along,
-    gains,
-    losses,
-    medians,
-    nominal,
-    with_unit,
-    worst,
-)
+from report.figures.robustness.rows import along, gains, medians, nominal, with_unit, worst
 from tasks.condition import condition_at
+from tasks.goal_stream import PERIOD_S
+from tasks.rules import RULES
 
 TIMED = ("control-rate", "delay", "inertia", "uneven-inertia", "spin")
 """Perturbations under which laws settle."""
 
+NOISES = ("attitude-noise", "rate-noise")
 MOVING = ("moving-goal", "moving-goal-rate", "moving-goal-untold")
+BOUND = "saturation"
 
 
 def left(rows: pd.DataFrame, name: str) -> float:
@@ -50,103 +44,96 @@ def over_theory(rows: pd.DataFrame, name: str) -> pd.DataFrame:
     return found.div(left(rows, name) * found.index.to_series(), axis=0)
 
 
-def changes(rows: pd.DataFrame, name: str) -> dict:
-    """Say by how much median settling times change at the worst level, for which law most, and who loses starts."""
-    table = medians(rows)
-    ratio = table.loc[worst(rows, name)] / table.loc[nominal(name)]
+def change(rows: pd.DataFrame, name: str) -> str:
+    """Say by how much median settling times change at the worst level, and for which law most."""
+    table, last = medians(rows), worst(rows, name)
+    ratio = table.loc[last] / table.loc[nominal(name)]
     ratio = 100.0 * (ratio[np.isfinite(ratio)] - 1.0)
-    found = {f"{name}_worst": with_unit(worst(rows, name), name), f"{name}_losses": losses(rows, name)}
-    if ratio.empty:  # no law settles at both levels
-        return found
-    return found | {
-        f"{name}_least": f"{round(ratio.min()):+d}".replace("-", "−"),
-        f"{name}_most": f"{round(ratio.max()):+d}".replace("-", "−"),
-        f"{name}_law": families.word(ratio.idxmax()),
+    if ratio.empty:
+        return f"{tasks.axis(name).title.lower()}, {with_unit(last, name)}: no law settles"
+    least, most = (f"{round(value):+d}".replace("-", "−") for value in (ratio.min(), ratio.max()))
+    title = tasks.axis(name).title.lower()
+    return f"{title}, {with_unit(last, name)}: {least} to {most} %, the most for {families.word(ratio.idxmax())}"
+
+
+def timed(run: Run) -> dict[str, str]:
+    """Return the margins of the linear loop, and changes of settling times."""
+    kp, kv = gains(along(run, TIMED[0]))
+    return {
+        "limit": f"{robustness_theory.least_rate(kp, kv):g}",
+        "margin_ms": f"{1000.0 * robustness_theory.delay_margin(kp, kv):.0f}",
+        "changes": "; ".join(change(along(run, name), name) for name in TIMED),
     }
 
 
-def control_rate(rows: pd.DataFrame) -> dict:
-    """Return the rate at which the sampled loop is unstable."""
-    limit = robustness_theory.least_rate(*gains(rows))
+def tracked(run: Run) -> dict:
+    """Return what noise and moving goals leave, over what the linear theory says, and how many laws lag without it."""
+    untold = along(run, MOVING[-1])
+    noisy = pd.concat([over_theory(along(run, name), name) for name in NOISES])
+    moving = pd.concat([over_theory(along(run, name), name).iloc[:1] for name in MOVING])
+    kp, kv = gains(untold)
+    slow = float(moving.index[0])
     return {
-        "limit": f"{limit:g}",
-        "times": f"{worst(rows, 'control-rate') / limit:g}",
-    }
-
-
-def delay(rows: pd.DataFrame) -> dict:
-    """Return the margin of the loop."""
-    margin = robustness_theory.delay_margin(*gains(rows))
-    return {
-        "margin_ms": f"{1000.0 * margin:.0f}",
-        "used": f"{100.0 * worst(rows, 'delay') / margin:.0f}",
-    }
-
-
-def noise(attitude: pd.DataFrame, rate: pd.DataFrame) -> dict:
-    """Return what noise leaves, by theory and in the episodes, and what it does to the command."""
-    ratios = pd.concat([over_theory(attitude, "attitude-noise"), over_theory(rate, "rate-noise")])
-    return {
-        "noise_low": f"{ratios.min(axis=None):.2f}",
-        "noise_high": f"{ratios.max(axis=None):.2f}",
-        "losses_a": losses(attitude, "attitude-noise"),
-        "losses_r": losses(rate, "rate-noise"),
-    }
-
-
-def spin(rows: pd.DataFrame) -> dict:
-    """Return how far bodies turn [deg], and whether memory sends them the longer way."""
-    rows = rows.assign(turned_deg=DEG * rows["path_ratio"] * rows["angle0_rad"])
-    fastest = worst(rows, "spin")
-    last = rows[(rows["level"] == fastest) & rows["good"]]
-    farthest = last.groupby("contender", observed=True)["turned_deg"].max()
-    return {
-        "coast_deg": f"{DEG * fastest / gains(rows)[1]:.0f}",
-        "unwound": f"{farthest.get('quaternion-unwinding', math.nan):.0f}",
-    }
-
-
-def moving_goals(full: pd.DataFrame, part: pd.DataFrame, none: pd.DataFrame) -> dict:
-    """Return what is left with rate and acceleration fed forward, with the rate alone, with neither."""
-    kp, kv = gains(full)
-    each = zip((full, part, none), MOVING, strict=True)
-    ratios = pd.concat([over_theory(rows, name).iloc[:1] for rows, name in each])
-    slow = float(ratios.index[0])
-    return {
+        **{f"{word}_low": f"{one.min(axis=None):.2f}" for word, one in (("noise", noisy), ("moving", moving))},
+        **{f"{word}_high": f"{one.max(axis=None):.2f}" for word, one in (("noise", noisy), ("moving", moving))},
         "lag_s": f"{kv / kp:g}",
-        "lag_deg": f"{DEG * kv / kp:.0f}",
-        "moving_low": f"{ratios.min(axis=None):.2f}",
-        "moving_high": f"{ratios.max(axis=None):.2f}",
         "slow": with_unit(slow, MOVING[0]),
-        "top": with_unit(worst(full, MOVING[0]), MOVING[0]),
-        "losses_m": losses(full, MOVING[0]),
-        "laws": ratios.shape[1],
-        "behind": int((medians(none, "tail_rms_rad").loc[slow] > FOLLOWED_RAD).sum()),
+        "behind": int((medians(untold, "tail_rms_rad").loc[slow] > FOLLOWED_RAD).sum()),
+        "laws": moving.shape[1],
     }
 
 
-SECTIONS: dict[Callable[..., dict], tuple[str, ...]] = {
-    control_rate: ("control-rate",),
-    delay: ("delay",),
-    noise: ("attitude-noise", "rate-noise"),
-    spin: ("spin",),
-    moving_goals: MOVING,
-}
-"""Facts of a section -> the perturbations that it is about."""
+def bounded(run: Run) -> pd.DataFrame:
+    """Return rows with `over_least`: settling time over the least that the bound allows from that angle."""
+    rows = along(run, BOUND)
+    pairs = zip(rows["angle0_rad"], rows["level"], strict=True)
+    least = [robustness_theory.least_settling(angle, bound, RULES.tolerance) for angle, bound in pairs]
+    return rows.assign(over_least=rows["time_s"] / least)
+
+
+def saturated(run: Run) -> dict[str, str]:
+    """Return how near the laws come to the least time behind the tightest bound, and which are the fastest there."""
+    table = medians(bounded(run), "over_least")
+    tight = min(table.index)
+    fastest = in_run(lambda: leaders(measured(run.folder), "bounded", families.word))
+    return {
+        "bound": with_unit(tight, BOUND),
+        "tight": f"{table.loc[tight].min():.2f}",
+        "slack": f"{table.loc[tight].max():.2f}",
+        "tight_law": fastest or "none, for this run does not compare laws",
+    }
+
+
+def streamed(run: Run) -> dict[str, str]:
+    """Return the worst of the filters of goals, and of the quaternion taken as it came."""
+    rows = run.rows("goal-streams").astype({"stream": str, "law": str})
+    swept, raw = rows[(rows["law"] != "") & (rows["stream"] != "held")], rows[rows["law"] == ""]
+    return {
+        "worst_rate": f"{swept['goal_rate_ratio'].max():.0f}",
+        "period": f"{1000 * PERIOD_S:g}",
+        "raw_way": f"{raw['way_ratio'].max():.1f}",
+        "raw_off": f"{math.degrees(raw['off_rad'].max()):.0f}",
+    }
+
+
+def compensated(run: Run) -> dict[str, str]:
+    """Return what laws without an integral leave; how long the law without a rate takes over its twin."""
+    rows = run.rows("compensators").astype({"law": str, "reads_rate": str})
+    rejecting = {name for name, one in contenders("compensators").items() if one.state.rejects}
+    hardest = rows[(rows["disturbance"] == rows["disturbance"].max()) & ~rows["law"].isin(rejecting)]
+    still = rows[rows["disturbance"] == 0.0]
+    without = still.loc[still["reads_rate"] == "no", "settling_median_s"].iloc[0]
+    paper = still.loc[~still["law"].isin(contenders("compensators")), "settling_median_s"].iloc[0]
+    return {
+        "left": f"{math.degrees(hardest['left_rad'].max()):.1f}",
+        "disturbance": f"{rows['disturbance'].max():g}",
+        "faster": f"{without / paper:.2f}",
+    }
 
 
 def facts(run: Run) -> dict:
-    """Return the facts of every section whose perturbations the run has."""
-
-    def of_section(section: Callable[..., dict], names: tuple[str, ...]) -> dict:
-        return section(*(along(run, name) for name in names))
-
-    def of_times(name: str) -> dict:
-        return changes(along(run, name), name)
-
+    """Return the facts of every section whose rows the run has."""
     found: dict = {}
-    for section, names in SECTIONS.items():
-        found |= in_run(of_section, section, names) or {}
-    for name in TIMED:
-        found |= in_run(of_times, name) or {}
+    for section in (timed, tracked, saturated, streamed, compensated):
+        found |= in_run(section, run) or {}
     return found

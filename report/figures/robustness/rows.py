@@ -13,8 +13,6 @@ from bench.experiments.tables.statistics import quantile
 from bench.findings.perturbed import went_well
 from report.figures.kit import families
 from report.figures.kit.page import Run
-from report.figures.kit.share import share
-from report.figures.kit.spelling import listed
 
 DEG = 180.0 / math.pi
 
@@ -90,21 +88,3 @@ def medians(rows: pd.DataFrame, column: str = "time_s") -> pd.DataFrame:
     """Median of a column: a row a level, a column a law; negative controls left out."""
     kept = rows[rows["contender"].isin(laws(rows, controls=False))]
     return kept.groupby(["level", "contender"], observed=True)[column].apply(median).unstack()
-
-
-def losses(rows: pd.DataFrame, name: str) -> str:
-    """Say for which laws fewer starts go well at the worst level, with Wilson intervals."""
-    before, after = (
-        rows[rows["level"] == level].groupby("contender", observed=True)["good"].agg(["sum", "size"])
-        for level in (nominal(name), worst(rows, name))
-    )
-    parts = []
-    for law in laws(rows, controls=False):
-        if after["sum"][law] < before["sum"][law]:
-            kept = share(int(after["sum"][law]), int(after["size"][law]))
-            parts.append(
-                f"{families.word(law)} ({kept.k} of {kept.n}; {100 * kept.low:.0f} to {100 * kept.high:.0f} %)"
-            )
-    if not parts:
-        return "No law loses a start there that goes well unperturbed."
-    return f"Success drops there for {listed(parts)}."
