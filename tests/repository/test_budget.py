@@ -30,13 +30,13 @@ LINES = {
     "tests/findings": 2_151,
     "tests/law": 2_909,
     "tests/regression": 677,
-    "tests/report": 2_371,
+    "tests/report": 2_260,
     "tests/repository": 614,
     "tests/running": 1_086,
     "tests/studies": 901,
     "tests/support": 3_303,
     "tests/tasks": 2_175,
-    "report": 9_039,
+    "report": 7_855,
     "tasks": 5_151,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
