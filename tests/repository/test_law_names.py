@@ -9,7 +9,7 @@ from bench.law.contenders.registry import contenders
 ROOT = Path(__file__).parents[2]
 ROOMS = ("bench", "tasks", "report")
 
-CHAPTERS = ("arms", "contact", "robustness")
+CHAPTERS = ("arms", "contact", "cost", "robustness")
 
 ALLOWED = {
     "bench/audit/": "the law that cures a fault, and forms, some of which are laws' words too",
