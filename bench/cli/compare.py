@@ -9,6 +9,7 @@ from click.exceptions import Exit
 
 from bench.base.errors import BenchError
 from bench.base.files import read_json, write_json
+from bench.base.lazy import pd
 from bench.base.provenance import rounded_on
 from bench.cli import options
 from bench.cli.judge import print_judgement
@@ -62,8 +63,6 @@ def _compare(
     first: str | None, second: str | None, laws: options.Files, no_timing: bool, benchmarks: Path | None,
     leave: Callable[[str], None],
 ) -> None:  # fmt: skip
-    import pandas as pd
-
     from bench.regression import rows
     from bench.regression.revisions import gates
 

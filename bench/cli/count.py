@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import rich_click as click
 from click.exceptions import Exit
 
 import tasks
 from bench.base.errors import Incompatible
+from bench.base.lazy import pd
 from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, examples, frame_table
@@ -18,9 +17,6 @@ from bench.experiments.suites import BY_WORD_ALONE, SUITES
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
 from bench.law.control.registry import find_controller
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 
 @click.command("count", epilog=examples("count"))
@@ -66,8 +62,6 @@ def COMMAND(
 
 def _rows(chosen: list[Contender], arm: str = "") -> pd.DataFrame:
     """Rows of costs.parquet: of laws alone, or on an arm; a user's are counted in their sandbox."""
-    import pandas as pd
-
     from bench.running.sandbox import Sandbox
 
     own = tuple(dict.fromkeys(one.regulator for one in chosen if one.regulator.origin))
@@ -89,8 +83,6 @@ def _print(table: pd.DataFrame, title: str, stages: bool) -> None:
 
 def _in_contact(words: tuple[str, ...]) -> pd.DataFrame:
     """Return the costs of the controllers of these names."""
-    import pandas as pd
-
     from bench.engines.counting.in_contact import rows_in_contact
 
     controllers = [find_controller(word) for word in dict.fromkeys(words)]

@@ -5,6 +5,7 @@ from pathlib import Path
 import rich_click as click
 from click.exceptions import Exit
 
+from bench.base.lazy import pd
 from bench.cli import options
 from bench.cli.paragraphs import Paragraph, print_paragraphs
 from bench.cli.screen import console, counted, examples, frame_table
@@ -40,8 +41,6 @@ def COMMAND(law: str, law_limit: float) -> None:
 
 def print_judgement(one: Judgement) -> None:
     """Print what a judgement says of a law, faults first, and the laws most like it."""
-    import pandas as pd
-
     screen = console()
     screen.print(f"{one.name}: {verdict(one)}\n")
     for head, is_fault in (("Faults", True), ("Otherwise" if one.faults else "Findings", False)):

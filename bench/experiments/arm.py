@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
 
 import tasks
 from bench.base.errors import Incompatible
+from bench.base.lazy import pd
 from bench.experiments import episodes
 from bench.experiments.choice import Choice
 from bench.experiments.episode_rows import TABLE
@@ -16,9 +16,6 @@ from bench.experiments.rounding import judged_on_both_sides
 from bench.experiments.suites import AT_INVERSES, BY_WORD_ALONE, NOMINAL, OnArms
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 MOST = {"native": 100, "reference": 2}
 """Episodes a unit at most, as on the free body."""

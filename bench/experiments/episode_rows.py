@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 import tasks
+from bench.base.lazy import pd
 from bench.engines.arm_episode import POSE, blank_arm
 from bench.engines.episode import (
     FAILURE_TICK,
@@ -34,9 +34,6 @@ from tasks.rules import RULES
 from tasks.truth import angle
 from tasks.verdict import OUTCOMES
 
-if TYPE_CHECKING:
-    import pandas as pd
-
 INTEGRATORS = {"ideal-rk4": "rk4", "ideal-held": "magnus4"}
 
 
@@ -52,8 +49,6 @@ def contender_columns(one: Contender) -> dict:
 
 def frame(settings: Settings, unit: Unit, starts: list[Start], numbers: np.ndarray) -> pd.DataFrame:
     """Return the rows of one unit from these starts."""
-    import pandas as pd
-
     angles = np.array([chart(from_quaternion(start.quat_wxyz)).E for start in starts])
     quats = np.array([start.quat_wxyz for start in starts])
     omegas = np.array([start.omega for start in starts])

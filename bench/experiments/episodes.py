@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import tasks
 from bench.base.errors import Incompatible
+from bench.base.lazy import pd
 from bench.engines.metrics.registry import metrics_of
 from bench.experiments import starts
 from bench.experiments.choice import Choice
@@ -22,8 +23,6 @@ from bench.law.contender import Contender
 from tasks.base import Start
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from bench.engines.curve import Curves
 
 

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from bench import experiments
 from bench.base.errors import BadLaw
+from bench.base.lazy import pd
 from bench.experiments.choice import IN_CONTACT, WITHOUT, Choice
 from bench.experiments.columns import Table
 from bench.experiments.suites import Suite
@@ -28,8 +29,6 @@ from tasks.discovery import constants
 from tasks.rules import RULES, ticks
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from bench.engines.episode import Settings as Limits
 
 
@@ -210,15 +209,11 @@ def experiment_of(unit: Unit) -> Experiment:
 
 def rows_of(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return the rows of a unit."""
-    import pandas as pd  # planning needs it not
-
     return pd.DataFrame(experiment_of(unit).rows(settings, unit))
 
 
 def lost_rows_of(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
     """Return what is left of a unit whose law crashed or hung."""
-    import pandas as pd
-
     return pd.DataFrame(experiment_of(unit).lost(settings, unit, outcome))
 
 

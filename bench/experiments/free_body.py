@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import functools
-from typing import TYPE_CHECKING
 
 import tasks
+from bench.base.lazy import pd
 from bench.experiments import arm, episodes
 from bench.experiments.episode_rows import TABLE
 from bench.experiments.experiment import OF_EPISODES, Asked, Experiment, Settings, Unit
 from bench.experiments.suites import Slice, Suite
 from bench.law.contender import Contender
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 MOST = {"ideal-rk4": 1000, "ideal-held": 1000, "native": 250, "reference": 4}
 """Episodes a unit at most: a few seconds each even if none of them settles, so that Ctrl-C answers soon."""

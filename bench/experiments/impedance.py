@@ -6,10 +6,11 @@ with Coriolis torques too; the error of orientation is the logarithm.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from bench.base.lazy import pd
 from bench.engines.episode import FINAL_ANGLE
 from bench.experiments import arm, starts
 from bench.experiments.columns import read_table
@@ -18,9 +19,6 @@ from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.suites import BY_EVERY_INVERSE, ON_ARM
 from bench.law.contenders.registry import find_contender
 from bench.law.control.unshaped import DAMPINGS
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 NAME = "impedance"
 KEY = ("arm", "damping", "stiffness_n_m")
@@ -66,8 +64,6 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return one row an episode."""
-    import pandas as pd
-
     made = [_rows(settings, unit, stiffness, whole) for stiffness in STIFFNESSES for whole in range(len(COMPENSATED))]
     frame = pd.concat(map(pd.DataFrame, made), ignore_index=True)
     frame.loc[frame["failure_time_s"].notna(), list(UNBOUNDED)] = np.nan

@@ -11,10 +11,10 @@ of z by 16 of the azimuth; the axis is that of the turn from the goal to the sta
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bench.base.lazy import pd
 from bench.engines.episode import OUTCOME, SETTLING_TICK, START_WIDTH, STEP
 from bench.experiments.columns import CONTENDER_KEY, read_table
 from bench.experiments.episode_rows import contender_columns
@@ -28,9 +28,6 @@ from tasks.random_starts import BLOCK, block
 from tasks.rules import RULES
 from tasks.truth import angle
 from tasks.verdict import OUTCOMES, SETTLED
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 UNIT = 8 * BLOCK
 """Starts of a unit: 131,072, some four seconds on one thread."""
@@ -92,8 +89,6 @@ def speeds_of(unit: Unit) -> tuple[float, float]:
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return the cells that a unit's starts lie in, the slowest start of each ring, and the lost starts."""
-    import pandas as pd
-
     found = pd.DataFrame()
     for number in range(unit.first // BLOCK, -(-(unit.first + unit.count) // BLOCK)):
         made = _of_block(settings, unit, number)
@@ -102,8 +97,6 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 
 
 def _of_block(settings: Settings, unit: Unit, number: int) -> pd.DataFrame:
-    import pandas as pd
-
     from bench.engines.simulate import on_ideal
 
     one, (least, most), first = settings.contender(unit.contender), speeds_of(unit), number * BLOCK
@@ -154,15 +147,11 @@ def cells(quats: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 def folded(before: pd.DataFrame, after: pd.DataFrame) -> pd.DataFrame:
     """Return the rows of two stretches of starts, the first before the second, as those of both."""
-    import pandas as pd
-
     return _reduced(pd.concat([before, after], ignore_index=True))
 
 
 def _reduced(every: pd.DataFrame) -> pd.DataFrame:
     """Sum cells; keep of each ring's slowest starts the slowest, the first of equals; the first MOST_LOST lost ones."""
-    import pandas as pd
-
     cells = every[every["row"] == CELL].assign(start=-1, outcome="", **dict.fromkeys(STATE, np.nan))
     how = {"starts": "sum", "settled": "sum", "unconverged": "sum", "settling_time_s": "max"} | dict.fromkeys(
         ("start", *STATE), "first"

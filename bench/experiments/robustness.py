@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 import tasks
 from bench.base.errors import Incompatible
+from bench.base.lazy import pd
 from bench.engines.episode import Settings as Limits
 from bench.engines.episode import blank
 from bench.engines.metrics.registry import metrics_of
@@ -23,9 +24,6 @@ from bench.law.contender import Contender
 from bench.law.contenders.registry import papers_laws
 from bench.law.inputs import Gains
 from tasks.condition import Condition, condition_at
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 HORIZON_S = 5.0
 """Longest simulated time [s]: eight settling times of a small error, and a tail to average over."""
@@ -90,8 +88,6 @@ def simulated(settings: Settings, unit: Unit, simulate: Callable, gains: Callabl
     Args:
         simulate: makes the numbers of the rows, as `run_disturbed`. gains(law, peak): those that give the peak.
     """
-    import pandas as pd
-
     one, axis, seed = settings.contender(unit.contender), tasks.axis(unit.selector), settings.seed
     metrics, parts = metrics_of(on_arm=False), []
     for level in axis.levels:

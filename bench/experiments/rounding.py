@@ -12,14 +12,11 @@ not seen. Under other BLAS kernels, compiler targets and C libraries' variants o
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bench.base.lazy import pd
 from tasks.base import Start
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 NUDGE = 1e-12
 """[rad]. Joint angles are rounded to 4e-16; two libraries' sines and some 1e3 ticks make 1e-14 of that."""

@@ -6,11 +6,10 @@ curves of theirs (`of_arm`), which no run keeps.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 import tasks
+from bench.base.lazy import pd
 from bench.engines.curve import ARM_NUMBERS, NUMBERS, blank_curves
 from bench.experiments import free_body
 from bench.experiments.columns import SHARED, Column, read_table
@@ -21,9 +20,6 @@ from bench.experiments.starts import on_arm
 from bench.experiments.suites import HORIZON, LONG, SHORT
 from bench.law.contender import Contender
 from tasks.base import Start
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 EVERY_S = 0.02
 """Five samples in each time constant of 0.1 s."""
@@ -70,8 +66,6 @@ def of_arm(contender: str, task: str, arm: str, count: int, start_set: str) -> U
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return the samples of all curves of a unit."""
-    import pandas as pd
-
     every = max(1, round(EVERY_S / settings.dt_s))
     sets = ((unit.selector, unit.count),) if unit.arm else (("paper", None), ("uniform", unit.count))
     place = {"task": unit.task, "arm": unit.arm, **contender_columns(settings.contender(unit.contender))}
@@ -89,8 +83,6 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 
 def _frame(place: dict, starts: list[Start], samples: np.ndarray, names: tuple, endings: dict) -> pd.DataFrame:
     """Return the curves of all starts, one below the other; the end of an episode stands at all its samples."""
-    import pandas as pd
-
     is_kept = ~np.isnan(samples[:, :, 0])
     lengths = is_kept.sum(axis=1)
     found = dict(zip(names, samples[is_kept].T, strict=True))

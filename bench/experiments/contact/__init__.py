@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import tasks
 from bench.base.errors import Incompatible
+from bench.base.lazy import pd
 from bench.experiments.choice import Choice
 from bench.experiments.contact.poses import TABLE, frame
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
@@ -19,8 +20,6 @@ from bench.law.control.registry import all_controllers, find_controller
 from tasks.errors import BadValue
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from tasks.arm_model import Arm
     from tasks.contact import ContactTask, Trial
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bench.base.lazy import pd
 from bench.engines.metrics.contact_metric import Pose, response
 from bench.engines.metrics.measured_compliance import compliance
 from bench.engines.metrics.registry import known_contact_metrics
@@ -21,8 +22,6 @@ from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Trial
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from bench.engines.contact_episode import Conditions, Ended
 
 DONE, *_ = WORST_LAST = ("done", "singular", "saturated", "diverged", "broken")
@@ -46,8 +45,6 @@ def frame(
     simulate: Callable[..., Iterator[Ended]] | None = None,
 ) -> pd.DataFrame:
     """Return one row a pose; a pose is the trials that share it. `simulate` is `run_contact` unless it is given."""
-    import pandas as pd
-
     from bench.engines.simulate_contact import run_contact as run
 
     episodes = (simulate or run)(

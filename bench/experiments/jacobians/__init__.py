@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 import tasks
+from bench.base.lazy import pd
 from bench.experiments import arm as arms
 from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
@@ -24,8 +25,6 @@ from bench.law.kinds import Coordinates
 from tasks.arm_model import Arm
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from bench.experiments.jacobians.eye import Eye
     from bench.experiments.jacobians.pose_sets import Pose
 
@@ -69,8 +68,6 @@ class Seen(NamedTuple):
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return one row a pose and representation."""
-    import pandas as pd
-
     from bench.experiments.jacobians.eye import Eye
     from bench.experiments.jacobians.pose_sets import poses
 

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from bench.base.errors import BadResults
 from bench.base.files import refuse_link
+from bench.base.lazy import pd
 from bench.experiments.tables import trust
 from bench.law.contenders.described_law import described
 from bench.law.contenders.law_file import WORD
 from bench.law.contenders.registry import contenders
 from bench.law.kinds import ON_MATRIX, Law
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 UNTRUSTED = "a file that came with the results; it was not run"
 """The source of a law that is known by its rows alone."""

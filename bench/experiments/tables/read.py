@@ -16,16 +16,13 @@ import operator
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from bench.base.errors import BadResults
 from bench.base.files import read_json
+from bench.base.lazy import pd
 from bench.experiments.tables.kept_laws import kept_laws
 from bench.experiments.tables.schema import RESULTS
 from bench.law.kinds import Law
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 VARIABLE = "ORIENTATION_BENCH_RESULTS"
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from bench.base.lazy import pd
 from bench.experiments.tables.read import FREE_BODY, converged
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims import probes
@@ -14,8 +15,6 @@ from bench.findings.claims.standing import ORDERED, Ledger, Operations, price_of
 from bench.findings.claims.tables import Results, settled, settling_times, some
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from bench.findings.maps import Spun
 
 CALLS = ("sin", "cos", "atan2", "acos")

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
+from bench.base.lazy import pd
 from bench.engines.metrics.contact_force import WINDOW_S
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE, by_papers_form, paired
 from bench.findings.claims.tables import Results, evidence, some
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from tasks.contact_rest import HORIZON_S
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 LIMIT = read_limits(__file__)
 

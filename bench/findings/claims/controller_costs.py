@@ -5,11 +5,12 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 import tasks
+from bench.base.lazy import pd
 from bench.findings.claims import adequacy, probes, standing
 from bench.findings.claims.adequacy import CALLS, of_stage, tallied
 from bench.findings.claims.side_by_side import BASE
@@ -18,9 +19,6 @@ from bench.findings.claims.tables import Results, evidence, some
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.law.control.contact_controller import PAPERS_FORM
 from bench.law.inputs import Gains
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 LIMIT = read_limits(__file__)
 
@@ -67,8 +65,6 @@ class Bend(NamedTuple):
 @claim("C20")
 def c20(results: Results) -> tuple[Word, Evidence]:
     """Curves at two steps; outcomes at the poles against the law on R; stages and totals."""
-    import pandas as pd
-
     found = some(
         results.table("episodes", task=probes.TASK, engine="native", variation="nominal"),
         "nominal episode of an arm",
@@ -122,8 +118,6 @@ def _pairs(found: pd.DataFrame, arm: str, start_set: str, controller: str = BY_E
 
 def _against(own: pd.DataFrame, other: pd.DataFrame) -> pd.DataFrame:
     """Both controllers' episodes side by side: whether the first fails where the other settles."""
-    import pandas as pd
-
     both = own.merge(other, on="start_id", suffixes=("", "_other"))
     hammered = ~(both["peak_tau_nm"] <= LIMIT.HAMMERED * both["peak_tau_nm_other"])
     fails = (both["outcome_other"] == "settled") & ((both["outcome"] != "settled") | hammered)
@@ -131,8 +125,6 @@ def _against(own: pd.DataFrame, other: pd.DataFrame) -> pd.DataFrame:
 
 
 def _at_poles(results: Results, found: pd.DataFrame, poses: pd.DataFrame, arm: str, gains: Gains) -> pd.DataFrame:
-    import pandas as pd
-
     controllers = [f"{one}+{INVERSES[tasks.arm(arm).joints]}" for one in (BY_EULER, ON_MATRIX)]
     beside = [results.found_by(probes.beside_poles, one, arm, poses, gains) for one in controllers]
     return pd.concat([_pairs(found, arm, "pole"), _against(*beside)], ignore_index=True)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import itertools
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bench.base.lazy import pd
 from bench.experiments.tables.read import FREE_BODY
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims.degeneracy import condition_in
@@ -24,9 +24,6 @@ from bench.findings.claims.tables import (
 )
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from bench.law.contenders.registry import representation
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 LIMIT = read_limits(__file__)
 
@@ -85,8 +82,6 @@ def c18(results: Results) -> tuple[Word, Evidence]:
 
 def _families(rows: pd.DataFrame) -> pd.DataFrame:
     """Each family that speaks: slopes over the first decades, the largest element at the last, J's worst condition."""
-    import pandas as pd
-
     pole = rows[rows["pose_set"] == "pole"]
     ids = pole["pose_id"].astype(str).str.extract(r"^(?P<family>.+)-1e-(?P<k>\d+)$")
     found = []

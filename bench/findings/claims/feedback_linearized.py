@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import functools
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bench.base.lazy import pd
 from bench.experiments.tables.read import converged
 from bench.findings.claims import probes
 from bench.findings.claims.adequacy import THREE
@@ -18,9 +18,6 @@ from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, wo
 from bench.findings.theory import closed_form
 from bench.law.contenders.registry import representation
 from bench.law.inputs import AT_REST, Gains
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 LIMIT = read_limits(__file__)
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import functools
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bench.base.lazy import pd
 from bench.findings.claims.euler_jacobian import COORDINATES, DIFFERENCED, EPS, ROUNDINGS
 from bench.findings.claims.side_by_side import PROBE
 from bench.findings.claims.tables import Results, evidence, some
@@ -16,9 +16,6 @@ from bench.findings.theory.compliance_theory import matrix_B
 from bench.law.contenders.registry import contenders, representation
 from bench.law.kinds import Coordinates
 from bench.law.so3 import Rotation, from_quaternion
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 LIMIT = read_limits(__file__)
 
@@ -123,8 +120,6 @@ def balance(along: Coordinates, R: Rotation, moment: np.ndarray, rates: np.ndarr
 
 def balances(along: Coordinates, places: list[tuple[str, Rotation]], seed: int) -> pd.DataFrame:
     """Return a row an orientation: `place` and what `balance` finds for random directions of moment and rates."""
-    import pandas as pd
-
     rng, rows = np.random.default_rng(seed), []
     for place, R in places:
         moment, rates = rng.normal(size=3), rng.normal(size=len(along.chart(R).E))

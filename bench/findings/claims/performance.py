@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from bench.base.lazy import pd
 from bench.experiments.tables.statistics import bootstrap, quantile, quantile_estimate
 from bench.findings.claims import adequacy, probes
 from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy
@@ -27,9 +28,6 @@ from bench.findings.claims.tables import (
 )
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 LIMIT = read_limits(__file__)
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 import tasks
+from bench.base.lazy import pd
 from bench.engines.metrics.registry import metrics_of
 from bench.findings.claims.tables import some
 from bench.findings.theory.closed_form import linear, linear_settling
@@ -21,9 +22,6 @@ from bench.law.so3 import IDENTITY, Rotation, from_quaternion
 from tasks.base import Start
 from tasks.haar import axes
 from tasks.verdict import OUTCOMES
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 PAPER = Gains()
 QUAT = ("quat_w", "quat_x", "quat_y", "quat_z")
@@ -87,8 +85,6 @@ def about(axis: Sequence[float] | np.ndarray, angle: float) -> tuple:
 
 def episodes(contender: str, starts: list[Start], gains: Gains, dt_s: float, horizon_s: float) -> pd.DataFrame:
     """Outcome and settling time of a few starts on the continuous plant."""
-    import pandas as pd
-
     from bench.engines.episode import FIRST_METRIC, NEVER, OUTCOME, SETTLING_TICK
     from bench.engines.simulate import run as run_engine  # imports the compiler: listing claims must not
     from bench.experiments.experiment import Settings
@@ -138,8 +134,6 @@ def beside_pole(margin: float, contender: str, gains: Gains, dt_s: float = 1e-3)
 
 def boundary_distance(frame: pd.DataFrame) -> pd.DataFrame:
     """Return the distance of each start from the poles, the jumps of alpha and gamma, and 180° [rad]."""
-    import pandas as pd
-
     return pd.DataFrame(
         {
             "pole": math.pi / 2 - frame["beta0"].abs(),
@@ -160,8 +154,6 @@ def at_boundary(frame: pd.DataFrame, place: str, what: str) -> pd.DataFrame:
 
 def goal_to_pole(frame: pd.DataFrame) -> pd.Series:
     """How far each goal is from the poles [rad]."""
-    import pandas as pd
-
     betas = [abs(euler_angles(R)[1]) for R in rotations(frame, GOAL_QUAT)]
     return math.pi / 2 - pd.Series(betas, index=frame.index)
 
@@ -184,8 +176,6 @@ def curves(word: str, arm: str, gains: Gains, dt_s: float, count: int) -> pd.Dat
         a row a sample: start_id, time_s, bend_0 to bend_2 (E less E_d + (E_0 - E_d) linear(t)) [rad],
         position_error_m.
     """
-    import pandas as pd
-
     from bench.experiments import traces
     from bench.experiments.experiment import Settings
 

@@ -8,16 +8,14 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from bench.base.lazy import pd
 from bench.findings.claims.tables import Results, evidence, some
 from bench.findings.claims.verdict import Evidence, Word
 from bench.law.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 PROBE, BASE = "wrench-probe", "hybrid-base"
 MEASURED = tuple(f"c_{i}{j}" for i in "xyz" for j in "xyz")

@@ -8,14 +8,12 @@ a call takes in those times, never by a price of ours.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from bench.base.lazy import pd
 from bench.experiments.tables.statistics import Estimate
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 ORDERED, UNDECIDED, REVERSED = 1, 0, -1
 

@@ -10,14 +10,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 import numpy as np
 
 from bench.base.files import read_json
+from bench.base.lazy import pd
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.verdict import Evidence, NoEvidence
 from bench.law.inputs import Gains
 
 if TYPE_CHECKING:
-    import pandas as pd
-
     from bench.experiments.tables.statistics import Estimate
     from bench.findings.maps import Spun
 
@@ -128,8 +127,6 @@ class Results:
 
     def controller_timings(self) -> pd.DataFrame:
         """Time per tick of whole controllers of arms, on every machine that was timed; maybe empty."""
-        import pandas as pd
-
         every = self._all_timings()
         if not set(TIMED) <= set(every):
             return pd.DataFrame(columns=[*TIMED, "contender"])
@@ -137,8 +134,6 @@ class Results:
         return every[compiled & (every["ticks"] > 0)]
 
     def _all_timings(self) -> pd.DataFrame:
-        import pandas as pd
-
         from bench.experiments.tables.store import read_arrow
 
         paths = sorted(self.timings_folder.glob("*.parquet"))

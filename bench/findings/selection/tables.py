@@ -8,11 +8,11 @@ rotation-matrix law. Laws tie where shares differ by at most `standing.MEASURABL
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-import pandas as pd
 
+from bench.base.lazy import pd
 from bench.experiments.tables import read as published
 from bench.experiments.tables.read import with_contender
 from bench.findings.claims.adequacy import tallied
@@ -21,9 +21,6 @@ from bench.findings.claims.verdict import NoEvidence
 from bench.findings.start_sets import DIRECTED
 from bench.law.contender import Contender
 from bench.law.contenders.registry import all_contenders, contenders_of
-
-if TYPE_CHECKING:
-    import pandas as pd
 
 SAMPLED = "native"
 """The engine of a law that cannot run on the continuous plant: MuJoCo's own actuator."""
