@@ -63,7 +63,6 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         the angles before, the Cartesian one differs by at most {_greatest(differs_turned[away]):.1e}. The same as about
         the hand's own axes {_by_order(judged, "same_in_hand")}. Closer to the pole: {close}.""",
         len(rows),
-        ("compliance",),
     )
 
 
@@ -113,7 +112,6 @@ def c23(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         the level axis leaks into z is as predicted to {_greatest(missed):.1e}: {_greatest(leak):.2f} at most, where tan
         |beta| is {_greatest(np.tan(beta)):.2f}; along the base's axes {_greatest(by_base):.2g}.""",
         len(rows),
-        ("compliance",),
     )
 
 
@@ -150,7 +148,6 @@ def c24(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         {done["leak"].min():.1f} to {done["leak"].max():.1f} times as much as about x. Z-Y-X is one at
         {int(zyx["problem"].sum())} of {len(zyx)}, where it yields {zyx["yields"].min():.3f} or more.""",
         len(zyz) + len(zyx),
-        ("compliance",),
     )
 
 

@@ -57,7 +57,6 @@ def c25(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         worse in {int(parted["euler_is_worse"].sum())} of {len(parted)}{agreed}. Where fewer turns comply
         {int(simple["parts"].sum())} of {len(simple)} pairs part.""",
         len(rows),
-        ("compliance",),
     )
 
 

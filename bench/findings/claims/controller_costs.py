@@ -89,7 +89,6 @@ def c20(results: Results) -> tuple[Word, Evidence]:
         does not, from {at_poles}; from {int(clear["fails"].sum())} of {len(clear)} clear starts (by the same law on the
         common Jacobian: {int(common["fails"].sum())}). {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
-        ("episodes", "poses", "costs", "experiment"),
     )
 
 
@@ -183,7 +182,7 @@ def c33(results: Results) -> tuple[Word, Evidence]:
             f"{euler.calls - base.calls} calls{weighed if math.isfinite(price) else ''}"
         )
     return word_of(all(is_more) and all(is_few), all(is_more)), evidence(
-        f"Flops and calls a tick: {'; '.join(told)}.", 2 * len(told), ("experiment",)
+        f"Flops and calls a tick: {'; '.join(told)}.", 2 * len(told)
     )
 
 

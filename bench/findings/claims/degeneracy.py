@@ -43,7 +43,6 @@ def c13(results: Results) -> tuple[Word, Evidence]:
         Z-Y-Z and {axis[1]:.3f} for angle and axis (to {zyz[2]:.1e} and {axis[2]:.1e}); for the rotation vector it is at
         most {vector[2]:.5f}.""",
         3 * len(tables),
-        ("experiment",),
     )
 
 
@@ -95,7 +94,6 @@ def c14(results: Results) -> tuple[Word, Evidence]:
         at +-90. The feedback-linearized law settles from {settled_of(about_y)} exact half
         turns about y and from {settled_of(poles)} exact poles. {so}.""",
         len(least) + len(about_y) + len(poles),
-        ("experiment", "episodes"),
     )
 
 
@@ -126,7 +124,6 @@ def c15(results: Results) -> tuple[Word, Evidence]:
         f"""With the sum kept R changes by {moved[1, "sum"]:.1g} at +90 and {moved[-1, "sum"]:.0e} at -90 degrees, with
         the difference kept by {moved[1, "difference"]:.0e} and {moved[-1, "difference"]:.1g}. {so}.""",
         4 * len(grid) ** 2,
-        ("experiment",),
     )
 
 
@@ -147,7 +144,6 @@ def c16(results: Results) -> tuple[Word, Evidence]:
         poles its smallest singular value is at most {float(values[:, 2].max()):.0e} and the next
         {float(values[:, 1].min()):.2f}. {so}.""",
         len(frame),
-        ("episodes", "experiment"),
     )
 
 
@@ -165,7 +161,6 @@ def c28(results: Results) -> tuple[Word, Evidence]:
         rad, {np.median(ends):.2f} in the median. After turns whose integrals sum to zero the body is turned by {missed}
         rad. About one axis the integral is the turn to {plane:.0e} rad.""",
         2 * len(ends) + len(loops),
-        ("experiment",),
     )
 
 

@@ -76,7 +76,6 @@ def c18(results: Results) -> tuple[Word, Evidence]:
         conditioned, J_E has ten times its condition number at {worse}. Its largest element is nowhere below
         {rows["largest"].min():.2f}: only its determinant is ever zero.""",
         len(rows),
-        ("poses",),
     )
 
 
@@ -119,7 +118,6 @@ def c19(results: Results) -> tuple[Word, Evidence]:
         by at most {measured.max():.1f} eps^(2/3) / cos(beta). Left out, a jump of an angle between both ends of a
         difference: {len(differenced) - len(kept)}.""",
         len(rows),
-        ("poses",),
     )
 
 
@@ -146,7 +144,6 @@ def c34(results: Results) -> tuple[Word, Evidence]:
         f"""{told}. Alike: {", ".join(" and ".join(pair) for pair, facts in alike.items() if facts) or "none"}.""",
         sum(kept.n for own in found.values() for kept, _ in own.values())
         + len(forms) * LIMIT.PAIRS * LIMIT.FORM_DECADES,
-        ("episodes", "experiment"),
     )
 
 

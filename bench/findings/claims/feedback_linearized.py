@@ -51,7 +51,6 @@ def c09(results: Results) -> tuple[Word, Evidence]:
         {settled_of(wrap)} exactly at +-pi, {settled_of(pole)} exactly on a pole, {settled_of(goals)} goals, {long_way}
         of them by unwinding.""",
         len(rows) + sum(one.starts for one in spun) + len(near) + len(goals),
-        ("traces", "episodes", "maps"),
     )
 
 
@@ -82,7 +81,6 @@ def c10(results: Results) -> tuple[Word, Evidence]:
         {slope:.3f}, to {grown:.1e} rad/s^2. Across +-pi the command jumps by {float(jumps.min()):.4f} to
         {float(jumps.max()):.4f} times 2 pi Kp.""",
         len(commands) + len(exact) + len(jumps),
-        ("experiment", "episodes"),
     )
 
 
@@ -138,7 +136,6 @@ def c11(results: Results, engine: str) -> tuple[Word, Evidence]:
         Of {len(clear)} tumbling ones that never come within {widest} rad of a pole, {int(erratic[clear.index].sum())}
         are erratic.""",
         len(frame) + sum(len(one) for one in beside),
-        ("episodes", "experiment"),
     )
 
 
@@ -167,7 +164,6 @@ def c30(results: Results) -> tuple[Word, Evidence]:
         rotation matrix, of {LIMIT.STARTS} starts each: {told}. A linear system of twice the inertia is slowed by
         {heavy / linear:.2f}.""",
         sum(map(len, runs)),
-        ("experiment",),
     )
 
 

@@ -54,7 +54,6 @@ def c21(results: Results) -> tuple[Word, Evidence]:
         {LIMIT.USABLE:g} times at {int(usable.sum()):,} of the orientations, and up to
         {found.loc[~poles, "gain"].max():.1e} times off the exact poles, as 1 / cos(beta) has it.""",
         len(found) + len(looped),
-        ("experiment", "compliance"),
     )
 
 

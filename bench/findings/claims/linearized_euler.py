@@ -48,7 +48,6 @@ def c06(results: Results, engine: str) -> tuple[Word, Evidence]:
         {outside}. The uniform ones that fail end {ends}. The nearest failure on a geodesic from the goal is at
         {nearest:.1f} degrees. {len(every) - len(sure)} of the starts do not converge.""",
         len(every) + len(fails),
-        ("episodes", "boundaries"),
     )
 
 
@@ -77,7 +76,6 @@ def c07(results: Results, engine: str) -> tuple[Word, Evidence]:
         {interval(rest_peak, ",.0f")}. From rest beside the pole {settled_of(beside)} that converge settle, and
         {len(poles) - len(beside)} do not converge.""",
         len(frame) + len(poles),
-        ("episodes",),
     )
 
 
@@ -103,7 +101,6 @@ def c08(results: Results, engine: str) -> tuple[Word, Evidence]:
         {math.degrees(math.acos(held_goals.least_cosine(0.0, results.gains()))):.1f} degrees at beta_d = 0 and under 90
         at the poles, whatever gamma_d. As printed, u contains no goal.""",
         base.n + cure.n + zero.n + near.n,
-        ("episodes", "experiment"),
     )
 
 
@@ -125,5 +122,4 @@ def c29(results: Results) -> tuple[Word, Evidence]:
         ({closed_form.linear_settling(*gains):.4f} s at the run's gains). Every time is within {LOOSE_SETTLING:.0%}
         up to {within:g} rad of {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} tried.""",
         LIMIT.DIRECTIONS * (small.size + len(LIMIT.LARGER_RAD)),
-        ("experiment",),
     )

@@ -118,7 +118,7 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
     lacks = {one.name: adequacy.missed(one, known, small, held) for one in later}
     adequate = [one.name for one in later if not set(lacks[one.name]) & set(adequacy.BOTH)]
     answers = [_answer(one, known) for one in later if not lacks[one.name]]
-    parts = {"adequate": ", ".join(adequate) or "none", "answers": "; ".join(answers) or "none"}
+    parts: dict[str, Any] = {"adequate": ", ".join(adequate) or "none", "answers": "; ".join(answers) or "none"}
     lacking = "; ".join(f"{name} ({', '.join(missed)})" for name, missed in lacks.items() if missed) or "nothing"
     untimed = [one.name for one in later if not any(one.name in times for times in known.times)]
     return Word.ANSWERED if answers else Word.HOLDS, evidence(
@@ -128,7 +128,6 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
         so that operations decide: {", ".join(untimed) or "none"}. In these times a call takes {known.price:.0f} flops.
         A small error settles in {small:.3f} s, and {adequacy.SLOW * small:.3f} s is the slowest that is adequate.""",
         sum(one.rows + held.get(one.name, (0, 0))[1] for one in later),
-        ("episodes", "costs", "timings", "robustness"),
         **parts,
     )
 
@@ -162,7 +161,6 @@ def c31(results: Results) -> tuple[Word, Evidence]:
         f"""Settled: {told}. Time in which {LIMIT.NEARLY_ALL:.0%} settle over that of feedback linearization:
         {sooner}.""",
         3 * len(laws[-1]),
-        ("episodes",),
     )
 
 
@@ -195,5 +193,4 @@ def c35(results: Results) -> tuple[Word, Evidence]:
     return word_of(len(reasonable) == 2, len(reasonable) == 3), evidence(
         f"""Reasonable: {", ".join(reasonable) or "none"}. {told}. A small error settles in {small:.3f} s.""",
         sum(one.n for one in kept),
-        ("episodes",),
     )

@@ -54,7 +54,6 @@ def c01(results: Results, engine: str) -> tuple[Word, Evidence]:
         f"""{unstable} of {len(frame):,} starts diverge or gain energy. {len(left)} do not settle, {exactly} of them
         exactly a 180° rotation from the goal; of uniform starts {uniform} settle.""",
         len(frame),
-        ("episodes",),
     )
 
 
@@ -79,7 +78,6 @@ def c02(results: Results) -> tuple[Word, Evidence]:
         {max(times):.3f} s, at most {largest:.2%} from the closed form ({closed_form.linear_settling(*Gains()):.4f} s at
         the paper's gains).""",
         count,
-        ("experiment", "episodes"),
     )
 
 
@@ -109,7 +107,6 @@ def c03(results: Results, engine: str) -> tuple[Word, Evidence]:
         {float(slowest):.2f} s at 1e-12 rad. {len(stay)} of {len(exact)} exact 180° rotations never settle in
         {float(exact["horizon_s"].min()):g} s.""",
         len(uniform) + len(turns),
-        ("episodes",),
     )
 
 
@@ -135,7 +132,6 @@ def c04(results: Results, engine: str) -> tuple[Word, Evidence]:
         them settle. Each single cross product is zero at {parallel} (axes x, y, z); at the other
         {len(exact) - parallel} they cancel in the sum only, the largest being {max(products):.2f}.""",
         len(exact),
-        ("episodes", "experiment"),
     )
 
 
@@ -161,7 +157,6 @@ def c05(results: Results) -> tuple[Word, Evidence]:
         and {states:,} states of a search, and |e| never below {least:.1e}. (b) At {cancel} of {len(exact)} exact 180°
         rotations the cross products are not zero and their sum is.""",
         len(frame) + states + len(exact),
-        ("episodes", "experiment"),
     )
 
 
@@ -215,7 +210,6 @@ def c32(results: Results) -> tuple[Word, Evidence]:
         length, closest to a 180° rotation. It takes {asked} divisions and calls; {ended} of {len(every):,} episodes end
         {" or ".join(LIMIT.BROKEN)}.""",
         len(every) + len(costs),
-        ("episodes", "costs", "experiment"),
     )
 
 

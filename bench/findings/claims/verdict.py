@@ -68,12 +68,13 @@ class Evidence(NamedTuple):
     """Why the word is what it is.
 
     sentence: plain prose, every number in it computed. rows: table rows, states and episodes looked at. tables: where
-    they come from; "experiment" for what the claim computes itself. parts: of the sentence, by name, for the book.
+    they come from, if not those that the claim's texts name; "experiment" for what the claim computes itself. parts: of
+    the sentence, by name, for the book.
     """
 
     sentence: str
     rows: int
-    tables: tuple[str, ...]
+    tables: tuple[str, ...] = ()
     parts: Mapping[str, str] = MappingProxyType({})
 
     def __str__(self) -> str:
@@ -132,14 +133,20 @@ def claim(id: str) -> Callable[[Callable], Claim]:
         def text(template: str) -> str:
             return " ".join(template.format_map(names).split())
 
-        texts = read_texts(Path(names["__file__"]).with_suffix(".toml"))[id]
-        readings = tuple(map(text, texts.get("readings", ())))
+        texts = dict(read_texts(Path(names["__file__"]).with_suffix(".toml"))[id])
+        readings, tables = tuple(map(text, texts.pop("readings", ()))), tuple(texts.pop("tables", ()))
         earlier = tuple(
             Earlier(old["written"], " ".join(old["criterion"].split()), Word(old["word"]))
             for old in read_texts(HISTORY).get(id, ())
         )
-        written = {name: text(words) for name, words in texts.items() if name != "readings"}
-        return Claim(id, judge=judge, readings=readings, earlier=earlier, **written)
+
+        @functools.wraps(judge)
+        def judged(results: Any) -> tuple[Word, Evidence]:
+            word, found = judge(results)
+            return word, found if found.tables else found._replace(tables=tables)
+
+        written = {name: text(words) for name, words in texts.items()}
+        return Claim(id, judge=judged, readings=readings, earlier=earlier, **written)
 
     return with_texts
 
