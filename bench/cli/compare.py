@@ -71,11 +71,11 @@ def _compare(
         said = gates.compare_folders(*folders)
         differences = rows.compare(*folders)
     else:
-        means = gates.Means(rounds=0) if no_timing else gates.USUAL
+        means = gates.Means(rounds=0) if no_timing else gates.Means()
         with progress("steps", "checking out") as steps:
-            said = gates.compare_revisions(base, head, laws, steps.now, means)
+            said = gates.compare_revisions(base, head, laws, steps.now, means=means)
         differences = [f"{one.verdict}: {one.says}" for one in said.findings]
-    for line in differences:
+    for line in (*differences, *(rows.describe_skipped(Path(base)) if folders else ())):
         console().print(line)
     for one in said.judgements:
         console().print()

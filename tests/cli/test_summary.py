@@ -12,7 +12,7 @@ from bench.cli.details.episodes import tables_of_arms
 from bench.cli.options import REFERENCE
 from bench.cli.screen import frame_table
 from bench.cli.summary import answer, failures
-from bench.cli.summary.whole import count_verdicts
+from bench.cli.summary.whole import count_verdicts, parts_in
 from bench.experiments.tables import read as results
 from bench.findings.claims import Results, all_claims
 from bench.findings.selection.measured import measure
@@ -63,7 +63,7 @@ def test_summary_of_a_tiny_run_fits_too_and_says_what_is_not_in_it(capsys, finis
     lines = said.out.splitlines()
     assert (len(lines) <= LINES, max(map(len, lines)) <= COLUMNS) == (True, True)
     assert lines[0].startswith("Which law    This run cannot say: it has no law with uniform and half-turn starts")
-    assert "Not in this run: arms, contact, robustness and" in said.out
+    assert re.search(r"Not in this run: arms, contact, robustness[^.]* and", said.out)
     assert "settled 0 of 3 episodes" in said.out
     assert f"python -m bench show {finished.name} --details" in said.out
 
@@ -127,7 +127,7 @@ def test_claims_without_rows_are_counted_apart(tables):
 # ------------------------------------------------------------------------------------------- its parts
 
 
-@pytest.mark.parametrize("part", parts())
+@pytest.mark.parametrize("part", ["free-body", "arms", "contact", "robustness"])
 def test_part_is_shown_alone_with_the_meaning_of_its_cells(capsys, part):
     said = bench(capsys, "show", REFERENCE, part)
     heads = re.findall(r"^(.*\(a/b: .*)", said.out, re.MULTILINE)
@@ -137,9 +137,9 @@ def test_part_is_shown_alone_with_the_meaning_of_its_cells(capsys, part):
     assert all({"free-body": "free body", "robustness": "robustness"}.get(part, "") in head for head in heads)
 
 
-def test_details_are_all_parts(capsys):
+def test_details_are_all_parts(capsys, reference):
     whole = bench(capsys, "show", REFERENCE, "--details").out
-    for part in parts():
+    for part in parts_in(reference):
         assert bench(capsys, "show", REFERENCE, part).out.split("\n", 1)[1] in whole
 
 

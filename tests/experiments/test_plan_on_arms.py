@@ -12,6 +12,7 @@ import tasks
 from bench.base.errors import Incompatible
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
+from bench.experiments.chosen_words import BY_WORD_ALONE
 from bench.experiments.suites import NOMINAL, SUITES
 from bench.law.contender import refusal
 from bench.law.contenders import combinations
@@ -61,8 +62,8 @@ def test_arm_alone_is_the_suite_on_that_arm():
     plan = planning.make("default", laws, Choice(arms=("puma560",)))
     assert {unit.arm for unit in plan.units if unit.arm} == {"puma560"}
     nominal = {unit.contender for unit in plan.of("arm") if unit.variation == NOMINAL}
-    beside = combinations.baselines(6)
-    assert nominal == {one.name for one in (*combinations.on(SUITES["default"].on_arms.words, LAWS, 6), *beside)}
+    by_words = combinations.chosen(SUITES["default"].on_arms.words, LAWS, 6, by_word_alone=BY_WORD_ALONE)
+    assert nominal == {one.name for one in (*by_words, *combinations.baselines(6))}
     assert {unit.selector for unit in plan.of("arm") if unit.variation == NOMINAL} == set(
         tasks.task("arm-regulation", "puma560").start_sets
     )

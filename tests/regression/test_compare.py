@@ -1,6 +1,7 @@
 """The row gate finds each kind of change in a run, and nothing that rounding alone can make."""
 
 import shutil
+from pathlib import Path
 
 import pandas as pd
 import pyarrow as pa
@@ -8,11 +9,12 @@ import pyarrow.parquet as pq
 import pytest
 from support.tables import changed
 
+from bench.base.files import read_json, write_json
 from bench.cli import main
 from bench.experiments import boundaries, traces
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
-from bench.experiments.experiment import Settings, rows_of
+from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.experiments.tables.store import read, write_table
 from bench.law.contenders.registry import find_contender
 from bench.regression.rows import compare
@@ -217,9 +219,35 @@ def test_gate_refuses_a_folder_without_a_run(body, tmp_path, capsys):
     assert "has not finished" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(("law", "count"), [("a-new-law", 0), ("rotation-matrix", 3)])
-def test_rows_of_a_law_that_base_has_nowhere_are_no_difference(pair, law, count):
+@pytest.mark.parametrize("judge", ["the same", "another"])
+@pytest.mark.parametrize(
+    ("table", "words", "count"),
+    [
+        ("episodes", {"regulator": "a-new-law"}, 0),
+        ("robustness", {"axis": "a-new-axis"}, 0),
+        ("episodes", {"start_id": ["new-1", "new-2", "new-3"]}, 3),
+    ],
+    ids=["a new law", "a new perturbation", "new starts of old laws"],
+)
+def test_rows_of_what_base_has_nowhere_are_no_difference_whatever_the_judge(pair, judge, table, words, count):
     base, head = pair("body")
-    row = {"regulator": law, "representation": "", "start_id": ["new-1", "new-2", "new-3"]}
-    change(head, "episodes", lambda frame: pd.concat([frame, frame.head(3).assign(**row)]))
-    assert len(compare(base, head)) == count
+    unit = Unit("robustness", "rotation-matrix", selector="delay", count=1, total=1, horizon_s=0.05)
+    for folder, name in ((base, "the same"), (head, judge)):
+        write_table(folder / "robustness.parquet", rows_of(Settings(), unit), "robustness")
+        write_json(folder / "provenance.json", read_json(folder / "provenance.json") | {"judge": name})
+    change(head, table, lambda frame: pd.concat([frame, frame.head(3).assign(**words)]))
+    lines = compare(base, head)
+    assert lines[-1:] == ["episodes: rows new: 3"] if count and judge == "another" else len(lines) == count
+    change(head, "episodes", lambda frame: changed(frame, settled(frame), outcome="stuck"))
+    assert ["outcome" in line for line in compare(base, head)].count(True) == 1
+
+
+def test_table_of_an_experiment_newer_than_base_is_skipped_with_a_sentence_and_a_lost_one_refused(pair, capsys):
+    base, head = map(str, pair("body"))
+    Path(base, "springs.parquet").unlink()
+    assert main(["compare", base, head]) == 0
+    assert "springs: not compared, because the experiment is newer than the run in base" in capsys.readouterr().out
+    assert read(base, "springs").empty
+    Path(base, "episodes.parquet").unlink()
+    assert main(["compare", base, head]) == 2
+    assert "episodes.parquet: there is no such file" in capsys.readouterr().err

@@ -39,9 +39,9 @@ def test_every_look_has_a_dark_twin_and_is_one_of_a_kind():
     assert len({(look.colour, look.marker) for look in looks}) == len(looks)
 
 
-def test_every_law_and_all_coordinates_of_ours_have_a_look_that_can_be_drawn():
+def test_look_of_every_law_and_of_all_coordinates_can_be_drawn():
     ours = (*contenders("regulators").values(), *contenders("representations").values())
-    assert [one.name for one in ours if not (one.display.look and one.display.look.is_known)] == []
+    assert [one.name for one in ours if one.display.look and not one.display.look.is_known] == []
     assert list(style.COLOURS) == list(COLOURS)
     assert list(style.LINES) == list(LINES)
 

@@ -7,7 +7,8 @@ import pytest
 import tasks
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.experiments.robustness import HORIZON_S
-from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.read import table, with_contender
+from bench.experiments.tables.schema import RESULTS
 from bench.findings.maps import lost_share
 from bench.findings.perturbed import by_level, studied
 from bench.law.contenders.registry import find_contender
@@ -17,7 +18,7 @@ from tasks.condition import condition_at
 
 def test_study_has_every_level_of_every_perturbation_for_every_law():
     found = studied().groupby("axis", observed=True)
-    assert set(found.groups) == set(tasks.axis_names())
+    assert set(found.groups) == set(table(RESULTS / "reference", "robustness")["axis"])
     laws = set(studied()["contender"])
     assert {"late-braking", "rotation-matrix", "feedback-linearized/zyx-euler"} < laws
     for name, rows in found:

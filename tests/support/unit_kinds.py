@@ -4,9 +4,10 @@ import dataclasses
 from pathlib import Path
 
 from bench.experiments import plan
-from bench.experiments.choice import Choice
-from bench.experiments.experiment import Unit
+from bench.experiments.choice import EVERYTHING, Choice
+from bench.experiments.experiment import Asked, Unit, known_experiments
 from bench.experiments.map import plan_of
+from bench.experiments.suites import suite
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import find_contender
 from support.user_law import DAMPER, law_text
@@ -37,13 +38,13 @@ def plan_of_all_kinds(folder: Path) -> plan.Plan:
         Unit("pose-springs", count=1, total=1),
         Unit("springs", count=1, total=1),
         Unit("goal-streams", count=1, total=1, horizon_s=2.0),
-        Unit("compensators", selector="integral", count=2, total=2, horizon_s=0.05),
         Unit("impedance", task="arm-regulation", arm="ur5e", selector="diagonal", count=1, horizon_s=0.05),
-        Unit("impedance-modes", task="arm-regulation", arm="ur5e", selector="diagonal"),
         Unit("costs", "rotation-matrix"),
         Unit("costs", "mine"),
         Unit("jacobians", arm="ur5e", count=1, total=1),
         *plan_of([ours], 200, speeds=((0.0, 20.0),), horizon_s=1.0).units,
     )
     runs = (*alone.units, *(unit for unit in on_arm if unit.experiment == "arm"), *contact[:1], *perturbed)
-    return dataclasses.replace(alone, units=(*runs, *made))
+    kinds, asked = {unit.experiment for unit in (*runs, *made)}, Asked(suite("quick"), (ours,), EVERYTHING, **short)
+    others = [one.units(asked)[0] for name, one in known_experiments().items() if name not in kinds]
+    return dataclasses.replace(alone, units=(*runs, *made, *others))

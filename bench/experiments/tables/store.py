@@ -5,6 +5,7 @@ nothing outside the folder is read or written; and a word holds no sign that a p
 """
 
 import json
+import os
 import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
@@ -14,8 +15,9 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from bench.base.errors import BadResults, NoTable
-from bench.base.files import refuse_link, write_atomically
+from bench.base.files import read_json, refuse_link, write_atomically
 from bench.experiments.columns import VERSION, Table
+from bench.experiments.experiment import known_experiments, known_tables
 from bench.experiments.tables.schema import table_of
 
 
@@ -163,7 +165,7 @@ def frame(path: Path, table: str | Table) -> pd.DataFrame:
 
 
 def read(folder: Path, table: str | Table) -> pd.DataFrame:
-    """One table of a finished run as a data frame.
+    """One table of a finished run as a data frame; without rows if its experiment is newer than the run.
 
     Errors:
         BadResults: see `read_arrow`; also a folder whose run has not finished.
@@ -173,4 +175,16 @@ def read(folder: Path, table: str | Table) -> pd.DataFrame:
         raise BadResults(f"{folder}: there is no such folder; run `make bench` (or python -m bench run) first")
     if not (folder / "provenance.json").is_file():
         raise BadResults(f"{folder}: the run there has not finished; the same `python -m bench run` command resumes it")
+    if table.name in find_newer(folder):
+        return table.schema().empty_table().to_pandas(ignore_metadata=True)
     return frame(folder / f"{table.name}.parquet", table)
+
+
+def find_newer(folder: Path) -> list[str]:
+    """Return the tables of experiments that are newer than a run: no file there, and nothing of them in its plan."""
+    missing = [name for name in known_tables() if not os.path.lexists(Path(folder) / f"{name}.parquet")]
+    plan = Path(folder) / "plan.json"
+    units = read_json(plan).get("units", []) if missing and plan.is_file() else None
+    known = {name: one.table.name for name, one in known_experiments().items()}
+    planned = {known[name] for name in known for unit in units or () if isinstance(unit, list) and [name] == unit[:1]}
+    return [name for name in missing if units is not None and name not in planned]

@@ -6,7 +6,6 @@ import re
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
-from functools import partial
 from pathlib import Path
 from subprocess import PIPE, STDOUT, Popen
 
@@ -74,7 +73,7 @@ def run_side(side: Side, report: Callable[[str], None]) -> Iterator[Path]:
         folder = Path(temporary) / "run"
         laws = [word for law in side.laws for word in ("--law", str(law), "--regulator", described(law).name)]
         # 1: some rows of a user's law were lost, and the folder says which
-        run = partial(run_python, side.path, report=lambda share: report(f"{doing}: {share} done"))
-        words = [*(() if side.only else PART), "--out", str(folder), *laws]
-        run("-m", "bench", "run", "--suite", "quick", *words, allowed=(0, 1) if side.only else (0,))
+        words = ["bench", "run", "--suite", "quick", *(() if side.only else PART), "--out", str(folder), *laws]
+        allowed, say = (0, 1) if side.only else (0,), lambda share: report(f"{doing}: {share} done")
+        run_python(side.path, "-m", *words, allowed=allowed, report=say)
         yield folder

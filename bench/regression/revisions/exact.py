@@ -5,14 +5,13 @@ the tolerance of bench/regression/rows, or effort, peak or change at rest of the
 reverse of one of these is an improvement, all else a change. Where the judge changed, only that is said.
 """
 
-from collections.abc import Iterable
 from pathlib import Path
 
 from bench.base.files import read_json
 from bench.engines.counting import OPERATIONS as OPERATION_NAMES
 from bench.engines.counting import TOTAL
 from bench.regression.revisions.comparison import CHANGE, IMPROVEMENT, REGRESSION, Finding
-from bench.regression.rows import find_differences
+from bench.regression.rows import describe_skipped, find_differences
 from bench.regression.rows.difference import CHANGED, COLUMN, JUDGE, MISSING, NEW, Difference
 
 EXACT, OPERATIONS, OF_LAW = "exact", "operations", ("regulator", "representation")
@@ -25,14 +24,13 @@ LARGER_IS_WORSE = {"effort": (1.25, 0.0), "peak_u": (1.25, 0.0), "rest_change": 
 def compare_runs(base: Path, head: Path) -> list[Finding]:
     """Return all findings between two runs' folders; first what head's run says of a law that crashed or hung."""
     found = sort_findings(find_differences(base, head))  # first, for it refuses a folder without a finished run
-    lost = read_json(head / "provenance.json").get("lost", [])
-    return [*(Finding(EXACT, REGRESSION, "", note) for note in lost), *found]
+    lost = [Finding(EXACT, REGRESSION, "", note) for note in read_json(head / "provenance.json").get("lost", [])]
+    return [*lost, *found, *(Finding(EXACT, CHANGE, "", note) for note in describe_skipped(base))]
 
 
-def sort_findings(differences: Iterable[Difference]) -> list[Finding]:
+def sort_findings(differences: list[Difference]) -> list[Finding]:
     """Return one finding for each law, kind of change and verdict; regressions first."""
     groups: dict[tuple, list[Difference]] = {}
-    differences = list(differences)
     totals = {_name_law(one.row) for one in differences if _is_total(one)}
     for one in differences:
         is_stage = one.table == "costs" and one.kind == CHANGED and not _is_total(one)

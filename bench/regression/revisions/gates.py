@@ -24,9 +24,6 @@ class Means(NamedTuple):
     rounds: int = ROUNDS
 
 
-USUAL = Means()
-
-
 def compare_folders(base: Path, head: Path) -> Comparison:
     """Compare two folders of finished runs row by row; nothing is run."""
     found = exact.compare_runs(base, head)
@@ -34,7 +31,7 @@ def compare_folders(base: Path, head: Path) -> Comparison:
 
 
 def compare_revisions(
-    base: str, head: str | None, laws: tuple[Path, ...] = (), report: Callable = lambda *_: None, means: Means = USUAL
+    base: str, head: str | None, laws: tuple[Path, ...] = (), report: Callable = lambda *_: None, *, means: Means
 ) -> Comparison:
     """Compare two revisions, or a revision and the files in the checkout (head None), through every gate."""
     judgements: tuple[Judgement, ...] = ()
@@ -76,8 +73,7 @@ def _compare_faults(
             judgements[at] = judge([described(law) for law in side.laws]) if side.laws else []
         except BadLaw as error:
             if side is new:
-                says = str(error)
-                return Gate(FAULTS, "failed", says), [Finding(FAULTS, REGRESSION, "", says)], ()
+                return Gate(FAULTS, "failed", str(error)), [Finding(FAULTS, REGRESSION, "", str(error))], ()
     before, now = ({one.name: one.faults + ["lost"] * one.is_lost for one in each} for each in judgements)
     found, kept = [], []
     for name, faults in now.items():

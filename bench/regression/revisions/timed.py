@@ -12,12 +12,12 @@ reference kernel: median and interval), and in one process alone a law's flops.
 """
 
 import contextlib
+import functools
 import io
 import json
 import os
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -95,10 +95,7 @@ def compile_benchmarks(asked: dict[str, Any], rows: np.ndarray) -> dict[str, Any
         if one.name not in (asked["names"] or [one.name]):
             continue
         loop = law.loop_of(command_of(one), memory_of(one), cache=not one.regulator.origin)
-
-        def call(loop: Callable[..., float] = loop) -> float:
-            return loop(rows, gains.kp, gains.kv, SWEEPS)
-
+        call = functools.partial(loop, rows, gains.kp, gains.kv, SWEEPS)
         if call() == 0.0:  # a command that is not finite breaks the chain
             found.append(Benchmark(LAW, one, "", SWEEPS * len(rows), call))
     if not asked["only"] and any(" " in name for name in asked["names"] or " "):

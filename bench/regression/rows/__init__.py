@@ -9,44 +9,46 @@ start (`rounding_change`): one outcome of base must be one of head, and a number
 from collections import Counter
 from pathlib import Path
 
-import pandas as pd
-
 from bench.base.files import read_json
 from bench.experiments.columns import Table
 from bench.experiments.experiment import known_tables
-from bench.experiments.tables.store import read, read_arrow
-from bench.regression.rows.difference import COLUMN, JUDGE, Difference, Rule, align_rows, compare_cells, write_lines
-from bench.regression.rows.tables import RELATIVE, RULES, is_settled, within
+from bench.experiments.tables.store import find_newer, read, read_arrow
+from bench.regression.rows.difference import COLUMN, JUDGE, NAMES, NEW, Difference, write_lines
+from bench.regression.rows.tables import RULES, compare_tables
 
 
 def compare(base: Path, head: Path) -> list[str]:
     """Return what differs between two runs' folders, a line each, without rows of names that base has nowhere."""
-    return write_lines(find_differences(base, head), [read(base, one) for one in known_tables().values()])
+    return write_lines(_drop_additions(find_differences(base, head), base))
+
+
+def _drop_additions(differences: list[Difference], base: Path) -> list[Difference]:
+    """Leave out new rows of a law or a perturbation that base has nowhere."""
+    frames = [read(base, one) for one in known_tables().values()]
+    known = {word for rows in frames for name in NAMES & {*rows.columns} for word in rows[name].astype(str)} | {""}
+    return [one for one in differences if one.kind != NEW or {one.row.get(name, "") for name in NAMES} <= known]
+
+
+def describe_skipped(base: Path) -> list[str]:
+    """Return a sentence for each table that is not compared."""
+    return [f"{name}: not compared, because the experiment is newer than the run in base" for name in find_newer(base)]
 
 
 def find_differences(base: Path, head: Path) -> list[Difference]:
     """Return what differs between two folders of finished runs, row by row; of two judges, only counts by column."""
     found: list[Difference] = []
-    tables = known_tables()
-    for name in (*RULES, *(tables.keys() - RULES.keys())):
+    tables, newer = known_tables(), find_newer(base)
+    for name in (one for one in dict.fromkeys((*RULES, *tables)) if one not in newer):
         old, new = read(base, tables[name]), read(head, tables[name])
         found += _compare_columns(tables[name], base, head) or compare_tables(tables[name], old, new)
     was, now = (read_json(Path(folder) / "provenance.json").get("judge") for folder in (base, head))
-    if not (found and was and now and was != now):
+    kept = _drop_additions(found, base) if was and now and was != now else []
+    if not kept:
         return found
-    counts = Counter((one.table, one.column or f"rows {one.kind}") for one in found)
+    counts = Counter((one.table, one.column or f"rows {one.kind}") for one in kept)
     said = [f"{table}: {column}: {count}" for (table, column), count in counts.items()]
-    first = f"the judge changed: {len(found)} differences, by column; laws are not compared"
+    first = f"the judge changed: {len(kept)} differences, by column; laws are not compared"
     return [Difference(line.partition(":")[0], JUDGE, line, line, {}) for line in (first, *said)]
-
-
-def compare_tables(table: Table, old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
-    """Return what differs between base's and head's rows."""
-    if table.name == "traces":  # curves that came to the goal; on the others rounding may decide when they end
-        old, new = (frame[is_settled(frame)] for frame in (old, new))
-    old, new, found = align_rows(table, old, new)
-    rule = RULES[table.name](old, new) if table.name in RULES else Rule(within(RELATIVE))
-    return found + compare_cells(table, old, new, rule)
 
 
 def _compare_columns(table: Table, base: Path, head: Path) -> list[Difference]:

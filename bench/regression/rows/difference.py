@@ -38,16 +38,14 @@ class Rule(NamedTuple):
     skipped: tuple[str, ...] = ()
 
 
-def write_lines(differences: Iterable[Difference], base: Iterable[pd.DataFrame]) -> list[str]:
-    """Return what differs in lines, SHOWN of a kind; a new row of a name that base has nowhere is no difference."""
-    known = {word for rows in base for name in NAMES & {*rows.columns} for word in rows[name].astype(str)} | {""}
-    lines, kept = [], [one for one in differences if one.kind != NEW or {one.row.get(x, "") for x in NAMES} <= known]
-    for (table, kind, column), group in groupby(kept, lambda one: (one.table, one.kind, one.column)):
+def write_lines(differences: Iterable[Difference]) -> list[str]:
+    """Return what differs in lines, SHOWN of a kind."""
+    lines = []
+    for (table, kind, column), group in groupby(differences, lambda one: (one.table, one.kind, one.column)):
         same = [one.says for one in group]
         shown = len(same) if kind == COLUMN else SHOWN
         lines += same[:shown]
-        if len(same) > shown:
-            lines.append(f"{column or f'{table}: row is {kind}'}: ... and {len(same) - shown} more")
+        lines += [f"{column or f'{table}: row is {kind}'}: ... and {len(same) - shown} more"] * (len(same) > shown)
     return lines
 
 

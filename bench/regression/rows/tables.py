@@ -5,9 +5,10 @@ from collections.abc import Callable
 import numpy as np
 import pandas as pd
 
+from bench.experiments.columns import Table
 from bench.law.contenders.registry import contenders
 from bench.law.contenders.representations.zyx_euler import to_matrix
-from bench.regression.rows.difference import Rule
+from bench.regression.rows.difference import Difference, Rule, align_rows, compare_cells
 from tasks.contact_rest import REST
 from tasks.verdict import OUTCOMES, SETTLED
 
@@ -134,3 +135,12 @@ RULES: dict[str, Callable[[pd.DataFrame, pd.DataFrame], Rule]] = {
     "velocity-limits": lambda old, new: Rule(within(LIMIT_RELATIVE, LIMIT_RELATIVE)),
     "traces": lambda old, new: Rule(within(RELATIVE, RELATIVE), skipped=("outcome",)),
 }
+
+
+def compare_tables(table: Table, old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
+    """Return what differs between base's and head's rows."""
+    if table.name == "traces":  # curves that came to the goal; on the others rounding may decide when they end
+        old, new = (frame[is_settled(frame)] for frame in (old, new))
+    old, new, found = align_rows(table, old, new)
+    rule = RULES[table.name](old, new) if table.name in RULES else Rule(within(RELATIVE))
+    return found + compare_cells(table, old, new, rule)
