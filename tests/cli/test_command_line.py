@@ -16,6 +16,7 @@ from bench.cli import commands, main
 from bench.cli.listing import KINDS, describe_arm
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
+from bench.experiments.suites import SUITES
 from bench.experiments.tables import store
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import all_contenders
