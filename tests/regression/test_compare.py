@@ -1,7 +1,6 @@
 """The row gate finds each kind of change in a run, and nothing that rounding alone can make."""
 
 import shutil
-from pathlib import Path
 
 import pandas as pd
 import pyarrow as pa
@@ -240,14 +239,3 @@ def test_rows_of_what_base_has_nowhere_are_no_difference_whatever_the_judge(pair
     assert lines[-1:] == ["episodes: rows new: 3"] if count and judge == "another" else len(lines) == count
     change(head, "episodes", lambda frame: changed(frame, settled(frame), outcome="stuck"))
     assert ["outcome" in line for line in compare(base, head)].count(True) == 1
-
-
-def test_table_of_an_experiment_newer_than_base_is_skipped_with_a_sentence_and_a_lost_one_refused(pair, capsys):
-    base, head = map(str, pair("body"))
-    Path(base, "springs.parquet").unlink()
-    assert main(["compare", base, head]) == 0
-    assert "springs: not compared, because the experiment is newer than the run in base" in capsys.readouterr().out
-    assert read(base, "springs").empty
-    Path(base, "episodes.parquet").unlink()
-    assert main(["compare", base, head]) == 2
-    assert "episodes.parquet: there is no such file" in capsys.readouterr().err

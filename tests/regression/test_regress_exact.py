@@ -5,6 +5,7 @@ import shutil
 import pytest
 
 from bench.base.files import read_json, write_json
+from bench.cli import main
 from bench.experiments.tables.schema import table_of
 from bench.experiments.tables.store import read, write_table
 from bench.regression.revisions import gates
@@ -91,3 +92,15 @@ def test_changed_judge_is_said_first_by_column_and_no_law_is_named(finished, tmp
     first, *others = gates.compare_folders(finished, head).findings
     assert (first.verdict, first.says[:17]) == ("regression", "the judge changed")
     assert [one.says for one in others] == [f"episodes: outcome: {len(rows)}"]
+
+
+def test_table_of_an_experiment_newer_than_base_is_skipped_with_a_sentence_and_a_lost_one_is_not(finished, tmp_path):
+    base = shutil.copytree(finished, tmp_path / "base")
+    (base / "springs.parquet").unlink()
+    [found] = gates.compare_folders(base, finished).findings
+    assert found.verdict == "change"
+    assert found.says == "springs: not compared, because the experiment is newer than the run in base"
+    assert main(["compare", str(base), str(finished)]) == 0
+    assert read(base, "springs").empty
+    (base / "episodes.parquet").unlink()
+    assert main(["compare", str(base), str(finished)]) == 2

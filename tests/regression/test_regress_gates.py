@@ -129,10 +129,10 @@ def test_law_that_cannot_be_judged_is_a_regression(user, means):
 
 
 def test_runs_of_two_schemas_are_a_regression_and_no_mistake(user, means, finished):
-    (finished / "robustness.parquet").unlink()
+    (finished / "episodes.parquet").unlink()
     [found] = gates.compare_revisions("HEAD", None, (user,), means=means()).regressions
     assert found.says.startswith("the schema differs: ")
-    assert "robustness.parquet" in found.says
+    assert "episodes.parquet" in found.says
 
 
 def test_command_adds_to_the_summaries(finished, tmp_path, monkeypatch, capsys):
