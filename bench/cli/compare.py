@@ -75,7 +75,7 @@ def _compare(
         with progress("steps", "checking out") as steps:
             said = gates.compare_revisions(base, head, laws, steps.now, means=means)
         differences = [f"{one.verdict}: {one.says}" for one in said.findings]
-    for line in (*differences, *(rows.describe_skipped(Path(base)) if folders else ())):
+    for line in (*differences, *(rows.describe_skipped(folders[0]) if folders else ())):
         console().print(line)
     for one in said.judgements:
         console().print()

@@ -12,7 +12,7 @@ from bench.experiments.tables.schema import RESULTS
 from bench.findings.judged import ENGINE, START_SETS, judgement, plan_of
 from bench.findings.why import ends, sentences
 from bench.law.contenders.law_file import load_law
-from bench.law.contenders.registry import all_contenders, contenders_of
+from bench.law.contenders.registry import contenders_of, find_contender
 
 REFERENCE = RESULTS / "reference"
 
@@ -91,10 +91,9 @@ def test_our_own_laws_raise_no_false_alarm():
     """Controls apart. Laws in Euler angles fail where those are singular, Z-Y-Z angles at the goal itself."""
     field, run = read.table(REFERENCE, "command-field"), read.table(REFERENCE, "episodes")
     run = run[(run["arm"] == "") & (run["engine"] == ENGINE) & run["start_set"].isin(START_SETS)]
-    ours = [one for one in all_contenders() if not (one.regulator.costing_only or one.regulator.control)]
-    laws = [one for one in ours if one.name in set(field["contender"])]
+    laws = [find_contender(name) for name in field["contender"].unique()]
     assert laws
-    for one in laws:
+    for one in (law for law in laws if not law.regulator.control):
         declared, rows = one.regulator.property, field[field["contender"] == one.name]
         faults = {s.fault for s in sentences(rows, declared) + ends(run[run["contender"] == one.name], declared)}
         assert len(rows) == 10

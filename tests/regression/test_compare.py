@@ -226,7 +226,6 @@ def test_gate_refuses_a_folder_without_a_run(body, tmp_path, capsys):
         ("robustness", {"axis": "a-new-axis"}, 0),
         ("episodes", {"start_id": ["new-1", "new-2", "new-3"]}, 3),
     ],
-    ids=["a new law", "a new perturbation", "new starts of old laws"],
 )
 def test_rows_of_what_base_has_nowhere_are_no_difference_whatever_the_judge(pair, judge, table, words, count):
     base, head = pair("body")

@@ -184,7 +184,8 @@ def find_newer(folder: Path) -> list[str]:
     """Return the tables of experiments that are newer than a run: no file there, and nothing of them in its plan."""
     missing = [name for name in known_tables() if not os.path.lexists(Path(folder) / f"{name}.parquet")]
     plan = Path(folder) / "plan.json"
-    units = read_json(plan).get("units", []) if missing and plan.is_file() else None
-    known = {name: one.table.name for name, one in known_experiments().items()}
-    planned = {known[name] for name in known for unit in units or () if isinstance(unit, list) and [name] == unit[:1]}
-    return [name for name in missing if units is not None and name not in planned]
+    if not (missing and plan.is_file()):
+        return []
+    planned = [unit[:1] for unit in read_json(plan).get("units", []) if isinstance(unit, list)]
+    known = {one.table.name for name, one in known_experiments().items() if [name] in planned}
+    return [name for name in missing if name not in known]
