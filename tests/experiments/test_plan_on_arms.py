@@ -12,8 +12,7 @@ import tasks
 from bench.base.errors import Incompatible
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
-from bench.experiments.chosen_words import BY_WORD_ALONE
-from bench.experiments.suites import NOMINAL, SUITES
+from bench.experiments.suites import BY_WORD_ALONE, NOMINAL, SUITES
 from bench.law.contender import refusal
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import contenders, find_contender
