@@ -1,6 +1,5 @@
 """Planted faults are named for what they are, and for nothing else."""
 
-import mink
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -211,15 +210,6 @@ def test_input_that_is_off_and_answered_otherwise_is_a_fault():
 def test_tangent_is_finite_in_no_double_at_180_but_huge():
     """tan(pi/2) of the double next to it is 1.6e16: a command that no robot survives."""
     assert audit(tangent).convention.form == "gibbs"
-
-
-def test_minus_of_mink_is_dead_at_180():
-    """mink 1.3.0's logarithm in Python multiplies by the sign of 0."""
-
-    def minus(q, q_d):
-        return (mink.SO3(q_d)).minus(mink.SO3(q))
-
-    assert audit(minus).faults == ("dead-at-180",)
 
 
 def test_dead_point_of_some_axes_is_found():

@@ -1,4 +1,4 @@
-"""Against right errors nothing is said, and their conventions are found."""
+"""Against right errors nothing is said, and their conventions are found; the page on the audit names its files."""
 
 import numpy as np
 import pytest
@@ -7,6 +7,15 @@ from support.right_errors import RIGHT, scipy_in_base
 
 from bench.audit import audit
 from bench.audit.fault import NOTE
+
+pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
+
+from support.pages import assert_is_whole
+from support.planted import PLANTED
+
+from bench.audit.report import file
+from bench.base.provenance import ROOT
+from report.figures.answer import take_it_home
 
 NAMED = pytest.mark.parametrize(("function", "convention"), RIGHT.values(), ids=RIGHT)
 
@@ -58,3 +67,14 @@ def test_function_that_takes_both_kinds_of_input_is_asked_as_stated():
 
     assert audit(both).takes == audit(both, "matrix").takes == "matrix"
     assert audit(both, "wxyz").convention is None
+
+
+def test_page_is_whole():
+    assert_is_whole(take_it_home, None)
+
+
+def test_every_finding_names_the_file_that_looks_for_it():
+    findings = [one for function, _ in list(PLANTED.values())[::4] for one in audited(function).findings]
+    assert findings
+    for one in findings:
+        assert one.fault.title in (ROOT / file(one)).read_text(encoding="utf-8")

@@ -73,50 +73,13 @@ def test_bound_is_never_exceeded(one):
     assert 0.5 * limit < greatest <= limit * (1.0 + 1e-12)
 
 
-def test_constant_disturbance_leaves_no_error_if_it_says_so(one):
-    pushed, times = (5.0, -3.0, 2.0), np.linspace(0.0, 12.0, 20)
-    R, omega, _ = motion(one, GOAL, GOAL, GAINS, times, disturbance=pushed)
-    off = np.linalg.norm(left(R, GOAL)[-1])
-    np.testing.assert_allclose(omega[-1], 0.0, atol=1e-4)
-    if one.state.rejects:
-        assert off < 1e-4
-    else:  # Kp sin(theta) = |d|
-        assert off == pytest.approx(np.arcsin(np.linalg.norm(pushed) / GAINS[0]), rel=1e-4)
-
-
 # ---------------------------------------------------------------------------- closed forms and energies of ours
 
 KP, KV = Gains()
-TIMES = np.linspace(0.0, 2.0, 81)
-CLOSED = {
-    "velocity-free": (np.sqrt(3.0 * KP), 1.0 / 3.0),
-    "integral": (KV / 3.0, -5.0 / 8.0),
-}
-"""x = x0 exp(-p t) (1 + p t + share (p t)^2) from rest: p, share."""
 
 
 def known(name):
     return contenders("compensators")[name]
-
-
-@pytest.mark.parametrize("name", CLOSED)
-def test_small_turn_from_rest_is_the_closed_form(name):
-    p, share = CLOSED[name]
-    R, _, _ = motion(
-        known(name), ScipyRotation.from_rotvec((-SMALL, 0.0, 0.0)), ScipyRotation.identity(), Gains(), TIMES
-    )
-    s = p * TIMES
-    expected = SMALL * np.exp(-s) * (1.0 + s + share * s * s)
-    np.testing.assert_allclose(left(R, ScipyRotation.identity())[:, 0], expected, rtol=0.0, atol=1e-7 * SMALL)
-
-
-def test_disturbance_alone_turns_the_body_with_an_integral_by_half_d_t_squared_and_back():
-    """x = d t^2/2 exp(-Kv t/3), the transform of d/(s + Kv/3)^3."""
-    d, goal = 1e-3, ScipyRotation.from_rotvec((0.3, -1.0, 2.0))
-    R, _, state = motion(known("integral"), goal, goal, Gains(), TIMES, disturbance=(0.0, d, 0.0))
-    expected = -0.5 * d * TIMES**2 * np.exp(-KV * TIMES / 3.0)
-    np.testing.assert_allclose(left(R, goal)[:, 1], expected, rtol=0.0, atol=1e-6 * np.abs(expected).max())
-    np.testing.assert_allclose(state[-1], (0.0, 3.0 * d / KP, 0.0, 0.0), rtol=0.0, atol=2e-3 * d / KP)
 
 
 def starts(count=8):

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from support.bits import EPS
+from support.buffers import jacobian_of
 from support.in_contact import ARMS
 
 import tasks
@@ -73,13 +74,6 @@ def measured(case) -> np.ndarray:
     R = case.data.site("hand").xmat.reshape(3, 3)
     gauge = case.data.sensordata[19:25]
     return -np.concatenate((R @ gauge[:3], R @ gauge[3:]))
-
-
-def jacobian(case) -> np.ndarray:
-    """Return the 6 x n Jacobian of the hand's site with respect to the arm's joints."""
-    J = np.zeros((6, case.model.nv))
-    mujoco.mj_jacSite(case.model, case.data, J[:3], J[3:], case.model.site("hand").id)
-    return J[:, : case.arm.joints]
 
 
 def pushed(case) -> np.ndarray:
@@ -191,26 +185,10 @@ def test_wrist_sensor_balances_constraints_and_pushes_at_the_joints(case):
     """J^T F = qfrc_constraint + J^T push: MuJoCo's solver on the one side, its sensors on the other."""
     for seed, trial in enumerate(case.trials):
         shaken(case, trial, seed)
-        J, F = jacobian(case), measured(case)
+        J, F = jacobian_of(case.model, case.data, "hand")[:, : case.arm.joints], measured(case)
         expected = case.data.qfrc_constraint[: case.arm.joints] + J.T @ pushed(case)
         assert np.abs(expected).max() > 1e-3
         assert np.abs(J.T @ F - expected).max() <= ROUNDING * np.linalg.norm(F)
-
-
-def test_wrist_sensor_reads_the_sum_of_all_contacts(case):
-    if not case.model.npair:
-        pytest.skip("nothing touches anything here")
-    hand, force = case.model.body("hand").id, np.zeros(6)
-    for seed, trial in enumerate(case.trials):
-        shaken(case, trial, seed)
-        total = pushed(case)
-        for i, contact in enumerate(case.data.contact):
-            mujoco.mj_contactForce(case.model, case.data, i, force)
-            sign = 1.0 if case.model.geom_bodyid[contact.geom2] == hand else -1.0
-            f = sign * contact.frame.reshape(3, 3).T @ force[:3]  # on geom2, along a normal that points to it
-            total += np.concatenate((f, np.cross(contact.pos - case.data.site("hand").xpos, f)))
-        assert case.data.ncon > 0
-        assert np.abs(measured(case) - total).max() <= ROUNDING * np.linalg.norm(total)
 
 
 def test_gap_is_the_depth_of_the_deepest_contact(case):

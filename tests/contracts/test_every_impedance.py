@@ -116,17 +116,6 @@ def test_command_is_the_same_in_every_base_frame_unless_the_coordinates_are_the_
         np.testing.assert_allclose(turned, Q.apply(seen), rtol=0.0, atol=50 * EPS * size(turn, omega, m))
 
 
-@over([one for one in IMPEDANCES if one not in FRAMELESS])
-def test_command_is_another_in_another_base_frame_if_the_coordinates_are_the_base_frames(one):
-    apart = []
-    for Q, (turn, omega, m, goal) in zip(GOALS * 5, anywhere(one), strict=True):
-        if margin(one, Q * turn, Q * goal) > REGULAR:
-            here = command(one, turn, omega, m, goal)
-            turned = command(one, Q * turn, Q.apply(omega), Q.apply(m), Q * goal)
-            apart.append(np.linalg.norm(turned - Q.apply(here)))
-    assert np.median(apart) > 1.0
-
-
 def pushing(draw):
     """A moment [N m] of the time: six tones a component, up to 5 Hz."""
     size, frequency, phase = draw.normal(scale=0.1, size=(3, 6)), draw.uniform(1.0, 30.0, (3, 6)), draw.uniform(0, 6, 6)

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from support.bits import same_bits
 from support.buffers import as_counted, buffer, scratch
-from support.inverting import FACTORED, SHAPES, A, accepted, anything, inertia, resolved, well_conditioned
+from support.filling import FACTORED, SHAPES, A, accepted, anything, inertia, resolved, well_conditioned
 
 from bench.engines.compiled import JIT, register_kernels
 from bench.law.contenders.registry import contenders

@@ -12,8 +12,7 @@ from support.states import rotations
 
 from bench.engines.compiled import JIT, register_kernels
 from bench.law.chain import bias_acceleration, twist
-from bench.law.contenders.registry import jacobian, representation
-from bench.law.scalar import KERNELS
+from bench.law.contenders.registry import jacobian
 
 
 def chains(n):
@@ -21,13 +20,6 @@ def chains(n):
     found = [chain for _, chain in poses(n, 20)]
     permuting, others = rotations()[:24], rotations()[24::3]
     return found + [found[i % 20]._replace(R=R) for i, R in enumerate((*permuting, *others))]
-
-
-@pytest.mark.parametrize("pair", PAIRS, ids=named)
-def test_its_functions_are_kernels(pair):
-    one, coordinates = pair
-    assert one.takes in ("angular-acceleration", "coordinates")
-    assert all(kernel in KERNELS for kernel in one.kernels_in(coordinates))
 
 
 @pytest.mark.parametrize("n", [6, 7])
@@ -128,27 +120,3 @@ def test_drift_is_the_finite_difference_of_the_rates_at_constant_qdot(pair):
 def rates_of(chain, coordinates):
     pdot, omega = twist(chain)
     return np.array([*pdot, *coordinates.rates(coordinates.chart(chain.R), omega)])
-
-
-def test_determinant_of_the_zyx_euler_jacobian_is_minus_that_of_J_over_cos_beta():
-    """det B^-1 = -1 / cos(beta) (Murphy 1988, 2.9): the order alpha, beta, gamma is z, y, x."""
-    zyx = representation("zyx-euler")
-    for arm, chain in poses(6, 100):
-        margin = zyx.margin(chain.R)
-        if margin > 0.01:
-            J_E = filled((jacobian("analytic"), zyx), chain)[:6, :6]
-            given, expected = np.linalg.det(J_E), -np.linalg.det(arm.jacobian) / margin
-            # a determinant errs by n EPS times the product of the row lengths, the angular rows being up to 1/margin
-            # longer; the rows themselves by ROUNDING
-            scale = np.prod(np.linalg.norm(J_E, axis=1))
-            assert abs(given - expected) <= 6 * ROUNDING * scale / margin
-
-
-def test_quaternion_jacobian_has_rank_six_and_does_not_see_the_quaternion_itself():
-    quaternion = representation("quaternion")
-    for n in (6, 7):
-        for arm, chain in poses(n, 40):
-            J = filled((jacobian("analytic"), quaternion), chain)[:7, :n]
-            q = np.array([0.0, 0.0, 0.0, *quaternion.chart(chain.R).E])
-            assert np.abs(J.T @ q).max() <= ROUNDING * np.abs(arm.jacobian).max()
-            assert np.linalg.matrix_rank(J, tol=ROUNDING * np.linalg.norm(J)) <= 6

@@ -6,7 +6,6 @@ import math
 import numpy as np
 import pytest
 from numba import types
-from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS, different_rows
 from support.buffers import numbers_of
@@ -16,14 +15,15 @@ from support.states import as_rotation, of_scipy, rotations, vector
 import tasks
 from bench.engines.binding import command_of, evaluation_of, margin_of, memory_of
 from bench.engines.compiled import EVALUATE, compile_function
-from bench.engines.episode import OUTCOME, SETTLING_TICK, TICKS
+from bench.engines.counting import OPERATIONS, STAGES, TOTAL, Tally, cost, flops, rows
+from bench.engines.counting.costs import counted
+from bench.engines.counting.staged import STAGE_OF, law_of
+from bench.engines.episode import OUTCOME, TICKS
 from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import evaluation, run
-from bench.law.contenders.registry import all_contenders
+from bench.law.contenders.registry import all_contenders, contenders
 from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import IDENTITY
-from tasks.base import Start
-from tasks.rotations import about
 from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR
 
 METRICS = metrics_of(on_arm=False)
@@ -89,12 +89,21 @@ def ticks() -> list[tuple]:
     ]
 
 
-def test_compiled_command_is_the_plain_command_bit_for_bit(contender):
+def count(contender, *given):
+    """The command and the memory of a tick by counting scalars."""
+    tally = Tally()
+    memory = () if contender.regulator.memory is None else (given[-1],)
+    return law_of(contender, tally)(*counted((*given[:-1], *memory), tally))
+
+
+def test_compiled_and_counted_commands_are_the_plain_command_bit_for_bit(contender):
     evaluate, memory = evaluation_of(contender), memory_of(contender)
     ways = (evaluate, functools.partial(by_pointer(), evaluation(contender)))
     with np.errstate(all="ignore"):
         plain, compiled = (np.array([numbers_of(way(*tick, memory)) for tick in ticks()]) for way in ways)
+        some = [numbers_of(count(contender, *tick, tuple(map(np.float64, memory)))) for tick in ticks()[::7]]
     assert different_rows(compiled, plain) == []
+    assert different_rows(some, plain[::7, : len(some[0])]) == []
     # the comparison has seen numbers, not only NaN
     assert np.isfinite(plain[:, :7]).all(axis=1).mean() > 0.5
 
@@ -184,21 +193,6 @@ def test_the_compared_runs_end_in_every_way_an_episode_can_end():
     assert {SETTLED, DIVERGED, SINGULAR, SATURATED} <= seen, [OUTCOMES[i] for i in sorted(seen)]
 
 
-SMALL_ANGLE = 1e-3  # sin differs from the angle by 2e-7 of it: a ten-thousandth of a tick of settling time
-
-
-@over([one for one in LINEAR if one.regulator.stiffness == (1.0, 1.0, 1.0)])
-def test_settling_near_the_goal_takes_the_critically_damped_time(contender):
-    """theta/theta0 = (1 + 10 t) exp(-10 t) = 0.02 (Murphy 1988, 2.3: Kp = 100, Kd = 20), to one tick."""
-    expected = brentq(lambda t: (1.0 + 10.0 * t) * math.exp(-10.0 * t) - 0.02, 0.1, 2.0)
-    axes = np.random.default_rng(11).normal(size=(8, 3))
-    starts = [Start(f"small-{i}", about(tuple(axis), SMALL_ANGLE)) for i, axis in enumerate(axes)]
-    chosen = settings(horizon_s=1.5)
-    rows = run("ideal-rk4", contender, "free-body", starts, chosen, METRICS)
-    assert (rows[:, OUTCOME] == SETTLED).all()
-    np.testing.assert_allclose(rows[:, SETTLING_TICK] * chosen.dt_s, expected, rtol=0.0, atol=chosen.dt_s)
-
-
 @pytest.mark.parametrize("task", BODIES)
 @pytest.mark.parametrize("engine", ["native", "ideal-rk4"])
 def test_episode_gives_the_same_row_whatever_ran_before_it(contender, task, engine):
@@ -216,3 +210,37 @@ def test_early_stop_changes_no_settling_tick(contender):
     )
     assert different_rows(to_the_end[:, :3], stopped[:, :3]) == []
     assert (stopped[:, TICKS] <= to_the_end[:, TICKS]).all()
+
+
+CONTENDERS = all_contenders()
+
+
+def test_every_function_of_a_representation_has_a_stage():
+    representation = contenders("representations")["zyx-euler"]
+    functions = {name for name, value in representation._asdict().items() if callable(value)}
+    assert set(STAGE_OF) == functions | {"goal_chart"}
+
+
+@pytest.fixture
+def counts(contender):
+    return cost(contender)
+
+
+def test_command_costs_something_and_its_worst_branch_no_less_than_the_typical_one(contender, counts):
+    assert flops(counts.typical.of(TOTAL)) > 0
+    assert sum(counts.worst.of(TOTAL).values()) >= sum(counts.typical.of(TOTAL).values())
+    assert contender.representation is not None or counts.typical.of("regulate") == counts.typical.of(TOTAL)
+
+
+def test_rows_are_every_stage_of_both_branches_and_their_total(contender, counts):
+    table = rows([contender])
+    assert [table[0]["regulator"], table[0]["representation"]] == (contender.name + "/").split("/")[:2]
+    assert [(row["branch"], row["stage"]) for row in table] == [
+        (branch, stage) for branch in ("typical", "worst") for stage in (*STAGES, TOTAL)
+    ]
+    for branch, counted_before in (("typical", counts.typical), ("worst", counts.worst)):
+        *stages, total = [row for row in table if row["branch"] == branch]
+        assert {name: total[name] for name in OPERATIONS} == counted_before.of(TOTAL)
+        for column in (*OPERATIONS, "flops"):
+            assert {type(row[column]) for row in (*stages, total)} == {int}
+            assert total[column] == sum(row[column] for row in stages)

@@ -132,30 +132,6 @@ def test_kernels_are_the_derivatives_of_to_matrix_its_inverse_and_its_transpose(
                 assert errors(given, expected) <= PRODUCT_TOLERANCE * scale, R
 
 
-def test_rates_undo_angular_velocity_up_to_the_singular_set(representation, draw):
-    for R in rotations():
-        omega = vector(draw.normal(scale=5.0, size=3))
-        margin = representation.margin(R)
-        if margin > 0.0:
-            for at in charts(representation, R):
-                again = representation.angular_velocity(at, representation.rates(at, omega))
-                # rates as large as |omega| / margin are added up again
-                np.testing.assert_allclose(
-                    again, omega, rtol=0.0, atol=PRODUCT_TOLERANCE * size(omega) * (1.0 + 1.0 / margin)
-                )
-
-
-def test_generalized_force_has_the_power_of_the_moment(representation, draw):
-    """m . omega = (B^T m) . Edot at every orientation (Murphy 1988, 3.10)."""
-    for R in rotations():
-        moment, Edot = vector(draw.normal(size=3)), coordinates(representation, draw, 1.0)
-        at = representation.chart(R)
-        power = np.dot(moment, representation.angular_velocity(at, Edot))
-        # two sums of three products more than each factor has
-        tolerance = 6 * PRODUCT_TOLERANCE * size(moment) * size(Edot)
-        assert abs(np.dot(representation.generalized(at, moment), Edot) - power) <= tolerance
-
-
 def test_margin_is_a_share_and_zero_exactly_where_B_is_singular(representation):
     """The judge's nearest starts are 1e-12 rad from a singular orientation: well above rounding, not on it."""
     # R is orthonormal to 2 EPS, so its elements may exceed 1 by as much

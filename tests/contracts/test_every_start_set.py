@@ -1,8 +1,12 @@
-"""Contracts over every start set, of the free body and of every arm; a new file is under them without being named."""
+"""Contracts over every start set, of the free body and of every arm, under any kernels of the libraries."""
 
 import itertools
+import json
 import math
+import os
 import re
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -54,3 +58,42 @@ def test_sampled_set_has_as_many_as_asked_for_and_begins_the_same(name, arm):
 def test_other_seed_gives_other_starts(name, arm):
     count = 6 if arm else 100
     assert tasks.start_set(name, count, seed=1, arm=arm) != tasks.start_set(name, count, seed=0, arm=arm)
+
+
+SETTINGS = {
+    "blas": {"OPENBLAS_CORETYPE": "Prescott"},
+    "numpy": {"NPY_DISABLE_CPU_FEATURES": "AVX512F AVX512CD AVX512_SKX AVX512_CLX AVX2 FMA3 X86_V3 X86_V4"},
+}
+
+STARTS = """
+import json, tasks
+from bench.experiments.jacobians.pose_sets import poses
+
+found = {}
+for name in ("wrist", "pole", "tumbling"):
+    starts = tasks.start_set(name, arm="panda")
+    found[name] = [[start.id, *(x.hex() for part in start[1:] for x in part)] for start in starts]
+found["poses"] = [[pose.id, *(x.hex() for x in pose.q)] for pose in poses(tasks.arm("ur5e"), 16, 0)]
+print(json.dumps(found))
+"""
+
+
+def starts(**variables):
+    """What a process of its own finds, in hexadecimal."""
+    ran = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", STARTS], env=os.environ | variables, capture_output=True, text=True
+    )
+    assert ran.returncode == 0, ran.stderr
+    return json.loads(ran.stdout)
+
+
+@pytest.fixture(scope="module")
+def here():
+    return starts()
+
+
+@pytest.mark.parametrize("setting", SETTINGS)
+def test_starts_are_the_same_bit_for_bit(here, setting):
+    there = starts(**SETTINGS[setting])
+    assert all(len(found) > 8 for found in here.values())
+    assert [name for name in here if here[name] != there[name]] == []

@@ -6,8 +6,6 @@ import pyarrow.parquet as pq
 import pytest
 from support.command_line import TINY, bench, digest, refused, refused_run
 
-from bench.base import files
-from bench.base.errors import BadResults
 from bench.experiments.columns import VERSION
 from bench.experiments.tables import store
 
@@ -29,15 +27,6 @@ def test_folder_that_nobody_can_write_is_refused(capsys):
     assert "choose another folder" in line
 
 
-def test_full_disk_is_one_line_and_leaves_no_file(tmp_path):
-    def write(temporary):
-        raise OSError(28, "No space left on device")
-
-    with pytest.raises(BadResults, match=r"cannot be written \(No space left on device\); make room"):
-        files.write_atomically(tmp_path / "table.parquet", write)
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_foreign_folder_is_refused_even_with_replace(capsys, tmp_path):
     (tmp_path / "holiday.txt").write_text("photos")
     assert "something else than a run of ours" in refused_run(capsys, tmp_path, *TINY)
@@ -49,14 +38,6 @@ def test_foreign_plan_is_refused_even_with_replace(capsys, tmp_path, content):
     (tmp_path / "episodes.parquet").write_text("somebody's")
     line = refused_run(capsys, tmp_path, *TINY)
     assert "plan.json" in line
-
-
-def test_other_plan_is_refused_with_the_cure(capsys, finished):
-    before = digest(finished)
-    line = refused(capsys, "run", "--out", finished, *TINY, "--engine", "reference", "--kp", "50")
-    assert "it holds another plan" in line
-    assert "--replace" in line
-    assert digest(finished) == before
 
 
 SAME = ("run", *TINY, "--engine", "reference")
@@ -74,18 +55,6 @@ def cut(path):
     path.write_bytes(path.read_bytes()[:-20])
 
 
-@pytest.mark.parametrize("command", [("show",), ("claims",), ("compare",), SAME], ids=lambda words: words[0])
-def test_truncated_table_is_refused_by_name(capsys, finished, command):
-    cut(finished / "episodes.parquet")
-    before = digest(finished)
-    line = refused(
-        capsys, *command, *(("--out",) if command == SAME else ()), finished, *[finished] * (command == ("compare",))
-    )
-    assert "episodes.parquet" in line
-    assert "truncated" in line
-    assert digest(finished) == before
-
-
 def test_deleted_table_is_measured_again_by_the_same_command(capsys, finished):
     before = digest(finished)
     (finished / "episodes.parquet").unlink()
@@ -95,40 +64,59 @@ def test_deleted_table_is_measured_again_by_the_same_command(capsys, finished):
     assert after == before
 
 
-def test_truncated_part_is_refused_by_name_before_anything_runs(capsys, finished):
-    (finished / "provenance.json").unlink()
-    (finished / "parts").mkdir()
-    part = finished / "parts" / "free-body_reference_rotation-matrix_free-body_nominal_paper_000000.parquet"
-    shutil.copy(finished / "episodes.parquet", part)
-    cut(part)
+PART = "free-body_reference_rotation-matrix_free-body_nominal_paper_000000.parquet"
+
+
+def cut_a_part(folder):
+    """A run that was stopped, with a part that is truncated."""
+    (folder / "provenance.json").unlink()
+    (folder / "parts").mkdir()
+    shutil.copy(folder / "episodes.parquet", folder / "parts" / PART)
+    cut(folder / "parts" / PART)
+
+
+def set_other_schema(folder):
+    table = pq.read_table(folder / "episodes.parquet")
+    metadata = {**table.schema.metadata, b"orientation-bench schema": b"0"}
+    pq.write_table(table.replace_schema_metadata(metadata), folder / "episodes.parquet")
+
+
+def broken(content):
+    return lambda folder: (folder / "provenance.json").write_text(content)
+
+
+READERS = (("show",), ("claims",), ("compare",))
+SPOILT = {
+    "another plan": (lambda folder: None, [(*SAME, "--kp", "50")], ("it holds another plan", "--replace")),
+    "truncated table": (
+        lambda folder: cut(folder / "episodes.parquet"),
+        [*READERS, SAME],
+        ("episodes.parquet", "truncated"),
+    ),
+    "truncated part": (cut_a_part, [SAME], (PART, "delete it and run again")),
+    "another schema": (
+        set_other_schema,
+        [("show",), SAME],
+        (f"its schema is '0', this program reads '{VERSION}'",),
+    ),
+    **{f"provenance {content}": (broken(content), [("show",)], ("provenance.json",)) for content in ("{", "[]", "{}")},
+    "unfinished": (lambda folder: (folder / "provenance.json").unlink(), READERS, ("has not finished",)),
+    "gone": (shutil.rmtree, READERS, ("there is no such folder",)),
+}
+"""Fault -> what spoils a finished run, the commands that then refuse it, and what their line has."""
+
+
+@pytest.mark.parametrize(
+    ("fault", "command"), [(fault, words) for fault, (_, every, _) in SPOILT.items() for words in every]
+)
+def test_spoilt_run_is_refused_in_words_and_left_as_it_is(capsys, finished, fault, command):
+    spoil, _, said = SPOILT[fault]
+    spoil(finished)
     before = digest(finished)
-    line = refused(capsys, *SAME, "--out", finished)
-    assert part.name in line
-    assert "delete it and run again" in line
+    places = ("--out", finished) if command[0] == "run" else (finished,) * (1 + (command[0] == "compare"))
+    line = refused(capsys, *command, *places)
+    assert all(words in line for words in said)
     assert digest(finished) == before
-
-
-@pytest.mark.parametrize("command", [("show",), SAME], ids=lambda words: words[0])
-def test_table_of_another_schema_is_refused_with_both_versions(capsys, finished, command):
-    path = finished / "episodes.parquet"
-    table = pq.read_table(path)
-    pq.write_table(table.replace_schema_metadata({**table.schema.metadata, b"orientation-bench schema": b"0"}), path)
-    line = refused(capsys, *command, *(("--out",) if command == SAME else ()), finished)
-    assert f"its schema is '0', this program reads '{VERSION}'" in line
-
-
-@pytest.mark.parametrize("content", ["{", "[]", "{}"])
-def test_broken_provenance_is_refused_by_name(capsys, finished, content):
-    (finished / "provenance.json").write_text(content)
-    assert "provenance.json" in refused(capsys, "show", finished)
-
-
-@pytest.mark.parametrize("command", ["show", "claims", "compare"])
-def test_reader_of_a_missing_or_unfinished_run_says_what_to_run(capsys, finished, command):
-    second = [finished] * (command == "compare")
-    assert "there is no such folder" in refused(capsys, command, finished / "nowhere", *second)
-    (finished / "provenance.json").unlink()
-    assert "has not finished" in refused(capsys, command, finished, *second)
 
 
 def test_dry_run_touches_nothing(capsys, finished, tmp_path):

@@ -16,7 +16,6 @@ from bench.law.control.registry import all_controllers, find_controller
 LAW = [find_contender("rotation-matrix")]
 TASKS = tasks.contact_names()
 ABLE = [arm for arm in tasks.arm_names() if can_do(tasks.contact_task("wrench-probe"), tasks.arm(arm))]
-UNABLE = sorted(set(tasks.arm_names()) - set(ABLE))
 EULER = "hybrid/zyx-euler+inverse"
 DRY = ("run", "--dry-run", "--suite", "quick")
 
@@ -134,25 +133,6 @@ def test_what_is_named_runs_alone(words, name, values, has_episodes):
     units, episodes = contacts(**words)
     assert named(units, name) == values
     assert (episodes > 0) == has_episodes
-
-
-@pytest.mark.parametrize(
-    "words",
-    [
-        {"start_sets": ("paper",)},
-        {"engines": ("native",)},
-        {"jacobians": ("geometric",)},
-        {"inverses": ("solve",)},
-        {"variations": ("mass-1.30",)},
-        {"regulators": ("rotation-matrix",)},
-        {"tasks": ("free-body",)},
-        *({"arms": (arm,)} for arm in UNABLE),
-    ],
-)
-def test_what_contact_does_not_take_leaves_it_out(words):
-    units, episodes = contacts(**words)
-    assert units == ()
-    assert episodes > 0
 
 
 # ----------------------------------------------------------------------------------------------- names

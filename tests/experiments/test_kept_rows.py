@@ -1,13 +1,27 @@
-"""Rows kept between processes: made once for a state of the sources; a user's own law is counted each time."""
+"""Rows that are kept: between processes, curves of episodes, and those that rounding decides."""
 
+import numpy as np
+import pandas as pd
 import pytest
+from support.driving import settings
+from support.user_law import DAMPER, law_text
 
 import tasks
 from bench.engines import cache, counting
-from bench.experiments import starts
+from bench.engines.curve import NUMBERS, blank_curves
+from bench.engines.metrics.registry import metrics_of
+from bench.engines.simulate import run
+from bench.experiments import plan, starts, traces
+from bench.experiments import plan as planning
+from bench.experiments.choice import Choice
 from bench.experiments.costs import count_operations
+from bench.experiments.episode_rows import judged_columns
+from bench.experiments.experiment import Settings, rows_of
 from bench.experiments.kept_rows import kept
+from bench.experiments.rounding import BESIDE, CHANGE, NUDGE, judged_on_both_sides, nudged
+from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import find_contender
+from tasks.rules import RULES
 
 LAW = find_contender("mrp")
 ROW = {"law": "mrp", "branch": "worst", "add": 3}
@@ -66,3 +80,108 @@ def test_starts_on_an_arm_are_the_judges_to_the_bit(start_set, count):
         starts.found.cache_clear()
         assert list(map(repr, starts.on_arm(start_set, count, 3, "ur5e"))) == list(map(repr, theirs))
     assert starts.count_of(start_set, count, 3, "ur5e") == len(theirs)
+
+
+PAPERS = "rotation-matrix"
+HOLD_TICKS = RULES.hold_ticks(1e-3)
+
+
+@pytest.fixture(scope="module")
+def curves():
+    return traces.rows(Settings(), traces.of_law(find_contender(PAPERS), 5))
+
+
+def rerun(law, start_set, start_id, horizon_s=20.0):
+    """(samples, columns of the judge) of one episode, run by itself."""
+    [start] = [one for one in tasks.start_set(start_set) if one.id == start_id]
+    samples, chosen = blank_curves(1, 200, 20), settings(horizon_s=horizon_s, hold_ticks=HOLD_TICKS)
+    rows = run("ideal-rk4", find_contender(law), "free-body", [start], chosen, metrics_of(False), curves=samples)
+    return samples.samples[0], judged_columns(rows, chosen.dt_s)
+
+
+def test_suite_follows_the_papers_laws_and_a_users(tmp_path):
+    (tmp_path / "mine.py").write_text(law_text(DAMPER))
+    names = (PAPERS, "quaternion-unwinding", "feedback-linearized/mrp")
+    chosen = [*map(find_contender, names), find_contender("mine", (load_law(tmp_path / "mine.py"),))]
+    followed = {unit.contender for unit in plan.make("quick", chosen).units if unit.experiment == "traces"}
+    assert followed == {PAPERS, "mine"}
+
+
+@pytest.mark.parametrize("start_id", ["figure-2.3", "figure-2.5"])
+def test_curve_is_the_episode(curves, start_id):
+    samples, said = rerun(PAPERS, "paper", start_id)
+    samples = samples[~np.isnan(samples[:, 0])]
+    own = curves[curves["start_id"] == start_id]
+    for name in NUMBERS[:-1]:
+        assert own[name].tolist() == samples[:, NUMBERS.index(name)].tolist()
+    for name, values in said.items():
+        assert own[name].drop_duplicates().tolist() == pytest.approx(list(values), nan_ok=True)
+
+
+START = tasks.start_set("clear", 1, arm="ur5e")[0]
+
+
+def row(outcome="settled", effort=1.0, condition=1e4):
+    return {"outcome": outcome, "effort": effort, "cond_jacobian_max": condition, "peak_torque_ratio": 0.5}
+
+
+def judged(first, plus, minus):
+    """What is said of one row, given those of the start's two neighbours; and which starts were asked for."""
+    asked, sides = [], iter((plus, minus))
+
+    def again(starts):
+        asked.extend(starts)
+        return pd.DataFrame([next(sides)])
+
+    [found] = judged_on_both_sides(pd.DataFrame([first]), [START], again).to_dict("records")
+    return found, asked
+
+
+def test_doubtful_row_is_judged_on_both_sides_of_its_start():
+    found, asked = judged(row(), row(), row())
+    assert asked == [nudged(START, NUDGE), nudged(START, -NUDGE)]
+    assert (found[BESIDE], found[CHANGE]) == ("", 0.0)
+
+
+def test_row_far_from_any_singularity_is_not_judged_again():
+    found, asked = judged(row(condition=10.0), row("stuck"), row("stuck"))
+    assert asked == []
+    assert found[BESIDE] == ""
+    assert np.isnan(found[CHANGE])
+
+
+def test_torque_far_beyond_the_rated_one_is_doubtful_too():
+    found, _ = judged(row(condition=10.0) | {"peak_torque_ratio": 1e3}, row("stuck"), row())
+    assert found[BESIDE] == "stuck"
+
+
+@pytest.mark.parametrize("sides", [(row("saturated"), row()), (row(), row("saturated"))])
+def test_outcome_of_either_side_is_kept_if_it_is_another_one(sides):
+    assert judged(row(), *sides)[0][BESIDE] == "saturated"
+
+
+@pytest.mark.parametrize(
+    ("first", "plus", "minus", "change"),
+    [
+        (1.0, 1.0 + 1e-4, 1.0 - 1e-3, pytest.approx(1e-3)),  # the largest relative one
+        (1.0, np.nan, 1.0, np.inf),  # a number that is there on one side alone
+        (1e-12, 5e-10, 0.0, 0.0),  # of the size of rounding
+    ],
+)
+def test_change_is_the_largest_relative_one_of_numbers_above_rounding(first, plus, minus, change):
+    assert judged(row(effort=first), row(effort=plus), row(effort=minus))[0][CHANGE] == change
+
+
+def test_run_marks_what_passes_a_singularity_and_nothing_in_the_clear():
+    plan = planning.make(
+        "quick",
+        [find_contender("rotation-matrix")],
+        Choice(("arm-regulation",), ("clear", "wrist"), ("native",), ("ur5e",), ("geometric",), ("solve",)),
+        count=8,
+        horizon_s=3.0,
+    )
+    found = pd.concat([rows_of(plan.settings, unit) for unit in plan.of("arm")])
+    doubtful = found[CHANGE].notna()
+    assert not doubtful[found["start_set"] == "clear"].any()
+    assert doubtful[found["start_set"] == "wrist"].any()
+    assert (found.loc[doubtful & (found[BESIDE] == ""), CHANGE] > 0.0).all()

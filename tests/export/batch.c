@@ -3,8 +3,8 @@ void {name}_batch(const double *rows, double *answers, long count) {{
     for (k = 0; k < count; k++) {{
         const double *s = rows + {width} * k;
         double *answer = answers + {answers} * k;
-        {before}
+        {first}
         {name}_command(s, s + 9, s + 12, {kp!r}, {kv!r}, {state}answer);
-        {after}
+        {last}
     }}
 }}

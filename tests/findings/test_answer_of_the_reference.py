@@ -15,7 +15,6 @@ from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import Results
 from bench.findings.on_arms import best
 from bench.findings.selection import gains, robots
-from bench.findings.selection.criteria import BY_NAME
 from bench.findings.selection.measured import measured
 from bench.findings.selection.needs import (
     ARM,
@@ -95,13 +94,6 @@ def test_time_of_laws_alone_is_what_tells_whole_controllers_apart():
             difference = (whole - whole["rotation-matrix"]) - (alone[whole.index] - alone["rotation-matrix"])
             assert len(whole) > 3
             assert (difference.abs() <= MEASURABLE * whole).all(), difference
-
-
-def test_no_advice_depends_on_the_bound_of_time_that_stood_before(monkeypatch):
-    """3 % of a tick, when the rule was fixed."""
-    assert BY_NAME["tick"].least > 3.0
-    monkeypatch.setitem(BY_NAME, "tick", BY_NAME["tick"]._replace(least=3.0))
-    assert advise(measured(FOLDER)) == decided()
 
 
 # --------------------------------------------------------------------------------- wherever it is read

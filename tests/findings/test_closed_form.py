@@ -1,4 +1,4 @@
-"""Closed forms of settling times and of what complies, against the paper's, against scipy and against themselves."""
+"""Closed forms of settling times, laws as springs and what complies: the paper's, scipy's, their own."""
 
 import math
 
@@ -12,8 +12,9 @@ from support.bits import EPS
 from support.in_contact import COORDINATES
 from support.states import of_scipy
 
-from bench.findings.theory import closed_form, compliance_theory
+from bench.findings.theory import closed_form, compliance_theory, isotropic
 from bench.law.control.setpoint import TOUCH
+from bench.law.display import ANGLE, LINEAR_MRP, SINE
 from bench.law.inputs import PAPERS_GAINS, Gains
 from bench.law.so3 import IDENTITY, from_quaternion
 from tasks.rotations import on_pole
@@ -143,3 +144,33 @@ def test_what_is_free_is_an_integrated_damper():
         lambda _, s: (s[1], 1.0 / TOUCH.m_o - TOUCH.kc * s[1]), (0.0, 0.3), (0.0, 0.0), rtol=1e-11, atol=1e-14
     )
     assert compliance_theory.free(0.3) == pytest.approx(path.y[0, -1], rel=1e-8)
+
+
+GAINS = (100.0, 20.0, 0.02)
+
+
+def test_sine_settles_as_the_closed_form_of_the_rotation_matrix():
+    for angle in (0.5, 2.0, 3.1):
+        expected = closed_form.settling(angle, *GAINS)
+        assert isotropic.settling(SINE, angle, *GAINS) == pytest.approx(expected, abs=1e-6)
+
+
+def test_straight_spring_settles_as_the_linear_system_from_every_angle():
+    for angle in (0.1, 3.0):
+        expected = closed_form.linear_settling(*GAINS)
+        assert isotropic.settling(ANGLE, angle, *GAINS) == pytest.approx(expected, abs=1e-6)
+
+
+@pytest.mark.parametrize(("equation", "part"), [(LINEAR_MRP, 4.0), (isotropic.EQUATIONS["paielli-bach"], 2.0)])
+def test_laws_made_linear_settle_when_their_linear_coordinate_does(equation, part):
+    """tan(theta/4) and sin(theta/2) are linear: the band's edge in theta is a share of the coordinate."""
+    coordinate = math.tan if part == 4.0 else math.sin
+    for angle in (0.5, 2.5):
+        edge = coordinate(GAINS[2] * angle / part) / coordinate(angle / part)
+        expected = closed_form.linear_settling(*GAINS[:2], edge)
+        assert isotropic.settling(equation, angle, *GAINS) == pytest.approx(expected, abs=1e-6)
+
+
+@pytest.mark.parametrize("name", isotropic.EQUATIONS)
+def test_springs_push_alike_near_the_goal(name):
+    assert isotropic.EQUATIONS[name].spring(1e-4) == pytest.approx(1e-4, rel=1e-8)

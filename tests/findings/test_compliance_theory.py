@@ -2,12 +2,14 @@
 
 import functools
 import math
+import tomllib
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as Turn
 from support.in_contact import ARMS, COORDINATES, hand
-from support.older_ur5e import older_ur5e
 from support.states import of_scipy
 
 import tasks
@@ -126,6 +128,21 @@ def test_by_the_jacobian_transpose_two_axes_leak_as_predicted_and_comply_alike_a
     assert C[0, 0] == pytest.approx((1.0 + TOUCH.kf) * theory.free(TASK.horizon_s) * TOUCH.m_o * A[0, 0], rel=FREE)
     leaks = theory.leakage_by_transpose(angle, A, TASK.horizon_s)
     assert abs(C[2, 0] / C[0, 0]) == pytest.approx(leaks, rel=1e-3)
+
+
+def older_ur5e():
+    """The arm as MuJoCo Menagerie has it with the older UR5's masses, and lengths in whole millimetres."""
+    bodies = tomllib.loads(Path(__file__).with_name("older_ur5e.toml").read_text(encoding="utf-8"))
+    ours = tasks.arm("ur5e")
+    root = ElementTree.fromstring(ours.xml)
+    root.find(".//body[@name='tool']").set("pos", "0 .1 0")
+    for name, at in bodies.items():
+        body = root.find(f".//body[@name='{name}']")
+        body.set("pos", at.pop("place"))
+        inertial = body.find("inertial")
+        inertial.attrib.clear()
+        inertial.attrib.update(at)
+    return ours._replace(xml=ElementTree.tostring(root, encoding="unicode"))
 
 
 @pytest.mark.parametrize(("beta", "leaks"), [(45, 0.76), (75, 2.84)])

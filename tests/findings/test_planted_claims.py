@@ -7,9 +7,8 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-from support.claim_edits import EXPERIMENTS, look_up
 from support.claim_tables import TABLES, contact, reference
-from support.tables import changed, decided, judged
+from support.tables import EXPERIMENTS, changed, decided, judged, look_up
 
 from bench.experiments.tables import read
 from bench.findings.claims import side_by_side

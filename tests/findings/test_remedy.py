@@ -1,11 +1,13 @@
-"""Smallest fixes: what a fixed error does, and that no bound is removed."""
+"""Smallest fixes and cures of users' questions: what they do, and that no bound is removed."""
 
 import math
+import re
 
 import numpy as np
 import pytest
 
 from bench.findings import remedy
+from bench.findings.questions import QUESTIONS
 from bench.law.contenders.registry import contenders
 from bench.law.kinds import VELOCITY
 from bench.law.shipped import clipped, vector_part
@@ -50,3 +52,16 @@ def test_bounds_are_those_of_the_errors():
         if one.shipped.unbounded is not None:
             most = max(np.abs(one.shipped.error(remedy.about(k, math.pi))).max() for k in remedy.DIRECTIONS)
             assert most == pytest.approx(one.shipped.bound)
+
+
+@pytest.mark.parametrize("one", QUESTIONS, ids=lambda one: one.threads[0])
+def test_symptom_shows_and_cure_cures(one):
+    before, after = one.measure()
+    assert abs(before - one.right) > max(one.tolerance, 0.05)
+    assert abs(after - one.right) <= one.tolerance
+
+
+def test_threads_are_addresses_and_each_is_there_once():
+    threads = [thread for one in QUESTIONS for thread in one.threads]
+    assert all(re.fullmatch(r"[\w.-]+/[\w.-]+#\d+", thread) for thread in threads)
+    assert len(set(threads)) == len(threads)

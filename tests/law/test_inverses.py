@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 from support.bits import EPS, same_bits
-from support.inverting import FACTORED, A, accepted, anything, inertia, resolved, well_conditioned
+from support.filling import FACTORED, A, accepted, anything, inertia, resolved, well_conditioned
 
 import tasks
 from bench.law import linalg

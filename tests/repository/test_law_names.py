@@ -2,6 +2,7 @@
 
 import ast
 import re
+import tomllib
 from pathlib import Path
 
 from bench.law.contenders.registry import contenders
@@ -9,36 +10,7 @@ from bench.law.contenders.registry import contenders
 ROOT = Path(__file__).parents[2]
 ROOMS = ("bench", "tasks", "report")
 
-CHAPTERS = ("arms", "contact", "cost", "robustness")
-
-ALLOWED = {
-    "bench/audit/": "the law that cures a fault, and forms, some of which are laws' words too",
-    "bench/law/contenders/regulators/": "its own file, and the coordinates it acts on",
-    "bench/law/contenders/representations/": "its own file",
-    "bench/law/contenders/impedances/": "its own file",
-    "bench/law/kinds.py": "ON_MATRIX, the word for what acts on R itself",
-    "bench/law/control/contact_controller.py": "hybrid control in contact, whose words these are",
-    "bench/law/contender.py": "the cure in a refusal; it asks no registry",
-    "bench/engines/simulate.py": "the module of a plant whose state is a quaternion",
-    "bench/experiments/suites.py": "what a suite runs",
-    "bench/findings/claims/": "sentences about them",
-    "bench/findings/questions.py": "a goal stream",
-    "bench/findings/selection/gains.py": "the law that no continuous plant runs",
-    "bench/findings/selection/tables.py": "the controller that every share is of",
-    "bench/findings/theory/thresholds.py": "where the memory of each law ends",
-    "bench/studies/": "what a study was designed for",
-    "bench/regression/revisions/timed.py": "what is timed on every revision",
-    "bench/cli/": "examples of --help",
-    "tasks/goal_stream.py": "what goals arrive as",
-    **dict.fromkeys((f"report/figures/{chapter}/" for chapter in CHAPTERS), "what a page of the book is about"),
-    "report/figures/cards/live.py": "pairs that are worth a look",
-    "report/figures/comparison/comparison.py": "the law that is stiffer about some axes, left out of one comparison",
-    "report/figures/comparison/a_new_law.py": "the law that it is about, and its neighbours",
-    "report/figures/comparison/new_law.py": "those whose responses are drawn beside its own",
-    "report/figures/libraries/": "what the libraries were asked",
-    "report/media.py": "what is filmed",
-    "report/contact_media.py": "what is filmed",
-}
+ALLOWED = tomllib.loads(Path(__file__).with_name("law_names.toml").read_text(encoding="utf-8"))
 """Files and folders that may name them, and why. Anywhere else the registry is asked."""
 
 

@@ -8,9 +8,8 @@ import time
 
 import psutil
 import pytest
-from support.breaking_laws import plan_of
 from support.command_line import refused
-from support.user_law import spring_text
+from support.user_law import plan_of, spring_text
 
 from bench.base.errors import BadLaw
 from bench.base.provenance import ROOT
@@ -51,7 +50,7 @@ def test_process_of_a_law_ends_with_the_run(tmp_path):
     script = """
         import sys
         from pathlib import Path
-        from support.breaking_laws import plan_of
+        from support.user_law import plan_of
         from bench.running.sandbox import Sandbox
         plan = plan_of(Path(sys.argv[1]), "while abs(R.n[0] - 0.36) > 1e-3: x = x + 1e-9", engine="reference")
         Sandbox(plan).rows(plan.units[-1])

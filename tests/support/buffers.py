@@ -10,8 +10,8 @@ import numpy as np
 from bench.engines.compiled import JIT, register_kernels
 from bench.engines.counting import Counted, Tally
 from bench.law.chain import Chain, Scratch
-from bench.law.so3 import Rotation
 from support.bits import same_bits
+from support.states import as_rotation, vector
 
 SIZE = 7
 
@@ -79,6 +79,34 @@ def symmetric(rows: int) -> dict:
         return {word: A @ A.T + 1e-3 * np.eye(rows) for word, A in matrices(rows, rows).items()}
 
 
+def jacobian_of(model, data, site: str) -> np.ndarray:
+    """MuJoCo's 6 x n of a site, linear rows first."""
+    J = np.zeros((6, model.nv))
+    mujoco.mj_jacSite(model, data, J[:3], J[3:], model.site(site).id)
+    return J
+
+
+def bias_of(model, data, site: str) -> np.ndarray:
+    """MuJoCo's Jdot qdot of a site."""
+    Jdot, at = np.zeros((6, model.nv)), model.site(site).id
+    mujoco.mj_jacDot(model, data, Jdot[:3], Jdot[3:], data.site_xpos[at], int(model.site_bodyid[at]))
+    return Jdot @ data.qvel
+
+
+def inertia_of(model, data) -> np.ndarray:
+    """MuJoCo's D(q)."""
+    D = np.zeros((model.nv, model.nv))
+    mujoco.mj_fullM(model, data, D)
+    return D
+
+
+def chain_of(model, data, site: str) -> Chain:
+    """What a controller of a site sees."""
+    axes, anchors, rates = (part.copy() for part in (data.xaxis, data.xanchor, data.qvel))
+    R = as_rotation(data.site(site).xmat.reshape(3, 3).T)
+    return Chain(model.nv, axes, anchors, rates, vector(data.site(site).xpos), R)
+
+
 class Arm(NamedTuple):
     """A serial arm of random hinges, its model and state by MuJoCo."""
 
@@ -89,32 +117,22 @@ class Arm(NamedTuple):
         """To that state; what a controller then sees."""
         self.data.qpos[:], self.data.qvel[:] = q, qdot
         mujoco.mj_forward(self.model, self.data)
-        columns = self.data.site("tool").xmat.reshape(3, 3).T
-        R = Rotation(*(tuple(column) for column in columns))
-        kept = [part.copy() for part in (self.data.xaxis, self.data.xanchor, self.data.qvel)]
-        return Chain(self.model.nv, *kept, tuple(self.data.site("tool").xpos), R)
+        return chain_of(self.model, self.data, "tool")
 
     @property
     def jacobian(self) -> np.ndarray:
         """MuJoCo's 6 x n, linear rows first."""
-        J = np.zeros((6, self.model.nv))
-        mujoco.mj_jacSite(self.model, self.data, J[:3], J[3:], self.model.site("tool").id)
-        return J
+        return jacobian_of(self.model, self.data, "tool")
 
     @property
     def bias(self) -> np.ndarray:
         """MuJoCo's Jdot qdot."""
-        Jdot, site = np.zeros((6, self.model.nv)), self.model.site("tool")
-        body = self.model.site_bodyid[site.id]
-        mujoco.mj_jacDot(self.model, self.data, Jdot[:3], Jdot[3:], self.data.site("tool").xpos, body)
-        return Jdot @ self.data.qvel
+        return bias_of(self.model, self.data, "tool")
 
     @property
     def inertia(self) -> np.ndarray:
         """MuJoCo's D(q)."""
-        D = np.zeros((self.model.nv, self.model.nv))
-        mujoco.mj_fullM(self.model, self.data, D)
-        return D
+        return inertia_of(self.model, self.data)
 
 
 def serial_arm(n: int, seed: int = 3) -> Arm:

@@ -22,6 +22,7 @@ from bench.law.control.registry import all_controllers
 from bench.law.control.setpoint import ContactParameters, Rows, Setpoint
 from bench.law.inputs import Gains
 from support.bits import EPS
+from support.buffers import bias_of, chain_of, inertia_of, jacobian_of
 from support.on_arms import Here
 from support.states import as_rotation, vector
 from tasks.contact import Specification, Trial, prepare
@@ -39,9 +40,6 @@ GAINS = Gains(kp=37.0, kv=9.0)
 TOUCH = ContactParameters(m_p=7.0, m_o=0.3, kc=4.0, kf=0.8)
 SELECTIONS = [tuple(map(float, held)) for held in itertools.product((0, 1), repeat=6)]
 """All of them; the first holds nothing, the last everything."""
-
-LONGEST = 300.0
-"""No acceleration that is commanded in these states is longer [m/s^2, rad/s^2]."""
 
 
 def backward(J) -> float:
@@ -101,27 +99,14 @@ def hand(arm: str, q, qdot, mount: ScipyRotation, push) -> Hand:
     model, data = simulated(arm)
     mujoco.mj_resetData(model, data)
     anyhow = Specification("none", (1,) * 6)
-    prepare(
-        model,
-        data,
-        Trial(
-            "", "", anyhow, tuple(q), (1.0, 0.0, 0.0, 0.0), tuple(mount.as_quat(scalar_first=True)), push=tuple(push)
-        ),
-    )
+    frame = (1.0, 0.0, 0.0, 0.0), tuple(mount.as_quat(scalar_first=True))
+    prepare(model, data, Trial("", "", anyhow, tuple(q), *frame, push=tuple(push)))
     data.qvel[:] = qdot
     mujoco.mj_forward(model, data)
-    n = model.nv
-    J, Jdot, D = np.zeros((6, n)), np.zeros((6, n)), np.zeros((n, n))
-    site, body = model.site("hand").id, model.body("hand").id
-    p = data.site_xpos[site].copy()
-    mujoco.mj_jacSite(model, data, J[:3], J[3:], site)
-    mujoco.mj_jacDot(model, data, Jdot[:3], Jdot[3:], p, body)
-    mujoco.mj_fullM(model, data, D)
-    R = as_rotation(data.site_xmat[site].reshape(3, 3).T)
-    chain = Chain(n, data.xaxis.copy(), data.xanchor.copy(), data.qvel.copy(), vector(p), R)
-    f, m = np.array(push[:3]), np.array(push[3:])
-    F = np.concatenate((f, m + np.cross(data.xipos[body] - p, f)))
-    return Hand(model, data, chain, J, Jdot @ data.qvel, D, data.qfrc_bias - data.qfrc_passive, F)
+    J, drift, D = jacobian_of(model, data, "hand"), bias_of(model, data, "hand"), inertia_of(model, data)
+    f, m, fg = np.array(push[:3]), np.array(push[3:]), data.qfrc_bias - data.qfrc_passive
+    F = np.concatenate((f, m + np.cross(data.xipos[model.body("hand").id] - data.site("hand").xpos, f)))
+    return Hand(model, data, chain_of(model, data, "hand"), J, drift, D, fg, F)
 
 
 @functools.cache

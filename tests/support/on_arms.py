@@ -15,6 +15,7 @@ from bench.law.contenders.registry import all_contenders
 from bench.law.control.resolved_acceleration import assembly, control, parts_of
 from bench.law.inputs import Gains, Goal
 from bench.law.so3 import Rotation, from_quaternion
+from support.buffers import bias_of, chain_of, inertia_of, jacobian_of
 from support.states import vector
 from tasks.arm_model import model_xml
 
@@ -66,15 +67,9 @@ def here(arm: str, q, qdot) -> Here:
     mujoco.mj_resetData(model, data)
     data.qpos[:], data.qvel[:] = q, qdot
     mujoco.mj_forward(model, data)
-    J, Jdot, D = np.zeros((6, model.nv)), np.zeros((6, model.nv)), np.zeros((model.nv, model.nv))
-    tool = model.site("tool")
-    mujoco.mj_jacSite(model, data, J[:3], J[3:], tool.id)
-    mujoco.mj_jacDot(model, data, Jdot[:3], Jdot[3:], data.site("tool").xpos, int(model.site_bodyid[tool.id]))
-    mujoco.mj_fullM(model, data, D)
-    s = data.sensordata
-    R = Rotation(vector(s[0:3]), vector(s[3:6]), vector(s[6:9]))
-    chain = Chain(model.nv, data.xaxis.copy(), data.xanchor.copy(), data.qvel.copy(), vector(s[16:19]), R)
-    return Here(model, data, chain, J, Jdot @ qdot, D, data.qfrc_bias - data.qfrc_passive, J @ qdot)
+    J, drift, D = jacobian_of(model, data, "tool"), bias_of(model, data, "tool"), inertia_of(model, data)
+    fg = data.qfrc_bias - data.qfrc_passive
+    return Here(model, data, chain_of(model, data, "tool"), J, drift, D, fg, J @ qdot)
 
 
 def torques(one, at: Here, goal_wxyz, p_d, gains=GAINS):

@@ -1,4 +1,11 @@
-"""The text of a user's law: what tests write into a file and name with --law."""
+"""The text of a user's law, which tests write into a file and name with --law, and a plan of one that breaks."""
+
+from pathlib import Path
+
+from bench.experiments import plan
+from bench.experiments.choice import Choice
+from bench.law.contenders.described_law import described
+from bench.law.contenders.registry import contenders_of, find_contender
 
 LAW = """
 import math, os, sys, time
@@ -26,3 +33,12 @@ def law_text(*body: str, name: str = "mine") -> str:
 def spring_text(*before: str, name: str = "mine") -> str:
     """The rotation-matrix law to the identity, with these lines before its return."""
     return law_text(*SPRING, *before, "return (-x, -y, -z)", name=name)
+
+
+def plan_of(folder: Path, body: str, *, engine: str) -> plan.Plan:
+    """Plan our law and a user's, with `body` before its return, from the same four starts."""
+    path = folder / "mine.py"
+    path.write_text(spring_text(body, name="mine"))
+    laws = [find_contender("rotation-matrix"), *contenders_of(described(path))]
+    choice = Choice(("free-body",), ("uniform",), (engine,), experiments=("free-body",))
+    return plan.make("quick", laws, choice, count=4, horizon_s=0.05)

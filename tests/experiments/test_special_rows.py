@@ -1,0 +1,197 @@
+"""Rows of goal streams, limiters, gains at equal peak and laws with a state, each against a closed form or scipy."""
+
+import functools
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation as ScipyRotation
+from support.compensated import left, motion
+from support.driving import settings
+
+import tasks
+from bench.engines.episode import FIRST_METRIC
+from bench.engines.metrics.registry import metrics_of
+from bench.engines.simulate import run
+from bench.engines.simulate_bodies import run_compensated, run_stream
+from bench.experiments.compensators import BAND_RAD, DISTURBANCES, law_of
+from bench.experiments.equal_peak import gains_at, greatest_command
+from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.limiters import GREATEST_RATE, LIMITERS
+from bench.experiments.suites import STREAMED
+from bench.law.contenders.registry import all_contenders, contenders, find_contender
+from bench.law.inputs import PAPERS_GAINS, Gains
+from tasks.base import Start
+from tasks.rotations import about
+
+AXIS, RATE, DT = (0.0, 0.0, 1.0), 0.5, 1e-3
+
+
+@functools.cache
+def of_streams():
+    return rows_of(Settings("quick"), Unit("goal-streams", count=1, total=1)).set_index(["stream", "law"])
+
+
+def test_body_behind_a_turning_goal_lags_as_the_linear_loop():
+    truth = np.array([about(AXIS, RATE * k * DT) for k in range(1500)])
+    seen = run_stream(find_contender("rotation-vector"), truth, truth, PAPERS_GAINS, DT)
+    kp, kv = PAPERS_GAINS
+    found = solve_ivp(lambda _, x: (x[1], -kp * x[0] - kv * (x[1] + RATE)), (0.0, 1.5), (0.0, -RATE), rtol=1e-9)
+    assert seen.off_rad == pytest.approx(np.abs(found.y[0]).max(), rel=0.02)
+    assert seen.off_rad == pytest.approx(RATE * kv / kp, rel=0.02)
+
+
+@pytest.mark.parametrize("law", STREAMED)
+def test_law_on_matrices_sees_no_sign(law):
+    right = of_streams().loc[("log", law)]
+    np.testing.assert_allclose(of_streams().loc[("slerp-continued", law)].to_numpy(), right.to_numpy(), rtol=1e-9)
+    for name in ("rotation-vector-continued", "quaternion-continued"):
+        np.testing.assert_allclose(of_streams().loc[(name, law)].to_numpy(), right.to_numpy(), rtol=0.02)
+
+
+def test_spring_on_the_quaternion_as_it_came_unwinds_where_its_sign_flips():
+    raw = of_streams().xs("", level="law")
+    assert (raw.loc[["quaternion", "slerp"], "way_ratio"] > 1.5).all()
+    assert (raw.loc[["quaternion-continued", "slerp-continued"], "way_ratio"] < 1.0).all()
+    assert (raw.loc[["quaternion", "slerp"], "off_rad"] > math.radians(150.0)).all()
+
+
+def test_flip_raises_every_laws_peak_tenfold():
+    peaks = of_streams()["peak_u"].drop("", level="law").unstack("stream")
+    assert (peaks[["rotation-vector", "quaternion", "slerp"]].min(axis=1) > 10.0 * peaks["log"]).all()
+
+
+K = 10.0
+
+
+def commands():
+    rng = np.random.default_rng(5)
+    directions = rng.normal(size=(200, 3))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
+    return directions * np.geomspace(1e-4, 40.0, 200)[:, None]
+
+
+@pytest.mark.parametrize("limiter", LIMITERS.values(), ids=LIMITERS)
+def test_limiter_lengthens_and_reverses_no_component(limiter):
+    for omega in commands():
+        limited = np.array(limiter.limit(tuple(omega), K))
+        assert (limited * omega >= 0.0).all()
+        assert (np.abs(limited) <= np.abs(omega)).all()
+
+
+@pytest.mark.parametrize("limiter", LIMITERS.values(), ids=LIMITERS)
+def test_limiter_passes_the_middle_of_its_range_as_it_is(limiter):
+    omega = (0.5, -0.6, 0.7)
+    assert limiter.limit(omega, K) == omega
+
+
+@pytest.mark.parametrize("name", LIMITERS)
+def test_limiter_is_odd(name):
+    for omega in commands():
+        there = LIMITERS[name].limit(tuple(omega), K)
+        back = LIMITERS[name].limit(tuple(-omega), K)
+        np.testing.assert_array_equal(there, -np.array(back))
+
+
+def test_norm_clamp_keeps_the_direction_and_the_clamp_per_axis_does_not():
+    omega = np.array((9.0, 3.0, 1.0))
+    kept, bent = (np.array(LIMITERS[name].limit(tuple(omega), K)) for name in ("norm-clamp", "axis-clamp"))
+    np.testing.assert_allclose(np.cross(kept, omega), 0.0, atol=1e-15)
+    assert np.linalg.norm(kept) == pytest.approx(GREATEST_RATE)
+    np.testing.assert_array_equal(bent, (GREATEST_RATE, GREATEST_RATE, 1.0))
+
+
+def test_deadband_is_of_the_error_whatever_the_gain():
+    limit = LIMITERS["deadband"].limit
+    for gain in (1.0, 10.0, 300.0):
+        assert limit((gain * 4.9e-3, gain * 5.1e-3, -gain * 4.9e-3), gain) == (0.0, gain * 5.1e-3, 0.0)
+
+
+METRICS = metrics_of(on_arm=False)
+SPRINGS = {
+    "rotation-matrix": 1.0,
+    "square-root": 2.0,
+    "quaternion-shortest": 2.0,
+    "hybrid": 2.0,
+    "sliding": 2.0,
+    "rotation-vector": math.pi,
+    "mrp": 4.0,
+}
+
+
+@pytest.mark.parametrize(("word", "greatest"), SPRINGS.items())
+def test_it_is_the_greatest_of_the_spring(word, greatest):
+    one = find_contender(word)
+    assert greatest_command(one) == pytest.approx(greatest, rel=1e-12)
+    gains = gains_at(one, 200.0)
+    assert gains.kp == pytest.approx(200.0 / greatest, rel=1e-12)
+    assert gains.kv == pytest.approx(2.0 * math.sqrt(gains.kp), rel=1e-15)
+
+
+@pytest.mark.parametrize("word", ["gibbs", "paielli-bach"])
+def test_a_law_without_a_greatest_command_has_no_gains(word):
+    assert gains_at(find_contender(word), 100.0) is None
+
+
+BOUNDED = [one for one in all_contenders() if not one.regulator.in_engine and gains_at(one, 1.0) is not None]
+
+
+@pytest.mark.parametrize("one", BOUNDED, ids=lambda one: one.name)
+def test_at_rest_no_start_asks_for_more_and_one_asks_for_nearly_as_much(one):
+    """Episodes of one tick show the first commands."""
+    starts = [*tasks.start_set("uniform", 1000, seed=5), *tasks.start_set("half-turn"), *tasks.start_set("wraps")]
+    rows = run("ideal-held", one, "free-body", starts, settings(horizon_s=1e-3, gains=gains_at(one, 300.0)), METRICS)
+    peaks = np.sqrt(rows[:, FIRST_METRIC + [metric.column for metric in METRICS].index("peak_u")])
+    room = 1.0 + 1e-4 if one.representation is None else 1.1  # of coordinates it is that of the starts looked at
+    assert np.nanmax(peaks) <= 300.0 * room
+    assert np.nanmax(peaks) >= 300.0 * 0.9
+
+
+NAMES = ("", *contenders("compensators"))
+PUSHED = (3.0, -4.0, 2.0)
+
+
+def pushed(one, starts, gains, ticks, **more):
+    return run_compensated(one, starts, gains, 1e-3, ticks, float(BAND_RAD), PUSHED, **more)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_compiled_rows_are_the_plain_loops_bit_for_bit(name):
+    one, starts = law_of(name), tasks.start_set("uniform", 3)
+    plain = pushed(one, starts, Gains(np.float64(70.0), np.float64(13.0)), 200, is_plain=True)
+    np.testing.assert_array_equal(pushed(one, starts, Gains(70.0, 13.0), 200), plain)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_end_of_an_episode_is_scipys(name):
+    """RK4 of 1 ms beside poles of 50/s leaves (p h)^4/120 = 5e-8 of what moves."""
+    one, goal = law_of(name), ScipyRotation.from_rotvec((0.3, 1.0, -0.4))
+    first = ScipyRotation.from_rotvec((-1.0, 0.2, 1.5))
+    quat_wxyz, goal_wxyz = (tuple(turn.as_quat(scalar_first=True)) for turn in (first, goal))
+    start = Start("one", quat_wxyz, (1.0, -2.0, 0.5), goal_wxyz)
+    for seconds in (0.05, 0.2, 0.6):
+        ended = pushed(one, [start], Gains(), round(1e3 * seconds))
+        R, _, _ = motion(one, first, goal, Gains(), np.array((0.0, seconds)), start.omega, PUSHED)
+        assert ended.left_rad[0] == pytest.approx(np.linalg.norm(left(R[-1], goal)), abs=1e-6)
+
+
+@functools.cache
+def of_compensator(name):
+    return rows_of(Settings(), Unit("compensators", selector=name, count=8, total=8, horizon_s=8.0))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_disturbance_leaves_its_sine_over_kp_without_an_integral_and_nothing_with_one(name):
+    one, found = law_of(name), of_compensator(name)
+    for level, off, settled in zip(found["disturbance"], found["left_rad"], found["settled"], strict=True):
+        assert off == pytest.approx(0.0 if one.state.rejects else math.asin(level / Gains().kp), abs=1e-6)
+        assert settled == (8 if off < BAND_RAD else 0)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_rows_are_one_a_disturbance_and_within_a_stated_bound(name):
+    one, found = law_of(name), of_compensator(name)
+    assert tuple(found["disturbance"]) == DISTURBANCES
+    assert found["settling_median_s"].isna().equals(found["settled"] == 0)
+    assert one.state.bound is None or (found["peak_u"] <= one.state.bound(*Gains())).all()

@@ -1,0 +1,224 @@
+"""Laws as C, C++, JavaScript and Python: the bits of our kernels, where nothing of ours is installed."""
+
+import ctypes
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+from support.exported import ANSWERS, KP, KV, STATES, WIDTH, laws, needs, our_answers, states, subjects, written
+
+from bench.export.language import find_language
+from bench.export.subject import find_subject, translated
+
+EIGEN = Path("/usr/include/eigen3")
+NODE = str(Path(shutil.which("node") or "/usr/bin/node").parent)
+INTO = "-O0 -ffp-contract=off -o test"
+COMMANDS = {
+    "c": (f"gcc -std=c99 {INTO} test_NAME.c -lm", "./test"),
+    "cpp": (f"g++ -std=c++17 -Wall -Wextra -isystem{EIGEN} {INTO} test_NAME.cpp", "./test"),
+    "js": ("node test_NAME.js",),
+    "python": (f"{sys.executable} -E -S -W error test_NAME.py",),
+}
+"""Language -> what somebody runs who has the language, and nothing of ours."""
+
+
+def run_test(here, language, name):
+    """Return the exit code of an export's own test, whether it counts no wrong answer, and what it prints."""
+    for words in COMMANDS[language]:
+        ended = subprocess.run(
+            words.replace("NAME", name).split(),
+            cwd=here,
+            env={"PATH": f"/usr/bin:/bin:{NODE}"},
+            capture_output=True,
+            text=True,
+        )
+    return ended.returncode, " 0 of " in ended.stdout, ended.stdout + ended.stderr
+
+
+HAS_EIGEN = pytest.mark.skipif(not EIGEN.is_dir(), reason="no Eigen here (Debian: apt install libeigen3-dev)")
+EXACT = ("-O2", "-ffp-contract=off")
+
+
+def batch(subject) -> str:
+    """A function that asks a law's command at many states."""
+    copied = "; ".join(f"{{}}[{at}] = {{}}[{at}]" for at in range(4)) + ";"
+    own = dict.fromkeys(("first", "state", "last"), "")
+    if subject.memory is not None:
+        first = copied.format(*["state.memory", "(s + 21)"] * 4)
+        last = copied.format(*["(answer + 3)", "state.memory"] * 4)
+        own = {"first": f"{subject.identifier}_state state; {first}", "state": "&state, ", "last": last}
+    text = Path(__file__).with_name("batch.c").read_text()
+    return text.format(name=subject.identifier, width=WIDTH, answers=ANSWERS, kp=KP, kv=KV, **own)
+
+
+@pytest.fixture(scope="module")
+def library(tmp_path_factory):
+    """All laws in one program of C, which shows that their headers can be included together."""
+    folder = tmp_path_factory.mktemp("library")
+    found = [find_subject(one.name) for one in laws()]
+    lines = []
+    for one in found:
+        here = written(one, "c", folder)
+        lines += [f'#include "{here / one.identifier}.h"', batch(one)]
+    (folder / "all.c").write_text("\n".join(lines))
+    warnings = ("-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-Wno-unused-function")
+    subprocess.run(
+        ["gcc", *warnings, *EXACT, "-shared", "-fPIC", "-o", "all.so", "all.c", "-lm"], cwd=folder, check=True
+    )
+    return ctypes.CDLL(str(folder / "all.so"))
+
+
+@needs("gcc")
+@pytest.mark.parametrize("contender", laws(), ids=lambda one: one.name)
+def test_law_in_c_gives_our_bits_at_every_state(library, contender):
+    subject = find_subject(contender.name)
+    answers = np.zeros((STATES, ANSWERS))
+    pointer = ctypes.POINTER(ctypes.c_double)
+    given = (one.ctypes.data_as(pointer) for one in (states(), answers))
+    getattr(library, f"{subject.identifier}_batch")(*given, ctypes.c_long(STATES))
+    ours = our_answers(contender)[:, : ANSWERS if subject.memory else 3]
+    theirs = answers[:, : ours.shape[1]]
+    same = (ours.view(np.uint64) == theirs.view(np.uint64)) | (np.isnan(ours) & np.isnan(theirs))
+    assert same.all(), (np.argwhere(~same)[:3], ours[~same][:3], theirs[~same][:3])
+
+
+IN_CPP = (
+    "late-braking",
+    "feedback-linearized/zyx-euler",
+    "representation-quaternion",
+    "impedance-geometric",
+    "compensator-integral",
+    "spring-logarithm-energy",
+    "spring-log-pose",
+)
+"""With memory, calling libm, with four coordinates and matrices returned, a number and nine numbers among arguments."""
+
+
+@pytest.mark.parametrize(
+    "language",
+    [
+        pytest.param("c", marks=needs("gcc")),
+        pytest.param("cpp", marks=[needs("g++"), HAS_EIGEN]),
+        pytest.param("js", marks=needs("node")),
+        "python",
+    ],
+)
+def test_vectors_pass_where_nothing_of_ours_is_installed(tmp_path, language):
+    for one in map(find_subject, IN_CPP) if language == "cpp" else subjects():
+        code, is_right, said = run_test(written(one, language, tmp_path), language, one.identifier)
+        assert (code, is_right) == (0, True), (one.word, said)
+
+
+@pytest.mark.parametrize(
+    ("language", "word", "right", "wrong"),
+    [
+        pytest.param("c", "rotation-matrix", "0.5 * ", "0.25 * ", marks=needs("gcc")),
+        pytest.param("c", "hybrid", "state->memory[1] = 0.0;", "", marks=needs("gcc")),
+        ("python", "rotation-matrix", "0.5 * ", "0.25 * "),
+    ],
+)
+def test_wrong_answer_is_counted(tmp_path, language, word, right, wrong):
+    subject = find_subject(word)
+    here = written(subject, language, tmp_path)
+    path = here / f"{subject.identifier}.{'h' if language == 'c' else 'py'}"
+    text = path.read_text()
+    assert text.count(right) >= 1
+    path.write_text(text.replace(right, wrong, 1))
+    assert run_test(here, language, subject.identifier)[:2] == (1, False)
+
+
+@needs("g++")
+@HAS_EIGEN
+def test_every_header_in_cpp_compiles_beside_all_others(tmp_path):
+    headers = [written(one, "cpp", tmp_path) / f"{one.identifier}.hpp" for one in subjects()]
+    (tmp_path / "all.cpp").write_text("\n".join(f'#include "{one}"' for one in headers))
+    words = ["g++", "-std=c++17", "-Wall", "-Wextra", "-Werror", f"-isystem{EIGEN}", "-fsyntax-only", "all.cpp"]
+    subprocess.run(words, cwd=tmp_path, check=True)
+
+
+SOME = 20_000
+
+
+@needs("node")
+def test_algebraic_laws_give_our_bits_in_node(tmp_path):
+    found = [(one, find_subject(one.name)) for one in laws()]
+    algebraic = [(one, subject) for one, subject in found if translated(subject).program.is_algebraic]
+    assert len(algebraic) >= 12
+    names = [subject.identifier for _, subject in algebraic]
+    for _, subject in algebraic:
+        written(subject, "js", tmp_path)
+    (tmp_path / "states").write_bytes(states()[:: len(states()) // SOME].tobytes())
+    (tmp_path / "laws.json").write_text(json.dumps(names))
+    numbers = {"WIDTH_OUT": ANSWERS, "COUNT": SOME, "KP": KP, "KV": KV}
+    text = Path(__file__).with_name("ask.js").read_text()
+    for word, number in numbers.items():
+        text = text.replace(word, str(number))
+    (tmp_path / "ask.js").write_text(text)
+    subprocess.run(["node", "ask.js"], cwd=tmp_path, check=True)
+    for contender, subject in algebraic:
+        columns = slice(ANSWERS if subject.memory else 3)
+        theirs = np.fromfile(tmp_path / f"{subject.identifier}.answers").reshape(SOME, ANSWERS)[:, columns]
+        ours = our_answers(contender)[:: len(states()) // SOME, columns]
+        same = (ours == theirs) | (np.isnan(ours) & np.isnan(theirs))
+        assert same.all(), (contender.name, np.argwhere(~same)[:3])
+
+
+@needs("node")
+@pytest.mark.parametrize("way", ["require", "import", "script"])
+def test_script_loads_in_every_way(tmp_path, way):
+    here = written(find_subject("late-braking"), "js", tmp_path)
+    said = "console.log(Object.keys(law).length, law.reset().memory.length)"
+    text = {
+        "require": f"const law = require('./late_braking.js'); {said}",
+        "import": f"import law from './late_braking.js'; {said}",
+        # what a script element does: the text is run as it is, where there is no module
+        "script": "const vm = require('vm'), fs = require('fs'), page = vm.createContext({});"
+        f"vm.runInContext(fs.readFileSync('late_braking.js', 'utf8'), page); const law = page.late_braking; {said}",
+    }[way]
+    name = "try.mjs" if way == "import" else "try.js"
+    (here / name).write_text(text)
+    ended = subprocess.run(["node", name], cwd=here, capture_output=True, text=True, check=True)
+    assert ended.stdout.split() == ["7", "4"]
+
+
+EVERY = 100
+"""One state in so many is computed: Python takes some 20 us for each."""
+
+
+def loaded(subject) -> ModuleType:
+    """Return the exported module."""
+    module = ModuleType(subject.identifier)
+    exec(find_language("python").law(subject)[1], vars(module))
+    return module
+
+
+@pytest.mark.parametrize("contender", laws(), ids=lambda one: one.name)
+def test_law_in_python_gives_our_bits_where_the_command_is_finite(contender):
+    subject = find_subject(contender.name)
+    law, rows = loaded(subject), states()[::EVERY].tolist()
+    ours = our_answers(contender)[::EVERY, : ANSWERS if subject.memory else 3]
+    finite = np.isfinite(ours).all(axis=1)
+    assert finite.mean() > 0.85  # at 180° and at poles some laws divide by zero
+    for row, expected in zip(np.array(rows)[finite].tolist(), ours[finite].tolist(), strict=True):
+        R, R_d = ([row[at : at + 3] for at in range(first, first + 9, 3)] for first in (0, 12))
+        answer = law.command(R, row[9:12], R_d, KP, KV, *([row[21:]] if subject.memory else []))
+        found = [*answer[0], *answer[1]] if subject.memory else list(answer)
+        assert list(map(float.hex, found)) == list(map(float.hex, expected))
+
+
+def test_arrays_of_numpy_are_taken_as_lists_are():
+    law = loaded(find_subject("quaternion-shortest"))
+    R = loaded(find_subject("representation-quaternion")).rotation([0.0, 0.6, 0.0, 0.8])
+    assert law.orientation_error(np.array(R), np.eye(3)) == law.orientation_error(R, np.eye(3).tolist())
+    np.testing.assert_allclose(R, [[-0.28, 0.0, 0.96], [0.0, -1.0, 0.0], [0.96, 0.0, 0.28]], atol=1e-15)
+
+
+def test_other_shape_is_refused():
+    law = loaded(find_subject("rotation-matrix"))
+    with pytest.raises(ValueError, match="three rows of three numbers"):
+        law.orientation_error(np.eye(3), np.ones((3, 4)))

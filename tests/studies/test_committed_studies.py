@@ -1,0 +1,145 @@
+"""Committed studies of robustness, verdicts, scale and patches are whole, and are what the code makes now."""
+
+import importlib.util
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+import tasks
+from bench.base.files import read_json
+from bench.base.provenance import ROOT
+from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.robustness import HORIZON_S
+from bench.experiments.tables.read import table, with_contender
+from bench.experiments.tables.schema import RESULTS
+from bench.findings import claims
+from bench.findings.maps import lost_share
+from bench.findings.perturbed import by_level, studied
+from bench.law.contenders.registry import find_contender
+from bench.running.schedulers import THREADS
+from bench.studies import scale, verdicts
+from bench.studies.robustness import STARTS
+from bench.studies.verdicts import HALF_STEP, RUNS, SEEDS, STORED, plan_of, turned
+from tasks.condition import condition_at
+
+
+def test_study_has_every_level_of_every_perturbation_for_every_law():
+    found = studied().groupby("axis", observed=True)
+    assert set(found.groups) == set(table(RESULTS / "reference", "robustness")["axis"])
+    laws = set(studied()["contender"])
+    assert {"late-braking", "rotation-matrix", "feedback-linearized/zyx-euler"} < laws
+    for name, rows in found:
+        if condition_at(tasks.axis(name), 1.0).peak:  # not every law has gains for every peak
+            continue
+        levels = rows.groupby("contender", observed=True)["level"].agg(set)
+        assert set(levels.index) == laws
+        assert all(each == set(tasks.axis(name).levels) for each in levels)
+
+
+def test_every_share_is_known_to_five_points():
+    for good, starts in studied()[["good", "starts"]].drop_duplicates().itertuples(index=False):
+        one = lost_share(int(good), int(starts))
+        assert max(one.high - one.value, one.value - one.low) <= 0.0505
+    assert set(studied()["starts"]) == {STARTS}
+
+
+@pytest.mark.parametrize("law", ["rotation-matrix", "late-braking"])
+def test_study_is_what_the_code_makes_now(law):
+    unit = Unit("robustness", law, selector="saturation", count=STARTS, total=STARTS, horizon_s=HORIZON_S)
+    now = with_contender(by_level(rows_of(Settings("default"), unit)))
+    kept = studied()[(studied()["axis"] == "saturation") & (studied()["contender"] == find_contender(law).name)]
+    assert now["good"].tolist() == kept["good"].tolist()
+    np.testing.assert_allclose(now["median_s"], kept["median_s"], atol=1e-3)
+
+
+def test_median_counts_what_never_settles_and_the_longest_does_not():
+    rows = pd.DataFrame(
+        {
+            "axis": "delay",
+            "regulator": "mine",
+            "level": 0.01,
+            "outcome": ["settled", "settled", "timed-out"],
+            "settling_time_s": [0.5, 0.7, np.nan],
+            "tail_rms_rad": 0.0,
+        }
+    )
+    [one] = by_level(rows).to_dict("records")
+    assert (one["starts"], one["good"], one["median_s"], one["longest_s"]) == (3, 2, 0.7, 0.7)
+    assert by_level(rows.assign(outcome="timed-out"))["median_s"].tolist() == [np.inf]
+
+
+@pytest.fixture(scope="module")
+def stored():
+    return read_json(STORED)
+
+
+def test_stored_study_has_every_seed_and_half_the_step(stored):
+    assert len(SEEDS) == 20
+    assert set(stored["runs"]) == set(RUNS)
+
+
+@pytest.mark.slow
+def test_no_verdict_hangs_on_the_draw_or_on_the_step(stored):
+    reference = {one.id: str(one.word) for one in claims.judge_all(verdicts.REFERENCE)}
+    assert list(reference) == [one.id for one in claims.all_claims()]
+    assert turned(stored["runs"], reference) == {}
+
+
+def test_word_that_turns_is_told_by_claim_and_run():
+    runs = {"1": {"words": {"C01": "holds", "C02": "does not hold"}}, "2": {"words": {"C01": "holds"}}}
+    found = turned(runs, {"C01": "holds", "C02": "holds"})
+    assert found == {"C02": {"1": "does not hold", "2": "not judged"}}
+
+
+def test_seed_and_step_run_what_hangs_on_them():
+    drawn, halved = plan_of("3"), plan_of(HALF_STEP)
+    assert (drawn.settings.seed, drawn.settings.dt_s) == (3, 1e-3)
+    assert (halved.settings.seed, halved.settings.dt_s) == (0, 5e-4)
+    kinds, stepped = ({unit.experiment for unit in plan.units} for plan in (drawn, halved))
+    assert {"free-body", "arm", "jacobians", "traces", "robustness"} == kinds
+    assert stepped == kinds - {"jacobians"} | {"boundaries", "contact"}
+
+
+def test_every_process_begins_before_it_is_measured():
+    assert [len(scale.make_smallest_plan(one).units) for one in scale.SCHEDULERS] == [1, 1, 2]
+    assert scale.make_smallest_plan("local:2").episodes() == 2
+
+
+def test_run_is_measured():
+    found = scale.measure(THREADS, 300)
+    assert (found["scheduler"], found["episodes"]) == (THREADS, 300)
+    assert found["own_cpu_s"] > 0.0
+    assert found["others"] >= 0.0
+    assert found["peak_bytes"] > 5e7
+    assert found["row_bytes"] > 10.0
+
+
+PATCHES = sorted((ROOT / "bench" / "studies" / "libraries" / "patches").glob("*.patch"))
+PACKAGES = {"mink": ("mink", "."), "numpy-quaternion": ("quaternion", "src")}
+"""Patch -> the package, and its folder in the library's repository."""
+
+
+def outcome(folder: Path, source: str) -> int:
+    """Return the exit code of the patch's test, run in its own process."""
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-c", "/dev/null", "tests"]
+    environment = {"PYTHONPATH": str(folder / source), "PATH": "/usr/bin:/bin"}
+    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, check=False).returncode
+
+
+@pytest.mark.parametrize("patch", PATCHES, ids=lambda path: path.stem)
+def test_patch_cures_the_installed_library(patch, tmp_path):
+    package, source = PACKAGES[patch.stem]
+    spec = importlib.util.find_spec(package)
+    if spec is None or spec.origin is None:
+        pytest.skip(f"{package} is not installed here")
+    shutil.copytree(Path(spec.origin).parent, tmp_path / source / package)
+    (added,) = re.findall(r"^\+\+\+ b/(tests/\S+)", patch.read_text(), re.MULTILINE)
+    for part, expected in ((["--include", added], 1), (["--exclude", added], 0)):
+        subprocess.run(["git", "apply", *part, patch], cwd=tmp_path, check=True)
+        assert outcome(tmp_path, source) == expected
