@@ -1,4 +1,4 @@
-"""Contracts that every perturbation in tasks/conditions keeps; a new file is under them without being named here."""
+"""Contracts that every perturbation in tasks/conditions and every experiment keeps; new files are under them."""
 
 import math
 
@@ -6,8 +6,13 @@ import numpy as np
 import pytest
 
 import tasks
+from bench.base.errors import Incompatible
 from bench.base.provenance import ROOT
 from bench.engines.plants import perturbed
+from bench.experiments import plan
+from bench.experiments.choice import Choice
+from bench.experiments.experiment import known_experiments
+from bench.law.contenders.registry import find_contender
 from tasks.axis import Field
 from tasks.condition import Condition, condition_at, declared_fields
 from tasks.errors import BadValue
@@ -95,3 +100,38 @@ def test_every_field_is_read_by_an_engine_or_the_experiment():
 def test_axis_that_sets_an_undeclared_field_is_refused():
     with pytest.raises(BadValue, match="'delay' sets 'dela', a field that no file of tasks/conditions declares"):
         condition_at(tasks.axis("delay")._replace(sets=lambda level: {"dela": level}), 0.0)
+
+
+NAMED = {
+    "tasks": "free-body",
+    "start_sets": "half-turn",
+    "engines": "native",
+    "arms": "ur5e",
+    "jacobians": "geometric",
+    "inverses": "solve",
+    "variations": "mass-1.30",
+    "controllers": "impedance-geometric",
+    "regulators": "rotation-matrix",
+    "representations": "zyx-euler",
+    "axes": "delay",
+}
+LAWS = [find_contender("rotation-matrix"), find_contender("linearized-euler/zyx-euler")]
+
+
+@pytest.mark.parametrize("kind", NAMED)
+def test_named_word_leaves_only_experiments_that_take_it(kind):
+    made = plan.make("quick", LAWS, Choice(**{kind: (NAMED[kind],)}))
+    planned = {unit.experiment for unit in made.units}
+    assert planned
+    assert planned <= {one.name for one in known_experiments().values() if kind in one.takes}
+
+
+def test_every_word_of_a_choice_is_tried_here():
+    assert {*NAMED, "experiments"} == {*vars(Choice())}
+
+
+@pytest.mark.parametrize("one", known_experiments().values(), ids=lambda one: one.name)
+def test_word_that_a_named_experiment_does_not_take_is_refused(one):
+    for kind in NAMED.keys() - {*one.takes}:
+        with pytest.raises(Incompatible, match=f"'{NAMED[kind]}' cannot narrow the experiment '{one.name}'"):
+            plan.make("quick", LAWS, Choice(**{kind: (NAMED[kind],)}, experiments=(one.name,)))
