@@ -42,29 +42,36 @@ def columns(R, R_d):
     return 0.5 * sum(np.cross(R[:, i], R_d[:, i]) for i in range(3))
 
 
-def sign_of_zero(q, q_d):
-    e = left(q, q_d)
+def of_xyzw(error):
+    """Return an error of quaternions wxyz as one of xyzw."""
+    return lambda q, q_d: error(np.roll(q, 1), np.roll(q_d, 1))
+
+
+def of_matrices(error):
+    """Return an error of quaternions wxyz as one of matrices, each read with w >= 0."""
+    return lambda *given: error(*(Rotation.from_matrix(X).as_quat(canonical=True, scalar_first=True) for X in given))
+
+
+def signed(e):
+    """2 sgn(w) v of a quaternion, whose sign of 0 is 0."""
     return 2.0 * np.sign(e[0]) * e[1:]
 
 
-def sign_of_zero_in_body_xyzw(q, q_d):
-    e = right(np.roll(q, 1), np.roll(q_d, 1))
-    return -2.0 * np.sign(e[0]) * e[1:]
+def shortened(e, most):
+    return e * min(1.0, most / max(np.linalg.norm(e), 1e-12))
 
 
-def no_sign_of_matrices(R, R_d):
-    """Each quaternion with w >= 0, their product not."""
-    q, q_d = (np.roll(Rotation.from_matrix(X).as_quat(canonical=True), 1) for X in (R, R_d))
-    return 2.0 * left(q, q_d)[1:]
+def normalized(e):
+    """An axis times its angle, which has no axis at 0."""
+    return np.linalg.norm(e) * (e / np.linalg.norm(e))
+
+
+def sign_of_zero(q, q_d):
+    return signed(left(q, q_d))
 
 
 def half_stiff(q, q_d):
     return -0.5 * chord(right(q, q_d))
-
-
-def half_stiff_of_matrices(R, R_d):
-    q = Rotation.from_matrix(R_d @ R.T).as_quat(canonical=True, scalar_first=True)
-    return 0.5 * chord(q)
 
 
 def order_swapped(q, q_d):
@@ -77,18 +84,12 @@ def axis_clip(R, R_d):
 
 
 def norm_clip(R, R_d):
-    e = log(R.T @ R_d)
-    return e * min(1.0, 1.0 / max(np.linalg.norm(e), 1e-12))
+    return shortened(log(R.T @ R_d), 1.0)
 
 
 def norm_clip_by_the_largest(q, q_d):
     e = chord(left(q, q_d))
     return e / max(1.0, np.abs(e).max() / 0.3)
-
-
-def clip_of_a_tick(q, q_d):
-    e = chord(left(q, q_d))
-    return e * min(1.0, 0.008 / max(np.linalg.norm(e), 1e-12))
 
 
 def arc_cosine(R, R_d):
@@ -118,9 +119,8 @@ def wrong_wrap_of_angle(R, R_d):
     return e if theta == 0.0 or e[2] >= 0.0 else (theta - 2.0 * np.pi) * e / theta
 
 
-def single_precision(R, R_d):
-    X = R_d.astype(np.float32) @ R.T.astype(np.float32)
-    return log(X.astype(float))
+def single(*numbers):
+    return (one.astype(np.float32) for one in numbers)
 
 
 def deadband(R, R_d):
@@ -133,26 +133,9 @@ def deadband_of_components(q, q_d):
     return np.where(np.abs(e) < 5e-3, 0.0, e)
 
 
-def jump_at_90(R, R_d):
-    """The sine up to 90°, half the angle beyond."""
-    e = columns(R, R_d)
-    return e if np.trace(R_d @ R.T) >= 1.0 else 0.5 * log(R_d @ R.T)
-
-
 def jump_at_90_of_quaternions(q, q_d):
     e = right(q, q_d)
     return chord(e) * (1.0 if e[0] ** 2 > 0.5 else 1.2)
-
-
-def nan_at_identity(R, R_d):
-    e = log(R_d @ R.T)
-    theta = np.linalg.norm(e)
-    return theta * (e / theta)
-
-
-def nan_at_identity_xyzw(q, q_d):
-    e = right(np.roll(q, 1), np.roll(q_d, 1))
-    return chord(e) / np.linalg.norm(e[1:]) * np.linalg.norm(e[1:])
 
 
 def transposes_in_place(R, R_d):
@@ -162,12 +145,12 @@ def transposes_in_place(R, R_d):
 
 PLANTED: dict = {
     "sign-of-zero": (sign_of_zero, {"dead-at-180"}),
-    "sign-of-zero-in-body-xyzw": (sign_of_zero_in_body_xyzw, {"dead-at-180"}),
+    "sign-of-zero-in-body-xyzw": (of_xyzw(lambda q, q_d: -signed(right(q, q_d))), {"dead-at-180"}),
     "no-sign": (lambda q, q_d: 2.0 * right(q, q_d)[1:], {"double-cover"}),
-    "no-sign-xyzw": (lambda q, q_d: -2.0 * left(np.roll(q, 1), np.roll(q_d, 1))[1:], {"double-cover"}),
-    "no-sign-of-matrices": (no_sign_of_matrices, {"long-way"}),
+    "no-sign-xyzw": (of_xyzw(lambda q, q_d: -2.0 * left(q, q_d)[1:]), {"double-cover"}),
+    "no-sign-of-matrices": (of_matrices(lambda q, q_d: 2.0 * left(q, q_d)[1:]), {"long-way"}),
     "half-stiff": (half_stiff, {"stiffness"}),
-    "half-stiff-of-matrices": (half_stiff_of_matrices, {"stiffness"}),
+    "half-stiff-of-matrices": (of_matrices(lambda q, q_d: 0.5 * chord(left(q, q_d))), {"stiffness"}),
     "order-swapped": (order_swapped, {"quaternion-order"}),
     "order-swapped-of-the-goal": (
         lambda q, q_d: order_swapped(q_d, q),
@@ -192,7 +175,7 @@ PLANTED: dict = {
     "axis-clip-tight": (lambda q, q_d: np.clip(-chord(right(q, q_d)), -0.1, 0.1), {"axis-clip"}),
     "norm-clip": (norm_clip, {"norm-clip"}),
     "norm-clip-by-the-largest": (norm_clip_by_the_largest, {"norm-clip"}),
-    "clip-of-a-tick": (clip_of_a_tick, {"norm-clip"}),
+    "clip-of-a-tick": (lambda q, q_d: shortened(chord(left(q, q_d)), 0.008), {"norm-clip"}),
     "arc-cosine": (arc_cosine, {"dead-at-180", "digits-near-180", "digits-near-0", "non-unit"}),
     "arc-cosine-of-quaternion": (arc_cosine_of_quaternion, {"digits-near-0", "non-unit"}),
     "euler-difference": (euler_difference, {"euler-angles"}),
@@ -206,19 +189,17 @@ PLANTED: dict = {
         {"euler-angles", "long-way"},
     ),  # angles' differences as they are
     "wrong-wrap-of-angle": (wrong_wrap_of_angle, {"long-way"}),
-    "single-precision": (single_precision, {"single-precision"}),
+    "single-precision": (lambda R, R_d: log(np.matmul(*single(R_d, R.T)).astype(float)), {"single-precision"}),
     "single-precision-quaternion": (
-        lambda q, q_d: chord(
-            left(np.roll(q, 1).astype(np.float32), np.roll(q_d, 1).astype(np.float32)).astype(np.float32)
-        ),
+        of_xyzw(lambda q, q_d: chord(*single(left(*single(q, q_d))))),
         {"single-precision"},
     ),
     "deadband": (deadband, {"deadband"}),
     "deadband-of-components": (deadband_of_components, {"deadband"}),
-    "jump-at-90": (jump_at_90, {"jump"}),
+    "jump-at-90": (lambda R, R_d: columns(R, R_d) if np.trace(R_d @ R.T) >= 1.0 else 0.5 * log(R_d @ R.T), {"jump"}),
     "jump-at-90-of-quaternions": (jump_at_90_of_quaternions, {"jump"}),
-    "nan-at-identity": (nan_at_identity, {"not-a-number"}),
-    "nan-at-identity-xyzw": (nan_at_identity_xyzw, {"not-a-number"}),
+    "nan-at-identity": (lambda R, R_d: normalized(log(R_d @ R.T)), {"not-a-number"}),
+    "nan-at-identity-xyzw": (of_xyzw(lambda q, q_d: normalized(chord(right(q, q_d)))), {"not-a-number"}),
     "transposes-in-place": (transposes_in_place, {"changes-inputs"}),
 }
 """Name -> a function, what it must be found to have, notes too; nothing else is true of it."""
