@@ -93,7 +93,7 @@ def kill_runs(wanted: Undisturbed, folder: Path, kills: int) -> Iterator[dict]:
                 "killed": what,
                 "units_done": one["parts"],
                 "tables_done": tables,
-                "goes_on_by": one.get("by", "threads"),
+                "goes_on_by": {"on_threads": "threads", "on_processes": LOCAL}.get(one["by"], one["by"]),
                 "went_on": one["code"] == 0,
                 "same": one["same"],
                 "left_s": one.get("left_s"),
