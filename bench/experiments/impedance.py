@@ -21,7 +21,6 @@ from bench.law.contenders.registry import find_contender
 from bench.law.control.unshaped import DAMPINGS
 
 NAME = "impedance"
-KEY = ("arm", "damping", "stiffness_n_m")
 
 LAW = BY_EVERY_INVERSE
 """The law whose command at rest is the error of orientation: near the goal all are alike."""

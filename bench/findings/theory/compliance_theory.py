@@ -13,7 +13,8 @@ By the Jacobian transpose nothing is cancelled: the moment acts through A, the r
 J^T adds to it is kf B^-T (I - S) B^T m; then each coordinate answers for itself, R(t) = diag of free(t) where it
 complies, sprung(t) where it is held, of inertia 1. A moment that is not converted has its components for B^T m.
 
-With Z-Y-X angles B B^T has the eigenvalues 1 and 1 -+ sin beta, at any alpha and gamma: the closed forms below.
+With Z-Y-X angles B B^T has the eigenvalues 1 and 1 -+ sin beta, at any alpha and gamma: a hand that complies about x
+and y leaks tan |beta| about z, and at the poles a moment is lost.
 
 Limitations: no prediction (NaN) for moments that are not converted and yet cancelled, since what is not cancelled then
 acts on the whole arm; nor where B^-1 does not exist. Radians, N m.
@@ -137,42 +138,3 @@ def sprung(time_s: float, gains: Gains = PAPERS_GAINS, inertia: float = TOUCH.m_
     across = cmath.sinh(root * time_s) / root if root != 0.0 else time_s
     left = fading * (along + gains.kv / 2.0 * across).real
     return (1.0 - left) / (gains.kp * inertia)
-
-
-def leakage(beta: float) -> float:
-    """Rotation about z over that about x, of a moment about x with Z-Y-X angles beta and gamma complying, alpha = 0.
-
-    C e_x is along the column (cos beta, 0, -sin beta) of gamma: tan |beta|.
-    """
-    return math.tan(abs(beta))
-
-
-def leakage_by_transpose(
-    beta: float, A: np.ndarray, time_s: float, gains: Gains = PAPERS_GAINS, touch: ContactParameters = TOUCH
-) -> float:
-    """Compute the leakage by the transpose, A of `mobility`: |(1 - r) tan beta - r A_zx/A_xx|, r = sprung(t)/free(t).
-
-    c_xx = (1 + kf) free(t) A_xx at any beta. r fades as 1/t, and at last this too is tan |beta|, whatever the arm.
-    """
-    r = sprung(time_s, gains, 1.0) / free(time_s, touch._replace(m_o=1.0))
-    return abs((1.0 - r) * math.tan(beta) - r * float(A[2, 0] / A[0, 0]))
-
-
-def least_yield(beta: float) -> float:
-    """Return the least eigenvalue of B B^T with Z-Y-X angles: 1 - |sin beta|; at the pole a moment is lost."""
-    return 1.0 - abs(math.sin(beta))
-
-
-def stiffness_condition(beta: float) -> float:
-    """Condition number of B^-T B^-1 with Z-Y-X angles: (1 + |sin beta|)/(1 - |sin beta|); infinite at the poles."""
-    sine = abs(math.sin(beta))
-    return (1.0 + sine) / (1.0 - sine) if sine < 1.0 else math.inf
-
-
-def lost_moment(representation: Coordinates, R: Rotation) -> tuple[np.ndarray, float]:
-    """Return the unit moment m of which B^T keeps least, and |B^T m|: exactly 0 where it is lost (rank of B below 3).
-
-    With Z-Y-X angles at beta = +-90 deg it is about (cos alpha, sin alpha, 0); with Z-Y-Z at the identity about x.
-    """
-    turned, sizes, _ = np.linalg.svd(matrix_B(representation, R))
-    return turned[:, -1], float(sizes[-1])

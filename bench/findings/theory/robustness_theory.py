@@ -26,9 +26,6 @@ LEAD = 2.0
 GRID_S = 5e-3
 """Between points [s] that are joined by straight lines; the goal sways with 0.3 s to the radian or slower."""
 
-MEAN_LENGTH = math.sqrt(8.0 / math.pi)
-"""Mean length of a vector of three independent normal numbers of unit variance."""
-
 LEAVING_TICKS = 1500
 """Ticks after which a body that has not left 180° is held there: thirty time constants 1/Kv at 1 kHz."""
 
