@@ -13,11 +13,11 @@ end anywhere. Where that holds the angle falls at every tick from everywhere, an
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 
 import tasks
+from bench.base.bisection import bisect
 from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, NEVER
 from bench.experiments import arm, velocity
 from bench.experiments.columns import read_table
@@ -109,7 +109,7 @@ def near(settings: Settings, unit: Unit, begun: list[Start], lag_ticks: float, s
         made = _run(settings, unit, begun, share * k_dt, round(TICKS * (1.0 + lag_ticks)), lag_ticks)
         return bool((made[:, FINAL_ANGLE] <= NEAR_RAD).all())
 
-    return bisect(holds)
+    return bisect(holds, 0.0, GREATEST, BISECTIONS)[0]
 
 
 def far(settings: Settings, unit: Unit) -> float:
@@ -122,7 +122,7 @@ def far(settings: Settings, unit: Unit) -> float:
         made = _run(settings, unit, begun, k_dt, 1)
         return bool(((made[:, FINAL_ANGLE] <= SCAN_RAD) & (made[:, PATH] <= 2.0 * SCAN_RAD)).all())
 
-    return bisect(holds)
+    return bisect(holds, 0.0, GREATEST, BISECTIONS)[0]
 
 
 def _run(settings: Settings, unit: Unit, begun: list, k_dt: float, ticks: int, lag_ticks: float = 0.0) -> np.ndarray:
@@ -134,15 +134,6 @@ def _run(settings: Settings, unit: Unit, begun: list, k_dt: float, ticks: int, l
     made = run(one, pass_all, k_dt / DT_S, begun, limits, unit.arm, lag_ticks * DT_S)
     made[made[:, FAILURE_TICK] != NEVER, FINAL_ANGLE] = math.inf
     return made
-
-
-def bisect(holds: Callable[[float], bool]) -> float:
-    """Return the largest number below GREATEST up to which something holds."""
-    low, high = 0.0, GREATEST
-    for _ in range(BISECTIONS):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if holds(middle) else (low, middle)
-    return low
 
 
 EXPERIMENT = Experiment(

@@ -212,7 +212,7 @@ def test_dropped_experiment_is_planned_run_resumed_stored_shown_and_compared_wit
     found = [pq.read_table(tree / "results" / name / "dropped.parquet") for name in ("killed", "whole")]
     count = found[1].num_rows
     assert "\ndropped-experiment  dropped " in listed
-    assert f"in {count} units" in planned
+    assert f"{count} units" in planned
     assert f"going on: {count - 1} of {count} units are done" in resumed
     assert "going on" not in whole
     assert found[0].equals(found[1])

@@ -138,7 +138,7 @@ def test_users_law_is_planned_on_every_arm_by_the_geometric_jacobian(capsys, own
     said = bench(capsys, *SHORT, "--law", own, "--regulator", "mine")
     assert (said.code, said.err) == (0, "")
     for arm in ARMS:
-        assert f"{arm}: clear 2 (each of 1 controller)" in said.out
+        assert f"{arm}: clear 2 (each of 1 contender, at most)" in said.out
 
 
 @pytest.mark.parametrize("suite", ["quick", "default"])

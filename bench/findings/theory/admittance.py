@@ -26,7 +26,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from bench.findings.theory.bisection import bisect
+from bench.base.bisection import bisect
 from bench.findings.theory.contact_stability import Spring
 
 ANGLES = 4000

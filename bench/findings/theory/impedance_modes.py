@@ -18,8 +18,8 @@ import pandas as pd
 from scipy.linalg import eigh
 
 import tasks
+from bench.base.bisection import bisect
 from bench.engines.arm_episode import buffers
-from bench.findings.theory.bisection import bisect
 from bench.law.control.unshaped import DAMPINGS
 from tasks.kinematics import kinematics
 

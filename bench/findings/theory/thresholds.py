@@ -6,9 +6,9 @@ import functools
 import math
 
 import tasks
+from bench.base.bisection import bisect
 from bench.findings.perturbed import FOLLOWED_RAD
 from bench.findings.theory import robustness_theory
-from bench.findings.theory.bisection import bisect
 from bench.findings.theory.isotropic import EQUATIONS
 from bench.law.contenders.registry import all_contenders
 from tasks.condition import condition_at

@@ -11,9 +11,9 @@ import mujoco
 import numpy as np
 
 import tasks
+from bench.base.bisection import bisect
 from bench.engines.contact_episode import FORCE, USUAL, Ended, Sensor
 from bench.engines.simulate_contact import run_contact as run
-from bench.findings.theory.bisection import bisect
 from bench.findings.theory.contact_stability import Spring, acceleration, settles
 from bench.law.control.registry import find_controller
 from bench.law.control.setpoint import TOUCH
