@@ -1,10 +1,10 @@
-"""Rendered pictures of the arms for the report: stills at home, short loops. Optional.
+"""Rendered pictures of the arms for the report: stills, short loops, and what they show in numbers. Optional.
 
     python report/media.py     renders into report/_static/media (needs GL)
 
-Joint angles come from the compiled engine, tick by tick, as in every episode of the results; MuJoCo draws them
-offscreen by EGL (or MUJOCO_GL=osmesa). Where that does not work the committed files stay. The loop needs
-imageio-ffmpeg (the dev extra).
+Joint angles come from the compiled engine, tick by tick, as in every episode of the results; in contact they follow
+from the record's pose of the hand, by Newton's method from one frame to the next. MuJoCo draws offscreen by EGL (or
+MUJOCO_GL=osmesa). Where that does not work the committed files stay. Loops need imageio-ffmpeg (the dev extra).
 """
 
 from __future__ import annotations
@@ -13,127 +13,175 @@ import json
 import math
 import os
 import sys
-from contextlib import closing
-from pathlib import Path
+from typing import Any
 
-from drawing import HALF, MEDIA, Motion, View, loop, save, sheet, written
+if __name__ == "__main__":
+    os.environ.setdefault("MUJOCO_GL", "egl")  # which MuJoCo reads when it is imported
 
-REPORT = Path(__file__).resolve().parent
-FACTS = MEDIA / "media.json"
+import numpy as np
+from drawing import HALF, LINE, MEDIA, Motion, draw_row, encode_loop, make_view, save
 
-ARM, START_SET, START, SEED = "ur5e", "pole", "pole-minus-1-k2", 0
-TASK = "arm-regulation"
+import tasks
+from bench.base.provenance import describe
+from bench.engines.contact_episode import TURNED, USUAL, P, R
+from bench.engines.curve import ARM_NUMBERS, blank_curves
+from bench.engines.simulate_contact import run_contact
+from bench.experiments.episodes import rows_from, simulate
+from bench.experiments.experiment import Settings, Unit
+from bench.experiments.suites import NOMINAL, ON_ARM
+from bench.findings.claims.probes import controller
+from bench.law.control.registry import find_controller
+from tasks import contact_model
+from tasks.arm_model import model_xml
+from tasks.contact import prepare
+
+STRIP = (380, 460)  # pixels of an arm at home
+POLE = {"arm": "ur5e", "start_set": "pole", "start": "pole-minus-1-k2", "seed": 0}
 CONTENDERS = {
     "feedback-linearized/zyx-euler@analytic+solve": "Euler Jacobian",
     "rotation-matrix@geometric+solve": "geometric Jacobian",
 }
-LOOP_S, SLOWER = 0.7, 4  # played in 2.8 s; the band is reached in 0.65 s or so
+POLE_LOOP = {"loop_s": 0.7, "slower": 4}  # played in 2.8 s; the band is reached in 0.65 s or so
 POSTER_S = 0.18
+CLOSE = (0.22, 0.11, 0.95, 0.88)  # what is kept of a view: left, top, right, bottom
 
-STRIP = (380, 460)  # pixels of an arm at home
-CAMERA = "view"  # of an arm's model
-CLOSE = (0.22, 0.11, 0.95, 0.88)  # what is kept of it: left, top, right, bottom, as shares of its sides
+CONTACT_ARM, BY = "puma560", "hybrid-base+transpose"
+STILLS = {
+    "surface-alignment": ("tilt 20 about 120, beta+0", 0.5),
+    "peg-in-hole": ("tilt 8 about 120, beta+0", 0.32),
+    "crank": ("", 0.6),
+    "force-on-plane": ("tilt 10 about 35, beta+0", 0.55),
+}
+"""Task -> the trial of its still, the first one where none is named, and from how far [m] it is seen."""
+STILL_AT_S = 1.5  # the hand is busy then, on every task
+PLATE = {"task": "surface-alignment", "trial": "tilt 20 about 0, beta+75"}
+CONTROLLERS = {"hybrid-base+transpose": "Cartesian", "hybrid/zyx-euler+transpose": "Euler, β = 75°"}
+PLATE_LOOP = {"loop_s": 2.4, "slower": 1.2}
+NEWTON_STEPS = 6  # from one frame to the next the hand moves by centimetres at most, and each step squares what is left
 
 
 class Puppet:
-    """An arm whose joints are put where a pose has them."""
+    """A model whose joints are put where a pose, joint angles [rad], has them."""
 
-    def __init__(self, name: str):
+    def __init__(self, xml: str):
         import mujoco
 
-        import tasks
-        from tasks.arm_model import model_xml
-
-        self.model = mujoco.MjModel.from_xml_string(model_xml(tasks.arm(name), 1e-3))
+        self.model = mujoco.MjModel.from_xml_string(xml)
         self.data = mujoco.MjData(self.model)
 
-    def follow(self, q) -> None:
-        """Take a pose, joint angles [rad]."""
+    def follow(self, pose: Any) -> None:
+        """Take a pose."""
         import mujoco
 
-        self.data.qpos[:] = q
+        self.data.qpos[:] = pose
         mujoco.mj_forward(self.model, self.data)
 
 
-def motions() -> dict[str, tuple[Motion, dict]]:
-    """Both contenders from the same start: joint angles [rad] tick by tick, and the judge's row, as of any episode."""
-    import numpy as np
+class ContactPuppet(Puppet):
+    """A task on the arm; a pose is a line of an episode's record, which has the hand's pose and the scene's joint."""
 
-    import tasks
-    from bench.engines.curve import ARM_NUMBERS, blank_curves
-    from bench.experiments.episodes import rows_from, simulate
-    from bench.experiments.experiment import Settings, Unit
-    from bench.experiments.suites import NOMINAL, ON_ARM
-    from bench.findings.claims.probes import controller
+    def __init__(self, task: str, trial: Any):
+        arm = tasks.arm(CONTACT_ARM)
+        super().__init__(contact_model.model_xml(tasks.contact_task(task), arm, USUAL.dt_s))
+        self.joints = arm.joints
+        prepare(self.model, self.data, trial)
+        super().follow(self.data.qpos.copy())
 
-    start = next(one for one in tasks.start_set(START_SET, None, SEED, arm=ARM) if one.id == START)
-    joints, settings = tasks.arm(ARM).joints, Settings("media")
-    found = {}
+    def follow(self, pose: Any) -> None:
+        """Move the joints so that the hand is where the record has it."""
+        import mujoco
+
+        model, data, n = self.model, self.data, self.joints
+        goal, J = pose[R : R + 9].reshape(3, 3).T, np.zeros((6, model.nv))
+        if model.nv > n:
+            data.qpos[n:] = pose[TURNED]
+        for _ in range(NEWTON_STEPS):
+            mujoco.mj_forward(model, data)
+            mujoco.mj_jacSite(model, data, J[:3], J[3:], model.site("hand").id)
+            turn = goal @ data.site("hand").xmat.reshape(3, 3).T
+            vee = 0.5 * np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+            missing = np.concatenate((pose[P : P + 3] - data.site("hand").xpos, vee))
+            data.qpos[:n] += np.linalg.solve(J[:, :n], missing)
+        mujoco.mj_forward(model, data)
+
+    def camera(self, azimuth: float, elevation: float, distance: float) -> Any:
+        """Return a camera on the place where the hand begins, from a distance [m]; the axes of frames are hidden."""
+        import mujoco
+
+        model = self.model
+        of_scene = model.body_rootid[model.geom_bodyid] == model.body("scene").id
+        model.geom_rgba[(model.geom_type == mujoco.mjtGeom.mjGEOM_CAPSULE) & ~of_scene, 3] = 0.0
+        camera = mujoco.MjvCamera()
+        camera.azimuth, camera.elevation, camera.distance = azimuth, elevation, distance
+        camera.lookat[:] = self.data.site("hand").xpos
+        return camera
+
+
+def simulate_at_pole() -> dict[str, tuple[Motion, dict]]:
+    """Return both contenders from the same start: joint angles [rad] tick by tick, and the judge's row."""
+    starts = tasks.start_set(POLE["start_set"], None, POLE["seed"], arm=POLE["arm"])
+    [start] = [one for one in starts if one.id == POLE["start"]]
+    settings, found = Settings("media"), {}
+    first = ARM_NUMBERS.index("q_1")
     for word in CONTENDERS:
-        one = controller(word)
-        unit = Unit("arm", one.name, TASK, ARM, "native", START_SET, NOMINAL, count=1, horizon_s=ON_ARM)
-        curves = blank_curves(1, round(LOOP_S / settings.dt_s), numbers=ARM_NUMBERS)
-        simulate(settings, unit, [start], LOOP_S, curves)
+        names = controller(word).name, "arm-regulation", POLE["arm"], "native", POLE["start_set"]
+        unit = Unit("arm", *names, NOMINAL, count=1, horizon_s=ON_ARM)
+        curves = blank_curves(1, round(POLE_LOOP["loop_s"] / settings.dt_s), numbers=ARM_NUMBERS)
+        simulate(settings, unit, [start], POLE_LOOP["loop_s"], curves)
         [ticks] = curves.samples
-        first = ARM_NUMBERS.index("q_1")
-        q = ticks[~np.isnan(ticks[:, 0]), first : first + joints].tolist()
-        row = rows_from(settings, unit, [start]).iloc[0].to_dict()
-        found[word] = Motion(settings.dt_s, q), row
+        q = ticks[~np.isnan(ticks[:, 0]), first : first + tasks.arm(POLE["arm"]).joints].tolist()
+        found[word] = Motion(settings.dt_s, q), rows_from(settings, unit, [start]).iloc[0].to_dict()
     return found
 
 
-def facts(found: dict[str, tuple[Motion, dict]], commit: str) -> dict:
+def simulate_contact(task: str, trial: str, name: str) -> tuple[ContactPuppet, Motion]:
+    """Return a puppet at the beginning of an episode in contact, and the episode's record."""
+    arm, about = tasks.arm(CONTACT_ARM), tasks.contact_task(task)
+    one = next(each for each in about.trials(arm) if each.id == trial or not trial)
+    ended = next(run_contact("native", find_controller(name), about, arm, (one,)))
+    return ContactPuppet(task, one), Motion(USUAL.dt_s, ended.record)
+
+
+def describe_files(rows: dict[str, dict]) -> dict[str, Any]:
     """Return what the files show and where they come from."""
     numbers = ("settling_time_s", "failure_time_s", "path_ratio", "peak_torque_ratio", "position_error_m")
     episodes = [
-        {
-            "contender": word,
-            "outcome": str(row["outcome"]),
-            **{name: None if math.isnan(row[name]) else float(f"{row[name]:.6g}") for name in numbers},
-        }
-        for word, (_, row) in found.items()
+        {"contender": word, "outcome": str(row["outcome"])}
+        | {name: None if math.isnan(row[name]) else float(f"{row[name]:.6g}") for name in numbers}
+        for word, row in rows.items()
     ]
-    place = {"commit": commit, "arm": ARM, "start_set": START_SET, "start": START, "seed": SEED}
-    return {**place, "episodes": episodes, "loop_s": LOOP_S, "slower": SLOWER}
-
-
-def at_home() -> None:
-    """Draw the strip of all arms."""
-    import tasks
-
-    names, (width, height) = tasks.arm_names(), STRIP
-    strip = sheet(width * len(names), height)
-    for place, name in enumerate(names):
-        arm = tasks.arm(name)
-        with closing(View(Puppet(name), STRIP, CAMERA)) as of_arm:
-            strip.paste(of_arm.picture(arm.home), (place * width, 0))
-        written(strip, (place * width + width // 2, height - 12), arm.title, 28, anchor="ms")
-    save(strip, "arms.png")
+    plate = {**PLATE, "controllers": list(CONTROLLERS), **PLATE_LOOP}
+    stills = {task: trial for task, (trial, _) in STILLS.items()}
+    return {**POLE, "episodes": episodes, **POLE_LOOP} | {
+        "contact": {"arm": CONTACT_ARM, "stills": stills, "by": BY, "plate": plate}
+    }
 
 
 def main() -> None:
     """Draw all files; leave them as they are where MuJoCo cannot draw."""
-    os.environ.setdefault("MUJOCO_GL", "egl")
-    sys.path.insert(0, str(REPORT.parent))
-    import contact_media
-
-    from bench.base.provenance import describe
-
+    arms = {name: tasks.arm(name) for name in tasks.arm_names()}
     try:
-        large = View(Puppet(ARM), HALF, CAMERA, CLOSE)
+        views = {name: make_view(Puppet(model_xml(arm, 1e-3)), STRIP, "view") for name, arm in arms.items()}
     except Exception as reason:  # what a missing GL raises depends on the backend
         sys.exit(f"media: nothing is drawn here ({reason}); the files stay (cure: apt-get install libegl1 libgl1)")
-    MEDIA.mkdir(parents=True, exist_ok=True)
-    found = motions()
-    at_home()
-    both = {CONTENDERS[word]: (large, motion) for word, (motion, _) in found.items()}
-    loop("pole-loop", both, LOOP_S, SLOWER, f", played {SLOWER} times slower", POSTER_S)
-    contact_media.tasks_in_contact()
-    contact_media.on_the_plate()
-    about = {**facts(found, describe()["commit"]), "contact": contact_media.facts()}
-    FACTS.write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8")
-    kilobytes = sum(path.stat().st_size for path in MEDIA.iterdir()) / 1e3
-    print(f"media: {kilobytes:.0f} kB in {MEDIA.relative_to(REPORT.parent)}")
+    homes, titles = [views[name](arm.home) for name, arm in arms.items()], [arm.title for arm in arms.values()]
+    save(draw_row(homes, titles, 0, 0, STRIP[1] - 12, 28), "arms.png")
+    motions = simulate_at_pole()
+    large = make_view(Puppet(model_xml(arms[POLE["arm"]], 1e-3)), HALF, "view", CLOSE)
+    both = {CONTENDERS[word]: (large, motion) for word, (motion, _) in motions.items()}
+    encode_loop("pole-loop", both, **POLE_LOOP, note=f", played {POLE_LOOP['slower']} times slower", poster_s=POSTER_S)
+    scenes = [(*simulate_contact(task, trial, BY), distance) for task, (trial, distance) in STILLS.items()]
+    seen = [(make_view(one, HALF, one.camera(160.0, -14.0, distance)), motion) for one, motion, distance in scenes]
+    stills = [[view(pose) for pose in motion.frames(STILL_AT_S)][-1] for view, motion in seen]
+    titles = [task.replace("-", " ") for task in STILLS]
+    save(draw_row(stills, titles, 0, LINE, HALF[1] + LINE - 12, 24), "contact-tasks.png")
+    on_plate = {}
+    for name, title in CONTROLLERS.items():
+        puppet, motion = simulate_contact(**PLATE, name=name)
+        on_plate[title] = make_view(puppet, HALF, puppet.camera(172.0, -5.0, 0.5)), motion
+    encode_loop("plate-loop", on_plate, **PLATE_LOOP)
+    about = {"commit": describe()["commit"], **describe_files({word: row for word, (_, row) in motions.items()})}
+    (MEDIA / "media.json").write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

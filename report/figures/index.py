@@ -7,23 +7,8 @@ from report.figures.answer import answer_box, which_law
 from report.figures.claims import claims as judged
 from report.figures.contact import compliance, in_contact
 from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER
-from report.figures.kit import html
 from report.figures.kit.page import Run
-from report.figures.method.provenance import cited
 from report.figures.responses import hero
-
-BIBTEX = """```bibtex
-@misc{{orientation-bench,
-  author = {{{{The orientation-bench maintainers}}}},
-  title  = {{{title}}},
-  note   = {{Version {version}, run of {date} at commit {commit}.
-            A replication of S. Murphy, On the Cartesian Control of
-            Orientation and Force for Robotic Manipulators, TFRT-7396,
-            Lund Institute of Technology, 1988}},
-  year   = {{{year}}},
-}}
-```"""
-"""An entry for this edition."""
 
 SHORT_COMMIT = 10
 """Digits of a commit that tell it from every other."""
@@ -43,24 +28,16 @@ def facts(run: Run) -> dict:
 
 
 def tables(run: Run) -> dict:
-    """Return the answer with its code; a square for every verdict, and how many there are of each."""
-    every = claims.judge_all()
+    """Return the answer, and how many verdicts there are of each kind."""
     return {
         "answer": answer_box.answer(run),
-        "tiles": judged.tiles(every),
-        "strip": judged.strip(every, "pages/40-claims.html"),
-        "bibtex": bibtex(edition(read.provenance())),
+        "tiles": judged.tiles(claims.judge_all()),
     }
 
 
 def figures(run: Run) -> dict:
     """Return the paper's three laws from every angle."""
     return {"hero": hero.hero(run.rows("episodes", engine="ideal-rk4"))}
-
-
-def bibtex(values: dict) -> html.Markdown:
-    """How this edition is cited."""
-    return html.Markdown(BIBTEX.format(**values, **cited(), year=values["date"].partition("-")[0]))
 
 
 def edition(provenance: dict) -> dict:

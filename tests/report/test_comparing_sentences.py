@@ -209,7 +209,7 @@ SENTENCES = {
     "loops": (plant_loops, [({}, "3 dead, 4 away"), ({"dead": 0, "away": 1}, "0 dead, 55 away")]),
     "unstable": (plant_fact(as_arms_run.in_free_motion, "unstable"), [({}, "Panda"), ({"radius": 0.5}, "none")]),
     "noise": (plant_fact(half_turn_noise.facts, "blind_middle"), [({}, "25"), ({"outcome": "settled"}, "100")]),
-    "least": (plant_fact(failure_map.facts, "least"), [({}, "135"), ({"alpha0": 0.1}, "5")]),
+    "least": (plant_fact(failure_map.facts, "least"), [({}, "135"), ({"alpha0": 2.0}, "114")]),
     "gains": (plant_kv, [({}, "kv = 20"), ({"kv": 7.0}, "kv = 7")]),
     "held": (plant_advice, [({}, "cannot hold the body"), ({"held": 0.01}, "No law of this run settles")]),
     "lost": (plant_advice, [({}, "it settles from every start"), ({"lost": 1.0}, "No law of this run settles")]),

@@ -11,7 +11,7 @@ from scipy.integrate import quad
 from bench.findings.theory.isotropic import EQUATIONS
 from bench.law.display import ANGLE
 from bench.law.inputs import Gains
-from report.figures.comparison import new_law
+from report.figures.comparison import a_new_law as new_law
 from report.figures.comparison.cells import LEVEL
 
 KP, KV = Gains()

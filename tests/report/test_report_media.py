@@ -5,7 +5,6 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-import contact_media
 import media as rendering
 
 import tasks
@@ -51,24 +50,17 @@ def test_contender_exists(episode):
 
 
 def test_files_are_of_what_the_program_would_draw_now():
-    named = {name: ABOUT[name] for name in ("arm", "start_set", "start", "seed", "slower")}
-    assert named == {
-        "arm": rendering.ARM,
-        "start_set": rendering.START_SET,
-        "start": rendering.START,
-        "seed": rendering.SEED,
-        "slower": rendering.SLOWER,
-    }
-    assert [one["contender"] for one in ABOUT["episodes"]] == list(rendering.CONTENDERS)
-    assert ABOUT["contact"] == contact_media.facts()
+    rows = {one["contender"]: one | {"outcome": "settled", "failure_time_s": np.nan} for one in ABOUT["episodes"]}
+    assert list(rows) == list(rendering.CONTENDERS)
+    assert rendering.describe_files(rows) == {key: value for key, value in ABOUT.items() if key != "commit"}
 
 
 def test_a_still_shows_every_task_in_contact():
-    assert set(contact_media.SHOWN) == set(tasks.contact_names()) - {"wrench-probe", "compliance-loop"}
+    assert set(rendering.STILLS) == set(tasks.contact_names()) - {"wrench-probe", "compliance-loop"}
 
 
 def test_joints_follow_the_hand_of_the_record():
-    puppet, motion = contact_media.seen(contact_media.PLATE, contact_media.TILTED, contact_media.BY)
+    puppet, motion = rendering.simulate_contact(**rendering.PLATE, name=rendering.BY)
     for line in motion.frames(2.0):
         puppet.follow(line)
     hand = puppet.data.site("hand")
@@ -79,7 +71,7 @@ def test_joints_follow_the_hand_of_the_record():
 @pytest.mark.slow
 def test_motion_is_still_that_of_the_two_controllers():
     # The first passes a singularity, where rounding decides the torque; that it swings wildly is not rounding's.
-    euler, geometric = (row for _, row in rendering.motions().values())
+    euler, geometric = (row for _, row in rendering.simulate_at_pole().values())
     assert geometric["outcome"] == "settled"
     assert geometric["peak_torque_ratio"] < 1.0
     assert geometric["path_ratio"] == pytest.approx(1.0, abs=0.01)

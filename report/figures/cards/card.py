@@ -47,12 +47,16 @@ class Source(NamedTuple):
     where: str
 
 
-def make_page(name: str, title: str, card: str, take: str, files: dict, source: Source) -> LawPage:
+def make_page(name: str, title: str, card: str, source: Source, word: str = "", live: str = "") -> LawPage:
     """Return the page of a law.
 
     Args:
-        take: what leads to its files. files: of `in_every_language`.
+        word: by which it is exported; empty if it is not. live: the page on which it runs, from the site's root.
     """
+    subject = find_subject(word) if word else None
+    languages = map(find_language, language_words() if word else ())
+    files = {each.title: each.law(subject) for each in languages if subject}
+    take = take_files(word, files, live) if files else ""
     body = f"<section>{BACK}<h1>{html.foreign(title)}</h1>{card}{take}{fold(source)}</section>"
     return LawPage(name, title, body, dict(files.values()))
 
@@ -101,16 +105,8 @@ def fold(source: Source) -> str:
     )
 
 
-def in_every_language(word: str) -> dict[str, tuple[str, str]]:
-    """Return by the language's title the first file of the export of a word: name and text."""
-    subject = find_subject(word)
-    return {each.title: each.law(subject) for each in map(find_language, language_words())}
-
-
-def taken(word: str, files: dict[str, tuple[str, str]], live: str = "") -> str:
+def take_files(word: str, files: dict[str, tuple[str, str]], live: str) -> str:
     """Return what leads to its files and to the page on which it runs."""
-    if not files:
-        return ""
     links = ", ".join(f'<a href="code/{name}" download>{title}</a>' for title, (name, _) in files.items())
     tried = f'<a href="../{live}.html#a={word}">Try it</a>, or take it' if live else "Take it"
     return f"<p>{tried}: {links}. <code>python -m bench export {word} --to c</code> adds test vectors and a test.</p>"

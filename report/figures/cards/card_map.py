@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 from report.figures.kit import style
 from report.figures.kit.dots import dots
 from report.figures.kit.html import number
-from report.figures.kit.inline import picture
+from report.figures.kit.inline import Drawing, picture
 
 AT_REST_TO_IDENTITY = ("uniform", "box", "half-turn", "poles", "wraps")
 """Start sets in which only the orientation varies: at rest, goal identity."""
@@ -42,7 +42,7 @@ def flat(rows: pd.DataFrame) -> np.ndarray:
 
 
 @picture
-def card_map(episodes: pd.DataFrame, title: str):
+def card_map(episodes: pd.DataFrame, title: str) -> Drawing:
     """Outcomes of one law over orientations at rest."""
     figure, axes = style.panels(height=3.1, narrow=True)
     figure.set_size_inches(WIDTH_IN, 3.1)

@@ -12,6 +12,7 @@ import math
 import tomllib
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import tasks
 from bench.base.errors import BadLaw
@@ -48,7 +49,7 @@ def starts() -> list[tuple[str, str, Start]]:
     return found
 
 
-def page(contenders: list[Contender], costs) -> html.Html:
+def page(contenders: list[Contender], costs: Any) -> html.Html:
     """Return controls, hidden until the script is there, the laws' code, and what the script reads.
 
     Args:
@@ -72,7 +73,7 @@ def page(contenders: list[Contender], costs) -> html.Html:
     )
 
 
-def data(names: list[str], every: list[tuple[str, str, Start]], costs) -> dict:
+def data(names: list[str], every: list[tuple[str, str, Start]], costs: Any) -> dict:
     """All that the script reads."""
     return {
         "opening": OPENING,
@@ -82,7 +83,7 @@ def data(names: list[str], every: list[tuple[str, str, Start]], costs) -> dict:
     }
 
 
-def law(name: str, costs) -> dict:
+def law(name: str, costs: Any) -> dict:
     """How a law is called and drawn, where its card is, and what a tick of it costs."""
     look = style.look(name)
     return {
@@ -94,7 +95,7 @@ def law(name: str, costs) -> dict:
     }
 
 
-def cost(name: str, costs) -> str:
+def cost(name: str, costs: Any) -> str:
     """Operations a tick in words, where they differ also the worst branch."""
     totals = costs[(costs["contender"] == name) & (costs["stage"] == "total")].set_index("branch")
     if totals.empty:

@@ -7,16 +7,7 @@ from typing import Any, NamedTuple
 from bench.base.provenance import ROOT
 from bench.export.subject import COMPENSATOR, IMPEDANCE, SPRING, subject_words
 from bench.law.contenders.registry import contenders
-from report.figures.cards.card import (
-    LawPage,
-    Source,
-    docstring,
-    in_every_language,
-    make_card,
-    make_page,
-    say_property,
-    taken,
-)
+from report.figures.cards.card import LawPage, Source, docstring, make_card, make_page, say_property
 from report.figures.kit import html
 from report.figures.kit.families import PAGES
 from report.figures.kit.page import Run
@@ -61,11 +52,10 @@ def every_other() -> list[Other]:
 
 def page(one: Other) -> LawPage:
     """Return the page: what it is, where it fails, what is proved, and its files."""
-    files = in_every_language(one.word)
     what, fails = docstring(one.source.file)
     fields = {"Is": f"{one.kind[:1].upper()}{one.kind[1:]}.", "Limitations": fails, "Proved": say_property(proved(one))}
     card = make_card(one.record, one.record.title, (what, fields), "var(--rule)")
-    return make_page(one.name, one.record.title, card, taken(one.word, files), files, one.source)
+    return make_page(one.name, one.record.title, card, one.source, one.word)
 
 
 def proved(one: Other) -> str:

@@ -15,17 +15,8 @@ from bench.law.contender import Contender
 from bench.law.contenders import regulators
 from bench.law.contenders.registry import all_contenders, contenders, contenders_of, papers_laws
 from bench.law.kinds import Law
-from report.figures.cards.card import (
-    LawPage,
-    Source,
-    docstring,
-    in_every_language,
-    make_card,
-    make_page,
-    say_property,
-    taken,
-)
-from report.figures.cards.card_map import MOST_SETTLED, card_map
+from report.figures.cards.card import LawPage, Source, docstring, make_card, make_page, say_property
+from report.figures.cards.card_map import card_map
 from report.figures.kit import families, html, laws, style
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.share import share
@@ -77,11 +68,8 @@ def page(one: Contender, run: Run, live: str = "") -> LawPage:
         live: the page on which laws run, from the site's root; empty where the site has none.
     """
     word, is_exported = one.on_free_body, not (one.regulator.origin or one.regulator.costing_only)
-    files = in_every_language(word) if is_exported else {}
-    title = laws.title_of(one)
-    return make_page(
-        families.anchor(word), title, card(one, run), taken(word, files, live), files, source(one.regulator)
-    )
+    title, exported = laws.title_of(one), word if is_exported else ""
+    return make_page(families.anchor(word), title, card(one, run), source(one.regulator), exported, live)
 
 
 def card(one: Contender, run: Run) -> str:
@@ -145,22 +133,15 @@ def advised(law: str, run: Run) -> str:
     return " ".join(f"{start}{'; '.join(one.words for one in found)}." for start, found in said.items() if found)
 
 
-def facts(run: Run) -> dict:
-    """Return how many laws there are of each kind, and what a card's drawings hold."""
+def facts(_: Run) -> dict:
+    """Return how many laws there are of each kind."""
     every = [one.regulator for one in all_contenders()]
     ran = [one for one in every if not one.costing_only]
-    uniform = run.rows("episodes", **read.FREE_BODY, engine="ideal-rk4", start_set="uniform")
-    looked_at = run.any_rows("command-field")
-    tried = dict(zip(looked_at["finding"], looked_at["of"], strict=True)) if len(looked_at) else {}
     return {
         "compared": sum(not one.control for one in ran),
         "continuous": sum(not (one.control or one.in_engine) for one in ran),
         "controls": sum(one.control for one in ran),
         "costed": len(every) - len(ran),
-        "uniform": int(uniform["contender"].value_counts().max()),
-        "drawn": MOST_SETTLED,
-        "half_turns": tried.get("dead-half-turns"),
-        "geodesics": tried.get("jump-goal"),
     }
 
 

@@ -1,4 +1,4 @@
-"""The verdicts on a page: tiles and a strip, the table, and a claim's section. All words are the claim's own."""
+"""The verdicts on a page: tiles, the table, and a claim's section. All words are the claim's own."""
 
 from __future__ import annotations
 
@@ -82,22 +82,6 @@ def tiles(every: list[Verdict]) -> html.Html:
     ]
     tile = '<div class="tile {}"><b>{}</b><span>{}</span></div>'
     return html.Html(f'<div class="tiles">{"".join(tile.format(*entry) for entry in entries)}</div>')
-
-
-def strip(every: list[Verdict], page: str) -> html.Html:
-    """Return a square a claim in the colour of its word, leading to its section of the page."""
-    square = '<a class="{}" href="{}#{}" title="{}"><span>{}</span></a>'
-    squares = (
-        square.format(
-            html.VERDICTS[one.word],
-            page,
-            anchor(one),
-            escape.escape(f"{one.claim.sentence} {one.word.capitalize()}."),
-            one.claim.id,
-        )
-        for one in every
-    )
-    return html.Html(f'<div class="strip">{"".join(squares)}</div>')
 
 
 def table(every: list[Verdict], page: str = "") -> html.Markdown | None:

@@ -12,23 +12,15 @@ COMPUTED = [one for one in ERRATA if one.check is not None]
 READ = [one for one in ERRATA if one.check is None]
 
 
-class Unconfirmed(RuntimeError):
-    """A check no longer confirms its erratum: the page must not say that it does."""
-
-
 def checked(one: Erratum) -> str:
-    """How it was checked, the computed ones just now.
+    """Return how it was checked, the computed ones just now.
 
     Errors:
-        Unconfirmed: the check says no.
+        ValueError: the check no longer confirms its erratum, and the page must not say that it does.
     """
-    if one.check is None:
-        return prose(one.how)
-    if not one.check():
-        raise Unconfirmed(
-            f"erratum {one.id}: its check '{one.how}' does not confirm it (cure: mend bench/findings/claims/errata.py)"
-        )
-    return f"computed: {prose(one.how)}"
+    if one.check and not one.check():
+        raise ValueError(f"erratum {one.id}: its check '{one.how}' does not confirm it (cure: mend it in errata.py)")
+    return f"{'computed: ' if one.check else ''}{prose(one.how)}"
 
 
 def row(one: Erratum) -> tuple:

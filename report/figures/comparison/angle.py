@@ -10,7 +10,7 @@ import pandas as pd
 from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, NEAREST_RAD, Equation, settling
 from report.figures.kit import families, style
 from report.figures.kit.dots import dots
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit.inline import Drawing, responsive_picture
 
 CURVE = 60
 DRAWN = 150
@@ -37,7 +37,7 @@ def groups(rows: pd.DataFrame) -> dict[Equation, list[str]]:
 
 
 @responsive_picture
-def curves(rows: pd.DataFrame, narrow: bool):
+def curves(rows: pd.DataFrame, narrow: bool) -> Drawing:
     """Curves of the equations, and dots of the starts, of the first law of each.
 
     Args:

@@ -7,9 +7,12 @@ from collections.abc import Callable, Iterable
 import numpy as np
 import pandas as pd
 
+from bench.experiments.tables.read import converged
 from bench.experiments.tables.statistics import Estimate, quantile, quantile_estimate
+from bench.findings.start_sets import AT_REST
 from report.figures.cost.cost import spent, totals
 from report.figures.cost.operations import CALLS
+from report.figures.failures.failure_map import once, places
 from report.figures.kit import families, html
 from report.figures.kit.share import share
 from report.figures.kit.spelling import power
@@ -120,3 +123,21 @@ def worst(own: pd.DataFrame) -> str:
         return f"fails from {np.degrees(failed['angle0_rad'].min()):.0f}°"
     start = own.loc[own["settling_time_s"].idxmax()]
     return f"{start['settling_time_s']:.2f} s from {np.degrees(start['angle0_rad']):.0f}°"
+
+
+def directed_starts(episodes: pd.DataFrame) -> pd.DataFrame:
+    """Directed starts at rest, with the special place of each, and each orientation once; rows of one engine."""
+    rows = episodes[episodes["start_set"].isin(AT_REST) & (episodes["arm"] == "")]
+    return once(rows.assign(place=places(rows)))
+
+
+def count_lost(rows: pd.DataFrame) -> str:
+    """Return how many of a law's starts that converge do not settle: 26 of 726."""
+    sure = converged(rows)
+    return f"{int((sure['outcome'] != 'settled').sum())} of {len(sure)}"
+
+
+def leaving_all(rows: pd.DataFrame) -> list[str]:
+    """Return the laws that leave every directed start, family by family."""
+    failed = set(rows.loc[rows["outcome"] != "settled", "contender"])
+    return [name for name in families.in_order(rows["contender"].unique()) if name not in failed]

@@ -11,23 +11,15 @@ import pandas as pd
 from bench.experiments.tables import read
 from bench.findings.selection.measured import measured
 from bench.findings.selection.words import leaders
-from bench.law.contenders.registry import all_contenders
-from report.figures.comparison import cells, directed
+from report.figures.comparison import cells
 from report.figures.comparison.angle import curves, lateness
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.rows import MATRIX
 
-DETOUR = 1.5
-"""Path over shortest path from which a start is a detour; about one fixed axis only unwinding is one."""
-
 NEAR_DEG = 30, 60
 ANISOTROPIC = "weighted-columns"
 """Its stiffness is the others' on the average over its axes alone."""
-
-CONTROLS = {one.regulator.later: one.name for one in all_contenders() if one.regulator.control}
-LITERAL, UNWINDING = CONTROLS[False], CONTROLS[True]
-"""The negative controls: a law of the paper as it is printed, and a later one."""
 
 
 @functools.cache
@@ -53,9 +45,8 @@ def facts(run: Run) -> dict:
     """Return the numbers in the sentences of the page."""
     late = np.concatenate(list(lateness(uniform(run)).values()))
     return {
-        **of_all(uniform(run), directed.directed(ideal(run))),
+        **of_all(uniform(run), cells.directed_starts(ideal(run))),
         **(in_run(lambda: best(run)) or {}),
-        **of_controls(uniform(run)),
         "least_late": f"{late.min():.2f}",
         "most_late": f"{late.max():.2f}",
         "checked": len(late),
@@ -67,19 +58,18 @@ def of_all(rows: pd.DataFrame, tried: pd.DataFrame) -> dict:
     """Return the numbers of the laws that are not negative controls.
 
     Args:
-        rows: of `uniform`. tried: of `directed.directed`.
+        rows: of `uniform`. tried: of `cells.directed_starts`.
     """
     times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
     laws = [name for name in times if name not in families.CONTROLS]
     middle, spent = cells.medians(times[laws]), cells.medians(efforts[laws])
-    left = [name for name in directed.left(tried) if name not in families.CONTROLS]
+    left = [name for name in cells.leaving_all(tried) if name not in families.CONTROLS]
     return {
         "laws": len(laws),
         "starts": len(times),
         "kp": float(rows["kp"].iloc[0]),
         "kv": float(rows["kv"].iloc[0]),
         "tick": f"{1000 * float(rows['dt_s'].iloc[0]):g}",
-        "detour": DETOUR,
         "fastest_s": f"{middle.min():.2f}",
         "slowest_s": f"{middle.max():.2f}",
         "whole": int(sum(np.isfinite(times[name]).all() for name in laws)),
@@ -109,22 +99,6 @@ def best(run: Run) -> dict:
     return {key: leaders(found, criterion, families.word) for key, criterion in names.items()}
 
 
-def of_controls(rows: pd.DataFrame) -> dict:
-    """Return how the negative controls fail."""
-    literal, unwinding = (rows[rows["contender"] == name] for name in (LITERAL, UNWINDING))
-    found: dict = {}
-    if len(literal):
-        found |= {"literal_settled": int((literal["outcome"] == "settled").sum()), "literal_n": len(literal)}
-    if len(unwinding):
-        travelled = np.degrees(unwinding["path_ratio"] * unwinding["angle0_rad"])
-        found |= {
-            "unwound": cells.percent(float((unwinding["path_ratio"] > DETOUR).mean())),
-            "unwound_settled": cells.percent(float((unwinding["outcome"] == "settled").mean())),
-            "longest": f"{travelled.max():.0f}",
-        }
-    return found
-
-
 def of_peak(rows: pd.DataFrame) -> dict:
     """At equal peak command: from how many starts, and the rotation matrix."""
     times = cells.costs(rows, "settling_time_s")
@@ -136,7 +110,7 @@ def of_peak(rows: pd.DataFrame) -> dict:
 def tables(run: Run) -> dict:
     """Return all laws, and those whose command has a bound at equal peak command."""
     return {
-        "all_laws": all_laws(uniform(run), directed.directed(ideal(run)), run.any_rows("costs", **read.FREE_BODY)),
+        "all_laws": all_laws(uniform(run), cells.directed_starts(ideal(run)), run.any_rows("costs", **read.FREE_BODY)),
         "at_peak": in_run(lambda: at_equal_peak(at_peak(run))),
     }
 
@@ -155,7 +129,7 @@ def all_laws(rows: pd.DataFrame, tried: pd.DataFrame, counted: pd.DataFrame) -> 
             "Effort": html.number(float(f"{cells.quantile(efforts[name].to_numpy(), 0.5):.3g}")),
             "Peak": cells.large(own["peak_u"].max()),
             "A tick": cells.tick(counted, name),
-            "Directed, lost": directed.count_lost(tried[tried["contender"] == name]),
+            "Directed, lost": cells.count_lost(tried[tried["contender"] == name]),
         }
 
     return cells.by_law(times, line)

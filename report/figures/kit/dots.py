@@ -1,12 +1,14 @@
 """Thousands of points as one path: segments of no length with round ends, a tenth of the bytes of as many markers."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 
 
-def dots(axes: Axes, x, y, colour: str, size: float = 2.2, **look) -> None:
+def dots(axes: Axes, x: Any, y: Any, colour: str, size: float = 2.2, **look: Any) -> None:
     """Round dots of this size [pt] at (x, y), which do not move the limits of the axes."""
     points = np.column_stack((x, y)).astype(float)
     points = points[np.isfinite(points).all(axis=1)]

@@ -152,12 +152,7 @@ def formula(tex: str) -> str:
 
 def plain_table(frame: pd.DataFrame) -> str:
     """Return a small HTML table for inside a card; the first column is words."""
-    head = "".join(f'<th scope="col">{html.escape(str(column))}</th>' for column in frame.columns)
-    rows = "".join(
-        "<tr>" + "".join(f"<td>{html.escape(cell(value))}</td>" for value in row) + "</tr>"
-        for row in frame.itertuples(index=False, name=None)
-    )
-    return f'<table class="plain"><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>'
+    return frame.to_html(index=False, classes="plain", border=0, formatters=[cell] * len(frame.columns))
 
 
 def ball(name: str, alt: str, points: Mapping[str, Any], radius_label: str = "π") -> Html:

@@ -12,7 +12,7 @@ import html
 import io
 import re
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
@@ -29,6 +29,8 @@ LONG_NUMBER = re.compile(r"(\d\.\d{2})\d+")  # of a path, in points: a hundredth
 STROKES = "stroke-linejoin: round; stroke-linecap: butt"
 
 
+Drawing = tuple[Figure, str]
+"""A figure, and its alternative text."""
 POINTS_PER_INCH = 72  # the unit of an SVG, in which text is measured
 
 
@@ -45,11 +47,11 @@ class Picture(NamedTuple):
         return f'<div class="picture wide">{self.wide}</div><div class="picture narrow">{self.narrow}</div>'
 
 
-def picture(draw: Callable[..., tuple[Figure, str]]) -> Callable[..., Picture]:
+def picture(draw: Callable[..., Drawing]) -> Callable[..., Picture]:
     """Decorate a function that draws, in the paper style, and returns (figure, alternative text)."""
 
     @functools.wraps(draw)
-    def drawn(*args, **kwargs) -> Picture:
+    def drawn(*args: Any, **kwargs: Any) -> Picture:
         with style.paper_style():
             figure, alt = draw(*args, **kwargs)
             return Picture(svg(figure, alt, draw.__name__), alt)
@@ -57,11 +59,11 @@ def picture(draw: Callable[..., tuple[Figure, str]]) -> Callable[..., Picture]:
     return drawn
 
 
-def responsive_picture(draw: Callable[..., tuple[Figure, str]]) -> Callable[..., Picture]:
+def responsive_picture(draw: Callable[..., Drawing]) -> Callable[..., Picture]:
     """Decorate like `picture` a function with a keyword `narrow`: it is drawn a second time, for a phone."""
 
     @functools.wraps(draw)
-    def drawn(*args, **kwargs) -> Picture:
+    def drawn(*args: Any, **kwargs: Any) -> Picture:
         with style.paper_style():
             figure, alt = draw(*args, narrow=False, **kwargs)
             phone, _ = draw(*args, narrow=True, **kwargs)

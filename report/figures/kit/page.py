@@ -24,7 +24,7 @@ from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS, table_of
 from bench.findings.claims.verdict import NoEvidence
 from report.figures.kit import html, style
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit.inline import Drawing, responsive_picture
 
 REPORT = Path(__file__).resolve().parents[2]
 ABSENT = "not in this run"
@@ -150,6 +150,6 @@ def absent(key: str, kind: str) -> Any:
 
 
 @responsive_picture
-def blank(what: str, narrow: bool):
+def blank(what: str, narrow: bool) -> Drawing:
     """Return the words alone, in the place of a figure."""
     return style.words(f"{what}: {ABSENT}", narrow, height=0.6), f"{what}: {ABSENT}. The default suite holds it."

@@ -11,7 +11,7 @@ import itertools
 import zlib
 from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from matplotlib import font_manager, rc_context
 from matplotlib.axes import Axes
@@ -128,13 +128,15 @@ def register_fonts() -> None:
         font_manager.fontManager.addfont(str(face))
 
 
-def paper_style():
+def paper_style() -> Any:
     """Return the style all figures are drawn in, as a context."""
     register_fonts()
     return rc_context(fname=PAPER_STYLE)
 
 
-def panels(rows: int = 1, cols: int = 1, *, height: float = 3.2, narrow: bool = False, **subplots):
+def panels(
+    rows: int = 1, cols: int = 1, *, height: float = 3.2, narrow: bool = False, **subplots: Any
+) -> tuple[Figure, Any]:
     """Return a figure of the page's width, [in] high, and its axes; `narrow` is the same for a phone.
 
     Plain `Figure`, no pyplot: nothing is shown twice, nothing stays open, and no backend is
@@ -145,13 +147,15 @@ def panels(rows: int = 1, cols: int = 1, *, height: float = 3.2, narrow: bool = 
     return figure, axes
 
 
-def beside(count: int, height: float, narrow_height: float, narrow: bool, **subplots):
+def beside(count: int, height: float, narrow_height: float, narrow: bool, **subplots: Any) -> tuple[Figure, Any]:
     """Return a figure of panels side by side, one below the other on a phone, and its axes."""
     shape = (count, 1) if narrow else (1, count)
     return panels(*shape, height=narrow_height if narrow else height, narrow=narrow, **subplots)
 
 
-def grid(count: int, height: float, narrow_height: float, narrow: bool, top: float = 0.0, **subplots):
+def grid(
+    count: int, height: float, narrow_height: float, narrow: bool, top: float = 0.0, **subplots: Any
+) -> tuple[Figure, Any]:
     """Return a figure of panels in two columns, one on a phone, with shared axes; height of a row [in]."""
     columns = 1 if narrow else 2
     lines = -(-count // columns)
@@ -177,7 +181,7 @@ def listed(*each: Axes) -> None:
         axes.tick_params(axis="y", length=0)
 
 
-def label_line(axes: Axes, x: float, y: float, text: str, colour: str = INK, **place) -> None:
+def label_line(axes: Axes, x: float, y: float, text: str, colour: str = INK, **place: Any) -> None:
     """Name a curve beside it, which reads faster than a legend."""
     place = {"ha": "left", "va": "center", "fontsize": 9.5, **place}
     axes.text(x, y, text, color=colour, **place)

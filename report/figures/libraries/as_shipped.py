@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable
+from typing import Any
 
 import pandas as pd
 
@@ -106,7 +107,7 @@ def in_lines(rows: pd.DataFrame) -> list[tuple]:
     return [(", ".join(names), *cells) for cells, names in lines.items()]
 
 
-def measured(one) -> tuple:
+def measured(one: Any) -> tuple:
     """Return the cells of a controller but for its name."""
     has_body = one.starts > 0
     return (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterator
+from typing import Any
 
 import pandas as pd
 
@@ -140,7 +141,7 @@ def _named(own: pd.DataFrame) -> str:
     return "<br>".join(f"`{name.partition(', of a ')[0]}`" for name in own["function"]) or html.MISSING
 
 
-def instead(one, every: pd.DataFrame) -> str:
+def instead(one: Any, every: pd.DataFrame) -> str:
     """Return the smallest fix: a change of a line, else a right function of the same library, else one of ours."""
     if one.form == answers.ANGLES or (one.replacement and not one.replacement.startswith("`of_")):
         return one.replacement or html.MISSING
@@ -149,7 +150,7 @@ def instead(one, every: pd.DataFrame) -> str:
     return f"`{alike['function'].iloc[0]}`" if len(alike) else f"`of_{one.takes}`"
 
 
-def said(one) -> str:
+def said(one: Any) -> str:
     """Return the verdict on a line's function."""
     return "; ".join(one.objections.values()) or loops.RIGHT
 
@@ -160,6 +161,6 @@ def reported(thread: str) -> str:
     return f"[#{number}]({HOST}/{repository}/issues/{number})" if thread else "not found"
 
 
-def asked(one) -> str:
+def asked(one: Any) -> str:
     """Return a line's library and function."""
     return f"{one.library} `{one.function}`"

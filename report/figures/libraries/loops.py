@@ -6,6 +6,7 @@ Read from results/libraries, which is committed: it does not change with the run
 from __future__ import annotations
 
 import functools
+from typing import Any
 
 import pandas as pd
 
@@ -61,7 +62,7 @@ def _words(table: pd.DataFrame) -> pd.DataFrame:
     return table.astype(dict.fromkeys(table.select_dtypes("category"), str))
 
 
-def in_words(one) -> str:
+def in_words(one: Any) -> str:
     """Return what a body does that a line's function or controller drives: stuck, turning away, settling times."""
     words = []
     if one.dead:
