@@ -1,7 +1,5 @@
-"""What the front page shows: the answer, all verdicts, the hero of the paper's three laws, and the edition."""
+"""What the front page shows: the answer, all verdicts, the hero of the paper's three laws, and forces."""
 
-from bench.base.provenance import count_episodes
-from bench.experiments.tables import read
 from bench.findings import claims
 from report.figures.answer import answer_box, which_law
 from report.figures.claims import claims as judged
@@ -10,12 +8,9 @@ from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER
 from report.figures.kit.page import Run
 from report.figures.responses import hero
 
-SHORT_COMMIT = 10
-"""Digits of a commit that tell it from every other."""
-
 
 def facts(run: Run) -> dict:
-    """Return the answer, the laws, how many criteria were revised, and which edition this is."""
+    """Return the answer, the laws, how many criteria were revised."""
     on_claims = judged.facts(run)
     return {
         **{name: on_claims[name] for name in ("decided", "changed", "turned")},
@@ -23,7 +18,6 @@ def facts(run: Run) -> dict:
         "pegs": in_contact.stuck(in_contact.all_rows(run), PAPERS, PAPERS_EULER),
         "pegs_by_accelerations": in_contact.stuck(in_contact.all_rows(run), CARTESIAN, EULER),
         "off": compliance.facts(run).get("off"),
-        **edition(read.provenance()),
     }
 
 
@@ -38,14 +32,3 @@ def tables(run: Run) -> dict:
 def figures(run: Run) -> dict:
     """Return the paper's three laws from every angle."""
     return {"hero": hero.hero(run.rows("episodes", engine="ideal-rk4"))}
-
-
-def edition(provenance: dict) -> dict:
-    """Return the run that is shown."""
-    commit = provenance["commit"][:SHORT_COMMIT] or "none"
-    return {
-        "date": provenance["finished"].partition("T")[0],
-        "commit": f"{commit}, with changes" if provenance["dirty"] else commit,
-        "suite": provenance["suite"],
-        "episodes": count_episodes(provenance),
-    }

@@ -1,4 +1,4 @@
-"""Controllers as they are shipped, on their page: statements are those of the rows, and they alone advise."""
+"""Controllers as they are shipped, on their page: statements are those of the rows."""
 
 import shutil
 
@@ -13,7 +13,6 @@ from bench.experiments.experiment import Settings
 from bench.experiments.shipped import compare
 from bench.experiments.tables import store
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.remedy import fix_of
 from bench.law.contenders.registry import contenders
 from report.figures.kit.page import run_in
 from report.figures.libraries import as_shipped
@@ -31,8 +30,3 @@ def run(tmp_path_factory):
 
 def test_page_is_whole(run):
     assert_is_whole(as_shipped, run)
-
-
-def test_fix_of_a_controller_is_printed():
-    for one in contenders("shipped").values():
-        assert as_shipped.fix(one)[2].startswith(fix_of(one.name).words)

@@ -24,9 +24,7 @@ from report.figures.failures import failure_map
 from report.figures.kit.page import Run
 from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX
 from report.figures.libraries import answers, libraries, loops
-from report.figures.method import method
 from report.figures.robustness import half_turn_noise, robustness
-from report.figures.tool import regressions
 
 FOLDER = RESULTS / "reference"
 OURS, ADVISED = "late-braking", "hybrid"
@@ -151,11 +149,6 @@ def plant_dearest(law):
         return cost.share_of_time(Run(FOLDER))["time_most_law"]
 
 
-def plant_kv(**columns):
-    """List the gains of the reference's episodes."""
-    return method.describe_gains(Planted(**columns).rows("episodes"))
-
-
 def plant_exact(**columns):
     """State the least angle from which the rotation matrix fails, and the least pitch from which feedback does."""
     rows = Planted(**columns).rows("episodes", task="free-body", engine="ideal-rk4")
@@ -169,15 +162,6 @@ def plant_gain(k_dt):
     R = Rotation.from_rotvec((0.6, 0.0, 0.8))
     omega = np.array(find_contender("rotation-vector").law(of_scipy(R), AT_REST, Goal(), Gains(1.0, 0.0)))
     return f"{100 * (Rotation.from_rotvec(k_dt * omega) * R).magnitude():.0f} %"
-
-
-def plant_faults(is_caught):
-    """State how many planted faults are caught."""
-    with pytest.MonkeyPatch.context() as patch:
-        rows = [{"law": "a", "caught": is_caught, "named": True}]
-        patch.setattr(regressions, "read_rows", lambda run, name: rows if name == "faults" else [])
-        said = regressions.facts(Run(FOLDER))
-    return f"{said['caught']} of {said['planted']}"
 
 
 def plant_fact(facts, key):
@@ -210,7 +194,6 @@ SENTENCES = {
     "unstable": (plant_fact(as_arms_run.in_free_motion, "unstable"), [({}, "Panda"), ({"radius": 0.5}, "none")]),
     "noise": (plant_fact(half_turn_noise.facts, "blind_middle"), [({}, "25"), ({"outcome": "settled"}, "100")]),
     "least": (plant_fact(failure_map.facts, "least"), [({}, "135"), ({"alpha0": 2.0}, "114")]),
-    "gains": (plant_kv, [({}, "kv = 20"), ({"kv": 7.0}, "kv = 7")]),
     "held": (plant_advice, [({}, "cannot hold the body"), ({"held": 0.01}, "No law of this run settles")]),
     "lost": (plant_advice, [({}, "it settles from every start"), ({"lost": 1.0}, "No law of this run settles")]),
     "no better": (plant_advice, [({}, "In 9 of 16"), ({"laws": [ADVISED], "time": 0.1}, "In 10 of 16")]),
@@ -219,7 +202,6 @@ SENTENCES = {
     "effort": (plant_leader, [({"criterion": "effort"}, MATRIX), ({"criterion": "effort", "effort": 1e-9}, FEEDBACK)]),
     "exact": (plant_exact, [({}, "180.000 and 90.000"), ({"outcome": "settled"}, "nan and nan")]),
     "one tick": (plant_gain, [((1.0,), "0 %"), ((0.4,), "60 %")]),
-    "caught": (plant_faults, [((True,), "1 of 1"), ((False,), "0 of 1")]),
     "dearest": (plant_dearest, [((LINEARIZED,), "linearized"), ((MATRIX,), "rotation matrix")]),
 }
 

@@ -10,10 +10,10 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 from bench.law.contenders.registry import contenders
 from bench.law.display import COLOURS, LINES
 from report.figures.kit import html, style
-from report.figures.kit.inline import Picture, picture, responsive_picture
+from report.figures.kit.inline import Picture, responsive_picture
 
 
-@picture
+@responsive_picture
 def two_laws():
     figure, axes = style.panels(height=2.0)
     for name in ("rotation-matrix", "linearized-euler"):
@@ -21,7 +21,7 @@ def two_laws():
     return figure, 'Two laws, "equal" & straight'
 
 
-@picture
+@responsive_picture
 def undescribed():
     figure, _ = style.panels(height=2.0)
     return figure, " "

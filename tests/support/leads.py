@@ -27,15 +27,12 @@ from support.leads_of_arms import (
     MATRIX,
     read_json,
     recompute_arms,
-    recompute_checks,
     recompute_compliance,
     recompute_contact,
-    recompute_engines,
     recompute_impedance,
     recompute_libraries,
     recompute_new_law,
     recompute_pegs,
-    recompute_regressions,
     recompute_times,
 )
 from support.tables import table
@@ -216,12 +213,8 @@ COMPUTED = {
     "17-velocity-commands": recompute_velocities,
     "23-as-arms-run": recompute_impedance,
     "25-libraries": recompute_libraries,
-    "26-live": lambda: {"laws": len(plan_laws())},
     "27-which-law": recompute_advice,
     "28-a-new-law": recompute_new_law,
-    "29-take-it-home": recompute_checks,
-    "30-method": recompute_engines,
-    "31-regressions": recompute_regressions,
     "40-claims": recompute_verdicts,
 }
 """Page -> key -> its text, or numbers and words of it."""

@@ -1,8 +1,6 @@
 """Compute again what leads say of arms, contact, libraries, our law, the history and the code; see `support.leads`."""
 
 import json
-import re
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -153,36 +151,6 @@ def recompute_libraries():
         "idioms_wrong": (~good["idiom"]).sum(),
         "libraries": len(set(read_json("libraries/provenance.json")["libraries"]) - {"orientation-bench"}),
     }
-
-
-def recompute_regressions():
-    planted = read_json("regress/faults.json")["rows"]
-    builds = [json.loads(path.read_text(encoding="utf-8")) for path in (RESULTS / "history").glob("*/*.json")]
-    faults = [one for one in planted if one["law"]]
-    return {
-        "planted": len(faults),
-        "caught": sum(one["caught"] and one["named"] for one in faults),
-        "builds": len({one["commit_info"]["id"] for one in builds}),
-        "benchmarks": len({one["param"] for build in builds for one in build["benchmarks"]}),
-    }
-
-
-def list_titles(folder, pattern):
-    """Return what a pattern finds first in each file of a folder."""
-    texts = (path.read_text(encoding="utf-8") for path in sorted(Path(folder).glob("[a-z]*.py")))
-    return [found[1] for text in texts if (found := re.search(pattern, text))]
-
-
-def recompute_checks():
-    *most, last = list_titles("bench/export/languages", r'Language\("\w+", "([^"]+)"')
-    faults = len(list_titles("bench/audit/faults", "(def find)"))
-    return {"languages": f"{', '.join(most)} and {last}", "faults": faults}
-
-
-def recompute_engines():
-    rows = table("episodes").query("task == 'free-body'")
-    pairs = sorted(rows.groupby(["kp", "kv"]).size().index)
-    return {"engines": rows["engine"].nunique(), "gains": [number for pair in pairs for number in pair]}
 
 
 def recompute_times():

@@ -12,18 +12,11 @@ from bench.findings.claims.adequacy import HELD_RAD
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.selection import gains, needs
 from bench.findings.selection.criteria import BY_NAME, Criterion
-from bench.findings.selection.measured import GENERAL, Measured, front, measured
+from bench.findings.selection.measured import Measured, measured
 from bench.findings.selection.robots import ROBOTS, word_of
 from bench.findings.selection.words import cost, faster_under_a_bound, standing, together
-from report.figures.cost.cost import spent
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
-
-FRONT = ("unsettled", "lost", *GENERAL)
-"""Criteria whose front the table of all laws marks."""
-
-SHOWN = ("lost", "time", "worst", "tick", "memory", "held", "effort", "peak", "variation")
-"""Criteria of the table of all laws, beside the share that settles and the operations."""
 
 
 def shown(found: Measured) -> list[str]:
@@ -95,12 +88,11 @@ def lead(run: Run) -> str:
 
 
 def tables(run: Run) -> dict:
-    """Situations, and all laws."""
+    """Return what to use by what a robot takes, and by situation."""
     found = measured(run.folder)
     return {
         "robots": by_robot(run),
         "decided": decided(needs.advice(run.folder), found),
-        "laws_table": every_law(found),
     }
 
 
@@ -165,28 +157,3 @@ def written(criterion: Criterion, value: float) -> str:
         return "none" if criterion.sense < 0 else "never" if criterion.unit == "s" else "∞"
     text = criterion.form.format(value)
     return html.number(float(text)) if "e" in text or abs(value) >= 1e3 else text
-
-
-def every_law(found: Measured) -> html.Markdown | None:
-    """Return a row a law, a column a criterion; a dot marks the front of FRONT."""
-    ahead = front(found, shown(found), FRONT)
-
-    def line(law: str) -> dict:
-        cells = {head(BY_NAME[name]): written(BY_NAME[name], found.number(name, law)) for name in SHOWN}
-        settled = f"{100.0 - found.number('unsettled', law):.4g}"
-        operations = spent(*found.tables.spent(law))
-        name = families.link(law, families.word(law))
-        return {
-            "Law": name,
-            "Front": "●" if law in ahead else "",
-            "Settles [%]": settled,
-            "Operations": operations,
-        } | cells
-
-    laws = families.in_order(found.laws)
-    return html.table(pd.DataFrame(map(line, laws)).fillna("")) if laws else None
-
-
-def head(criterion: Criterion) -> str:
-    """Return a column's head."""
-    return f"{criterion.title} [{criterion.unit}]" if criterion.unit else criterion.title

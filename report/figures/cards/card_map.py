@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 from report.figures.kit import style
 from report.figures.kit.dots import dots
 from report.figures.kit.html import number
-from report.figures.kit.inline import Drawing, picture
+from report.figures.kit.inline import Drawing, responsive_picture
 
 AT_REST_TO_IDENTITY = ("uniform", "box", "half-turn", "poles", "wraps")
 """Start sets in which only the orientation varies: at rest, goal identity."""
@@ -41,7 +41,7 @@ def flat(rows: pd.DataFrame) -> np.ndarray:
     return np.vstack((points, on_rim * (1.0, -1.0)))
 
 
-@picture
+@responsive_picture
 def card_map(episodes: pd.DataFrame, title: str) -> Drawing:
     """Outcomes of one law over orientations at rest."""
     figure, axes = style.panels(height=3.1, narrow=True)

@@ -110,13 +110,15 @@ def of_peak(rows: pd.DataFrame) -> dict:
 def tables(run: Run) -> dict:
     """Return all laws, and those whose command has a bound at equal peak command."""
     return {
-        "all_laws": all_laws(uniform(run), cells.directed_starts(ideal(run)), run.any_rows("costs", **read.FREE_BODY)),
+        "all_laws": all_laws(run),
         "at_peak": in_run(lambda: at_equal_peak(at_peak(run))),
     }
 
 
-def all_laws(rows: pd.DataFrame, tried: pd.DataFrame, counted: pd.DataFrame) -> html.Markdown | None:
-    """Return a row a law: what settles, how fast, effort, peak, operations, and directed starts lost."""
+def all_laws(run: Run) -> html.Markdown | None:
+    """Return a row a law: what settles, how fast, effort, peak, operations, starts lost, and what noise holds."""
+    rows, tried, counted = uniform(run), cells.directed_starts(ideal(run)), run.any_rows("costs", **read.FREE_BODY)
+    held = in_run(lambda: measured(run.folder).values["held"]) or {}
     times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
 
     def line(name: str) -> dict:
@@ -130,6 +132,7 @@ def all_laws(rows: pd.DataFrame, tried: pd.DataFrame, counted: pd.DataFrame) -> 
             "Peak": cells.large(own["peak_u"].max()),
             "A tick": cells.tick(counted, name),
             "Directed, lost": cells.count_lost(tried[tried["contender"] == name]),
+            "Held": html.cell(float(held[name][0])) if name in held else html.MISSING,
         }
 
     return cells.by_law(times, line)

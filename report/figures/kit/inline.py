@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import functools
 import html
+import inspect
 import io
 import re
 from collections.abc import Callable
@@ -47,27 +48,18 @@ class Picture(NamedTuple):
         return f'<div class="picture wide">{self.wide}</div><div class="picture narrow">{self.narrow}</div>'
 
 
-def picture(draw: Callable[..., Drawing]) -> Callable[..., Picture]:
-    """Decorate a function that draws, in the paper style, and returns (figure, alternative text)."""
-
-    @functools.wraps(draw)
-    def drawn(*args: Any, **kwargs: Any) -> Picture:
-        with style.paper_style():
-            figure, alt = draw(*args, **kwargs)
-            return Picture(svg(figure, alt, draw.__name__), alt)
-
-    return drawn
-
-
 def responsive_picture(draw: Callable[..., Drawing]) -> Callable[..., Picture]:
-    """Decorate like `picture` a function with a keyword `narrow`: it is drawn a second time, for a phone."""
+    """Decorate a function that draws; with a keyword `narrow` it draws a second time, for a phone."""
 
     @functools.wraps(draw)
     def drawn(*args: Any, **kwargs: Any) -> Picture:
+        name = draw.__name__
         with style.paper_style():
+            if "narrow" not in inspect.signature(draw).parameters:
+                figure, alt = draw(*args, **kwargs)
+                return Picture(svg(figure, alt, name), alt)
             figure, alt = draw(*args, narrow=False, **kwargs)
             phone, _ = draw(*args, narrow=True, **kwargs)
-            name = draw.__name__
             return Picture(svg(figure, alt, name), alt, svg(phone, alt, f"{name}-narrow"))
 
     return drawn

@@ -80,7 +80,7 @@ LINES: dict[str, str | tuple] = {"solid": SOLID, "dashed": DASHED, "dotted": DOT
 # For a law that has no look of its own: 3 colours x 5 markers x 3 lines, chosen by its name.
 SPARE_COLOURS = ("#a39400", "#56b4e9", "#cc79a7")
 SPARE_MARKERS = ("P", "X", "h", "*", "<")
-SPARE_LINES = (SOLID, DASHED, DASH_DOT)
+SPARE_LINES: tuple[Any, ...] = (SOLID, DASHED, DASH_DOT)
 
 # outcome -> colour and marker, in the order in which failure maps and legends name them
 OUTCOMES = {
@@ -111,9 +111,8 @@ def drawn(words: display.Look) -> Look:
 
 def spare(word: str) -> Look:
     """Return a look chosen by a name."""
-    rest, colour = divmod(mark(word), len(SPARE_COLOURS))
-    rest, marker = divmod(rest, len(SPARE_MARKERS))
-    return Look(SPARE_COLOURS[colour], SPARE_MARKERS[marker], SPARE_LINES[rest % len(SPARE_LINES)])
+    every = [*itertools.product(SPARE_COLOURS, SPARE_MARKERS, SPARE_LINES)]
+    return Look(*every[mark(word) % len(every)])
 
 
 def mark(text: str) -> int:
@@ -134,9 +133,7 @@ def paper_style() -> Any:
     return rc_context(fname=PAPER_STYLE)
 
 
-def panels(
-    rows: int = 1, cols: int = 1, *, height: float = 3.2, narrow: bool = False, **subplots: Any
-) -> tuple[Figure, Any]:
+def panels(rows: int = 1, cols: int = 1, *, height: float = 3.2, narrow: bool = False, **subplots: Any) -> Any:
     """Return a figure of the page's width, [in] high, and its axes; `narrow` is the same for a phone.
 
     Plain `Figure`, no pyplot: nothing is shown twice, nothing stays open, and no backend is
@@ -147,15 +144,13 @@ def panels(
     return figure, axes
 
 
-def beside(count: int, height: float, narrow_height: float, narrow: bool, **subplots: Any) -> tuple[Figure, Any]:
+def beside(count: int, height: float, narrow_height: float, narrow: bool, **subplots: Any) -> Any:
     """Return a figure of panels side by side, one below the other on a phone, and its axes."""
     shape = (count, 1) if narrow else (1, count)
     return panels(*shape, height=narrow_height if narrow else height, narrow=narrow, **subplots)
 
 
-def grid(
-    count: int, height: float, narrow_height: float, narrow: bool, top: float = 0.0, **subplots: Any
-) -> tuple[Figure, Any]:
+def grid(count: int, height: float, narrow_height: float, narrow: bool, top: float = 0.0, **subplots: Any) -> Any:
     """Return a figure of panels in two columns, one on a phone, with shared axes; height of a row [in]."""
     columns = 1 if narrow else 2
     lines = -(-count // columns)

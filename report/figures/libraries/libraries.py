@@ -8,6 +8,7 @@ from typing import Any
 
 import pandas as pd
 
+from bench.findings.questions import QUESTIONS, Question
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
@@ -21,7 +22,8 @@ WELD = "<weld>, by default"
 
 TO_USE = Table("Library | From a matrix | From a quaternion")
 FAULTS = Table("Function | Kind | Fault | In closed loop | Smallest fix | Reported")
-VERSIONS = Table("Library | Version | Asked on | Python | numpy | Note")
+
+ASKED = Table("Question | Cause | Cure | Measured | Without the cure:.3g | With it:.3g")
 
 TAKES = ("matrix", "quaternion")
 
@@ -99,16 +101,12 @@ def loop_facts() -> dict:
 
 
 def tables(_: Run) -> dict:
-    """Return what to use, what fails and its fix, and versions."""
+    """Return what to use, what fails and its fix, and questions of users."""
     every = lines()
     return {
         "tab_to_use": TO_USE(to_use(every)),
         "tab_faults": FAULTS(faults(every)),
-        "tab_versions": VERSIONS(
-            (f"`{name}`", one["version"], one["asked"], one["python"], one["numpy"], one["note"] or html.MISSING)
-            for name, one in sorted(answers.origins().items())
-            if name != OURS
-        ),
+        "asked": ASKED(map(describe_question, QUESTIONS)),
     }
 
 
@@ -155,12 +153,19 @@ def said(one: Any) -> str:
     return "; ".join(one.objections.values()) or loops.RIGHT
 
 
-def reported(thread: str) -> str:
-    """Return a thread upstream, owner/repository#number, as a link."""
+def reported(thread: str, words: str = "") -> str:
+    """Return a thread upstream, owner/repository#number, as a link; pull requests are found under it too."""
     repository, _, number = thread.partition("#")
-    return f"[#{number}]({HOST}/{repository}/issues/{number})" if thread else "not found"
+    return f"[{words or f'#{number}'}]({HOST}/{repository}/issues/{number})" if thread else "not found"
 
 
 def asked(one: Any) -> str:
     """Return a line's library and function."""
     return f"{one.library} `{one.function}`"
+
+
+def describe_question(one: Question) -> tuple:
+    """Return a question's row; what is no more than rounding is 0."""
+    links = ", ".join(reported(thread, thread.partition("/")[2]) for thread in one.threads)
+    measured = (value if abs(value) > 1e-12 else 0.0 for value in one.measure())
+    return f"{one.title} ({links})", one.cause, one.cure, f"{one.quantity}; right: {one.right:g}", *measured
