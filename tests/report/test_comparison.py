@@ -9,8 +9,8 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
+from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, NEAREST_RAD, settling
 from report.figures.comparison import cells, comparison
-from report.figures.comparison.angle import lateness
 from report.figures.failures import failure_map
 from report.figures.kit import families
 from report.figures.kit.page import Run, run_in
@@ -72,11 +72,15 @@ def test_law_of_no_family_comes_last_under_its_own_name():
 
 def test_measured_times_are_within_a_tick_after_the_equations():
     found = rows()
-    tick = 1000.0 * float(found["dt_s"].iloc[0])
-    for late in lateness(found).values():
-        assert len(late)
-        assert late.min() > -1e-3
-        assert late.max() < tick + 1e-3
+    kp, kv, tolerance, tick = (float(found[column].iloc[0]) for column in ("kp", "kv", "tolerance", "dt_s"))
+    laws = set(found["contender"]) & set(EQUATIONS)
+    assert laws
+    for name in laws:
+        own = found[(found["contender"] == name) & (found["outcome"] == "settled")]
+        within = own[own["angle0_rad"].between(LEAST_RAD, math.pi - NEAREST_RAD)]
+        for one in within.iloc[:: max(1, len(within) // 12)].itertuples():
+            expected = settling(EQUATIONS[name], one.angle0_rad, kp, kv, tolerance)
+            assert -1e-6 < one.settling_time_s - expected < tick + 1e-6
 
 
 def test_dead_points_are_where_the_laws_are_known_to_fail():
@@ -110,4 +114,4 @@ class Unperturbed(Run):
 def test_page_says_so_where_there_are_no_rows_at_equal_peak():
     run = Unperturbed(RESULTS / "reference")
     assert comparison.tables(run)["at_peak"] is None
-    assert "peak_matrix" not in comparison.facts(run)
+    assert "peak_starts" not in comparison.facts(run)

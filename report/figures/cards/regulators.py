@@ -13,7 +13,7 @@ from bench.findings import why
 from bench.findings.selection import needs
 from bench.law.contender import Contender
 from bench.law.contenders import regulators
-from bench.law.contenders.registry import all_contenders, contenders, contenders_of, papers_laws
+from bench.law.contenders.registry import contenders, contenders_of, papers_laws
 from bench.law.kinds import Law
 from report.figures.cards.card import LawPage, Source, docstring, make_card, make_page, say_property
 from report.figures.cards.card_map import card_map
@@ -131,18 +131,6 @@ def advised(law: str, run: Run) -> str:
     here, tied = in_run(lambda: needs.advice(run.folder).uses(law)) or ((), ())
     said = {"If ": here, "No worse, and less simple, if ": tied}
     return " ".join(f"{start}{'; '.join(one.words for one in found)}." for start, found in said.items() if found)
-
-
-def facts(_: Run) -> dict:
-    """Return how many laws there are of each kind."""
-    every = [one.regulator for one in all_contenders()]
-    ran = [one for one in every if not one.costing_only]
-    return {
-        "compared": sum(not one.control for one in ran),
-        "continuous": sum(not (one.control or one.in_engine) for one in ran),
-        "controls": sum(one.control for one in ran),
-        "costed": len(every) - len(ran),
-    }
 
 
 def tables(run: Run) -> dict:

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from bench.base.files import read_json
 from bench.findings import claims
 from bench.findings.claims import Verdict, Word, tally
-from bench.findings.claims.errata import UNTESTABLE
+from bench.findings.claims.errata import ERRATA, UNTESTABLE, Erratum
 from bench.findings.claims.verdict import MISPRINTS, does
 from bench.studies import verdicts
 from report.figures.kit import html
@@ -22,6 +22,7 @@ ORDER = (Word.FAILS, Word.DEPENDS, Word.CORRECTED, Word.UNTESTABLE, Word.ANSWERE
 
 VERDICTS = Table("Claim | Section | The paper | Verdict | Criterion revised? | What is true")
 SENTENCES = Table("Section | The paper | Why it is not tested")
+SLIPS = Table(" | Where | Printed | Should be | Checked")
 
 
 def facts(_: Run) -> dict:
@@ -35,6 +36,8 @@ def facts(_: Run) -> dict:
         "first_words": claims.told(one.first for one in every),
         "changed": len(changed),
         "turned": sum(one.word != one.first for one in changed),
+        "n_computed": sum(one.check is not None for one in ERRATA),
+        "n_read": sum(one.check is None for one in ERRATA),
         "misprints": typeset(" ".join(MISPRINTS.split())),
         "steady": steady(read_json(verdicts.STORED), {one.id: str(one.word) for one in every}),
     }
@@ -64,7 +67,29 @@ def tables(_: Run) -> dict:
     """Every claim in a row, and what decided each, folded."""
     every = claims.judge_all()
     sentences = SENTENCES((one.section, f"“{prose(one.quote)}”", prose(one.why)) for one in UNTESTABLE)
-    return {"verdicts": table(every), "sections": html.Html("".join(map(section, every))), "untestable": sentences}
+    slips = SLIPS(map(describe_slip, sorted(ERRATA, key=lambda one: one.check is None)))
+    return {
+        "verdicts": table(every),
+        "sections": html.Html("".join(map(section, every))),
+        "untestable": sentences,
+        "slips": slips,
+    }
+
+
+def checked(one: Erratum) -> str:
+    """Return how it was checked, the computed ones just now.
+
+    Errors:
+        ValueError: the check no longer confirms its erratum, and the page must not say that it does.
+    """
+    if one.check and not one.check():
+        raise ValueError(f"erratum {one.id}: its check '{one.how}' does not confirm it (cure: mend it in errata.py)")
+    return f"{'computed: ' if one.check else ''}{prose(one.how)}"
+
+
+def describe_slip(one: Erratum) -> tuple:
+    """Return a row of the table."""
+    return one.id, prose(one.where), f"“{prose(one.printed)}”", prose(one.right), checked(one)
 
 
 def tiles(every: list[Verdict]) -> html.Html:

@@ -14,12 +14,12 @@ from scipy.integrate import solve_ivp
 from bench.experiments.tables import read
 from bench.findings.theory.closed_form import linear_settling
 from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, TIGHT, settling
-from bench.law.display import ANGLE, Equation
+from bench.law.display import Equation
 from bench.law.inputs import PAPERS_GAINS
 from report.figures.comparison import cells, comparison
 from report.figures.comparison.cells import LEVEL
 from report.figures.cost.operations import CALLS
-from report.figures.kit import families, html, style
+from report.figures.kit import families, style
 from report.figures.kit.inline import responsive_picture
 from report.figures.kit.page import Run, in_run
 from tasks.rules import RULES
@@ -49,11 +49,6 @@ def facts(run: Run) -> dict:
         "later_of": f"{', '.join(map('{:g}'.format, RATIOS))}",
         **(count_calls(spent.loc[NEW, "typical"]) if (NEW, "typical") in spent.index else {}),
         "pull": f"{greatest_pull(LATE):.2f}",
-        "effort": html.number(round(effort(LATE))),
-        "straight_effort": html.number(round(effort(ANGLE))),
-        "peak_s": f"{longest(LATE, *peak_gains(LATE)):.2f}",
-        "peak_straight_s": f"{longest(ANGLE, *peak_gains(ANGLE)):.2f}",
-        "level": html.number(LEVEL),
     }
 
 
@@ -89,11 +84,6 @@ def count_calls(row: pd.Series) -> dict[str, int]:
 def longest(equation: Equation, kp: float, kv: float) -> float:
     """Return the longest settling time [s] from rest, over angles up to 180°."""
     return max(settling(equation, angle, kp, kv, RULES.tolerance) for angle in np.linspace(LEAST_RAD, math.pi, 24))
-
-
-def effort(equation: Equation) -> float:
-    """Integrate the squared command from rest at 180° [rad^2/s^3]."""
-    return float(response(equation, math.pi, *PAPERS_GAINS)[-1, -1])
 
 
 def peak_gains(equation: Equation) -> tuple[float, float]:

@@ -14,9 +14,6 @@ from report.figures.kit.inline import Drawing, responsive_picture
 
 CURVE = 60
 DRAWN = 150
-CHECKED = 12
-"""At least so many starts of each law are held against its equation, at even steps through their sequence."""
-
 FOOT_S, TOP_S = 0.3, 3.0
 """Limits of the panel, on a logarithmic axis: curves that go to infinity at 180° leave it."""
 
@@ -76,22 +73,3 @@ def left_at(angles: np.ndarray, times: np.ndarray) -> tuple[float, float] | None
     if not len(outside) or outside[0] == 0:
         return None
     return float(angles[outside[0]]) - ASIDE_DEG, TOP_S if times[outside[0]] > TOP_S else FOOT_S
-
-
-def lateness(rows: pd.DataFrame) -> dict[str, np.ndarray]:
-    """Law -> measured settling time minus its equation's [ms], of CHECKED starts.
-
-    Args:
-        rows: of `cells.common`.
-    """
-    gains = [float(rows[column].iloc[0]) for column in ("kp", "kv", "tolerance")]
-    names = [name for name in families.in_order(rows["contender"].unique()) if name in EQUATIONS]
-    return {name: late_ms(rows[rows["contender"] == name], EQUATIONS[name], *gains) for name in names}
-
-
-def late_ms(own: pd.DataFrame, equation: Equation, kp: float, kv: float, tolerance: float) -> np.ndarray:
-    """Measured settling time minus the equation's [ms], of CHECKED starts of one law within the curve's angles."""
-    within = own[own["angle0_rad"].between(LEAST_RAD, math.pi - NEAREST_RAD) & (own["outcome"] == "settled")]
-    chosen = within.iloc[:: max(1, len(within) // CHECKED)]
-    expected = [settling(equation, angle, kp, kv, tolerance) for angle in chosen["angle0_rad"]]
-    return 1000.0 * (chosen["settling_time_s"].to_numpy() - expected)

@@ -12,10 +12,9 @@ from bench.experiments.tables import read
 from bench.findings.selection.measured import measured
 from bench.findings.selection.words import leaders
 from report.figures.comparison import cells
-from report.figures.comparison.angle import curves, lateness
+from report.figures.comparison.angle import curves
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
-from report.figures.kit.rows import MATRIX
 
 NEAR_DEG = 30, 60
 ANISOTROPIC = "weighted-columns"
@@ -43,13 +42,9 @@ def at_peak(run: Run) -> pd.DataFrame:
 
 def facts(run: Run) -> dict:
     """Return the numbers in the sentences of the page."""
-    late = np.concatenate(list(lateness(uniform(run)).values()))
     return {
         **of_all(uniform(run), cells.directed_starts(ideal(run))),
         **(in_run(lambda: best(run)) or {}),
-        "least_late": f"{late.min():.2f}",
-        "most_late": f"{late.max():.2f}",
-        "checked": len(late),
         **(in_run(lambda: of_peak(at_peak(run))) or {}),
     }
 
@@ -69,7 +64,6 @@ def of_all(rows: pd.DataFrame, tried: pd.DataFrame) -> dict:
         "starts": len(times),
         "kp": float(rows["kp"].iloc[0]),
         "kv": float(rows["kv"].iloc[0]),
-        "tick": f"{1000 * float(rows['dt_s'].iloc[0]):g}",
         "fastest_s": f"{middle.min():.2f}",
         "slowest_s": f"{middle.max():.2f}",
         "whole": int(sum(np.isfinite(times[name]).all() for name in laws)),
@@ -100,11 +94,9 @@ def best(run: Run) -> dict:
 
 
 def of_peak(rows: pd.DataFrame) -> dict:
-    """At equal peak command: from how many starts, and the rotation matrix."""
+    """Return the peak command, and from how many starts."""
     times = cells.costs(rows, "settling_time_s")
-    middle, longest = cells.medians(times)[MATRIX], times[MATRIX].max()
-    matrix = f"{middle:.2f} s in the median, and {longest:.2f} s from its slowest start"
-    return {"peak": html.number(cells.LEVEL), "peak_starts": len(times), "peak_matrix": matrix}
+    return {"peak": html.number(cells.LEVEL), "peak_starts": len(times)}
 
 
 def tables(run: Run) -> dict:
