@@ -36,7 +36,7 @@ from tasks.arm_model import model_xml
 from tasks.contact import prepare
 
 STRIP = (380, 460)  # pixels of an arm at home
-POLE = {"arm": "ur5e", "start_set": "pole", "start": "pole-minus-1-k2", "seed": 0}
+POLE: dict[str, Any] = {"arm": "ur5e", "start_set": "pole", "start": "pole-minus-1-k2", "seed": 0}
 CONTENDERS = {
     "feedback-linearized/zyx-euler@analytic+solve": "Euler Jacobian",
     "rotation-matrix@geometric+solve": "geometric Jacobian",

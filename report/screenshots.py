@@ -16,7 +16,7 @@ import shutil
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 SITE = Path(__file__).resolve().parent / "_build" / "html"
 README_PICTURE = Path(__file__).resolve().parent / "_static" / "overview.png"
@@ -74,7 +74,7 @@ def browser() -> Iterator:
     from selenium import webdriver
     from selenium.webdriver.chrome.service import Service
 
-    options = webdriver.ChromeOptions()
+    options: Any = webdriver.ChromeOptions()
     options.binary_location = chromium()
     for switch in (
         "--headless=new",
@@ -94,7 +94,7 @@ def browser() -> Iterator:
         driver.quit()
 
 
-def look(driver, view: View) -> None:
+def look(driver: Any, view: View) -> None:
     """Set width and theme as a reader's device would, before or after a page is opened."""
     size = {"width": view.width, "height": HEIGHT, "deviceScaleFactor": 1, "mobile": view.width < 600}
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
@@ -102,19 +102,19 @@ def look(driver, view: View) -> None:
     driver.execute_cdp_cmd("Emulation.setEmulatedMedia", scheme)
 
 
-def settle(driver) -> None:
+def settle(driver: Any) -> None:
     """Wait until formulas are set, fonts are there and the page is drawn."""
     driver.execute_async_script(WAIT_FOR_QUIET)
 
 
-def open_page(driver, page: Path, view: View) -> None:
+def open_page(driver: Any, page: Path, view: View) -> None:
     """Open a page from its file and wait until it is drawn."""
     look(driver, view)
     driver.get(page.as_uri())
     settle(driver)
 
 
-def network_requests(driver) -> list[str]:
+def network_requests(driver: Any) -> list[str]:
     """Every address outside this machine that was asked for since the last call."""
     asked = []
     for entry in driver.get_log("performance"):
@@ -125,12 +125,12 @@ def network_requests(driver) -> list[str]:
     return [url for url in asked if not url.startswith(LOCAL_SCHEMES)]
 
 
-def console_errors(driver) -> list[str]:
+def console_errors(driver: Any) -> list[str]:
     """Return what the console complained of since the last call."""
     return [entry["message"] for entry in driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
 
 
-def first_figure(driver) -> bytes:
+def first_figure(driver: Any) -> bytes:
     """Return the page's first figure without its caption, as PNG at twice the size."""
     box = driver.find_element("css selector", "figure svg").rect
     shot = {"format": "png", "captureBeyondViewport": True, "clip": {**box, "scale": 2}}

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 FOLDER, CODE, LIVE = "laws", "laws/code", "pages/26-live"
 
 
-def collected(app) -> Iterator[tuple[str, dict, str]]:
+def collected(app: Any) -> Iterator[tuple[str, dict, str]]:
     """(name, context, template) of each page; the files that it offers are written beside it."""
     from bench.experiments.tables import read
     from report.figures.cards import other_page, regulators
@@ -25,6 +26,6 @@ def collected(app) -> Iterator[tuple[str, dict, str]]:
         yield f"{FOLDER}/{made.name}", {"title": made.title, "body": made.body}, "page.html"
 
 
-def setup(app) -> dict:
+def setup(app: Any) -> dict:
     app.connect("html-collect-pages", collected)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

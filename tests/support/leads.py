@@ -11,12 +11,11 @@ import pandas as pd
 from scipy.stats import binomtest
 
 import tasks
-from bench.experiments import plan as planning
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
 from bench.findings.selection import gains, needs
 from bench.findings.selection.robots import VELOCITY
-from bench.law.contenders.registry import all_contenders, find_contender
+from bench.law.contenders.registry import find_contender
 from report.figures.kit.families import word
 from support.advised import accelerations, operations, shares_of_time, velocities
 from support.leads_of_arms import (
@@ -43,12 +42,6 @@ def name_together(laws):
     """Return the words of the first three laws and how many more, or of four laws and fewer all."""
     words = [word(law) for law in laws]
     return words if len(words) <= 4 else [*words[:3], len(words) - 3]
-
-
-def plan_laws():
-    """Return the laws that the quick suite runs on the free body."""
-    laws = [one for one in all_contenders() if not one.regulator.costing_only]
-    return {unit.contender for unit in planning.make("quick", laws).of("free-body")}
 
 
 def uniform():

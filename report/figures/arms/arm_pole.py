@@ -6,7 +6,7 @@ import pandas as pd
 
 from report.figures.arms import arm_rows
 from report.figures.kit import html, style
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit.inline import Drawing, responsive_picture
 
 MISSES = r"-(exact|k\d+)$"
 HAMMERED = 10.0
@@ -22,7 +22,7 @@ def decade(start_ids: pd.Series) -> pd.Series:
 
 
 @responsive_picture
-def pole(rows: pd.DataFrame, narrow: bool):
+def pole(rows: pd.DataFrame, narrow: bool) -> Drawing:
     """Peak torque over rated against how near to the pole the turn passes; a cross for an episode that fails.
 
     Args:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -13,7 +14,7 @@ from bench.findings.claims.euler_jacobian import WELL_CONDITIONED
 from bench.law.contenders.registry import papers_coordinates
 from report.figures.arms.arm_rows import name_arm, order_arms
 from report.figures.kit import html, media, style
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
 
@@ -102,7 +103,7 @@ class Grid:
         )
         self.y, self.x = (np.degrees(np.sort(rows[f"q_{joint}"].unique())) for joint in (self.second, self.first))
 
-    def matrix(self, place, values: pd.Series) -> np.ndarray:
+    def matrix(self, place: Any, values: pd.Series) -> np.ndarray:
         """Return the values at their places; what is infinite or beyond stands at HIGHEST."""
         found = np.full((self.side, self.side), np.nan)
         found[place] = values.fillna(HIGHEST).clip(upper=HIGHEST)
@@ -120,7 +121,7 @@ class Grid:
 
 
 @responsive_picture
-def maps(rows: pd.DataFrame, *, narrow=False):
+def maps(rows: pd.DataFrame, *, narrow: bool = False) -> Drawing:
     """Return a row of two maps for each arm; contours say which singularity is the arm's and which the coordinates'."""
     names = order_arms(rows)
     height = (1.95 if narrow else 2.4) * len(names) + 1.0
@@ -145,7 +146,7 @@ def maps(rows: pd.DataFrame, *, narrow=False):
     return figure, f"Condition numbers of J and J_E over two joints, one row an arm. {' '.join(said)}"
 
 
-def draw_map(axes, own: Grid, column: str):
+def draw_map(axes: Any, own: Grid, column: str) -> Any:
     """Draw one map with its contours."""
     half = [(axis[1] - axis[0]) / 2 for axis in (own.x, own.y)]
     edges = own.x[0] - half[0], own.x[-1] + half[0], own.y[0] - half[1], own.y[-1] + half[1]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -97,7 +98,7 @@ def log_limit(found: pd.DataFrame) -> str | None:
     return f"{float(own['k_dt'].iloc[0]):.3g}" if len(own) else None
 
 
-def named(laws) -> str:
+def named(laws: Any) -> str:
     """Laws by their short words."""
     return "; ".join(families.word(name) for name in families.in_order(laws)) or "none"
 

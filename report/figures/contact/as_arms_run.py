@@ -11,7 +11,7 @@ from bench.findings.theory.impedance_modes import longest_tick, with_theory
 from bench.law.control.unshaped import DAMPINGS
 from report.figures.arms.arm_rows import name_arm
 from report.figures.kit import style
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run, in_run
 
 LOOKS = {
@@ -73,7 +73,7 @@ def figures(run: Run) -> dict:
 
 
 @responsive_picture
-def ratios_felt(rows: pd.DataFrame, narrow: bool):
+def ratios_felt(rows: pd.DataFrame, narrow: bool) -> Drawing:
     """Return the damping ratio of every mode over its frequency: marks measured, points theory."""
     figure, axes = style.panels(height=3.6 if narrow else 3.2, narrow=narrow)
     said = []

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
 from matplotlib.colors import Normalize
@@ -12,7 +14,7 @@ from report.figures.contact import rows as controllers
 from report.figures.contact.hand_axes import ORDER, axes_of_turning, measured, shown_arm, turns
 from report.figures.contact.rows import level, of
 from report.figures.kit import style
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
 
@@ -79,7 +81,7 @@ def cells(rows: pd.DataFrame) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 @responsive_picture
-def misalignment(rows: pd.DataFrame, narrow: bool):
+def misalignment(rows: pd.DataFrame, narrow: bool) -> Drawing:
     """Draw how far the hand turns away from the moment on it: a line an order, a column a frame of the hand.
 
     Args:
@@ -103,7 +105,7 @@ def misalignment(rows: pd.DataFrame, narrow: bool):
     return figure, f"Angle between moment and rotation in degrees. {' '.join(said)}"
 
 
-def draw_cells(axes, values: pd.DataFrame, words: pd.DataFrame, narrow: bool):
+def draw_cells(axes: Any, values: pd.DataFrame, words: pd.DataFrame, narrow: bool) -> Any:
     """Draw a cell an order and beta, with its number where there is room."""
     columns = len(values.columns)
     image = axes.imshow(

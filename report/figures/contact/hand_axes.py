@@ -7,6 +7,7 @@ curved arrow in colour is a measured row: the direction of C e, and its length o
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -14,7 +15,7 @@ from matplotlib.patches import FancyArrowPatch, Polygon
 
 from report.figures.contact.rows import PAPERS, PAPERS_EULER, compliance, level, nearest, of
 from report.figures.kit import style
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit.inline import Drawing, responsive_picture
 
 COLOURS = {PAPERS: "#0072b2", PAPERS_EULER: "#d55e00"}
 BETAS = (0, 30, 60, 85)
@@ -30,13 +31,13 @@ LENGTH, RADIUS = 1.12, 0.27  # of an axis' arrow, and of the ring around it; the
 WINDOW = (-1.22, 1.22, -1.36, 1.22)  # left, right, below, above; words stand at its foot
 
 
-def eye(points) -> np.ndarray:
+def eye(points: Any) -> np.ndarray:
     """N x 2, right and up on paper, of points in the base frame: parallel projection."""
     right = np.array([-math.sin(AZIMUTH), math.cos(AZIMUTH), 0.0])
     return np.atleast_2d(points) @ np.column_stack((right, np.cross(TOWARDS, right)))
 
 
-def depth(points) -> float:
+def depth(points: Any) -> float:
     """How near the middle of points is to the eye."""
     return float(np.mean(np.atleast_2d(points) @ TOWARDS))
 
@@ -47,7 +48,7 @@ def about_y(beta: float) -> np.ndarray:
     return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
 
 
-def box(middle, half) -> list[np.ndarray]:
+def box(middle: Any, half: Any) -> list[np.ndarray]:
     """Return the six faces of a box along the axes, 4 x 3 each."""
     faces = []
     for axis in range(3):
@@ -70,7 +71,7 @@ HAND = [
 ]
 
 
-def draw_hand(axes, beta: float) -> None:
+def draw_hand(axes: Any, beta: float) -> None:
     """Draw the hand at Ry(beta), its far faces first."""
     turned = [face @ about_y(beta).T for face in HAND]
     for face in sorted(turned, key=depth):
@@ -79,7 +80,9 @@ def draw_hand(axes, beta: float) -> None:
         )
 
 
-def draw_turn(axes, direction, size: float, colour: str, zorder: float, width: float, dashes="-") -> None:
+def draw_turn(
+    axes: Any, direction: Any, size: float, colour: str, zorder: float, width: float, dashes: Any = "-"
+) -> None:
     """Draw an axis through the hand, and a ring with a head around it; both shrink with the size, 0 to 1."""
     direction = np.asarray(direction) / np.linalg.norm(direction)
     reach = LENGTH * (0.4 + 0.6 * size)
@@ -105,7 +108,7 @@ def draw_turn(axes, direction, size: float, colour: str, zorder: float, width: f
     axes.add_patch(FancyArrowPatch(path[-9], path[-1], zorder=zorder, **head))
 
 
-def draw_frame(axes) -> None:
+def draw_frame(axes: Any) -> None:
     """Draw the base's axes, small, in a corner."""
     at = np.array([-1.02, 0.0, -0.95])
     corner = eye(at)[0]
@@ -164,7 +167,7 @@ def measured(found: list[dict]) -> dict[str, str]:
 
 
 @responsive_picture
-def axes_of_turning(rows: pd.DataFrame, narrow: bool):
+def axes_of_turning(rows: pd.DataFrame, narrow: bool) -> Drawing:
     """Return a row a moment, a column a controller and beta; on a phone a column a moment.
 
     Args:
@@ -196,7 +199,7 @@ def axes_of_turning(rows: pd.DataFrame, narrow: bool):
     )
 
 
-def _head(figure, grid, narrow: bool) -> None:
+def _head(figure: Any, grid: Any, narrow: bool) -> None:
     """Say what each row of panels (on a phone each column) is pushed by."""
     for i, (_, what) in enumerate(PUSHED):
         first, second = what.split(", ")
@@ -211,7 +214,7 @@ def _head(figure, grid, narrow: bool) -> None:
             axes.set_ylabel(f"{first},\n{second}", fontweight="bold", fontsize=9.5, labelpad=6)
 
 
-def _panel(axes, one: dict) -> str:
+def _panel(axes: Any, one: dict) -> str:
     """One hand; what it does, in words."""
     axes.set(xlim=WINDOW[:2], ylim=WINDOW[2:], aspect="equal", xticks=[], yticks=[])
     axes.spines[:].set_visible(False)

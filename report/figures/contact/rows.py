@@ -6,6 +6,7 @@ C, 3 x 3, is a row's rotation per moment [rad/(N m)]: C[i, j] about i per moment
 from __future__ import annotations
 
 import functools
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -44,6 +45,6 @@ def nearest(rows: pd.DataFrame, betas: tuple[float, ...]) -> list[float]:
     return list(dict.fromkeys(min(there, key=lambda one: abs(one - beta)) for beta in betas))
 
 
-def compliance(row) -> np.ndarray:
+def compliance(row: Any) -> np.ndarray:
     """C of one row; NaN where the hand did not get to the end."""
     return np.array([[float(row[f"c_{i}{j}"]) for j in "xyz"] for i in "xyz"])

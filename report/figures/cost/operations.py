@@ -7,7 +7,7 @@ from textwrap import fill
 import pandas as pd
 
 from report.figures.kit import laws, style
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit.inline import Drawing, responsive_picture
 
 # kind -> (columns of costs.parquet, colour, colour of the numbers on it)
 KINDS = {
@@ -23,7 +23,7 @@ LEAST_LABELLED = 2
 
 
 @responsive_picture
-def operations(costs: pd.DataFrame, *, narrow=False):
+def operations(costs: pd.DataFrame, *, narrow: bool = False) -> Drawing:
     """Draw a bar a law, the cheapest first, in pieces by kind; the goal's stage included."""
     rows = costs[(costs["branch"] == "typical") & (costs["stage"] == "total")].set_index("contender")
     kinds = pd.DataFrame({kind: rows[list(columns)].sum(axis=1) for kind, (columns, *_) in KINDS.items()})

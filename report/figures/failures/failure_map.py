@@ -4,6 +4,7 @@ import functools
 import math
 import sys
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -72,7 +73,7 @@ def tables(_: Run) -> dict:
     return {"tab_mapped": maps.table(), "representations": COORDINATES(coordinates)}
 
 
-def where_it_breaks(one) -> str:
+def where_it_breaks(one: Any) -> str:
     """Return what the docstring of a representation's module says after its first paragraph."""
     text = sys.modules[one.chart.__module__].__doc__ or ""
     return " ".join(text.partition("\n\n")[2].split())

@@ -1,6 +1,7 @@
 """Random starts of the maps that came with the benchmark: at rest, and at stated speeds, a law a line."""
 
 import functools
+from typing import Any
 
 import pandas as pd
 
@@ -74,7 +75,7 @@ def table() -> html.Markdown | None:
     return made((html.law(law, families.word(law)), *map(cell, found[law])) for law in order)
 
 
-def cell(one) -> str:
+def cell(one: Any) -> str:
     """Return the share lost of those that converge, with the interval's ends, and below it the share that does not."""
     sure = one.starts - one.unconverged
     share, interval = percent(one.lost, sure).split(" (")

@@ -5,6 +5,8 @@ map times the turn gamma about n, which the map does not show (n is the base poi
 the map are the poles of Z-Y-X angles, its rim is alpha = +-pi, and the dashed meridians bound the paper's range.
 """
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
 from matplotlib.lines import Line2D
@@ -13,7 +15,7 @@ from matplotlib.patheffects import withStroke
 from bench.findings.start_sets import AT_REST
 from report.figures.kit import html, laws, style
 from report.figures.kit.dots import dots
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit.inline import Drawing, responsive_picture
 
 DRAWN = 1200
 """Settled dots a map; every failing start is drawn."""
@@ -22,14 +24,14 @@ HALO = [withStroke(linewidth=2.5, foreground=style.PAPER)]
 FINE = np.linspace(-0.5, 0.5, 61) * np.pi
 
 
-def hammer(longitude, latitude):
+def hammer(longitude: Any, latitude: Any) -> Any:
     """Equal-area coordinates of a direction: an ellipse of half axes 2 and 1 (up to sqrt 2)."""
     root = np.sqrt(1.0 + np.cos(latitude) * np.cos(np.asarray(longitude) / 2.0))
     return 2.0 * np.cos(latitude) * np.sin(np.asarray(longitude) / 2.0) / root, np.sin(latitude) / root
 
 
 @responsive_picture
-def world(episodes: pd.DataFrame, narrow: bool):
+def world(episodes: pd.DataFrame, narrow: bool) -> Drawing:
     """Draw a map a law: settled uniform starts in grey, failing ones by outcome, directed points larger.
 
     Args:
@@ -53,7 +55,7 @@ def world(episodes: pd.DataFrame, narrow: bool):
     )
 
 
-def _globe(axes) -> None:
+def _globe(axes: Any) -> None:
     axes.set(aspect="equal", xlim=(-2.02, 2.02), ylim=(-1.02, 1.02))
     axes.axis("off")
     for edge in (-np.pi, np.pi):
@@ -76,7 +78,7 @@ def _globe(axes) -> None:
         )
 
 
-def _starts(axes, title: str, rows: pd.DataFrame, met: dict) -> str:
+def _starts(axes: Any, title: str, rows: pd.DataFrame, met: dict) -> str:
     x, y = hammer(rows["alpha0"], -rows["beta0"])
     rows = rows.assign(x=x, y=y)
     uniform = rows[rows["start_set"] == "uniform"]

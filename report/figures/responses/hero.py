@@ -1,5 +1,7 @@
 """The front page's figure: settling time against initial angle, one panel a law, and above it what never settles."""
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
 from matplotlib.ticker import FixedLocator, NullLocator
@@ -7,7 +9,7 @@ from matplotlib.ticker import FixedLocator, NullLocator
 from bench.findings.theory import closed_form
 from report.figures.kit import html, laws, style
 from report.figures.kit.dots import dots
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.rows import MATRIX
 
 SETS = ("uniform", "half-turn", "poles", "wraps", "box")
@@ -23,7 +25,7 @@ ASIDE = 0.16  # decades: dots of the rail are spread over its height, or hundred
 
 
 @responsive_picture
-def hero(episodes: pd.DataFrame, narrow: bool):
+def hero(episodes: pd.DataFrame, narrow: bool) -> Drawing:
     """Settling time against initial angle.
 
     Args:
@@ -49,7 +51,7 @@ def hero(episodes: pd.DataFrame, narrow: bool):
     return figure, "Settling time against initial angle, a panel for each law. " + " ".join(said)
 
 
-def _panel(axes, name: str, title: str, rows: pd.DataFrame) -> str:
+def _panel(axes: Any, name: str, title: str, rows: pd.DataFrame) -> str:
     colour = style.look(name).colour
     is_uniform, is_settled = rows["start_set"] == "uniform", rows["outcome"] == "settled"
     drawn = pd.concat(
@@ -75,7 +77,7 @@ def _panel(axes, name: str, title: str, rows: pd.DataFrame) -> str:
     return f"{title}, never settled: {', '.join(words)} starts{taken}."
 
 
-def _closed_form(axes, shown: pd.DataFrame) -> None:
+def _closed_form(axes: Any, shown: pd.DataFrame) -> None:
     kp, kv, tolerance = (float(shown[column].iloc[0]) for column in ("kp", "kv", "tolerance"))
     short = np.radians(np.concatenate((np.arange(179.0, 1.0, -2.0), 10.0 ** np.arange(0.0, -11.0, -0.5))))
     times = closed_form.settling_curve(kp, kv, tolerance)(short)

@@ -1,6 +1,7 @@
 """Figures 2.3 to 2.5 of the paper drawn again: an episode's Euler angles, and its angle to the goal, against time."""
 
 import functools
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -9,7 +10,7 @@ from bench.findings.theory import closed_form
 from bench.law.contenders.representations.zyx_euler import chart
 from bench.law.so3 import Rotation
 from report.figures.kit import laws, style
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
 from report.figures.kit.rows import SHORT, lost
 
@@ -79,7 +80,7 @@ def euler_deg(trace: pd.DataFrame) -> np.ndarray:
 
 
 @responsive_picture
-def response(traces: pd.DataFrame, contender: str, start_id: str, kp: float, kv: float, narrow: bool):
+def response(traces: pd.DataFrame, contender: str, start_id: str, kp: float, kv: float, narrow: bool) -> Drawing:
     """One law from one start: its angles with the linear closed form, and the angle to the goal of all three laws.
 
     Args:
@@ -113,7 +114,7 @@ def response(traces: pd.DataFrame, contender: str, start_id: str, kp: float, kv:
     )
 
 
-def _angle_to_goal(axes, episode: pd.DataFrame) -> str:
+def _angle_to_goal(axes: Any, episode: pd.DataFrame) -> str:
     said = []
     for name, title, rows in laws.each(episode):
         look = style.look(name)

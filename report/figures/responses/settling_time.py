@@ -9,7 +9,7 @@ import pandas as pd
 
 from bench.findings.theory import closed_form
 from report.figures.kit import style
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
 from report.figures.kit.rows import MATRIX, SHORT, of
 
@@ -83,7 +83,7 @@ def slope(rows: pd.DataFrame) -> float:
 
 
 @responsive_picture
-def decades(episodes: pd.DataFrame, narrow: bool):
+def decades(episodes: pd.DataFrame, narrow: bool) -> Drawing:
     """Draw settling time against the distance from 180°.
 
     Args:

@@ -17,7 +17,7 @@ from bench.law.contenders.registry import find_contender
 from bench.law.contenders.regulators import hybrid, mrp_linearized
 from bench.law.kinds import Law
 from report.figures.kit import families, style
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
 from report.figures.robustness.rows import along, gains, laws, starts
 
@@ -30,7 +30,7 @@ def leaving(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 @responsive_picture
-def strips(rows: pd.DataFrame, narrow: bool):
+def strips(rows: pd.DataFrame, narrow: bool) -> Drawing:
     """Draw a row a law: in colour the noise that holds it by theory; marks: the episodes, full where all are held."""
     shares = leaving(rows)
     shares = shares[shares.index > 0]

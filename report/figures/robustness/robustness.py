@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -14,7 +15,7 @@ from bench.findings.maps import lost_share
 from bench.findings.perturbed import FOLLOWED_RAD, LOST, Threshold, Way, by_level, perturbations, studied, thresholds
 from bench.findings.theory.thresholds import near_goal
 from report.figures.kit import families, style
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import NotInRun, Run, in_run
 from report.figures.kit.spelling import listed
 from report.figures.robustness.rows import along, gains, laws, starts, with_unit
@@ -118,7 +119,7 @@ def figures(run: Run) -> dict:
 
 
 @responsive_picture
-def threshold_map(each: Found, narrow: bool):
+def threshold_map(each: Found, narrow: bool) -> Drawing:
     """Return a cell a law and way: its threshold; pale where that is the last level tried."""
     groups, (ways, _) = families.present(each), differing(each)
     lines = len(each) + 0.4 * len(groups)
@@ -143,7 +144,7 @@ def threshold_map(each: Found, narrow: bool):
     return figure, f"Thresholds of {len(each)} laws; + is the last level tried. {'; '.join(words)}."
 
 
-def _cell(axes, column: int, place: float, one: Threshold) -> None:
+def _cell(axes: Any, column: int, place: float, one: Threshold) -> None:
     is_none = one.held != one.held
     colour, strength = (FINE, 0.35) if one.is_whole and not is_none else (style.MUTED, 0.5) if is_none else (FAULT, 0.4)
     axes.add_patch(Rectangle((column + 0.03, place + 0.05), 0.94, 0.9, color=colour, alpha=strength, linewidth=0))
