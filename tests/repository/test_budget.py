@@ -30,13 +30,13 @@ LINES = {
     "tests/findings": 2_081,
     "tests/law": 2_909,
     "tests/regression": 705,
-    "tests/report": 2_260,
+    "tests/report": 2_204,
     "tests/repository": 574,
     "tests/running": 1_085,
     "tests/studies": 877,
-    "tests/support": 3_231,
+    "tests/support": 3_185,
     "tests/tasks": 2_175,
-    "report": 7_855,
+    "report": 7_486,
     "tasks": 5_151,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
