@@ -73,7 +73,7 @@ def test_bound_is_never_exceeded(one):
     assert 0.5 * limit < greatest <= limit * (1.0 + 1e-12)
 
 
-# ---------------------------------------------------------------------------- closed forms and energies of ours
+# ---------------------------------------------------------------------------- energies of ours
 
 KP, KV = Gains()
 

@@ -1,4 +1,4 @@
-"""Contracts over every start set, of the free body and of every arm, under any kernels of the libraries."""
+"""Contracts over every start set, of the free body and of every arm, and what defines those of arms, by scipy."""
 
 import itertools
 import json
@@ -10,10 +10,24 @@ import sys
 
 import numpy as np
 import pytest
+from support.arm_paths import (
+    ARMS,
+    BETWEEN,
+    angle_of,
+    conditions,
+    cos_beta,
+    evenly,
+    geodesic,
+    in_range,
+    straight,
+    walked,
+)
 
 import tasks
+from tasks.base import AT_REST
+from tasks.clearance import CONDITION, COS_BETA, RANGE, WRAP
+from tasks.kinematics import kinematics
 
-ARMS = tasks.arm_names()
 ON_BODY, ON_ARM = tasks.start_set_names(), tasks.start_set_names(arm=True)
 SAMPLED = [("uniform", ""), ("tumbling", ""), ("goals", "")]
 SAMPLED += itertools.product(("clear", "uniform", "tumbling"), ARMS)
@@ -97,3 +111,124 @@ def test_starts_are_the_same_bit_for_bit(here, setting):
     there = starts(**SETTINGS[setting])
     assert all(len(found) > 8 for found in here.values())
     assert [name for name in here if here[name] != there[name]] == []
+
+
+SETS = tasks.start_set_names(arm=True)
+every_set_on_every_arm = pytest.mark.parametrize(("arm", "name"), list(itertools.product(ARMS, SETS)))
+on_every_arm = pytest.mark.parametrize("arm", ARMS)
+
+
+FRESH = """
+import tasks
+for arm in reversed(tasks.arm_names()):
+    for name in reversed(tasks.start_set_names(arm=True)):
+        print(tasks.start_set(name, 3, arm=arm))
+"""
+
+
+def test_fresh_process_gives_the_same_starts():
+    """Made in the opposite order, so that nothing hangs on what was made before."""
+    done = subprocess.run([sys.executable, "-c", FRESH], capture_output=True, text=True, check=True)
+    expected = [str(tasks.start_set(name, 3, arm=arm)) for arm in reversed(ARMS) for name in reversed(SETS)]
+    assert done.stdout.splitlines() == expected
+
+
+@every_set_on_every_arm
+def test_start_is_what_the_plant_shows_after_reset_bit_for_bit(arm, name):
+    for start in tasks.start_set(name, arm=arm)[::4][:8]:
+        environment = tasks.load("arm-regulation", start, arm=arm)
+        observation = environment.reset().observation
+        assert environment.physics.quat_wxyz() == start.quat_wxyz
+        assert tuple(observation["omega"]) == start.omega
+        assert tuple(observation["q"]) == start.q
+        assert tuple(observation["qdot"]) == start.qdot
+
+
+@every_set_on_every_arm
+def test_joints_begin_inside_their_ranges_and_all_but_tumbling_at_rest(arm, name):
+    starts = tasks.start_set(name, arm=arm)
+    assert in_range(arm, np.array([start.q for start in starts]), 0.0 if name == "uniform" else RANGE)
+    for start in starts:
+        assert (start.omega == AT_REST and not any(start.qdot)) == (name != "tumbling")
+
+
+@on_every_arm
+@pytest.mark.parametrize("name", ["clear", "tumbling"])
+@pytest.mark.parametrize("way", [geodesic, straight])
+def test_both_paths_of_a_clear_start_are_clear(arm, name, way):
+    for start in tasks.start_set(name, arm=arm):
+        rotations = way(start, evenly(start))
+        assert cos_beta(rotations).min() >= COS_BETA * 0.99, start.id
+        alpha, _, gamma = rotations.as_euler("ZYX").T
+        assert max(abs(alpha).max(), abs(gamma).max()) <= math.pi - WRAP + 0.02, start.id
+        path = walked(arm, start, rotations)
+        assert conditions(arm, path).max() <= CONDITION * BETWEEN, start.id
+        assert in_range(arm, path, RANGE - 0.02), start.id
+
+
+@on_every_arm
+def test_clear_angles_are_spread_from_10_to_150_degrees(arm):
+    """32 strata; an arm that can do them all has one start in each."""
+    degrees = sorted(math.degrees(angle_of(start)) for start in tasks.start_set("clear", arm=arm))
+    assert degrees[0] < 15.0
+    assert degrees[-1] > 145.0
+    assert max(np.diff(degrees)) < 10.0
+
+
+@on_every_arm
+def test_tumbling_tool_turns_in_place_at_up_to_5_rad_per_second(arm):
+    """Velocities by centred differences of the pose along qdot, 2e-6 s apart."""
+    model, speeds = kinematics(tasks.arm(arm)), []
+    for start in tasks.start_set("tumbling", arm=arm):
+        q, step = np.array(start.q), 1e-6 * np.array(start.qdot)
+        (after, _), (before, _) = model.pose(q + step), model.pose(q - step)
+        assert np.linalg.norm(after - before) / 2e-6 < 1e-8
+        speeds.append(math.hypot(*start.omega))
+    assert max(speeds) == pytest.approx(5.0, abs=1e-12)
+    np.testing.assert_allclose(sorted(speeds), 5.0 * (np.arange(24) + 0.5) / 24.0, atol=0.25)
+
+
+def towards_the_middle(start, least):
+    """Shares of the way to the middle, closing in on it geometrically down to `least` rad."""
+    half = 0.5 * angle_of(start)
+    closing = np.geomspace(half, least, 60)
+    return 0.5 * (1.0 - closing / half)
+
+
+@on_every_arm
+def test_wrist_starts_and_goals_are_80_degrees_apart_well_conditioned_and_keep_off_the_pole(arm):
+    for start in tasks.start_set("wrist", arm=arm):
+        assert math.degrees(angle_of(start)) == pytest.approx(80.0, abs=1e-9)
+        assert conditions(arm, [start.q]) <= CONDITION
+        assert cos_beta(geodesic(start, np.linspace(0.0, 1.0, 41))).min() >= COS_BETA * 0.99
+
+
+@on_every_arm
+def test_condition_number_goes_beyond_all_bounds_on_the_way_through_a_singularity(arm):
+    """At s rad before the middle sigma_min is proportional to s: the condition number times s stays put.
+
+    With seven joints the path of least rates veers from the singular configuration by what rounding and steps make.
+    """
+    exact = [start for start in tasks.start_set("wrist", arm=arm) if start.id.endswith("exact")]
+    assert len(exact) == 4
+    for start in exact:
+        shares = towards_the_middle(start, 1e-6)
+        worst = conditions(arm, walked(arm, start, geodesic(start, shares)))
+        if tasks.arm(arm).joints == 6:
+            assert worst[-1] > 1e6
+            assert worst[-1] / worst[-10] == pytest.approx((0.5 - shares[-10]) / (0.5 - shares[-1]), rel=0.1)
+        else:
+            assert worst.max() > 1e3
+
+
+@on_every_arm
+def test_condition_number_is_as_said_beside_a_singularity(arm):
+    for start in tasks.start_set("wrist", arm=arm):
+        if not start.id.endswith("exact"):
+            distance = 10.0 ** -int(start.id[-1])
+            path = walked(arm, start, geodesic(start, towards_the_middle(start, 1e-3 * distance)))
+            s = np.linalg.svd(kinematics(tasks.arm(arm)).jacobian(path[-1]), compute_uv=False)
+            if tasks.arm(arm).joints == 6:
+                assert s[5] == pytest.approx(distance, rel=0.05), start.id
+            else:
+                assert conditions(arm, path).max() > 100.0, start.id
