@@ -11,14 +11,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bench.base.lazy import Turn
 from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.springs import LOOPS, POINTS, WIDTH, closed_path, draw_stiffness, right_jacobian
 from bench.law.contenders.registry import contenders
 
 if TYPE_CHECKING:
-    from scipy.spatial.transform import Rotation
-
     from bench.law.kinds import Spring
 
 NAME = "pose-springs"
@@ -41,12 +40,10 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
     """Return a row a spring."""
-    from scipy.spatial.transform import Rotation
-
     rng = np.random.default_rng((settings.seed, 12))
     K, _ = draw_stiffness(rng)
     paths = rng.uniform(-WIDTH, WIDTH, (LOOPS, 2, 3, 3)) / math.sqrt(3.0)
-    begun = list(zip(Rotation.random(STARTS, rng=rng), _on_sphere(rng, STARTS, REACH_M), strict=True))
+    begun = list(zip(Turn.random(STARTS, rng=rng), _on_sphere(rng, STARTS, REACH_M), strict=True))
     off = _on_sphere(rng, 1, ELSEWHERE_M)[0]
     found = []
     for spring in SPRINGS:
@@ -71,7 +68,7 @@ def _on_sphere(rng: np.random.Generator, count: int, radius: float) -> np.ndarra
     return radius * drawn / np.linalg.norm(drawn, axis=1, keepdims=True)
 
 
-def wrench(spring: Spring, turn: Rotation, p: np.ndarray, K: np.ndarray, kr: float) -> tuple[np.ndarray, ...]:
+def wrench(spring: Spring, turn: Turn, p: np.ndarray, K: np.ndarray, kr: float) -> tuple[np.ndarray, ...]:
     """Return (f, m) at a pose."""
     q = tuple(turn.as_quat(canonical=True, scalar_first=True).tolist())
     f, m = spring.wrench(q, tuple(p.tolist()), tuple(map(tuple, K.tolist())), kr)
@@ -80,8 +77,6 @@ def wrench(spring: Spring, turn: Rotation, p: np.ndarray, K: np.ndarray, kr: flo
 
 def compute_work(spring: Spring, paths: np.ndarray, K: np.ndarray) -> float:
     """Compute the largest |work| over closed paths, over what K's greatest stiffness and kr store at the furthest."""
-    from scipy.spatial.transform import Rotation
-
     s = np.linspace(0.0, 2.0 * math.pi, POINTS, endpoint=False)
     stiffest = float(np.linalg.eigvalsh(K).max())
     shares = []
@@ -89,7 +84,7 @@ def compute_work(spring: Spring, paths: np.ndarray, K: np.ndarray) -> float:
         (phi, phi_rate), (p, p_rate) = (closed_path(parts, s) for parts in path)
         power = []
         for each in range(POINTS):
-            turn = Rotation.from_rotvec(phi[each])
+            turn = Turn.from_rotvec(phi[each])
             f, m = wrench(spring, turn, p[each], K, TURNING)
             power.append(f @ turn.inv().apply(p_rate[each]) + m @ right_jacobian(phi[each]) @ phi_rate[each])
         stored = 0.5 * stiffest * np.max(np.sum(p * p, axis=1)) + 0.5 * TURNING * np.max(np.sum(phi * phi, axis=1))
@@ -97,23 +92,21 @@ def compute_work(spring: Spring, paths: np.ndarray, K: np.ndarray) -> float:
     return float(max(shares))
 
 
-def motion(spring: Spring, turn: Rotation, p: np.ndarray) -> tuple[list[Rotation], np.ndarray]:
+def motion(spring: Spring, turn: Turn, p: np.ndarray) -> tuple[list[Turn], np.ndarray]:
     """Compute orientations and places of the hand's origin under the velocity command with K = I and kr = 1."""
-    from scipy.spatial.transform import Rotation
-
     turns, places = [turn], [p]
 
-    def rate(turn: Rotation, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def rate(turn: Turn, p: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         v, omega = wrench(spring, turn, p, ALIKE, 1.0)
         return turn.apply(v), turn.apply(omega)
 
     for _ in range(STEPS):
         v1, w1 = rate(turn, p)
-        v2, w2 = rate(Rotation.from_rotvec(0.5 * STEP * w1) * turn, p + 0.5 * STEP * v1)
-        v3, w3 = rate(Rotation.from_rotvec(0.5 * STEP * w2) * turn, p + 0.5 * STEP * v2)
-        v4, w4 = rate(Rotation.from_rotvec(STEP * w3) * turn, p + STEP * v3)
+        v2, w2 = rate(Turn.from_rotvec(0.5 * STEP * w1) * turn, p + 0.5 * STEP * v1)
+        v3, w3 = rate(Turn.from_rotvec(0.5 * STEP * w2) * turn, p + 0.5 * STEP * v2)
+        v4, w4 = rate(Turn.from_rotvec(STEP * w3) * turn, p + STEP * v3)
         p = p + STEP / 6.0 * (v1 + 2.0 * v2 + 2.0 * v3 + v4)
-        turn = Rotation.from_rotvec(STEP / 6.0 * (w1 + 2.0 * w2 + 2.0 * w3 + w4)) * turn
+        turn = Turn.from_rotvec(STEP / 6.0 * (w1 + 2.0 * w2 + 2.0 * w3 + w4)) * turn
         turns.append(turn)
         places.append(p)
     return turns, np.array(places)
@@ -124,7 +117,7 @@ def length(places: np.ndarray) -> float:
     return float(np.sum(np.linalg.norm(np.diff(places, axis=0), axis=1)))
 
 
-def apart(spring: Spring, turn: Rotation, p: np.ndarray, off: np.ndarray) -> float:
+def apart(spring: Spring, turn: Turn, p: np.ndarray, off: np.ndarray) -> float:
     """Compute how far apart the same point of the hand is at most when its origin is drawn `off` beside it [m].
 
     Hand and goal have the origin at a point c = off of their axes: seen from the goal it lies at p + R c - c.

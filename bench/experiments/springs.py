@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bench.base.lazy import Turn
 from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.contenders.registry import contenders
@@ -74,9 +75,7 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
 
 def draw_stiffness(rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
     """Draw the axes of the stiffness matrix with eigenvalues STIFFNESSES, and return both."""
-    from scipy.spatial.transform import Rotation
-
-    axes = Rotation.random(rng=rng).as_matrix()
+    axes = Turn.random(rng=rng).as_matrix()
     return axes @ np.diag(STIFFNESSES) @ axes.T, axes
 
 
@@ -108,9 +107,7 @@ def eigenpairs(K: np.ndarray) -> list[tuple[float, np.ndarray]]:
 
 def turn(phi: np.ndarray) -> np.ndarray:
     """Return the unit quaternion (w, x, y, z) of a rotation vector, w >= 0."""
-    from scipy.spatial.transform import Rotation
-
-    return Rotation.from_rotvec(phi).as_quat(canonical=True, scalar_first=True)
+    return Turn.from_rotvec(phi).as_quat(canonical=True, scalar_first=True)
 
 
 def compute_work(moment: Moment, paths: np.ndarray, stiffness: float, points: int = POINTS) -> float:

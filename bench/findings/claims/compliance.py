@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bench.base.lazy import pd
+from bench.base.lazy import Turn, pd
 from bench.findings.claims import probes, side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.force_conversion import random_orientations
@@ -67,8 +67,6 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
 
 
 def _turns(angles: np.ndarray) -> np.ndarray:
-    from scipy.spatial.transform import Rotation as Turn
-
     return Turn.from_euler("ZYX", angles).as_matrix()
 
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from bench.base.lazy import Turn
 from bench.findings.claims import probes
 from bench.findings.claims.probes import at_boundary
 from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, settled_of, some
@@ -16,9 +17,6 @@ from bench.findings.theory.compliance_theory import matrix_B
 from bench.law.contenders.registry import representation
 from bench.law.so3 import Rotation
 from tasks.haar import axes
-
-if TYPE_CHECKING:
-    from scipy.spatial.transform import Rotation as Turn
 
 LIMIT = read_limits(__file__)
 
@@ -169,8 +167,6 @@ def ways(seed: int) -> tuple[np.ndarray, list[float], float]:
 
     Oracle: scipy's rotations.
     """
-    from scipy.spatial.transform import Rotation as Turn
-
     rng = np.random.default_rng(seed)
     end, between = Turn.random(LIMIT.WAYS, rng=rng), Turn.random(LIMIT.WAYS, rng=rng)
     by_way = between.as_rotvec() + (end * between.inv()).as_rotvec()
@@ -188,8 +184,6 @@ def ways(seed: int) -> tuple[np.ndarray, list[float], float]:
 
 def _after(legs: Sequence) -> Turn:
     """Compute the orientation after turns in the base frame, one after the other."""
-    from scipy.spatial.transform import Rotation as Turn
-
     at = Turn.identity()
     for leg in legs:
         at = Turn.from_rotvec(leg) * at

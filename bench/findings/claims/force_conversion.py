@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from bench.base.lazy import pd
+from bench.base.lazy import Turn, pd
 from bench.findings.claims.euler_jacobian import COORDINATES, DIFFERENCED, EPS, ROUNDINGS
 from bench.findings.claims.side_by_side import PROBE
 from bench.findings.claims.tables import Results, evidence, some
@@ -95,8 +95,6 @@ def balance(along: Coordinates, R: Rotation, moment: np.ndarray, rates: np.ndarr
         smallest singular value of B; lost: |B^T e| of the moment e of length 1 that it belongs to. gain: size of B^-T S
         B^T with S = diag(1, 0, 0), infinite where B has no inverse.
     """
-    from scipy.spatial.transform import Rotation as Turn
-
     at = along.chart(R)
     B = matrix_B(along, R)
     F_E = np.array(along.generalized(at, tuple(moment.tolist())))

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 import tasks
-from bench.base.lazy import pd
+from bench.base.lazy import Turn, pd
 from bench.engines.metrics.registry import metrics_of
 from bench.findings.claims.tables import some
 from bench.findings.theory.closed_form import linear, linear_settling
@@ -120,8 +120,6 @@ SPEED, BESIDE = 20.0, 64
 @functools.cache
 def beside_pole(margin: float, contender: str, gains: Gains, dt_s: float = 1e-3) -> pd.DataFrame:
     """Bodies that spin at 20 rad/s, in directions all over the sphere, a thousandth of a radian outside a margin."""
-    from scipy.spatial.transform import Rotation as Turn
-
     zyx = representation("zyx-euler")
     starts = []
     for i, direction in enumerate(axes(BESIDE)):

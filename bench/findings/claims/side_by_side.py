@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from bench.base.lazy import pd
+from bench.base.lazy import Turn, pd
 from bench.findings.claims.tables import Results, evidence, some
 from bench.findings.claims.verdict import Evidence, Word
 from bench.law.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM
@@ -53,8 +53,6 @@ def beside_base(results: Results, representation: str, orders: tuple[str, ...], 
     Errors:
         NoEvidence: there is none of one of the orders.
     """
-    from scipy.spatial.transform import Rotation as Turn
-
     both = paired(results, representation, forms, task=PROBE)
     for order in orders:
         some(
