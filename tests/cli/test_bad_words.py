@@ -46,10 +46,7 @@ def test_unknown_word_lists_the_known_ones_and_guesses(capsys, finished, option,
     assert word == "zyx" or "did you mean" in line
 
 
-@pytest.mark.parametrize(
-    ("words", "named"),
-    REFUSED["usage"],
-)
+@pytest.mark.parametrize(("words", "named"), REFUSED["usage"])
 def test_usage_error_is_one_line_that_names_the_word(capsys, words, named):
     line = refused(capsys, *words.split())
     assert named in line
@@ -85,10 +82,7 @@ def test_impossible_number_names_the_option_and_the_range(capsys, finished, opti
     assert any(word in line for word in ("between", "must lie", "from 0 to"))
 
 
-@pytest.mark.parametrize(
-    ("words", "reason"),
-    REFUSED["combinations"],
-)
+@pytest.mark.parametrize(("words", "reason"), REFUSED["combinations"])
 def test_what_does_not_go_together_is_refused_with_the_reason(capsys, finished, words, reason):
     assert reason in refused_run(capsys, finished, *words.split())
 
@@ -115,11 +109,12 @@ def test_law_in_several_coordinates_is_refused_where_one_is_needed():
 
 
 def test_same_word_twice_is_the_word_once():
-    laws = [_rotation_matrix()]
-    once = planning.make("quick", laws, Choice(("free-body",), ("paper",), ("native",)))
-    twice = planning.make("quick", laws, Choice(("free-body",) * 2, ("paper",) * 2, ("native",) * 2))
+    once, twice = (
+        planning.make(
+            "quick",
+            [find_contender("rotation-matrix")],
+            Choice(("free-body",) * count, ("paper",) * count, ("native",) * count),
+        )
+        for count in (1, 2)
+    )
     assert once == twice
-
-
-def _rotation_matrix():
-    return find_contender("rotation-matrix")

@@ -26,49 +26,36 @@ def imported(code: str) -> set[str]:
     return set(ended.stderr.split())
 
 
-@pytest.mark.parametrize(
-    "words", ["--help", "run --help", "show --help", "list regulators", "list claims", f"{ONE} --dry-run"]
-)
-def test_command_that_computes_nothing_imports_nothing_slow(words):
-    assert SLOW & imported(COMMAND.format(words=words.split())) == set()
-
-
 AUDIT = """
 from bench.audit import audit
 def columns(R, R_d):
     return [0.5 * sum(R[j, i] * R_d[k, i] - R[k, i] * R_d[j, i] for i in range(3)) for j, k in ((1, 2), (2, 0), (0, 1))]
 code = len(audit(columns).faults)
 """
+NAMES = "import tasks; tasks.names(); tasks.pairs(); tasks.start_set('poles'); code = 0"
+QUIET = ("--help", "run --help", "show --help", "list regulators", "list claims", f"{ONE} --dry-run")
+ON_IDEAL = {"mujoco", "dask", "distributed", "numba", "pandas"}
 
 
-def test_audit_imports_nothing_slow():
-    assert SLOW & imported(AUDIT) == set()
-
-
-def test_names_of_tasks_and_starts_import_nothing_slow():
-    assert SLOW & imported("import tasks; tasks.names(); tasks.pairs(); tasks.start_set('poles'); code = 0") == set()
+@pytest.mark.parametrize(
+    ("code", "watched", "needed"),
+    [
+        *((COMMAND.format(words=words.split()), SLOW, set()) for words in QUIET),
+        (AUDIT, SLOW, set()),
+        (NAMES, SLOW, set()),
+        (COMMAND.format(words=["list"]), SLOW, {"mujoco"}),  # it reads files of arms
+        (COMMAND.format(words=[*ONE.split(), "--out", "OUT"]), ON_IDEAL, {"numba", "pandas"}),
+        (LAW, {"numba", "scipy.linalg"}, {"numba"}),  # compiled without linear algebra
+    ],
+)
+def test_command_imports_of_what_is_slow_what_it_needs(code, watched, needed, tmp_path):
+    assert watched & imported(code.replace("OUT", str(tmp_path / "out"))) == needed
 
 
 def test_plugin_of_pytest_imports_neither_numpy_nor_the_audit():
     found = imported("import bench.audit.plugin; code = 0")
     assert {one for one in found if one.startswith("bench.")} == {"bench.audit", "bench.audit.plugin"}
     assert "numpy" not in found
-
-
-def test_list_imports_mujoco_alone_for_it_reads_files_of_arms():
-    assert SLOW & imported(COMMAND.format(words=["list"])) == {"mujoco"}
-
-
-def test_run_on_the_ideal_plant_imports_neither_mujoco_nor_dask(tmp_path):
-    words = [*ONE.split(), "--out", str(tmp_path / "out")]
-    assert {"mujoco", "dask", "distributed", "numba", "pandas"} & imported(COMMAND.format(words=words)) == {
-        "numba",
-        "pandas",
-    }
-
-
-def test_law_is_compiled_without_linear_algebra():
-    assert {"numba", "scipy.linalg"} & imported(LAW) == {"numba"}
 
 
 def test_python_without_our_packages_says_the_cure():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
-from support.springs import REST, commanded, left, motion
+from support.bodies import REST, commanded, left, motion
 from support.states import of_scipy, rotations
 
 from bench.law.contenders.registry import contenders

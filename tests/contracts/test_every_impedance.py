@@ -155,8 +155,7 @@ def test_energy_balance_closes(one):
     """
     draw, law, goal = np.random.default_rng(47), law_of(one.impedance, one.representation), goals(one)[0]
     turn, spin = ScipyRotation.from_rotvec((0.2, -0.3, 0.1)) * goal, np.array((0.5, 1.0, -0.8))
-    times, R, omega, work = free_body(law, turn, spin, goal, 1.5, pushing(draw), 1501)
-    turns = ScipyRotation.from_matrix(R)
+    times, turns, omega, work = free_body(law, turn, spin, goal, 1.5, pushing(draw), 1501)
     damping = [squared_rate(one, turn, w, goal) for turn, w in zip(turns, omega, strict=True)]
     damped = TOUCH.m_o * GAINS.kv * cumulative_simpson(damping, x=times, initial=0.0)
     for k in range(100, len(times), 200):

@@ -24,6 +24,7 @@ from tasks.domains import force_on_plane, surface_alignment, wrench_probe
 CARTESIAN = find_controller("hybrid-base+inverse")
 DT, TICKS = 0.01, 401
 TIME = DT * np.arange(TICKS)
+NONE = pytest.approx(math.nan, nan_ok=True)
 PRESSING = Specification("z", (1, 1, 0, 1, 1, 1), (0.0, 0.0, -20.0, 0.0, 0.0, 0.0))
 
 
@@ -34,33 +35,33 @@ def pose(task=surface_alignment.TASK, rested=False, **arrays) -> Pose:
     return Pose(task, ARM, CARTESIAN, (one._replace(rested=rested),))
 
 
-def test_time_to_rest_is_when_the_window_began():
-    assert rest.time_to_rest(pose(rested=True)) == pytest.approx(TIME[-1] - 0.25)
-    assert math.isnan(rest.time_to_rest(pose()))
+LATE = np.clip(TIME - 3.5, 0.0, None)
+CREEPS = pose(p=np.outer(LATE, (3e-3, 0.0, 4e-3)), R=Turn.from_rotvec(np.outer(LATE, (0.0, 0.02, 0.0))).as_matrix())
+FADES_S = 0.2
+TILTS = Turn.from_rotvec(np.outer(0.3 * np.exp(-TIME / FADES_S), (1.0, 0.0, 0.0))) * Turn.from_euler("x", np.pi)
+"""The wrist points up, along minus the plate's normal, and its angle fades as exp(-t/FADES_S)."""
+PEAKS = np.tile((100.0, 0.0, 20.0), (TICKS, 1))
+PEAKS[17, 2] = 75.0
+THERE_AND_BACK = pose(p=np.outer(np.sin(np.pi * TIME / TIME[-1]), (0.0, 0.0, -0.1)))
 
 
-def test_remaining_speeds_are_those_of_the_last_window():
-    late = np.clip(TIME - 3.5, 0.0, None)
-    creeps = pose(
-        p=np.outer(TIME - TIME**2 / 8.0, (0.0, 0.0, 0.0)) + np.outer(late, (3e-3, 0.0, 4e-3)),
-        R=Turn.from_rotvec(np.outer(late, (0.0, 0.02, 0.0))).as_matrix(),
-    )
-    assert rest.remaining_speed(creeps) == pytest.approx(5e-3)
-    assert rest.remaining_rate(creeps) == pytest.approx(0.02)
-    assert math.isnan(rest.remaining_speed(creeps._replace(task=force_on_plane.TASK)))
-
-
-def test_time_to_align_is_when_a_fiftieth_of_the_angle_is_left():
-    """The wrist points up, along minus the plate's normal, and its angle fades as exp(-t/T)."""
-    T, down = 0.2, Turn.from_euler("x", 180, degrees=True)
-    tilts = Turn.from_rotvec(np.outer(0.3 * np.exp(-TIME / T), (1.0, 0.0, 0.0))) * down
-    assert rest.time_to_align(pose(R=tilts.as_matrix())) == pytest.approx(T * math.log(50.0), abs=1.01 * DT)
-
-
-def test_overshoot_is_of_the_component_ordered():
-    force = np.tile((100.0, 0.0, 20.0), (TICKS, 1))
-    force[17, 2] = 75.0
-    assert wrench.force_overshoot(pose(force=force)) == pytest.approx(75.0 / 20.0 - 1.0)
+@pytest.mark.parametrize(
+    ("measure", "measured", "found"),
+    [
+        (rest.time_to_rest, pose(rested=True), pytest.approx(TIME[-1] - 0.25)),  # when the window began
+        (rest.time_to_rest, pose(), NONE),
+        (rest.remaining_speed, CREEPS, pytest.approx(5e-3)),  # of the last window
+        (rest.remaining_rate, CREEPS, pytest.approx(0.02)),
+        (rest.remaining_speed, CREEPS._replace(task=force_on_plane.TASK), NONE),
+        (rest.time_to_align, pose(R=TILTS.as_matrix()), pytest.approx(FADES_S * math.log(50.0), abs=1.01 * DT)),
+        (wrench.force_overshoot, pose(force=PEAKS), pytest.approx(75.0 / 20.0 - 1.0)),  # of the component ordered
+        (port.port_energy, pose(p=np.outer(TIME**2, (0.0, 0.0, -0.01))), pytest.approx(0.2 * TIME[-1] ** 2, rel=1e-12)),
+        (port.port_energy, THERE_AND_BACK, pytest.approx(0.0, abs=1e-12)),
+        (port.port_energy_peak, THERE_AND_BACK, pytest.approx(2.0, rel=1e-4)),
+    ],
+)
+def test_measure_of_a_record_is_what_was_put_into_it(measure, measured, found):
+    assert measure(measured) == found
 
 
 @pytest.mark.parametrize("kept", [TICKS, 120])
@@ -71,17 +72,6 @@ def test_mean_error_is_over_the_window_and_what_rests_stays(kept):
     short = pose(rested=True, time=TIME[:kept])
     expected = math.sqrt((1.0 * 16.0 + (WINDOW_S - 1.0) * 4.0) / WINDOW_S)
     assert rms(short, error[:kept]) == pytest.approx(expected, rel=1e-12)
-
-
-def test_energy_of_a_constant_force_is_force_times_way():
-    moving = pose(p=np.outer(TIME**2, (0.0, 0.0, -0.01)))
-    assert port.port_energy(moving) == pytest.approx(20.0 * 0.01 * TIME[-1] ** 2, rel=1e-12)
-
-
-def test_energy_that_comes_back_leaves_its_peak():
-    there_and_back = pose(p=np.outer(np.sin(np.pi * TIME / TIME[-1]), (0.0, 0.0, -0.1)))
-    assert port.port_energy(there_and_back) == pytest.approx(0.0, abs=1e-12)
-    assert port.port_energy_peak(there_and_back) == pytest.approx(2.0, rel=1e-4)
 
 
 def test_hand_that_yields_to_a_moment_takes_energy_as_its_inertia_and_damping_do():

@@ -4,9 +4,7 @@ import functools
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
-from scipy.spatial.transform import Rotation as ScipyRotation
-from support import own_loop
+from support.bodies import regulated
 from support.driving import settings
 
 import tasks
@@ -40,8 +38,7 @@ def starts_of(name, *ids):
 def test_response_through_the_pole_has_the_limit_that_an_adaptive_integrator_finds():
     """Figure 2.5 at 0.4 s: 1.1420 rad, and 1.1358 by steps of 1 ms, as independent code had it."""
     [start] = starts_of("paper", "figure-2.5")
-    R_d = ScipyRotation.from_quat([start.goal_wxyz], scalar_first=True).as_matrix()
-    [[angle]] = own_loop.angles_to(R_d, own_loop.paths(LINEARIZED.name, [start], np.array([0.4])))
+    _, _, [angle] = regulated(LINEARIZED.law, start, [0.4], rtol=1e-12)
     found = [
         engines.by_equal_steps(LINEARIZED, start_rows([start]), settings(horizon_s=0.4), divisions)[0, FINAL_ANGLE]
         for divisions in (1, 2048)
@@ -64,7 +61,7 @@ def beside_the_pole():
 
 
 def test_stiff_start_beside_the_pole_settles_when_an_implicit_integrator_says_so():
-    """BDF of scipy, whose step no stiffness bounds, on loops written out by hand."""
+    """BDF of scipy, whose step no stiffness bounds."""
     starts, coarse, fine = beside_the_pole()
     assert len(starts) == len(BESIDE)
     assert (coarse[:, OUTCOME] != SETTLED).any()
@@ -72,18 +69,7 @@ def test_stiff_start_beside_the_pole_settles_when_an_implicit_integrator_says_so
     assert (fine[:, STEP] > 0.0).all()
     times = np.arange(0.0, 3.0, 1e-3)
     for start, row in zip(starts, fine, strict=True):
-        R, R_d = (
-            ScipyRotation.from_quat([one], scalar_first=True).as_matrix() for one in (start.quat_wxyz, start.goal_wxyz)
-        )
-
-        def rate(_, flat, R_d=R_d):
-            omega, n, o, a = np.split(flat.reshape(1, 12), 4, axis=1)
-            u = own_loop.linearized_euler_command(omega, n, o, a, R_d)
-            return np.concatenate([u, *(np.cross(omega, column) for column in (n, o, a))], axis=1).ravel()
-
-        first = np.concatenate([np.zeros(3), *(R[0, :, j] for j in range(3))])
-        path = solve_ivp(rate, (0.0, 3.0), first, method="BDF", t_eval=times, rtol=1e-9, atol=1e-12)
-        [angles] = own_loop.angles_to(R_d, path.y.T[None])
+        _, _, angles = regulated(LINEARIZED.law, start, times, method="BDF", rtol=1e-9, atol=1e-12)
         since = len(times) - np.argmax((angles > 0.02 * angles[0])[::-1])
         assert abs(row[SETTLING_TICK] - since) <= 1
 

@@ -4,10 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import same_bits
+from support.bodies import path
 from support.driving import settings
+from support.states import matrix, of_scipy
 
 import tasks
 from bench.engines import rigid_body
@@ -21,7 +22,6 @@ from bench.engines.simulate_bodies import drawn
 from bench.engines.simulate_bodies import run_disturbed as run
 from bench.law.contenders.registry import find_contender
 from bench.law.contenders.regulators.hybrid import DELTA
-from bench.law.so3 import Rotation
 from tasks.base import Start
 from tasks.condition import NO_FEEDFORWARD, RATE, Condition
 from tasks.moving_goal import reference_rates
@@ -172,32 +172,21 @@ def test_hysteresis_of_a_quaternion_resists_up_to_its_width(beyond, is_held):
     assert np.all((rows[:, OUTCOME] == SETTLED) != is_held)
 
 
-def eulers_equations(R, omega, u, inertia, time):
-    """The body after a time under a torque held in the base frame, in body coordinates and quaternions, by scipy."""
-    J = np.array(inertia)
-
-    def rate(_, state):
-        turn, W = ScipyRotation.from_quat(state[:4]), state[4:]
-        x, y, z, w = state[:4]
-        spun = 0.5 * np.array([[w, -z, y], [z, w, -x], [-y, x, w], [-x, -y, -z]]) @ W
-        return [*spun, *((turn.inv().apply(u) - np.cross(W, J * W)) / J)]
-
-    turn = ScipyRotation.from_matrix(np.column_stack(R))
-    first = [*turn.as_quat(), *turn.inv().apply(omega)]
-    last = solve_ivp(rate, (0.0, time), first, method="DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
-    after = ScipyRotation.from_quat(last[:4])
-    return after.as_matrix(), after.apply(last[4:])
-
-
 @pytest.mark.parametrize("inertia", [(0.5, 1.0, 1.5), (0.9, 1.0, 1.1), (1.0, 1.0, 1.4)])
 def test_an_uneven_body_obeys_eulers_equations(inertia):
-    R = Rotation(*map(tuple, ScipyRotation.from_euler("ZYX", [0.4, -0.3, 1.1]).as_matrix().T.tolist()))
-    omega, u = (3.0, -5.0, 8.0), (20.0, -10.0, 5.0)
-    expected, turning = eulers_equations(R, omega, u, inertia, 0.2)
+    """Under a torque held in the base frame, by scipy."""
+    turn, J = ScipyRotation.from_euler("ZYX", [0.4, -0.3, 1.1]), np.array(inertia)
+    R, omega, u = of_scipy(turn), (3.0, -5.0, 8.0), (20.0, -10.0, 5.0)
+
+    def rate(_, turn, omega, __):
+        W = turn.inv().apply(omega)
+        return turn.apply((turn.inv().apply(u) - np.cross(W, J * W)) / J), ()
+
+    expected, turning, _ = path(rate, turn, omega, [0.2], rtol=1e-12)
     for _ in range(200):
         R, omega = rigid_body.step(R, omega, u, inertia, 1e-3)
-    np.testing.assert_allclose(np.column_stack(R), expected, atol=1e-9)
-    np.testing.assert_allclose(omega, turning, atol=1e-8)
+    np.testing.assert_allclose(matrix(R), expected[0].as_matrix(), atol=1e-9)
+    np.testing.assert_allclose(omega, turning[0], atol=1e-8)
 
 
 RELATIVE = ["rotation-matrix", "square-root", "rotation-vector", "mrp-linearized", "paielli-bach", "sliding", "hybrid"]

@@ -5,10 +5,9 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
-from support import own_loop
 from support.bits import EPS
+from support.bodies import path, regulated
 from support.driving import settings
 from support.states import as_rotation, matrix, of_scipy, vector
 
@@ -20,11 +19,10 @@ from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
 from bench.law.contenders.registry import find_contender
 from tasks.base import Start
-from tasks.rotations import short_of_180_degrees, zyx
+from tasks.rotations import zyx
 from tasks.verdict import SETTLED
 
 METRICS = metrics_of(on_arm=False)
-PAPERS_LAWS = tuple(own_loop.COMMANDS)
 COUNT = 40
 HORIZON = 3.0
 PATH = [NUMBERS.index(name) for name in (*(f"{v}_{x}" for v in ("omega", "n", "o", "a") for x in "xyz"),)]
@@ -63,9 +61,8 @@ STARTS_OF = {
 }
 
 
-def goals_of(starts) -> np.ndarray:
-    return ScipyRotation.from_quat([start.goal_wxyz for start in starts], scalar_first=True).as_matrix()
-
+PAPERS_LAWS = tuple(STARTS_OF)
+"""That each is the paper's equation is test_counts_against_casadi's."""
 
 # ---------------------------------------------------------------- continuous: against DOP853 and closed forms
 
@@ -75,25 +72,33 @@ R_TOLERANCE, OMEGA_TOLERANCE = 6e-9, 1.2e-7
 
 
 @functools.cache
-def both_paths(word, dt_s):
-    """(starts, ours, the judge's columns, DOP853's) over the same ticks."""
-    starts, chosen = STARTS_OF[word](), settings(dt_s=dt_s, horizon_s=HORIZON)
-    ours, rows = recorded("ideal-rk4", word, starts, chosen)
-    return starts, ours, rows, own_loop.paths(word, starts, np.arange(chosen.ticks) * dt_s)
+def by_scipy(word):
+    """Paths (starts, milliseconds, 12) of DOP853 from the starts of a law, and their angles to the goals."""
+    times, found, angles = np.arange(0.0, HORIZON, 1e-3), [], []
+    for start in STARTS_OF[word]():
+        R, omega, angle = regulated(find_contender(word).law, start, times, rtol=1e-12)
+        found.append(np.concatenate((omega, R.as_matrix().transpose(0, 2, 1).reshape(-1, 9)), axis=1))
+        angles.append(angle)
+    return np.array(found), np.array(angles)
+
+
+@functools.cache
+def ours(word, dt_s):
+    """Our paths from these starts, and the judge's columns."""
+    return recorded("ideal-rk4", word, STARTS_OF[word](), settings(dt_s=dt_s, horizon_s=HORIZON))
 
 
 @pytest.mark.parametrize("word", PAPERS_LAWS)
 def test_path_is_that_of_an_adaptive_integrator(word):
-    starts, ours, _, theirs = both_paths(word, 1e-3)
-    assert len(starts) >= COUNT
-    np.testing.assert_allclose(ours[:, :, 3:], theirs[:, :, 3:], rtol=0.0, atol=R_TOLERANCE)
-    np.testing.assert_allclose(ours[:, :, :3], theirs[:, :, :3], rtol=0.0, atol=OMEGA_TOLERANCE)
+    found, expected = ours(word, 1e-3)[0], by_scipy(word)[0]
+    assert len(found) >= COUNT
+    np.testing.assert_allclose(found[:, :, 3:], expected[:, :, 3:], rtol=0.0, atol=R_TOLERANCE)
+    np.testing.assert_allclose(found[:, :, :3], expected[:, :, :3], rtol=0.0, atol=OMEGA_TOLERANCE)
 
 
 @pytest.mark.parametrize("word", PAPERS_LAWS)
 def test_settling_time_is_that_of_an_adaptive_integrator_to_one_tick(word):
-    starts, _, rows, theirs = both_paths(word, 1e-3)
-    angles = own_loop.angles_to(goals_of(starts), theirs)
+    rows, angles = ours(word, 1e-3)[1], by_scipy(word)[1]
     outside = angles > 0.02 * angles[:, :1]
     settled_since = outside.shape[1] - np.argmax(outside[:, ::-1], axis=1)
     assert (rows[:, OUTCOME] == SETTLED).all()
@@ -102,21 +107,8 @@ def test_settling_time_is_that_of_an_adaptive_integrator_to_one_tick(word):
 
 @pytest.mark.parametrize("word", PAPERS_LAWS)
 def test_error_of_the_path_falls_with_the_fourth_power_of_the_step(word):
-    coarse, fine = (np.abs(ours - theirs).max() for _, ours, _, theirs in (both_paths(word, dt) for dt in (2e-3, 1e-3)))
+    coarse, fine = (np.abs(ours(word, 1e-3 * every)[0] - by_scipy(word)[0][:, ::every]).max() for every in (2, 1))
     assert math.log2(coarse / fine) == pytest.approx(4.0, abs=0.3)
-
-
-def test_rotation_matrix_settling_grows_by_the_closed_form_per_decade_from_the_half_turn():
-    """C03: delta = pi - theta leaves its unstable rest as exp((sqrt(Kp + Kd^2/4) - Kd/2) t), to 1 %."""
-    decades = np.arange(3, 10)
-    expected = math.log(10.0) / (math.sqrt(100.0 + 20.0**2 / 4.0) - 20.0 / 2.0)
-    chosen = settings(horizon_s=8.0)
-    for axis in ((1.0, 0.0, 0.0), (2.0, -1.0, 2.0)):
-        starts = [Start(f"{k}", short_of_180_degrees(axis, 10.0 ** -float(k))) for k in decades]
-        rows = run("ideal-rk4", find_contender("rotation-matrix"), "free-body", starts, chosen, METRICS)
-        assert (rows[:, OUTCOME] == SETTLED).all()
-        slope, _ = np.polyfit(decades, rows[:, SETTLING_TICK] * chosen.dt_s, 1)
-        assert slope == pytest.approx(expected, rel=0.01)
 
 
 # ---------------------------------------------------------------- one tick of the sampled plant
@@ -148,16 +140,13 @@ def test_exponential_is_scipys_on_both_sides_of_its_series(angle, draw):
 def test_held_step_converges_with_the_fourth_power_of_the_tick(draw):
     """A general acceleration turns the axis of rotation; against DOP853 over half a second."""
     R, omega, u = drawn_rotation(draw), np.array((3.0, -2.0, 1.0)), np.array((-4.0, 5.0, 10.0))
-    true = solve_ivp(
-        lambda t, y: np.cross(omega + u * t, y.reshape(3, 3)).ravel(),
-        (0.0, 0.5), np.array(R).ravel(), method="DOP853", rtol=1e-13, atol=1e-14,
-    ).y[:, -1]  # fmt: skip
+    true, _, _ = path(lambda *_: (u, ()), ScipyRotation.from_matrix(matrix(R)), omega, [0.5], rtol=1e-13, atol=1e-14)
     errors = []
     for ticks in (8, 16, 32, 64):
         at, speed = R, vector(omega)
         for _ in range(ticks):
             at, speed = ideal.held_step(at, speed, vector(u), 0.5 / ticks)
-        errors.append(np.abs(np.array(at).ravel() - true).max())
+        errors.append(np.abs(matrix(at) - true[0].as_matrix()).max())
     np.testing.assert_allclose(np.log2(np.array(errors[:-1]) / errors[1:]), 4.0, atol=0.2)
 
 

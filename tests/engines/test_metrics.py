@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
 from support.driving import recorder, settings
 
@@ -77,39 +78,42 @@ def test_samples_obey_the_plant(word, start):
     np.testing.assert_allclose(omega[1:], omega[:-1] + DT * u[:-1], rtol=0.0, atol=scale)
 
 
-def test_effort_is_the_integral_of_the_squared_command(word, start):
-    kept, found, _ = episode(word, start)
-    assert found["effort"] == pytest.approx((np.array([s.u for s in kept]) ** 2).sum() * DT, rel=TOLERANCE)
+def norms(vectors):
+    return np.linalg.norm(vectors, axis=1)
 
 
-def test_peak_u_is_the_largest_command(word, start):
-    kept, found, _ = episode(word, start)
-    assert found["peak_u"] == pytest.approx(max(np.linalg.norm(s.u) for s in kept), rel=4 * EPS)
+def angles_of(kept):
+    return 2.0 * np.arcsin(np.sqrt([s.haversine for s in kept]))
 
 
-def test_rest_change_is_the_largest_from_tick_to_tick_since_the_body_is_at_rest(word, start):
+def change_at_rest(kept, ending):
+    """The largest change of the command from tick to tick since the body is at rest inside the band."""
+    slow = norms([s.omega for s in kept]) * RULES.hold_s <= 2.0 * math.sin(ending.band / 2.0)
+    busy = np.flatnonzero(~(slow & (angles_of(kept) <= ending.band)))[-1]
+    changes = norms(np.diff([s.u for s in kept[busy:]], axis=0))
+    return changes.max() if ending.outcome == "settled" else math.nan
+
+
+def overshoot(kept, ending):
+    """The largest angle outside the band after it was entered."""
+    inside = np.flatnonzero(angles_of(kept) <= ending.band)
+    after = angles_of(kept)[inside[0] :].max() if len(inside) else 0.0
+    return after if after > ending.band else 0.0
+
+
+EXPECTED = {
+    "effort": lambda kept, ending: (norms([s.u for s in kept]) ** 2).sum() * DT,
+    "peak_u": lambda kept, ending: norms([s.u for s in kept]).max(),
+    "rest_change": change_at_rest,
+    "path_ratio": lambda kept, ending: norms([s.omega for s in kept]).sum() * DT / ending.angle0,
+    "overshoot_rad": overshoot,
+}
+
+
+@pytest.mark.parametrize("column", EXPECTED)
+def test_column_is_numpys_over_all_ticks(column, word, start):
     kept, found, ending = episode(word, start)
-    slow = [np.linalg.norm(s.omega) * RULES.hold_s <= 2.0 * math.sin(ending.band / 2.0) for s in kept]
-    inside = [s.haversine <= math.sin(ending.band / 2.0) ** 2 for s in kept]
-    busy = np.flatnonzero(~(np.array(slow) & np.array(inside)))[-1]
-    changes = np.linalg.norm(np.diff([s.u for s in kept[busy:]], axis=0), axis=1)
-    expected = changes.max() if ending.outcome == "settled" else math.nan
-    assert found["rest_change"] == pytest.approx(expected, rel=TOLERANCE, nan_ok=True)
-
-
-def test_path_ratio_is_the_travelled_over_the_initial_angle(word, start):
-    kept, found, _ = episode(word, start)
-    travelled = np.linalg.norm([s.omega for s in kept], axis=1).sum() * DT
-    first = angle(start.quat_wxyz, start.goal_wxyz)
-    assert found["path_ratio"] == pytest.approx(travelled / first, rel=TOLERANCE)
-
-
-def test_overshoot_is_the_largest_angle_outside_the_band_after_it_was_entered(word, start):
-    kept, found, ending = episode(word, start)
-    angles = 2.0 * np.arcsin(np.sqrt([s.haversine for s in kept]))
-    inside = np.flatnonzero(angles <= ending.band)
-    after = angles[inside[0] :].max() if len(inside) else 0.0
-    assert found["overshoot_rad"] == pytest.approx(after if after > ending.band else 0.0, rel=1e-12)
+    assert found[column] == pytest.approx(EXPECTED[column](kept, ending), rel=TOLERANCE, nan_ok=True)
 
 
 def test_some_episode_overshoots_and_some_does_not():
@@ -118,25 +122,12 @@ def test_some_episode_overshoots_and_some_does_not():
     assert max(found) > 0.05
 
 
-def test_min_margin_is_the_smallest_cosine_of_beta(start):
-    kept, found, _ = episode("linearized-euler/zyx-euler", start)
-    smallest = min(math.hypot(s.R.n[0], s.R.n[1]) for s in kept)
-    assert found["min_margin"] == pytest.approx(smallest, rel=4 * EPS)
-
-
-def test_min_margin_is_measured_from_the_goal_where_the_law_is(start):
-    kept, found, _ = episode("linearized-euler-relative/zyx-euler", start)
-    w, x, y, z = start.goal_wxyz
-    # the goal's columns, dotted with n: what (R_d^T R).n is
-    goal = np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-    margins = [math.hypot(*(goal.T @ np.array(s.R.n))[:2]) for s in kept]
-    assert found["min_margin"] == pytest.approx(min(margins), abs=10 * EPS)
+def test_min_margin_is_the_smallest_cosine_of_beta_measured_from_the_goal_where_the_law_is(start):
+    goal = ScipyRotation.from_quat(start.goal_wxyz, scalar_first=True)
+    for word, frame in zip(LAWS[1:], (ScipyRotation.identity(), goal), strict=True):
+        kept, found, _ = episode(word, start)
+        margins = np.hypot(*frame.inv().apply([s.R.n for s in kept])[:, :2].T)
+        assert found["min_margin"] == pytest.approx(margins.min(), abs=10 * EPS)
 
 
 def test_min_margin_is_no_number_for_a_law_without_coordinates(start):

@@ -77,19 +77,6 @@ def test_controller_that_has_no_meaning_is_refused_with_the_cure(action, says):
     assert [part for part in says if part not in line] == []
 
 
-@pytest.mark.parametrize("law", HYBRIDS)
-@pytest.mark.parametrize("form", FORMS)
-def test_cure_of_a_missing_or_needless_representation_is_a_controller(law, form):
-    """What the message says to try can be had."""
-    for given in (None, ZYX):
-        try:
-            one = hybrid(law, form, given)
-        except BenchError as error:
-            word = str(error).rpartition("try: ")[2].rstrip(")")
-            one = find_controller(word)
-        assert (one.law, one.form) == (law, form)
-
-
 # ---------------------------------------------------------------------------- constants, words
 
 
@@ -122,27 +109,22 @@ def test_word_or_period_that_is_none_is_refused_before_anything_runs(engine, con
 
 
 @pytest.mark.parametrize(
-    ("specification", "says"),
+    ("fields", "says"),
     [
-        (SPECIFICATION._replace(selection=(1, 1, 1, 0.5, 1, 1)), "must be six of 0 and 1"),
-        (SPECIFICATION._replace(selection=(1, 1, 1, 2, 1, 1)), "must be six of 0 and 1"),
-        (SPECIFICATION._replace(selection=(1, 1, 1, -1, 1, 1)), "must be six of 0 and 1"),
-        (SPECIFICATION._replace(selection=(1, 1, 1, np.nan, 1, 1)), "must be six of 0 and 1"),
-        (SPECIFICATION._replace(selection=(1, 1, 1)), "must be six of 0 and 1"),
-        (SPECIFICATION._replace(selection=(1, 1, 1, 0, 1, 1, 1)), "must be six of 0 and 1"),
-        (SPECIFICATION._replace(selection=np.eye(6)), "the diagonal of the selection matrix"),
-        (
-            SPECIFICATION._replace(desired_wrench=(0.0, 0.0, -5.0, 0.0, 0.0, 0.0)),
-            "z is held and is to exert -5 at once (release it",
+        *(
+            ({"selection": selection}, "must be six of 0 and 1")
+            for selection in (*((1, 1, 1, x, 1, 1) for x in (0.5, 2, -1, np.nan)), (1, 1, 1), (1, 1, 1, 0, 1, 1, 1))
         ),
-        (SPECIFICATION._replace(desired_wrench=(0.0, 0.0, 0.0, np.inf, 0.0, 0.0)), "desired_wrench = "),
-        (SPECIFICATION._replace(desired_wrench=(0.0, 0.0, 0.0)), "must be 6 finite numbers [N, N m]"),
-        (SPECIFICATION._replace(velocity=(0.0, np.nan, 0.0)), "must be 3 finite numbers [m/s]"),
-        (SPECIFICATION._replace(velocity=(0.1, 0.0)), "must be 3 finite numbers [m/s]"),
+        ({"selection": np.eye(6)}, "the diagonal of the selection matrix"),
+        ({"desired_wrench": (0.0, 0.0, -5.0, 0.0, 0.0, 0.0)}, "z is held and is to exert -5 at once (release it"),
+        ({"desired_wrench": (0.0, 0.0, 0.0, np.inf, 0.0, 0.0)}, "desired_wrench = "),
+        ({"desired_wrench": (0.0, 0.0, 0.0)}, "must be 6 finite numbers [N, N m]"),
+        ({"velocity": (0.0, np.nan, 0.0)}, "must be 3 finite numbers [m/s]"),
+        ({"velocity": (0.1, 0.0)}, "must be 3 finite numbers [m/s]"),
     ],
 )
-def test_specification_that_selects_too_much_too_little_or_halves_is_refused(specification, says):
-    line = line_of(lambda: check_specification(specification), BadValue)
+def test_specification_that_selects_too_much_too_little_or_halves_is_refused(fields, says):
+    line = line_of(lambda: check_specification(SPECIFICATION._replace(**fields)), BadValue)
     assert line.startswith("specification 'about x': ")
     assert says in line
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
+from support import bodies
 from support.states import of_scipy, vector
 
 from bench.law.contenders.registry import all_contenders, find_contender
@@ -57,42 +58,20 @@ def test_response_from_rest_is_that_of_one_scalar_equation(word):
 
     times = np.linspace(0.0, 1.0, 21)
     for theta, k in zip((0.1, 1.0, 2.0, 3.0), axes(4, 5), strict=True):
-        found = angles(word, theta * k, AT_REST, times)
+        found = path(word, theta * k, AT_REST, times)[0].magnitude()
         expected = solve_ivp(scalar, (0.0, 1.0), (theta, 0.0), "DOP853", times, rtol=1e-11, atol=1e-13).y[0]
         np.testing.assert_allclose(found, abs(expected), rtol=0.0, atol=1e-8)  # beyond the goal theta is negative
 
 
 def path(word, turn, omega, times):
     """R (a scipy stack) and omega of the closed loop over time, the memory kept as it was at the start."""
-    memory = find_contender(word).regulator.memory
     start = ScipyRotation.from_rotvec(turn)
-    if memory is not None:
-        memory = command(word, start, omega)[1]
+    memory = command(word, start, omega)[1]
 
-    def rate(_, state):
-        R = ScipyRotation.from_rotvec(state[:3]) * start
-        omega = state[3:]
-        u, _ = command(word, R, omega, memory=memory)
-        phi = state[:3]
-        size = np.linalg.norm(phi)
-        # phidot = J_l^-1(phi) omega; the chart is drawn anew about the start, at most half a turn away
-        if size < 1e-6:
-            phidot = omega - 0.5 * np.cross(phi, omega)
-        else:
-            cot = 1.0 / size**2 - 0.5 / size / math.tan(size / 2.0)
-            phidot = omega - 0.5 * np.cross(phi, omega) + cot * np.cross(phi, np.cross(phi, omega))
-        return np.concatenate((phidot, u))
+    def turned(_, R, omega, __):
+        return command(word, R, omega, memory=memory)[0], ()
 
-    solved = solve_ivp(
-        rate, (0.0, times[-1]), np.concatenate((np.zeros(3), omega)), "DOP853", times, rtol=1e-11, atol=1e-12
-    )
-    assert solved.success
-    return ScipyRotation.from_rotvec(solved.y[:3].T) * start, solved.y[3:].T
-
-
-def angles(word, turn, omega, times):
-    """Angle to the identity over time."""
-    return path(word, turn, omega, times)[0].magnitude()
+    return bodies.path(turned, start, omega, times)[:2]
 
 
 def linear(times, x, rate):

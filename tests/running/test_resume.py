@@ -11,10 +11,7 @@ import pytest
 from support.command_line import ALONE, bench, digest
 
 from bench.base.provenance import ROOT
-from bench.experiments import plan as planning
-from bench.experiments.choice import Choice
 from bench.experiments.experiment import known_experiments
-from bench.running import run as running
 
 
 def python(*words, **options):
@@ -64,30 +61,6 @@ MANY = (*RUN, "--regulator", "rotation-matrix", "--count", "60", "--horizon", "1
 """Fifteen units of four episodes, each about a tenth of a second: time to be stopped in, on a busy machine too."""
 
 
-CONTROLLERS = (
-    *("hybrid-base+inverse", "hybrid/zyx-euler+projected"),
-    *("impedance-geometric", "impedance-coordinates/zyx-euler"),
-)
-IN_CONTACT = (
-    *("run", "--suite", "quick", "--task", "wrench-probe", "--arm", "ur5e", "--count", "6", "--horizon", "0.1"),
-    *("--experiment", "contact"),
-    *(word for name in CONTROLLERS for word in ("--controller", name)),
-    *("--workers", "1"),
-)
-"""Four units of at most 36 trials."""
-
-
-def assert_goes_on(capsys, words, out, kept, units):
-    """Assert that the command goes on after so many units, and ends with the files of an undisturbed run."""
-    said = bench(capsys, *words, "--out", out)
-    assert said.code == 0
-    assert f"going on: {kept} of {units} units are done" in said.out
-    assert bench(capsys, *words, "--out", out.with_name("undisturbed")).code == 0
-    resumed, undisturbed = digest(out), digest(out.with_name("undisturbed"))
-    assert resumed.pop("provenance.json") != undisturbed.pop("provenance.json")
-    assert resumed == undisturbed
-
-
 def heed_interrupts():
     """For a child: a shell that starts the tests in the background has them, and theirs, ignore SIGINT."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
@@ -118,22 +91,13 @@ def test_ctrl_c_keeps_whole_parts_and_no_other_file(interrupted):
     assert all(path.suffix == ".parquet" for path in (out / "parts").iterdir())
 
 
-def test_stopped_run_in_contact_goes_on_and_ends_with_the_same_files(tmp_path, capsys):
-    def stop_after_two(unit):
-        keys.append(unit.key)
-        if len(keys) == 2:
-            raise KeyboardInterrupt
-
-    keys: list[str] = []
-    choice = Choice(("wrench-probe",), arms=("ur5e",), controllers=CONTROLLERS, experiments=("contact",))
-    plan = planning.make("quick", [], choice, count=6, horizon_s=0.1)
-    with pytest.raises(KeyboardInterrupt):
-        running.run(plan, tmp_path / "stopped", workers=1, report=stop_after_two)
-    kept = {path.stem for path in (tmp_path / "stopped" / "parts").iterdir()}
-    assert set(keys) <= kept < {unit.key for unit in plan.units}
-    assert_goes_on(capsys, IN_CONTACT, tmp_path / "stopped", len(kept), 4)
-
-
 def test_stopped_run_says_that_it_goes_on_and_ends_with_the_same_files(interrupted, capsys):
     out = interrupted[-1]
-    assert_goes_on(capsys, MANY, out, len(list((out / "parts").iterdir())), 15)
+    kept = len(list((out / "parts").iterdir()))
+    said = bench(capsys, *MANY, "--out", out)
+    assert said.code == 0
+    assert f"going on: {kept} of 15 units are done" in said.out
+    assert bench(capsys, *MANY, "--out", out.with_name("undisturbed")).code == 0
+    resumed, undisturbed = digest(out), digest(out.with_name("undisturbed"))
+    assert resumed.pop("provenance.json") != undisturbed.pop("provenance.json")
+    assert resumed == undisturbed

@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 from support.in_contact import ARMS
 
@@ -20,21 +21,12 @@ HERE = (0.3, -0.2, 0.4)
 WINDOW = REST.hold_s
 
 
-def turned(angle: float):
-    return from_quaternion(about((0.6, 0.0, 0.8), angle))
-
-
-@pytest.mark.parametrize("axis", range(3))
 @pytest.mark.parametrize(("share", "leaves"), [(0.99, False), (1.01, True), (-1.01, True)])
-def test_hand_leaves_where_it_rests_by_the_distance_its_slowest_speed_takes_it(axis, share, leaves):
-    p = [*HERE]
-    p[axis] += share * REST.speed * WINDOW
-    assert has_left(RULE, 600, tuple(p), STILL, HERE, STILL) is leaves
-
-
-@pytest.mark.parametrize(("share", "leaves"), [(0.99, False), (1.01, True), (-1.01, True)])
-def test_hand_leaves_where_it_rests_by_the_angle_its_slowest_rate_turns_it(share, leaves):
-    assert has_left(RULE, 600, HERE, turned(share * REST.rate * WINDOW), HERE, STILL) is leaves
+def test_hand_leaves_where_it_rests_by_what_its_slowest_speed_or_rate_takes_it(share, leaves):
+    for away in np.eye(3) * share * REST.speed * WINDOW:
+        assert has_left(RULE, 600, tuple(HERE + away), STILL, HERE, STILL) is leaves
+    turned = from_quaternion(about((0.6, 0.0, 0.8), share * REST.rate * WINDOW))
+    assert has_left(RULE, 600, HERE, turned, HERE, STILL) is leaves
 
 
 def test_rest_does_not_count_while_the_place_moves():

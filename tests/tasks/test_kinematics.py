@@ -146,21 +146,6 @@ def test_singularity_has_rank_five_and_loses_its_twist(singularities):
         np.testing.assert_allclose(at.still, np.eye(len(at.q)) - np.linalg.pinv(J, rcond=1e-9) @ J, atol=1e-11)
 
 
-def test_singularities_of_a_ur5e_are_where_one_of_three_factors_of_its_determinant_vanishes():
-    """sin q3, sin q5, or how far axes 5 and 6 meet from the first axis, in the plane of the arm."""
-    model = kinematics(tasks.arm("ur5e"))
-    seen = set()
-    for q in poses(model, 30):
-        at = singularity_near(model, q)
-        if at is not None:
-            axes = model.jacobian(at.q)[3:].T
-            wrist = model.pose(at.q)[0] - 0.0996 * axes[5]
-            factors = abs(np.array((math.sin(at.q[2]), math.sin(at.q[4]), wrist @ np.cross(axes[1], axes[0]))))
-            assert factors.min() < 1e-11
-            seen.add(int(factors.argmin()))
-    assert seen == {0, 1, 2}
-
-
 def test_place_beside_a_singularity_has_the_distance_asked_for(singularities):
     model, found = singularities
     made = 0

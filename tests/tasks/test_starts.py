@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 import pytest
+from scipy import stats
 from scipy.spatial.transform import Rotation
 from scipy.stats import qmc
 
@@ -73,32 +74,13 @@ def test_start_is_at_rest_with_identity_as_goal(name):
     assert all(start.omega == AT_REST and start.goal_wxyz == IDENTITY for start in tasks.start_set(name))
 
 
-# uniform: moments and quantiles of the Haar measure. With 5,000 independent points the standard errors are
-# 0.014 (trace, variance 1), 0.7 degrees (median) and 0.0044 (share); low-discrepancy points do better.
-
-
 @pytest.mark.parametrize("seed", range(4))
-def test_uniform_has_the_mean_matrix_zero_and_traces_of_variance_1(seed):
-    found = rotations(tasks.start_set("uniform", seed=seed)).as_matrix()
-    traces = np.trace(found, axis1=1, axis2=2)
-    assert abs(traces.mean()) < 0.014
-    assert (traces**2).mean() == pytest.approx(1.0, abs=0.03)
-    assert np.abs(found.mean(axis=0)).max() < 0.01
-
-
-def test_uniform_angles_follow_the_haar_distribution():
-    """F(theta) = (theta - sin theta)/pi: the largest deviation of the empirical one stays under 0.01."""
-    angles = np.sort(rotations(tasks.start_set("uniform")).magnitude())
-    expected = (angles - np.sin(angles)) / math.pi
-    assert np.abs(expected - np.arange(len(angles)) / len(angles)).max() < 0.01
-    assert math.degrees(np.median(angles)) == pytest.approx(132.3, abs=0.7)
-    assert (angles > math.radians(170)).mean() == pytest.approx(0.11, abs=0.005)
-
-
-def test_uniform_is_near_the_pole_as_often_as_haar():
-    """sin(beta) is uniform: 1 - cos 10 degrees = 1.5 % lie within 10 degrees of a pole."""
-    beta = euler_angles(tasks.start_set("uniform"))[1]
-    assert (np.abs(beta) > math.radians(80)).mean() == pytest.approx(1 - math.cos(math.radians(10)), abs=0.004)
+def test_uniform_has_the_haar_measure(seed):
+    """Low-discrepancy points deviate less than 5,000 independent ones, whose standard errors are about 0.01."""
+    found = rotations(tasks.start_set("uniform", seed=seed))
+    assert stats.kstest(found.magnitude(), lambda theta: (theta - np.sin(theta)) / math.pi).statistic < 0.01
+    for element in found.as_matrix().reshape(-1, 9).T:  # Archimedes
+        assert stats.kstest(element, stats.uniform(-1.0, 2.0).cdf).statistic < 0.015
 
 
 def test_half_turn_angles_are_pi_minus_powers_of_ten_or_exactly_pi():
@@ -190,12 +172,9 @@ def test_box_on_is_on_the_boundary():
 def test_tumbling_speeds_and_directions_are_uniform():
     omega = np.array([start.omega for start in tasks.start_set("tumbling")])
     speeds = np.linalg.norm(omega, axis=1)
-    assert speeds.max() <= 20.0
-    assert speeds.mean() == pytest.approx(10.0, abs=0.5)
-    assert (speeds > 15.0).mean() == pytest.approx(0.25, abs=0.03)
-    unit = omega / speeds[:, None]
-    np.testing.assert_allclose(unit.mean(axis=0), 0.0, atol=0.05)
-    np.testing.assert_allclose(unit.T @ unit / len(unit), np.eye(3) / 3, atol=0.05)
+    assert stats.kstest(speeds, stats.uniform(0.0, 20.0).cdf).statistic < 0.03
+    for z in (omega / speeds[:, None]).T:
+        assert stats.kstest(z, stats.uniform(-1.0, 2.0).cdf).statistic < 0.03
 
 
 def test_goals_are_far_from_identity():

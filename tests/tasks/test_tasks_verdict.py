@@ -127,31 +127,13 @@ def test_undamped_oscillator_never_settles_wherever_the_horizon_cuts_it(frequenc
 PAPER_KP, PAPER_KV = 100.0, 20.0
 
 
-def test_band_is_the_floor_when_start_is_at_goal():
-    assert RULES.band_rad(0.0) == RULES.floor_rad
-    assert RULES.band_rad(0.5 * RULES.at_goal_rad) == RULES.floor_rad
-
-
-def test_band_haversine_is_that_of_the_band():
+def test_numbers_of_the_rules_are_what_they_are_said_to_be():
+    assert RULES.band_rad(0.0) == RULES.band_rad(0.5 * RULES.at_goal_rad) == RULES.floor_rad
     assert RULES.band_haversine(2.0) == pytest.approx((1 - math.cos(0.04)) / 2, rel=1e-12)
-
-
-def test_smallest_band_is_visible_in_the_matrix_diagonal():
-    assert math.cos(RULES.tolerance * RULES.at_goal_rad) < 1.0
-    assert math.cos(2**-27) == 1.0
-
-
-def test_rest_speed_moves_a_body_no_further_than_the_floor():
+    assert math.cos(RULES.tolerance * RULES.at_goal_rad) < 1.0  # visible in the matrix's diagonal
     assert RULES.rest_speed * 20.0 <= RULES.floor_rad
-
-
-def test_rest_command_belongs_to_the_rest_speed():
     assert RULES.rest_command == pytest.approx(RULES.rest_speed * math.sqrt(PAPER_KP))
-
-
-def test_command_limit_is_far_above_the_paper_at_any_start():
-    largest = PAPER_KP * math.sqrt(3) * math.pi + PAPER_KV * 20.0
-    assert 100 * largest < RULES.command_limit
+    assert 100 * (PAPER_KP * math.sqrt(3) * math.pi + PAPER_KV * 20.0) < RULES.command_limit
 
 
 @pytest.mark.parametrize(
