@@ -1,22 +1,27 @@
-"""Loops that tell robots velocities, beside closed forms and a loop of MuJoCo's Jacobian and numpy's pseudo-inverse."""
+"""Loops of velocities and of unshaped impedances, beside closed forms and loops of MuJoCo, numpy and scipy."""
 
 import math
 
 import mujoco
 import numpy as np
 import pytest
+from scipy.linalg import sqrtm
 from scipy.spatial.transform import Rotation
 
 import tasks
-from bench.engines.episode import FINAL_ANGLE, SETTLING_TICK, TICKS, Settings
+from bench.engines.episode import FINAL_ANGLE, OUTCOME, SETTLING_TICK, TICKS, Settings
+from bench.engines.plants.impedance import ADDED, DAMPED, ELBOW, KINETIC, LEFT, STRAIN, Springs
 from bench.engines.plants.velocity import BENT, OFF, PATH, PEAK, RATE
-from bench.engines.simulate_arms import run_velocity as run
+from bench.engines.simulate_arms import run_impedance, run_velocity
 from bench.experiments.limiters import GREATEST_RATE, clamp_axes, clamp_norm, drop_small_errors, pass_all
 from bench.law.contenders.registry import find_contender
+from bench.law.control.unshaped import DAMPINGS, NULL_RATE
 from bench.law.inputs import Gains
 from tasks.base import Start
 from tasks.rotations import about
+from tasks.rules import RULES
 from tasks.truth import angle
+from tasks.verdict import SATURATED, SETTLED
 
 NONE, K, DT = pass_all, 10.0, 1e-3
 
@@ -32,7 +37,7 @@ def turned_by(rad, axis=(1.0, 2.0, 3.0)):
 @pytest.mark.parametrize("rad", [1e-6, 0.3, 2.0, 3.1, math.pi])
 @pytest.mark.parametrize("ticks", [1, 7, 100])
 def test_logarithm_takes_k_dt_of_the_angle_at_every_tick(rad, ticks):
-    [row] = run(find_contender("rotation-vector"), NONE, K, turned_by(rad), settings(ticks, ticks + 1))
+    [row] = run_velocity(find_contender("rotation-vector"), NONE, K, turned_by(rad), settings(ticks, ticks + 1))
     left = (1.0 - K * DT) ** ticks
     assert row[FINAL_ANGLE] == pytest.approx(rad * left, rel=1e-11, abs=1e-15)
     assert row[PATH] == pytest.approx(rad * (1.0 - left), rel=1e-11)
@@ -42,7 +47,9 @@ def test_logarithm_takes_k_dt_of_the_angle_at_every_tick(rad, ticks):
 def test_sine_follows_its_closed_form_as_ticks_shorten():
     """theta' = -K sin(theta): tan(theta/2) = tan(theta_0/2) exp(-K t)."""
     dt, time = 1e-5, 0.2
-    [row] = run(find_contender("rotation-matrix"), NONE, K, turned_by(3.0), settings(round(time / dt), 10**6, dt))
+    [row] = run_velocity(
+        find_contender("rotation-matrix"), NONE, K, turned_by(3.0), settings(round(time / dt), 10**6, dt)
+    )
     expected = 2.0 * math.atan(math.tan(1.5) * math.exp(-K * time))
     assert row[FINAL_ANGLE] == pytest.approx(expected, rel=1e-4)
 
@@ -50,7 +57,7 @@ def test_sine_follows_its_closed_form_as_ticks_shorten():
 @pytest.mark.parametrize("rad", [1.0, 3.0])
 def test_norm_clamp_settles_at_its_closed_form(rad):
     """At the bound b until theta = b/K, then theta = (b/K) exp(-K t), to 2 % of the beginning."""
-    [row] = run(find_contender("rotation-vector"), clamp_norm, K, turned_by(rad), settings())
+    [row] = run_velocity(find_contender("rotation-vector"), clamp_norm, K, turned_by(rad), settings())
     knee = GREATEST_RATE / K
     expected = (rad - knee) / GREATEST_RATE + math.log(knee / (0.02 * rad)) / K
     assert row[SETTLING_TICK] * DT == pytest.approx(expected, abs=3e-3)
@@ -61,12 +68,12 @@ def test_norm_clamp_settles_at_its_closed_form(rad):
 def test_clamp_per_axis_bends_the_command_by_the_angle_between():
     omega = K * 3.0 * np.array((1.0, 2.0, 3.0)) / math.sqrt(14.0)  # all three components are cut: (b, b, b)
     expected = math.acos(omega.sum() / (math.sqrt(3.0) * np.linalg.norm(omega)))
-    [row] = run(find_contender("rotation-vector"), clamp_axes, K, turned_by(3.0), settings(1))
+    [row] = run_velocity(find_contender("rotation-vector"), clamp_axes, K, turned_by(3.0), settings(1))
     assert row[BENT] == pytest.approx(expected, rel=1e-9)
 
 
 def test_deadband_leaves_less_than_its_diagonal():
-    [row] = run(find_contender("rotation-vector"), drop_small_errors, K, turned_by(2.0), settings())
+    [row] = run_velocity(find_contender("rotation-vector"), drop_small_errors, K, turned_by(2.0), settings())
     assert 1e-3 < row[FINAL_ANGLE] < 5e-3 * math.sqrt(3.0)
 
 
@@ -75,7 +82,7 @@ def test_arm_goes_where_a_loop_of_mujoco_and_numpy_takes_it(arm):
     """q += dt pinv(J) (K (p_d - p), K log(R_d R^T)), by mj_jacSite and scipy's rotation vector, for 200 ticks."""
     start, ticks = tasks.start_set("clear", 1, 0, arm)[0], 200
     one = find_contender("rotation-vector@geometric+pseudo-inverse")
-    [row] = run(one, NONE, K, [start], settings(ticks, ticks + 1), arm)
+    [row] = run_velocity(one, NONE, K, [start], settings(ticks, ticks + 1), arm)
     model = mujoco.MjModel.from_xml_string(tasks.task("arm-regulation", arm).xml(DT))
     data, site = mujoco.MjData(model), model.site("tool").id
     data.qpos[:] = start.q
@@ -103,7 +110,100 @@ def test_inverses_that_differ_by_inertia_alone_are_one_where_there_is_none():
     start = tasks.start_set("clear", 2, 0, "panda")
     words = ("pseudo-inverse", "dynamically-consistent")
     first, second = (
-        run(find_contender(f"rotation-vector@geometric+{word}"), NONE, K, start, settings(300), "panda", 0.05)
+        run_velocity(find_contender(f"rotation-vector@geometric+{word}"), NONE, K, start, settings(300), "panda", 0.05)
         for word in words
     )
     np.testing.assert_allclose(first, second, rtol=1e-9, atol=1e-12)
+
+
+# ---------------------------------------------------------------------------- impedances
+
+LAW = find_contender("rotation-vector")
+STIFF = (2000.0, 50.0)
+
+
+def judged(horizon_s=2.5, dt=1e-3, **more):
+    return Settings(Gains(), dt, round(horizon_s / dt), RULES.hold_ticks(dt), **more)
+
+
+def energies(rows, starts, springs):
+    """Stored at the start, left at the end, and what went [J]."""
+    stored = np.array([0.5 * springs.rotation * angle(one.quat_wxyz, one.goal_wxyz) ** 2 for one in starts])
+    potential = 0.5 * (springs.rotation * rows[:, FINAL_ANGLE] ** 2 + springs.translation * rows[:, LEFT] ** 2)
+    return stored, potential + rows[:, KINETIC], rows[:, DAMPED] + rows[:, ELBOW] - rows[:, ADDED]
+
+
+@pytest.mark.parametrize("whole", [0, 1])
+@pytest.mark.parametrize("arm", ["ur5e", "panda", "jaco"])
+def test_arm_goes_where_a_loop_of_mujoco_numpy_and_scipy_takes_it(arm, whole):
+    [start], ticks, dt, zeta = tasks.start_set("clear", 1, 0, arm), 150, 1e-3, 0.7
+    [row], [end] = run_impedance(
+        LAW, DAMPINGS["double-diagonalization"], Springs(*STIFF, zeta, whole), [start], judged(0.15), arm
+    )
+    model = mujoco.MjModel.from_xml_string(tasks.task("arm-regulation", arm).xml(dt))
+    data, still, site, n = mujoco.MjData(model), mujoco.MjData(model), model.site("tool").id, model.nv
+    data.qpos[:], K = start.q, np.repeat(STIFF, 3)
+    goal, J, M = Rotation.from_quat(start.goal_wxyz, scalar_first=True), np.zeros((6, n)), np.zeros((n, n))
+    mujoco.mj_forward(model, data)
+    p_d = np.array(start.goal_p) if start.goal_p else data.site_xpos[site].copy()
+    for _ in range(ticks):
+        mujoco.mj_jacSite(model, data, J[:3], J[3:], site)
+        mujoco.mj_fullM(model, data, M)
+        still.qpos[:] = data.qpos
+        mujoco.mj_forward(model, still)
+        Lambda, k = np.linalg.inv(J @ np.linalg.solve(M, J.T)), np.diag(np.sqrt(K))
+        D = 2.0 * zeta * k @ np.real(sqrtm(np.diag(1.0 / np.sqrt(K)) @ Lambda @ np.diag(1.0 / np.sqrt(K)))) @ k
+        R = Rotation.from_matrix(data.site_xmat[site].reshape(3, 3))
+        e, v = np.concatenate((p_d - data.site_xpos[site], (goal * R.inv()).as_rotvec())), J @ data.qvel
+        tau = J.T @ (K * e - D @ v) + still.qfrc_bias
+        if whole:
+            tau += data.qfrc_bias - data.qfrc_passive - still.qfrc_bias
+        if n > 6:
+            tau -= NULL_RATE * (M @ data.qvel - J.T @ Lambda @ v)
+        data.ctrl[:] = tau
+        mujoco.mj_step(model, data)
+        mujoco.mj_forward(model, data)
+    np.testing.assert_allclose(end[:n], data.qpos, atol=1e-7)
+    np.testing.assert_allclose(end[n:], data.qvel, atol=1e-5)
+    R = Rotation.from_matrix(data.site_xmat[site].reshape(3, 3))
+    assert row[FINAL_ANGLE] == pytest.approx((goal * R.inv()).magnitude(), rel=1e-6)
+
+
+@pytest.mark.parametrize("whole", [0, 1])
+@pytest.mark.parametrize("damping", DAMPINGS)
+@pytest.mark.parametrize("arm", ["jaco", "panda", "puma560", "ur5e"])
+def test_energy_balance_closes_and_better_with_half_the_tick(arm, damping, whole):
+    starts, springs, gaps = tasks.start_set("clear", 2, 0, arm), Springs(150.0, 10.0, 1.0, whole), []
+    for dt in (1e-3, 5e-4):
+        rows, _ = run_impedance(LAW, DAMPINGS[damping], springs, starts, judged(dt=dt), arm)
+        stored, left, gone = energies(rows, starts, springs)
+        gaps.append(np.abs(left + gone - stored) / stored)
+    assert np.max(gaps[0]) < 5e-4
+    # of the first order in the tick; below 1e-6 terms of higher order show
+    assert np.max(gaps[1]) < max(0.6 * np.max(gaps[0]), 1e-6)
+
+
+@pytest.mark.parametrize("arm", ["panda", "puma560", "ur5e"])
+def test_energy_never_grows_where_gravity_alone_is_compensated(arm):
+    starts, springs = tasks.start_set("clear", 4, 0, arm), Springs(*STIFF, 1.0, 0)
+    for horizon_s in (0.1, 0.4, 1.0):
+        rows, _ = run_impedance(LAW, DAMPINGS["per-axis"], springs, starts, judged(horizon_s), arm)
+        stored, left, _ = energies(rows, starts, springs)
+        assert (left < stored).all()
+        assert (rows[:, ADDED] == 0.0).all()
+        assert (rows[:, DAMPED] > 0.0).all()
+        assert (rows[:, ELBOW] >= 0.0).all()
+
+
+def test_shipped_rule_diverges_on_the_panda_at_1_khz_and_settles_at_2_khz():
+    starts, springs = tasks.start_set("clear", 2, 0, "panda"), Springs(*STIFF, 1.0, 0)
+    for dt, outcome in ((1e-3, None), (5e-4, SETTLED)):
+        rows, _ = run_impedance(LAW, DAMPINGS["diagonal"], springs, starts, judged(dt=dt), "panda")
+        assert (rows[:, OUTCOME] != SETTLED).all() if outcome is None else (rows[:, OUTCOME] == outcome).all()
+
+
+def test_torques_beyond_the_judges_limit_end_an_episode():
+    starts, springs = tasks.start_set("clear", 1, 0, "ur5e"), Springs(*STIFF, 1.0, 0)
+    rows, _ = run_impedance(LAW, DAMPINGS["per-axis"], springs, starts, judged(torque_limit=0.5), "ur5e")
+    assert rows[0, OUTCOME] == SATURATED
+    assert rows[0, STRAIN] > 0.0

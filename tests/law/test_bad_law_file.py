@@ -1,14 +1,18 @@
-"""A law file that cannot be used: one line with the reason, exit code 2, nothing touched."""
+"""A law file of a user's: known by its words; one that cannot be used is refused in one line, nothing touched."""
+
+from pathlib import Path
 
 import pytest
 from support.command_line import TINY, bench, refused, refused_run
 from support.user_law import law_text
 
 from bench.experiments.tables import store
+from bench.law.contenders.described_law import described, fields_of
+from bench.law.contenders.law_file import load_law
 
 
-def written(tmp_path, text: str):
-    path = tmp_path / "own.py"
+def written(folder: Path, text: str) -> Path:
+    path = folder / "own.py"
     path.write_text(text)
     return path
 
@@ -110,3 +114,32 @@ def test_law_beyond_the_compiler_runs_on_the_reference_engine(capsys, tmp_path):
     assert said.code == 0, said
     assert set(store.read(out, "episodes")["regulator"]) == {"mine"}
     assert "mine" not in set(store.read(out, "costs")["regulator"])
+
+
+SOUND = law_text("return (-kp * R.n[0], 0.0, 0.0)").replace("kp *", "gains.kp *")
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        "",
+        ", display=Display('own', Look('sky', 'h', 'dotted'), 'Mine'), property='local', stiffness=(1.0, 0.5, 1.0)",
+        ", memory=(1.0, 0.0)",
+    ],
+)
+def test_words_of_a_law_are_those_of_its_file(tmp_path, more):
+    text = SOUND.replace("law)", f"law{more})").replace("import Law", "import Display, Law, Look")
+    if "memory" in more:
+        text = text.replace("goal, gains)", "goal, gains, memory)").replace("0.0, 0.0)\n", "0.0, 0.0), memory\n")
+    path = written(tmp_path, text)
+    own = described(path)
+    assert fields_of(own) == fields_of(load_law(path))
+    assert own.origin == str(path)
+    with pytest.raises(RuntimeError, match="in its sandbox alone"):
+        own.law()
+
+
+@pytest.mark.parametrize("body", ["raise ValueError('no')", "while R.n[0] < 2.0: x = 1.0", "os._exit(0)"])
+def test_law_that_does_not_answer_is_known_all_the_same(tmp_path, body):
+    text = law_text(body, "return omega")
+    assert described(written(tmp_path, f"import os\n{text}"), limit_s=2.0, waits_s=5.0).name == "mine"

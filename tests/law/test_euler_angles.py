@@ -1,18 +1,18 @@
-"""Every sequence of Euler angles against scipy and closed form, at, near and away from its poles.
+"""Every sequence of Euler angles against scipy and closed form; its extraction differentiated, against 80 digits."""
 
-That B, its inverse and its derivative are those of the rotation is test_every_representation's.
-"""
-
+import functools
 import math
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
-from support.states import as_rotation, matrix, vector
+from support.exact import EXACT, STEP, exact_matrix
+from support.states import as_rotation, matrix, rotations, vector
 
 import tasks
-from bench.law.contenders.registry import representation
+from bench.law.contenders.registry import contenders, representation
+from bench.law.so3 import Rotation, cross
 from tasks.rotations import columns, on_pole
 
 # The bound of test_every_representation: sums of three products of up to three rounded factors.
@@ -90,3 +90,59 @@ def test_margin_is_the_sine_of_the_distance_from_the_pole(one, axes, poles):
     for beta in np.linspace(*poles, 41):
         found = one.margin(one.to_matrix(vector((0.7, beta, -2.0))))
         assert found == pytest.approx(math.sin(abs(beta - poles[0])), abs=2 * EPS)
+
+
+DIFFERENTIATED = [one for one in contenders("representations").values() if one.differentiate is not None]
+
+
+on_differentiated = pytest.mark.parametrize("one", DIFFERENTIATED, ids=lambda one: one.name)
+
+
+def turning(omega, R) -> Rotation:
+    return Rotation(*(cross(omega, column) for column in R))
+
+
+def bending(omegadot, omega, R) -> Rotation:
+    first, second = turning(omegadot, R), turning(omega, turning(omega, R))
+    return as_rotation(np.array(first) + np.array(second))
+
+
+@functools.cache
+def path(one, E, Edot, Eddot):
+    """R, Rdot and Rddot of E + Edot t + Eddot t^2/2 at t = 0: to_matrix differentiated with 80 digits, rounded."""
+
+    def at(t):
+        terms = zip(E, Edot, Eddot, strict=True)
+        return exact_matrix(one.to_matrix, [EXACT.mpf(e) + t * d + t * t * a / 2 for e, d, a in terms])
+
+    behind, here, ahead = at(-STEP), at(EXACT.mpf(0)), at(STEP)
+    found = here, (ahead - behind) / (2 * STEP), (ahead - 2 * here + behind) / STEP**2
+    return [as_rotation([[float(A[i, j]) for i in range(3)] for j in range(3)]) for A in found]
+
+
+@on_differentiated
+def test_derivatives_along_a_path_are_the_paths_own(one):
+    """The oracle starts from the coordinates: neither the extraction nor B is in it."""
+    draw = np.random.default_rng(3)
+    for R in rotations():
+        near = one.margin(R)
+        if near > 1e-5:  # the path's own coordinates are lost, by EPS/margin^2, nearer the pole
+            Edot, Eddot = (vector(draw.normal(scale=scale, size=3)) for scale in (5.0, 50.0))
+            along = path(one, one.chart(R).E, Edot, Eddot)
+            first, second = np.abs(Edot).max() / near, np.abs(Eddot).max() / near + (np.abs(Edot).max() / near) ** 2
+            found = one.differentiate(*along[:2])
+            np.testing.assert_allclose(found, Edot, rtol=0.0, atol=TOLERANCE * first / near)
+            found = one.differentiate_twice(*along)
+            np.testing.assert_allclose(found, Eddot, rtol=0.0, atol=3 * TOLERANCE * second / near)
+
+
+@on_differentiated
+def test_derivatives_are_not_finite_on_the_poles(one):
+    omega = vector((0.3, -0.7, 1.1))
+    poles = [R for R in rotations() if one.margin(R) == 0.0]
+    assert poles
+    for R in poles:
+        Rdot, Rddot = turning(omega, R), bending(omega, omega, R)
+        with np.errstate(all="ignore"):
+            assert not np.isfinite(one.differentiate(R, Rdot)).all()
+            assert not np.isfinite(one.differentiate_twice(R, Rdot, Rddot)).all()

@@ -1,4 +1,4 @@
-"""The later laws: springs, half turns, response from rest, linear decay; closed forms and scipy as oracles."""
+"""The later laws: springs, half-circle turns, responses from rest; the side that late-braking keeps, by scipy."""
 
 import math
 
@@ -7,10 +7,17 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support import bodies
+from support.driving import settings
 from support.states import of_scipy, vector
 
+import tasks
+from bench.engines.episode import OUTCOME, SETTLING_TICK
+from bench.engines.metrics.registry import metrics_of
+from bench.engines.simulate_bodies import run_disturbed as run
 from bench.law.contenders.registry import all_contenders, find_contender
 from bench.law.inputs import AT_REST, Gains, Goal
+from tasks.condition import Condition
+from tasks.verdict import SETTLED
 
 GAINS = Gains(kp=100.0, kv=20.0)
 
@@ -136,3 +143,62 @@ def test_bounded_command_is_the_sine_and_a_damper_bounded_by_kp_at_any_spin():
         assert np.linalg.norm(u) <= 2.0 * GAINS.kp * (1.0 + 1e-14)
     worst, _ = command("bounded-command", ScipyRotation.from_rotvec((math.pi / 2.0, 0.0, 0.0)), (1e6, 0.0, 0.0))
     assert np.linalg.norm(worst) == pytest.approx(2.0 * GAINS.kp, rel=1e-6)
+
+
+SIXTH = math.pi / 3.0
+NONE_YET = (1.0, 0.0, 0.0, 0.0)
+LOOSE = 1e-11 * GAINS.kp
+TURNS = [*np.eye(3), *-np.eye(3), (0.6, 0.8, 0.0), (0.0, 0.6, -0.8), (1 / 3, 2 / 3, 2 / 3), (-2 / 3, 1 / 3, 2 / 3)]
+"""Axes of every kind: along the base's, within a plane of theirs, and neither."""
+
+
+def turn(theta, k):
+    return ScipyRotation.from_rotvec(theta * np.asarray(k))
+
+
+def lift(E, near):
+    """scipy's quaternion (eta, eps) of E, the one of the two that is nearer to another."""
+    q = E.as_quat(scalar_first=True)
+    return q if q @ near >= 0.0 else -q
+
+
+def written_out(q, omega):
+    """The law's equation on a quaternion (eta, eps) that knows its side."""
+    eta, eps = q[0], q[1:]
+    pull = GAINS.kp * (1.0 + eta**2) + 0.8 * GAINS.kv * max(0.0, eps @ omega)
+    return pull * eps - GAINS.kv * np.asarray(omega)
+
+
+def test_command_is_the_equation_on_the_side_it_is_on_to_240_degrees_and_on_the_other_beyond():
+    for k, omega in zip(TURNS, np.random.default_rng(2).normal(scale=8.0, size=(len(TURNS), 3)), strict=True):
+        q, memory = np.array(NONE_YET), NONE_YET
+        for theta in np.radians(np.arange(1.0, 240.0, 2.0)):
+            q = lift(turn(theta, k), q)
+            u, memory = command("late-braking", turn(theta, k).inv(), omega, memory=memory)
+            np.testing.assert_allclose(u, written_out(q, omega), rtol=0.0, atol=LOOSE)
+        beyond = turn(np.radians(241.0), k)
+        u, memory = command("late-braking", beyond.inv(), omega, memory=memory)
+        np.testing.assert_allclose(u, written_out(-lift(beyond, q), omega), rtol=0.0, atol=LOOSE)
+
+
+HALF_TURNS = [start for start in tasks.start_set("half-turn") if start.id.endswith("exact")]
+
+
+def judged(beyond):
+    """Whether each exact half turn is left for good where the sensor lies by `beyond` near it, and when [s]."""
+    chosen = settings(horizon_s=2.0)
+    one = find_contender("late-braking")
+    rows = run(one, HALF_TURNS, Condition(worst_attitude_error=beyond), chosen, metrics_of(on_arm=False), 0)
+    return rows[:, OUTCOME] == SETTLED, rows[:, SETTLING_TICK] * chosen.dt_s
+
+
+@pytest.mark.parametrize("beyond", [0.0, 0.01, 0.3, 1.0])
+def test_sensor_that_lies_by_less_than_60_degrees_does_not_hold_it_at_a_half_turn(beyond):
+    settled, times = judged(beyond)
+    assert settled.all()
+    assert times.max() < 0.7  # the linear one takes 0.58 s
+
+
+def test_sensor_that_lies_by_more_than_60_degrees_holds_it():
+    settled, _ = judged(SIXTH + 0.05)
+    assert not settled.any()

@@ -1,12 +1,14 @@
-"""Quaternions of the starts against scipy's rotations and MuJoCo's matrices, exact points included."""
+"""Quaternions of starts, the judge's angle and haversine against scipy and MuJoCo, exact points included."""
 
 import math
+from fractions import Fraction
 
 import mujoco
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from tasks.base import angle, haversine
 from tasks.rotations import about, columns, multiply, on_pole, short_of_180_degrees, to_body, zyx
 
 SEED = 11
@@ -18,18 +20,18 @@ def matrix(quat):
     return np.array(columns(quat)).T
 
 
-def scipy_matrix(quat):
-    return Rotation.from_quat(quat, scalar_first=True).as_matrix()
-
-
 def random_angles(count):
     u = np.random.default_rng(SEED).uniform(-1.0, 1.0, size=(count, 3))
     return (u * [math.pi, math.pi / 2, math.pi]).tolist()
 
 
-def random_quats(count):
-    quats = np.random.default_rng(SEED).normal(size=(count, 4))
+def random_quats(count, seed=SEED):
+    quats = np.random.default_rng(seed).normal(size=(count, 4))
     return [tuple(q) for q in (quats / np.linalg.norm(quats, axis=1, keepdims=True)).tolist()]
+
+
+def scipy_rotation(quat):
+    return Rotation.from_quat(quat, scalar_first=True)
 
 
 def test_columns_are_those_of_mujoco_bit_for_bit():
@@ -41,13 +43,15 @@ def test_columns_are_those_of_mujoco_bit_for_bit():
 
 def test_product_composes_rotations():
     for p, q in zip(random_quats(50), reversed(random_quats(50)), strict=True):
-        np.testing.assert_allclose(matrix(multiply(p, q)), scipy_matrix(p) @ scipy_matrix(q), atol=ROUNDING)
+        np.testing.assert_allclose(
+            matrix(multiply(p, q)), (scipy_rotation(p) * scipy_rotation(q)).as_matrix(), atol=ROUNDING
+        )
 
 
 def test_body_coordinates_are_the_transposed_matrix_times_a_vector():
     vector = (0.3, -2.0, 5.0)
     for quat in random_quats(50):
-        np.testing.assert_allclose(to_body(quat, vector), scipy_matrix(quat).T @ vector, atol=1e-14)
+        np.testing.assert_allclose(to_body(quat, vector), scipy_rotation(quat).inv().apply(vector), atol=1e-14)
 
 
 def test_zyx_agrees_with_scipy():
@@ -96,3 +100,59 @@ def test_pole_has_n_exactly_along_z_and_its_twist(sign):
 def test_pole_is_refused_when_the_twist_is_too_small_for_doubles():
     with pytest.raises(ArithmeticError, match=r"no double near twist = 0\.006"):
         on_pole(1, 0.006)
+
+
+IDENTITY = (1.0, 0.0, 0.0, 0.0)
+
+
+def test_angle_agrees_with_scipy_over_uniform_pairs():
+    for quat, goal in zip(random_quats(300), random_quats(300, SEED + 1), strict=True):
+        expected = (scipy_rotation(goal).inv() * scipy_rotation(quat)).magnitude()
+        assert angle(quat, goal) == pytest.approx(expected, abs=ROUNDING * 4)
+
+
+@pytest.mark.parametrize("theta", [1e-15, 1e-12, 1e-8, 1e-4, 1e-1])
+def test_angle_keeps_its_digits_when_near_identity(theta):
+    for axis in np.random.default_rng(SEED).normal(size=(20, 3)).tolist():
+        assert angle(about(tuple(axis), theta), IDENTITY) == pytest.approx(theta, rel=1e-14)
+
+
+@pytest.mark.parametrize("delta", [1e-15, 1e-12, 1e-8, 1e-4, 1e-1])
+def test_angle_keeps_its_digits_when_near_half_turn(delta):
+    for axis in np.random.default_rng(SEED).normal(size=(20, 3)).tolist():
+        quat = short_of_180_degrees(tuple(axis), delta)
+        assert angle(quat, IDENTITY) == pytest.approx(math.pi - delta, abs=ROUNDING)
+        assert 1.0 - haversine(quat, IDENTITY) == pytest.approx((delta / 2) ** 2, rel=1e-2, abs=2**-52)
+
+
+def test_angle_is_pi_when_exactly_half_turn():
+    for quat in ((0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), (0.0, 0.6, 0.0, 0.8)):
+        assert angle(quat, IDENTITY) == math.pi
+        assert haversine(quat, IDENTITY) == 1.0
+
+
+def test_angle_is_zero_at_the_goal_and_ignores_the_sign_of_a_quaternion():
+    for quat, goal in zip(random_quats(50), random_quats(50, SEED + 1), strict=True):
+        opposite = tuple(-x for x in quat)
+        assert angle(quat, quat) < ROUNDING
+        assert haversine(quat, quat) < ROUNDING**2
+        assert angle(opposite, goal) == angle(quat, goal)
+        assert haversine(opposite, goal) == haversine(quat, goal)
+
+
+def test_haversine_is_the_rational_value():
+    def exact(quat, goal):
+        (w, x, y, z), (a, b, c, d) = (tuple(map(Fraction, q)) for q in (quat, goal))
+        scalar = a * w + b * x + c * y + d * z
+        return 1 - scalar**2 / ((w * w + x * x + y * y + z * z) * (a * a + b * b + c * c + d * d))
+
+    for quat, goal in zip(random_quats(100), random_quats(100, SEED + 1), strict=True):
+        assert haversine(quat, goal) == pytest.approx(float(exact(quat, goal)), abs=ROUNDING)
+
+
+def test_truth_compiles_unchanged():
+    numba = pytest.importorskip("numba")
+    for function in (angle, haversine):
+        compiled = numba.njit(error_model="numpy")(function)
+        for quat, goal in zip(random_quats(100), random_quats(100, SEED + 1), strict=True):
+            assert compiled(quat, goal) == function(quat, goal)
