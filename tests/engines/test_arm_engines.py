@@ -5,7 +5,6 @@ sets take turns too.
 """
 
 import functools
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -158,18 +157,3 @@ def test_episode_gives_the_same_row_whatever_ran_before_it(arm):
             for order in (starts, starts[::-1])
         )
         assert different_rows(forward, backward[::-1]) == []
-
-
-def test_two_threads_give_the_rows_of_one():
-    units = [(arm, word) for arm in ARMS for word in (PLAIN, PAPERS, KHATIB)]
-
-    def rows(unit):
-        arm, word = unit
-        starts = [of(arm, name, 4) for name in SETS]
-        return run("native", named(arm, word), TASK, arm, starts, settings(horizon_s=1.0), METRICS)
-
-    one_by_one = [rows(unit) for unit in units]
-    with ThreadPoolExecutor(2) as pool:
-        at_once = list(pool.map(rows, units))
-    for unit, alone, beside in zip(units, one_by_one, at_once, strict=True):
-        assert different_rows(beside, alone) == [], unit

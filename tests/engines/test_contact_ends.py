@@ -2,14 +2,11 @@
 
 import math
 
-import mujoco
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as Turn
 from support.contact_records import ARM, CARTESIAN, answered, pose, specification, spun, trial
-from support.in_contact import ARMS
 
-import tasks
 from bench.engines.metrics.contact import held_axes, port, rest, stiffness, wrench
 from bench.engines.metrics.contact_force import WINDOW_S, rms
 from bench.engines.metrics.contact_metric import Pose, response
@@ -18,9 +15,7 @@ from bench.engines.simulate_contact import run_contact as run
 from bench.findings.theory.compliance_theory import free
 from bench.law.contenders.impedances import geometric
 from bench.law.control.contact_controller import impedance_controller
-from tasks.arm_model import Arm
 from tasks.contact import Specification
-from tasks.contact_episode import environment
 from tasks.domains import force_on_plane, surface_alignment, wrench_probe
 
 DT, TICKS = 0.01, 401
@@ -86,41 +81,6 @@ def test_hand_that_yields_to_a_moment_takes_energy_as_its_inertia_and_damping_do
     ended = next(run("native", CARTESIAN, task, ARM, [trial]))
     taken = -port.port_energy(Pose(task, ARM, CARTESIAN, (response(trial, ended),)))
     assert taken == pytest.approx(wrench_probe.PUSH**2 * free(task.horizon_s), rel=5e-3)
-
-
-@pytest.mark.parametrize("arm", ARMS)
-def test_energy_through_the_port_balances_that_of_the_arm_and_its_motors(arm):
-    """Kinetic and potential energy, by MuJoCo, grow by the work of motors, joints' damping and surroundings: an arm
-    pushed onto a plate. What is left, of a semi-implicit step and an impact, falls with the step."""
-    gaps = [balance(tasks.arm(arm), dt) for dt in (2e-4, 1e-4)]
-    assert abs(gaps[1]) <= 0.03
-    assert abs(gaps[1]) <= 0.7 * abs(gaps[0])
-
-
-def balance(arm: Arm, dt: float) -> float:
-    """(What the arm gained less the work done on it) over the energy that went through the port."""
-    task = surface_alignment.TASK._replace(horizon_s=0.3)
-
-    def energies(model) -> None:
-        model.opt.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
-
-    trial = task.trials(arm)[3]
-    loop = environment(task, arm, trial, dt, vary=energies)
-    seen, physics, work, lines = loop.reset().observation, loop.physics, 0.0, []
-    data, n = physics.data, arm.joints
-    start = data.energy.sum()
-    J = np.zeros((6, physics.model.nv))
-    for _ in range(round(0.3 / dt)):
-        mujoco.mj_jacSite(physics.model.ptr, data.ptr, J[:3], J[3:], physics.model.name2id("hand", "site"))
-        tau = (data.qfrc_bias - data.qfrc_passive)[:n] + J[2, :n] * -30.0 - 5.0 * data.qvel[:n]
-        lines.append(np.concatenate((seen["p"], seen["omega"], seen["F"])))
-        before, passive = np.array(data.qvel[:n]), np.array(data.qfrc_passive[:n])
-        seen = loop.step(tau).observation
-        work += (tau + passive) @ (before + data.qvel[:n]) / 2.0 * dt
-    p, omega, force, moment = np.split(np.array(lines), 4, axis=1)
-    shown = record(time=dt * np.arange(len(lines)), p=p, omega=omega, force=force, moment=moment).first
-    given = port.given(shown)[-1]
-    return float((data.energy.sum() - start - work + given) / given)
 
 
 # ---------------------------------------------------------------------------- compliance measured by moments

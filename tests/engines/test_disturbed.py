@@ -164,11 +164,14 @@ def test_the_worst_noise_holds_a_law_without_memory_at_the_half_turn(word, beyon
     assert np.all(ended(word, HALF_TURNS, Condition(period_s=period_s))[:, OUTCOME] == SETTLED)
 
 
-@pytest.mark.parametrize(("beyond", "is_held"), [(0.1, False), (0.8, False), (0.85, True)])
-def test_hysteresis_of_a_quaternion_resists_up_to_its_width(beyond, is_held):
-    """The remembered side is left where the reported eta falls under -DELTA: 2 asin(DELTA) = 0.823 rad beyond."""
-    assert (beyond > 2.0 * math.asin(DELTA)) == is_held
-    rows = ended("hybrid", HALF_TURNS, Condition(worst_attitude_error=beyond))
+WIDTH = {"hybrid": 2.0 * math.asin(DELTA), "late-braking": math.pi / 3.0}
+"""Angle beyond 180° at which a law leaves the side it remembers: where the reported eta is -DELTA, or -1/2."""
+
+
+@pytest.mark.parametrize("word", WIDTH)
+@pytest.mark.parametrize(("share", "is_held"), [(0.0, False), (0.1, False), (0.95, False), (1.05, True)])
+def test_law_with_a_memory_resists_the_worst_noise_up_to_its_width(word, share, is_held):
+    rows = ended(word, HALF_TURNS, Condition(worst_attitude_error=share * WIDTH[word]))
     assert np.all((rows[:, OUTCOME] == SETTLED) != is_held)
 
 

@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.driving import settings
-from support.springs import left, motion
+from support.bodies import left, motion
 
 import tasks
 from bench.engines.episode import FIRST_METRIC

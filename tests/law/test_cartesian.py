@@ -15,9 +15,9 @@ from support.on_arms import ARMS, GAINS, LAWS, here, named, torques
 
 import tasks
 from bench.law.contenders import combinations
-from bench.law.contenders.registry import contenders, representation
+from bench.law.contenders.registry import contenders
 from bench.law.weighting import GREATEST_GAIN, LENGTH
-from tasks.kinematics import kinematics, rotation_vector
+from tasks.kinematics import kinematics
 
 over_arms = pytest.mark.parametrize("arm", ARMS)
 SEVEN = [arm for arm in ARMS if tasks.arm(arm).joints == 7]
@@ -138,62 +138,6 @@ def test_torques_are_the_formula(arm, jacobian, word):
 
 
 # ---------------------------------------------------------------------------- (3.7) against (2.2) with (2.15)
-
-
-@functools.cache
-def beside_poles(arm: str) -> tuple:
-    """States in the middle of the turns of `pole`, on the Z-Y-X pole and beside it; the arm is regular."""
-    draw, found = np.random.default_rng(6), []
-    model = kinematics(tasks.arm(arm))
-    for start in tasks.start_set("pole", arm=arm)[::2]:
-        turn = np.array(rotation_vector(start.goal_wxyz, start.quat_wxyz))
-        angle = float(np.linalg.norm(turn))
-        q = model.turn(start.q, tuple(turn / angle), angle / 2.0, 40)[-1]
-        found.append(
-            (q, 0.3 * draw.normal(size=len(q)), start.goal_wxyz, model.pose(q)[0] + 0.01 * draw.normal(size=3))
-        )
-    return tuple(found)
-
-
-PAIRS = [
-    pytest.param(arm, word, inverse, id=f"{arm}-{word}-{inverse}")
-    for arm in ARMS
-    for word in contenders("representations")
-    for inverse in EXACT
-    if all(
-        combinations.on((f"feedback-linearized/{word}@{by}+{inverse}",), LAWS, tasks.arm(arm).joints)
-        for by in ("analytic", "geometric")
-    )
-]
-
-
-@pytest.mark.parametrize(("arm", "word", "inverse"), PAIRS)
-def test_analytic_jacobian_gives_the_torques_of_the_geometric_one_with_the_linearized_law(arm, word, inverse):
-    """(3.7) equals (2.2) with (2.15), to the rounding of what J_E and its drift are made of."""
-    coordinates = representation(word)
-    analytic, geometric = (named(arm, f"feedback-linearized/{word}@{by}+{inverse}") for by in ("analytic", "geometric"))
-    compared = 0
-    for q, qdot, goal, p_d in (*states(arm), *beside_poles(arm)):
-        at = here(arm, q, qdot)
-        J_E = inverted(analytic, at)
-        margin = coordinates.margin(at.chain.R)
-        if margin < 1e-5 or not is_exact(geometric, at.J):
-            continue
-        if not is_exact(analytic, J_E) and inverse in ("truncated-svd", "damped-least-squares-variable"):
-            continue
-        if singular_values(J_E)[0] > 1e6 * singular_values(J_E)[-1] and inverse != "solve":
-            continue  # normal equations have no digits left
-        (tau, u), (expected, u_expected) = (torques(one, at, goal, p_d) for one in (analytic, geometric))
-        # terms that cancel are up to 1/margin^2 times what is left of them, x up to |J^+| times that, and each
-        # inverse adds its own error; a term is kp times an error of pi at most, kv omega, or omega^2
-        speed = 1.0 + np.linalg.norm(at.xdot) + np.linalg.norm(qdot)
-        terms = GAINS.kp * np.pi + GAINS.kv * speed + speed**2
-        relative = EPS / margin**2 + rounding(analytic, at, J_E) + rounding(geometric, at, at.J)
-        allowed = 10.0 * relative * np.linalg.norm(at.D, 2) * np.linalg.norm(np.linalg.pinv(at.J), 2) * terms
-        np.testing.assert_allclose(tau, expected, rtol=0.0, atol=allowed)
-        np.testing.assert_allclose(u, u_expected, rtol=0.0, atol=10.0 * EPS / margin**2 * terms)
-        compared += 1
-    assert compared >= 6
 
 
 # ---------------------------------------------------------------------------- seven joints

@@ -1,13 +1,11 @@
 """The dense kernels against numpy.linalg, on matrices of every condition and rank; floats, counted, compiled alike."""
 
-import numba
 import numpy as np
 import pytest
 import sympy
-from support.bits import EPS, same_bits
-from support.buffers import as_counted, as_floats, buffer, matrices, symmetric
+from support.bits import EPS
+from support.buffers import buffer, matrices, symmetric
 
-from bench.engines.compiled import JIT, register_kernels
 from bench.law import linalg
 from bench.law.linalg.cholesky import MARGIN
 from bench.law.linalg.rotations import SWEEPS
@@ -181,41 +179,3 @@ def test_orthogonalized_rows_are_orthogonal_turned_from_the_given_ones_and_as_lo
 
 
 # -------------------------------------------------------------------------------- floats, counted, compiled
-def calls(rows, n):
-    """Kernel -> its arguments from a matrix; arrays among them are what it writes to."""
-    square = {
-        linalg.solve: lambda A: (A, buffer(B), n),
-        linalg.determinant: lambda A: (A, buffer(B), n),
-        linalg.factor: lambda A: (A, n),
-        linalg.exceeds: lambda A: (A, 1e-3, buffer(np.eye(7)), n),
-        linalg.solve_factored: lambda A: (A, buffer(B), n),
-    }
-    any_shape = {
-        linalg.multiply: lambda A: (A, buffer(B), buffer(B), rows, n),
-        linalg.multiply_transposed: lambda A: (A, buffer(B), buffer(B), rows, n),
-        linalg.gram: lambda A: (A, buffer(np.eye(7)), rows, n),
-        linalg.gram_transposed: lambda A: (A, buffer(np.eye(7)), rows, n),
-        linalg.orthogonalize: lambda A: (A, buffer(B), rows, n),
-    }
-    return any_shape | (square if rows == n else {})
-
-
-def outcome(function, given):
-    """All numbers a call leaves: its buffers', and what it returns."""
-    with np.errstate(all="ignore"):
-        answer = function(*given)
-    left = [as_floats(part).ravel() for part in given if isinstance(part, np.ndarray)]
-    returned = [] if answer is None else [as_floats([answer])]
-    return np.concatenate(left + returned)
-
-
-@pytest.mark.parametrize(("rows", "n"), SHAPES[:4])
-def test_counted_and_compiled_kernels_give_the_bits_of_the_plain_ones(rows, n):
-    register_kernels()
-    for kernel, arguments in calls(rows, n).items():
-        compiled = numba.njit(**JIT)(kernel)
-        for word, A in matrices(rows, n).items():
-            plain = outcome(kernel, arguments(buffer(A)))
-            given = [as_counted(part) if isinstance(part, np.ndarray) else part for part in arguments(buffer(A))]
-            assert same_bits(outcome(kernel, given), plain), (kernel.__name__, word, "counted")
-            assert same_bits(outcome(compiled, arguments(buffer(A))), plain), (kernel.__name__, word, "compiled")

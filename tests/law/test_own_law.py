@@ -124,12 +124,6 @@ def test_own_law_runs_on_every_engine_and_settles(example, capsys, tmp_path):
     assert "my-law" in set(store.read(tmp_path / "out", "costs")["regulator"])
 
 
-def test_law_that_fails_is_counted_up_to_there(fails_far_away, capsys):
-    said = bench(capsys, "count", "--law", fails_far_away.regulator.origin, "--regulator", "mine")
-    assert (said.code, said.err) == (0, "")
-    assert "mine" in said.out
-
-
 def test_run_keeps_a_law_of_ones_own_and_the_report_shows_it(tmp_path, monkeypatch, capsys):
     path = tmp_path / "my_law.py"
     path.write_text(EXAMPLE)

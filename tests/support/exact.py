@@ -63,12 +63,6 @@ def exact_B(to_matrix, E):
     return EXACT.matrix([[images[j][i] for j in range(count)] for i in range(3)])
 
 
-def solved(A, right) -> list:
-    """A^-1 times a vector, to 80 digits less the condition number."""
-    answer = EXACT.lu_solve(A, EXACT.matrix([EXACT.mpf(x) for x in right]))
-    return list(answer)
-
-
 def rows_of(A) -> list[list]:
     """A matrix as lists of its rows."""
     return [[A[i, j] for j in range(A.cols)] for i in range(A.rows)]

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 import tasks
 from tasks.kinematics import kinematics, rotation_vector
-from tasks.singular import beside, path_from, rates_through, singularity_near
+from tasks.singular import singularity_near
 
 SEED = 5
 
@@ -144,36 +144,3 @@ def test_singularity_has_rank_five_and_loses_its_twist(singularities):
         np.testing.assert_allclose(J.T @ at.u, 0.0, atol=1e-13)
         np.testing.assert_allclose(J @ at.still, 0.0, atol=1e-12)
         np.testing.assert_allclose(at.still, np.eye(len(at.q)) - np.linalg.pinv(J, rcond=1e-9) @ J, atol=1e-11)
-
-
-def test_place_beside_a_singularity_has_the_distance_asked_for(singularities):
-    model, found = singularities
-    made = 0
-    for at in found:
-        for distance in (1e-2, 1e-4, 1e-6):
-            place = beside(model, at, distance)
-            if place is not None:
-                made += 1
-                s = np.linalg.svd(model.jacobian(place[0]), compute_uv=False)
-                assert s[5] == pytest.approx(distance, rel=2e-6)
-                assert math.hypot(*place[1]) == pytest.approx(1.0, abs=1e-14)
-    assert made >= 10
-
-
-def test_turn_through_a_singularity_is_smooth(singularities):
-    """Both branches begin 0.02 rad away; their mean is the singular configuration to second order."""
-    model, found = singularities
-    seen = 0
-    for at in found:
-        axis = np.cross(at.u[3:], (0.3, 0.5, 0.7))
-        if np.linalg.norm(axis) < 1e-3:
-            continue
-        axis = tuple((axis / np.linalg.norm(axis)).tolist())
-        for rates in rates_through(model, at, axis):
-            branches = [path_from(model, at, axis, rates, [sign * 0.02]) for sign in (1.0, -1.0)]
-            if all(branch is not None for branch in branches):
-                seen += 1
-                before, after = (branch[-1] for branch in branches)
-                assert np.linalg.norm(0.5 * (before + after) - at.q) < 0.5 * 0.02 * np.linalg.norm(rates)
-                np.testing.assert_allclose(model.jacobian(at.q) @ rates, (0, 0, 0, *axis), atol=1e-9)
-    assert seen >= 2
