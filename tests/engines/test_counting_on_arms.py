@@ -64,16 +64,6 @@ def test_controller_costs_what_a_count_by_hand_says(arm, n):
             assert total[name] == law.of(TOTAL)[name]
 
 
-def test_elimination_costs_the_textbooks_number_of_multiplications():
-    """n^3/3 - n/3 for the factors and n^2 for the two triangles (Golub & Van Loan 2013, 3.2), with D x after it."""
-    counts = standing("ur5e", "rotation-matrix@geometric+solve").typical
-    invert = counts.of("invert")
-    n = 6
-    textbook = (n**3 - n) // 3 + n * n
-    assert invert["mul"] + invert["div"] == textbook
-    assert counts.of("linearize")["mul"] >= n * n
-
-
 @pytest.mark.parametrize("arm", [arm for arm in ARMS if arm not in on_arms.ARM_OF.values()])
 def test_cost_does_not_depend_on_the_arm_where_nothing_iterates(arm):
     usual = on_arms.ARM_OF[tasks.arm(arm).joints]

@@ -150,36 +150,6 @@ def test_held_step_converges_with_the_fourth_power_of_the_tick(draw):
     np.testing.assert_allclose(np.log2(np.array(errors[:-1]) / errors[1:]), 4.0, atol=0.2)
 
 
-@functools.cache
-def both_plants(word, dt_s):
-    """Rows of the sampled ideal plant and of MuJoCo's under Runge-Kutta, which also holds the command."""
-    starts, chosen = STARTS_OF[word]()[::4], settings(dt_s=dt_s, horizon_s=HORIZON)
-    contender = find_contender(word)
-    here = run("ideal-held", contender, "free-body", starts, chosen, METRICS)
-    there = run("native", contender, "free-body", starts, chosen, METRICS, "rk4")
-    return here, there
-
-
-EFFORT = FIRST_METRIC + [metric.column for metric in METRICS].index("effort")
-
-
-@pytest.mark.parametrize("word", PAPERS_LAWS)
-def test_sampled_plant_is_mujocos_up_to_the_square_of_the_tick(word):
-    """Two plants that share no code: Magnus on R here, MuJoCo's Runge-Kutta on a quaternion there.
-
-    MuJoCo's averages body-frame velocities over the stages and drops their commutator, so that on a ball joint it
-    is of order 2 where the axis moves: the difference is its error, and falls by four when the tick is halved.
-    """
-    coarse, fine = both_plants(word, 1e-3), both_plants(word, 5e-4)
-    for here, there in (coarse, fine):
-        assert (here[:, OUTCOME] == there[:, OUTCOME]).all()
-        assert np.abs(here[:, SETTLING_TICK] - there[:, SETTLING_TICK]).max() <= 1
-    differences = [np.abs(here[:, EFFORT] / there[:, EFFORT] - 1.0).max() for here, there in (coarse, fine)]
-    # omega lags by up to |u x omega| dt^2/12 = 300 * 6 * 1e-6 / 12 = 1.5e-4 rad/s in 10 while the axis moves
-    assert differences[0] < 1.5e-5
-    assert differences[0] / differences[1] == pytest.approx(4.0, rel=0.1)
-
-
 # ---------------------------------------------------------------- the ideal plant's own measure of the angle
 
 
