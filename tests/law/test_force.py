@@ -32,7 +32,7 @@ from tasks.contact import Specification
 
 INERTIA = np.array([TOUCH.m_p] * 3 + [TOUCH.m_o] * 3)
 UNCONVERTED = [one for one in HYBRIDS if not one.converts]
-# Sums of a few products of numbers that carry the rounding of n rotations each (test_chain).
+# Sums of a few products of numbers that carry the rounding of n rotations each.
 ROUNDING = 200 * EPS
 
 
