@@ -185,9 +185,8 @@ def test_laws_as_printed_and_seen_from_the_goal_are_those_whose_equations_casadi
     draw = np.random.default_rng(12)
     # angles move by 10 EPS over the margin, rates by 10 EPS |omega| over its square
     allowed = 40 * EPS * (GAINS.kp / REGULAR + GAINS.kv * 20.0 / REGULAR**2)
-    for R, R_d, omega in zip(
-        *ScipyRotation.random((2, 300), rng=draw), draw.normal(scale=5.0, size=(300, 3)), strict=True
-    ):
+    turns, goals = (ScipyRotation.random(300, rng=draw) for _ in range(2))
+    for R, R_d, omega in zip(turns, goals, draw.normal(scale=5.0, size=(300, 3)), strict=True):
         if min(np.hypot(*turn.as_matrix()[:2, 0]) for turn in (R, R_d)) < REGULAR:
             continue
         u, literal, linear, printed, goal_at_home = (
