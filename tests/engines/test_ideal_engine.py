@@ -62,7 +62,7 @@ STARTS_OF = {
 
 
 PAPERS_LAWS = tuple(STARTS_OF)
-"""That each is the paper's equation is test_counts_against_casadi's."""
+"""Laws whose equations test_counts_against_casadi has."""
 
 # ---------------------------------------------------------------- continuous: against DOP853 and closed forms
 

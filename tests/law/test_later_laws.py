@@ -181,7 +181,7 @@ REGULAR = 0.05
 
 
 def test_laws_as_printed_and_seen_from_the_goal_are_those_whose_equations_casadi_and_pinocchio_have():
-    """That linearized-euler exchanges its ends is in test_counts_against_casadi, (2.15) in test_against_libraries."""
+    """Hold them to laws that test_counts_against_casadi and test_against_libraries hold to their equations."""
     draw = np.random.default_rng(12)
     # angles move by 10 EPS over the margin, rates by 10 EPS |omega| over its square
     allowed = 40 * EPS * (GAINS.kp / REGULAR + GAINS.kv * 20.0 / REGULAR**2)
