@@ -1,4 +1,4 @@
-"""Compiled code that processes, threads and laws share: each law is itself, whoever made or keeps its code."""
+"""Compiled code that processes, threads and laws share; models as compiled loops step them: lean, without a clock."""
 
 import json
 import os
@@ -7,14 +7,18 @@ import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 
+import mujoco
 import pytest
 from support.bits import different_rows
 from support.driving import settings, spread
 
+import tasks
 from bench.engines import simulate as engines
 from bench.engines.compiled import made_once
 from bench.engines.metrics.registry import metrics_of
+from bench.engines.native.libmujoco import model_of
 from bench.law.contenders.registry import find_contender
+from tasks.contact_model import model_xml
 
 METRICS = metrics_of(on_arm=False)
 
@@ -84,3 +88,27 @@ def test_laws_compiled_by_two_processes_at_once_do_not_mix_in_a_third(tmp_path):
         alone |= json.loads(process.communicate()[0])
     assert angles(tmp_path, *LAWS) == alone
     assert angles(tmp_path, *reversed(LAWS)) == alone
+
+
+@pytest.mark.parametrize("arm", tasks.arm_names())
+def test_has_no_geom_that_cannot_touch(arm):
+    assert mujoco.MjModel.from_xml_string(tasks.task("arm-regulation", arm).xml(1e-3)).ngeom > 0
+    assert model_of(tasks.task("arm-regulation", arm).xml(1e-3), "euler").ngeom == 0
+
+
+@pytest.mark.parametrize("name", tasks.contact_names())
+def test_keeps_every_geom_that_can_touch(name):
+    xml = model_xml(tasks.contact_task(name), tasks.arm("ur5e"), 1e-3)
+    whole, lean = mujoco.MjModel.from_xml_string(xml), model_of(xml, "implicitfast")
+    touching, kept = (
+        sorted(one.geom(i).size.tolist() for i in (*one.pair_geom1, *one.pair_geom2)) for one in (whole, lean)
+    )
+    assert kept == touching
+    assert lean.ngeom < whole.ngeom
+
+
+def test_clock_is_not_asked():
+    model = model_of(tasks.task("free-body").xml(1e-3), "euler")
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data)
+    assert [one.duration for one in data.timer] == [0.0] * len(data.timer)

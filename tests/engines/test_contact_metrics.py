@@ -1,14 +1,19 @@
-"""Metrics of contact on records whose answers are known."""
+"""Metrics of contact on records whose answers are known; what a file of metrics must hold."""
 
+import importlib
 import math
+import sys
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as Turn
 from support.contact_records import CARTESIAN, TICKS, answered, pose, specification, spun, trial
 
+from bench.base.errors import BadMetric
+from bench.engines.metrics import registry
 from bench.engines.metrics.contact import held_axes, scene, work, wrench
 from bench.engines.metrics.contact_metric import Pose
+from bench.engines.metrics.metric import Metric
 from bench.law.contenders.impedances import coordinates_relative
 from bench.law.contenders.representations import zyx_euler
 from bench.law.control.contact_controller import hybrid, impedance_controller
@@ -176,3 +181,49 @@ TURNED = answered(trial(PRESSING), R=spun((0.3, 0.1, 0.02)))
 )
 def test_turn_that_is_left_is_that_of_the_crank_the_loop_or_the_held_axes(measure, measured, found):
     assert measure(measured) == pytest.approx(found, nan_ok=True)
+
+
+ONE = """
+from bench.engines.metrics.metric import Metric, as_it_is
+
+def update(value, sample):
+    return value
+
+"""
+FIRST = 'METRIC = Metric("zeta", "1", "first", 0.0, update, as_it_is)'
+PAIR = """METRICS = (
+    Metric("{column}", "1", "second", 0.0, update, as_it_is),
+    Metric("beta", "1", "third", 0.0, update, as_it_is),
+)"""
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """A package of metrics that are in the files given."""
+    monkeypatch.syspath_prepend(tmp_path)
+
+    def of(**files: str):
+        folder = tmp_path / "some_metrics"
+        folder.mkdir()
+        for name, text in {"__init__": "", **files}.items():
+            (folder / f"{name}.py").write_text(text)
+        return importlib.import_module("some_metrics")
+
+    yield of
+    for name in [name for name in sys.modules if name.startswith("some_metrics")]:
+        del sys.modules[name]
+
+
+def test_metrics_of_several_files_stand_in_alphabetical_order(package):
+    found = registry.collect(package(a=ONE + FIRST, b=ONE + PAIR.format(column="alpha")), Metric)
+    assert list(found) == [one.column for one in found.values()] == ["alpha", "beta", "zeta"]
+
+
+def test_a_column_that_stands_twice_is_refused(package):
+    with pytest.raises(BadMetric, match=r"b\.py: there is a column 'zeta' already"):
+        registry.collect(package(a=ONE + FIRST, b=ONE + PAIR.format(column="zeta")), Metric)
+
+
+def test_a_file_without_a_metric_is_refused(package):
+    with pytest.raises(BadMetric, match="has no METRIC that is a Metric, and no METRICS of them"):
+        registry.collect(package(a="METRIC = 3.0"), Metric)

@@ -106,12 +106,6 @@ def test_any_number_of_starts_may_be_given(count):
     assert same_bits(rows("ideal-held", HYBRID, "the judge's", given), expected)
 
 
-def test_row_does_not_depend_on_the_starts_beside_it():
-    order = np.random.default_rng(3).permutation(len(begun()))
-    there = rows("ideal-held", HYBRID, "the judge's", begun())
-    assert same_bits(rows("ideal-held", HYBRID, "the judge's", begun()[order]), there[order])
-
-
 @pytest.mark.parametrize("engine", IDEAL)
 def test_judges_columns_are_the_same_without_metrics(engine):
     there = rows(engine, HYBRID, "the judge's", begun())

@@ -1,6 +1,8 @@
-"""Compiling ahead: what a second process compiles and counts is in the cache, and no process is left behind."""
+"""Compiling ahead, into a cache that a run finds, by a process that ends with it; one heap for a run's threads."""
 
 import os
+import platform
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -72,3 +74,37 @@ def test_the_process_ends_with_a_run_that_is_killed(tmp_path):
         compiling = psutil.Process(int(run.stdout.readline()))
         run.kill()
     compiling.wait(timeout=10)
+
+
+ASKED = """
+import ctypes, sys, threading
+from bench.running.schedulers import share_heap
+if sys.argv[1] == "shared":
+    assert share_heap()
+libc = ctypes.CDLL(None)
+libc.malloc.restype = ctypes.c_void_p
+begun = threading.Barrier(4)
+def work():
+    begun.wait()
+    for _ in range(100):
+        libc.malloc(ctypes.c_size_t(1000))
+threads = [threading.Thread(target=work) for _ in range(4)]
+for one in threads:
+    one.start()
+for one in threads:
+    one.join()
+libc.fdopen.restype = ctypes.c_void_p
+libc.malloc_info(0, ctypes.c_void_p(libc.fdopen(1, b"w")))
+libc.fflush(None)
+"""
+
+
+def heaps(way: str) -> int:
+    """How many heaps four threads have used, by the C library's own account."""
+    made = subprocess.run([sys.executable, "-c", ASKED, way], capture_output=True, text=True, check=True)
+    return len(re.findall("<heap nr=", made.stdout))
+
+
+@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="another C library has no arenas")
+def test_threads_share_a_heap_where_they_would_have_one_each():
+    assert heaps("shared") == 1 < heaps("apart")

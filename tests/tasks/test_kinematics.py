@@ -8,7 +8,6 @@ from scipy.spatial.transform import Rotation
 
 import tasks
 from tasks.kinematics import kinematics, rotation_vector
-from tasks.singular import singularity_near
 
 SEED = 5
 
@@ -126,21 +125,3 @@ def test_start_in_motion_has_the_angular_velocity_of_the_tool(model):
     q = poses(model, 1)[0]
     start = model.start("moving", q, (1.0, 0.0, 0.0, 0.0), model.rates(q, (1.0, -2.0, 0.5)))
     np.testing.assert_allclose(start.omega, (1.0, -2.0, 0.5), atol=1e-12)
-
-
-@pytest.fixture(scope="module", params=tasks.arm_names())
-def singularities(request):
-    model = kinematics(tasks.arm(request.param))
-    found = [singularity_near(model, q) for q in poses(model, 12)]
-    assert sum(at is not None for at in found) >= 8
-    return model, [at for at in found if at]
-
-
-def test_singularity_has_rank_five_and_loses_its_twist(singularities):
-    model, found = singularities
-    for at in found:
-        J = model.jacobian(at.q)
-        assert np.linalg.svd(J, compute_uv=False)[5] < 1e-12
-        np.testing.assert_allclose(J.T @ at.u, 0.0, atol=1e-13)
-        np.testing.assert_allclose(J @ at.still, 0.0, atol=1e-12)
-        np.testing.assert_allclose(at.still, np.eye(len(at.q)) - np.linalg.pinv(J, rcond=1e-9) @ J, atol=1e-11)
