@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
-from support.driving import settings
 from support.bodies import left, motion
+from support.driving import settings
 
 import tasks
 from bench.engines.episode import FIRST_METRIC

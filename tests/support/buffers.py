@@ -124,16 +124,6 @@ class Arm(NamedTuple):
         """MuJoCo's 6 x n, linear rows first."""
         return jacobian_of(self.model, self.data, "tool")
 
-    @property
-    def bias(self) -> np.ndarray:
-        """MuJoCo's Jdot qdot."""
-        return bias_of(self.model, self.data, "tool")
-
-    @property
-    def inertia(self) -> np.ndarray:
-        """MuJoCo's D(q)."""
-        return inertia_of(self.model, self.data)
-
 
 def serial_arm(n: int, seed: int = 3) -> Arm:
     """n hinges of random axes, anchors that are not their bodies' origins, links of 0.3 m or so."""
@@ -150,10 +140,7 @@ def serial_arm(n: int, seed: int = 3) -> Arm:
             f'<joint name="j{i}" type="hinge" axis="{text(axis)}" pos="{text(anchor)}"/>'
             f'<inertial pos="0.05 0.02 -0.03" mass="1.5" diaginertia="0.02 0.03 0.025"/>{inside}</body>'
         )
-    model = mujoco.MjModel.from_xml_string(
-        f"<mujoco><worldbody>{inside}</worldbody><sensor>"
-        '<framelinvel objtype="site" objname="tool"/><frameangvel objtype="site" objname="tool"/></sensor></mujoco>'
-    )
+    model = mujoco.MjModel.from_xml_string(f"<mujoco><worldbody>{inside}</worldbody></mujoco>")
     return Arm(model, mujoco.MjData(model))
 
 
