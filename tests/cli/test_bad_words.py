@@ -59,12 +59,6 @@ def test_no_command_shows_the_help(capsys):
     assert "compare" in said.out
 
 
-@pytest.mark.parametrize("option", ["--engine", "--starts"])
-def test_show_lists_what_the_run_has_when_asked_for_another(capsys, finished, option):
-    line = refused(capsys, "show", finished, option, "nowhere")
-    assert {"--engine": "reference", "--starts": "paper"}[option] in line
-
-
 @pytest.mark.parametrize(
     ("option", "number"),
     [
