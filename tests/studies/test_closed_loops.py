@@ -11,7 +11,7 @@ from bench.findings.theory.closed_form import linear_settling, settling
 from bench.law.contenders.registry import contenders
 from bench.studies.libraries import __main__ as study
 from bench.studies.libraries import closed_loop, turns
-from bench.studies.libraries.asked import rotations
+from bench.studies.libraries.asked import ours
 from bench.studies.libraries.closed_loop import accelerated, after, angle, conjugate, driven, matrix
 from bench.studies.libraries.judge import judge
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function
@@ -101,7 +101,7 @@ def test_step_is_that_of_rodrigues_formula():
     ],
 )
 def test_shipped_controller_has_the_stiffness_and_the_faults_of_its_source(name, ratio, faults):
-    (library,) = (one for one in rotations.shipped() if one.name == name)
+    (library,) = (one for one in ours.shipped() if one.name == name)
     (function,) = library.functions
     assert closed_loop.stiffness_ratio(function) == pytest.approx(ratio, abs=1e-6)
     assert set(verdict(function)["faults"].split(", ")) == faults
@@ -123,9 +123,7 @@ def test_right_function_needs_no_replacement():
 
 
 def test_every_restated_controller_was_read_at_the_commit_that_its_source_names():
-    named = {
-        name: contenders("shipped")[word].source.partition("@")[2][:8] for name, word in rotations.RESTATED.items()
-    }
+    named = {name: contenders("shipped")[word].source.partition("@")[2][:8] for name, word in ours.RESTATED.items()}
     for table in (loops.rows(), loops.verdicts()):
         restated = table[table["library"].isin(named)]
         assert restated.groupby("library")["version"].unique().map(list).to_dict() == {k: [v] for k, v in named.items()}

@@ -7,6 +7,7 @@ python -m bench.studies.contact --only boundary    run one part again; the other
 import functools
 import math
 from collections.abc import Callable
+from typing import Any
 
 from bench.base.files import read_json, write_json
 from bench.base.provenance import ROOT
@@ -37,7 +38,7 @@ def _written_rows(rows: Callable[[], list[dict]]) -> list[dict]:
     return [{key: _written(value) for key, value in row.items()} for row in rows()]
 
 
-def _written(value):
+def _written(value: Any) -> Any:
     """Numbers to six figures; one that is not finite as null (no boundary up to the stiffest, nothing to measure)."""
     if not isinstance(value, float):
         return value

@@ -6,6 +6,7 @@ arm     the UR5e's hand, its place held by a double pole through the model of it
 
 import math
 from collections import deque
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -42,7 +43,7 @@ def limits() -> list[dict]:
     return [*_servos(), *_arms()]
 
 
-def _servos():
+def _servos() -> Iterator[dict]:
     dt = USUAL.dt_s
     for lag_s in LAGS_S:
         for delay in DELAYS_MS:
@@ -59,7 +60,7 @@ def _servos():
             }
 
 
-def _arms():
+def _arms() -> Iterator[dict]:
     for w in DOUBLE_POLES:
         for delay in DELAYS_MS:
             yield {

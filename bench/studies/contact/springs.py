@@ -2,6 +2,7 @@
 
 import functools
 import math
+from typing import Any
 
 import numpy as np
 
@@ -51,7 +52,7 @@ def softened(stiffness: float) -> ContactController:
     slower, law = math.sqrt(share), geometric.law
 
     @kernel
-    def softer(R, omega, m, R_d, gains, inertia):
+    def softer(R: Any, omega: Any, m: Any, R_d: Any, gains: Any, inertia: Any) -> Any:
         return law(R, omega, m, R_d, Gains(share * gains.kp, slower * gains.kv), inertia)
 
     return impedance_controller(geometric.IMPEDANCE._replace(name=f"geometric-{stiffness:g}", law=softer))

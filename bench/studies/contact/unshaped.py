@@ -23,6 +23,7 @@ from bench.law.control.registry import find_controller
 from bench.law.control.unshaped import DAMPINGS, NULL_RATE
 from bench.studies.contact.admittance import FORCE_N, calms
 from bench.studies.contact.by_torque import Tick, Torque, episode, press, response
+from tasks.contact import ContactTask
 
 ARMS = ("panda", "puma560", "ur5e")
 PLANES = (1e3, 1e6)
@@ -126,7 +127,7 @@ def done(name: str, arm: str, damping: str) -> dict:
     return {"outcome": seen.outcome, "done": unit * float(measure(pose(task, arm, one, seen))), **ending(seen)}
 
 
-def pose(task, arm: str, one: ContactController, seen: Response) -> Pose:
+def pose(task: ContactTask, arm: str, one: ContactController, seen: Response) -> Pose:
     """Return what a metric takes."""
     return Pose(task, tasks.arm(arm), one, (seen,))
 

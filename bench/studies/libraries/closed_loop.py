@@ -182,7 +182,7 @@ def driven(velocity: Callable, dt_s: float, quat_wxyz: Quaternion) -> Iterator[Q
         quat_wxyz = after(quat_wxyz, tuple(dt_s * part for part in omega))
 
 
-def after(quat_wxyz: Quaternion, turn) -> Quaternion:
+def after(quat_wxyz: Quaternion, turn: tuple) -> Quaternion:
     """T exp(-[turn]x): what is left to go once the body has turned by the base-frame vector `turn`."""
     angle = math.hypot(*turn)
     if angle == 0.0:
@@ -218,7 +218,7 @@ def angle(quat_wxyz: Quaternion) -> float:
     return 2.0 * math.atan2(math.hypot(x, y, z), abs(w))
 
 
-def conjugate(quat_wxyz: Quaternion) -> Quaternion:
+def conjugate(quat_wxyz: Any) -> Quaternion:
     """Return the opposite rotation: the body's orientation of what is left to go, and the reverse."""
     w, x, y, z = quat_wxyz
     return (w, -x, -y, -z)

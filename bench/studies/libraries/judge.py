@@ -7,7 +7,7 @@ stand for a rotation: (w, x, y, z) with w >= 0 is judged, and its negative compa
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -48,7 +48,7 @@ def _about(i: int, angle: float) -> np.ndarray:
     return R
 
 
-def _z_y_x(e) -> np.ndarray:
+def _z_y_x(e: np.ndarray) -> np.ndarray:
     """R_z(e_z) R_y(e_y) R_x(e_x) (Murphy 1988, 2.4)."""
     return _about(2, e[2]) @ _about(1, e[1]) @ _about(0, e[0])
 
@@ -131,7 +131,7 @@ def said(function: Function, turn: Turn, sign: float = 1.0) -> np.ndarray:
     return answer(function, sign * turn.quat_wxyz if function.takes == QUATERNION else turn.R.copy())
 
 
-def form_error(form, e: np.ndarray, turn: Turn, axis: np.ndarray) -> float:
+def form_error(form: Any, e: np.ndarray, turn: Turn, axis: np.ndarray) -> float:
     """How far e is from what it means to be: in rad along the axis, or of the turn that its angles stand for."""
     if form.size is not None:
         return gap(e, form.size(turn.angle) * axis)
@@ -139,7 +139,7 @@ def form_error(form, e: np.ndarray, turn: Turn, axis: np.ndarray) -> float:
     return 2.0 * math.asin(min(1.0, float(np.linalg.norm(form.matrix(e) - turn.R)) / math.sqrt(8.0)))
 
 
-def turn_error(form, e: np.ndarray, turn: Turn) -> float:
+def turn_error(form: Any, e: np.ndarray, turn: Turn) -> float:
     """Return the angle from the turn that e stands for to the one asked, or how much longer e is than the short way.
 
     Next to 180° the axis k and -k stand for almost one turn, so that this is small where a change of sign does nothing.
@@ -177,6 +177,6 @@ def gap(one: np.ndarray, other: np.ndarray) -> float:
     return float(np.linalg.norm(one - other))
 
 
-def largest(numbers) -> float:
+def largest(numbers: Iterable[float]) -> float:
     """Return the largest that is a number; NaN if none is."""
     return max((number for number in numbers if not math.isnan(number)), default=math.nan)

@@ -7,7 +7,7 @@ the same, exactly, and the base and the body frame agree on its axis.
 import functools
 import warnings
 from collections.abc import Callable, Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -51,8 +51,8 @@ class Controller(NamedTuple):
     command: str
     title: str
     dt_s: float
-    motion: Callable[[tuple], Iterator[tuple]]
-    pull: Callable[[tuple], np.ndarray] | None = None
+    motion: Callable[[Any], Iterator[tuple]]
+    pull: Callable[[Any], np.ndarray] | None = None
     is_our_loop: bool = False
 
 
@@ -83,7 +83,7 @@ def quiet(asking: Callable) -> Callable:
     """Return a library that warns is taken at its word all the same."""
 
     @functools.wraps(asking)
-    def called(*given):
+    def called(*given: Any) -> Any:
         with warnings.catch_warnings(), np.errstate(all="ignore"):
             warnings.simplefilter("ignore")
             return asking(*given)

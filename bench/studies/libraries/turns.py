@@ -5,7 +5,8 @@ rotations have w = 0 and an exactly symmetric matrix. Near 180° the distance fr
 angle: sin(distance/2) = w keeps all its digits.
 """
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import mpmath
 import numpy as np
@@ -37,7 +38,7 @@ class TurnSet(NamedTuple):
     distance_rad: float | None = None
 
 
-def of_quaternion(w, x, y, z) -> Turn:
+def of_quaternion(w: Any, x: Any, y: Any, z: Any) -> Turn:
     """Return the turn of a quaternion of any length, exact or of 60 digits; w must not be negative."""
     length = DIGITS.sqrt(w * w + x * x + y * y + z * z)
     w, x, y, z = (DIGITS.mpf(part) / length for part in (w, x, y, z))
@@ -55,7 +56,7 @@ def of_quaternion(w, x, y, z) -> Turn:
     )
 
 
-def about(axis, half_cosine, half_sine) -> Turn:
+def about(axis: Sequence[Any], half_cosine: Any, half_sine: Any) -> Turn:
     """Return the turn with these functions of half its angle, about an axis of any length."""
     length = DIGITS.sqrt(sum(part * part for part in axis))
     return of_quaternion(half_cosine, *(half_sine * part / length for part in axis))

@@ -7,6 +7,7 @@ everywhere, with all its digits; at 180° either of the two directions. They are
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from bench.audit.report import Report
 
 
-def of_pair(function: Function):
+def of_pair(function: Function) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
     """f(R, R_d) or f(q, q_d), (w, x, y, z): the function asked for what is left to go, R_d R^T, in base coordinates."""
     if function.takes == MATRIX:
         return lambda R, R_d: answer(function, R_d @ R.T)

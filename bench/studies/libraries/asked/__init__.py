@@ -1,4 +1,4 @@
-"""Every library that is tested: a function each imports the library and returns its functions and controllers.
+"""Every library that is tested: libraries.toml lists those with functions alone; a function each returns the others.
 
 A library that is not installed here is left out, with a line that says why.
 """
@@ -9,10 +9,12 @@ import subprocess
 from typing import NamedTuple
 
 from bench.base.errors import UnknownWord
-from bench.studies.libraries.asked import compiled, controllers, rotations, simulators
+from bench.studies.libraries.asked import controllers, listed, ours, simulators
 from bench.studies.libraries.library import Function, Library
 
-ASKED = {one.__name__: one for module in (compiled, controllers, rotations, simulators) for one in module.ASKED}
+ASKED = {one.__name__: one for module in (controllers, ours, simulators) for one in module.ASKED} | {
+    name.replace("-", "_"): functools.partial(listed.listed, name) for name in listed.LISTED
+}
 """Word of the command line -> function that returns libraries."""
 
 

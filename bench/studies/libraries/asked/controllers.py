@@ -6,6 +6,7 @@ import tempfile
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -37,13 +38,13 @@ def drake() -> list[Library]:
     parameters = DifferentialInverseKinematicsParameters(plant.num_positions(), plant.num_velocities())
     parameters.set_time_step(dt_s)
 
-    def vector(found) -> np.ndarray:
+    def vector(found: Any) -> np.ndarray:
         return found.angle() * found.axis()
 
-    def unit(q) -> Quaternion:  # Drake refuses what is not of length 1 to 1e-14
+    def unit(q: np.ndarray) -> Quaternion:  # Drake refuses what is not of length 1 to 1e-14
         return Quaternion(q / np.linalg.norm(q))
 
-    def solved(T) -> np.ndarray:  # the body is at T^T, the goal is the identity
+    def solved(T: np.ndarray) -> np.ndarray:  # the body is at T^T, the goal is the identity
         plant.SetFreeBodyPose(context, plant.get_body(body.body().index()), RigidTransform(RotationMatrix(T.T)))
         found = DoDifferentialInverseKinematics(plant, context, RigidTransform(), body, parameters)
         return np.zeros(3) if found.joint_velocities is None else found.joint_velocities[:3]
@@ -66,41 +67,6 @@ def drake() -> list[Library]:
     return [Library("drake", "drake", functions, (loop,))]
 
 
-def gtsam() -> list[Library]:
-    """Return the logarithm of GTSAM's Rot3."""
-    from gtsam import Rot3
-
-    def axis_angle(R) -> np.ndarray:
-        axis, angle = Rot3(R).axisAngle()
-        return angle * np.ravel(axis.point3())
-
-    functions = (
-        Function("Rot3.Logmap", MATRIX, lambda R: Rot3.Logmap(Rot3(R))),
-        Function("Rot3.axisAngle", MATRIX, axis_angle),
-        Function("Rot3.Logmap, of a quaternion", QUATERNION, lambda q: Rot3.Logmap(Rot3.Quaternion(*q))),
-        Function("Rot3.rpy", MATRIX, lambda R: Rot3(R).rpy(), "z-y-x"),
-    )
-    return [Library("gtsam", "gtsam", functions)]
-
-
-def pinocchio() -> list[Library]:
-    """Return logarithms of a matrix, of a quaternion and of a pose by Pinocchio, and its angles."""
-    import pinocchio
-
-    def angle_axis(R) -> np.ndarray:
-        found = pinocchio.AngleAxis(R)
-        return found.angle * found.axis
-
-    functions = (
-        Function("log3, of a matrix", MATRIX, pinocchio.log3),
-        Function("log3, of a quaternion", QUATERNION, lambda q: pinocchio.log3(pinocchio.Quaternion(*q))),
-        Function("log6, angular part", MATRIX, lambda R: pinocchio.log6(pinocchio.SE3(R, np.zeros(3))).angular),
-        Function("AngleAxis (Eigen)", MATRIX, angle_axis),
-        Function("rpy.matrixToRpy", MATRIX, pinocchio.rpy.matrixToRpy, "z-y-x"),
-    )
-    return [Library("pinocchio", "pin", functions)]
-
-
 def pink() -> list[Library]:
     """Return the error of Pink's FrameTask, on Pinocchio's logarithm of a pose, and its solve_ik."""
     import pink
@@ -111,12 +77,12 @@ def pink() -> list[Library]:
     model.addFrame(pinocchio.Frame("body", 1, 0, pinocchio.SE3.Identity(), pinocchio.FrameType.BODY))
     body = pink.Configuration(model, model.createData(), pinocchio.neutral(model))
 
-    def error(R) -> np.ndarray:  # the angular part, of a body at the identity whose target is turned
+    def error(R: np.ndarray) -> np.ndarray:  # the angular part, of a body at the identity whose target is turned
         task = pink.FrameTask("body", position_cost=1.0, orientation_cost=1.0)
         task.set_target(pinocchio.SE3(R, np.zeros(3)))
         return task.compute_error(body)[3:]
 
-    def solved(q) -> Iterator[tuple]:  # tick by tick, as in Pink's examples, towards the identity
+    def solved(q: np.ndarray) -> Iterator[tuple]:  # tick by tick, as in Pink's examples, towards the identity
         w, x, y, z = conjugate(q)
         configuration = pink.Configuration(body.model, body.model.createData(), np.array((0.0, 0.0, 0.0, x, y, z, w)))
         task = pink.FrameTask("body", position_cost=1.0, orientation_cost=1.0, lm_damping=1.0)
@@ -147,19 +113,19 @@ def placo() -> list[Library]:
     solver = placo.KinematicsSolver(robot)
     task = solver.add_orientation_task("body", np.eye(3))
 
-    def place(R) -> None:
+    def place(R: np.ndarray) -> None:
         T = np.eye(4)
         T[:3, :3] = R
         robot.set_T_world_frame("body", T)
         robot.update_kinematics()
 
-    def error(R) -> np.ndarray:  # the task's b: the rotation asked for, of a body at the identity
+    def error(R: np.ndarray) -> np.ndarray:  # the task's b: the rotation asked for, of a body at the identity
         place(np.eye(3))
         task.R_world_frame = R
         task.update()
         return task.b.ravel()
 
-    def solved(q) -> Iterator[tuple]:
+    def solved(q: np.ndarray) -> Iterator[tuple]:
         task.R_world_frame = np.eye(3)
         place(Quaternion(*conjugate(q)).toRotationMatrix())
         while True:
@@ -181,10 +147,10 @@ def roboticstoolbox() -> list[Library]:
     dt_s, servo = 0.05, roboticstoolbox.p_servo
 
     def of_servo(name: str, method: str, form: str) -> tuple[Function, Controller]:
-        def error(R) -> np.ndarray:
+        def error(R: np.ndarray) -> np.ndarray:
             return servo(np.eye(4), base.r2t(R), method=method)[0][3:]
 
-        def velocity(T) -> np.ndarray:  # p_servo gives it in the frame of the tool
+        def velocity(T: np.ndarray) -> np.ndarray:  # p_servo gives it in the frame of the tool
             return T.T @ servo(base.r2t(T.T), np.eye(4), gain=1.0, method=method)[0][3:]
 
         loop = Controller(name, name, "velocity", "gain 1, 20 Hz", dt_s, partial(driven, velocity, dt_s))
@@ -225,4 +191,4 @@ def robosuite() -> list[Library]:
     return [Library("robosuite", "robosuite", functions, (loop,))]
 
 
-ASKED = (drake, gtsam, pinocchio, pink, placo, roboticstoolbox, robosuite)
+ASKED = (drake, pink, placo, roboticstoolbox, robosuite)

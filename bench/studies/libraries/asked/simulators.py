@@ -1,7 +1,7 @@
 """MuJoCo and what runs on it, and Newton: their functions, and what actuators, constraints and solvers make of them."""
 
 import functools
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
 
@@ -34,7 +34,7 @@ def load_model(name: str) -> Any:
     return model, mujoco.MjData(model)
 
 
-def place_body(name: str, q) -> Any:
+def place_body(name: str, q: Any) -> Any:
     """Return the data of a model with its body at an orientation, at rest."""
     import mujoco
 
@@ -50,18 +50,18 @@ def mujoco() -> list[Library]:
 
     identity = np.array((1.0, 0.0, 0.0, 0.0))
 
-    def filled(size: int, function, *given) -> np.ndarray:
+    def filled(size: int, function: Callable, *given: Any) -> np.ndarray:
         found = np.empty(size)
         function(found, *given)
         return found
 
-    def mat_to_quat(R) -> np.ndarray:
+    def mat_to_quat(R: np.ndarray) -> np.ndarray:
         return filled(4, mujoco.mju_mat2Quat, np.ascontiguousarray(R).ravel())
 
-    def quat_to_vel(q) -> np.ndarray:
+    def quat_to_vel(q: np.ndarray) -> np.ndarray:
         return filled(3, mujoco.mju_quat2Vel, q, 1.0)
 
-    def stepped(name: str, q) -> Iterator[tuple]:  # from rest until it neither moves nor accelerates
+    def stepped(name: str, q: np.ndarray) -> Iterator[tuple]:  # from rest until it neither moves nor accelerates
         model, _ = load_model(name)
         data = mujoco.MjData(model)
         data.qpos[:] = conjugate(q)
@@ -71,7 +71,7 @@ def mujoco() -> list[Library]:
             if not data.qvel.any() and not data.qacc.any():
                 return
 
-    def numbers(values) -> str:
+    def numbers(values: Any) -> str:
         return " ".join(f"{value:g}" for value in values)
 
     (held, _), (weld, _) = load_model("held"), load_model("welded")
@@ -122,21 +122,21 @@ def mink() -> list[Library]:
     (model, _), dt_s = load_model("alone"), 0.005
     at_identity = mink.Configuration(model)
 
-    def task_to(pose, **options) -> Any:
+    def task_to(pose: Any, **options: Any) -> Any:
         task = mink.FrameTask("body", "body", position_cost=1.0, orientation_cost=1.0, **options)
         task.set_target(pose)
         return task
 
-    def compiled(q) -> np.ndarray:  # the angular part
+    def compiled(q: np.ndarray) -> np.ndarray:  # the angular part
         return _lie_ops_c.se3_log(np.array((*q, 0.0, 0.0, 0.0)))[3:]
 
-    def compiled_of_matrix(R) -> np.ndarray:
+    def compiled_of_matrix(R: np.ndarray) -> np.ndarray:
         return _lie_ops_c.se3_log(_lie_ops_c.xmat_xpos_to_wxyz_xyz(np.ravel(R), np.zeros(3)))[3:]
 
-    def error(q) -> np.ndarray:  # of a body at the identity whose target is turned
+    def error(q: np.ndarray) -> np.ndarray:  # of a body at the identity whose target is turned
         return task_to(mink.SE3.from_rotation(mink.SO3(np.array(q)))).compute_error(at_identity)[3:]
 
-    def solved(q) -> Iterator[tuple]:  # tick by tick, as in mink's examples, towards the identity
+    def solved(q: np.ndarray) -> Iterator[tuple]:  # tick by tick, as in mink's examples, towards the identity
         configuration = mink.Configuration(model, q=np.array(conjugate(q)))
         task = task_to(mink.SE3.identity(), lm_damping=1.0)
         while True:
@@ -169,29 +169,29 @@ def newton() -> list[Library]:
     from newton._src.controllers.impl._common import _pose_error_kernel
 
     @warp.kernel
-    def axis_angle(given: warp.array(dtype=warp.quat), e: warp.array(dtype=warp.vec3)):  # type: ignore[valid-type]
+    def axis_angle(given: warp.array(dtype=warp.quat), e: warp.array(dtype=warp.vec3)) -> None:  # type: ignore[valid-type]
         axis, angle = warp.vec3(), float(0.0)  # noqa: UP018 - to Warp float(0.0) is a variable, 0.0 a constant
         warp.quat_to_axis_angle(given[0], axis, angle)
         e[0] = angle * axis
 
     @warp.kernel
-    def of_matrix(given: warp.array(dtype=warp.mat33), e: warp.array(dtype=warp.vec3)):  # type: ignore[valid-type]
+    def of_matrix(given: warp.array(dtype=warp.mat33), e: warp.array(dtype=warp.vec3)) -> None:  # type: ignore[valid-type]
         axis, angle = warp.vec3(), float(0.0)  # noqa: UP018
         warp.quat_to_axis_angle(warp.quat_from_matrix(given[0]), axis, angle)
         e[0] = angle * axis
 
-    def on_cpu(values, dtype) -> Any:
+    def on_cpu(values: Any, dtype: Any) -> Any:
         return warp.array(values, dtype=dtype, device="cpu")
 
-    def launched(kernel, given: list, dtype=warp.vec3) -> np.ndarray:
+    def launched(kernel: Any, given: list, dtype: Any = warp.vec3) -> np.ndarray:
         found = warp.zeros(1, dtype=dtype, device="cpu")
         warp.launch(kernel, dim=1, inputs=given, outputs=[found], device="cpu")
         return found.numpy()[0]
 
-    def pose(quat_xyzw) -> np.ndarray:
+    def pose(quat_xyzw: Any) -> np.ndarray:
         return np.array([(0.0, 0.0, 0.0, *quat_xyzw)], dtype=np.float32)
 
-    def pose_error(q) -> np.ndarray:  # the angular part
+    def pose_error(q: np.ndarray) -> np.ndarray:  # the angular part
         poses = [on_cpu(pose(one), warp.transform) for one in ((0.0, 0.0, 0.0, 1.0), q[order])]
         return launched(_pose_error_kernel, poses, warp.spatial_vector)[3:]
 
@@ -208,7 +208,7 @@ def newton() -> list[Library]:
     objective.bind_device(model.device)
     objective.init_buffers(model, newton.ik.IKJacobianType.ANALYTIC)
 
-    def residual(q) -> np.ndarray:  # of one free body whose goal is the identity: at T it is T's error
+    def residual(q: np.ndarray) -> np.ndarray:  # of one free body whose goal is the identity: at T it is T's error
         bodies = on_cpu(pose(q[order])[None], warp.transform)
         objective.compute_residuals(bodies, None, model, residuals, 0, first)
         return residuals.numpy()[0]
@@ -225,20 +225,4 @@ def newton() -> list[Library]:
     return [Library("newton", "newton", functions, is_single=True)]
 
 
-def dm_control() -> list[Library]:
-    """Return dm_control.utils.transformations."""
-    from absl import logging
-    from dm_control.utils import transformations as its
-
-    logging.set_verbosity(logging.ERROR)  # rmat_to_euler warns of every pole that it gets
-    thread, fix = "google-deepmind/dm_control#555", "`quat_to_axisangle`"
-    functions = (
-        Function("quat_to_axisangle", QUATERNION, its.quat_to_axisangle),
-        Function("2 quat_log, vector part", QUATERNION, lambda q: 2.0 * its.quat_log(q)[1:], is_idiom=True, fix=fix),
-        Function("mat_to_quat, quat_to_axisangle", MATRIX, lambda R: its.quat_to_axisangle(its.mat_to_quat(R))),
-        Function('rmat_to_euler("ZYX")', MATRIX, lambda R: its.rmat_to_euler(R, "ZYX")[::-1], "z-y-x", thread=thread),
-    )
-    return [Library("dm_control", "dm-control", functions)]
-
-
-ASKED = (mujoco, mink, newton, dm_control)
+ASKED = (mujoco, mink, newton)

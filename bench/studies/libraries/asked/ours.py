@@ -1,0 +1,60 @@
+"""The laws of this benchmark, and errors of controllers that are restated here."""
+
+import numpy as np
+
+from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
+
+RESTATED = {
+    "franka_ros": "franka-ros",
+    "deoxys_control": "deoxys",
+    "serl_franka_controllers": "serl-franka",
+    "Isaac Gym idiom": "isaac-gym",
+    "crisp_controllers": "crisp",
+    "cartesian_controllers": "fzi-motion",
+}
+"""Name in the tables -> word of bench/law/contenders/shipped."""
+
+
+def orientation_bench() -> list[Library]:
+    """Return laws on R of this benchmark at rest, with kp = 1 and so the error itself."""
+    from bench.law.contenders.registry import find_contender
+    from bench.law.inputs import AT_REST, Gains, Goal
+    from bench.law.so3 import IDENTITY, Rotation
+
+    def law(word: str, form: str) -> Function:
+        one, gains = find_contender(word), Gains(kp=1.0, kv=0.0)
+
+        def error(R: np.ndarray) -> np.ndarray:
+            return np.array(one.law(IDENTITY, AT_REST, Goal(Rotation(*map(tuple, R.T))), gains))
+
+        return Function(word, MATRIX, error, form)
+
+    forms = {
+        "rotation-vector": "rotation-vector",
+        **dict.fromkeys(("square-root", "quaternion-shortest"), "sine-of-half"),
+        **{"mrp": "mrp", "rotation-matrix": "sine"},
+    }
+    functions = tuple(law(word, form) for word, form in forms.items())
+    return [Library("orientation-bench", "orientation-bench", functions)]
+
+
+def shipped() -> list[Library]:
+    """Return orientation errors of controllers that cannot be installed here, each by repository and commit.
+
+    They run with the gains of the suite, so that what differs is the error; with those of their authors the experiment
+    `shipped` runs them.
+    """
+    from bench.law.contenders.registry import contenders
+
+    found = []
+    for name, word in RESTATED.items():
+        one = contenders("shipped")[word]
+        repository, _, revision = one.source.partition("@")
+        function = Function(
+            "orientation error", QUATERNION, lambda q, error=one.shipped.error: error(tuple(q.tolist()))
+        )
+        found.append(Library(name, f"{repository}@{revision[:8]}", (function,), is_restated=True))
+    return found
+
+
+ASKED = (orientation_bench, shipped)
