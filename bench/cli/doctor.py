@@ -158,12 +158,6 @@ def _results() -> str:
 
 
 CHECKS = {
-    "python": _python,
-    "versions": _versions,
-    "compiler": _compiler,
-    "engines": _engines,
-    "arms": _arms,
-    "contact": _contact,
-    "rendering": _rendering,
-    "results": _results,
+    one.__name__.removeprefix("_"): one
+    for one in (_python, _versions, _compiler, _engines, _arms, _contact, _rendering, _results)
 }

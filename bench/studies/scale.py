@@ -5,14 +5,13 @@
 
 Each run is a process of its own, with one law on the continuous plant. It first runs an episode for each process, which
 imports, compiles and counts; the time of a repetition of that is subtracted, so that what is left grows with the number
-of episodes. Other programs change wall time more than CPU time: the cores that they took are recorded.
+of episodes.
 """
 
 import argparse
 import functools
 import hashlib
 import json
-import os
 import resource
 import subprocess
 import sys
@@ -57,11 +56,9 @@ def make_smallest_plan(scheduler: str) -> Plan:
 
 
 def read_clocks() -> np.ndarray:
-    """Return seconds: CPU of this process, of its ended children, and of the whole machine; wall time."""
+    """Return seconds: CPU of this process and of its ended children, and wall time."""
     both = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
-    user, nice, system, _idle, _waiting, *interrupted = map(int, Path("/proc/stat").read_text().split()[1:9])
-    whole = (user + nice + system + sum(interrupted)) / os.sysconf("SC_CLK_TCK")
-    return np.array([*(one.ru_utime + one.ru_stime for one in both), whole, time.perf_counter()])
+    return np.array([sum(one.ru_utime + one.ru_stime for one in both), time.perf_counter()])
 
 
 def time_run(plan: Plan, out: Path, scheduler: str) -> np.ndarray:
@@ -74,8 +71,7 @@ def time_run(plan: Plan, out: Path, scheduler: str) -> np.ndarray:
 def measure(scheduler: str, count: int) -> dict:
     """Measure a run of that many episodes in this process and its scheduler's.
 
-    cpu_s: of all processes; own_cpu_s: of this one, which plans, writes and merges. others: cores that other programs
-    took. peak_bytes: largest memory of this process. rows: digest of episodes.parquet.
+    cpu_s: of all processes. peak_bytes: largest memory of this process. rows: digest of episodes.parquet.
     """
     with tempfile.TemporaryDirectory() as folder:
         smallest = make_smallest_plan(scheduler)
@@ -84,17 +80,13 @@ def measure(scheduler: str, count: int) -> dict:
         whole = time_run(make_plan(count), Path(folder) / "all", scheduler)
         peak = read_peak_bytes()
         rows = (Path(folder) / "all" / "episodes.parquet").read_bytes()
-    own, children, _, wall = whole - np.median(again, axis=0)
+    cpu, wall = whole - np.median(again, axis=0)
     return {
-        "law": LAW,
         "scheduler": scheduler,
         "episodes": count,
-        "cpu_s": own + children,
-        "own_cpu_s": own,
+        "cpu_s": cpu,
         "wall_s": wall,
-        "others": max(0.0, whole[2] - whole[0] - whole[1]) / whole[3],
         "peak_bytes": peak,
-        "row_bytes": len(rows) / count,
         "rows": hashlib.sha256(rows).hexdigest(),
     }
 

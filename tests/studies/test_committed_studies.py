@@ -114,10 +114,8 @@ def test_every_process_begins_before_it_is_measured():
 def test_run_is_measured():
     found = scale.measure(THREADS, 300)
     assert (found["scheduler"], found["episodes"]) == (THREADS, 300)
-    assert found["own_cpu_s"] > 0.0
-    assert found["others"] >= 0.0
+    assert found["cpu_s"] > 0.0
     assert found["peak_bytes"] > 5e7
-    assert found["row_bytes"] > 10.0
 
 
 PATCHES = sorted((ROOT / "bench" / "studies" / "libraries" / "patches").glob("*.patch"))
