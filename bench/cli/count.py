@@ -26,32 +26,31 @@ from bench.law.control.registry import find_controller
 @options.jacobian
 @options.inverse
 @options.controller
-@click.option("--joints", type=click.Choice(["6", "7"]), help="Joints of the arm (default: 6, or those of --arm).")
-@click.option("--arm", metavar="NAME", help="An arm, for its number of joints.")
+@click.option("--joints", type=click.Choice(["6", "7"]), help="Joints of the arm (default: 6).")
 @click.option("--stages", is_flag=True, help="A line for each stage of the tick, not only the total.")
 def COMMAND(
     laws: options.Files, regulators: options.Words, representations: options.Words, jacobians: options.Words,
-    inverses: options.Words, controllers: options.Words, joints: str | None, arm: str | None, stages: bool,
+    inverses: options.Words, controllers: options.Words, joints: str | None, stages: bool,
 ) -> None:  # fmt: skip
     """Count the operations of each law per tick: typical and worst branch, transcendental functions apart.
 
     --law FILE: count this law and any law given with --regulator.
 
-    A Jacobian, an inverse, a number of joints or an arm: count the whole controller of an arm, without what MuJoCo
+    A Jacobian, an inverse or a number of joints: count the whole controller of an arm, without what MuJoCo
     computes, for every Jacobian and inverse that fits unless one is named. --controller NAME: count it in contact, on
     six joints, compliant about x and y.
     """
     if controllers:
-        if laws or regulators or representations or jacobians or inverses or joints or arm:
+        if laws or regulators or representations or jacobians or inverses or joints:
             raise click.UsageError("--controller is counted alone (leave out all other options but --stages)")
         _print(_in_contact(controllers), "Operations per tick of a controller in contact", stages)
         return
     named = options.named(regulators, jacobians, inverses)
     alone = named.regulators or tuple(one.name for one in options.own_laws(laws))
     chosen = options.chosen(laws, alone, representations, costings=True)
-    if joints or arm or named.jacobians or named.inverses:
-        n = _joints(joints, arm)
-        table = _rows(_controllers(chosen, named, n), arm or _arm_of(n))
+    if joints or named.jacobians or named.inverses:
+        n = int(joints or 6)
+        table = _rows(_controllers(chosen, named, n), _arm_of(n))
         title = f"Operations per tick of a controller of {n} joints"
     else:
         table = _rows(chosen)
@@ -87,14 +86,6 @@ def _in_contact(words: tuple[str, ...]) -> pd.DataFrame:
 
     controllers = [find_controller(word) for word in dict.fromkeys(words)]
     return pd.DataFrame([row for one in controllers for row in rows_in_contact(one)])
-
-
-def _joints(joints: str | None, arm: str | None) -> int:
-    """Return the number of joints that is meant."""
-    n = tasks.arm(arm).joints if arm else int(joints or 6)
-    if joints and int(joints) != n:
-        raise click.UsageError(f"arm '{arm}' has {n} joints, not {joints} (leave --joints away)")
-    return n
 
 
 def _arm_of(joints: int) -> str:

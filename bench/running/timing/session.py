@@ -17,7 +17,6 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from bench.base.errors import MissingTool
 from bench.running.timing.benchmark import Benchmark
 from bench.running.timing.benchmarks import Progress
 
@@ -44,7 +43,7 @@ def measure(benchmarks: list[Benchmark], passes: int, seed: int = 0, report: Cal
     """Seconds of the fastest round: one row a pass, one column a benchmark.
 
     Errors:
-        MissingTool: pytest-benchmark is not there. KeyboardInterrupt: after Ctrl-C; there is nothing to keep.
+        KeyboardInterrupt: after Ctrl-C; there is nothing to keep.
     """
     seconds = np.full((passes, len(benchmarks)), np.nan)
     total = passes * len(benchmarks)
@@ -102,8 +101,6 @@ def _benchmark(samples: list[Sample]) -> None:
         raise KeyboardInterrupt
     if code != pytest.ExitCode.OK:
         report = plugin.report.getvalue().strip()
-        if "fixture 'benchmark' not found" in report or "unrecognized arguments: --benchmark" in report:
-            raise MissingTool("pytest-benchmark is not installed in this environment; run `make setup`")
         raise RuntimeError(f"pytest ended with {code!r} on {PASSES_FILE.name}:\n{report}")
 
 

@@ -1,4 +1,4 @@
-"""Every library that is tested: libraries.toml lists those with functions alone; a function each returns the others.
+"""Every library that is tested: libraries.toml lists functions; what has controllers too is a function here.
 
 A library that is not installed here is left out, with a line that says why.
 """
@@ -12,8 +12,8 @@ from bench.base.errors import UnknownWord
 from bench.studies.libraries.asked import controllers, listed, ours, simulators
 from bench.studies.libraries.library import Function, Library
 
-ASKED = {one.__name__: one for module in (controllers, ours, simulators) for one in module.ASKED} | {
-    name.replace("-", "_"): functools.partial(listed.listed, name) for name in listed.LISTED
+ASKED = {name.replace("-", "_"): functools.partial(listed.listed, name) for name in listed.LISTED} | {
+    one.__name__: one for module in (controllers, ours, simulators) for one in module.ASKED
 }
 """Word of the command line -> function that returns libraries."""
 
