@@ -4,12 +4,12 @@ A row of numbers is that of `episode` with eight columns more at its end: where 
 """
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from bench.engines.arrays import Seven
-from bench.engines.episode import blank
+from bench.engines.episode import Metrics, Starts, blank
 from bench.law.chain import Scratch
 from bench.law.contender import Contender
 from bench.law.contenders.jacobians.geometric import fill
@@ -93,7 +93,7 @@ def controls(contender: Contender, has_own_model: bool, torque_limit: float) -> 
     return Controls(contender.rows, gives, STANDING if gives == BY_JOINT else int(has_own_model), torque_limit**2)
 
 
-def states(starts, n: int) -> np.ndarray:
+def states(starts: Starts, n: int) -> np.ndarray:
     """Return q and qdot of each start, then the goal of the joints and the tool: NaN where the start has none."""
     unknown = (math.nan,) * n
     rows = [(*one.q, *one.qdot, *(one.goal_q or unknown), *(one.goal_p or unknown[:3])) for one in starts]
@@ -113,14 +113,14 @@ def joints(arm: Arm) -> Joints:
     )
 
 
-def buffers(n: int, dtype=float) -> Buffers:
+def buffers(n: int, dtype: Any = float) -> Buffers:
     """Fresh buffers for an arm of n joints."""
     A, B, V, J = (np.zeros((MOST, MOST), dtype) for _ in range(4))
     s, t, a, x = (np.zeros(MOST, dtype) for _ in range(4))
     return Buffers(J, a, x, np.zeros(n, dtype), Scratch(A, B, V, s, t))
 
 
-def blank_arm(count: int, metrics) -> np.ndarray:
+def blank_arm(count: int, metrics: Metrics) -> np.ndarray:
     """Rows to be filled: metrics at their start values, and no pose yet."""
     return blank(count, metrics, (math.inf, *[math.nan] * MOST))
 

@@ -7,6 +7,7 @@ code; here the folder is a digest of all our sources and the versions that matte
 import contextlib
 import os
 import shutil
+from collections.abc import Iterator
 from pathlib import Path
 
 from bench.base.lock import held
@@ -42,7 +43,7 @@ os.environ["NUMBA_DISABLE_INTEL_SVML"] = "1"
 
 
 @contextlib.contextmanager
-def to_itself():
+def to_itself() -> Iterator[None]:
     """Others wait, threads and processes: of two that write its index at once, one would find the other's code."""
     FOLDER.mkdir(parents=True, exist_ok=True)
     with held(FOLDER, waits=True):

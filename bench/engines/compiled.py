@@ -7,6 +7,7 @@ import itertools
 import math
 import secrets
 import threading
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numba
@@ -36,9 +37,9 @@ third took from the cache became one, so that a law was silently run with parts 
 place, no two processes meet."""
 
 
-def _one_at_a_time(method):
+def _one_at_a_time(method: Callable) -> Callable:
     @functools.wraps(method)
-    def alone(*words):
+    def alone(*words: Any) -> Any:
         with to_itself():
             return method(*words)
 
@@ -93,7 +94,7 @@ _registered: set = set()
 _registering = threading.Lock()
 
 
-def _register_primitive(function):
+def _register_primitive(function: Callable) -> None:
     libm = getattr(math, function.__name__)
     if function.__code__.co_argcount == 2:
         overload(function, jit_options=PART, strict=False)(lambda y, x: lambda y, x: libm(y, x))
@@ -113,7 +114,7 @@ def register_kernels() -> None:
             register(function)
 
 
-def register(function):
+def register(function: Callable) -> Callable:
     """Make one plain function callable from compiled code."""
     if function not in _registered:
         inlined = {"forceinline": True} if function.__module__.startswith(INLINED) else {}
@@ -122,7 +123,7 @@ def register(function):
     return function
 
 
-def compile_function(function, signature, cache: bool = True, **options):
+def compile_function(function: Callable, signature: Any, cache: bool = True, **options: Any) -> Callable:
     """Return the function compiled for one signature with our options; cached on disk unless the law is a user's.
 
     Args:
@@ -132,7 +133,7 @@ def compile_function(function, signature, cache: bool = True, **options):
     return numba.njit(signature, cache=cache, **JIT, **options)(function)
 
 
-def compile_loop(episodes, laws: tuple, world: Any = None):
+def compile_loop(episodes: Callable, laws: tuple, world: Any = None) -> Callable:
     """Return a loop of `loop.episodes_of`, compiled; cached on disk.
 
     Args:
@@ -144,18 +145,18 @@ def compile_loop(episodes, laws: tuple, world: Any = None):
     return compile_function(episodes, types.void(*functions, type_of(world), FOUR, MATRIX, NUMBERS, MATRIX, CURVES))
 
 
-def compile_callback(function, signature):
+def compile_callback(function: Callable, signature: Any) -> Any:
     """Return the function as C code calls it, by its `address`; cached on disk."""
     return numba.cfunc(signature, nopython=True, cache=True)(function)
 
 
-def made_once(make):
+def made_once(make: Callable) -> Callable:
     """Cache what takes long to make; threads that need the same wait for the first."""
     made = functools.cache(make)
     locks: dict[tuple, threading.Lock] = {}
 
     @functools.wraps(make)
-    def asked(*words):
+    def asked(*words: Any) -> Any:
         with locks.setdefault(words, threading.Lock()):
             return made(*words)
 
@@ -167,7 +168,7 @@ part = made_once(compile_function)
 
 
 @contextlib.contextmanager
-def own_law(origin: str):
+def own_law(origin: str) -> Iterator[bool]:
     """Compile what holds a law: yields whether it may be cached on disk, which a user's law is not.
 
     Args:

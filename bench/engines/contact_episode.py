@@ -103,7 +103,9 @@ USUAL = Conditions()
 """Implicit in the joints' own damping, as MuJoCo recommends for contacts."""
 
 
-def numbers(controller: ContactController, task: ContactTask, trial: Trial, rated, conditions: Conditions) -> Numbers:
+def numbers(
+    controller: ContactController, task: ContactTask, trial: Trial, rated: tuple, conditions: Conditions
+) -> Numbers:
     """Return the numbers of one trial for one controller."""
     specification = trial.specification
     f_d, m_d = tuple(map(float, specification.desired_wrench[:3])), tuple(map(float, specification.desired_wrench[3:]))
@@ -126,12 +128,12 @@ def numbers(controller: ContactController, task: ContactTask, trial: Trial, rate
     )
 
 
-def rows(dtype=float) -> Rows:
+def rows(dtype: Any = float) -> Rows:
     """Fresh buffers for a controller's rows."""
     return Rows(*(np.zeros(6, dtype) for _ in Rows._fields))
 
 
-def room(dtype=float) -> ContactBuffers:
+def room(dtype: Any = float) -> ContactBuffers:
     """Fresh buffers for `hybrid.comply`."""
     A, B, V = (np.zeros((MOST, MOST), dtype) for _ in range(3))
     y, b, x, s, t = (np.zeros(MOST, dtype) for _ in range(5))

@@ -1,16 +1,21 @@
 """What every engine is given and gives back: settings, one row of numbers in and one row out per episode."""
 
 import math
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from bench.law.inputs import Gains
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation
+from tasks.base import Start
 from tasks.rules import RULES
 from tasks.truth import angle
 from tasks.verdict import CRASHED, GOING, SETTLED, SINGULAR, verdict
+
+Starts: TypeAlias = Sequence[Start]
+Metrics: TypeAlias = Sequence[Any]
 
 
 class Settings(NamedTuple):
@@ -132,12 +137,12 @@ def finish(row, failure, watch, tick, angle, speed_squared, command_squared, num
     row[FINAL_ANGLE] = angle
 
 
-def vector(three) -> tuple:
+def vector(three: Any) -> tuple:
     """Three numbers of an array, numpy.float64 as they are."""
     return (three[0], three[1], three[2])
 
 
-def start_rows(starts) -> np.ndarray:
+def start_rows(starts: Starts) -> np.ndarray:
     """Return the judge's starts as rows: quaternion, omega, goal, haversine of the settling band."""
     rows = np.empty((len(starts), START_WIDTH))
     for row, start in zip(rows, starts, strict=True):
@@ -146,6 +151,6 @@ def start_rows(starts) -> np.ndarray:
     return rows
 
 
-def blank(count: int, metrics=(), more: tuple[float, ...] = ()) -> np.ndarray:
+def blank(count: int, metrics: Metrics = (), more: tuple[float, ...] = ()) -> np.ndarray:
     """Rows to be filled: every metric at its start value, then the start values of columns behind them."""
     return np.tile([0.0] * FIRST_METRIC + [metric.start for metric in metrics] + [*more], (count, 1))

@@ -6,6 +6,8 @@ Environment steps through the Python bindings, in its order and from the state t
 """
 
 import contextlib
+from collections.abc import Callable
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -16,7 +18,7 @@ from bench.engines.arm_episode import blank_arm, controls, joints
 from bench.engines.arm_episode import states as states_of
 from bench.engines.binding import evaluation_of, margin_of, memory_of, observer, parts_for, plant_of
 from bench.engines.curve import blank_curves
-from bench.engines.episode import Numbers, Settings, blank, numbers, start_rows
+from bench.engines.episode import Metrics, Numbers, Settings, Starts, blank, numbers, start_rows
 from bench.engines.native.trapped import said
 from bench.engines.plants import arm as on_arm
 from bench.engines.plants import contact, free_body
@@ -25,7 +27,7 @@ from bench.law.control.resolved_acceleration import assembly
 from tasks.contact_episode import environment as scene_of
 
 
-def _run(loop, laws, world, contender, begun, limits: Numbers, row) -> None:
+def _run(loop: Callable, laws: tuple, world: Any, contender: Any, begun: Any, limits: Numbers, row: Any) -> None:
     """Run one episode, in numbers of numpy's throughout."""
     exact = limits._replace(kp=np.float64(limits.kp), kv=np.float64(limits.kv))
     functions = (*laws, *[None] * (3 - len(laws)))
@@ -33,7 +35,9 @@ def _run(loop, laws, world, contender, begun, limits: Numbers, row) -> None:
     loop(*functions, world, memory, begun[None], exact, row[None], blank_curves(1))
 
 
-def run(contender, task: str, starts, settings: Settings, metrics, integrator: str = "euler") -> np.ndarray:
+def run(
+    contender: Any, task: str, starts: Starts, settings: Settings, metrics: Metrics, integrator: str = "euler"
+) -> np.ndarray:
     """Return rows of the free body, one a start; see `episode` for the columns."""
     rows, begun, limits = blank(len(starts), metrics), start_rows(starts), numbers(settings)
     loop, laws, plant = free_body.loop_of(observer(metrics)), (evaluation_of(contender),), None
@@ -46,7 +50,10 @@ def run(contender, task: str, starts, settings: Settings, metrics, integrator: s
     return rows
 
 
-def run_arm(contender, task: str, arm: str, starts, settings: Settings, metrics, integrator, variation) -> np.ndarray:
+def run_arm(
+    contender: Any, task: str, arm: str, starts: Starts, settings: Settings, metrics: Metrics, integrator: str,
+    variation: str,
+) -> np.ndarray:  # fmt: skip
     """Return rows of an arm, one a start; see `arm_episode` for the columns."""
     rows, begun, limits, of_arm = blank_arm(len(starts), metrics), start_rows(starts), numbers(settings), tasks.arm(arm)
     laws = assembly(parts_for(contender)), contender.inverse.resolve, margin_of(contender)
@@ -65,14 +72,16 @@ def run_arm(contender, task: str, arm: str, starts, settings: Settings, metrics,
     return rows
 
 
-def _reset(task, start, limits: Numbers, integrator: str, **words):
+def _reset(task: Any, start: Any, limits: Numbers, integrator: str, **words: Any) -> Any:
     horizon_s = (limits.ticks + 1) * limits.dt
     environment = tasks.load(task, start=start, dt=limits.dt, horizon=horizon_s, integrator=integrator, **words)
     environment.reset()
     return environment
 
 
-def run_contact(controller, task, arm, trial, conditions, model, shape, record) -> tuple[np.ndarray, str, object]:
+def run_contact(
+    controller: Any, task: Any, arm: Any, trial: Any, conditions: Any, model: Any, shape: Any, record: np.ndarray
+) -> tuple[np.ndarray, str, object]:
     """Fill the record of a trial; return its row, MuJoCo's message and the data."""
     loop, row = scene_of(task, arm, trial, conditions.dt_s, conditions.integrator, model), np.zeros(6)
     # dm_control would raise what MuJoCo warns of, or log it by a deprecated call; the judge sees for himself

@@ -4,6 +4,8 @@
 """
 
 import importlib
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
@@ -26,7 +28,7 @@ from bench.engines.compiled import (
 )
 from bench.engines.convergence import Level, at_level, converged
 from bench.engines.curve import Curves, blank_curves
-from bench.engines.episode import Numbers, Settings, blank, numbers, start_rows
+from bench.engines.episode import Metrics, Numbers, Settings, Starts, blank, numbers, start_rows
 from bench.engines.plants import ideal
 from bench.engines.plants.ideal import REFINED
 from bench.law.contender import Contender
@@ -57,7 +59,7 @@ functions that it calls, and its world."""
 
 
 @made_once
-def compiled_loop(kind: str, metrics: tuple = ()):
+def compiled_loop(kind: str, metrics: tuple = ()) -> Callable:
     """Return a loop, for all laws, compiled or taken from the disk cache."""
     if kind in ideal.STEPS:
         return compile_loop(ideal.loop_of(kind, observer(metrics)), (EVALUATE,))
@@ -67,7 +69,10 @@ def compiled_loop(kind: str, metrics: tuple = ()):
     return compile_loop(made, laws, getattr(plant, world))
 
 
-def simulate(loop, laws: tuple, world, memory: tuple, begun, limits: Numbers, rows, curves: Curves | None = None):
+def simulate(
+    loop: Callable, laws: tuple, world: Any, memory: tuple, begun: np.ndarray, limits: Numbers, rows: np.ndarray,
+    curves: Curves | None = None,
+) -> np.ndarray:  # fmt: skip
     """Run a loop: fill a row, and a curve if there is room, for each start.
 
     Args:
@@ -80,17 +85,9 @@ def simulate(loop, laws: tuple, world, memory: tuple, begun, limits: Numbers, ro
 
 
 def run(
-    engine: str,
-    contender: Contender,
-    task: str,
-    starts,
-    settings: Settings,
-    metrics,
-    integrator: str = "euler",
-    curves: Curves | None = None,
-    total: int = 0,
-    converge: bool = True,
-) -> np.ndarray:
+    engine: str, contender: Contender, task: str, starts: Starts, settings: Settings, metrics: Metrics,
+    integrator: str = "euler", curves: Curves | None = None, total: int = 0, converge: bool = True,
+) -> np.ndarray:  # fmt: skip
     """Rows of `engines.episode`, one per start, on the free body; on an arm: `simulate_arms.run_arm`.
 
     Args:
@@ -126,7 +123,7 @@ def on_ideal(
     contender: Contender,
     begun: np.ndarray,
     settings: Settings,
-    metrics=(),
+    metrics: Metrics = (),
     total: int = 0,
     curves: Curves | None = None,
     converge: bool = True,
@@ -173,7 +170,9 @@ def by_law(
     return simulate(loop, law, None, memory or memory_of(contender), begun, limits, rows, curves)
 
 
-def _once(engine, contender, begun, settings, metrics, total, curves) -> np.ndarray:
+def _once(
+    engine: str, contender: Contender, begun: np.ndarray, settings: Settings, metrics: tuple, total: int, curves: Curves
+) -> np.ndarray:
     rows = blank(len(begun), metrics)
     if curves.samples.shape[1] or not is_in_lanes(max(total, len(begun))):
         return by_law(engine, contender, begun, numbers(settings), rows, metrics, curves)
@@ -198,7 +197,7 @@ def is_in_lanes(total: int) -> bool:
     return total >= WORTH_LANES
 
 
-def prepare(engine: str, contender: Contender, metrics, total: int = 0) -> None:
+def prepare(engine: str, contender: Contender, metrics: Metrics, total: int = 0) -> None:
     """Compile what `run` will need for so many episodes, or take it from the disk cache."""
     is_continuous, metrics = engine == CONTINUOUS, tuple(metrics)
     for observed in dict.fromkeys((metrics, () if is_continuous else metrics)):
@@ -213,14 +212,14 @@ def prepare(engine: str, contender: Contender, metrics, total: int = 0) -> None:
 
 
 @made_once
-def loop_in_lanes(engine: str, contender: Contender, metrics: tuple):
+def loop_in_lanes(engine: str, contender: Contender, metrics: tuple) -> Callable:
     """Return the loop of an ideal plant with a law compiled into it; see `evaluation`."""
     with own_law(contender.regulator.origin) as cache:
         return lanes.episodes_of(engine, evaluation_of(contender), observer(metrics), len(metrics), cache)
 
 
 @made_once
-def evaluation(contender: Contender):
+def evaluation(contender: Contender) -> Callable:
     """Compile a contender for the loops, or take it from the disk cache; a user's law is compiled every time.
 
     Errors:

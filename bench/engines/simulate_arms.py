@@ -2,7 +2,7 @@
 
 import functools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import mujoco
 import numpy as np
@@ -23,7 +23,7 @@ from bench.engines.compiled import (
     part,
 )
 from bench.engines.curve import Curves
-from bench.engines.episode import Settings, blank, numbers, start_rows
+from bench.engines.episode import Metrics, Settings, Starts, blank, numbers, start_rows
 from bench.engines.native.libmujoco import model_of
 from bench.engines.plants import arm as on_arm
 from bench.engines.plants import impedance, velocity
@@ -43,17 +43,9 @@ ENGINES = ("native", "reference")
 
 
 def run_arm(
-    engine: str,
-    contender: Contender,
-    task: str,
-    arm: str,
-    starts,
-    settings: Settings,
-    metrics,
-    integrator: str = "euler",
-    variation: str = NOMINAL,
-    curves: Curves | None = None,
-) -> np.ndarray:
+    engine: str, contender: Contender, task: str, arm: str, starts: Starts, settings: Settings, metrics: Metrics,
+    integrator: str = "euler", variation: str = NOMINAL, curves: Curves | None = None,
+) -> np.ndarray:  # fmt: skip
     """Rows of `engines.arm_episode`, one per start.
 
     Args:
@@ -70,8 +62,9 @@ def run_arm(
 
 
 def arm_world(
-    contender: Contender, task: str, arm: str, starts, settings: Settings, integrator: str, variation: str = NOMINAL
-) -> tuple[list, on_arm.World]:
+    contender: Contender, task: str, arm: str, starts: Starts, settings: Settings, integrator: str,
+    variation: str = NOMINAL,
+) -> tuple[list, on_arm.World]:  # fmt: skip
     """Return the models of one arm, the plant and the controller's if it is another one, and the world of the loop."""
     one = tasks.arm(arm)
     has_own = variation != NOMINAL or controls(contender, False, 1.0).has_own_model == STANDING
@@ -102,21 +95,22 @@ def pointers(contender: Contender) -> tuple:
     return _assemble(contender._replace(inverse=None)), _resolve(contender), part(margin_of(law), MARGIN)
 
 
-def _resolve(contender: Contender):
+def _resolve(contender: Contender) -> Callable:
     """Return the inverse of a contender that has one."""
     assert contender.inverse is not None
     return part(contender.inverse.resolve, RESOLVE)
 
 
 @made_once
-def _assemble(contender: Contender):
+def _assemble(contender: Contender) -> Callable:
     with own_law(contender.regulator.origin) as cache:
         return compile_function(assembly(parts_for(contender)), ASSEMBLE, cache)
 
 
 def run_velocity(
-    contender: Contender, limit: Callable, K: float, starts, settings: Settings, arm: str = "", lag_s: float = 0.0
-) -> np.ndarray:
+    contender: Contender, limit: Callable, K: float, starts: Starts, settings: Settings, arm: str = "",
+    lag_s: float = 0.0,
+) -> np.ndarray:  # fmt: skip
     """Rows of `plants.velocity`, one per start.
 
     Args:
@@ -140,7 +134,7 @@ def run_velocity(
     return simulate(compiled_loop("velocity-arm"), (*functions, _resolve(contender)), world, *given)
 
 
-def prepare_velocity(contender: Contender, limits) -> None:
+def prepare_velocity(contender: Contender, limits: Iterable[Callable]) -> None:
     """Compile what `run_velocity` will need, or take it from the disk cache."""
     evaluation(contender._replace(jacobian=None, inverse=None))
     for one in limits:
@@ -151,7 +145,7 @@ def prepare_velocity(contender: Contender, limits) -> None:
 
 
 def run_impedance(
-    law: Contender, damping: Impedance, springs: Springs, starts, settings: Settings, arm: str
+    law: Contender, damping: Impedance, springs: Springs, starts: Starts, settings: Settings, arm: str
 ) -> tuple[np.ndarray, np.ndarray]:
     """Rows of `plants.impedance`, and q and qdot at the end, one per start.
 
@@ -170,7 +164,7 @@ def run_impedance(
     return rows, world.ends
 
 
-def prepare_impedance(law: Contender, dampings) -> None:
+def prepare_impedance(law: Contender, dampings: Iterable[Impedance]) -> None:
     """Compile what `run_impedance` will need, or take it from the disk cache."""
     evaluation(law)
     for one in dampings:

@@ -2,7 +2,7 @@
 
 import functools
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,8 +12,10 @@ from bench.engines.episode import (
     FINAL_ANGLE,
     SETTLING_TICK,
     START_WIDTH,
+    Metrics,
     Numbers,
     Settings,
+    Starts,
     blank,
     numbers,
     start_rows,
@@ -33,14 +35,9 @@ The default suite's 24 are one block, so that all its laws share one draw."""
 
 
 def run_disturbed(
-    contender: Contender,
-    starts,
-    condition: Condition,
-    settings: Settings,
-    metrics,
-    seed: int = 0,
+    contender: Contender, starts: Starts, condition: Condition, settings: Settings, metrics: Metrics, seed: int = 0,
     noise_bytes: float = NOISE_BYTES,
-) -> np.ndarray:
+) -> np.ndarray:  # fmt: skip
     """Rows of `engines.episode`, one a start, with `perturbed.EXTRA` columns more.
 
     Args:
@@ -123,7 +120,7 @@ def parts_of(one: Law) -> tuple:
 
 
 def run_compensated(
-    one: Law, starts, gains: Gains, dt: float, ticks: int, band: float, push: tuple, is_plain: bool = False
+    one: Law, starts: Starts, gains: Gains, dt: float, ticks: int, band: float, push: tuple, is_plain: bool = False
 ) -> Ended:
     """Simulate starts, from their orientation and angular velocity.
 
@@ -140,18 +137,18 @@ def run_compensated(
 
 
 @kernel
-def nothing(R):
+def nothing(R: Any) -> tuple:
     """No state."""
     return NO_MEMORY
 
 
 @made_once
-def without_state(one) -> Law:
+def without_state(one: Any) -> Law:
     """Return a law without memory as one with a state, which stays at zero."""
     law = one.law
 
     @kernel
-    def still(R, omega, goal, gains, state):
+    def still(R: Any, omega: Any, goal: Any, gains: Any, state: Any) -> Any:
         return law(R, omega, goal, gains), NO_MEMORY
 
     return one._replace(law=still, state=State(nothing, None, measures_rate=True, rejects=False))

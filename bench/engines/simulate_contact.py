@@ -1,7 +1,7 @@
 """Episodes of arms in contact: a controller on trials of a task and an arm, one record an episode back."""
 
-from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, NamedTuple
 
 import mujoco
 import numpy as np
@@ -38,14 +38,9 @@ class Scene(NamedTuple):
 
 
 def run_contact(
-    engine: str,
-    controller: ContactController,
-    task: ContactTask,
-    arm: Arm,
-    trials: Iterable[Trial],
-    conditions: Conditions = USUAL,
-    contact: ContactModel = STANDARD,
-) -> Iterator[Ended]:
+    engine: str, controller: ContactController, task: ContactTask, arm: Arm, trials: Iterable[Trial],
+    conditions: Conditions = USUAL, contact: ContactModel = STANDARD,
+) -> Iterator[Ended]:  # fmt: skip
     """One `Ended` a trial, in order, each as soon as it is there.
 
     Args:
@@ -94,7 +89,9 @@ def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: Con
     return Scene(model, data, world)
 
 
-def _episode(scene: Scene | None, controller, task, arm: Arm, trial: Trial, conditions: Conditions, contact) -> Ended:
+def _episode(
+    scene: Any, controller: ContactController, task: ContactTask, arm: Arm, trial: Trial, conditions: Any, contact: Any
+) -> Ended:
     shape = contact_episode.numbers(controller, task, trial, arm.rated, conditions)
     record = contact_episode.blank(shape)
     if scene is None:
@@ -114,17 +111,17 @@ def _episode(scene: Scene | None, controller, task, arm: Arm, trial: Trial, cond
     return made(record, failure, int(np.isfinite(record[:, TIME]).sum()), message if failure == BROKEN else "", data)
 
 
-def _loop():
+def _loop() -> Callable:
     for function in (leg, has_left):
         register(function)
     return compiled_loop("contact")
 
 
-def pointer(controller: ContactController):
+def pointer(controller: ContactController) -> Callable:
     """Return the rows of a controller, compiled or taken from the disk cache."""
     return _pointer(controller._replace(form=""))
 
 
 @made_once
-def _pointer(controller: ContactController):
+def _pointer(controller: ContactController) -> Callable:
     return compile_function(controller.assemble, TOUCH)

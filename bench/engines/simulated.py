@@ -6,6 +6,7 @@ never move. Plain, data is a dm_control Environment and ctrl a buffer of the act
 MuJoCo's own model and data.
 """
 
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import mujoco
@@ -39,7 +40,7 @@ class Simulated(NamedTuple):
 ARRAYS = Simulated._fields[4:]
 
 
-def compiled_view(model, data) -> Simulated:
+def compiled_view(model: Any, data: Any) -> Simulated:
     """Return one simulation for compiled code; `data` must outlive it."""
     is_runge_kutta = int(model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4)
     return Simulated(model._address, data._address, is_runge_kutta, model.nv, *(getattr(data, one) for one in ARRAYS))
@@ -84,7 +85,7 @@ def fill_inertia(body, D):
     mujoco.mj_fullM(body.model, data, D)
 
 
-def _compiled(function):
+def _compiled(function: Callable) -> Callable:
     return overload(function, jit_options=PART | {"forceinline": True})
 
 

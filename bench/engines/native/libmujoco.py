@@ -28,7 +28,7 @@ MUJOCO_INTEGRATORS = {
 }
 
 
-def library_function(name: str, *arguments):
+def library_function(name: str, *arguments: types.Type) -> types.ExternalFunction:
     """Return a C function by its name for compiled code; it takes a model and data where no arguments are named."""
     return types.ExternalFunction(name, types.void(*(arguments or (types.intp, types.intp))))
 
