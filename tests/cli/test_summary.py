@@ -62,7 +62,7 @@ def test_summary_of_a_tiny_run_fits_too_and_says_what_is_not_in_it(capsys, finis
     said = bench(capsys, "show", finished.name)
     lines = said.out.splitlines()
     assert (len(lines) <= LINES, max(map(len, lines)) <= COLUMNS) == (True, True)
-    assert lines[0].startswith("Which law    This run cannot say: it has no law with uniform and half-turn starts")
+    assert lines[0].startswith("Which law    This run cannot say: it lacks starts")
     assert re.search(r"Not in this run: arms, contact, robustness[^.]* and", said.out)
     assert "settled 0 of 3 episodes" in said.out
     assert f"python -m bench show {finished.name} --details" in said.out

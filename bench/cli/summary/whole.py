@@ -18,6 +18,11 @@ from bench.findings.claims.verdict import NoEvidence, Word
 from bench.findings.selection.measured import measure
 from bench.law.contenders.registry import all_contenders
 
+UNDECIDED = (
+    "This run cannot say: it lacks starts, perturbations or costs by which laws are compared. A whole suite can (try: "
+    "python -m bench run --suite quick)."
+)
+
 
 def print_summary(folder: Path, is_named: bool) -> None:
     """Print it. `is_named`: whether the user named the folder, so that the commands below name it too."""
@@ -27,7 +32,7 @@ def print_summary(folder: Path, is_named: bool) -> None:
     try:
         print_paragraphs(*answer.paragraphs(measure(found)))
     except NoEvidence:
-        print_paragraphs(undecided(found))
+        print_paragraphs(Paragraph("Which law", (UNDECIDED,)))
     with progress("claims", "judging the paper's claims"):
         judged = count_verdicts(found)
     print_paragraphs(
@@ -72,24 +77,6 @@ def count_verdicts(results: Results) -> Paragraph:
     unknown = f"; {len(lacks)} cannot be judged from this run" if lacks else ""
     first = told(one.first for one in decided)
     return Paragraph("Claims", (f"{now}{unknown}. By the criteria first written: {first}.",))
-
-
-def undecided(results: Results) -> Paragraph:
-    """In place of the answer, where the run has not what laws are compared by."""
-    episodes = results.table("episodes")
-    free_body = episodes[episodes["arm"] == ""]
-    sets = free_body.groupby(free_body["contender"].astype(str))["start_set"].agg(set)
-    has = {
-        "law with uniform and half-turn starts on the free body": any({"uniform", "half-turn"} <= one for one in sets),
-        "robustness episodes": len(results.table("robustness")) > 0,
-        "operation counts": len(results.table("costs")) > 0,
-    }
-    lacking = [what for what, there in has.items() if not there]
-    why = f"it has no {listed(lacking, 'and no')}" if lacking else "no law of it has all that laws are compared by"
-    return Paragraph(
-        "Which law",
-        (f"This run cannot say: {why}. A whole suite can (try: python -m bench run --suite quick).",),
-    )
 
 
 def parts_in(results: Results) -> list[str]:
