@@ -11,17 +11,17 @@ LINES = {
     "bench/__main__.py": 29,
     "bench/audit": 1_928,
     "bench/base": 472,
-    "bench/cli": 2_342,
-    "bench/engines": 6_205,
+    "bench/cli": 2_266,
+    "bench/engines": 6_211,
     "bench/experiments": 4_919,
     "bench/export": 1_984,
     "bench/findings": 6_010,
     "bench/law": 6_281,
     "bench/regression": 1_200,
-    "bench/running": 2_193,
-    "bench/studies": 3_195,
+    "bench/running": 2_190,
+    "bench/studies": 2_921,
     "tests/audit": 575,
-    "tests/cli": 736,
+    "tests/cli": 735,
     "tests/conftest.py": 85,
     "tests/contracts": 2_702,
     "tests/engines": 2_763,
@@ -33,14 +33,14 @@ LINES = {
     "tests/report": 2_204,
     "tests/repository": 574,
     "tests/running": 1_031,
-    "tests/studies": 877,
+    "tests/studies": 873,
     "tests/support": 3_084,
     "tests/tasks": 1_875,
     "report": 7_486,
-    "tasks": 5_151,
+    "tasks": 5_040,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
-FILES = {"bench/audit": 35, "bench/experiments": 45, "bench/export": 18, "bench/law": 102, "tasks": 76}
+FILES = {"bench/audit": 35, "bench/experiments": 45, "bench/export": 18, "bench/law": 102, "tasks": 75}
 """Python files of the rooms in which one file adds one thing: with one more, a room may have as many lines more."""
 LONGEST_FILE = 250
 TOO_LONG: dict[str, int] = {}
