@@ -1,11 +1,4 @@
-"""Every figure and table of results, drawn from a small run: words with numbers, colours of the palette, no failures.
-
-The run is simulated once: two engines, all start sets at rest, a few traces and boundaries. It has fewer starts, and
-fewer engines, than any run that a report is built from.
-"""
-
-import dataclasses
-import functools
+"""What figures of the published run hold: areas, points, bends and shares; `test_every_page` draws them all."""
 
 import numpy as np
 import pandas as pd
@@ -15,63 +8,23 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from support.pages import assert_is_drawn
 
-from bench.experiments import boundaries, plan, traces
-from bench.experiments.choice import Choice
-from bench.experiments.tables import read
-from bench.law.contenders.registry import find_contender
-from bench.running import run
+from bench.experiments.tables.schema import RESULTS
 from report.figures import index
-from report.figures.failures import ball, failure_map, world_map
+from report.figures.failures import failure_map, world_map
 from report.figures.kit.page import run_in
 from report.figures.kit.rows import FEEDBACK
 from report.figures.kit.share import share
-from report.figures.responses import responses, settling_time
+from report.figures.responses import responses
 
-STARTS = ("uniform", "half-turn", "poles", "wraps", "box", "paper")
-FIGURES = {
-    **dict.fromkeys(("response-matrix", "response-linearized", "response-feedback"), responses),
-    "settling-decades": settling_time,
-    "failure-map": failure_map,
-    "hero": index,
-}
-"""Figure -> the page's module that has it."""
+RUN = run_in(RESULTS / "reference")
 
 
-@pytest.fixture(scope="module", autouse=True)
-def small_run(tmp_path_factory):
-    """A folder of results, which bench.experiments.tables.read reads while this module runs."""
-    words = ("rotation-matrix", "linearized-euler/zyx-euler", "feedback-linearized/zyx-euler")
-    laws = [find_contender(word) for word in words]
-    made = plan.make("quick", laws, Choice(("free-body",), STARTS, ("ideal-rk4", "ideal-held")), count=150)
-    folder = tmp_path_factory.mktemp("figures") / "run"
-    more = [made_of(one, count) for made_of, count in ((traces.of_law, 2), (boundaries.of_law, 12)) for one in laws]
-    run.run(dataclasses.replace(made, units=(*made.units, *more)), folder)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv(read.VARIABLE, str(folder))
-        yield folder
-
-
-@functools.cache
-def of_page(module):
-    return module.figures(run_in(read.folder()))
-
-
-def drawn(name):
-    return of_page(FIGURES[name])[name]
-
-
-def ideal(*start_sets):
-    rows = read.episodes(engine="ideal-rk4")
-    return rows[rows["start_set"].isin(start_sets)] if start_sets else rows
-
-
-@pytest.mark.parametrize("name", FIGURES)
-def test_figure_says_its_numbers_keeps_to_the_palette_and_fits_a_phone(name):
-    assert_is_drawn(drawn(name))
+def test_figure_of_the_front_page_says_its_numbers_keeps_to_the_palette_and_fits_a_phone():
+    assert_is_drawn(index.figures(RUN)["hero"])
 
 
 def test_ball_shows_half_turns_at_both_ends_of_their_axis():
-    points = ball.unit_ball(pd.DataFrame([(0.0, 1.0, 0.0, 0.0)], columns=[f"quat_{one}" for one in "wxyz"]))
+    points = failure_map.unit_ball(pd.DataFrame([(0.0, 1.0, 0.0, 0.0)], columns=[f"quat_{one}" for one in "wxyz"]))
     assert points == [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
 
 
@@ -85,15 +38,9 @@ def test_map_keeps_areas():
     np.testing.assert_allclose(area / area.mean(), 1.0, rtol=1e-3)
 
 
-@pytest.mark.parametrize("facts", [responses.facts, settling_time.facts, failure_map.facts])
-def test_facts_of_a_page_are_numbers(facts):
-    values = facts(run_in(read.folder()))
-    assert all("nan" not in str(value) for value in values.values()), values
-
-
 def test_response_bends_are_nothing_under_feedback_linearization():
-    traces = read.traces(start_set="paper")
-    own = traces[(traces["start_id"] == "figure-2.5") & (traces["contender"] == FEEDBACK)]
+    traces, _ = responses.drawn(RUN)
+    own = responses.find(traces, {"start_id": "figure-2.5", "contender": FEEDBACK})
     assert responses.bend_deg(own, 100.0, 20.0).max() < 1e-6
 
 

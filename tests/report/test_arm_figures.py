@@ -1,47 +1,20 @@
-"""Figures, tables and findings of the pages about arms, from a small run on one arm; and what they say without one."""
+"""What the page on arms says of made-up rows and of the published poses: names, inverses, ranking, singularities."""
 
+import math
+import re
+
+import numpy as np
 import pandas as pd
 import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from support.pages import assert_is_whole
-
-from bench.experiments import plan
-from bench.experiments.choice import Choice
-from bench.experiments.tables import read
-from bench.law.contenders.registry import find_contender
-from bench.running import run
-from report.figures.arms import arm_pole, arm_ranking, arm_rows, arms
+from bench.experiments.tables.schema import RESULTS
+from report.figures.arms import arm_pole, arm_ranking, arm_rows, jacobians, velocity_commands
 from report.figures.kit.page import run_in
 
 ARM = "puma560"
-CHOICE = Choice(
-    ("arm-regulation",),
-    ("clear", "pole", "uniform"),
-    ("native",),
-    (ARM,),
-    ("geometric", "analytic"),
-    ("solve",),
-    ("nominal", "mass-0.85"),
-)
-STARTS = 2
-
-
-@pytest.fixture(scope="module", autouse=True)
-def small_run(tmp_path_factory):
-    """A folder of results, which bench.experiments.tables.read reads while this module runs."""
-    laws = [find_contender(word) for word in ("rotation-matrix", "feedback-linearized/zyx-euler")]
-    made = plan.make("quick", laws, CHOICE, count=STARTS, horizon_s=2.5)
-    folder = tmp_path_factory.mktemp("arms") / "run"
-    run.run(made, folder)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv(read.VARIABLE, str(folder))
-        yield folder
-
-
-def test_page_is_whole():
-    assert_is_whole(arms, run_in(read.folder()))
+RUN = run_in(RESULTS / "reference")
 
 
 def test_standard_inverse_goes_by_the_number_of_joints_and_rows():
@@ -52,10 +25,9 @@ def test_standard_inverse_goes_by_the_number_of_joints_and_rows():
     assert arm_rows.standard("panda", quaternion, "analytic") == "truncated-svd"
 
 
-def test_every_controller_has_a_title_of_its_own():
-    jacobians = ("geometric", "geometric-body", "analytic", "analytic-differentiated")
-    names = [f"feedback-linearized/{word}@{by}" for word in ("zyx-euler", "mrp") for by in jacobians]
-    names += [f"rotation-matrix@{by}" for by in jacobians[:2]]
+def test_every_controller_that_is_shown_has_a_title_of_its_own():
+    names = [f"feedback-linearized/{word}@{by}" for word in ("zyx-euler", "mrp") for by in arm_rows.PAPERS_JACOBIANS]
+    names.append(arm_rows.ON_MATRIX)
     assert len({arm_rows.title(name) for name in names}) == len(names)
 
 
@@ -94,3 +66,27 @@ def test_baselines_are_compared_with_the_laws():
     assert [cells[0] for cells in found] == ["Resolved rate", "(2.2) MRP"]
     assert found[0][3].startswith("**100 (")
     assert found[1][3] == "25 (11 to 47)"
+
+
+def test_stock_pose_is_well_conditioned_and_on_the_pole():
+    said = jacobians.describe_first(jacobians.papers(RUN, **jacobians.FIRST_EXAMPLE))
+    # how large that of the angles is, rounding decides, up to a one with nothing before its power of ten
+    assert re.search(r"number 7\.9; .* is ([2-9]·)?10[⁰¹²³⁴⁵⁶⁷⁸⁹]{2}, .* β = 90°", said)
+
+
+def test_slice_is_put_back_on_its_grid():
+    rows = jacobians.papers(RUN, pose_set="slice", arm=ARM).sample(frac=1.0, random_state=0)
+    grid = jacobians.Grid(rows)
+    at = rows.iloc[0]
+    row, column = (int(word) for word in at["pose_id"].split("-")[2:])
+    assert grid.condition[row, column] == pytest.approx(min(at["condition"], jacobians.HIGHEST))
+    assert grid.x[column] == pytest.approx(math.degrees(at[f"q_{grid.first}"]))
+    assert grid.y[row] == pytest.approx(math.degrees(at[f"q_{grid.second}"]))
+    assert np.isfinite(grid.condition).all()
+
+
+def test_velocity_laws_that_are_dead_at_180_degrees_or_unwind_are_named():
+    facts = velocity_commands.facts(RUN)
+    assert "rotation matrix" in facts["dead"]
+    assert "rotation vector" not in facts["dead"]
+    assert "control: no sign" in facts["unwinds"]

@@ -191,7 +191,7 @@ SENTENCES = {
     ),
     "right": (plant_library, [({}, "38 right"), ({"turn_error_rad": 1.0}, "0 right")]),
     "loops": (plant_loops, [({}, "3 dead, 4 away"), ({"dead": 0, "away": 1}, "0 dead, 55 away")]),
-    "unstable": (plant_fact(as_arms_run.in_free_motion, "unstable"), [({}, "Panda"), ({"radius": 0.5}, "none")]),
+    "unstable": (plant_fact(as_arms_run.facts, "unstable"), [({}, "Panda"), ({"radius": 0.5}, "none")]),
     "noise": (plant_fact(half_turn_noise.facts, "blind_middle"), [({}, "25"), ({"outcome": "settled"}, "100")]),
     "least": (plant_fact(failure_map.facts, "least"), [({}, "135"), ({"alpha0": 2.0}, "114")]),
     "held": (plant_advice, [({}, "cannot hold the body"), ({"held": 0.01}, "No law of this run settles")]),

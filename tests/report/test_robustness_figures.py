@@ -3,7 +3,6 @@
 import math
 
 import pytest
-from support.pages import assert_is_whole
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
@@ -34,11 +33,6 @@ def test_cards_of_laws_with_memory_say_how_far_they_keep_to_their_way(law):
     assert f"{math.degrees(thresholds.keeps(law)):.0f} degrees" in fails
 
 
-# ---------------------------------------------------------------------------------------------- pages, from a small run
-
-PAGES = (robustness, half_turn_noise)
-
-
 @pytest.fixture(scope="module", autouse=True)
 def small_run(tmp_path_factory):
     """Results with two starts a level of five laws; the pages read those of this module's folder."""
@@ -54,11 +48,6 @@ def small_run(tmp_path_factory):
 @pytest.fixture
 def along(small_run):
     return lambda name: rows.along(small_run, name)
-
-
-@pytest.mark.parametrize("page", PAGES, ids=lambda one: one.__name__.rpartition(".")[2])
-def test_page_is_whole(page, small_run):
-    assert_is_whole(page, small_run)
 
 
 def step_linear_loop(period_s: float, delay_s: float, inertia: float) -> float:

@@ -11,7 +11,6 @@ FILES = [path for folder in ("tests", "bench/studies") for path in sorted((ROOT 
 PLANTED = {
     "tests/regression/test_regress_times.py": "a commit of the history, which only git knows",
     "tests/report/test_comparing_sentences.py": "what a page reads, made false for one sentence",
-    "tests/report/test_pages_of_the_reference.py": "a page's facts with a key that the page lacks",
 }
 """Files whose tests replace a reader for one test, by a fixture that restores it."""
 

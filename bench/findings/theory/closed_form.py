@@ -91,19 +91,3 @@ def settling_curve(kp: float, kv: float, tolerance: float) -> Callable[[np.ndarr
 def decade_slope(kp: float, kv: float) -> float:
     """Seconds of settling time that a decade of pi - angle costs: ln 10 / (sqrt(Kp + Kd^2/4) - Kd/2)."""
     return math.log(10) / (math.sqrt(kp + kv**2 / 4) - kv / 2)
-
-
-def pole_crossings(speed: float, rate: float = 10.0, points: int = 2000) -> float:
-    """Share of random starts that spin at a speed [rad/s] whose linear beta(t) crosses a pole of Z-Y-X angles.
-
-    beta(t) = exp(-w t) (beta_0 + v t), v = betadot_0 + w beta_0, goes to exp(-betadot_0/v) v/w where betadot_0 and v
-    are positive. Of random orientations sin(beta_0) is uniform, of random directions betadot_0/speed is.
-
-    Args:
-        rate: w = Kd/2 of critically damped gains [1/s]. points: of the midpoint rule in each of the two.
-    """
-    middle = (2.0 * np.arange(points) + 1.0) / points - 1.0
-    beta, rising = np.arcsin(middle)[:, None], speed * middle[middle > 0.0][None, :]
-    v = rising + rate * beta
-    highest = np.where(v > 0.0, np.exp(-rising / np.where(v > 0.0, v, 1.0)) * v / rate, 0.0)
-    return float(np.mean(highest > math.pi / 2.0))  # falling ones cross the other pole as often

@@ -37,12 +37,12 @@ class Hand(NamedTuple):
     friction: np.ndarray
 
 
-def hand_of(name: str, rotor: float = 0.0) -> Hand:
-    """Return the hand of an arm at its home, each joint with so much more inertia than its model has [kg m^2]."""
+def hand_of(name: str) -> Hand:
+    """Return the hand of an arm at its home."""
     arm = tasks.arm(name)
     judge = kinematics(arm)
     J, friction = judge.jacobian(arm.home), np.diag(judge.model.dof_damping)
-    by_joints = np.linalg.inv(judge.inertia_matrix(arm.home) + rotor * np.eye(J.shape[1]))
+    by_joints = np.linalg.inv(judge.inertia_matrix(arm.home))
     return Hand(J @ by_joints @ J.T, J @ by_joints @ friction @ np.linalg.pinv(J))
 
 
@@ -51,18 +51,16 @@ def diagonal(stiffness: Stiffness) -> np.ndarray:
     return np.repeat(stiffness, 3)
 
 
-def hand_matrices(
-    arm: str, damping: str, stiffness: Stiffness, zeta: float, rotor: float = 0.0
-) -> tuple[np.ndarray, np.ndarray]:
+def hand_matrices(arm: str, damping: str, stiffness: Stiffness, zeta: float) -> tuple[np.ndarray, np.ndarray]:
     """Compute P = Lambda^-1 K [1/s^2] and Q = Lambda^-1 D and friction's [1/s], D of a design."""
-    hand, D = hand_of(arm, rotor), np.zeros((6, 6))
+    hand, D = hand_of(arm), np.zeros((6, 6))
     DAMPINGS[damping].design(diagonal(stiffness), np.linalg.inv(hand.mobility), zeta, D, buffers(7).scratch)
     return hand.mobility * diagonal(stiffness), hand.mobility @ D + hand.friction
 
 
-def longest_tick(arm: str, damping: str, stiffness: Stiffness, zeta: float, rotor: float = 0.0) -> float:
+def longest_tick(arm: str, damping: str, stiffness: Stiffness, zeta: float) -> float:
     """Return the control period [s] above which the loop is unstable: 2/(D/Lambda) of the fastest pole or less."""
-    P, Q = hand_matrices(arm, damping, stiffness, zeta, rotor)
+    P, Q = hand_matrices(arm, damping, stiffness, zeta)
     return bisect(lambda dt: compute_radius(P, Q, dt) < 1.0, 0.0, 1.0, HALVINGS)[0]
 
 

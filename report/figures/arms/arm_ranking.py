@@ -55,11 +55,6 @@ def in_short(found: Share) -> str:
     return f"{100 * found.value:.0f} ({100 * found.low:.0f} to {100 * found.high:.0f})"
 
 
-def table(rows: pd.DataFrame) -> html.Markdown | None:
-    """Return the ranking as a table."""
-    return RANKED(ranked(rows))
-
-
 def told(rows: pd.DataFrame, controller: str, measure: str) -> str:
     """Share of a controller's episodes that pass, with its interval and n, in words."""
     own = passed(rows[rows["controller"] == controller])[measure]

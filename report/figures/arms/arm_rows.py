@@ -94,33 +94,21 @@ def of_baselines(rows: pd.DataFrame) -> pd.DataFrame:
     return rows[rows["regulator"].isin(baselines_of_arms())]
 
 
-def equation(controller: str) -> str:
-    """Which of the paper's two controllers it is; of a baseline none."""
-    if controller.partition("@")[0] in baselines_of_arms():
-        return "none"
-    jacobian = contenders("jacobians")[controller.partition("@")[2]]
-    return "(2.2)" if jacobian.takes == "angular-acceleration" else "(3.7)"
-
-
 def title(controller: str) -> str:
     """How a controller is called in a figure: its equation, and the law or the coordinates."""
     law, _, jacobian = controller.partition("@")
     if law in baselines_of_arms():
         return baselines_of_arms()[law].regulator.title
     regulator, _, coordinates = law.partition("/")
-    which = contenders("representations")[coordinates].title.removesuffix(" angles") if coordinates else ""
-    known = contenders("regulators")
-    name = known[regulator].title.partition(" (")[0] if regulator in known else regulator
-    if regulator in known and known[regulator].later:
+    where = contenders("representations")[coordinates].title.removesuffix(" angles") if coordinates else ""
+    if contenders("jacobians")[jacobian].takes != "angular-acceleration":
+        return f"(3.7) {where}"
+    one = contenders("regulators").get(regulator)
+    name = one.title.partition(" (")[0] if one else regulator
+    if one and one.later:
         word = families.word(law)
         name = word[:1].upper() + word[1:]
-    if equation(controller) == "(2.2)":
-        acts_on_any = coordinates and regulator in known and known[regulator].coordinate_law_in is not None
-        said = f"{name}, {which}" if acts_on_any else name
-    else:
-        said = which
-    frame = "" if jacobian in PAPERS_JACOBIANS else f", {contenders('jacobians')[jacobian].title.lower()}"
-    return f"{equation(controller)} {said}{frame}"
+    return f"(2.2) {name}, {where}" if where and one and one.coordinate_law_in is not None else f"(2.2) {name}"
 
 
 def settled(rows: pd.DataFrame) -> pd.Series:

@@ -40,7 +40,7 @@ def tables(run: Run) -> dict:
     """Return where the arms are from, and which controllers settle within an arm's limits."""
     return {
         "sources": "\n".join(f"- `{name}`: {prose(tasks.arm(name).source)}" for name in tasks.arm_names()),
-        "tab_ranked": in_run(lambda: arm_ranking.table(arm_rows.episodes(run))),
+        "tab_ranked": in_run(lambda: arm_ranking.RANKED(arm_ranking.ranked(arm_rows.episodes(run)))),
     }
 
 

@@ -111,13 +111,10 @@ class Grid:
 
     def describe(self) -> str:
         """Return in words how much of the slice is near which singularity."""
-        kinematic = self.condition > BAD
-        added = (self.condition_analytic > BAD) & ~kinematic
-        return (
-            f"joints {self.first} and {self.second}, {self.side} by {self.side} poses: J is beyond {BAD:g} at "
-            f"{kinematic.mean():.1%}, J_E at {added.mean():.1%} more; the coordinates are near their singularity at "
-            f"{(self.margin < NEAR).mean():.1%}."
-        )
+        arms = self.condition > BAD
+        added = (self.condition_analytic > BAD) & ~arms
+        where = f"joints {self.first} and {self.second}, {self.side} by {self.side} poses"
+        return f"{where}: J is beyond {BAD:g} at {arms.mean():.1%}, J_E at {added.mean():.1%} more."
 
 
 @responsive_picture

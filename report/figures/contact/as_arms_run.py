@@ -11,8 +11,8 @@ from bench.findings.theory.impedance_modes import longest_tick, with_theory
 from bench.law.control.unshaped import DAMPINGS
 from report.figures.arms.arm_rows import name_arm
 from report.figures.kit import style
-from report.figures.kit.inline import Drawing, responsive_picture
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.inline import responsive_picture
+from report.figures.kit.page import Run
 
 LOOKS = {
     "diagonal": style.Look("#d55e00", "s", style.DASH_DOT),
@@ -32,11 +32,6 @@ def modes(run: Run) -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """Return the numbers of the text."""
-    return in_run(lambda: in_free_motion(run)) or {}
-
-
-def in_free_motion(run: Run) -> dict:
     """Return the damping felt by each design, and where a loop is unstable."""
     found = modes(run)
     felt = {name: found.loc[found["damping"] == name, "ratio"] for name in LOOKS}
@@ -69,7 +64,7 @@ def slower(rows: pd.DataFrame) -> float:
 
 def figures(run: Run) -> dict:
     """Draw the ratios felt."""
-    return {"ratios-felt": in_run(lambda: ratios_felt(modes(run)))}
+    return {"ratios-felt": ratios_felt(modes(run))}
 
 
 @responsive_picture

@@ -8,8 +8,6 @@ import numpy as np
 import pandas as pd
 from matplotlib.colors import Normalize
 
-from bench.findings.selection.words import together
-from bench.law.control.contact_controller import PAPERS_FORM
 from report.figures.contact import rows as controllers
 from report.figures.contact.hand_axes import ORDER, axes_of_turning, measured, shown_arm, turns
 from report.figures.contact.rows import level, of
@@ -35,9 +33,6 @@ def facts(run: Run) -> dict:
         **measured(turns(rows)),
         "off_by_accelerations": off_by_accelerations(rows),
         "kf": f"{of(rows, controllers.PAPERS_EULER)['kf'].iloc[0]:g}",
-        "probe_arms": together(sorted(set(rows["arm"]))),
-        "probe_rows": len(rows),
-        "cartesian": cartesian(rows),
     }
 
 
@@ -46,19 +41,6 @@ def off_by_accelerations(rows: pd.DataFrame) -> str:
     own = level(of(rows, controllers.EULER, ORDER))
     own = own[own["outcome"] == "done"]
     return power(float((np.degrees(own["misalignment_rad"]) - own["beta_deg"].abs()).abs().max()))
-
-
-def cartesian(rows: pd.DataFrame) -> str:
-    """Return what Cartesian compliance leaves of the same errors, over every frame and order."""
-    is_cartesian = rows["contender"].str.startswith(("hybrid-base+", "hybrid-hand+"))
-    own = rows[is_cartesian & (rows["form"] != PAPERS_FORM)]
-    done = int((own["outcome"] == "done").sum())
-    return (
-        f"Cartesian compliance, along the base's axes or the hand's, has none of it: {done} rows of {len(own)} reach "
-        f"the end, and it leaks at most {power(own['leakage_ratio'].max())} and turns at most "
-        f"{power(np.degrees(own['misalignment_rad'].max()))} degrees away from the moment. It computes no Euler "
-        "angles, so that it has none of their singularities."
-    )
 
 
 def figures(run: Run) -> dict:

@@ -6,21 +6,24 @@ curved arrow in colour is a measured row: the direction of C e, and its length o
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import Any
 
 import numpy as np
 import pandas as pd
 from matplotlib.patches import FancyArrowPatch, Polygon
+from scipy.spatial.transform import Rotation
 
 from report.figures.contact.rows import PAPERS, PAPERS_EULER, compliance, level, nearest, of
 from report.figures.kit import style
 from report.figures.kit.inline import Drawing, responsive_picture
 
 COLOURS = {PAPERS: "#0072b2", PAPERS_EULER: "#d55e00"}
+NAMES = {PAPERS: "Cartesian", PAPERS_EULER: "Euler"}
 BETAS = (0, 30, 60, 85)
 ORDER = "about x and y"
-PUSHED = (("x", "A moment about x, where it should comply"), ("z", "A moment about z, where it should hold"))
+PUSHED = {"x": "A moment about x,\nwhere it should comply", "z": "A moment about z,\nwhere it should hold"}
 STILL = 0.01  # of the wanted rotation: less is drawn as none
 
 AZIMUTH, ELEVATION = math.radians(-68.0), math.radians(16.0)
@@ -30,6 +33,17 @@ TOWARDS = np.array(
 LENGTH, RADIUS = 1.12, 0.27  # of an axis' arrow, and of the ring around it; the hand is about 1 long
 WINDOW = (-1.22, 1.22, -1.36, 1.22)  # left, right, below, above; words stand at its foot
 
+SIGNS = np.array(list(itertools.product((-1, 1), repeat=3)))
+FACES = [(0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5)]
+"""Corners of a box, and which of them are a face."""
+BOXES = (
+    ((0.0, 0.0, 0.38), (0.10, 0.10, 0.20)),
+    ((0.0, 0.0, 0.06), (0.34, 0.14, 0.13)),
+    ((-0.25, 0.0, -0.30), (0.06, 0.10, 0.24)),
+    ((0.25, 0.0, -0.30), (0.06, 0.10, 0.24)),
+)
+"""Middle and half edges of wrist, palm and two fingers in the hand's frame, at the middle of the palm."""
+
 
 def eye(points: Any) -> np.ndarray:
     """N x 2, right and up on paper, of points in the base frame: parallel projection."""
@@ -37,47 +51,13 @@ def eye(points: Any) -> np.ndarray:
     return np.atleast_2d(points) @ np.column_stack((right, np.cross(TOWARDS, right)))
 
 
-def depth(points: Any) -> float:
-    """How near the middle of points is to the eye."""
-    return float(np.mean(np.atleast_2d(points) @ TOWARDS))
-
-
-def about_y(beta: float) -> np.ndarray:
-    """Ry(beta) [rad]."""
-    c, s = math.cos(beta), math.sin(beta)
-    return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
-
-
-def box(middle: Any, half: Any) -> list[np.ndarray]:
-    """Return the six faces of a box along the axes, 4 x 3 each."""
-    faces = []
-    for axis in range(3):
-        one, other = (k for k in range(3) if k != axis)
-        for side in (-1, 1):
-            corners = np.tile(np.array(middle, float), (4, 1))
-            corners[:, axis] += side * half[axis]
-            corners[:, one] += half[one] * np.array([-1, 1, 1, -1])
-            corners[:, other] += half[other] * np.array([-1, -1, 1, 1])
-            faces.append(corners)
-    return faces
-
-
-# Wrist, palm and two fingers in the hand's frame, which is at the middle of the palm; they point along -z of it.
-HAND = [
-    *box((0.0, 0.0, 0.38), (0.10, 0.10, 0.20)),
-    *box((0.0, 0.0, 0.06), (0.34, 0.14, 0.13)),
-    *box((-0.25, 0.0, -0.30), (0.06, 0.10, 0.24)),
-    *box((0.25, 0.0, -0.30), (0.06, 0.10, 0.24)),
-]
-
-
-def draw_hand(axes: Any, beta: float) -> None:
-    """Draw the hand at Ry(beta), its far faces first."""
-    turned = [face @ about_y(beta).T for face in HAND]
-    for face in sorted(turned, key=depth):
-        axes.add_patch(
-            Polygon(eye(face), closed=True, facecolor=style.GRID, edgecolor=style.MUTED, linewidth=0.6, zorder=2)
-        )
+def draw_hand(axes, beta: float) -> None:
+    """Draw the hand at Ry(beta), beta in degrees, its far faces first."""
+    corners = [np.array(middle) + half * SIGNS for middle, half in BOXES]
+    faces = [Rotation.from_euler("y", beta, degrees=True).apply(one[list(face)]) for one in corners for face in FACES]
+    look: dict[str, Any] = {"facecolor": style.GRID, "edgecolor": style.MUTED, "linewidth": 0.6, "zorder": 2}
+    for face in sorted(faces, key=lambda one: float(np.mean(one @ TOWARDS))):
+        axes.add_patch(Polygon(eye(face), closed=True, **look))
 
 
 def draw_turn(
@@ -91,21 +71,18 @@ def draw_turn(
     first = np.cross(direction, TOWARDS)
     first /= np.linalg.norm(first)
     angles = np.linspace(-0.35 * math.pi, 1.3 * math.pi, 60)  # the gap is behind
-    radius = RADIUS * (0.5 + 0.5 * size)
-    ring = 0.8 * reach * direction + radius * (
-        np.outer(np.cos(angles), first) + np.outer(np.sin(angles), np.cross(direction, first))
-    )
-    path = eye(ring)
+    around = np.outer(np.cos(angles), first) + np.outer(np.sin(angles), np.cross(direction, first))
+    path = eye(0.8 * reach * direction + RADIUS * (0.5 + 0.5 * size) * around)
     axes.plot(*path[:-5].T, color=colour, linewidth=max(width, 1.6), zorder=zorder)
-    head: dict = {
-        "arrowstyle": "-|>",
+    head: dict[str, Any] = {
         "mutation_scale": 11,
         "color": colour,
         "linewidth": 0,
         "shrinkA": 0,
         "shrinkB": 0,
+        "zorder": zorder,
     }
-    axes.add_patch(FancyArrowPatch(path[-9], path[-1], zorder=zorder, **head))
+    axes.add_patch(FancyArrowPatch(path[-9], path[-1], arrowstyle="-|>", **head))
 
 
 def draw_frame(axes: Any) -> None:
@@ -114,9 +91,8 @@ def draw_frame(axes: Any) -> None:
     corner = eye(at)[0]
     for axis, name in zip(np.eye(3), "xyz", strict=True):
         tip = eye(at + 0.34 * axis)[0]
-        axes.add_patch(
-            FancyArrowPatch(corner, tip, arrowstyle="-|>", mutation_scale=5, color=style.MUTED, linewidth=0.9)
-        )
+        look: dict[str, Any] = {"arrowstyle": "-|>", "mutation_scale": 5, "color": style.MUTED, "linewidth": 0.9}
+        axes.add_patch(FancyArrowPatch(corner, tip, **look))
         axes.text(*(corner + 1.35 * (tip - corner)), name, color=style.MUTED, fontsize=8.5, ha="center", va="center")
 
 
@@ -138,7 +114,7 @@ def turns(rows: pd.DataFrame) -> list[dict]:
     for contender, beta in [(PAPERS, betas[-2]), *((PAPERS_EULER, beta) for beta in betas)]:
         at = of(own, contender, ORDER)
         C = compliance(at[at["beta_deg"] == beta].iloc[0])
-        for pushed, _ in PUSHED:
+        for pushed in PUSHED:
             k = "xyz".index(pushed)
             turn = C[:, k]
             size = float(np.linalg.norm(turn))
@@ -174,61 +150,45 @@ def axes_of_turning(rows: pd.DataFrame, narrow: bool) -> Drawing:
         rows: of wrench-probe.
     """
     found = turns(rows)
-    columns = list(dict.fromkeys((one["contender"], one["beta"]) for one in found))
-    shape = (len(columns), len(PUSHED)) if narrow else (len(PUSHED), len(columns))
-    figure, grid = style.panels(
-        *shape, height=(1.95 if narrow else 1.72) * shape[0] + 0.3, narrow=narrow, squeeze=False
-    )
-    words = []
-    for i, (pushed, _) in enumerate(PUSHED):
-        for k, (contender, beta) in enumerate(columns):
-            axes = grid[k][i] if narrow else grid[i][k]
-            one = next(
-                each for each in found if (each["contender"], each["beta"], each["pushed"]) == (contender, beta, pushed)
-            )
-            does = _panel(axes, one)
-            who = "Cartesian" if contender == PAPERS else "Euler"
-            if i == 0:
-                heading = "Cartesian, any β" if who == "Cartesian" else f"Euler, β = {beta:.0f}°"
-                axes.set_title(heading, color=COLOURS[contender])
-            words.append(f"{who}, beta {beta:.0f} degrees, moment about {pushed}: {does}")
-    _head(figure, grid, narrow)
+    count = len(found) // len(PUSHED)
+    shape = (count, len(PUSHED)) if narrow else (len(PUSHED), count)
+    height = (1.95 if narrow else 1.72) * shape[0] + 0.3
+    figure, grid = style.panels(*shape, height=height, narrow=narrow, squeeze=False)
+    said = []
+    for which, one in enumerate(found):
+        k, i = divmod(which, len(PUSHED))
+        axes, name = grid[k][i] if narrow else grid[i][k], NAMES[one["contender"]]
+        does = draw_panel(axes, one)
+        if i == 0:
+            tilt = "any β" if one["contender"] == PAPERS else f"β = {one['beta']:.0f}°"
+            axes.set_title(f"{name}, {tilt}", color=COLOURS[one["contender"]])
+        if k == 0:
+            words, look = PUSHED[one["pushed"]], {"fontsize": 9.5, "fontweight": "bold"}
+            if narrow:
+                place = {"xytext": (0, 26), "xycoords": "axes fraction", "textcoords": "offset points"}
+                axes.annotate(words, (0.5, 1.0), ha="center", va="bottom", **place, **look)
+            else:
+                axes.set_ylabel(words, labelpad=6, **look)
+        said.append(f"{name}, beta {one['beta']:.0f} degrees, moment about {one['pushed']}: {does}")
     return figure, (
         "Drawings of a robot's hand that complies with moments about x and y and is stiff against moments about z. "
-        f"{'; '.join(words)}."
+        f"{'; '.join(said)}."
     )
 
 
-def _head(figure: Any, grid: Any, narrow: bool) -> None:
-    """Say what each row of panels (on a phone each column) is pushed by."""
-    for i, (_, what) in enumerate(PUSHED):
-        first, second = what.split(", ")
-        if narrow:
-            axes = grid[0][i]
-            axes.annotate(
-                f"{first},\n{second}", (0.5, 1.0), xytext=(0, 26), xycoords="axes fraction",
-                textcoords="offset points", ha="center", va="bottom", fontsize=9.5, fontweight="bold",
-            )  # fmt: skip
-        else:
-            axes = grid[i][0]
-            axes.set_ylabel(f"{first},\n{second}", fontweight="bold", fontsize=9.5, labelpad=6)
-
-
-def _panel(axes: Any, one: dict) -> str:
-    """One hand; what it does, in words."""
+def draw_panel(axes, one: dict) -> str:
+    """Draw one hand; return what it does, in words."""
     axes.set(xlim=WINDOW[:2], ylim=WINDOW[2:], aspect="equal", xticks=[], yticks=[])
     axes.spines[:].set_visible(False)
-    draw_hand(axes, math.radians(one["beta"]))
+    draw_hand(axes, one["beta"])
     draw_frame(axes)
     moment = np.eye(3)["xyz".index(one["pushed"])]
-    draw_turn(axes, moment, 1.0, style.INK, 5.0, 1.1, (0, (4, 2.5)))
-    colour = COLOURS[one["contender"]]
-    if math.isnan(one["off"]):
-        words = "stays" if one["pushed"] == "z" else "does not turn"
-    else:
+    draw_turn(axes, moment, 1.0, style.INK, 5.0, 1.1, style.DASHED)
+    colour, words = COLOURS[one["contender"]], "stays" if one["pushed"] == "z" else "does not turn"
+    if not math.isnan(one["off"]):
         direction = one["axis"] * math.copysign(1.0, one["axis"] @ moment)
         draw_turn(axes, direction, min(one["share"], 1.0), colour, 4.0, 2.8)
         words = f"{one['off']:.0f}° off, {100 * one['share']:.0f} %"
-    place = {"transform": axes.transAxes, "ha": "center", "va": "bottom"}
-    axes.text(0.5, 0.0, words, color=colour, fontsize=10, fontweight="bold", **place)
+    look = {"color": colour, "fontsize": 10, "fontweight": "bold", "ha": "center", "va": "bottom"}
+    axes.text(0.5, 0.0, words, transform=axes.transAxes, **look)
     return words

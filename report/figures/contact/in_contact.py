@@ -18,7 +18,6 @@ from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER, 
 from report.figures.kit import html, media
 from report.figures.kit.page import ABSENT, NotInRun, Run, in_run
 from report.figures.kit.tables import Table
-from tasks.contact_model import STANDARD
 from tasks.contact_rest import HORIZON_S, REST
 
 P_VALUE = 0.05
@@ -32,29 +31,24 @@ LOOP = (
 
 
 class Measure(NamedTuple):
-    """A column of compliance.parquet in the table: its words, unit there and factor to it, a format.
-
-    middle: what stands for several episodes, "median", or "mean" of what is counted.
-    failed: what an episode counts as that fails before it has a value: the worst there is.
-    """
+    """A column of compliance.parquet: its words with the unit, the factor to it, and what a failed episode counts."""
 
     column: str
     title: str
     factor: float = 1.0
-    form: str = ".2f"
-    middle: str = "median"
     failed: float = np.inf
 
     def of(self, rows: pd.DataFrame) -> str:
-        """Return the median or mean of the rows; a dash where at least half of the episodes failed."""
-        value = (rows[self.column] * self.factor).fillna(self.failed).agg(self.middle)
-        return f"{value:{self.form}}" if np.isfinite(value) else html.MISSING
+        """Return the median of the rows, of a share the mean; a dash where at least half of the episodes failed."""
+        values = (rows[self.column] * self.factor).fillna(self.failed)
+        value = values.mean() if "%" in self.title else values.median()
+        return f"{value:.3g}" if np.isfinite(value) else html.MISSING
 
 
 MEASURES = {
     "surface-alignment": Measure("alignment_error_rad", "tool to plate at the end [deg]", DEGREES),
-    "peg-in-hole": Measure("jam", "not in at the end [%]", 100.0, ".0f", "mean", 100.0),
-    "crank": Measure("crank_angle_rad", "turned by [deg]", DEGREES, ".1f", failed=-np.inf),
+    "peg-in-hole": Measure("jam", "not in at the end [%]", 100.0, 100.0),
+    "crank": Measure("crank_angle_rad", "turned by [deg]", DEGREES, -np.inf),
     "force-on-plane": Measure("normal_force_error_n", "normal force, rms error [N]"),
 }
 """Task -> the number that says how it went, the tasks whose orders free turns first."""
@@ -81,7 +75,7 @@ def facts(run: Run) -> dict:
 
 
 def describe_tasks() -> dict[str, str]:
-    """Return what each task is, what its order lets comply, when it ends, and the model of contact."""
+    """Return what each task is, what its order lets comply, and when it ends."""
     arm = tasks.arm(media.facts()["contact"]["arm"])
     parts = [
         f"{task.title} (complies: {task.trials(arm)[0].specification.name})"
@@ -91,9 +85,6 @@ def describe_tasks() -> dict[str, str]:
         "orders": f"{'. '.join(parts)}.",
         "rest_rule": f"{1e3 * REST.speed:g} mm/s and {REST.rate:g} rad/s for {REST.hold_s:g} s",
         "rest_horizon": f"{HORIZON_S:g}",
-        "stiffness": f"{STANDARD.stiffness:,.0f}",
-        "damping": f"{STANDARD.damping:,.0f}",
-        "friction": f"{STANDARD.friction:g}",
     }
 
 

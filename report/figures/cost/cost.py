@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import functools
+import json
 import math
+from pathlib import Path
 
 import pandas as pd
 
 from bench.experiments.tables import read
+from bench.experiments.tables.store import read_arrow
 from bench.findings.claims import Results
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.selection.tables import ticks
 from bench.law.contenders.registry import all_contenders
-from report.figures.cost import operations, times
+from report.figures.cost import operations
 from report.figures.cost.operations import CALLS
 from report.figures.kit import families, html, laws
 from report.figures.kit.page import Run, in_run
@@ -34,7 +37,7 @@ def facts(run: Run) -> dict:
         **(in_run(lambda: compare_forms(totals(costs(run)))) or {}),
         **(in_run(lambda: share_of_time(run)) or {}),
         "measurable": f"{100 * MEASURABLE:g}",
-        "timed_on": times.said(run),
+        "timed_on": describe_machine(run),
     }
 
 
@@ -65,6 +68,21 @@ def order_papers_laws(share: dict[str, float]) -> str:
     agrees = "as" if (least, most) == (MATRIX, FEEDBACK) else "other than"
     names = f"{families.word(least)} is the cheapest and {families.word(most)} the dearest"
     return f"Alone, of the paper's three laws {names}, {agrees} the paper says"
+
+
+def timings(run: Run) -> list[Path]:
+    """Return the files of times, one for each kind of machine."""
+    return sorted((run.studies / "timings").glob("*.parquet"))
+
+
+def describe_machine(run: Run) -> str:
+    """State on which machine laws were timed, and when; or that there is no timing yet."""
+    paths = timings(run)
+    if not paths:
+        return "No law has been timed yet (`make time` does)."
+    table = read_arrow(paths[0], "timings")
+    about, passes = json.loads(table.schema.metadata[b"about"]), max(table["passes"].to_pylist())
+    return f"Measured on {about['cpu']}, {about['cores']} cores, {about['date'][:10]}, {passes} passes."
 
 
 def figures(run: Run) -> dict:

@@ -1,32 +1,25 @@
-"""What the page on failures shows: shares of SO(3), maps, the exact points at which a law fails, how far they are."""
+"""What the page on failures shows: which starts each of the paper's laws loses, on a map and in a ball."""
 
 import functools
 import math
-import sys
-from collections.abc import Iterable
-from typing import Any
 
 import numpy as np
 import pandas as pd
 from scipy.spatial.transform import Rotation
 
 from bench.experiments.tables import read
+from bench.experiments.tables.schema import RESULTS
+from bench.findings.maps import counted, lost_share
+from bench.findings.start_sets import AT_REST
 from bench.findings.theory import held_goals
-from bench.law.contenders.registry import contenders
 from bench.law.inputs import PAPERS_GAINS
-from report.figures.failures import ball, maps, world_map
+from report.figures.failures import world_map
+from report.figures.kit import html, laws, style
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.rows import LINEARIZED, SHORT, lost, of
-from report.figures.kit.spelling import prose
-from report.figures.kit.tables import Table
 
-EXACT_RAD = 1e-13
-"""Between the nearest of the near starts (1e-12 rad) and what rounding leaves of an exact one (4e-16 rad)."""
-
-COORDINATES = Table("Coordinates | Definition | Where it breaks | Source")
-
-NEAR_RAD = 0.1 + EXACT_RAD
-"""Distance to a pole: the first decade of the set poles, 0.1 rad with its rounding."""
+ON_SURFACE = 1e-9
+"""rad from pi: closer than any place on a screen."""
 
 
 @functools.cache
@@ -38,78 +31,55 @@ def continuous(run: Run) -> pd.DataFrame:
 def facts(run: Run) -> dict:
     """Return how much each law loses, and where the linearized law's failures begin."""
     return {
-        **maps.facts(),
+        **count_mapped(),
         "held_level": f"{math.degrees(math.acos(held_goals.least_cosine(0.0, PAPERS_GAINS))):.1f}",
         "held_share": f"{100.0 * held_goals.held_share(PAPERS_GAINS):.1f}",
         # |Edot| over |omega| half a degree off a pole
         "gain": f"{1.0 / math.sqrt(1.0 - math.cos(math.radians(0.5))):.0f}",
-        "mapped_l": maps.lost_at_rest(LINEARIZED),
         **(in_run(lambda: on_the_map(continuous(run))) or {}),
     }
+
+
+def count_mapped() -> dict[str, str]:
+    """Return the random starts at rest of the maps that came with the benchmark, and the share the law loses."""
+    found = counted(read.table(RESULTS / "maps", "map"))
+    own = found[(found["contender"] == LINEARIZED) & (found["most_speed"] == 0.0)]
+    value, low, high = (100.0 * one for one in lost_share(int(own["lost"].sum()), int(own["starts"].sum())))
+    return {"mapped": html.number(int(found["starts"].min())), "mapped_l": f"{value:.2f} % ({low:.2f} to {high:.2f})"}
 
 
 def on_the_map(episodes: pd.DataFrame) -> dict:
     """Return what the uniform starts of the run say."""
     linearized = of(episodes, LINEARIZED)
-    failed = lost(linearized)
-    outside = linearized[linearized["alpha0"].abs() > np.pi / 2.0]
+    failed, others = lost(linearized), [len(lost(of(episodes, SHORT[letter]))) for letter in "mf"]
     return {
         "n": len(linearized),
         "failed_l": len(failed),
-        "failed_others": counted(len(lost(of(episodes, SHORT[letter]))) for letter in "mf"),
+        "failed_others": " and ".join(map(str, others)) if any(others) else "none",
         "least": f"{np.floor(np.degrees(failed['alpha0'].abs().min())):.0f}",
         "least_gamma": f"{np.degrees(failed['gamma0'].abs().min()):.0f}",
-        "inside": int((failed["alpha0"].abs() < np.pi / 2.0).sum()),
-        "outside": f"{100 * (1 - len(lost(outside)) / len(outside)):.0f}",
     }
-
-
-def tables(_: Run) -> dict:
-    """Return the maps of random starts, and coordinates."""
-    coordinates = (
-        (one.title, f"${one.formula}$", prose(where_it_breaks(one)), one.source)
-        for one in contenders("representations").values()
-    )
-    return {"tab_mapped": maps.table(), "representations": COORDINATES(coordinates)}
-
-
-def where_it_breaks(one: Any) -> str:
-    """Return what the docstring of a representation's module says after its first paragraph."""
-    text = sys.modules[one.chart.__module__].__doc__ or ""
-    return " ".join(text.partition("\n\n")[2].split())
 
 
 def figures(run: Run) -> dict:
     """Return the map of the world, and the ball."""
-    return {"failure-map": world_map.world(continuous(run)), "ball": ball.ball(continuous(run))}
+    return {"failure-map": world_map.world(continuous(run)), "ball": ball(continuous(run))}
 
 
-def counted(losses: Iterable[int]) -> str:
-    """How many each law loses; none where no law loses any."""
-    each = list(losses)
-    return " and ".join(map(str, each)) if any(each) else "none"
+def ball(episodes: pd.DataFrame) -> html.Html:
+    """Return the ball of one engine's failing starts at rest, a colour for each law, whatever its outcome."""
+    groups, said = {}, []
+    for contender, title, rows in laws.each(episodes[episodes["start_set"].isin(("uniform", *AT_REST))]):
+        look, failed = style.look(contender), lost(rows)
+        groups[title] = {"colour": look.colour, "dark": look.dark, "xyz": unit_ball(failed)}
+        said.append(f"{title} {html.number(len(failed))} of {html.number(len(rows))}")
+    alt = f"The ball of all orientations with the starts that fail to settle: {'; '.join(said)}."
+    return html.ball("failures", alt, groups)
 
 
-def places(rows: pd.DataFrame) -> pd.Series:
-    """On which special point of SO(3) each start lies exactly, or that it is near a pole, in words."""
-    half = math.pi - rows["angle0_rad"] < EXACT_RAD
-    pole = math.pi / 2.0 - rows["beta0"].abs() < EXACT_RAD
-    wrap = (math.pi - rows["alpha0"].abs() < EXACT_RAD) | (math.pi - rows["gamma0"].abs() < EXACT_RAD)
-    beside = math.pi / 2.0 - rows["beta0"].abs() <= NEAR_RAD
-    words = np.select(
-        [half & pole, half, pole, wrap, beside],
-        ["180° rotation and pole", "180° rotation", "pole", "jump of atan2", "near a pole"],
-        "elsewhere",
-    )
-    return pd.Series(words, rows.index)
-
-
-def once(rows: pd.DataFrame) -> pd.DataFrame:
-    """Each orientation once a law, though several sets have it."""
-    return rows[~orientation(rows).assign(contender=rows["contender"]).duplicated()]
-
-
-def orientation(rows: pd.DataFrame) -> pd.DataFrame:
-    """R, which both quaternions of an orientation share, to the last digit but three."""
+def unit_ball(rows: pd.DataFrame) -> list[list[float]]:
+    """Rotation vectors over pi of the starts, each orientation once, 180° rotations at both ends of their axis."""
     turns = Rotation.from_quat(rows[["quat_w", "quat_x", "quat_y", "quat_z"]].to_numpy(), scalar_first=True)
-    return pd.DataFrame(turns.as_matrix().reshape(-1, 9).round(13), rows.index)
+    points = turns.as_rotvec() / math.pi
+    surface = points[np.linalg.norm(points, axis=1) > 1.0 - ON_SURFACE]
+    return (np.unique(np.vstack((points, -surface)).round(3), axis=0) + 0.0).tolist()

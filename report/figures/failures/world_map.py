@@ -39,71 +39,55 @@ def world(episodes: pd.DataFrame, narrow: bool) -> Drawing:
     """
     parts = laws.each(episodes[episodes["start_set"].isin(("uniform", *AT_REST))])
     figure, places = style.grid(len(parts), 2.2, 2.2, narrow, top=0.5)
-    said: list[str] = []
-    met: dict[str, Line2D] = {}
+    said, met = [], set()
     for axes, (name, title, rows) in zip(places.flat, parts, strict=False):
-        _globe(axes)
+        draw_globe(axes)
         axes.set_title(title, color=style.look(name).colour)
-        said.append(_starts(axes, title, rows, met))
+        said.append(draw_starts(axes, title, rows))
+        met |= set(rows["outcome"].astype(str))
         for line in axes.lines:
             line.set_in_layout(False)  # marks on the rim are not clipped, and must not shrink the map
-    handles = [met[name] for name in style.OUTCOMES if name in met]
-    figure.legend(handles=handles, loc="outside lower center", ncols=3 if narrow else 6, fontsize=9)
+    keys = [
+        Line2D([], [], color=colour, marker=marker, markersize=5.5, linestyle="none", label=outcome)
+        for outcome, (colour, marker) in style.OUTCOMES.items()
+        if outcome in met
+    ]
+    figure.legend(handles=keys, loc="outside lower center", ncols=3 if narrow else 6, fontsize=9)
     return figure, (
         "Maps of the direction of the body's x axis at the start, with longitude alpha and latitude minus beta. "
         + " ".join(said)
     )
 
 
-def _globe(axes: Any) -> None:
+def draw_globe(axes) -> None:
+    """Draw the rim, the paper's range, three parallels and three numbered meridians."""
     axes.set(aspect="equal", xlim=(-2.02, 2.02), ylim=(-1.02, 1.02))
     axes.axis("off")
-    for edge in (-np.pi, np.pi):
-        axes.plot(*hammer(edge * np.ones_like(FINE), FINE), color=style.MUTED, linewidth=0.8)
-    for half in (-np.pi / 2, np.pi / 2):
-        axes.plot(*hammer(half * np.ones_like(FINE), FINE), color=style.INK, linewidth=0.9, linestyle=style.DASHED)
+    dashed = {"color": style.INK, "linewidth": 0.9, "linestyle": style.DASHED}
+    for degrees in (-180, -90, 90, 180):
+        look = dashed if abs(degrees) == 90 else {"color": style.MUTED, "linewidth": 0.8}
+        axes.plot(*hammer(np.radians(degrees) * np.ones_like(FINE), FINE), **look)
     for latitude in (-np.pi / 4, 0.0, np.pi / 4):
         axes.plot(*hammer(2.0 * FINE, latitude * np.ones_like(FINE)), color=style.GRID, linewidth=0.7, zorder=0)
     for degrees in (-90, 0, 90):
         x, y = hammer(np.radians(degrees), 0.0)
-        axes.text(
-            x,
-            y - 0.02,
-            f"{degrees}°".replace("-", "\N{MINUS SIGN}"),
-            ha="center",
-            va="top",
-            fontsize=8.5,
-            zorder=6,
-            path_effects=HALO,
-        )
+        look = {"ha": "center", "va": "top", "fontsize": 8.5, "zorder": 6, "path_effects": HALO}
+        axes.text(x, y - 0.02, f"{degrees}°".replace("-", "\N{MINUS SIGN}"), **look)
 
 
-def _starts(axes: Any, title: str, rows: pd.DataFrame, met: dict) -> str:
+def draw_starts(axes, title: str, rows: pd.DataFrame) -> str:
+    """Draw a law's starts; return their outcomes in words."""
     x, y = hammer(rows["alpha0"], -rows["beta0"])
     rows = rows.assign(x=x, y=y)
-    uniform = rows[rows["start_set"] == "uniform"]
-    good = uniform[uniform["outcome"] == "settled"].head(DRAWN)
-    colour = style.OUTCOMES["settled"][0]
-    dots(axes, good["x"], good["y"], colour, 1.7)
-    (met["settled"],) = axes.plot([], [], ".", color=colour, linestyle="none", label="settled")
+    is_uniform = rows["start_set"] == "uniform"
+    good = rows[is_uniform & (rows["outcome"] == "settled")].head(DRAWN)
+    dots(axes, good["x"], good["y"], style.OUTCOMES["settled"][0], 1.7)
+    rim = {"linestyle": "none", "clip_on": False, "markeredgewidth": 0.4, "markeredgecolor": style.PAPER}
     for outcome, (colour, marker) in style.OUTCOMES.items():
-        failed = rows[(rows["outcome"] == outcome) & (outcome != "settled")]
-        if failed.empty:
-            continue
-        look = {
-            "marker": marker,
-            "color": colour,
-            "linestyle": "none",
-            "clip_on": False,
-            "markeredgewidth": 0.4,
-            "markeredgecolor": style.PAPER,
-        }
-        drawn = failed[failed["start_set"] == "uniform"]
-        axes.plot(drawn["x"], drawn["y"], markersize=3.6, zorder=4, **look)
-        directed = failed[failed["start_set"] != "uniform"].drop_duplicates(["x", "y"])
-        axes.plot(directed["x"], directed["y"], markersize=6, zorder=5, **look)
-        (met[outcome],) = axes.plot([], [], markersize=5.5, label=outcome, **look)
+        for chosen, size in ((is_uniform, 3.6), (~is_uniform, 6)):
+            failed = rows[chosen & (rows["outcome"] == outcome) & (outcome != "settled")].drop_duplicates(["x", "y"])
+            axes.plot(failed["x"], failed["y"], marker=marker, color=colour, markersize=size, zorder=size, **rim)
+    uniform, directed = rows[is_uniform], rows[~is_uniform]
     bad = int((uniform["outcome"] != "settled").sum())
-    directed = rows[rows["start_set"] != "uniform"]
     ends = ", ".join(f"{count} {word}" for word, count in directed["outcome"].astype(str).value_counts().items())
     return f"{title}: {html.number(bad)} of {html.number(len(uniform))} uniform starts fail; directed starts: {ends}."

@@ -14,7 +14,7 @@ from bench.base.files import read_json
 from bench.base.provenance import ROOT
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import all_tables
-from report.figures.cost import times
+from report.figures.cost.cost import timings
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
@@ -60,7 +60,7 @@ def describe_run(given: dict[str, Any]) -> html.Markdown | None:
 def list_files(run: Run) -> list[Path]:
     """Return the files of the run, tables first, then every machine's timings."""
     names = [*(f"{name}.parquet" for name in sorted(all_tables())), "provenance.json", "plan.json"]
-    return [*(path for path in (run.folder / name for name in names) if path.is_file()), *times.files(run)]
+    return [*(path for path in (run.folder / name for name in names) if path.is_file()), *timings(run)]
 
 
 def describe_file(path: Path) -> tuple:

@@ -6,11 +6,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.ticker import FixedLocator, NullLocator
 
-from bench.findings.theory import closed_form
 from report.figures.kit import html, laws, style
 from report.figures.kit.dots import dots
-from report.figures.kit.inline import Drawing, responsive_picture
-from report.figures.kit.rows import MATRIX
+from report.figures.kit.inline import responsive_picture
 
 SETS = ("uniform", "half-turn", "poles", "wraps", "box")
 """Start sets at rest whose goal is zero."""
@@ -31,19 +29,10 @@ def hero(episodes: pd.DataFrame, narrow: bool) -> Drawing:
     Args:
         episodes: rows of one engine; sets at rest with goal zero are drawn, what fails in the rail above.
     """
-    shown = episodes[episodes["start_set"].isin(SETS)]
-    parts = laws.each(shown)
-    figure, grid = style.panels(
-        *((len(parts), 1) if narrow else (1, len(parts))),
-        height=2.3 * len(parts) if narrow else 3.5,
-        narrow=narrow,
-        sharex=True,
-        sharey=True,
-        squeeze=False,
-    )
+    parts = laws.each(episodes[episodes["start_set"].isin(SETS)])
+    shared = {"sharex": True, "sharey": True, "squeeze": False}
+    figure, grid = style.beside(len(parts), 3.5, 2.3 * len(parts), narrow, **shared)
     said = [_panel(axes, *part) for axes, part in zip(grid.flat, parts, strict=True)]
-    if parts[0][0] == MATRIX:
-        _closed_form(grid.flat[0], shown)
     for axes in grid[-1, :]:
         axes.set_xlabel("initial angle to the goal [deg]")
     for axes in grid[:, 0]:
@@ -75,19 +64,3 @@ def _panel(axes: Any, name: str, title: str, rows: pd.DataFrame) -> str:
     times = rows.loc[is_uniform & is_settled, "settling_time_s"]
     taken = f"; those that do take {times.median():.2f} s (median) to {times.max():.2f} s" if len(times) else ""
     return f"{title}, never settled: {', '.join(words)} starts{taken}."
-
-
-def _closed_form(axes: Any, shown: pd.DataFrame) -> None:
-    kp, kv, tolerance = (float(shown[column].iloc[0]) for column in ("kp", "kv", "tolerance"))
-    short = np.radians(np.concatenate((np.arange(179.0, 1.0, -2.0), 10.0 ** np.arange(0.0, -11.0, -0.5))))
-    times = closed_form.settling_curve(kp, kv, tolerance)(short)
-    angles = 180.0 - np.degrees(short)
-    axes.plot(angles, times, color=style.INK, linewidth=0.8, zorder=4)
-    axes.annotate(
-        "closed form",
-        (150, float(np.interp(150, angles, times))),
-        xytext=(62, 1.9),
-        color=style.INK,
-        fontsize=9.5,
-        arrowprops={"arrowstyle": "-", "color": style.INK, "linewidth": 0.7},
-    )

@@ -12,7 +12,7 @@ from bench.law.so3 import Rotation
 from report.figures.kit import laws, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
-from report.figures.kit.rows import SHORT, lost
+from report.figures.kit.rows import SHORT
 
 ANGLES = (
     ("alpha", r"$\alpha$", style.SOLID),
@@ -22,12 +22,8 @@ ANGLES = (
 SHOWN_S = 1.2
 """Two settling times of a small error: all there is to see."""
 
-FIGURES = {
-    "response-matrix": ("m", "figure-2.3"),
-    "response-linearized": ("l", "figure-2.4"),
-    "response-feedback": ("f", "figure-2.5"),
-}
-"""Figure -> the letter of its law, and the start."""
+FIGURES = {"response-matrix": ("m", "3"), "response-linearized": ("l", "4"), "response-feedback": ("f", "5")}
+"""Figure -> the letter of its law, and the last digit of the paper's figure and of the start."""
 
 
 @functools.cache
@@ -44,30 +40,29 @@ def gains(episodes: pd.DataFrame) -> dict[str, float]:
 
 def facts(run: Run) -> dict:
     """Return the start of each figure, and how far, how long and how straight its law goes from there."""
-    traces, every = drawn(run)
-    episodes = every[every["contender"].isin(SHORT.values())]
-    values: dict = {**gains(every), "drawn": len(episodes), "good": len(episodes) - len(lost(episodes))}
-    for letter, start in FIGURES.values():
-        end, law = start[-1], SHORT[letter]
-        followed = traces[(traces["start_id"] == start) & (traces["contender"] == law)]
-        rows = episodes[episodes["start_id"] == start].set_index("contender")
-        values[f"bend_{letter}{end}"] = float(bend_deg(followed, **gains(every)).max())
-        values[f"time_{letter}{end}"] = f"{rows.loc[law, 'settling_time_s']:.3f}"
-        values |= {f"{angle}_{end}": float(rows[f"{angle}0"].iloc[0]) for angle in ("alpha", "beta", "gamma")}
-        if letter == "l":
-            values[f"time_m{end}"] = f"{rows.loc[SHORT['m'], 'settling_time_s']:.3f}"
-        else:
-            values[f"path_{letter}{end}"] = f"{rows.loc[law, 'path_ratio']:.2f}"
+    traces, episodes = drawn(run)
+    values: dict = gains(episodes)
+    for letter, end in FIGURES.values():
+        at = {"start_id": f"figure-2.{end}", "contender": SHORT[letter]}
+        followed, row = find(traces, at), find(episodes, at).iloc[0]
+        values[f"start_{end}"] = ", ".join(f"{row[f'{angle}0']:.3g}" for angle, *_ in ANGLES)
+        values[f"bend_{end}"] = float(bend_deg(followed, **gains(episodes)).max())
+        values[f"time_{end}"], values[f"path_{end}"] = f"{row['settling_time_s']:.3f}", f"{row['path_ratio']:.2f}"
     angles = np.degrees(followed["angle_rad"])
-    values |= {"first_5": f"{angles.iloc[0]:.0f}", "peak_5": f"{angles.max():.0f}"}
-    return values
+    return values | {"first_5": f"{angles.iloc[0]:.0f}", "peak_5": f"{angles.max():.0f}"}
+
+
+def find(rows: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:
+    """Return the rows that have these words."""
+    return rows[(rows[list(words)].astype(str) == pd.Series(words)).all(axis=1)]
 
 
 def figures(run: Run) -> dict:
     """Return the paper's figures 2.3 to 2.5."""
     traces, episodes = drawn(run)
     return {
-        name: response(traces, SHORT[letter], start, **gains(episodes)) for name, (letter, start) in FIGURES.items()
+        name: response(traces, SHORT[letter], f"figure-2.{end}", **gains(episodes))
+        for name, (letter, end) in FIGURES.items()
     }
 
 

@@ -90,10 +90,8 @@ def facts(run: Run) -> dict:
     middle = float(noisy.index[noisy.index < min(map(keeps, WITH_MEMORY))].max())
     return {
         "n": starts(rows),
-        "last": f"{noisy.index.max():g}",
         "agree": sum(map(bool, agree)),
         "decided": len(agree),
-        "with_memory": len(with_memory),
         "middle": f"{middle:g}",
         "blind_middle": f"{100 * float(noisy.loc[middle, without_memory].max()):.0f}",
         "memory_middle": f"{100 * float(noisy.loc[middle, with_memory].min()):.0f}",
@@ -101,7 +99,6 @@ def facts(run: Run) -> dict:
         "least": f"{min(jumping):.2g}",
         "most": f"{max(jumping):.2g}",
         **{law: f"{keeps(law):.3f}" for law in WITH_MEMORY},
-        **{f"{law}_deg": f"{math.degrees(keeps(law)):.0f}" for law in ("hybrid", "late-braking")},
         "delta": f"{hybrid.DELTA:g}",
         "switch": f"{mrp_linearized.SWITCH:g}",
     }

@@ -1,4 +1,4 @@
-"""Perturbations under which the linear loop near the goal decides, a bound on the command, goal streams, integrals."""
+"""Perturbations under which the linear loop near the goal decides, a bound on the command, goal streams."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ from bench.findings.perturbed import FOLLOWED_RAD
 from bench.findings.selection.measured import measured
 from bench.findings.selection.words import leaders
 from bench.findings.theory import robustness_theory
-from bench.law.contenders.registry import contenders
 from report.figures.kit import families
 from report.figures.kit.page import Run, in_run
 from report.figures.robustness.rows import along, gains, medians, nominal, with_unit, worst
@@ -116,24 +115,9 @@ def streamed(run: Run) -> dict[str, str]:
     }
 
 
-def compensated(run: Run) -> dict[str, str]:
-    """Return what laws without an integral leave; how long the law without a rate takes over its twin."""
-    rows = run.rows("compensators").astype({"law": str, "reads_rate": str})
-    rejecting = {name for name, one in contenders("compensators").items() if one.state.rejects}
-    hardest = rows[(rows["disturbance"] == rows["disturbance"].max()) & ~rows["law"].isin(rejecting)]
-    still = rows[rows["disturbance"] == 0.0]
-    without = still.loc[still["reads_rate"] == "no", "settling_median_s"].iloc[0]
-    paper = still.loc[~still["law"].isin(contenders("compensators")), "settling_median_s"].iloc[0]
-    return {
-        "left": f"{math.degrees(hardest['left_rad'].max()):.1f}",
-        "disturbance": f"{rows['disturbance'].max():g}",
-        "faster": f"{without / paper:.2f}",
-    }
-
-
 def facts(run: Run) -> dict:
     """Return the facts of every section whose rows the run has."""
     found: dict = {}
-    for section in (timed, tracked, saturated, streamed, compensated):
+    for section in (timed, tracked, saturated, streamed):
         found |= in_run(section, run) or {}
     return found

@@ -11,14 +11,12 @@ from matplotlib.patches import Rectangle
 
 import tasks
 from bench.experiments.tables.read import with_contender
-from bench.findings.maps import lost_share
 from bench.findings.perturbed import FOLLOWED_RAD, LOST, Threshold, Way, by_level, perturbations, studied, thresholds
-from bench.findings.theory.thresholds import near_goal
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import NotInRun, Run, in_run
 from report.figures.kit.spelling import listed
-from report.figures.robustness.rows import along, gains, laws, starts, with_unit
+from report.figures.robustness.rows import along, laws, starts
 
 AXES = perturbations()
 
@@ -37,23 +35,12 @@ def counted(run: Run, axis: str) -> pd.DataFrame:
     return pd.concat([known, with_contender(by_level(own))]) if len(own) else known
 
 
-def widest(starts: int) -> float:
-    """Return the greatest half-width of the exact interval of a share of so many starts: where half are lost."""
-    one = lost_share(starts // 2, starts)
-    return max(one.high - one.value, one.value - one.low)
-
-
-def thresholds_along(run: Run, axis: str) -> dict[str, dict[Way, Threshold]]:
-    """Return the thresholds of every law along one perturbation."""
-    return thresholds(counted(run, axis))
-
-
 @functools.cache
 def found(run: Run) -> Found:
     """Return every law's thresholds, laws family by family."""
     each: Found = {}
     for axis in AXES:
-        known = in_run(thresholds_along, run, axis)
+        known = in_run(lambda axis=axis: thresholds(counted(run, axis)))
         for law in laws(along(run, axis)) if known else ():
             each.setdefault(law, {}).update(known[law])
     if not each:
@@ -75,20 +62,6 @@ def differing(each: Found) -> tuple[list[Way], list[Way]]:
     return apart, [way for way in every if way not in apart]
 
 
-def alike(each: Found, run: Run) -> str:
-    """State what all compared laws withstand to the last level tried, and what breaks all of them, with theory."""
-    one, (_, same) = each[compared(each)[0]], differing(each)
-    whole = [f"{named(way)} to {with_unit(one[way].held, way.axis)}" for way in same if one[way].is_whole]
-    parts = []
-    for way in (way for way in same if not one[way].is_whole):
-        limit = near_goal(way.axis, way.grows, *gains(along(run, way.axis)))
-        theory = "" if limit != limit else f", by theory near the goal {limit:.3g}"
-        levels = f"{with_unit(one[way].held, way.axis)} and fails at {with_unit(one[way].broken, way.axis)}"
-        parts.append(f"{named(way)}: every law goes to {levels}{theory}")
-    broken = f" What the loop decides and not the law: {'; '.join(parts)}." if parts else ""
-    return f"Every compared law withstands to the last level tried: {listed(whole or ['nothing'])}.{broken}"
-
-
 def named(way: Way) -> str:
     """Return the perturbation's title, and its direction where it shrinks."""
     title = tasks.axis(way.axis).title.lower()
@@ -99,16 +72,13 @@ def facts(run: Run) -> dict:
     """Return how laws differ under the perturbations, without the negative controls."""
     each = found(run)
     apart, _ = differing(each)
-    most = int(counted(run, "delay")["starts"].max())
     return {
         "laws": len([law for law in each if law not in families.CONTROLS]),
         "axes": len(AXES),
         "lost": f"{100 * LOST:g}",
         "held_deg": f"{np.degrees(FOLLOWED_RAD):g}",
-        "starts": most,
-        "width": f"{100 * widest(most):.0f}",
+        "starts": int(counted(run, "delay")["starts"].max()),
         "run_starts": starts(along(run, "delay")),
-        "alike": alike(each, run),
         "apart": listed(named(way) for way in apart) if apart else "none",
     }
 

@@ -35,10 +35,9 @@ def laws(rows: pd.DataFrame, controls: bool = True) -> list[str]:
     return names if controls else [name for name in names if name not in families.CONTROLS]
 
 
-def of(rows: pd.DataFrame, law: str, level: float | None = None) -> pd.DataFrame:
-    """Return rows of one law, or of one law at one level."""
-    own = rows[rows["contender"] == law]
-    return own if level is None else own[own["level"] == level]
+def of(rows: pd.DataFrame, law: str) -> pd.DataFrame:
+    """Return rows of one law."""
+    return rows[rows["contender"] == law]
 
 
 def gains(rows: pd.DataFrame) -> tuple[float, float]:
@@ -51,11 +50,6 @@ def starts(rows: pd.DataFrame) -> int:
     return int(rows.groupby(["contender", "level"], observed=True).size().max())
 
 
-def levels(rows: pd.DataFrame) -> list[float]:
-    """Return the levels that the rows hold, from the least."""
-    return sorted(rows["level"].unique())
-
-
 def nominal(name: str) -> float:
     """Return the level without perturbation; of one that has none, its mildest: the largest bound."""
     axis = tasks.axis(name)
@@ -64,7 +58,7 @@ def nominal(name: str) -> float:
 
 def worst(rows: pd.DataFrame, name: str) -> float:
     """Return the level most levels away from the nominal one; of two such the greater."""
-    there = levels(rows)
+    there = sorted(rows["level"].unique())
     place = there.index(nominal(name))
     return there[0] if place > len(there) - 1 - place else there[-1]
 
@@ -79,12 +73,7 @@ def with_unit(level: float, name: str) -> str:
     return f"{level:g}" if unit == "1" else f"{level:g} {unit.replace('^2', '²')}"
 
 
-def median(values: pd.Series) -> float:
-    """Return the median of values of which some may be infinite."""
-    return float(quantile(values.to_numpy(), 0.5))
-
-
 def medians(rows: pd.DataFrame, column: str = "time_s") -> pd.DataFrame:
     """Median of a column: a row a level, a column a law; negative controls left out."""
-    kept = rows[rows["contender"].isin(laws(rows, controls=False))]
-    return kept.groupby(["level", "contender"], observed=True)[column].apply(median).unstack()
+    kept = rows[rows["contender"].isin(laws(rows, controls=False))].groupby(["level", "contender"], observed=True)
+    return kept[column].apply(lambda values: float(quantile(values.to_numpy(), 0.5))).unstack()
