@@ -9,8 +9,8 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
-from report.figures.comparison import cells, comparison, directed
-from report.figures.comparison.angle import lateness
+from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, NEAREST_RAD, settling
+from report.figures.comparison import cells, comparison
 from report.figures.kit import families
 from report.figures.kit.page import Run, run_in
 
@@ -85,7 +85,7 @@ def test_measured_times_are_within_a_tick_after_the_equations():
 
 
 def test_dead_points_are_where_the_laws_are_known_to_fail():
-    found = directed.directed(comparison.ideal(RUN))
+    found = cells.directed_starts(comparison.ideal(RUN))
     lost = found[found["outcome"] != "settled"].set_index("contender")
     on_half_turn, on_pole = math.pi - lost["angle0_rad"] < EXACT_RAD, math.pi / 2.0 - lost["beta0"].abs() < EXACT_RAD
     assert on_half_turn["rotation-matrix"].all()
@@ -94,7 +94,7 @@ def test_dead_points_are_where_the_laws_are_known_to_fail():
 
 def test_an_orientation_counts_once_whatever_the_sign_of_its_quaternion():
     turns = pd.DataFrame([(0.6, 0.8, 0.0, 0.0), (-0.6, -0.8, 0.0, 0.0)], columns=[f"quat_{one}" for one in "wxyz"])
-    assert len(directed.orientation(turns).drop_duplicates()) == 1
+    assert len(cells.orientation(turns).drop_duplicates()) == 1
 
 
 def test_negative_controls_fail_as_they_must():

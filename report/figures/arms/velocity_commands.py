@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import pandas as pd
 
 from bench.findings.claims.adequacy import DETOUR
@@ -43,7 +45,7 @@ def facts(run: Run) -> dict:
     }
 
 
-def named(laws) -> str:
+def named(laws: Iterable[str]) -> str:
     """Laws by their short words."""
     return "; ".join(families.word(name) for name in families.in_order(laws)) or "none"
 

@@ -11,7 +11,7 @@ from bench.findings.theory.impedance_modes import longest_tick, with_theory
 from bench.law.control.unshaped import DAMPINGS
 from report.figures.arms.arm_rows import name_arm
 from report.figures.kit import style
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
 
 LOOKS = {

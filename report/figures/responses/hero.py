@@ -8,7 +8,7 @@ from matplotlib.ticker import FixedLocator, NullLocator
 
 from report.figures.kit import html, laws, style
 from report.figures.kit.dots import dots
-from report.figures.kit.inline import responsive_picture
+from report.figures.kit.inline import Drawing, responsive_picture
 
 SETS = ("uniform", "half-turn", "poles", "wraps", "box")
 """Start sets at rest whose goal is zero."""

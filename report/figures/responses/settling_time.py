@@ -51,7 +51,7 @@ def slope(near: pd.DataFrame) -> float:
 
 
 @responsive_picture
-def decades(rows: pd.DataFrame, narrow: bool):
+def decades(rows: pd.DataFrame, narrow: bool) -> Drawing:
     """Draw settling time against the distance from 180°.
 
     Args:
