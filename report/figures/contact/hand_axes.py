@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.patches import FancyArrowPatch, Polygon
 from scipy.spatial.transform import Rotation
 
@@ -52,7 +51,7 @@ def eye(points: Any) -> np.ndarray:
     return np.atleast_2d(points) @ np.column_stack((right, np.cross(TOWARDS, right)))
 
 
-def draw_hand(axes: Axes, beta: float) -> None:
+def draw_hand(axes: Any, beta: float) -> None:
     """Draw the hand at Ry(beta), beta in degrees, its far faces first."""
     corners = [np.array(middle) + half * SIGNS for middle, half in BOXES]
     faces = [Rotation.from_euler("y", beta, degrees=True).apply(one[list(face)]) for one in corners for face in FACES]
@@ -177,7 +176,7 @@ def axes_of_turning(rows: pd.DataFrame, narrow: bool) -> Drawing:
     )
 
 
-def draw_panel(axes: Axes, one: dict) -> str:
+def draw_panel(axes: Any, one: dict) -> str:
     """Draw one hand; return what it does, in words."""
     axes.set(xlim=WINDOW[:2], ylim=WINDOW[2:], aspect="equal", xticks=[], yticks=[])
     axes.spines[:].set_visible(False)

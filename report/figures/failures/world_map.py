@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
@@ -60,7 +59,7 @@ def world(episodes: pd.DataFrame, narrow: bool) -> Drawing:
     )
 
 
-def draw_globe(axes: Axes) -> None:
+def draw_globe(axes: Any) -> None:
     """Draw the rim, the paper's range, three parallels and three numbered meridians."""
     axes.set(aspect="equal", xlim=(-2.02, 2.02), ylim=(-1.02, 1.02))
     axes.axis("off")
@@ -76,7 +75,7 @@ def draw_globe(axes: Axes) -> None:
         axes.text(x, y - 0.02, f"{degrees}°".replace("-", "\N{MINUS SIGN}"), **look)
 
 
-def draw_starts(axes: Axes, title: str, rows: pd.DataFrame) -> str:
+def draw_starts(axes: Any, title: str, rows: pd.DataFrame) -> str:
     """Draw a law's starts; return their outcomes in words."""
     x, y = hammer(rows["alpha0"], -rows["beta0"])
     rows = rows.assign(x=x, y=y)
