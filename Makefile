@@ -56,8 +56,8 @@ judge: $(READY) ## your law against an older one: make judge LAW=my_law.py BASE=
 	@test -n "$$LAW" || { echo "Name your law's file: make judge LAW=my_law.py BASE=main" >&2; exit 2; }
 	@rm -rf judge.md judge
 	@$(PY) -m bench compare $(BASE) --law "$$LAW" --summary judge.md --benchmarks judge $(ARGS)
-history: $(READY) ## measure this commit, add a file of pytest-benchmark to results/history (minutes)
-	@$(PY) -m bench history $(ARGS)
+history: $(READY) ## measure this commit, add a file of pytest-benchmark to results/history, and show it (minutes)
+	@$(PY) -m bench history add $(ARGS)
 setup: $(READY) ## install what the benchmark needs, and nothing else
 	@echo "Ready. Run the benchmark: make bench. Look around: $(PY) -m bench --help"
 setup-cluster: $(VENV)/.cluster ## install Dask too, for bench run --scheduler: on every machine of a cluster

@@ -99,7 +99,7 @@ def describe_kills(found: dict[str, Any]) -> tuple[str, str, str]:
     kills = found["kills"]
     return (
         f"{len(kills)} runs of {found['units']} units killed at random moments, then the same command again",
-        "`PYTHONPATH=tests python tests/studies/kill_study.py`",
+        "`python -m bench.studies.survival`",
         f"{sum(one['same'] for one in kills)} ended with the files of an undisturbed run",
     )
 

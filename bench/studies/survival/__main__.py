@@ -1,10 +1,9 @@
 """Kill runs at random moments, start them again, and compare their files with an undisturbed run's: results/survival.
 
-PYTHONPATH=tests python tests/studies/kill_study.py                             a hundred kills: a quarter of an hour
-PYTHONPATH=tests python tests/studies/kill_study.py --kills 10 --out try.json
+python -m bench.studies.survival                             a hundred kills: a quarter of an hour
+python -m bench.studies.survival --kills 10 --out try.json
 """
 
-import argparse
 import contextlib
 import functools
 import multiprocessing
@@ -14,15 +13,26 @@ import signal
 import sys
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from importlib.metadata import version
 from pathlib import Path
-
-from support.killed_runs import ON_THREE, SEED, Undisturbed, at_random_moments, files_of, how_far, plan_of, undisturbed
+from typing import Any
 
 from bench.base import files
 from bench.base.provenance import ROOT, describe
+from bench.experiments.plan import Plan
 from bench.running import run
+from bench.studies.study import make_parser
+from bench.studies.survival.killed import (
+    ON_THREE,
+    SEED,
+    Undisturbed,
+    at_random_moments,
+    files_of,
+    how_far,
+    plan_of,
+    undisturbed,
+)
 
 LOCAL = "local:2"
 LONGEST_S = 30.0
@@ -31,11 +41,10 @@ STUDIED = plan_of(("rotation-matrix",), *ON_THREE)
 """Free body, an arm and contact, on three engines."""
 
 
-def on_processes(_, out: Path, __) -> int:
+def on_processes(_: Plan, out: Path, __: random.Random) -> int:
     """Begin a run of STUDIED with a session of its own: a fork would lack Dask's threads. Return its id."""
-    words = f"from kill_study import *; run.run(STUDIED, Path({str(out)!r}), scheduler=LOCAL)"
-    folders = (ROOT, ROOT / "tests", ROOT / "tests" / "studies")
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(map(str, folders))}
+    words = f"from bench.studies.survival.__main__ import *; run.run(STUDIED, Path({str(out)!r}), scheduler=LOCAL)"
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
     return os.posix_spawn(sys.executable, [sys.executable, "-W", "ignore", "-c", words], environment, setsid=True)
 
 
@@ -63,10 +72,11 @@ def at_random_units(wanted: Undisturbed, folder: Path, kills: int) -> Iterator[d
     """One of two workers killed when a random unit but the last is done; the run goes on with the other."""
     chance = random.Random(SEED)
     for k in range(kills):
-        out, todo, at = folder / f"worker-{k}", list(wanted.plan.units), []
+        out, todo = folder / f"worker-{k}", list(wanted.plan.units)
+        at: list[dict] = []
         last = chance.randrange(1, len(todo))
 
-        def kill_a_worker(_, out=out, todo=todo, at=at, last=last):
+        def kill_a_worker(_: Any, out: Path = out, todo: list = todo, at: list = at, last: int = last) -> None:
             todo.pop()
             if len(todo) == last:
                 at.append(how_far(out))
@@ -76,7 +86,7 @@ def at_random_units(wanted: Undisturbed, folder: Path, kills: int) -> Iterator[d
         yield {**at[0], "by": "itself", "code": 0, "same": files_of(out) == wanted.files}
 
 
-SHARES = {
+SHARES: dict[str, tuple[Callable[..., Iterator[dict]], float]] = {
     "threads": (at_random_moments, 0.6),
     LOCAL: (functools.partial(at_random_moments, begin=on_processes, measure=measure), 0.2),
     "worker": (at_random_units, 0.2),
@@ -102,11 +112,10 @@ def kill_runs(wanted: Undisturbed, folder: Path, kills: int) -> Iterator[dict]:
 
 def main() -> None:
     """Run the study; the file is written after every kill."""
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser = make_parser("survival", __doc__, out=ROOT / "results" / "survival" / "survival.json")
     parser.add_argument("--kills", type=int, default=100, help="how many, in all (default: 100)")
-    parser.add_argument("--out", type=Path, default=ROOT / "results" / "survival" / "survival.json")
     options = parser.parse_args()
-    about, began = describe() | {"command": "python tests/studies/kill_study.py"}, time.monotonic()
+    about, began = describe() | {"command": "python -m bench.studies.survival"}, time.monotonic()
     about["versions"]["distributed"] = version("distributed")
     found: dict = {"provenance": about, "units": len(STUDIED.units), "kills": []}
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as here:

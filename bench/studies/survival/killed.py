@@ -1,4 +1,6 @@
-"""Runs killed by SIGKILL, and what their resumption ends with; prints one JSON object. `test_resume` starts it.
+"""Kill runs by SIGKILL, resume them, and print as one JSON object what they end with; a test of the tool starts this.
+
+    python -m bench.studies.survival.killed FOLDER
 
 Everything is imported and compiled once; each run is then a fork of this process, so that a run costs its episodes and
 its files only.
@@ -13,9 +15,9 @@ import shutil
 import signal
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from bench.experiments import boundaries, jacobians, plan, traces
 from bench.experiments.choice import Choice
@@ -24,15 +26,15 @@ from bench.law.inputs import Gains
 from bench.running import run
 
 SEED = 20260119
-KILLS = 4  # a hundred are studied (kill_study.py)
+KILLS = 4  # the study has a hundred
 TRIES = 3  # a kill: a moment after the end of its run kills nothing and is drawn again
 EVENTS = {"open", "os.mkdir", "os.remove", "os.rename", "os.rmdir", "os.chmod"}
 
 
 def plan_of(words: tuple, start_sets: tuple, engines: tuple, count: int, kp: float = 100.0) -> plan.Plan:
-    """A small plan with curves, boundaries and costs; with the native engine an arm, its poses, and contact too."""
+    """Return a small plan with curves, boundaries and costs; with the native engine an arm, its poses, and contact."""
     laws = [find_contender(word) for word in words]
-    settings = {"count": count, "horizon_s": 0.25, "gains": Gains(kp, 20.0)}
+    settings: dict[str, Any] = {"count": count, "horizon_s": 0.25, "gains": Gains(kp, 20.0)}
     choice = Choice(("free-body", "arm-regulation"), start_sets, engines, ("ur5e",))
     made = plan.make("quick", laws, choice, **settings)
     units = [unit for unit in made.of("free-body", "arm") if unit.engine == "native" or not unit.arm]
@@ -61,8 +63,14 @@ class Undisturbed(NamedTuple):
     files: dict
 
 
-def start(one: plan.Plan, out: Path, workers: int, before=lambda: None, report=lambda _: None) -> int:
-    """A run in a process of its own; its id."""
+def start(
+    one: plan.Plan,
+    out: Path,
+    workers: int,
+    before: Callable[[], None] = lambda: None,
+    report: Callable[[Any], None] = lambda _: None,
+) -> int:
+    """Start a run in a process of its own, and return its id."""
     child = os.fork()
     if child:
         return child
@@ -75,12 +83,12 @@ def start(one: plan.Plan, out: Path, workers: int, before=lambda: None, report=l
 
 
 def ended(child: int) -> int:
-    """Exit code of a process, -9 if it was killed."""
+    """Wait for a process and return its exit code, -9 if it was killed."""
     return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 
 
 def files_of(out: Path) -> dict[str, str]:
-    """Every file of a run with its bytes' digest; of provenance.json, which tells the time, only that it is there."""
+    """Return every file of a run with its bytes' digest; provenance.json, which holds the time, has none."""
     return {
         str(path.relative_to(out)): ""
         if path.name == "provenance.json" or path.is_dir()
@@ -90,31 +98,31 @@ def files_of(out: Path) -> dict[str, str]:
 
 
 def undisturbed(one: plan.Plan, out: Path) -> Undisturbed:
-    """In this process: what it compiles, every fork has."""
+    """Run a plan in this process, so that every fork has what is compiled."""
     run.run(one, out, workers=2)
     return Undisturbed(one, files_of(out))
 
 
 def resumed(wanted: Undisturbed, out: Path, workers: int) -> dict:
-    """How far the killed run had come, and what the run that goes on ends with."""
+    """Resume a killed run, and return how far it had come and what it ends with."""
     far = how_far(out)
     code = ended(start(wanted.plan, out, workers))
     return {**far, "code": code, "same": files_of(out) == wanted.files}
 
 
 def how_far(out: Path) -> dict:
-    """What lies in the folder of a killed run, and how many of its units are done."""
+    """Return what lies in the folder of a killed run, and how many of its units are done."""
     names = sorted(path.name for path in out.glob("*"))
     return {"names": names, "parts": len(list((out / "parts").glob("*.parquet")))}
 
 
 def on_threads(one: plan.Plan, out: Path, chance: random.Random) -> int:
-    """A run on one thread or two; its id."""
+    """Start a run on one thread or two, and return its id."""
     return start(one, out, chance.choice((1, 2)))
 
 
 def until_it_writes(out: Path, child: int) -> float:
-    """Wait for the first file of a run, or its end; the time."""
+    """Wait for the first file of a run, or its end, and return the time."""
     while not (out / "plan.json").is_file() and not os.waitid(
         os.P_PID, child, os.WEXITED | os.WNOHANG | os.WNOWAIT
     ):  # fmt: skip
@@ -123,9 +131,13 @@ def until_it_writes(out: Path, child: int) -> float:
 
 
 def at_random_moments(
-    wanted: Undisturbed, folder: Path, kills: int = KILLS, begin=on_threads, measure=lambda child: {}
+    wanted: Undisturbed,
+    folder: Path,
+    kills: int = KILLS,
+    begin: Callable[[plan.Plan, Path, random.Random], int] = on_threads,
+    measure: Callable[[int], dict] = lambda child: {},
 ) -> Iterator[dict]:
-    """Runs killed a random time after their first file, and resumed in the same way or on threads."""
+    """Kill runs a random time after their first file, resume them in the same way or on threads, and yield each."""
     chance, found, longest = random.Random(SEED), 0, 0.0
     for k in range(TRIES * kills + 1):
         if found == kills:
@@ -145,16 +157,16 @@ def at_random_moments(
         longest = longest or time.monotonic() - began  # the first is left alone, and tells how long a run takes
 
 
-def is_file_below(out: Path, path, _, flags: int) -> bool:
-    """Whether what was opened is a file of the run; a folder is opened to be locked or synced, and nothing changes."""
+def is_file_below(out: Path, path: Any, _: Any, flags: int) -> bool:
+    """Return whether a file of the run was opened; a folder is opened to be locked or synced, and nothing changes."""
     return str(path).startswith(str(out)) and not flags & os.O_DIRECTORY
 
 
-def killing_at(number: int, out: Path):
-    """Something to call in a child: it dies just before its file operation of that number in `out`."""
+def killing_at(number: int, out: Path) -> Callable[[], None]:
+    """Return a function that makes a child die just before its file operation of that number in `out`."""
     seen = 0
 
-    def hook(event, arguments):
+    def hook(event: str, arguments: tuple) -> None:
         nonlocal seen
         if event in EVENTS and (event != "open" or is_file_below(out, *arguments)):
             seen += 1
@@ -164,9 +176,11 @@ def killing_at(number: int, out: Path):
     return lambda: sys.addaudithook(hook)
 
 
-def at_every_file_operation(wanted: Undisturbed, template: Path, is_over=lambda out: False) -> list[dict]:
-    """Runs that go on in copies of a folder, each killed one file operation later, until one ends or `is_over(out)`."""
-    found = []
+def at_every_file_operation(
+    wanted: Undisturbed, template: Path, is_over: Callable[[Path], bool] = lambda out: False
+) -> list[dict]:
+    """Kill runs in copies of a folder, each one file operation later, until one ends or `is_over(out)`; resume each."""
+    found: list[dict] = []
     while True:
         out = template.with_name(f"{template.name}-{len(found)}")
         shutil.copytree(template, out)
@@ -176,11 +190,10 @@ def at_every_file_operation(wanted: Undisturbed, template: Path, is_over=lambda 
 
 
 def while_finishing(wanted: Undisturbed, folder: Path) -> list[dict]:
-    """All parts are there; killed at each file operation from there to the end."""
-
+    """Kill a run that has all its parts at each file operation from there to the end."""
     left = list(wanted.plan.units)
 
-    def die_at_the_last(_):
+    def die_at_the_last(_: Any) -> None:
         left.pop()
         if not left:
             os.kill(os.getpid(), signal.SIGKILL)
@@ -190,13 +203,13 @@ def while_finishing(wanted: Undisturbed, folder: Path) -> list[dict]:
 
 
 def while_clearing(wanted: Undisturbed, folder: Path) -> list[dict]:
-    """A finished run of another plan, its parts not yet gone, is replaced; killed until the new plan is there."""
+    """Kill a run that replaces a finished one of another plan, with parts, until the new plan is there."""
     template = folder / "clearing"
     ended(start(OTHER, template, 1))
     shutil.copytree(folder / "finishing" / "parts", template / "parts")
     (template / "parts" / ".a.parquet.b.tmp").write_text("half")
 
-    def is_new(out):
+    def is_new(out: Path) -> bool:
         path = out / "plan.json"
         return path.is_file() and json.loads(path.read_text())["digest"] == wanted.plan.digest()
 
@@ -204,7 +217,7 @@ def while_clearing(wanted: Undisturbed, folder: Path) -> list[dict]:
 
 
 def main(folder: Path) -> dict:
-    """All that the tests ask."""
+    """Kill runs in all these ways, and return what the tests read."""
     long = undisturbed(LONG, folder / "long")
     ended(start(LONG, folder / "one-thread", 1))
     is_same = files_of(folder / "one-thread") == long.files
