@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from bench.experiments.tables import read
-from bench.findings.selection.measured import measured
+from bench.findings.selection.measured import GENERAL, front, measured
 from bench.findings.selection.words import leaders
 from report.figures.comparison import cells
 from report.figures.comparison.angle import curves
@@ -108,9 +108,10 @@ def tables(run: Run) -> dict:
 
 
 def all_laws(run: Run) -> html.Markdown | None:
-    """Return a row a law: what settles, how fast, effort, peak, operations, starts lost, and what noise holds."""
+    """Return a row a law: what settles, how fast, effort, peak, operations, lost starts, what noise holds, front."""
     rows, tried, counted = uniform(run), cells.directed_starts(ideal(run)), run.any_rows("costs", **read.FREE_BODY)
     held = in_run(lambda: measured(run.folder).values["held"]) or {}
+    ahead = in_run(lambda: find_front(run)) or ()
     times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
 
     def line(name: str) -> dict:
@@ -125,9 +126,17 @@ def all_laws(run: Run) -> html.Markdown | None:
             "A tick": cells.tick(counted, name),
             "Directed, lost": cells.count_lost(tried[tried["contender"] == name]),
             "Held": html.cell(float(held[name][0])) if name in held else html.MISSING,
+            "Front": "●" if name in ahead else "",
         }
 
     return cells.by_law(times, line)
+
+
+def find_front(run: Run) -> list[str]:
+    """Return the laws that no other beats by one criterion without being worse by another, controls aside."""
+    found = measured(run.folder)
+    laws = [law for law in found.laws if law not in families.CONTROLS]
+    return front(found, laws, ("unsettled", "lost", *GENERAL))
 
 
 def at_equal_peak(rows: pd.DataFrame) -> html.Markdown | None:
