@@ -31,7 +31,7 @@ LINES = {
     "tests/law": 2_560,
     "tests/regression": 705,
     "tests/report": 2_001,
-    "tests/repository": 573,
+    "tests/repository": 586,
     "tests/running": 1_031,
     "tests/studies": 750,
     "tests/support": 2_864,
