@@ -1,6 +1,7 @@
 """How figures and page parts are made: colours, ids, words, numbers."""
 
 import re
+from collections import Counter
 
 import pandas as pd
 import pytest
@@ -36,7 +37,8 @@ def for_a_phone_too(narrow):
 def test_every_look_has_a_dark_twin_and_is_one_of_a_kind():
     looks = [style.look(name) for name in contenders("regulators")]
     assert {look.colour for look in looks} <= set(style.TWINS)
-    assert len({(look.colour, look.marker) for look in looks}) == len(looks)
+    twice = [look for look, count in Counter((look.colour, look.marker) for look in looks).items() if count > 1]
+    assert not twice, "two laws have this look: give the new one another `Look` in its `display`"
 
 
 def test_look_of_every_law_and_of_all_coordinates_can_be_drawn():
