@@ -8,6 +8,7 @@ from scipy.spatial.transform import Rotation
 
 import tasks
 from tasks.kinematics import kinematics, rotation_vector
+from tasks.singular import beside, singularity_near
 
 SEED = 5
 
@@ -125,3 +126,25 @@ def test_start_in_motion_has_the_angular_velocity_of_the_tool(model):
     q = poses(model, 1)[0]
     start = model.start("moving", q, (1.0, 0.0, 0.0, 0.0), model.rates(q, (1.0, -2.0, 0.5)))
     np.testing.assert_allclose(start.omega, (1.0, -2.0, 0.5), atol=1e-12)
+
+
+@pytest.fixture(scope="module", params=tasks.arm_names())
+def singularities(request):
+    model = kinematics(tasks.arm(request.param))
+    found = [singularity_near(model, q) for q in poses(model, 12)]
+    assert sum(at is not None for at in found) >= 8
+    return model, [at for at in found if at]
+
+
+def test_place_beside_a_singularity_has_the_distance_asked_for(singularities):
+    model, found = singularities
+    made = 0
+    for at in found:
+        for distance in (1e-2, 1e-4, 1e-6):
+            place = beside(model, at, distance)
+            if place is not None:
+                made += 1
+                s = np.linalg.svd(model.jacobian(place[0]), compute_uv=False)
+                assert s[5] == pytest.approx(distance, rel=2e-6)
+                assert math.hypot(*place[1]) == pytest.approx(1.0, abs=1e-14)
+    assert made >= 10
