@@ -207,7 +207,7 @@ def test_told_rate_and_acceleration_a_law_moves_about_its_goal_as_about_one_at_r
     np.testing.assert_allclose(rows[:, FINAL_ANGLE], expected[:, FINAL_ANGLE], atol=6e-4)
 
 
-def test_untold_it_lags_and_told_the_rate_alone_it_lags_less():
+def test_lag_without_feedforward_is_larger_than_with_feedforward_of_the_rate():
     """Behind a goal of rate r a PD lags by about Kv r / Kp; told the rate, by its acceleration over Kp."""
     start = [Start("still", (1.0, 0.0, 0.0, 0.0))]
     tails = []

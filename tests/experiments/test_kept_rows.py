@@ -92,7 +92,7 @@ def curves():
 
 
 def rerun(law, start_set, start_id, horizon_s=20.0):
-    """(samples, columns of the judge) of one episode, run by itself."""
+    """Return (samples, columns of the judge) of one episode, run alone."""
     [start] = [one for one in tasks.start_set(start_set) if one.id == start_id]
     samples, chosen = blank_curves(1, 200, 20), settings(horizon_s=horizon_s, hold_ticks=HOLD_TICKS)
     rows = run("ideal-rk4", find_contender(law), "free-body", [start], chosen, metrics_of(False), curves=samples)

@@ -27,7 +27,7 @@ SOFT = Admittance(5.0, 200.0)
 
 
 def lagged_map(one: Admittance, K: float, lag_s: float, late: int, dt: float) -> np.ndarray:
-    """(x, c, cdot, commands of the last ticks) over a tick, written down anew."""
+    """Return (x, c, cdot, commands of the last ticks) after a tick, computed apart from the code under test."""
     a, size = math.exp(-dt / lag_s) if lag_s > 0.0 else 0.0, 3 + late
     made = np.zeros((size, size))
     made[2, :3] = -dt * K / one.m, -dt * one.k / one.m, 1.0 - dt * one.d / one.m

@@ -1,4 +1,4 @@
-"""What is asked of the judge: found by its word, or refused in one line with what there is, or the cure."""
+"""The judge finds tasks, arms and start sets by name, or refuses in one line with the known names or the cure."""
 
 import math
 import os

@@ -85,5 +85,5 @@ def ratios_felt(rows: pd.DataFrame, narrow: bool) -> Drawing:
     figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=1 if narrow else 3)
     return (
         figure,
-        f"Damping ratio of the modes of {rows['arm'].nunique()} arms where 1 is asked for: {', '.join(said)}.",
+        f"Damping ratio of the modes of {rows['arm'].nunique()} arms designed for a ratio of 1: {', '.join(said)}.",
     )

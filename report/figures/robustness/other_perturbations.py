@@ -67,17 +67,17 @@ def timed(run: Run) -> dict[str, str]:
 
 def tracked(run: Run) -> dict:
     """Return what noise and moving goals leave, over what the linear theory says, and how many laws lag without it."""
-    untold = along(run, MOVING[-1])
+    without_feedforward = along(run, MOVING[-1])
     noisy = pd.concat([over_theory(along(run, name), name) for name in NOISES])
     moving = pd.concat([over_theory(along(run, name), name).iloc[:1] for name in MOVING])
-    kp, kv = gains(untold)
+    kp, kv = gains(without_feedforward)
     slow = float(moving.index[0])
     return {
         **{f"{word}_low": f"{one.min(axis=None):.2f}" for word, one in (("noise", noisy), ("moving", moving))},
         **{f"{word}_high": f"{one.max(axis=None):.2f}" for word, one in (("noise", noisy), ("moving", moving))},
         "lag_s": f"{kv / kp:g}",
         "slow": with_unit(slow, MOVING[0]),
-        "behind": int((medians(untold, "tail_rms_rad").loc[slow] > FOLLOWED_RAD).sum()),
+        "behind": int((medians(without_feedforward, "tail_rms_rad").loc[slow] > FOLLOWED_RAD).sum()),
         "laws": moving.shape[1],
     }
 

@@ -1,4 +1,4 @@
-"""Libraries that are asked for errors alone, as libraries.toml lists them; those in C++ are compiled here."""
+"""Call the libraries that only compute errors, as libraries.toml lists them; compile those in C++."""
 
 import ctypes
 import functools
