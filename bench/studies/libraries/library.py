@@ -29,7 +29,7 @@ class Function(NamedTuple):
 
     name: str
     takes: str
-    call: Callable
+    call: Callable[[np.ndarray], Any]
     form: str = "rotation-vector"
     is_idiom: bool = False
     fix: str = ""

@@ -1,4 +1,4 @@
-"""Every library that is tested: libraries.toml lists functions; what has controllers too is a function here.
+"""Every library that is tested, one function each: it imports the library and returns what is tested of it.
 
 A library that is not installed here is left out, with a line that says why.
 """
@@ -9,12 +9,10 @@ import subprocess
 from typing import NamedTuple
 
 from bench.base.errors import UnknownWord
-from bench.studies.libraries.asked import controllers, listed, ours, simulators
+from bench.studies.libraries.asked import compiled, controllers, ours, rotations, simulators
 from bench.studies.libraries.library import Function, Library
 
-ASKED = {name.replace("-", "_"): functools.partial(listed.listed, name) for name in listed.LISTED} | {
-    one.__name__: one for module in (controllers, ours, simulators) for one in module.ASKED
-}
+ASKED = {one.__name__: one for module in (rotations, compiled, controllers, simulators, ours) for one in module.ASKED}
 """Word of the command line -> function that returns libraries."""
 
 

@@ -9,9 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from bench.studies.libraries.asked.listed import listed
 from bench.studies.libraries.closed_loop import accelerated, conjugate, driven
-from bench.studies.libraries.library import MATRIX, Controller, Function, Library
+from bench.studies.libraries.library import MATRIX, QUATERNION, Controller, Function, Library
 
 LINK = """<robot name="body"><link name="body"><inertial><mass value="1"/>
 <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link></robot>"""
@@ -22,7 +21,8 @@ def drake() -> list[Library]:
 
     Its inverse dynamics controller knows joints alone, and so no orientation error.
     """
-    from pydrake.math import RigidTransform, RotationMatrix
+    from pydrake.common.eigen_geometry import AngleAxis, Quaternion
+    from pydrake.math import RigidTransform, RollPitchYaw, RotationMatrix
     from pydrake.multibody.inverse_kinematics import (
         DifferentialInverseKinematicsParameters,
         DoDifferentialInverseKinematics,
@@ -42,10 +42,28 @@ def drake() -> list[Library]:
         found = DoDifferentialInverseKinematics(plant, context, RigidTransform(), body, parameters)
         return np.zeros(3) if found.joint_velocities is None else found.joint_velocities[:3]
 
-    [library] = listed("drake")
+    def vector(found: AngleAxis) -> np.ndarray:
+        return found.angle() * found.axis()
+
+    def unit(q: np.ndarray) -> Quaternion:  # Drake refuses what is not of length 1 to 1e-14
+        return Quaternion(q / np.linalg.norm(q))
+
+    of_matrix = Function("RotationMatrix.ToAngleAxis", MATRIX, lambda R: vector(RotationMatrix(R).ToAngleAxis()))
+    functions = (
+        of_matrix,
+        Function("AngleAxis, of a quaternion", QUATERNION, lambda q: vector(AngleAxis(unit(q)))),
+        Function(
+            "2 RotationMatrix.ToQuaternion, vector part",
+            MATRIX,
+            lambda R: 2.0 * RotationMatrix(R).ToQuaternion().xyz(),
+            "sine-of-half",
+            is_idiom=True,
+        ),
+        Function("RollPitchYaw", MATRIX, lambda R: RollPitchYaw(RotationMatrix(R)).vector(), "z-y-x"),
+    )
     title, motion = "time step 10 ms, no limits", partial(driven, solved, dt_s)
-    loop = Controller("DoDifferentialInverseKinematics", library.functions[0].name, "velocity", title, dt_s, motion)
-    return [library._replace(controllers=(loop,))]
+    loop = Controller("DoDifferentialInverseKinematics", of_matrix.name, "velocity", title, dt_s, motion)
+    return [Library("drake", "drake", functions, (loop,))]
 
 
 def pink() -> list[Library]:
@@ -150,6 +168,8 @@ def robosuite() -> list[Library]:
     those of the other libraries, so it runs in an environment of its own.
     """
     import robosuite
+    from robosuite.utils import transform_utils
+    from robosuite.utils.control_utils import orientation_error
 
     kp, kv, dt_s = 150.0, 2.0 * math.sqrt(150.0), 0.002
     file = Path(robosuite.__file__).parent / "controllers/config/robots/default_panda.json"
@@ -157,12 +177,17 @@ def robosuite() -> list[Library]:
     if arm["input_type"] != "delta":
         raise ValueError(f"{file} sets input_type {arm['input_type']}; this function is written for delta")
     delta = arm["output_max"][3]  # rad, the largest about each axis in one command
-    [library] = listed("robosuite")
-    error = library.functions[0]
+    to_vector = transform_utils.quat2axisangle  # takes (x, y, z, w)
+    error = Function("orientation_error", MATRIX, lambda R: orientation_error(R, np.eye(3)), "sine")
+    functions = (
+        error,
+        Function("quat2axisangle", QUATERNION, lambda q: to_vector(q[[1, 2, 3, 0]])),
+        Function("mat2quat, quat2axisangle", MATRIX, lambda R: to_vector(transform_utils.mat2quat(R))),
+    )
     title = f"kp 150, damping ratio 1, 500 Hz; input as delivered: a delta of at most {delta:g} rad"
     motion, name = partial(accelerated, error, kp, kv, dt_s), "OSC_POSE, rotation decoupled"
     loop = Controller(name, error.name, "acceleration", title, dt_s, motion, is_our_loop=True)
-    return [library._replace(controllers=(loop,))]
+    return [Library("robosuite", "robosuite", functions, (loop,))]
 
 
 ASKED = (drake, pink, placo, roboticstoolbox, robosuite)

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from bench.studies.libraries.asked.listed import listed
 from bench.studies.libraries.closed_loop import conjugate
 from bench.studies.libraries.library import MATRIX, QUATERNION, Controller, Function, Library
 
@@ -59,16 +58,45 @@ def mujoco() -> list[Library]:
             if not data.qvel.any() and not data.qacc.any():
                 return
 
+    identity = np.array((1.0, 0.0, 0.0, 0.0))
+
+    def filled(size: int, function: Any, *given: Any) -> np.ndarray:
+        found = np.empty(size)
+        function(found, *given)
+        return found
+
+    def mat_to_quat(R: np.ndarray) -> np.ndarray:
+        return filled(4, mujoco.mju_mat2Quat, np.ascontiguousarray(R).ravel())
+
+    def quat_to_vel(q: np.ndarray) -> np.ndarray:
+        return filled(3, mujoco.mju_quat2Vel, q, 1.0)
+
+    # minus the force of three actuators with kp = 1, in the frame of the body
+    actuator = Function("<orientation> actuator", QUATERNION, lambda q: -place_body("actuated", q).qfrc_actuator)
+    functions = (
+        Function("mju_subQuat", QUATERNION, lambda q: filled(3, mujoco.mju_subQuat, q, identity)),
+        Function("mju_quat2Vel", QUATERNION, quat_to_vel),
+        Function("mju_mat2Quat, mju_quat2Vel", MATRIX, lambda R: quat_to_vel(mat_to_quat(R))),
+        Function(
+            "2 mju_mat2Quat, vector part",
+            MATRIX,
+            lambda R: 2.0 * mat_to_quat(R)[1:],
+            "sine-of-half",
+            is_idiom=True,
+            fix="`mju_quat2Vel` of it",
+        ),
+        actuator,
+    )
+
     def numbers(values: Any) -> str:
         return " ".join(f"{value:g}" for value in values)
 
     (held, _), (weld, _) = load_model("held"), load_model("welded")
-    [library] = listed("mujoco")
     dt_s, title = weld.opt.timestep, f"solref {numbers(weld.eq_solref[0])}, solimp {numbers(weld.eq_solimp[0])}, "
     controllers = (
         Controller(
             "<orientation> actuators",
-            library.functions[-1].name,
+            actuator.name,
             "acceleration",
             "kp 100, kv 20, timestep 1 ms",
             held.opt.timestep,
@@ -84,12 +112,13 @@ def mujoco() -> list[Library]:
             lambda q: place_body("welded", q).qacc.copy(),
         ),
     )
-    return [library._replace(controllers=controllers)]
+    return [Library("mujoco", "mujoco", functions, controllers)]
 
 
 def mink() -> list[Library]:
     """Return mink's logarithm in Python, the one in C that its FrameTask takes where it is compiled, and solve_ik."""
     import mink
+    from mink.lie import _lie_ops_c
 
     (model, _), dt_s = load_model("alone"), 0.005
     at_identity = mink.Configuration(model)
@@ -110,11 +139,25 @@ def mink() -> list[Library]:
             velocity = mink.solve_ik(configuration, [task], dt_s, "daqp", damping=1e-3)
             configuration.integrate_inplace(velocity, dt_s)
 
-    [library] = listed("mink")
+    def log_of_matrix(R: np.ndarray) -> np.ndarray:
+        return _lie_ops_c.se3_log(_lie_ops_c.xmat_xpos_to_wxyz_xyz(np.ravel(R), np.zeros(3)))[3:]
+
     own = Function("FrameTask.compute_error", QUATERNION, error)
+    functions = (
+        Function(
+            "SO3.log (Python)",
+            QUATERNION,
+            lambda q: mink.SO3(np.array(q)).log(),
+            fix="`np.copysign(1.0, q[0])` for `np.sign(q[0])`",
+            thread="kevinzakka/mink#82",
+        ),
+        Function("se3_log (compiled)", QUATERNION, lambda q: _lie_ops_c.se3_log(np.array((*q, 0.0, 0.0, 0.0)))[3:]),
+        Function("se3_log (compiled), of a matrix", MATRIX, log_of_matrix),
+        own,
+    )
     title = "gain 1, lm_damping 1, damping 1e-3, 200 Hz"
     loop = Controller("solve_ik, FrameTask", own.name, "velocity", title, dt_s, solved)
-    return [library._replace(functions=(*library.functions, own), controllers=(loop,))]
+    return [Library("mink", "mink", functions, (loop,))]
 
 
 def newton() -> list[Library]:

@@ -1,0 +1,110 @@
+"""Debian's libraries in C++, compiled here: most controllers in C++ are written on Eigen; KDL and tf2 are ROS's."""
+
+import ctypes
+import functools
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
+
+SOURCES = Path(__file__).parent / "cpp"
+NUMBERS = ctypes.POINTER(ctypes.c_double)
+
+
+def eigen() -> list[Library]:
+    """Return Eigen's angle times axis, a vector part and its Euler angles."""
+    made = compiled("eigen", "-I/usr/include/eigen3")
+    functions = (
+        Function("AngleAxisd, of a matrix", MATRIX, made("angle_axis_of_matrix")),
+        Function("AngleAxisd, of a quaternion", QUATERNION, made("angle_axis_of_quaternion")),
+        Function(
+            "2 Quaterniond, vector part",
+            MATRIX,
+            made("vector_part_of_matrix"),
+            "sine-of-half",
+            is_idiom=True,
+            fix="`AngleAxisd`",
+        ),
+        Function("eulerAngles(2, 1, 0)", MATRIX, made("euler_angles"), "z-y-x"),
+    )
+    return [Library("eigen", "libeigen3-dev", functions, is_debian=True)]
+
+
+def kdl() -> list[Library]:
+    """Return the rotation vectors of KDL's Rotation, its difference, a vector part and its angles."""
+    made = compiled("kdl", "-I/usr/include/eigen3", "-lorocos-kdl")
+    thread = "orocos/orocos_kinematics_dynamics#352"
+    functions = (
+        Function("Rotation::GetRot", MATRIX, made("get_rot"), thread=thread),
+        Function("Rotation::GetRotAngle", MATRIX, made("get_rot_angle"), thread=thread),
+        Function("diff", MATRIX, made("diff"), thread=thread),
+        Function("Rotation::Quaternion, GetRot", QUATERNION, made("of_quaternion"), thread=thread),
+        Function(
+            "2 GetQuaternion, vector part",
+            MATRIX,
+            made("get_quaternion"),
+            "sine-of-half",
+            is_idiom=True,
+            fix="`-q` where w < 0",
+        ),
+        Function("Rotation::GetRPY", MATRIX, made("get_rpy"), "z-y-x"),
+    )
+    return [Library("kdl", "liborocos-kdl-dev", functions, is_debian=True)]
+
+
+def tf2() -> list[Library]:
+    """Return what users of tf2 multiply for a rotation vector, and its angles."""
+    made = compiled("tf2", "-I/usr/include/console_bridge")
+
+    def idiom(name: str, takes: str, word: str) -> Function:
+        return Function(name, takes, made(word), is_idiom=True, fix="`-q` where `q.w() < 0`, before it")
+
+    functions = (
+        idiom("Quaternion: getAngle * getAxis", QUATERNION, "angle_axis"),
+        idiom("Quaternion: getAngleShortestPath * getAxis", QUATERNION, "shortest_path"),
+        idiom("Matrix3x3::getRotation: getAngle * getAxis", MATRIX, "angle_axis_of_matrix"),
+        Function("Matrix3x3::getRPY", MATRIX, made("get_rpy"), "z-y-x", thread="ros/geometry2#504"),
+    )
+    note = "Debian's package, which is that of ROS 1"
+    return [Library("tf2", "libtf2-dev", functions, is_debian=True, note=note)]
+
+
+@functools.cache
+def compiled(name: str, *options: str) -> Callable[[str], Callable]:
+    """Compile cpp/NAME.cpp and return: name of a function -> call(array of doubles) -> three numbers.
+
+    Errors:
+        ImportError: no compiler, or the library's headers are not installed.
+    """
+    compiler = shutil.which("c++")
+    if compiler is None:
+        raise ImportError("no C++ compiler; install g++")
+    with tempfile.TemporaryDirectory(prefix="orientation-bench-") as place:
+        made = Path(place) / name
+        command = [compiler, "-O2", "-shared", "-fPIC", "-std=c++17", str(SOURCES / f"{name}.cpp"), "-o", str(made)]
+        done = subprocess.run([*command, *options], capture_output=True, text=True, check=False)
+        if done.returncode:
+            reason = next((line for line in done.stderr.splitlines() if "error:" in line), "no reason given")
+            raise ImportError(f"{name}.cpp: {reason.rpartition('error: ')[2]}")
+        library = ctypes.CDLL(str(made))
+
+    def function(word: str) -> Callable:
+        called = getattr(library, word)
+        called.argtypes, called.restype = (NUMBERS, NUMBERS), None
+
+        def call(value: np.ndarray) -> np.ndarray:
+            value, e = np.ascontiguousarray(value, dtype=float), np.full(3, np.nan)
+            called(value.ctypes.data_as(NUMBERS), e.ctypes.data_as(NUMBERS))
+            return e
+
+        return call
+
+    return function
+
+
+ASKED = (eigen, kdl, tf2)
