@@ -9,7 +9,7 @@ from click.exceptions import Exit
 
 from bench.base.errors import BenchError
 from bench.base.files import read_json, write_json
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.base.provenance import rounded_on
 from bench.cli import options
 from bench.cli.judge import print_judgement

@@ -7,7 +7,7 @@ from click.exceptions import Exit
 
 import tasks
 from bench.base.errors import Incompatible
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, examples, frame_table

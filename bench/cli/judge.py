@@ -5,7 +5,7 @@ from pathlib import Path
 import rich_click as click
 from click.exceptions import Exit
 
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.cli import options
 from bench.cli.paragraphs import Paragraph, print_paragraphs
 from bench.cli.screen import console, counted, examples, frame_table

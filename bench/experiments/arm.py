@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 
 import tasks
 from bench.base.errors import Incompatible
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.experiments import episodes
 from bench.experiments.choice import Choice
 from bench.experiments.episode_rows import TABLE

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 import tasks
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.engines.arm_episode import POSE, blank_arm
 from bench.engines.episode import (
     FAILURE_TICK,

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import tasks
 from bench.base.errors import Incompatible
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.engines.metrics.registry import metrics_of
 from bench.experiments import starts
 from bench.experiments.choice import Choice

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from bench import experiments
 from bench.base.errors import BadLaw
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.experiments.choice import IN_CONTACT, WITHOUT, Choice
 from bench.experiments.columns import Table
 from bench.experiments.suites import Suite

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 
 import tasks
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.experiments import arm, episodes
 from bench.experiments.episode_rows import TABLE
 from bench.experiments.experiment import OF_EPISODES, Asked, Experiment, Settings, Unit

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.engines.episode import FINAL_ANGLE
 from bench.experiments import arm, starts
 from bench.experiments.columns import read_table

@@ -14,7 +14,7 @@ import math
 
 import numpy as np
 
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.engines.episode import OUTCOME, SETTLING_TICK, START_WIDTH, STEP
 from bench.experiments.columns import CONTENDER_KEY, read_table
 from bench.experiments.episode_rows import contender_columns

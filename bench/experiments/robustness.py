@@ -10,7 +10,7 @@ import numpy as np
 
 import tasks
 from bench.base.errors import Incompatible
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.engines.episode import Settings as Limits
 from bench.engines.episode import blank
 from bench.engines.metrics.registry import metrics_of

@@ -15,7 +15,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from tasks.base import Start
 
 NUDGE = 1e-12

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 import tasks
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.engines.curve import ARM_NUMBERS, NUMBERS, blank_curves
 from bench.experiments import free_body
 from bench.experiments.columns import SHARED, Column, read_table

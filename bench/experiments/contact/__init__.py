@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import tasks
 from bench.base.errors import Incompatible
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.experiments.choice import Choice
 from bench.experiments.contact.poses import TABLE, frame
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit

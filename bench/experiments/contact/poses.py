@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.engines.metrics.contact_metric import Pose, response
 from bench.engines.metrics.measured_compliance import compliance
 from bench.engines.metrics.registry import known_contact_metrics

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 import tasks
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.experiments import arm as arms
 from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit

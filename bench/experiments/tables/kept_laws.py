@@ -6,7 +6,7 @@ from pathlib import Path
 
 from bench.base.errors import BadResults
 from bench.base.files import refuse_link
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.experiments.tables import trust
 from bench.law.contenders.described_law import described
 from bench.law.contenders.law_file import WORD

@@ -19,7 +19,7 @@ from pathlib import Path
 
 from bench.base.errors import BadResults
 from bench.base.files import read_json
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.experiments.tables.kept_laws import kept_laws
 from bench.experiments.tables.schema import RESULTS
 from bench.law.kinds import Law

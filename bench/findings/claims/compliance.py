@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bench.base.lazy import Turn, pd
+from bench.base.on_first_use import Turn, pd
 from bench.findings.claims import probes, side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.force_conversion import random_orientations

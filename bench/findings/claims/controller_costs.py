@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 import tasks
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.findings.claims import adequacy, probes, standing
 from bench.findings.claims.adequacy import CALLS, of_stage, tallied
 from bench.findings.claims.side_by_side import BASE

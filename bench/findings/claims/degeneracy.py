@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from bench.base.lazy import Turn
+from bench.base.on_first_use import Turn
 from bench.findings.claims import probes
 from bench.findings.claims.probes import at_boundary
 from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, settled_of, some

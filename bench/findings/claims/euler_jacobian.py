@@ -6,7 +6,7 @@ import itertools
 
 import numpy as np
 
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.experiments.tables.read import FREE_BODY
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims.degeneracy import condition_in

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.experiments.tables.read import converged
 from bench.findings.claims import probes
 from bench.findings.claims.adequacy import THREE

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from bench.base.lazy import Turn, pd
+from bench.base.on_first_use import Turn, pd
 from bench.findings.claims.euler_jacobian import COORDINATES, DIFFERENCED, EPS, ROUNDINGS
 from bench.findings.claims.side_by_side import PROBE
 from bench.findings.claims.tables import Results, evidence, some

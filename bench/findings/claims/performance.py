@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.experiments.tables.statistics import bootstrap, quantile, quantile_estimate
 from bench.findings.claims import adequacy, probes
 from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 import tasks
-from bench.base.lazy import Turn, pd
+from bench.base.on_first_use import Turn, pd
 from bench.engines.metrics.registry import metrics_of
 from bench.findings.claims.tables import some
 from bench.findings.theory.closed_form import linear, linear_settling

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from bench.base.lazy import Turn, pd
+from bench.base.on_first_use import Turn, pd
 from bench.findings.claims.tables import Results, evidence, some
 from bench.findings.claims.verdict import Evidence, Word
 from bench.law.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.experiments.tables.statistics import Estimate
 
 ORDERED, UNDECIDED, REVERSED = 1, 0, -1

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 import numpy as np
 
 from bench.base.files import read_json
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.verdict import Evidence, NoEvidence

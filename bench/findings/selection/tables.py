@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.experiments.tables import read as published
 from bench.experiments.tables.read import with_contender
 from bench.findings.claims.adequacy import tallied

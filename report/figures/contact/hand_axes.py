@@ -1,7 +1,7 @@
 """What Euler compliance does wrong, in one picture: the moment on a hand, and the axis that the hand then turns about.
 
 The hand points down at beta = 0 and lies level at 90 degrees, with its own x axis in the plane of the picture. Each
-curved arrow in colour is a measured row: the direction of C e, and its length over that of a hand that yields as set.
+ring in colour is a measured row: the direction of C e, and its length over that of a hand that yields as set.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.patches import FancyArrowPatch, Polygon
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from scipy.spatial.transform import Rotation
 
 from report.figures.contact.rows import PAPERS, PAPERS_EULER, compliance, level, nearest, of
@@ -25,75 +25,15 @@ BETAS = (0, 30, 60, 85)
 ORDER = "about x and y"
 PUSHED = {"x": "A moment about x,\nwhere it should comply", "z": "A moment about z,\nwhere it should hold"}
 STILL = 0.01  # of the wanted rotation: less is drawn as none
+BOLD: dict[str, Any] = {"fontsize": 9.5, "fontweight": "bold", "ha": "center", "va": "bottom"}
 
-AZIMUTH, ELEVATION = math.radians(-68.0), math.radians(16.0)
-TOWARDS = np.array(
-    [math.cos(AZIMUTH) * math.cos(ELEVATION), math.sin(AZIMUTH) * math.cos(ELEVATION), math.sin(ELEVATION)]
-)  # from what is drawn to the eye
-LENGTH, RADIUS = 1.12, 0.27  # of an axis' arrow, and of the ring around it; the hand is about 1 long
-WINDOW = (-1.22, 1.22, -1.36, 1.22)  # left, right, below, above; words stand at its foot
-
-SIGNS = np.array(list(itertools.product((-1, 1), repeat=3)))
-FACES = [(0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5)]
-"""Corners of a box, and which of them are a face."""
-BOXES = (
-    ((0.0, 0.0, 0.38), (0.10, 0.10, 0.20)),
-    ((0.0, 0.0, 0.06), (0.34, 0.14, 0.13)),
-    ((-0.25, 0.0, -0.30), (0.06, 0.10, 0.24)),
-    ((0.25, 0.0, -0.30), (0.06, 0.10, 0.24)),
-)
-"""Middle and half edges of wrist, palm and two fingers in the hand's frame, at the middle of the palm."""
-
-
-def eye(points: Any) -> np.ndarray:
-    """N x 2, right and up on paper, of points in the base frame: parallel projection."""
-    right = np.array([-math.sin(AZIMUTH), math.cos(AZIMUTH), 0.0])
-    return np.atleast_2d(points) @ np.column_stack((right, np.cross(TOWARDS, right)))
-
-
-def draw_hand(axes: Any, beta: float) -> None:
-    """Draw the hand at Ry(beta), beta in degrees, its far faces first."""
-    corners = [np.array(middle) + half * SIGNS for middle, half in BOXES]
-    faces = [Rotation.from_euler("y", beta, degrees=True).apply(one[list(face)]) for one in corners for face in FACES]
-    look: dict[str, Any] = {"facecolor": style.GRID, "edgecolor": style.MUTED, "linewidth": 0.6, "zorder": 2}
-    for face in sorted(faces, key=lambda one: float(np.mean(one @ TOWARDS))):
-        axes.add_patch(Polygon(eye(face), closed=True, **look))
-
-
-def draw_turn(
-    axes: Any, direction: Any, size: float, colour: str, zorder: float, width: float, dashes: Any = "-"
-) -> None:
-    """Draw an axis through the hand, and a ring with a head around it; both shrink with the size, 0 to 1."""
-    direction = np.asarray(direction) / np.linalg.norm(direction)
-    reach = LENGTH * (0.4 + 0.6 * size)
-    ends = eye([-0.85 * reach * direction, reach * direction])
-    axes.plot(*ends.T, color=colour, linewidth=width, zorder=zorder, linestyle=dashes)
-    first = np.cross(direction, TOWARDS)
-    first /= np.linalg.norm(first)
-    angles = np.linspace(-0.35 * math.pi, 1.3 * math.pi, 60)  # the gap is behind
-    around = np.outer(np.cos(angles), first) + np.outer(np.sin(angles), np.cross(direction, first))
-    path = eye(0.8 * reach * direction + RADIUS * (0.5 + 0.5 * size) * around)
-    axes.plot(*path[:-5].T, color=colour, linewidth=max(width, 1.6), zorder=zorder)
-    head: dict[str, Any] = {
-        "mutation_scale": 11,
-        "color": colour,
-        "linewidth": 0,
-        "shrinkA": 0,
-        "shrinkB": 0,
-        "zorder": zorder,
-    }
-    axes.add_patch(FancyArrowPatch(path[-9], path[-1], arrowstyle="-|>", **head))
-
-
-def draw_frame(axes: Any) -> None:
-    """Draw the base's axes, small, in a corner."""
-    at = np.array([-1.02, 0.0, -0.95])
-    corner = eye(at)[0]
-    for axis, name in zip(np.eye(3), "xyz", strict=True):
-        tip = eye(at + 0.34 * axis)[0]
-        look: dict[str, Any] = {"arrowstyle": "-|>", "mutation_scale": 5, "color": style.MUTED, "linewidth": 0.9}
-        axes.add_patch(FancyArrowPatch(corner, tip, **look))
-        axes.text(*(corner + 1.35 * (tip - corner)), name, color=style.MUTED, fontsize=8.5, ha="center", va="center")
+ELEVATION_DEG, AZIMUTH_DEG = 16.0, -68.0
+EYE = Rotation.from_euler("yz", (-ELEVATION_DEG, AZIMUTH_DEG), degrees=True).apply((1.0, 0.0, 0.0))
+FACES = np.array([(0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5)])
+CORNERS = np.array([*itertools.product((-1, 1), repeat=3)])[FACES]
+WRIST, PALM = ((0.0, 0.0, 0.38), (0.10, 0.10, 0.20)), ((0.0, 0.0, 0.06), (0.34, 0.14, 0.13))
+FINGERS = [((x, 0.0, -0.30), (0.06, 0.10, 0.24)) for x in (-0.25, 0.25)]
+"""Middle and half edges of boxes in the hand's frame, at the middle of the palm."""
 
 
 def shown_arm(rows: pd.DataFrame) -> str:
@@ -114,18 +54,21 @@ def turns(rows: pd.DataFrame) -> list[dict]:
     for contender, beta in [(PAPERS, betas[-2]), *((PAPERS_EULER, beta) for beta in betas)]:
         at = of(own, contender, ORDER)
         C = compliance(at[at["beta_deg"] == beta].iloc[0])
-        for pushed in PUSHED:
-            k = "xyz".index(pushed)
-            turn = C[:, k]
-            size = float(np.linalg.norm(turn))
-            off = math.degrees(math.atan2(float(np.linalg.norm(np.delete(turn, k))), abs(float(turn[k]))))
-            one = {"contender": contender, "beta": beta, "pushed": pushed, "axis": turn, "share": size / full}
-            found.append({**one, "off": off if size > STILL * full else math.nan})
+        for pushed, turn in zip(PUSHED, (C[:, 0], C[:, 2]), strict=True):
+            share, along = float(np.linalg.norm(turn)) / full, abs(turn @ unit(pushed))
+            off = math.degrees(math.acos(min(along / (share * full), 1.0))) if share > STILL else math.nan
+            one = {"contender": contender, "beta": beta, "pushed": pushed}
+            found.append({**one, "axis": turn, "share": share, "off": off})
     return found
 
 
+def unit(axis: str) -> np.ndarray:
+    """Return the base axis x, y or z."""
+    return np.eye(3)["xyz".index(axis)]
+
+
 def measured(found: list[dict]) -> dict[str, str]:
-    """How far off the moment the Euler hand turns at each tilt, and how far about the axis that it should hold.
+    """Return how far off the moment the Euler hand turns at each tilt, and how far about the axis that it should hold.
 
     Args:
         found: of `turns`.
@@ -149,27 +92,19 @@ def axes_of_turning(rows: pd.DataFrame, narrow: bool) -> Drawing:
     Args:
         rows: of wrench-probe.
     """
-    found = turns(rows)
-    count = len(found) // len(PUSHED)
-    shape = (count, len(PUSHED)) if narrow else (len(PUSHED), count)
+    found, said = turns(rows), []
+    shape = (len(found) // 2, 2) if narrow else (2, len(found) // 2)
+    view = {"projection": "3d", "proj_type": "ortho", "computed_zorder": False}
     height = (1.95 if narrow else 1.72) * shape[0] + 0.3
-    figure, grid = style.panels(*shape, height=height, narrow=narrow, squeeze=False)
-    said = []
-    for which, one in enumerate(found):
-        k, i = divmod(which, len(PUSHED))
-        axes, name = grid[k][i] if narrow else grid[i][k], NAMES[one["contender"]]
-        does = draw_panel(axes, one)
-        if i == 0:
-            tilt = "any β" if one["contender"] == PAPERS else f"β = {one['beta']:.0f}°"
+    figure, grid = style.panels(*shape, height=height, narrow=narrow, squeeze=False, subplot_kw=view)
+    for which, (axes, one) in enumerate(zip((grid if narrow else grid.T).flat, found, strict=True)):
+        name, place = NAMES[one["contender"]], (0.5, 1.22, 0) if narrow else (-0.12, 0.1, 90)
+        tilt = "any β" if one["contender"] == PAPERS else f"β = {one['beta']:.0f}°"
+        if one["pushed"] == "x":
             axes.set_title(f"{name}, {tilt}", color=COLOURS[one["contender"]])
-        if k == 0:
-            words, look = PUSHED[one["pushed"]], {"fontsize": 9.5, "fontweight": "bold"}
-            if narrow:
-                place = {"xytext": (0, 26), "xycoords": "axes fraction", "textcoords": "offset points"}
-                axes.annotate(words, (0.5, 1.0), ha="center", va="bottom", **place, **look)
-            else:
-                axes.set_ylabel(words, labelpad=6, **look)
-        said.append(f"{name}, beta {one['beta']:.0f} degrees, moment about {one['pushed']}: {does}")
+        if which < len(PUSHED):
+            axes.text2D(*place[:2], PUSHED[one["pushed"]], transform=axes.transAxes, rotation=place[2], **BOLD)
+        said.append(f"{name}, beta {one['beta']:.0f} degrees, moment about {one['pushed']}: {draw_panel(axes, one)}")
     return figure, (
         "Drawings of a robot's hand that complies with moments about x and y and is stiff against moments about z. "
         f"{'; '.join(said)}."
@@ -177,18 +112,37 @@ def axes_of_turning(rows: pd.DataFrame, narrow: bool) -> Drawing:
 
 
 def draw_panel(axes: Any, one: dict) -> str:
-    """Draw one hand; return what it does, in words."""
-    axes.set(xlim=WINDOW[:2], ylim=WINDOW[2:], aspect="equal", xticks=[], yticks=[])
-    axes.spines[:].set_visible(False)
-    draw_hand(axes, one["beta"])
-    draw_frame(axes)
-    moment = np.eye(3)["xyz".index(one["pushed"])]
-    draw_turn(axes, moment, 1.0, style.INK, 5.0, 1.1, style.DASHED)
-    colour, words = COLOURS[one["contender"]], "stays" if one["pushed"] == "z" else "does not turn"
+    """Draw one hand, the base's axes, the moment and the axis turned about; return what it does, in words."""
+    axes.set(xlim=(-1, 1), ylim=(-1, 1), zlim=(-1.15, 0.85))
+    axes.set_box_aspect((1, 1, 1), zoom=1.4)
+    axes.view_init(elev=ELEVATION_DEG, azim=AZIMUTH_DEG)
+    axes.axis("off")
+    hand = Rotation.from_euler("y", one["beta"], degrees=True).as_matrix()
+    faces = np.concatenate([(middle + half * CORNERS) @ hand.T for middle, half in (WRIST, PALM, *FINGERS)])
+    axes.add_collection3d(Poly3DCollection(faces, facecolor=style.GRID, edgecolor=style.MUTED, linewidth=0.6, zorder=2))
+    for axis in "xyz":
+        corner = np.array((-1.0, 0.0, -0.95))
+        axes.quiver(*corner, *(0.3 * unit(axis)), color=style.MUTED, linewidth=0.9, arrow_length_ratio=0.3)
+        axes.text(*(corner + 0.42 * unit(axis)), axis, color=style.MUTED, fontsize=8.5, ha="center", va="center")
+    moment, colour = unit(one["pushed"]), COLOURS[one["contender"]]
+    draw_turn(axes, moment, 1.0, color=style.INK, zorder=5, linewidth=1.1, linestyle=style.DASHED)
+    words = "stays" if one["pushed"] == "z" else "does not turn"
     if not math.isnan(one["off"]):
-        direction = one["axis"] * math.copysign(1.0, one["axis"] @ moment)
-        draw_turn(axes, direction, min(one["share"], 1.0), colour, 4.0, 2.8)
+        direction = one["axis"] * math.copysign(1.0 / np.linalg.norm(one["axis"]), one["axis"] @ moment)
+        draw_turn(axes, direction, min(one["share"], 1.0), color=colour, zorder=4, linewidth=2.8, linestyle="-")
         words = f"{one['off']:.0f}° off, {100 * one['share']:.0f} %"
-    look = {"color": colour, "fontsize": 10, "fontweight": "bold", "ha": "center", "va": "bottom"}
-    axes.text(0.5, 0.0, words, transform=axes.transAxes, **look)
+    axes.text2D(0.5, -0.06, words, transform=axes.transAxes, color=colour, **BOLD)
     return words
+
+
+def draw_turn(axes: Any, direction: np.ndarray, size: float, **look: Any) -> None:
+    """Draw an axis through the hand, and a ring with a head around it; both shrink with the size, 0 to 1."""
+    reach, radius = 1.12 * (0.4 + 0.6 * size), 0.27 * (0.5 + 0.5 * size)
+    axes.plot(*np.outer(direction, (-0.85 * reach, reach)), **look)
+    turned, _ = Rotation.align_vectors([direction, EYE], [(0, 0, 1), (0, -1, 0)], weights=[np.inf, 1.0])
+    angles = np.r_[np.linspace(-0.35 * math.pi, 1.2 * math.pi, 60), np.array((1.2, 1.2, 1.5)) * math.pi]
+    radii = radius * np.r_[np.ones(60), 0.3, 1.7, 1.0]  # the last three are the corners of the head
+    points = np.column_stack((radii * np.cos(angles), radii * np.sin(angles), np.full(63, 0.8 * reach)))
+    ring, head = np.split(turned.apply(points), [60])
+    axes.plot(*ring.T, **{**look, "linestyle": "-", "linewidth": max(look["linewidth"], 1.6)})
+    axes.add_collection3d(Poly3DCollection([head], facecolor=look["color"], zorder=look["zorder"]))
