@@ -102,9 +102,10 @@ def threshold_map(each: Found, narrow: bool) -> Drawing:
             for column, way in enumerate(ways):
                 _cell(axes, column, place, each[law][way])
             place += 1.0
-    titles = [f"{way.name}\n[{tasks.axis(way.axis).unit}]" for way in ways]
+    titles = [f"{way.name} [{tasks.axis(way.axis).unit}]" for way in ways]
+    stand = {"rotation": 90, "ha": "center"} if narrow else {"rotation": 40, "ha": "left", "rotation_mode": "anchor"}
     axes.set(xlim=(0, max(1, len(ways))), ylim=(place + 0.1, 0.2))
-    axes.set_xticks(np.arange(len(ways)) + 0.5, titles, rotation=40, ha="left", fontsize=9)
+    axes.set_xticks(np.arange(len(ways)) + 0.5, titles, fontsize=9, **stand)
     axes.xaxis.tick_top()
     axes.set_yticks(*zip(*names, strict=True), fontsize=9)
     axes.tick_params(length=0, pad=2)
