@@ -1,5 +1,9 @@
 """The laws of this benchmark, and errors of controllers that are restated here."""
 
+import functools
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
@@ -50,11 +54,14 @@ def shipped() -> list[Library]:
     for name, word in RESTATED.items():
         one = contenders("shipped")[word]
         repository, _, revision = one.source.partition("@")
-        function = Function(
-            "orientation error", QUATERNION, lambda q, error=one.shipped.error: error(tuple(q.tolist()))
-        )
+        function = Function("orientation error", QUATERNION, functools.partial(_restated, one.shipped.error))
         found.append(Library(name, f"{repository}@{revision[:8]}", (function,), is_restated=True))
     return found
+
+
+def _restated(error: Callable, quat_wxyz: np.ndarray) -> Any:
+    """Return what an error on a tuple of floats says of a quaternion."""
+    return error(tuple(quat_wxyz.tolist()))
 
 
 ASKED = (orientation_bench, shipped)
