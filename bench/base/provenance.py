@@ -34,6 +34,13 @@ def source_digest() -> str:
 
 
 @functools.cache
+def everything_digest() -> str:
+    """Sixteen hex digits over every source, the versions of what they use, and how this processor rounds."""
+    settings = [os.environ.get(name) for name in ARITHMETIC]
+    return _digest(("bench", "tasks"), repr((sorted(versions().items()), vectors(), settings)))
+
+
+@functools.cache
 def judge_digest() -> str:
     """Sixteen hex digits over the judge."""
     return _digest(JUDGE)

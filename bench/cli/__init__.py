@@ -1,13 +1,16 @@
 """The command line: `python -m bench COMMAND`. One file a command, collected from this folder.
 
+Only the module of the command that is given is imported: the others, and numpy, would take a third of a second more.
+
 Every mistake of the caller ends in one line on stderr and exit code 2, and touches no result; examples.toml has all
 codes.
 """
 
+import ast
 import importlib
-import pkgutil
 import sys
 import tomllib
+from pathlib import Path
 
 import rich_click as click
 from click.exceptions import Exit
@@ -15,7 +18,6 @@ from click.exceptions import Exit
 from bench.base.errors import BenchError
 from bench.base.provenance import ROOT
 from bench.cli.screen import examples
-from tasks.errors import TaskError
 
 click.rich_click.TEXT_MARKUP = "rich"
 click.rich_click.MAX_WIDTH = 110
@@ -35,17 +37,32 @@ def bench() -> None:
     """
 
 
-def commands() -> list[click.Command]:
-    """Return the constant COMMAND of every module in this folder."""
-    modules = [importlib.import_module(f"{__name__}.{found.name}") for found in pkgutil.iter_modules(__path__)]
-    return [module.COMMAND for module in modules if hasattr(module, "COMMAND")]
+def command_of(path: Path, is_given: bool) -> click.Command | None:
+    """Return the constant COMMAND of a module in this folder; None if it has none.
+
+    Args:
+        is_given: whether the command is to be run; of any other only its name and its help are read.
+    """
+    for node in ast.parse(path.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.FunctionDef) and node.name == "COMMAND":
+            if is_given:
+                return importlib.import_module(f"{__name__}.{path.stem}").COMMAND
+            return click.Command(FILES.get(path.stem, path.stem), help=ast.get_docstring(node))
+    return None
+
+
+FILES = {"listing": "list"}
+"""Modules whose command has another name: one named `list` would hide Python's."""
 
 
 def main(words: list[str] | None = None) -> int:
     """Run one command; its exit code."""
-    for command in commands():
-        bench.add_command(command)
     words = sys.argv[1:] if words is None else words
+    given = next((word for word in words if not word.startswith("-")), "")
+    for path in Path(__file__).parent.glob("*.py"):
+        command = command_of(path, FILES.get(path.stem, path.stem) == given)
+        if command is not None:
+            bench.add_command(command)
     try:
         return bench.main(words or ["--help"], prog_name="python -m bench", standalone_mode=False) or 0
     except Exit as stop:
@@ -53,11 +70,18 @@ def main(words: list[str] | None = None) -> int:
     except click.ClickException as error:
         reason = error.format_message()
         return _refused(reason if "(try: " in reason else f"{reason} (try: {_path(error)} --help)")
-    except (BenchError, TaskError) as error:
+    except mistakes() as error:
         return _refused(str(error))
     except (KeyboardInterrupt, click.Abort):
         print("stopped; what was finished is kept, and the same command goes on from there", file=sys.stderr)
         return 130
+
+
+def mistakes() -> tuple[type[Exception], ...]:
+    """Return the exceptions of a caller's mistake; the judge's are imported, with numpy, when there is one."""
+    from tasks.errors import TaskError
+
+    return BenchError, TaskError
 
 
 def _refused(reason: str) -> int:

@@ -1,5 +1,6 @@
 """What a map says of laws: the share of starts that are lost, with its interval, and the slowest."""
 
+import functools
 import math
 from typing import NamedTuple
 
@@ -12,6 +13,7 @@ from bench.experiments.tables.statistics import Estimate
 SPEEDS = ["least_speed", "most_speed"]
 
 
+@functools.cache
 def lost_share(lost: int, of: int) -> Estimate:
     """Return a share with its exact 95 % interval (C. Clopper, E. Pearson, Biometrika 26, 1934)."""
     from scipy.stats import binomtest

@@ -41,6 +41,7 @@ ON_IDEAL = {"mujoco", "dask", "distributed", "numba", "pandas"}
     ("code", "watched", "needed"),
     [
         *((COMMAND.format(words=words.split()), SLOW, set()) for words in QUIET),
+        (COMMAND.format(words=["--help"]), {"numpy", "pytest", "tasks"}, set()),
         (AUDIT, SLOW, set()),
         (NAMES, SLOW, set()),
         (COMMAND.format(words=["list"]), SLOW, {"mujoco"}),  # it reads files of arms

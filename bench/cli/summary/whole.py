@@ -1,4 +1,4 @@
-"""The whole summary: the answer first, as soon as it is known, for the claims take seconds."""
+"""The whole summary: the answer first, as soon as it is known, for the claims may take seconds."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from bench.experiments.experiment import known_experiments
 from bench.experiments.tables import read as results
 from bench.findings.claims import Results, judge_possible, told
 from bench.findings.claims.verdict import NoEvidence, Word
+from bench.findings.kept import keep
 from bench.findings.selection.measured import measure
 from bench.law.contenders.registry import all_contenders
 
@@ -29,10 +30,8 @@ def print_summary(folder: Path, is_named: bool) -> None:
     found = Results(folder)
     found.table("episodes")  # refuses a run that has not finished
     here = origin(folder)
-    try:
-        print_paragraphs(*answer.paragraphs(measure(found)))
-    except NoEvidence:
-        print_paragraphs(Paragraph("Which law", (UNDECIDED,)))
+    said = keep(folder, "answer", lambda: _answer(found))["said"]
+    print_paragraphs(*(Paragraph(head, tuple(sentences)) for head, sentences in said))
     with progress("claims", "judging the paper's claims"):
         judged = count_verdicts(found)
     print_paragraphs(
@@ -42,6 +41,14 @@ def print_summary(folder: Path, is_named: bool) -> None:
         Paragraph("This run", (here, *_instead(folder, is_named))),
         _next(folder, is_named, parts_in(found)),
     )
+
+
+def _answer(found: Results) -> dict:
+    """Return the heads and sentences of the answer, as JSON holds them."""
+    try:
+        return {"said": answer.paragraphs(measure(found))}
+    except NoEvidence:
+        return {"said": [("Which law", (UNDECIDED,))]}
 
 
 def _instead(folder: Path, is_named: bool) -> list[str]:

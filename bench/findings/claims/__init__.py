@@ -34,6 +34,7 @@ from pathlib import Path
 from bench.experiments.tables import read as published
 from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results
 from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Verdict, Word, decide, does
+from bench.findings.kept import keep
 
 __all__ = [
     "RULE",
@@ -73,7 +74,24 @@ def judge(id: str, results: Results) -> Verdict:
 
 
 def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
-    """Every claim that a run decides, and for each other one what the run lacks."""
+    """Every claim that a run decides, and for each other one what the run lacks; kept for the next call."""
+    if results.folder is None or not results.is_as_stored:
+        return _judge_possible(results)
+    found = keep(results.folder, "claims", lambda: _as_json(*_judge_possible(results)))
+    claims = {one.id: one for one in all_claims()}
+    decided = [
+        Verdict(claims[id], Word(word), Evidence(sentence, rows, tuple(tables), parts))
+        for id, word, sentence, rows, tables, parts in found["decided"]
+    ]
+    return decided, found["lacks"]
+
+
+def _as_json(decided: list[Verdict], lacks: dict[str, str]) -> dict:
+    said = [[one.id, one.word, *one.evidence._replace(parts=dict(one.evidence.parts))] for one in decided]
+    return {"decided": said, "lacks": lacks}
+
+
+def _judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
     decided, lacks = [], {}
     for one in all_claims():
         try:
@@ -100,11 +118,7 @@ def judge_all(folder: Path | None = None) -> list[Verdict]:
     Errors:
         NoEvidence: a claim that can be measured, and no row about it. BadResults: the folder.
     """
-    return list(_judged(Path(folder) if folder else published.folder()))
-
-
-@functools.lru_cache(maxsize=1)
-def _judged(folder: Path) -> tuple[Verdict, ...]:
-    """Once for all that read a run: it takes ten seconds."""
-    results = Results(folder)
-    return tuple(decide(claim, results) for claim in all_claims())
+    decided, lacks = judge_possible(Results(Path(folder) if folder else published.folder()))
+    if lacks:
+        raise NoEvidence(next(iter(lacks.values())))
+    return decided

@@ -37,7 +37,8 @@ TIMED = (
 class Results:
     """The tables of one run, read when first asked for; `frames` puts others in their place.
 
-    experiments: in place of the experiments that claims make themselves, by the function's name.
+    experiments: in place of the experiments that claims make themselves, by the function's name. is_as_stored: whether
+    nothing stands in another's place.
     """
 
     def __init__(
@@ -49,10 +50,12 @@ class Results:
         experiments: dict[str, Callable] | None = None,
     ):
         self.folder = folder
+        self.is_as_stored = folder is not None and not (frames or experiments)
         self.frames = dict(frames or {})
         self.timings_folder, self.maps_folder = timings, maps
         self.experiments = experiments or {}
         self._chosen: dict[tuple, pd.DataFrame] = {}
+        self._spun: dict[str, list[Spun]] = {}
 
     def found_by(self, experiment: Callable, *given: Any) -> Any:
         """Return what an experiment finds, or what stands in its place."""
@@ -103,7 +106,9 @@ class Results:
             self.frames["map"] = read_table(self.maps_folder, "map")
         if "counted" not in self.frames:
             self.frames["counted"] = counted(self.frames["map"])
-        return spun(self.frames["counted"], law)
+        if law not in self._spun:
+            self._spun[law] = spun(self.frames["counted"], law)
+        return self._spun[law]
 
     @functools.cached_property
     def _plan(self) -> dict:

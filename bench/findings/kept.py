@@ -1,0 +1,70 @@
+"""Keep what was found about a run, so that `show` and `claims` compute it once: the claims take ten seconds or more.
+
+A file is named by a digest of all that decides: the run, the committed results that runs are compared with, and every
+source. Whatever of it changes, the name is another one, and all is computed again. The files lie in this user's cache
+and not in the run's folder: a folder may come from anywhere, and would bring verdicts of its own.
+"""
+
+import contextlib
+import hashlib
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from bench.base.errors import BadResults
+from bench.base.files import read_json, write_json
+from bench.base.provenance import everything_digest, kept_in
+from bench.experiments.tables.schema import RESULTS
+
+KEPT = 64
+"""Files that are kept, the newest: some 50 kB each."""
+
+
+def home() -> Path:
+    """Return the folder of the files."""
+    return kept_in("XDG_CACHE_HOME", ".cache") / "found"
+
+
+def keep(folder: Path, what: str, find: Callable[[], dict]) -> dict:
+    """Return what is found about the run in a folder, from an earlier call if it would be the same.
+
+    A run of a user's own laws is looked at every time: what may be said of it depends on whether they are trusted.
+
+    Args:
+        what: a word for it. find: computes it, as JSON holds it.
+    """
+    if (folder / "laws").exists():
+        return find()
+    path = home() / f"{what}-{_digest(folder)}.json"
+    with contextlib.suppress(BadResults):  # none, or damaged: it is made again
+        kept = read_json(path)
+        if kept.get("sum") == _sum(kept.get("found")):
+            return kept["found"]
+    found = find()
+    with contextlib.suppress(BadResults):  # a cache that cannot be written costs time, and nothing else
+        write_json(path, {"found": found, "sum": _sum(found)})
+        for old in sorted(home().glob("*.json"), key=lambda one: one.stat().st_mtime, reverse=True)[KEPT:]:
+            old.unlink(missing_ok=True)
+    return found
+
+
+def _sum(found: object) -> str:
+    return hashlib.sha256(json.dumps(found, sort_keys=True).encode()).hexdigest()
+
+
+def _digest(folder: Path) -> str:
+    """Return the digest of a run, of the committed results, and of every source."""
+    digest = hashlib.sha256(everything_digest().encode())
+    for path in (*_files(folder), *_committed()):
+        digest.update(path.name.encode() + b"\0" + hashlib.sha256(path.read_bytes()).digest())
+    return digest.hexdigest()[:32]
+
+
+def _files(folder: Path) -> Iterator[Path]:
+    yield from sorted(path for path in folder.iterdir() if path.suffix in (".parquet", ".json"))
+
+
+def _committed() -> Iterator[Path]:
+    """Yield the files that a run is compared with: of results at other gains, maps, timings and the reference."""
+    for name in ("gains", "maps", "timings", "reference"):
+        yield from sorted(path for path in (RESULTS / name).rglob("*") if path.suffix in (".parquet", ".json"))
