@@ -12,7 +12,7 @@ from support.command_line import TINY, bench
 
 from bench.base import files
 from bench.base.provenance import ROOT
-from bench.cli import commands, main
+from bench.cli import command_of, main
 from bench.cli.listing import KINDS, describe_arm
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
@@ -23,7 +23,8 @@ from bench.law.contenders.registry import all_contenders
 from tasks.errors import BadArm
 
 EULER = "hybrid/zyx-euler+inverse"
-COMMANDS = {command.name: command for command in commands()}
+FOUND = (command_of(path, is_given=True) for path in (ROOT / "bench" / "cli").glob("*.py"))
+COMMANDS = {command.name: command for command in FOUND if command}
 
 
 @pytest.fixture(scope="module")
