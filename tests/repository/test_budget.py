@@ -21,7 +21,7 @@ LINES = {
     "bench/running": 2_190,
     "bench/studies": 3_613,
     "tests/audit": 575,
-    "tests/cli": 736,
+    "tests/cli": 737,
     "tests/conftest.py": 85,
     "tests/contracts": 2_647,
     "tests/engines": 2_760,
