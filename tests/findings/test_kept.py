@@ -8,7 +8,7 @@ from bench.findings import kept
 @pytest.fixture
 def ask(tmp_path, monkeypatch):
     """Return what is kept of a run of two files, how often it was computed, and the run's folder."""
-    monkeypatch.setattr(kept, "home", lambda: tmp_path / "kept")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     run, computed = tmp_path / "run", []
     run.mkdir()
     (run / "episodes.parquet").write_bytes(b"rows")
@@ -32,7 +32,7 @@ def test_finding_is_computed_once_and_again_when_the_run_changes(ask):
 def test_damaged_finding_is_computed_again(ask, old, new):
     again, run = ask
     again()
-    (path,) = (run.parent / "kept").iterdir()
+    (path,) = kept.home().iterdir()
     path.write_text(path.read_text().replace(old, new))
     assert again() == ({"word": "holds"}, 2)
 
