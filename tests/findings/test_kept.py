@@ -30,7 +30,7 @@ def test_finding_is_computed_once_and_again_when_the_run_changes(ask):
 
 @pytest.mark.parametrize(("old", "new"), [("holds", "fails"), ('"found"', '"fount"'), ("}", "")])
 def test_damaged_finding_is_computed_again(ask, old, new):
-    again, run = ask
+    again, _ = ask
     again()
     (path,) = kept.home().iterdir()
     path.write_text(path.read_text().replace(old, new))
