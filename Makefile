@@ -9,6 +9,8 @@
 .PHONY: clean audit judge history edition
 
 SHELL := /bin/sh
+# Where it is set, each process of the tests and the report would compile every module of ours again.
+unexport PYTHONDONTWRITEBYTECODE
 VENV := .venv
 PY := $(VENV)/bin/python
 READY := $(VENV)/.base

@@ -1,10 +1,11 @@
-"""A finished run that tests copy and spoil; which files are begun first; less searching for garbage."""
+"""A finished run that tests copy and spoil; which files are begun first; fresh processes; less search for garbage."""
 
 import gc
 import shutil
 from collections import Counter
 from pathlib import Path
 
+import psutil
 import pytest
 
 from bench.experiments import plan as planning
@@ -13,6 +14,8 @@ TOOK = "orientation-bench/seconds"
 """In pytest's cache: file -> what its tests took when they were last run [s]."""
 SLOW_ROOMS = ("running", "contracts", "engines", "regression")
 """Rooms whose test files take longest: they run first while no durations are known."""
+MOST_BYTES = 640 * 10**6
+"""A test process beyond this begins no other file: compiled code is never freed, and a file adds 300 MB at most."""
 seconds: Counter = Counter()
 
 
@@ -27,6 +30,30 @@ def took(config) -> dict:
 def pytest_configure_node(node):
     """Give it to a process of xdist's."""
     node.workerinput["took"] = took(node.config)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """Return the scheduler of `--dist loadfile`, which gives no file to a process that has grown too large."""
+    from xdist.scheduler import LoadFileScheduling
+
+    class Replacing(LoadFileScheduling):
+        def _reschedule(self, node):
+            if self.workqueue and psutil.Process(node.gateway._rinfo().pid).memory_info().rss > MOST_BYTES:
+                node.shutdown()  # when it has done what it was given
+            super()._reschedule(node)
+
+    return Replacing(config, log) if config.option.dist == "loadfile" else None
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node, error):
+    """End a process that has no more to do; start another one while files are left."""
+    session = node.config.pluginmanager.getplugin("dsession")
+    if error is None:
+        node.gateway.exit()
+        if getattr(session.sched, "workqueue", ()) and not (session.shouldstop or session.shuttingdown):
+            session._clone_node(node)
 
 
 def pytest_collection_modifyitems(config, items):

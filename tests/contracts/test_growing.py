@@ -118,26 +118,45 @@ def test_planted_axis_is_in_the_compiled_condition_the_thresholds_and_the_book_w
     assert ran(tmp_path, "-c", ASKED_OF_AXIS).splitlines() == ["float64", "0.1", "True ['planted-bias'] True"]
 
 
-@pytest.mark.slow
-@pytest.mark.book
-def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(tree):
-    before = sources(tree)
+@pytest.fixture(scope="module")
+def before(tree):
+    """Add the files; return the others."""
+    found = sources(tree)
     for name, text in DROPPED.items():
         (tree / name).write_text(text.lstrip("\n"))
+    return found
 
-    engines = ("--engine", "native", "--engine", "reference")
-    words = ("run", "--task", "dropped-task", "--starts", "dropped-starts", "--horizon", "1", *engines)
+
+ENGINES = ("--engine", "native", "--engine", "reference")
+RUN = ("run", "--task", "dropped-task", "--starts", "dropped-starts", "--horizon", "1", *ENGINES)
+
+
+@pytest.mark.slow
+def test_dropped_files_are_listed_planned_and_counted_without_another_touched(tree, before):
+    listed, dry, counted = said(
+        tree,
+        ("list",),
+        (*RUN, "--regulator", "feedback-linearized", "--dry-run"),
+        ("count", "--regulator", "dropped-regulator"),
+    )
+    for name in LISTED.values():
+        assert f"\n{name} " in listed
+    assert "feedback-linearized/dropped-coordinates" in dry  # a law for any coordinates has met the new ones
+    assert "dropped-regulator  dropped-coordinates" in counted
+
+
+@pytest.mark.slow
+@pytest.mark.weekly
+@pytest.mark.book
+def test_dropped_files_are_run_and_shown_without_another_touched(tree, before):
     on_arm = ("run", "--task", "dropped-arm-task", "--arm", "dropped-arm", "--starts", "dropped-turns")
     way = ("--regulator", "dropped-regulator@dropped-jacobian+dropped-inverse", "--out", "results/arm")
     touching = ("run", "--task", "dropped-probe", "--arm", "dropped-arm", "--out", "results/contact")
     controllers = ("--controller", "impedance-dropped-impedance", "--controller", "hybrid/dropped-coordinates+inverse")
     perturbed = ("run", "--axis", "dropped-axis", "--count", "2", "--out", "results/perturbation")
-    listed, dry, counted, told, *_, shown, compared = said(
+    told, *_, shown, compared = said(
         tree,
-        ("list",),
-        (*words, "--regulator", "feedback-linearized", "--dry-run"),
-        ("count", "--regulator", "dropped-regulator"),
-        (*words, "--regulator", "dropped-regulator"),
+        (*RUN, "--regulator", "dropped-regulator"),
         (*on_arm, "--horizon", "1", "--engine", "reference", *way),
         (*touching, *controllers),
         (*perturbed, "--regulator", "dropped-regulator"),
@@ -145,10 +164,6 @@ def test_dropped_files_are_listed_run_counted_and_shown_without_another_touched(
         ("compare", "results/latest", "results/latest"),
     )
 
-    for name in LISTED.values():
-        assert f"\n{name} " in listed
-    assert "feedback-linearized/dropped-coordinates" in dry  # a law for any coordinates has met the new ones
-    assert "dropped-regulator  dropped-coordinates" in counted
     assert "4 episodes: dropped-regulator/dropped-coordinates by native and reference" in told
 
     assert "dropped-regulator" in shown

@@ -206,16 +206,18 @@ def test_column_of_an_arm_is_numpys_over_all_ticks(column, seen):
     assert found[column] == pytest.approx(EXPECTED_ON_ARM[column](kept, arm), rel=8 * EPS, abs=1e-300)
 
 
-SAMPLE = episode_on_arm(*ARM_CASES[0])[0][0]
+@pytest.fixture(scope="module")
+def sample():
+    return episode_on_arm(*ARM_CASES[0])[0][0]
 
 
 def update(name):
     return next(one for one in METRICS_ON_ARM if one.column == name)
 
 
-def test_range_excess_is_seen_below_and_above_and_not_where_there_is_no_range():
+def test_range_excess_is_seen_below_and_above_and_not_where_there_is_no_range(sample):
     metric = update("range_excess_rad")
-    inside = SAMPLE._replace(q=(0.0,) * 7, lower=(-1.0, -math.inf, *[-2.0] * 5), upper=(1.0, math.inf, *[2.0] * 5))
+    inside = sample._replace(q=(0.0,) * 7, lower=(-1.0, -math.inf, *[-2.0] * 5), upper=(1.0, math.inf, *[2.0] * 5))
     assert metric.update(metric.start, inside) == 0.0
     assert metric.update(metric.start, inside._replace(q=(1.25, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0))) == 0.25
     assert metric.update(metric.start, inside._replace(q=(0.0, 0.0, 0.0, 0.0, 0.0, -2.5, 0.0))) == 0.5
@@ -225,10 +227,10 @@ def test_range_excess_is_seen_below_and_above_and_not_where_there_is_no_range():
 @pytest.mark.parametrize(
     "name", ["peak_u", "min_margin", "peak_tau_nm", "peak_torque_ratio", "range_excess_rad", "position_error_m"]
 )
-def test_extreme_passes_over_a_tick_that_is_not_a_number(name):
+def test_extreme_passes_over_a_tick_that_is_not_a_number(name, sample):
     """The tick at which a controller fails has torques and states that are none."""
     metric = update(name)
     nothing = (math.nan,) * 7
-    missing = SAMPLE._replace(tau=nothing, q=nothing, p=nothing[:3], u=nothing[:3], margin=math.nan)
-    seen = metric.update(metric.start, SAMPLE)
+    missing = sample._replace(tau=nothing, q=nothing, p=nothing[:3], u=nothing[:3], margin=math.nan)
+    seen = metric.update(metric.start, sample)
     assert metric.update(seen, missing) == seen

@@ -134,18 +134,18 @@ def test_a_law_without_a_greatest_command_has_no_gains(word):
     assert gains_at(find_contender(word), 100.0) is None
 
 
-BOUNDED = [one for one in all_contenders() if not one.regulator.in_engine and gains_at(one, 1.0) is not None]
-
-
-@pytest.mark.parametrize("one", BOUNDED, ids=lambda one: one.name)
-def test_at_rest_no_start_asks_for_more_and_one_asks_for_nearly_as_much(one):
+@pytest.mark.slow
+def test_at_rest_no_start_asks_for_more_and_one_asks_for_nearly_as_much():
     """Episodes of one tick show the first commands."""
+    column = FIRST_METRIC + [metric.column for metric in METRICS].index("peak_u")
     starts = [*tasks.start_set("uniform", 1000, seed=5), *tasks.start_set("half-turn"), *tasks.start_set("wraps")]
-    rows = run("ideal-held", one, "free-body", starts, settings(horizon_s=1e-3, gains=gains_at(one, 300.0)), METRICS)
-    peaks = np.sqrt(rows[:, FIRST_METRIC + [metric.column for metric in METRICS].index("peak_u")])
-    room = 1.0 + 1e-4 if one.representation is None else 1.1  # of coordinates it is that of the starts looked at
-    assert np.nanmax(peaks) <= 300.0 * room
-    assert np.nanmax(peaks) >= 300.0 * 0.9
+    laws = [one for one in all_contenders() if not one.regulator.in_engine]
+    for one, gains in [(one, gains_at(one, 300.0)) for one in laws]:
+        if gains is None:
+            continue
+        rows = run("ideal-held", one, "free-body", starts, settings(horizon_s=1e-3, gains=gains), METRICS)
+        room = 1.0 + 1e-4 if one.representation is None else 1.1  # of coordinates it is that of the starts looked at
+        assert 300.0 * 0.9 <= math.sqrt(np.nanmax(rows[:, column])) <= 300.0 * room, one.name
 
 
 NAMES = ("", *contenders("compensators"))

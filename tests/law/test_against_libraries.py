@@ -76,9 +76,13 @@ def assert_agree(ours, theirs, scale, where="", tolerance=TOLERANCE):
 
 
 def asked(library, name):
-    """One function, from a turn to an error."""
-    found = find().function(library, name)
-    return lambda turn: np.array(found.call(turn.R if found.takes == MATRIX else turn.quat_wxyz))
+    """Return one function, from a turn to an error; the libraries are imported when it is first called."""
+
+    def called(turn):
+        found = find().function(library, name)
+        return np.array(found.call(turn.R if found.takes == MATRIX else turn.quat_wxyz))
+
+    return called
 
 
 def shortest(of_turn):

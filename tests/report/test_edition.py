@@ -74,6 +74,7 @@ def rebuilt(tmp_path_factory):
 
 
 @pytest.mark.slow
+@pytest.mark.weekly
 def test_edition_has_what_builds_the_book_and_gives_the_same_rows_without_an_index(rebuilt, tmp_path):
     ours, environment = rebuilt
     book = [".venv/bin/python", "-c", "import jupyter_book, latex2mathml, report.build"]

@@ -7,7 +7,6 @@ import sys
 from collections import deque
 from pathlib import Path
 
-import pandas as pd
 import pytest
 from support.unit_kinds import plan_of_all_kinds
 
@@ -15,7 +14,7 @@ from bench.base.errors import BadNumber, BadResults, LostWorkers, MissingTool, U
 from bench.base.files import read_json
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
-from bench.experiments.experiment import experiment_of, known_experiments, rows_of
+from bench.experiments.experiment import experiment_of, known_experiments
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import find_contender
 from bench.running import run, wire_format
@@ -181,36 +180,20 @@ def units_of_much_work(engine):
     return planning.make("default", [find_contender("rotation-matrix")], choice, count=300_000).units
 
 
-@pytest.fixture(scope="module")
-def made(tmp_path_factory):
-    return plan_of_all_kinds(tmp_path_factory.mktemp("own"))
+def test_chunk_has_the_units_of_every_kind_and_they_arrive_as_they_were_sent(plan):
+    assert {unit.experiment for unit in plan.units} == known_experiments().keys()
+    carried = wire_format.plan_of(json.loads(json.dumps(wire_format.described(plan, plan.units))), load_law)
+    assert carried.units == plan.units
 
 
-@pytest.fixture(scope="module")
-def carried(made):
-    """The plan as it is on the other side."""
-    return wire_format.plan_of(json.loads(json.dumps(wire_format.described(made, made.units))), load_law)
+def test_chunk_of_one_unit_carries_no_law_of_another(plan):
+    assert len(wire_format.described(plan, plan.units)["settings"]["own"]) == 1
+    assert wire_format.described(plan, plan.of("contact"))["settings"]["own"] == []
 
 
-def test_chunk_has_the_units_of_every_kind(made, carried):
-    assert {unit.experiment for unit in made.units} == known_experiments().keys()
-    assert carried.units == made.units
-
-
-def test_other_process_makes_the_same_rows_of_a_chunk(made, carried):
-    for unit in made.units:
-        both = (rows_of(plan.settings, unit) for plan in (carried, made))
-        pd.testing.assert_frame_equal(*both, check_exact=True)
-
-
-def test_chunk_of_one_unit_carries_no_law_of_another(made):
-    assert len(wire_format.described(made, made.units)["settings"]["own"]) == 1
-    assert wire_format.described(made, made.of("contact"))["settings"]["own"] == []
-
-
-def test_chunk_of_other_sources_is_refused(made):
+def test_chunk_of_other_sources_is_refused(plan):
     with pytest.raises(BadResults, match="install the same commit and lock on every machine"):
-        wire_format.plan_of(wire_format.described(made, made.units) | {"sources": "0123456789abcdef"})
+        wire_format.plan_of(wire_format.described(plan, plan.units) | {"sources": "0123456789abcdef"})
 
 
 def test_first_unit_of_each_contender_runs_before_the_rest_of_the_one_before_it():
