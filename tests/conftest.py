@@ -1,6 +1,7 @@
 """A finished run that tests copy and spoil; which files are begun first; fresh processes; less search for garbage."""
 
 import gc
+import re
 import shutil
 from collections import Counter
 from pathlib import Path
@@ -12,8 +13,21 @@ from bench.experiments import plan as planning
 
 TOOK = "orientation-bench/seconds"
 """In pytest's cache: file -> what its tests took when they were last run [s]."""
-SLOW_ROOMS = ("running", "contracts", "engines", "regression")
-"""Rooms whose test files take longest: they run first while no durations are known."""
+SLOW = set(
+    re.findall(
+        r"\w+",
+        """
+answer answer_of_the_reference arm_engines browser claim_experiments closed_loops cluster committed_studies compare
+compiled_cache contact_engines contact_theory convergence counting_on_arms edition every_figure every_impedance
+every_inverse every_jacobian every_language every_metric every_page every_regulator every_representation
+every_start_set every_task export_command foreign_results growing hostile_laws ideal_engine imports lanes libraries
+live_in_browser load loop_limits own_law plan_on_arms planted_claims planted_faults precompile readme regress_gates
+regress_times remedy report_in_browser report_parts resume right_errors sandbox springs summary timing
+timing_on_arms velocity_engine why
+""",
+    )
+)
+"""Files that are slow as a whole: they compile, or start processes. They run first while no durations are known."""
 MOST_BYTES = 640 * 10**6
 """A test process beyond this begins no other file: compiled code is never freed, and a file adds 300 MB at most."""
 seconds: Counter = Counter()
@@ -56,10 +70,18 @@ def pytest_testnodedown(node, error):
             session._clone_node(node)
 
 
+def is_slow(item) -> bool:
+    """Whether the test's file is one of those, or the test is an oracle of the weekly run."""
+    return item.path.stem.removeprefix("test_") in SLOW or item.get_closest_marker("weekly") is not None
+
+
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config, items):
     """Files that take longest first: begun last, one would be left to a single process while the others wait."""
     before = took(config)
-    items.sort(key=lambda item: (-before.get(item.path.stem, 0), item.path.parent.name not in SLOW_ROOMS))
+    for item in filter(is_slow, items):
+        item.add_marker(pytest.mark.slow)
+    items.sort(key=lambda item: (-before.get(item.path.stem, 0), not is_slow(item)))
 
 
 def pytest_runtest_logreport(report):

@@ -44,7 +44,6 @@ def text(*found) -> str:
 # ------------------------------------------------------------------------------------------- its size
 
 
-@pytest.mark.slow
 def test_summary_of_the_reference_fits_the_screen_and_begins_with_the_law(capsys, monkeypatch, reference):
     said = bench(capsys, "show", REFERENCE)
     lines = said.out.splitlines()

@@ -131,7 +131,6 @@ ENGINES = ("--engine", "native", "--engine", "reference")
 RUN = ("run", "--task", "dropped-task", "--starts", "dropped-starts", "--horizon", "1", *ENGINES)
 
 
-@pytest.mark.slow
 def test_dropped_files_are_listed_planned_and_counted_without_another_touched(tree, before):
     listed, dry, counted = said(
         tree,
@@ -145,7 +144,6 @@ def test_dropped_files_are_listed_planned_and_counted_without_another_touched(tr
     assert "dropped-regulator  dropped-coordinates" in counted
 
 
-@pytest.mark.slow
 @pytest.mark.weekly
 @pytest.mark.book
 def test_dropped_files_are_run_and_shown_without_another_touched(tree, before):
@@ -209,7 +207,6 @@ def test_dropped_files_are_run_and_shown_without_another_touched(tree, before):
     assert after.keys() - before.keys() == DROPPED.keys()
 
 
-@pytest.mark.slow
 def test_dropped_experiment_is_planned_run_resumed_stored_shown_and_compared_without_another_file_touched(tree):
     before = sources(tree)
     (tree / EXPERIMENT).write_text(DROPPED_EXPERIMENT.lstrip("\n"))

@@ -76,7 +76,6 @@ def angles(cache, *laws):
     return json.loads(subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout)
 
 
-@pytest.mark.slow
 def test_laws_compiled_by_two_processes_at_once_do_not_mix_in_a_third(tmp_path):
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
     at_once = [

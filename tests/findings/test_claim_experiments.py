@@ -28,7 +28,6 @@ def test_quarter_turns_about_two_axes_and_back_are_a_third_of_a_turn():
     assert degeneracy.ways(0)[1][-1] == pytest.approx(2 * math.pi / 3, abs=1e-12)
 
 
-@pytest.mark.slow
 def test_small_rotations_settle_as_expected_and_large_ones_do_not():
     small, large = (probes.off_linear("linearized-euler", angle, axes(16), Gains(), 1e-3) for angle in (0.001, 1.2))
     assert small.max() < 2e-3
@@ -81,7 +80,6 @@ def test_episodes_beside_poles_are_refused_where_a_run_has_no_such_pose():
         probes.beside_poles(f"{ON_MATRIX}+pseudo-inverse", "panda", of_ur5e, Gains())
 
 
-@pytest.mark.slow
 def test_curves_of_an_arm_bend_by_the_integration_error_alone():
     full, half = (probes.curves(f"{BY_EULER}+solve", "ur5e", Gains(), dt, 2) for dt in (1e-3, 5e-4))
     assert probes.largest(half) / probes.largest(full) == pytest.approx(0.5, abs=0.01)
@@ -89,13 +87,11 @@ def test_curves_of_an_arm_bend_by_the_integration_error_alone():
     assert full.groupby("start_id")["time_s"].min().max() == 0.0
 
 
-@pytest.mark.slow
 def test_curves_of_a_law_that_is_not_linear_in_the_angles_bend_at_any_step():
     full, half = (probes.curves(f"{ON_MATRIX}+solve", "ur5e", Gains(), dt, 2) for dt in (1e-3, 5e-4))
     assert probes.largest(half) > 0.9 * probes.largest(full) > 0.01
 
 
-@pytest.mark.slow
 def test_episodes_beside_poles_start_where_the_table_says_and_end_at_a_tenth_of_a_radian():
     table = poses.rows(Settings(), poses.of_arm("ur5e", 5))
     table = table[table["representation"] == "zyx-euler"]
@@ -121,7 +117,6 @@ def somewhere(count):
     return [(force_conversion.AT_RANDOM, R) for R in force_conversion.random_orientations(count, 1)]
 
 
-@pytest.mark.slow
 def test_work_balances_at_random_and_polar_orientations():
     found, elsewhere = force_conversion.experiment()
     assert found["place"].value_counts().to_dict() == {"random": 2000, "near": 2 * 20 * 12, "exact": 2 * 20}

@@ -142,7 +142,6 @@ def test_verdict_follows_what_is_planted(case):
         assert follows in str(planted(id, *edits).evidence)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("id", [f"C{i:02d}" for i in range(1, 18)])
 def test_claim_is_decided_by_a_quick_run(id):
     verdict = planted(id)
@@ -192,7 +191,6 @@ ADDED = {
 """Claim -> rows that it must not look at: other coordinates, plants that differ from the model, arms."""
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("id", ADDED)
 def test_claim_looks_at_no_other_coordinates_plants_or_arms(id):
     among = planted(id, lambda frames: {name: added(frames[name]) for name, added in ADDED[id].items()})
@@ -200,7 +198,6 @@ def test_claim_looks_at_no_other_coordinates_plants_or_arms(id):
     assert (among.word, str(among.evidence), among.rows) == (alone.word, str(alone.evidence), alone.rows)
 
 
-@pytest.mark.slow
 def test_improvement_that_is_not_dramatic_at_other_gains_depends_on_them():
     slow = edit(
         reference(), "episodes: {} -> settling_time_s = 1.5 * settling_time_s".format(DATA["short"]["feedback_uniform"])

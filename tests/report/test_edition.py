@@ -73,7 +73,6 @@ def rebuilt(tmp_path_factory):
     return ours, environment
 
 
-@pytest.mark.slow
 @pytest.mark.weekly
 def test_edition_has_what_builds_the_book_and_gives_the_same_rows_without_an_index(rebuilt, tmp_path):
     ours, environment = rebuilt

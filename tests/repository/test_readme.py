@@ -38,7 +38,6 @@ def here(tmp_path, monkeypatch):
     return tmp_path
 
 
-@pytest.mark.slow
 def test_commands_run_one_after_the_other_and_say_something(capsys, here):
     for words in OURS:
         said = bench(capsys, *words, *(one for word, more in FEWER.items() if word in words for one in more))

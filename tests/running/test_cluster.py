@@ -123,7 +123,6 @@ def test_missing_dask_is_said_with_the_cure(monkeypatch):
         check_scheduler("local:2")
 
 
-@pytest.mark.slow
 def test_address_without_a_scheduler_is_refused_and_nothing_replaced(plan, tmp_path):
     with pytest.raises(MissingTool, match=r"--scheduler tcp://127.0.0.1:1: no Dask scheduler answers there"):
         run.run(plan, tmp_path / "new", scheduler="tcp://127.0.0.1:1")

@@ -55,7 +55,6 @@ def test_file_that_misbehaves_is_refused(capsys, finished, tmp_path, name):
     assert all(str(path) in line and reason in line for line in lines), lines
 
 
-@pytest.mark.slow
 def test_file_that_does_not_return_is_refused_by_the_judge(capsys, tmp_path):
     assert WAITS in refused(capsys, "judge", written(tmp_path, "loops", AT_IMPORT["loops"][0]))
 
@@ -136,7 +135,6 @@ def test_run_of_a_law_that_only_raises_in_some_states_does_not_end_with_0(tmp_pa
     assert run(tmp_path, "ideal-rk4", {"raises": COMPILED["raises"][0]}) == 1
 
 
-@pytest.mark.slow
 def test_cluster_makes_the_same_tables(engine, beside, tmp_path):
     assert run(tmp_path, engine, LAWS[engine], "--scheduler", "local:2") == 1
     made, wanted = ({path.name: path.read_bytes() for path in at.glob("run/*.parquet")} for at in (tmp_path, beside))

@@ -24,7 +24,6 @@ def compiled(folder: Path, *work: str) -> set[str]:
     return {path.stem.partition("-")[2] for path in (folder / "costs").iterdir()}
 
 
-@pytest.mark.slow
 def test_it_leaves_laws_controllers_of_arms_and_of_contact_in_the_cache(tmp_path):
     names = ["rotation-matrix", "rotation-matrix@geometric+solve", "impedance-geometric"]
     assert compiled(tmp_path, *names, f"{precompile.COUNT}rotation-matrix") == {"rotation-matrix"}

@@ -84,7 +84,6 @@ def test_stored_study_has_every_seed_and_half_the_step(stored):
     assert set(stored["runs"]) == set(RUNS)
 
 
-@pytest.mark.slow
 def test_no_verdict_hangs_on_the_draw_or_on_the_step(stored):
     reference = {one.id: str(one.word) for one in claims.judge_all(verdicts.REFERENCE)}
     assert list(reference) == [one.id for one in claims.all_claims()]
