@@ -1,7 +1,6 @@
 """A finished run that tests copy and spoil; which files are begun first; fresh processes; less search for garbage."""
 
 import gc
-import re
 import shutil
 from collections import Counter
 from pathlib import Path
@@ -13,20 +12,7 @@ from bench.experiments import plan as planning
 
 TOOK = "orientation-bench/seconds"
 """In pytest's cache: file -> what its tests took when they were last run [s]."""
-SLOW = set(
-    re.findall(
-        r"\w+",
-        """
-answer answer_of_the_reference arm_engines browser claim_experiments closed_loops cluster committed_studies compare
-compiled_cache contact_engines contact_theory convergence counting_on_arms edition every_figure every_impedance
-every_inverse every_jacobian every_language every_metric every_page every_regulator every_representation
-every_start_set every_task export_command foreign_results growing hostile_laws ideal_engine imports lanes libraries
-live_in_browser load loop_limits own_law plan_on_arms planted_claims planted_faults precompile readme regress_gates
-regress_times remedy report_in_browser report_parts resume right_errors sandbox springs summary timing
-timing_on_arms velocity_engine why
-""",
-    )
-)
+SLOW = set(Path(__file__).with_name("slow.txt").read_text(encoding="utf-8").split())
 """Files that are slow as a whole: they compile, or start processes. They run first while no durations are known."""
 MOST_BYTES = 640 * 10**6
 """A test process beyond this begins no other file: compiled code is never freed, and a file adds 300 MB at most."""
