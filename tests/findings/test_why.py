@@ -59,7 +59,7 @@ FAULTY = {
 """Law -> its spring, what it returns, its faults, and a finding's size; the swapped one jumps from -pi to pi."""
 
 OF_EPISODES = {"oscillation", "creeping", "chatter"}
-"""Faults that only episodes show. Laws without them are known by their command field, which takes a tenth of the time."""
+"""Faults that only episodes show; laws without them are known by their command field alone."""
 CONSEQUENCES = {"", "stuck", "lost starts", "creeping", "oscillation", "singular goal", "no number"}
 
 
