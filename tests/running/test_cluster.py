@@ -15,7 +15,7 @@ from bench.base.errors import BadNumber, BadResults, LostWorkers, MissingTool, U
 from bench.base.files import read_json
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
-from bench.experiments.experiment import experiment_of, known_experiments
+from bench.experiments.experiment import known_experiments
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import find_contender
 from bench.running import run, wire_format
@@ -98,7 +98,7 @@ def test_cluster_makes_the_bytes_that_threads_make_though_a_worker_is_killed(few
         told.append(unit)
 
     run.run(few, tmp_path, scheduler=address(client), report=kill_one)
-    assert by_threads.keys() == {f"{experiment_of(unit).table.name}.parquet" for unit in few.units}
+    assert by_threads.keys() == {f"{name}.parquet" for name in few.tables}
     assert tables(tmp_path) == by_threads
     assert sorted(unit.key for unit in told) == sorted(unit.key for unit in few.units)
     assert set(client.run(os.getpid).values()) != set(pids.values())
