@@ -76,6 +76,7 @@ def test_law_from_elsewhere_is_shown_as_text_and_not_run(evil, marker):
     assert "REGULATOR" in shown
 
 
+@pytest.mark.weekly
 def test_summary_of_their_results_runs_no_law_of_theirs(capsys, evil, marker):
     assert bench(capsys, "show", evil).code == 0
     assert not marker.exists()
