@@ -75,9 +75,10 @@ def found(tmp_path_factory):
         for unit in plan.units:
             if unit.experiment == "command-field" or (unit.experiment == "free-body" and FAULTY[name][2] & OF_EPISODES):
                 parts[one.name, unit.experiment].append(rows_of(plan.settings, unit))
-        said = {each.fault: each.text for each in judgement(one, parts).said}
         [field] = parts[one.name, "command-field"]
-        return said, field.set_index("finding")
+        moves = (one.name, "free-body") in parts
+        said = judgement(one, parts).said if moves else sentences(field, one.regulator.property)
+        return {each.fault: each.text for each in said}, field.set_index("finding")
 
     return {name: look(name) for name in FAULTY}
 
