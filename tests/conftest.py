@@ -2,7 +2,6 @@
 
 import gc
 import shutil
-from collections import Counter
 from pathlib import Path
 
 import psutil
@@ -10,26 +9,10 @@ import pytest
 
 from bench.experiments import plan as planning
 
-TOOK = "orientation-bench/seconds"
-"""In pytest's cache: file -> what its tests took when they were last run [s]."""
-SLOW = set(Path(__file__).with_name("slow.txt").read_text(encoding="utf-8").split())
-"""Files that are slow as a whole: they compile, or start processes. They run first while no durations are known."""
+SLOW = Path(__file__).with_name("slow.txt").read_text(encoding="utf-8").split()
+"""Files that are slow as a whole, the slowest first: they compile, or start processes."""
 MOST_BYTES = 640 * 10**6
 """A test process beyond this begins no other file: compiled code is never freed, and a file adds 300 MB at most."""
-seconds: Counter = Counter()
-
-
-def took(config) -> dict:
-    """What was kept, as the first process read it: those that it starts must have one and the same order."""
-    if hasattr(config, "workerinput"):
-        return config.workerinput["took"]
-    return config.cache.get(TOOK, {}) if hasattr(config, "cache") else {}
-
-
-@pytest.hookimpl(optionalhook=True)
-def pytest_configure_node(node):
-    """Give it to a process of xdist's."""
-    node.workerinput["took"] = took(node.config)
 
 
 @pytest.hookimpl(optionalhook=True)
@@ -56,30 +39,14 @@ def pytest_testnodedown(node, error):
             session._clone_node(node)
 
 
-def is_slow(item) -> bool:
-    """Whether the test's file is one of those, or the test is an oracle of the weekly run."""
-    return item.path.stem.removeprefix("test_") in SLOW or item.get_closest_marker("weekly") is not None
-
-
 @pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(config, items):
-    """Files that take longest first: begun last, one would be left to a single process while the others wait."""
-    before = took(config)
-    for item in filter(is_slow, items):
-        item.add_marker(pytest.mark.slow)
-    items.sort(key=lambda item: (-before.get(item.path.stem, 0), not is_slow(item)))
-
-
-def pytest_runtest_logreport(report):
-    """Add up what each file takes."""
-    seconds[Path(report.fspath).stem] += report.duration
-
-
-def pytest_sessionfinish(session):
-    """Keep it for the next time, once for all processes."""
-    config = session.config
-    if hasattr(config, "cache") and not hasattr(config, "workerinput"):
-        config.cache.set(TOOK, took(config) | {file: round(total) for file, total in seconds.items()})
+def pytest_collection_modifyitems(items):
+    """The slowest files first: begun last, one would be left to a single process while the others wait."""
+    places = {f"test_{word}": place for place, word in enumerate(SLOW)}
+    for item in items:
+        if item.path.stem in places or item.get_closest_marker("weekly"):
+            item.add_marker(pytest.mark.slow)
+    items.sort(key=lambda item: places.get(item.path.stem, len(places)))
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -73,7 +73,7 @@ def found(tmp_path_factory):
         [one] = contenders_of(load_law(path))
         plan = plan_of([one])
         for unit in plan.units:
-            if unit.experiment == "command-field" or (unit.experiment == "free-body" and FAULTY[name][2] & OF_EPISODES):
+            if unit.experiment == "command-field" or (unit.selector == "uniform" and FAULTY[name][2] & OF_EPISODES):
                 parts[one.name, unit.experiment].append(rows_of(plan.settings, unit))
         [field] = parts[one.name, "command-field"]
         moves = (one.name, "free-body") in parts

@@ -200,11 +200,6 @@ def test_chunk_of_one_unit_carries_no_law_of_another(plan):
     assert wire_format.described(plan, plan.of("contact"))["settings"]["own"] == []
 
 
-def test_chunk_of_other_sources_is_refused(plan):
-    with pytest.raises(BadResults, match="install the same commit and lock on every machine"):
-        wire_format.plan_of(wire_format.described(plan, plan.units) | {"sources": "0123456789abcdef"})
-
-
 def test_first_unit_of_each_contender_runs_before_the_rest_of_the_one_before_it():
     laws = [find_contender(word) for word in ("rotation-matrix", "linearized-euler/zyx-euler")]
     beside = Choice(experiments=("free-body", "contact", "robustness"))
