@@ -127,17 +127,13 @@ def before(tree):
     return found
 
 
-ENGINES = ("--engine", "native", "--engine", "reference")
-RUN = ("run", "--task", "dropped-task", "--starts", "dropped-starts", "--horizon", "1", *ENGINES)
+STARTED = ("--starts", "dropped-starts", "--horizon", "1")
+RUN = ("run", "--task", "dropped-task", *STARTED, "--engine", "native", "--engine", "reference")
 
 
 def test_dropped_files_are_listed_planned_and_counted_without_another_touched(tree, before):
-    listed, dry, counted = said(
-        tree,
-        ("list",),
-        (*RUN, "--regulator", "feedback-linearized", "--dry-run"),
-        ("count", "--regulator", "dropped-regulator"),
-    )
+    planned = (*RUN, "--regulator", "feedback-linearized", "--dry-run")
+    listed, dry, counted = said(tree, ("list",), planned, ("count", "--regulator", "dropped-regulator"))
     for name in LISTED.values():
         assert f"\n{name} " in listed
     assert "feedback-linearized/dropped-coordinates" in dry  # a law for any coordinates has met the new ones

@@ -106,30 +106,14 @@ def with_memory(task, size: str):
 
 
 @pytest.mark.parametrize(
-    ("word", "memory", "contact", "outcomes", "says", "ticks", "arm"),
+    ("arm", "word", "memory", "contact", "outcomes", "says", "ticks"),
     [
+        (ARMS[0], "surface-alignment", "2K", STANDARD, ["broken"], "out of memory", range(1)),  # for collision
+        (ARMS[-1], "force-on-plane", "2K", STANDARD, ["broken"], "out of memory", range(1, 100)),  # for a contact
+        (ARMS[0], "crank", "1200", STANDARD, ["broken"], "mjWARN_CNSTRFULL", range(1001)),  # constraints are left out
         (
-            "surface-alignment",
-            "2K",
-            STANDARD,
-            ["broken"],
-            "out of memory",
-            range(1),
-            ARMS[0],
-        ),  # collision needs the room
-        (
-            "force-on-plane",
-            "2K",
-            STANDARD,
-            ["broken"],
-            "out of memory",
-            range(1, 100),
-            ARMS[-1],
-        ),  # the first contact does
-        ("crank", "1200", STANDARD, ["broken"], "mjWARN_CNSTRFULL", range(1001), ARMS[0]),  # constraints are left out
-        (
-            *("surface-alignment", "", STANDARD._replace(stiffness=1e12, damping=1e9)),
-            *(["diverged", "saturated"], "", range(1, 1000), ARMS[-1]),
+            *(ARMS[-1], "surface-alignment", "", STANDARD._replace(stiffness=1e12, damping=1e9)),
+            *(["diverged", "saturated"], "", range(1, 1000)),
         ),
     ],
 )
