@@ -145,7 +145,7 @@ FAST = ("without-end", "late-fratricide")
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=() if name in FAST else pytest.mark.slow) for name in COMPILED]
+    "name", [pytest.param(name, marks=() if name in FAST else pytest.mark.weekly) for name in COMPILED]
 )
 def test_law_that_misbehaves_does_not_pass_the_judge(capsys, tmp_path, name):
     said = bench(capsys, "judge", written(tmp_path, name, COMPILED[name][0]), "--law-limit", "1")

@@ -30,11 +30,13 @@ def killed(tmp_path_factory):
     return json.loads(out)
 
 
+@pytest.mark.weekly
 @pytest.mark.parametrize("moments", ["at random moments", "while finishing", "while clearing"])
 def test_killed_run_goes_on_and_ends_with_the_same_files(killed, moments):
     assert [one for one in killed[moments] if one["code"] != 0 or not one["same"]] == []
 
 
+@pytest.mark.weekly
 def test_kills_fall_where_they_are_meant_to(killed):
     """Into the middle of a run, and at every file operation of its end and of the clearing before it."""
     assert len(killed["at random moments"]) == 4
@@ -43,11 +45,13 @@ def test_kills_fall_where_they_are_meant_to(killed):
     assert [".plan.json" in "".join(one["names"]) for one in killed["while clearing"]][-1]
 
 
+@pytest.mark.weekly
 def test_finished_run_leaves_its_tables_and_nothing_else(killed):
     tables = {f"{one.table.name}.parquet" for one in known_experiments().values() if one.name != "map"}
     assert killed["files"] == sorted(tables | {"plan.json", "provenance.json"})
 
 
+@pytest.mark.weekly
 def test_one_thread_and_two_give_the_same_files(killed):
     assert killed["one thread"]
 
