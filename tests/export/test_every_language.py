@@ -109,7 +109,7 @@ IN_CPP = (
     ],
 )
 def test_vectors_pass_where_nothing_of_ours_is_installed(tmp_path, language):
-    """Of those that take a compiler, some: all laws in C are held to our bits above, all headers are compiled below."""
+    """Compile some alone: all laws in C are held to our bits above, and all headers are compiled below."""
     chosen = {"cpp": IN_CPP, "c": {*IN_CPP, *subject_words()[::5]}}
     for one in map(find_subject, chosen.get(language, subject_words())):
         code, is_right, said = run_test(written(one, language, tmp_path), language, one.identifier)
