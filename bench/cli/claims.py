@@ -5,7 +5,7 @@ from typing import Any
 
 import rich_click as click
 
-from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
+from bench.cli.paragraphs import Paragraph, print_paragraphs
 from bench.cli.progress import progress
 from bench.cli.screen import console, examples
 
@@ -16,10 +16,11 @@ from bench.cli.screen import console, examples
 def COMMAND(folder: Path | None, criteria: bool) -> None:
     """List the claims of Murphy (1988): id, verdict, claim, then the evidence (default: results/latest).
 
-    A run of some laws or starts has no rows about some claims; those are named at the end as not judged.
+    A claim is judged only if the run has the starts that it needs. The others are at the end, with what is lacking.
     """
     from bench.experiments.tables import read
     from bench.findings.claims import Results, judge_possible
+    from bench.findings.claims.tables import WHOLE
 
     results = Results(folder or read.folder())
     results.table("episodes")  # refuses a run that has not finished
@@ -32,7 +33,9 @@ def COMMAND(folder: Path | None, criteria: bool) -> None:
         print_paragraphs(Paragraph(one.id, (claimed, *correction, f"Evidence: {one.evidence}", *record)))
         console().print()
     if lacks:
-        print_paragraphs(Paragraph("Not judged", (f"This run has no rows about {listed(list(lacks))}.",)))
+        reasons = ((id, reason.removesuffix(f": {WHOLE}")) for id, reason in lacks.items())
+        said = (f"{id} cannot be judged from this run: {reason}." for id, reason in reasons)
+        print_paragraphs(Paragraph("Not judged", (*said, f"To judge every claim, {WHOLE}.")))
 
 
 def _record(one: Any) -> tuple[str, ...]:

@@ -25,7 +25,8 @@ def COMMAND(law: str, law_limit: float) -> None:
 
     It examines the command over all states (stiffness and damping at three goals, equilibria away from the goal,
     jumps), episodes from uniform, spinning and other starts (which are lost, and how they rest), and robustness. It
-    lists the laws of results/reference that are most like yours.
+    lists the laws of results/reference that are nearest to yours in two numbers: the pull towards the goal at 90
+    degrees, and the median settling time from uniform starts.
     """
     is_file = Path(law).suffix or Path(law).exists()
     own = options.own_laws((Path(law),)) if is_file else (registry.regulator(law),)
@@ -40,15 +41,15 @@ def COMMAND(law: str, law_limit: float) -> None:
 
 
 def print_judgement(one: Judgement) -> None:
-    """Print what a judgement says of a law, faults first, and the laws most like it."""
+    """Print what a judgement says of a law, faults first, and the laws nearest to it."""
     screen = console()
     screen.print(f"{one.name}: {verdict(one)}\n")
     for head, is_fault in (("Faults", True), ("Otherwise" if one.faults else "Findings", False)):
         texts = tuple(f"{each.text} [{each.page}]" for each in one.said if bool(each.fault) == is_fault)
         print_paragraphs(Paragraph(head, texts))
     if one.beside:
-        title = "\nThe laws most like it (results/reference; a/b: a of b settled)"
-        screen.print(frame_table(pd.DataFrame(one.beside), title))
+        title = "\nThe laws of results/reference nearest to it in pull at 90 degrees and median settling time"
+        screen.print(frame_table(pd.DataFrame(one.beside), f"{title} (a/b: a of b settled)"))
     screen.print("\n[..] are pages of the book: report/pages, or make report.")
 
 

@@ -9,10 +9,8 @@ from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 from bench.export.layout import INDENT, wrapped
-from bench.export.program import INDEX, REAL, Kind, Tuple, Typed, arguments, place_of
+from bench.export.program import ARITHMETIC, COMPARISONS, INDEX, REAL, SIGNS, Kind, Tuple, Typed, arguments, place_of
 
-NAMES = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
-SIGNS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
 STRENGTH = {ast.Mult: 6, ast.Div: 6, ast.Add: 5, ast.Sub: 5}
 """How an operator binds: a call 9, a sign 7, a comparison 4, `and` 3, `or` 2, a choice 1, in every such language."""
 
@@ -75,7 +73,7 @@ class _Body:
                 yield from (f"{indent}{one};" for one in self.assigned(target, node.value, due))
         elif isinstance(node, ast.AugAssign):
             name = self.expression(node.target)
-            yield f"{indent}{name} = {name} {NAMES[type(node.op)]} {self.expression(node.value, 7)};"
+            yield f"{indent}{name} = {name} {ARITHMETIC[type(node.op)]} {self.expression(node.value, 7)};"
         elif isinstance(node, ast.Return) and node.value is not None:
             yield f"{indent}return {self.expression(node.value)};"
         elif isinstance(node, ast.If):
@@ -178,13 +176,13 @@ class _Body:
             case ast.BinOp():
                 strength = STRENGTH[type(node.op)]
                 left, right = self.expression(node.left, strength), self.expression(node.right, strength + 1)
-                return f"{left} {NAMES[type(node.op)]} {right}", strength
+                return f"{left} {ARITHMETIC[type(node.op)]} {right}", strength
             case ast.UnaryOp():
-                sign = {ast.USub: "-", ast.UAdd: "+", ast.Not: "!"}[type(node.op)]
+                sign = "!" if isinstance(node.op, ast.Not) else SIGNS[type(node.op)]
                 return sign + self.expression(node.operand, 8), 7
             case ast.Compare():
                 sides = [self.expression(one, 5) for one in (node.left, *node.comparators)]
-                signs = [SIGNS[type(one)] for one in node.ops]
+                signs = [COMPARISONS[type(one)] for one in node.ops]
                 pairs = [f"{left} {sign} {right}" for left, sign, right in zip(sides, signs, sides[1:], strict=False)]
                 return " && ".join(pairs), 4 if len(pairs) == 1 else 3
             case ast.BoolOp():

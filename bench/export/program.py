@@ -15,6 +15,16 @@ from typing import Any, NamedTuple
 from bench.base.errors import BadLaw
 from bench.law.scalar import PRIMITIVES
 
+ARITHMETIC = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
+COMPARISONS = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
+SIGNS = {ast.USub: "-", ast.UAdd: "+", ast.Not: "not"}
+CURES: dict[type, tuple[str, str]] = {
+    ast.Pow: ("**", "write a power as a product, a root with sqrt, a constant outside the functions"),
+    ast.FloorDiv: ("//", "divide with /, or write a whole number outside the functions"),
+    ast.Mod: ("%", "write a whole number outside the functions, or keep an angle with atan2"),
+}
+"""Operators that Python has and a law has not: how each is written, and what to write in its place."""
+
 
 class Function(NamedTuple):
     """A function of the dialect: its tree, the value of each free name, and the summary of its docstring.
@@ -37,7 +47,7 @@ def read_function(function: Callable) -> Function:
     """Read a function.
 
     Errors:
-        BadLaw: its text cannot be read, or a name in it is nothing that can be translated.
+        BadLaw: its text cannot be read, or a name or an operator in it is nothing that can be translated.
     """
     try:
         text = textwrap.dedent(inspect.getsource(function))
@@ -48,11 +58,29 @@ def read_function(function: Callable) -> Function:
         raise BadLaw(f"{function.__qualname__}: a law is a function written with def, not {type(node).__name__}")
     if ast.get_docstring(node) is not None:
         node.body = node.body[1:]
+    refuse_operators(node)
     closure = inspect.getclosurevars(function)
     values = {**vars(builtins), **closure.globals, **closure.nonlocals}
     names = {name: _resolved(function, name, values) for name in free_names(node)}
     summary = (inspect.getdoc(function) or "").partition("\n\n")[0]
     return Function(function.__name__, node, names, " ".join(summary.split()))
+
+
+def refuse_operators(function: ast.FunctionDef) -> None:
+    """Refuse operators that the languages of the export do not all have.
+
+    Errors:
+        BadLaw: there is one.
+    """
+    allowed = ARITHMETIC | COMPARISONS | SIGNS
+    for node in (one for statement in function.body for one in ast.walk(statement)):
+        for used in map(type, getattr(node, "ops", [getattr(node, "op", None)])):
+            if issubclass(used, ast.operator | ast.unaryop | ast.cmpop) and used not in allowed:
+                written, cure = CURES.get(used, (used.__name__, "write it with those"))
+                raise BadLaw(
+                    f"{function.name}: `{ast.unparse(node)}` has the operator {written}, which cannot be exported; "
+                    f"allowed: {' '.join(dict.fromkeys(allowed.values()))} and or; {cure}"
+                )
 
 
 def free_names(node: ast.FunctionDef) -> list[str]:

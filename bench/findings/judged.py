@@ -1,4 +1,4 @@
-"""A user's laws on the free body, in processes of their own: all there is to say of them, and the laws like them."""
+"""A user's laws on the free body, in processes of their own: all there is to say of them, and the nearest laws."""
 
 import dataclasses
 from collections import defaultdict

@@ -12,7 +12,7 @@ class Said(NamedTuple):
 
 
 class Judgement(NamedTuple):
-    """What is said of a law, and a line for it and for each law of results/reference that is most like it.
+    """What is said of a law, and a line for it and for each law of results/reference nearest to it (`why.beside`).
 
     is_lost: it crashed or hung; its rows say where.
     """

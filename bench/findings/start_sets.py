@@ -1,7 +1,43 @@
-"""Directed start sets of the free body that findings count together."""
+"""Directed start sets of the free body that findings count together, and how many starts of each a finding needs."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+
+import tasks
+from bench.base.on_first_use import pd
+from bench.experiments.suites import SUITES
 
 AT_REST = ("half-turn", "poles", "wraps", "box")
 """Starts at rest whose goal is the identity: points of SO(3) alone."""
 
 DIRECTED = (*AT_REST, "tumbling", "goals")
 """All sets but the uniform one and the paper's three examples."""
+
+
+@functools.cache
+def least_starts(engine: str, part: str = "slices") -> dict[str, int]:
+    """Return how many starts every suite has at least by an engine, by start set; sets that one of them lacks are out.
+
+    Args:
+        part: of a suite: `slices` of the paper's laws, `beyond` of later ones and in other coordinates.
+    """
+    sizes = [
+        {one.start_set: tasks.start_set_length(one.start_set, one.size, 0) for one in slices if one.engine == engine}
+        for slices in (getattr(suite, part) for suite in SUITES.values())
+    ]
+    shared = [name for name in ("uniform", *DIRECTED) if all(name in own for own in sizes)]
+    return {name: min(own[name] for own in sizes) for name in shared}
+
+
+def least_on_arms() -> dict[str, int]:
+    """Return how many starts of each set the smallest suite has on an arm."""
+    return {one.start_set: one.size or 0 for one in SUITES["quick"].on_arms.slices}
+
+
+def describe_lacking(frame: pd.DataFrame, least: Mapping[str, int], *start_sets: str) -> str:
+    """Say of which sets, of those named or all, episodes have fewer starts than `least`; empty if of none."""
+    found = frame.groupby("start_set", observed=True)["start_id"].nunique()
+    few = [name for name in start_sets or least if found.get(name, 0) < least.get(name, 0)]
+    return ", ".join(f"{found.get(name, 0):,} of {least[name]:,} {name}" for name in few)

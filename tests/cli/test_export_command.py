@@ -4,7 +4,7 @@ import subprocess
 import sys
 
 import pytest
-from support.command_line import bench
+from support.command_line import bench, refused
 from support.exported import needs
 from support.user_law import law_text
 
@@ -68,7 +68,13 @@ def test_export_refuses_what_is_not_there_with_the_cure(capsys, words, cure):
     assert (said.code, cure in said.err) == (2, True), said.err
 
 
+@pytest.mark.parametrize("used", ["omega[0] ** 2", "omega[0] // 2.0", "5 % 3"])
+def test_operator_that_other_languages_lack_is_refused_with_what_is_allowed(capsys, tmp_path, used):
+    (tmp_path / "mine.py").write_text(law_text(f"return (gains.kp * ({used}), 0.0, 0.0)"))
+    line = refused(capsys, "export", "mine", "--law", tmp_path / "mine.py", "--to", "c", "--out", tmp_path / "out")
+    assert f"`{used}` has the operator {used.split()[1]}, which cannot be exported; allowed: + - * /" in line
+
+
 def test_export_into_what_is_no_folder_is_refused(capsys, tmp_path):
     (tmp_path / "file").write_text("")
-    said = bench(capsys, "export", "rotation-matrix", "--to", "c", "--out", str(tmp_path / "file"))
-    assert (said.code, "name a folder" in said.err) == (2, True)
+    assert "name a folder" in refused(capsys, "export", "rotation-matrix", "--to", "c", "--out", tmp_path / "file")

@@ -12,9 +12,9 @@ from bench.cli.details.episodes import tables_of_arms
 from bench.cli.options import REFERENCE
 from bench.cli.screen import frame_table
 from bench.cli.summary import answer, failures
-from bench.cli.summary.whole import count_verdicts, parts_in
+from bench.cli.summary.whole import parts_in
 from bench.experiments.tables import read as results
-from bench.findings.claims import Results, all_claims
+from bench.findings.claims import Results
 from bench.findings.selection.measured import measure
 from bench.findings.selection.needs import advise
 
@@ -73,7 +73,7 @@ def test_what_a_narrowed_run_offers_next_works(capsys, finished, monkeypatch):
     said = [bench(capsys, *words.split()) for words in offered]
     assert [words.split()[0] for words in offered] == ["show", "claims"]
     assert {(one.code, "There is nothing" in one.out) for one in said} == {(0, False)}
-    assert re.search(r"^Not judged {3}This run has no rows about C01", said[-1].out, re.MULTILINE)
+    assert re.search(r"^Not judged {3}C01 cannot be judged from this run: no episode", said[-1].out, re.MULTILINE)
 
 
 # ----------------------------------------------------------------------------------------- its words
@@ -112,15 +112,6 @@ def test_law_that_broke_is_named(tables):
     law = str(lost["contender"].iloc[0]).partition("@")[0]
     said = text(failures.paragraph(Results(REFERENCE, {**tables, "episodes": lost})))
     assert f"{law} crashed in 2 episodes and {law} hung in 1 episode" in said
-
-
-def test_claims_without_rows_are_counted_apart(tables):
-    frames = dict.fromkeys(("traces", "boundaries", "poses", "episodes", "compliance", "robustness"))
-    empty = {name: results.table(REFERENCE, name).iloc[:0] for name in frames}
-    said = text(count_verdicts(Results(REFERENCE, {**empty, "costs": tables["costs"]})))
-    number = int(re.search(r"(\d+) cannot be judged from this run", said)[1])
-    assert f"Of the paper's {len(all_claims())} claims" in said
-    assert 0 < number < len(all_claims())
 
 
 # ------------------------------------------------------------------------------------------- its parts

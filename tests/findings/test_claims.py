@@ -14,6 +14,7 @@ from pyarrow import parquet
 from bench.base.files import read_json
 from bench.base.provenance import ROOT
 from bench.cli import claims as command
+from bench.cli.summary.whole import count_verdicts
 from bench.findings import claims
 from bench.findings.claims.errata import ERRATA, UNTESTABLE
 from bench.findings.claims.tables import share
@@ -133,13 +134,18 @@ def test_counts_of_words_are_told_in_their_order():
     assert claims.told(one.word for one in EVERY) == "2 hold, 1 does not hold, 1 depends on the gains"
 
 
-def test_claims_of_a_narrowed_run_lists_what_it_decides_and_what_not(tmp_path):
-    for name in ("plan.json", "provenance.json"):
+def test_run_of_two_starts_a_set_judges_no_claim_about_episodes(tmp_path):
+    for name in ("plan.json", "provenance.json", "costs.parquet"):
         shutil.copy(REFERENCE / name, tmp_path)
-    for path in REFERENCE.glob("*.parquet"):
-        rows = parquet.read_table(path)
-        parquet.write_table(rows if path.stem == "costs" else rows.slice(0, 3), tmp_path / path.name)
-    decided, lacks = claims.judge_possible(claims.Results(tmp_path))
+    for path in set(REFERENCE.glob("*.parquet")) - {REFERENCE / "costs.parquet"}:
+        rows, sets = parquet.read_table(path), ["regulator", "representation", "arm", "engine", "start_set"]
+        is_few = set(sets) <= set(rows.column_names)
+        few = rows.to_pandas().groupby(sets, observed=True).head(2).index if is_few else range(min(3, len(rows)))
+        parquet.write_table(rows.take([*few]), tmp_path / path.name)
+    decided, lacks = claims.judge_possible(results := claims.Results(tmp_path))
+    assert not [one.id for one in decided if "episodes" in one.evidence.tables]
+    assert "fewer starts than the claim needs (2 of 1,000 uniform, 2 of 238 half-turn" in lacks["C01"]
+    assert f"{len(lacks)} cannot be judged from this run" in count_verdicts(results).sentences[0]
     said = CliRunner().invoke(command.COMMAND, [str(tmp_path)])
     assert said.exit_code == 0
     listed, _, rest = said.output.partition("Not judged")

@@ -77,9 +77,11 @@ def count_verdicts(results: Results) -> Paragraph:
     decided, lacks = judge_possible(results)
     every = len(decided) + len(lacks)
     if not decided:
-        return Paragraph("Claims", (f"This run decides none of the paper's {every} claims.",))
+        return Paragraph("Claims", (f"None of the paper's {every} claims can be judged from this run.",))
     failed = ", ".join(one.id for one in decided if one.word == Word.FAILS)
-    now = f"Of the paper's {every} claims {told(one.word for one in decided)}"
+    alone = sum(one.evidence.tables == ("experiment",) for one in decided)
+    computed = f" ({alone} by computations that need no starts of a run)" if lacks and alone else ""
+    now = f"Of the paper's {every} claims {told(one.word for one in decided)}{computed}"
     now += f". What does not hold: {failed}" if failed else ""
     unknown = f"; {len(lacks)} cannot be judged from this run" if lacks else ""
     first = told(one.first for one in decided)

@@ -13,6 +13,7 @@ from bench.findings.claims import probes
 from bench.findings.claims.probes import EXACT_RAD
 from bench.findings.claims.standing import ORDERED, Ledger, Operations, price_of_a_call, times_of
 from bench.findings.claims.tables import Results, settled, settling_times, some
+from bench.findings.start_sets import describe_lacking, least_starts
 
 if TYPE_CHECKING:
     from bench.findings.maps import Spun
@@ -68,14 +69,17 @@ class Adequacy(NamedTuple):
 
 
 def every(results: Results, engine: str) -> list[Adequacy]:
-    """All laws that have uniform starts, 180° rotations and a cost; the one with the fewest operations first.
+    """All laws that have a suite's uniform starts, its 180° rotations and a cost; the fewest operations first.
 
     Errors:
         NoEvidence: no episode on the free body by this engine.
     """
     runs = results.table("episodes", **FREE_BODY, task="free-body", engine=engine)
     runs = runs[runs["start_set"].isin(("uniform", *DIRECTED))]
-    runs = some(converged(runs), f"episode by {engine}").reset_index(drop=True)
+    least, by_law = least_starts(engine, "beyond"), runs.groupby("contender", observed=True)
+    lacking = [name for name, own in by_law if describe_lacking(own, least, "uniform", "half-turn")]
+    runs = runs[~runs["contender"].isin(lacking if results.folder else [])]
+    runs = some(converged(runs), f"law with the starts that a claim needs by {engine}").reset_index(drop=True)
     runs = runs.assign(lost=~settled(runs), exact=exact(runs))
     costs = results.table("costs", **FREE_BODY, branch="typical")
     priced = {str(name): rows for name, rows in costs.groupby("contender", observed=True)}

@@ -17,6 +17,7 @@ from bench.findings.claims.side_by_side import BASE
 from bench.findings.claims.standing import ORDERED, Operations, by_columns
 from bench.findings.claims.tables import Results, evidence, some
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
+from bench.findings.start_sets import least_on_arms
 from bench.law.control.contact_controller import PAPERS_FORM
 from bench.law.inputs import Gains
 
@@ -74,7 +75,9 @@ def c20(results: Results) -> tuple[Word, Evidence]:
     gains = Gains(float(found["kp"].iloc[0]), float(found["kv"].iloc[0]))
     bends = [results.found_by(bend, arm, gains, float(found["dt_s"].iloc[0])) for arm in arms]
     compared_at = {arm: _at_poles(results, found, poses, arm, gains) for arm in arms}
-    clear, common = (pd.concat([_pairs(found, arm, "clear", one) for arm in arms]) for one in (BY_EULER, BY_COMMON))
+    clear, common = (
+        pd.concat([_pairs(results, found, arm, "clear", one) for arm in arms]) for one in (BY_EULER, BY_COMMON)
+    )
     hidden = [_hidden(results, joints) for joints in INVERSES]
     full, shares, limits, drifts, samples = zip(*bends, strict=True)
     is_first_order = LIMIT.HALVING[0] <= min(shares) and max(shares) <= LIMIT.HALVING[1]
@@ -104,7 +107,7 @@ def bend(arm: str, gains: Gains, dt_s: float, curves: Callable = probes.curves) 
     return Bend(whole, at_half / whole, float(np.abs(limits).max()), float(np.abs(drift.to_numpy()).max()), len(both))
 
 
-def _pairs(found: pd.DataFrame, arm: str, start_set: str, controller: str = BY_EULER) -> pd.DataFrame:
+def _pairs(results: Results, found: pd.DataFrame, arm: str, start_set: str, controller: str = BY_EULER) -> pd.DataFrame:
     """Episodes by a controller and by the law on R from the same starts of a set."""
     rows = found[(found["arm"] == arm) & (found["start_set"] == start_set)]
     parts = []
@@ -112,6 +115,7 @@ def _pairs(found: pd.DataFrame, arm: str, start_set: str, controller: str = BY_E
         named = words(one, tasks.arm(arm).joints).items()
         own = rows[np.logical_and.reduce([rows[column] == word for column, word in named])]
         parts.append(some(own, f"episode of {one} on {arm} from {start_set}"))
+        results.check_starts(own, f"{one} on {arm}", least_on_arms(), start_set)
     return _against(*parts)
 
 
@@ -126,7 +130,7 @@ def _against(own: pd.DataFrame, other: pd.DataFrame) -> pd.DataFrame:
 def _at_poles(results: Results, found: pd.DataFrame, poses: pd.DataFrame, arm: str, gains: Gains) -> pd.DataFrame:
     controllers = [f"{one}+{INVERSES[tasks.arm(arm).joints]}" for one in (BY_EULER, ON_MATRIX)]
     beside = [results.found_by(probes.beside_poles, one, arm, poses, gains) for one in controllers]
-    return pd.concat([_pairs(found, arm, "pole"), _against(*beside)], ignore_index=True)
+    return pd.concat([_pairs(results, found, arm, "pole"), _against(*beside)], ignore_index=True)
 
 
 def _hidden(results: Results, joints: int) -> tuple[bool, str]:

@@ -82,7 +82,7 @@ def conditions(axis: Sequence[float] | np.ndarray, angle: float) -> dict[str, fl
 def c14(results: Results) -> tuple[Word, Evidence]:
     """B at half and quarter turns about Y, and what a simulation from there does."""
     least = {degrees: probes.least_of_B(quat) for degrees, quat in probes.ABOUT_Y.items()}
-    turns = results.free_body("episodes", task="free-body", regulator="feedback-linearized", engine=MAIN_ENGINE)
+    turns = results.episodes("feedback-linearized", MAIN_ENGINE, "half-turn", "poles")
     about_y = some(turns[turns["start_id"] == "half-turn-y-exact"], "exact 180° rotation about y")
     poles = at_boundary(turns[turns["start_set"] == "poles"], "pole", "exact pole")
     word = word_of(least[180] < LIMIT.ON_POLE, max(least[90], least[-90]) < LIMIT.ON_POLE)

@@ -23,6 +23,7 @@ from bench.findings.claims.tables import (
     some,
 )
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
+from bench.findings.start_sets import least_starts
 from bench.law.contenders.registry import representation
 
 LIMIT = read_limits(__file__)
@@ -129,7 +130,9 @@ def c34(results: Results) -> tuple[Word, Evidence]:
     found: dict[str, dict[str, tuple[Share, Estimate]]] = {form: {} for form in forms}
     for name in LIMIT.SETS:
         rows = [episodes[(episodes["representation"] == form) & (episodes["start_set"] == name)] for form in forms]
-        rows = [some(own, f"episode of {LAW}/{form} from {name}") for form, own in zip(forms, rows, strict=True)]
+        for form, own in zip(forms, rows, strict=True):
+            some(own, f"episode of {LAW}/{form} from {name}")
+            results.check_starts(own, f"{LAW}/{form}", least_starts(MAIN_ENGINE, "beyond"), name)
         for form, own in zip(forms, same_starts(rows), strict=True):
             found[form][name] = share(settled(own)), quantile_estimate(settling_times(own), 0.5)
     degenerate = {form: _degenerates(form) for form in forms}

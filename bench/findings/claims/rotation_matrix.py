@@ -194,7 +194,8 @@ def _pairs(frame: Any) -> list[tuple[Rotation, Rotation]]:
 @claim("C32")
 def c32(results: Results) -> tuple[Word, Evidence]:
     """Judge the rounding of e against exact fractions, the parts of the law, and how its episodes end."""
-    every = some(results.free_body("episodes", task="free-body", regulator=LAW), f"episode of {LAW}")
+    results.episodes(LAW, MAIN_ENGINE)  # refuses a run that lacks starts
+    every = results.free_body("episodes", task="free-body", regulator=LAW)
     ended = int(every["outcome"].isin(LIMIT.BROKEN).sum())
     frame = every.drop_duplicates(["start_set", "start_id"])
     ours = np.array([error(*pair) for pair in _pairs(frame)])

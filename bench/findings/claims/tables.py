@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Sized
+from collections.abc import Callable, Mapping, Sized
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
@@ -14,6 +14,7 @@ from bench.base.on_first_use import pd
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.verdict import Evidence, NoEvidence
+from bench.findings.start_sets import describe_lacking, least_starts
 from bench.law.inputs import Gains
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 MAIN_ENGINE = "ideal-rk4"
 CHECK_ENGINES = ("ideal-held", "native")
 SETTLED = "settled"
+WHOLE = "run the suite 'quick', 'default' or 'full' without narrowing it"
 
 PAPERS_COORDINATES = ("", "zyx-euler")
 """None, or Z-Y-X angles: what chapter 2 runs its laws in. In others they are later laws."""
@@ -85,12 +87,20 @@ class Results:
         """Episodes of a law on the free body from some start sets.
 
         Errors:
-            NoEvidence: there are none.
+            NoEvidence: there are none, or fewer starts of a set than a whole suite has.
         """
         frame = self.free_body("episodes", task="free-body", regulator=regulator, engine=engine)
         if start_sets:
             frame = frame[frame["start_set"].isin(start_sets)]
-        return some(frame, f"episode of {regulator} by {engine} from {', '.join(start_sets) or 'any start set'}")
+        some(frame, f"episode of {regulator} by {engine} from {', '.join(start_sets) or 'any start set'}")
+        self.check_starts(frame, f"{regulator} by {engine}", least_starts(engine), *start_sets)
+        return frame
+
+    def check_starts(self, frame: pd.DataFrame, what: str, least: Mapping[str, int], *start_sets: str) -> None:
+        """Refuse a run with fewer starts of a set, of those named or all, than a claim needs; not tables alone."""
+        lacking = self.folder and describe_lacking(frame, least, *start_sets)
+        if lacking:
+            raise NoEvidence(f"{what} ran from fewer starts than the claim needs ({lacking}): {WHOLE}")
 
     def gains(self) -> Gains:
         """Return the run's gains."""
@@ -158,7 +168,7 @@ def some(frame: Rows, what: str) -> Rows:
         NoEvidence: it has none.
     """
     if len(frame) == 0:
-        raise NoEvidence(f"no {what}: run the suite 'quick', 'default' or 'full' without narrowing it")
+        raise NoEvidence(f"no {what}: {WHOLE}")
     return frame
 
 

@@ -49,10 +49,14 @@ def write_markdown(comparison: Comparison) -> str:
 
 
 def _write_judgement(one: Judgement) -> list[str]:
-    """Return why a law does what it does, faults first, and the laws most like it."""
+    """Return why a law does what it does, faults first, and the laws nearest to it."""
     lines = [f"**{escape(one.name)}: {', '.join(one.faults) or 'no fault found'}**", ""]
     lines += [f"- {escape(each.text)} ({each.page})" for each in sorted(one.said, key=lambda each: not each.fault)]
-    return lines + (["", "The laws most like it:", "", *_write_table(one.beside)] if one.beside else [])
+    return lines + (
+        ["", "The laws nearest to it in pull at 90 degrees and median settling time:", "", *_write_table(one.beside)]
+        if one.beside
+        else []
+    )
 
 
 def _write_table(table: Sequence[dict[str, Any]]) -> list[str]:
