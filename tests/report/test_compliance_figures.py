@@ -20,18 +20,14 @@ def level_rows(contender, order=""):
     return of(level(of_task(RUN, compliance.PROBE)), contender, order)
 
 
-def list_turns():
-    """Return what is drawn of the hand."""
-    return hand_axes.turns(of_task(RUN, compliance.PROBE))
-
-
 @pytest.mark.parametrize("beta", [30, 60])
 def test_hand_is_drawn_turning_as_the_closed_form_of_the_papers_force_control_has_it(beta):
     """About the axis, and as far, to the percent that the hand's own way costs where it turns by ten milliradians."""
     rows, plain = (level_rows(name, hand_axes.ORDER).query("arm == 'ur5e'") for name in (PAPERS_EULER, PAPERS))
     [C] = predicted(rows[rows["beta_deg"] == beta], "zyx-euler")
     full = float(plain["c_xx"].median())
-    drawn = [one for one in list_turns() if one["beta"] == beta and one["contender"] == PAPERS_EULER]
+    turns = hand_axes.turns(of_task(RUN, compliance.PROBE))
+    drawn = [one for one in turns if one["beta"] == beta and one["contender"] == PAPERS_EULER]
     assert len(drawn) == 2
     for one in drawn:
         k = "xyz".index(one["pushed"])
@@ -41,7 +37,8 @@ def test_hand_is_drawn_turning_as_the_closed_form_of_the_papers_force_control_ha
 
 
 def test_euler_hand_turns_the_further_off_the_more_it_leans():
-    off = [one["off"] for one in list_turns() if one["contender"] == PAPERS_EULER and one["pushed"] == "x"]
+    turns = hand_axes.turns(of_task(RUN, compliance.PROBE))
+    off = [one["off"] for one in turns if one["contender"] == PAPERS_EULER and one["pushed"] == "x"]
     assert off == sorted(off)
     assert off[-1] > 80.0
 

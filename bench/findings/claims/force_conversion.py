@@ -8,10 +8,11 @@ import math
 import numpy as np
 
 from bench.base.on_first_use import Turn, pd
+from bench.experiments.suites import SUITES
 from bench.findings.claims.euler_jacobian import COORDINATES, DIFFERENCED, EPS, ROUNDINGS
 from bench.findings.claims.side_by_side import PROBE
-from bench.findings.claims.tables import Results, evidence, some
-from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
+from bench.findings.claims.tables import WHOLE, Results, evidence, some
+from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from bench.findings.theory.compliance_theory import matrix_B
 from bench.law.contenders.registry import contenders, representation
 from bench.law.kinds import Coordinates
@@ -35,6 +36,11 @@ def c21(results: Results) -> tuple[Word, Evidence]:
     looped = results.table("compliance", task=PROBE, controller="hybrid", representation=COORDINATES)
     looped = looped[(looped["outcome"] == "done") & looped["work_residual"].notna()]
     looped = some(looped, f"work residual of {PROBE} by hybrid/{COORDINATES}")
+    poses, least = looped["pose"].nunique(), SUITES["quick"].in_contact.redundant_poses or 0
+    if results.folder and poses < least:
+        raise NoEvidence(
+            f"hybrid/{COORDINATES} ran {PROBE} at {poses} poses of the {least} that the claim needs: {WHOLE}"
+        )
     residual = looped["work_residual"] * np.cos(looped["beta"]) / EPS
     found, elsewhere = results.found_by(experiment)
     closes = found["exists"] & (found["gap"] <= ROUNDINGS * EPS) & (found["difference_gap"] <= ROUNDINGS * DIFFERENCED)
