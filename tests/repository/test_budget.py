@@ -33,7 +33,7 @@ LINES = {
     "tests/report": 2_000,
     "tests/repository": 585,
     "tests/running": 1_015,
-    "tests/studies": 749,
+    "tests/studies": 745,
     "tests/support": 2_864,
     "tests/tasks": 1_898,
     "report": 6_932,
