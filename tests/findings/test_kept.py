@@ -7,12 +7,11 @@ from bench.findings import kept
 
 @pytest.fixture
 def ask(tmp_path, monkeypatch):
-    """Return what is kept of a run of two files, how often it was computed, and the run's folder."""
+    """Return what is kept of a run of one file, how often it was computed, and the run's folder."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     run, computed = tmp_path / "run", []
     run.mkdir()
     (run / "episodes.parquet").write_bytes(b"rows")
-    (run / "plan.json").write_bytes(b"{}")
 
     def find():
         computed.append(None)

@@ -27,7 +27,7 @@ LINES = {
     "tests/engines": 2_757,
     "tests/experiments": 2_374,
     "tests/export": 316,
-    "tests/findings": 2_126,
+    "tests/findings": 2_125,
     "tests/law": 2_564,
     "tests/regression": 705,
     "tests/report": 2_000,
