@@ -23,8 +23,8 @@ def pytest_xdist_make_scheduler(config, log):
     class Replacing(LoadFileScheduling):
         def _reschedule(self, node):
             if self.workqueue and psutil.Process(node.gateway._rinfo().pid).memory_info().rss > MOST_BYTES:
-                node.shutdown()  # when it has done what it was given
-            if node in self.registered_collections:  # a fresh one is asked again when it has collected
+                node.shutdown()  # it first finishes the files that it has
+            if node in self.registered_collections:  # xdist calls this for a fresh process when it has its tests
                 super()._reschedule(node)
 
     return Replacing(config, log) if config.option.dist == "loadfile" else None

@@ -18,7 +18,7 @@ DIRECTED = (*AT_REST, "tumbling", "goals")
 
 @functools.cache
 def least_starts(engine: str, part: str = "slices") -> dict[str, int]:
-    """Return how many starts every suite has at least by an engine, by start set; sets that one of them lacks are out.
+    """Return, for each start set that all suites run by an engine, how many starts the smallest suite has.
 
     Args:
         part: of a suite: `slices` of the paper's laws, `beyond` of later ones and in other coordinates.
@@ -37,7 +37,7 @@ def least_on_arms() -> dict[str, int]:
 
 
 def describe_lacking(frame: pd.DataFrame, least: Mapping[str, int], *start_sets: str) -> str:
-    """Say of which sets, of those named or all, episodes have fewer starts than `least`; empty if of none."""
+    """Name the start sets (these or all) with fewer starts than `least`; return an empty text if none has."""
     found = frame.groupby("start_set", observed=True)["start_id"].nunique()
     few = [name for name in start_sets or least if found.get(name, 0) < least.get(name, 0)]
     return ", ".join(f"{found.get(name, 0):,} of {least[name]:,} {name}" for name in few)
