@@ -12,7 +12,7 @@ from bench.experiments import episodes
 from bench.experiments.choice import Choice
 from bench.experiments.episode_rows import TABLE
 from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit
-from bench.experiments.rounding import judged_on_both_sides
+from bench.experiments.rounding import judged_beside
 from bench.experiments.suites import AT_INVERSES, BY_WORD_ALONE, NOMINAL, OnArms
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
@@ -91,9 +91,9 @@ def _check_combinations(asked: Asked) -> None:
 
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """Return the rows of a unit, each doubtful one judged on both sides of its start."""
+    """Return the rows of a unit, each doubtful one judged beside its start too."""
     starts, again = episodes.starts_of(settings, unit), functools.partial(episodes.rows_from, settings, unit)
-    return judged_on_both_sides(again(starts), starts, again)
+    return judged_beside(again(starts), starts, again)
 
 
 EXPERIMENT = Experiment(

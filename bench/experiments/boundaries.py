@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from bench.engines.episode import OUTCOME
+from bench.engines.episode import OUTCOME, start_rows
 from bench.experiments.columns import read_table
 from bench.experiments.episode_rows import contender_columns
 from bench.experiments.episodes import prepare, simulate
@@ -43,27 +43,19 @@ def of_law(one: Contender, count: int) -> Unit:
 
 
 def rows(settings: Settings, unit: Unit) -> dict:
-    """Return one row an axis, as columns."""
+    """Return one row an axis, as columns.
+
+    The steps of integration are divided for the two ends of what was found alone; where the ends are not what they
+    seemed to be by undivided steps, the axis is searched again by divided ones.
+    """
     directions = axes(unit.count)
-    count = len(directions)
-    first = np.full(count, len(SCAN))
-    outcome = np.full(count, SETTLED)
-    for place, angle in enumerate(SCAN):
-        searching = np.flatnonzero(first == len(SCAN))
-        if not len(searching):
-            break
-        codes = _outcomes(settings, unit, directions[searching], np.full(len(searching), angle))
-        failed = searching[codes != SETTLED]
-        first[failed], outcome[failed] = place, codes[codes != SETTLED]
-    settled = np.where(first > 0, SCAN[np.minimum(first, len(SCAN)) - 1], 0.0)
-    fails = np.where(first < len(SCAN), SCAN[np.minimum(first, len(SCAN) - 1)], np.nan)
-    found = np.flatnonzero(first < len(SCAN))
-    for _ in range(BISECTIONS if len(found) else 0):
-        middle = 0.5 * (settled[found] + fails[found])
-        codes = _outcomes(settings, unit, directions[found], middle)
-        good = codes == SETTLED
-        settled[found[good]] = middle[good]
-        fails[found[~good]], outcome[found[~good]] = middle[~good], codes[~good]
+    settled, fails, outcome = _search(settings, unit, directions, converge=False)
+    is_end = ~np.isnan(fails)
+    sure = np.full(unit.count, SETTLED)
+    sure[is_end] = _outcomes(settings, unit, directions[is_end], fails[is_end])
+    again = (sure != outcome) | (_outcomes(settings, unit, directions, settled) != SETTLED)
+    if again.any():
+        settled[again], fails[again], outcome[again] = _search(settings, unit, directions[again])
     return {
         **contender_columns(settings.contender(unit.contender)),
         **{f"axis_{axis}": directions[:, i] for i, axis in enumerate("xyz")},
@@ -73,12 +65,46 @@ def rows(settings: Settings, unit: Unit) -> dict:
     }
 
 
-def _outcomes(settings: Settings, unit: Unit, directions: np.ndarray, angles: np.ndarray) -> np.ndarray:
+def _search(
+    settings: Settings, unit: Unit, directions: np.ndarray, converge: bool = True
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return of each axis the greatest angle that settles, the least that fails [rad], NaN if none does, and how."""
+    count = len(directions)
+    first = np.full(count, len(SCAN))
+    outcome = np.full(count, SETTLED)
+    for place, angle in enumerate(SCAN):
+        searching = np.flatnonzero(first == len(SCAN))
+        if not len(searching):
+            break
+        codes = _outcomes(settings, unit, directions[searching], np.full(len(searching), angle), converge)
+        failed = searching[codes != SETTLED]
+        first[failed], outcome[failed] = place, codes[codes != SETTLED]
+    settled = np.where(first > 0, SCAN[np.minimum(first, len(SCAN)) - 1], 0.0)
+    fails = np.where(first < len(SCAN), SCAN[np.minimum(first, len(SCAN) - 1)], np.nan)
+    found = np.flatnonzero(first < len(SCAN))
+    for _ in range(BISECTIONS if len(found) else 0):
+        middle = 0.5 * (settled[found] + fails[found])
+        codes = _outcomes(settings, unit, directions[found], middle, converge)
+        good = codes == SETTLED
+        settled[found[good]] = middle[good]
+        fails[found[~good]], outcome[found[~good]] = middle[~good], codes[~good]
+    return settled, fails, outcome
+
+
+def _outcomes(
+    settings: Settings, unit: Unit, directions: np.ndarray, angles: np.ndarray, converge: bool = True
+) -> np.ndarray:
+    """Return the outcome from each start; nothing else is measured."""
+    from bench.engines.simulate import on_ideal
+
     starts = [
         Start("", (math.cos(angle / 2), *(math.sin(angle / 2) * axis).tolist()))
         for axis, angle in zip(directions, angles, strict=True)
     ]
-    return simulate(settings, unit, starts, unit.horizon_s)[:, OUTCOME].astype(int)
+    if converge:
+        return simulate(settings, unit, starts, unit.horizon_s)[:, OUTCOME].astype(int)
+    one, limits = settings.contender(unit.contender), settings.limits(unit.horizon_s)
+    return on_ideal(unit.engine, one, start_rows(starts), limits, converge=False)[:, OUTCOME].astype(int)
 
 
 EXPERIMENT = Experiment(

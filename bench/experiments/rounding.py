@@ -1,9 +1,9 @@
-"""What rounding decides of an arm's episodes: each doubtful one is judged again from both sides of its start.
+"""What rounding decides of an arm's episodes: each doubtful one is judged again from beside its start.
 
 An arm that passes a singularity, or asks far more of its motors than they are rated for, multiplies the last bit of a
-library's sine until it is an outcome. Such an episode is repeated from q + NUDGE and q - NUDGE in every joint, further
-than any two libraries' roundings lead apart and nearer than any difference one could mean: where an outcome is another
-one there, it is on a knife's edge, and the row says both.
+library's sine until it is an outcome. Such an episode is repeated from q + NUDGE in every joint, further than any two
+libraries' roundings lead apart and nearer than any difference one could mean: where an outcome is another one there, it
+is on a knife's edge, and the row says both.
 
 Limitations: an episode that is neither DOUBTFUL in conditioning nor in torque, and hangs on rounding nevertheless, is
 not seen. Under other BLAS kernels, compiler targets and C libraries' variants of sin and cos there was none.
@@ -28,12 +28,12 @@ TORQUE_RATIO = 100.0
 """Torque over its rated one, likewise: the law's own coordinates were near a singularity."""
 
 ZERO = 1e-9
-"""What is smaller in every repetition does not count as a change: it is rounding itself."""
+"""What is smaller in both does not count as a change: it is rounding itself."""
 
 BESIDE, CHANGE = "outcome_beside", "rounding_change"
 
 
-def judged_on_both_sides(
+def judged_beside(
     rows: pd.DataFrame, starts: Sequence[Start], again: Callable[[list[Start]], pd.DataFrame]
 ) -> pd.DataFrame:
     """Return the rows of episodes on an arm, with the columns BESIDE and CHANGE.
@@ -48,11 +48,10 @@ def judged_on_both_sides(
     other, change = np.full(len(rows), "", object), np.full(len(rows), np.nan)
     if len(doubtful):
         here = rows.iloc[doubtful].reset_index(drop=True)
-        sides = [again([nudged(starts[i], sign * NUDGE) for i in doubtful.tolist()]) for sign in (1.0, -1.0)]
-        for side in sides:
-            differs = (side["outcome"] != here["outcome"]).to_numpy()
-            other[doubtful[differs]] = side["outcome"][differs]
-        change[doubtful] = np.fmax(*(_change(here, side) for side in sides))
+        beside = again([nudged(starts[i], NUDGE) for i in doubtful.tolist()])
+        differs = (beside["outcome"] != here["outcome"]).to_numpy()
+        other[doubtful[differs]] = beside["outcome"][differs]
+        change[doubtful] = _change(here, beside)
     return rows.assign(**{BESIDE: other, CHANGE: change})
 
 

@@ -1,5 +1,6 @@
 """Contracts that every metric keeps, of motion and in contact; a new file is under them without being named here."""
 
+import dataclasses
 import functools
 import itertools
 import math
@@ -184,7 +185,7 @@ def broken_poses() -> list[Pose]:
     records = [np.zeros((0, WIDTH)), np.zeros((1, WIDTH)), np.full((3, WIDTH), np.nan)]
     words = [word for word in contact_episode.OUTCOMES.values() if word != "done"]
     return [
-        pose._replace(responses=tuple(response(one.trial, Ended(word, record)) for one in pose.responses))
+        dataclasses.replace(pose, responses=tuple(response(one.trial, Ended(word, record)) for one in pose.responses))
         for pose in measured_poses()[:: len(CONTROLLERS)]
         for word, record in itertools.product(words, records)
     ]

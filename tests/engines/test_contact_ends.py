@@ -1,5 +1,6 @@
 """Metrics of contact on records whose answers are known, of hands of known compliance, and by MuJoCo's own balance."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -124,9 +125,9 @@ WHOLE = yielding(GENERAL, 0, 0, 1)
 @pytest.mark.parametrize(
     "broken",
     [
-        WHOLE._replace(responses=WHOLE.responses[:2]),
+        dataclasses.replace(WHOLE, responses=WHOLE.responses[:2]),
         yielding(GENERAL, 0, 0, 1, outcome="singular"),
-        WHOLE._replace(task=surface_alignment.TASK),
+        dataclasses.replace(WHOLE, task=surface_alignment.TASK),
     ],
     ids=["moments do not span space", "an episode broke off", "something else touches the hand"],
 )

@@ -7,7 +7,7 @@ The hand has no mass, so that F is exactly zero before the first touch. Base fra
 
 import numpy as np
 
-from bench.engines.metrics.contact_metric import Pose, Response
+from bench.engines.metrics.contact_metric import Pose, Response, once_a_pose
 from bench.engines.metrics.measured_compliance import in_free_space
 from tasks.contact import Trial
 from tasks.domains import peg_in_hole
@@ -20,6 +20,7 @@ WINDOW_S = 2.5
 say when it ended."""
 
 
+@once_a_pose
 def from_first_touch(pose: Pose) -> slice | None:
     """Return the ticks of a pose's one response from the first touch on; None if nothing was touched."""
     if in_free_space(pose):
@@ -29,11 +30,13 @@ def from_first_touch(pose: Pose) -> slice | None:
     return slice(int(felt[0]), None) if felt.size else None
 
 
+@once_a_pose
 def force_error(pose: Pose) -> np.ndarray:
     """f + h [N] along the axes that comply, 0 along the others, N x 3 from the first touch on."""
     return _error(pose, pose.first.force, slice(0, 3))
 
 
+@once_a_pose
 def moment_error(pose: Pose) -> np.ndarray:
     """m + h [N m] about the axes that comply, 0 about the others, N x 3 from the first touch on."""
     return _error(pose, pose.first.moment, slice(3, 6))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -37,8 +39,12 @@ class Response(NamedTuple):
     rested: bool = False
 
 
-class Pose(NamedTuple):
-    """What a row of compliance.parquet is about: the responses of the trials that share a pose, in their order."""
+@dataclass(frozen=True, eq=False)
+class Pose:
+    """What a row of compliance.parquet is about: the responses of the trials that share a pose, in their order.
+
+    What several metrics need of a pose is computed `once_a_pose`.
+    """
 
     task: ContactTask
     arm: Arm
@@ -49,6 +55,10 @@ class Pose(NamedTuple):
     def first(self) -> Response:
         """The only response, of most tasks."""
         return self.responses[0]
+
+
+once_a_pose = functools.lru_cache(maxsize=8)
+"""A pose is itself alone, so that the last ones are found by which they are; a thread has one at a time."""
 
 
 class ContactMetric(NamedTuple):

@@ -11,7 +11,7 @@ off.
 
 import numpy as np
 
-from bench.engines.metrics.contact_metric import Pose
+from bench.engines.metrics.contact_metric import Pose, once_a_pose
 from tasks.contact import Trial
 
 NOTHING = np.full((3, 3), np.nan)
@@ -44,11 +44,13 @@ def is_moment(trial: Trial) -> bool:
     return not trial.legs and not any(trial.push[:3]) and any(trial.push[3:])
 
 
+@once_a_pose
 def in_free_space(pose: Pose) -> bool:
     """Whether nothing is there for the hand to touch."""
     return not pose.task.touches(pose.arm)
 
 
+@once_a_pose
 def compliance(pose: Pose) -> np.ndarray:
     """C [rad/(N m)], 3 x 3: C[i, j] is the rotation about i per moment about j at the end of the episodes."""
     ran = pose.responses

@@ -2,7 +2,7 @@
 
 Schema, row keys, outcomes and operation counts must be the same; a settling time to less than half a tick; other
 numbers of settled episodes to RELATIVE. Numbers of a failed episode are not compared: where it passes a singular point,
-the last bit of a sine decides them. An episode of an arm that passed such a point has been judged on both sides of its
+the last bit of a sine decides them. An episode of an arm that passed such a point has been judged beside its
 start (`rounding_change`): one outcome of base must be one of head, and a number must agree to what it changed by.
 """
 

@@ -63,7 +63,7 @@ def share_outcome(old: pd.DataFrame, new: pd.DataFrame) -> np.ndarray:
 
 
 def compare_episodes(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
-    """Compare outcomes, each on both sides of its start where rounding decides it, and numbers of what settled.
+    """Compare outcomes, each beside its start too where rounding decides it, and numbers of what settled.
 
     The cause of a failure follows from two numbers of a failed episode, which are not compared either.
     """

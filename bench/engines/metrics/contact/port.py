@@ -14,7 +14,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from bench.engines.metrics.contact_metric import ContactMetric, Pose, Response
+from bench.engines.metrics.contact_metric import ContactMetric, Pose, Response, once_a_pose
 
 
 def given(one: Response) -> np.ndarray:
@@ -36,10 +36,15 @@ def port_energy_peak(pose: Pose) -> float:
 
 
 def _largest(pose: Pose, of: Callable[[np.ndarray], float]) -> float:
-    energies = [given(one) for one in pose.responses]
+    energies = _energies(pose)
     if any(len(one) == 0 or not np.isfinite(one).all() for one in energies):
         return np.nan
     return float(max(map(of, energies)))
+
+
+@once_a_pose
+def _energies(pose: Pose) -> list[np.ndarray]:
+    return [given(one) for one in pose.responses]
 
 
 METRICS = (

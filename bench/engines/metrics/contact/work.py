@@ -3,7 +3,8 @@
 m . omega = F_E . Edot        Edot = B^-1 omega, F_E = B^T m (3.12), or what the controller takes for it
 """
 
-from collections.abc import Callable, Iterator, Sequence
+import math
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -35,16 +36,15 @@ def _works(
 ) -> Iterator[tuple[float, float, float]]:
     """(m . omega, F_E . Edot, |m| |omega|) at some ticks [W]."""
     goal = from_quaternion(one.trial.goal_wxyz)
-    for tick in np.linspace(0, len(one.time) - 1, TICKS).astype(int):
-        R, m, omega = Rotation(*one.R[tick].T.tolist()), one.moment[tick].tolist(), one.omega[tick].tolist()
+    ticks = np.linspace(0, len(one.time) - 1, TICKS).astype(int)
+    sampled = (one.R[ticks].transpose(0, 2, 1).tolist(), one.moment[ticks].tolist(), one.omega[ticks].tolist())
+    for columns, m, omega in zip(*sampled, strict=True):
+        R = Rotation(*columns)
         if from_goal:
             R, m, omega = relative(goal, R), rotate_back(goal, m), rotate_back(goal, omega)
         at = coordinates.chart(R)
-        yield np.dot(m, omega), np.dot(convert(at, m), coordinates.rates(at, omega)), _length(m) * _length(omega)
-
-
-def _length(v: Sequence[float]) -> float:
-    return float(np.linalg.norm(v))
+        work = np.dot(convert(at, m), coordinates.rates(at, omega))
+        yield np.dot(m, omega), work, math.sqrt(np.dot(m, m)) * math.sqrt(np.dot(omega, omega))
 
 
 METRIC = ContactMetric("work_residual", "1", "work lost between Cartesian and generalized forces", work_residual)
