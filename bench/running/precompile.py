@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterable, Iterator
 WORTH = 8
 """Contenders from which on a process more is worth its start of some seconds."""
 
-LIFE = 24
+LIFE = 56
 """Contenders after which a new process goes on: what is compiled stays in memory, some 6 MB of each."""
 
 COUNT = "count:"

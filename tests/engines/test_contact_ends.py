@@ -49,7 +49,7 @@ THERE_AND_BACK = record(p=np.outer(np.sin(np.pi * TIME / TIME[-1]), (0.0, 0.0, -
         (rest.time_to_rest, record(), NONE),
         (rest.remaining_speed, CREEPS, pytest.approx(5e-3)),  # of the last window
         (rest.remaining_rate, CREEPS, pytest.approx(0.02)),
-        (rest.remaining_speed, CREEPS._replace(task=force_on_plane.TASK), NONE),
+        (rest.remaining_speed, dataclasses.replace(CREEPS, task=force_on_plane.TASK), NONE),
         (rest.time_to_align, record(R=TILTS.as_matrix()), pytest.approx(FADES_S * math.log(50.0), abs=1.01 * DT)),
         (wrench.force_overshoot, record(force=PEAKS), pytest.approx(75.0 / 20.0 - 1.0)),  # of the component ordered
         (
