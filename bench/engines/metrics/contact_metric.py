@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import functools
+import weakref
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -57,8 +58,20 @@ class Pose:
         return self.responses[0]
 
 
-once_a_pose = functools.lru_cache(maxsize=8)
-"""A pose is itself alone, so that the last ones are found by which they are; a thread has one at a time."""
+T = TypeVar("T")
+
+
+def once_a_pose(compute: Callable[[Pose], T]) -> Callable[[Pose], T]:
+    """Return the function that computes once for each pose; what it found goes when the pose does."""
+    found: weakref.WeakKeyDictionary[Pose, T] = weakref.WeakKeyDictionary()
+
+    @functools.wraps(compute)
+    def once(pose: Pose) -> T:
+        if pose not in found:
+            found[pose] = compute(pose)
+        return found[pose]
+
+    return once
 
 
 class ContactMetric(NamedTuple):
