@@ -1,6 +1,5 @@
-"""What figures of the published run hold: areas, points, bends and shares; `test_every_page` draws them all."""
+"""What figures of the published run hold: points, bends and shares; `test_every_page` draws them all."""
 
-import numpy as np
 import pandas as pd
 import pytest
 
@@ -10,7 +9,7 @@ from support.pages import assert_is_drawn
 
 from bench.experiments.tables.schema import RESULTS
 from report.figures import index
-from report.figures.failures import failure_map, world_map
+from report.figures.failures import failure_map
 from report.figures.kit.page import run_in
 from report.figures.kit.rows import FEEDBACK
 from report.figures.kit.share import share
@@ -26,16 +25,6 @@ def test_figure_of_the_front_page_says_its_numbers_keeps_to_the_palette_and_fits
 def test_ball_shows_half_turns_at_both_ends_of_their_axis():
     points = failure_map.unit_ball(pd.DataFrame([(0.0, 1.0, 0.0, 0.0)], columns=[f"quat_{one}" for one in "wxyz"]))
     assert points == [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
-
-
-def test_map_keeps_areas():
-    # Archimedes: directions even in longitude and in the sine of the latitude have equal shares of the sphere
-    longitude, sine = np.meshgrid(np.linspace(-3.1, 3.1, 60), np.linspace(-0.95, 0.95, 60))
-    step = 1e-5
-    along = np.array(world_map.hammer(longitude + step, np.arcsin(sine))) - world_map.hammer(longitude, np.arcsin(sine))
-    up = np.array(world_map.hammer(longitude, np.arcsin(sine + step))) - world_map.hammer(longitude, np.arcsin(sine))
-    area = along[0] * up[1] - along[1] * up[0]
-    np.testing.assert_allclose(area / area.mean(), 1.0, rtol=1e-3)
 
 
 def test_response_bends_are_nothing_under_feedback_linearization():

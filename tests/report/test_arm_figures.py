@@ -1,16 +1,14 @@
 """What the page on arms says of made-up rows and of the published poses: names, inverses, ranking, singularities."""
 
-import math
 import re
 
-import numpy as np
 import pandas as pd
 import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
 from bench.experiments.tables.schema import RESULTS
-from report.figures.arms import arm_pole, arm_ranking, arm_rows, jacobians, velocity_commands
+from report.figures.arms import arm_ranking, arm_rows, jacobians, velocity_commands
 from report.figures.kit.page import run_in
 
 ARM = "puma560"
@@ -29,11 +27,6 @@ def test_every_controller_that_is_shown_has_a_title_of_its_own():
     names = [f"feedback-linearized/{word}@{by}" for word in ("zyx-euler", "mrp") for by in arm_rows.PAPERS_JACOBIANS]
     names.append(arm_rows.ON_MATRIX)
     assert len({arm_rows.title(name) for name in names}) == len(names)
-
-
-def test_pole_distances_are_read_from_the_names_of_the_starts():
-    names = pd.Series(["pole-plus-0-exact", "pole-minus-1-k1", "pole-plus-2-k7"])
-    assert arm_pole.decade(names).tolist() == [8, 1, 7]
 
 
 def rows_of(passing: dict[str, int], of: int = 20, **columns) -> pd.DataFrame:
@@ -72,17 +65,6 @@ def test_stock_pose_is_well_conditioned_and_on_the_pole():
     said = jacobians.describe_first(jacobians.papers(RUN, **jacobians.FIRST_EXAMPLE))
     # how large that of the angles is, rounding decides, up to a one with nothing before its power of ten
     assert re.search(r"number 7\.9; .* is ([2-9]·)?10[⁰¹²³⁴⁵⁶⁷⁸⁹]{2}, .* β = 90°", said)
-
-
-def test_slice_is_put_back_on_its_grid():
-    rows = jacobians.papers(RUN, pose_set="slice", arm=ARM).sample(frac=1.0, random_state=0)
-    grid = jacobians.Grid(rows)
-    at = rows.iloc[0]
-    row, column = (int(word) for word in at["pose_id"].split("-")[2:])
-    assert grid.condition[row, column] == pytest.approx(min(at["condition"], jacobians.HIGHEST))
-    assert grid.x[column] == pytest.approx(math.degrees(at[f"q_{grid.first}"]))
-    assert grid.y[row] == pytest.approx(math.degrees(at[f"q_{grid.second}"]))
-    assert np.isfinite(grid.condition).all()
 
 
 def test_velocity_laws_that_are_dead_at_180_degrees_or_unwind_are_named():

@@ -9,7 +9,7 @@ import tasks
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.side_by_side import predicted
 from report.figures.contact import compliance, hand_axes, in_contact
-from report.figures.contact.rows import EULER, PAPERS, PAPERS_EULER, ZYZ, level, of, of_task
+from report.figures.contact.rows import PAPERS, PAPERS_EULER, level, of, of_task
 from report.figures.kit.page import run_in
 
 RUN = run_in(RESULTS / "reference")
@@ -41,14 +41,6 @@ def test_euler_hand_turns_the_further_off_the_more_it_leans():
     off = [one["off"] for one in turns if one["contender"] == PAPERS_EULER and one["pushed"] == "x"]
     assert off == sorted(off)
     assert off[-1] > 80.0
-
-
-def test_map_holds_beta_where_the_frame_is_level_and_a_cross_where_nothing_is_left():
-    values, words = compliance.cells(level_rows(EULER).query("beta_deg < 90"))
-    assert values.loc["about x and y"].to_numpy() == pytest.approx(values.columns.to_numpy(), abs=0.1)
-    assert words.loc["about x", 60.0] == "60"
-    failed = level_rows(ZYZ).assign(outcome="singular")
-    assert set(compliance.cells(failed)[1].to_numpy().ravel()) == {compliance.FAILED}
 
 
 def test_loop_shows_a_tool_that_lies_flat_and_one_that_does_not():

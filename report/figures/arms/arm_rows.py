@@ -30,11 +30,6 @@ COMPARED = (ON_MATRIX, "feedback-linearized/zyx-euler@geometric", ON_ANGLES)
 PAPERS_JACOBIANS = ("geometric", "analytic")
 
 
-def order_arms(rows: pd.DataFrame) -> list[str]:
-    """Return the names of the arms that the rows are about, the paper's own first."""
-    return sorted(set(rows["arm"].astype(str)), key=lambda name: (name != "puma560", name))
-
-
 def name_arm(arm: str) -> str:
     """Return what an arm is called."""
     return tasks.arm(arm).title if arm in tasks.arm_names() else arm

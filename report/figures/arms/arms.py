@@ -9,10 +9,13 @@ import pandas as pd
 
 import tasks
 from bench.findings.selection import needs
-from report.figures.arms import arm_pole, arm_ranking, arm_rows
+from report.figures.arms import arm_ranking, arm_rows
 from report.figures.kit import families
 from report.figures.kit.page import NotInRun, Run, in_run
 from report.figures.kit.spelling import prose
+
+HAMMERED = 10.0
+"""Peak torque over that of the law on R from the same start, as in claim C20: beyond it something hammers the arm."""
 
 
 @functools.cache
@@ -23,15 +26,15 @@ def standard(run: Run) -> pd.DataFrame:
 
 def facts(run: Run) -> dict:
     """Return which law to take, what the pole does, and what a wrong model leaves."""
-    both = arm_pole.side_by_side(standard(run))
+    both = pass_pole(standard(run))
     return {
         "lead": in_run(lambda: arm_ranking.lead(arm_ranking.of_laws(arm_rows.episodes(run), "uniform"))),
         "advised": advised(run),
         "pole_n": len(both),
         "pole_fails": int(both["fails"].sum()),
         "pole_fails_m": int(both["fails_matrix"].sum()),
-        "hammer": f"{arm_pole.HAMMERED:g}",
-        "hammered": int((both["fails"] | (both["harder"] > arm_pole.HAMMERED)).sum()),
+        "hammer": f"{HAMMERED:g}",
+        "hammered": int((both["fails"] | (both["harder"] > HAMMERED)).sum()),
         "model_errors": in_run(lambda: describe_model_errors(run)),
     }
 
@@ -44,9 +47,17 @@ def tables(run: Run) -> dict:
     }
 
 
-def figures(run: Run) -> dict:
-    """Draw rotations that pass the pole."""
-    return {"arm-pole": arm_pole.pole(standard(run))}
+def pass_pole(rows: pd.DataFrame) -> pd.DataFrame:
+    """Join starts whose turn passes the pole of Z-Y-X angles: a row a start by (3.7), with (2.2) on R beside it."""
+    starts = rows[rows["start_set"] == "pole"]
+    columns = ["arm", "start_id", "outcome", "peak_torque_ratio"]
+    own, other = (starts.loc[starts["controller"] == name, columns] for name in reversed(arm_rows.PAPERS_TWO))
+    both = own.merge(other, on=["arm", "start_id"], suffixes=("", "_matrix"))
+    return both.assign(
+        fails=both["outcome"] != "settled",
+        fails_matrix=both["outcome_matrix"] != "settled",
+        harder=both["peak_torque_ratio"] / both["peak_torque_ratio_matrix"],
+    )
 
 
 def advised(run: Run) -> str:

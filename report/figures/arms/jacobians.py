@@ -1,20 +1,15 @@
-"""What the page on arms shows of Jacobians: how well J and the Euler Jacobian are conditioned, and the film (3.1)."""
+"""What the page on arms says of Jacobians: how well J and the Euler Jacobian are conditioned, and the film (3.1)."""
 
 from __future__ import annotations
 
 import math
-from typing import Any
 
-import numpy as np
 import pandas as pd
-from matplotlib.colors import LogNorm
-from matplotlib.lines import Line2D
 
 from bench.findings.claims.euler_jacobian import WELL_CONDITIONED
 from bench.law.contenders.registry import papers_coordinates
-from report.figures.arms.arm_rows import name_arm, order_arms
-from report.figures.kit import html, media, style
-from report.figures.kit.inline import Drawing, responsive_picture
+from report.figures.arms.arm_rows import name_arm
+from report.figures.kit import html, media
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
 
@@ -23,12 +18,6 @@ LOST = 1e12
 """A condition number beyond which the rest is rounding: what a double holds, less four digits."""
 BAD = 100.0
 """Condition number (metres, radians) from which on a Jacobian is called bad: twice what the claims allow."""
-NEAR = 0.1
-"""Margin of the coordinates below which a pose counts as near their singularity; of Z-Y-X angles 5.7 deg of beta."""
-
-LEAST, MOST, HIGHEST = 6.0, 1e3, 1e18
-KINEMATIC, OF_COORDINATES = "#d55e00", "#56b4e9"
-DEGREES = 90
 FIRST_EXAMPLE = {"pose_set": "named", "arm": "puma560", "pose_id": "qn"}
 FILM = (
     "The same two motions side by side: the Euler Jacobian throws the arm about, the geometric one turns the tool in "
@@ -50,12 +39,9 @@ def facts(run: Run) -> dict:
     return describe_film() | {key: in_run(say) for key, say in of_poses.items()}
 
 
-def figures(run: Run) -> dict:
-    """Draw the maps of two joints, and the film."""
-    return {
-        "condition-maps": in_run(lambda: maps(papers(run, pose_set="slice"))),
-        "pole-loop": media.loop(FILM),
-    }
+def figures(_: Run) -> dict:
+    """Return the film."""
+    return {"pole-loop": media.loop(FILM)}
 
 
 def describe_first(rows: pd.DataFrame) -> str:
@@ -89,76 +75,3 @@ def describe_film() -> dict[str, str]:
         "film_ratio_geometric": f"{geometric['peak_torque_ratio']:.2f}",
         "film_path": f"{euler['path_ratio']:.1f}",
     }
-
-
-class Grid:
-    """One arm's slice as matrices: a column for each angle of the first joint, a row for each of the second."""
-
-    def __init__(self, rows: pd.DataFrame):
-        parts = rows["pose_id"].astype(str).str.extract(r"^q(\d)-q(\d)-(\d+)-(\d+)$").astype(int)
-        self.first, self.second = (int(parts[i].iloc[0]) for i in (0, 1))
-        place, self.side = (parts[2].to_numpy(), parts[3].to_numpy()), int(parts[3].max()) + 1
-        self.condition, self.condition_analytic, self.margin = (
-            self.matrix(place, rows[name]) for name in ("condition", "condition_analytic", "margin")
-        )
-        self.y, self.x = (np.degrees(np.sort(rows[f"q_{joint}"].unique())) for joint in (self.second, self.first))
-
-    def matrix(self, place: Any, values: pd.Series) -> np.ndarray:
-        """Return the values at their places; what is infinite or beyond stands at HIGHEST."""
-        found = np.full((self.side, self.side), np.nan)
-        found[place] = values.fillna(HIGHEST).clip(upper=HIGHEST)
-        return found
-
-    def describe(self) -> str:
-        """Return in words how much of the slice is near which singularity."""
-        arms = self.condition > BAD
-        added = (self.condition_analytic > BAD) & ~arms
-        where = f"joints {self.first} and {self.second}, {self.side} by {self.side} poses"
-        return f"{where}: J is beyond {BAD:g} at {arms.mean():.1%}, J_E at {added.mean():.1%} more."
-
-
-@responsive_picture
-def maps(rows: pd.DataFrame, *, narrow: bool = False) -> Drawing:
-    """Return a row of two maps for each arm; contours say which singularity is the arm's and which the coordinates'."""
-    names = order_arms(rows)
-    height = (1.95 if narrow else 2.4) * len(names) + 1.0
-    figure, grid = style.panels(len(names), 2, height=height, narrow=narrow, squeeze=False)
-    said = []
-    for name, pair in zip(names, grid, strict=True):
-        own = Grid(rows[rows["arm"] == name])
-        for axes, column, letter in zip(pair, ("condition", "condition_analytic"), ("$J$", "$J_E$"), strict=True):
-            image = draw_map(axes, own, column)
-            axes.set_title(f"{name}: {letter}", fontweight="normal")
-        pair[0].set_ylabel(f"$q_{own.second}$ [deg]")
-        said.append(f"{name_arm(name)}, {own.describe()}")
-    bar = figure.colorbar(image, ax=list(grid.flat), location="top", shrink=0.6, aspect=30)
-    bar.set_label("Condition number [metres, radians]")
-    bar.set_ticks([10, 30, 100, 300, 1000], labels=["10", "30", "100", "300", "≥ 1000"])
-    bar.minorticks_off()
-    keys = [
-        Line2D([], [], color=KINEMATIC, label=f"cond $J$ > {BAD:g}: the arm's"),
-        Line2D([], [], color=OF_COORDINATES, linestyle="--", label=rf"$\cos\beta$ < {NEAR:g}: the coordinates'"),
-    ]
-    figure.legend(handles=keys, loc="outside lower center", ncols=1 if narrow else 2)
-    return figure, f"Condition numbers of J and J_E over two joints, one row an arm. {' '.join(said)}"
-
-
-def draw_map(axes: Any, own: Grid, column: str) -> Any:
-    """Draw one map with its contours."""
-    half = [(axis[1] - axis[0]) / 2 for axis in (own.x, own.y)]
-    edges = own.x[0] - half[0], own.x[-1] + half[0], own.y[0] - half[1], own.y[-1] + half[1]
-    values = np.clip(getattr(own, column), LEAST, MOST * 10)
-    look = {"origin": "lower", "aspect": "auto", "norm": LogNorm(LEAST, MOST), "interpolation": "none"}
-    image = axes.imshow(values, extent=edges, **look)
-    for level, contoured, colour, line in (
-        (np.log10(BAD), np.log10(own.condition), KINEMATIC, "-"),
-        (NEAR, own.margin, OF_COORDINATES, (0, (4, 2))),
-    ):
-        if contoured.min() < level < contoured.max():
-            axes.contour(own.x, own.y, contoured, levels=[level], colors=[colour], linestyles=[line], linewidths=1.6)
-    axes.set_xlabel(f"$q_{own.first}$ [deg]", labelpad=1)
-    for axis, (low, high) in ((axes.xaxis, edges[:2]), (axes.yaxis, edges[2:])):
-        step = DEGREES if high - low < 400 else 2 * DEGREES
-        axis.set_ticks(np.arange(np.ceil(low / step) * step, high + 1e-9, step))
-    axes.grid(visible=False)
-    return image

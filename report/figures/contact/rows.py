@@ -15,7 +15,6 @@ from report.figures.kit.page import Run
 
 CARTESIAN, EULER = "hybrid-base+inverse", "hybrid/zyx-euler+inverse"
 PAPERS, PAPERS_EULER = "hybrid-base+transpose", "hybrid/zyx-euler+transpose"
-ZYZ = "hybrid/zyz-euler+inverse"
 WORDS = ("task", "arm", "contender", "complies", "pose", "outcome", "rest", "form")
 
 

@@ -1,4 +1,4 @@
-"""What the page on failures shows: which starts each of the paper's laws loses, on a map and in a ball."""
+"""What the page on failures shows: which starts each of the paper's laws loses, in numbers and in a ball."""
 
 import functools
 import math
@@ -11,9 +11,6 @@ from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.maps import counted, lost_share
 from bench.findings.start_sets import AT_REST
-from bench.findings.theory import held_goals
-from bench.law.inputs import PAPERS_GAINS
-from report.figures.failures import world_map
 from report.figures.kit import html, laws, style
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.rows import LINEARIZED, SHORT, lost, of
@@ -32,8 +29,6 @@ def facts(run: Run) -> dict:
     """Return how much each law loses, and where the linearized law's failures begin."""
     return {
         **count_mapped(),
-        "held_level": f"{math.degrees(math.acos(held_goals.least_cosine(0.0, PAPERS_GAINS))):.1f}",
-        "held_share": f"{100.0 * held_goals.held_share(PAPERS_GAINS):.1f}",
         # |Edot| over |omega| half a degree off a pole
         "gain": f"{1.0 / math.sqrt(1.0 - math.cos(math.radians(0.5))):.0f}",
         **(in_run(lambda: on_the_map(continuous(run))) or {}),
@@ -62,8 +57,8 @@ def on_the_map(episodes: pd.DataFrame) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """Return the map of the world, and the ball."""
-    return {"failure-map": world_map.world(continuous(run)), "ball": ball(continuous(run))}
+    """Return the ball."""
+    return {"ball": ball(continuous(run))}
 
 
 def ball(episodes: pd.DataFrame) -> html.Html:

@@ -150,17 +150,6 @@ def beside(count: int, height: float, narrow_height: float, narrow: bool, **subp
     return panels(*shape, height=narrow_height if narrow else height, narrow=narrow, **subplots)
 
 
-def grid(count: int, height: float, narrow_height: float, narrow: bool, top: float = 0.0, **subplots: Any) -> Any:
-    """Return a figure of panels in two columns, one on a phone, with shared axes; height of a row [in]."""
-    columns = 1 if narrow else 2
-    lines = -(-count // columns)
-    height = (narrow_height if narrow else height) * lines + top
-    figure, axes = panels(lines, columns, height=height, narrow=narrow, sharex=True, squeeze=False, **subplots)
-    for left_over in axes.flat[count:]:
-        left_over.axis("off")
-    return figure, axes
-
-
 def words(text: str, narrow: bool, height: float = 1.0) -> Figure:
     """Return a figure that only says something."""
     figure, axes = panels(height=height, narrow=narrow)
@@ -191,11 +180,3 @@ def apart(places: Sequence[float], gap: float) -> list[float]:
             short = max(0.0, gap - (moved[high] - moved[low])) / 2.0
             moved[low], moved[high] = moved[low] - short, moved[high] + short
     return moved
-
-
-def label_rows(figure: Figure, text: str) -> None:
-    """Name the vertical axis of all rows, at the middle of the axes; after the legend, which moves them."""
-    label = figure.supylabel(text, fontsize=10.5)
-    figure.draw_without_rendering()
-    boxes = [axes.get_position() for axes in figure.axes]
-    label.set_y((min(box.y0 for box in boxes) + max(box.y1 for box in boxes)) / 2.0)

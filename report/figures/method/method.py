@@ -1,4 +1,4 @@
-"""What the page on method shows: what there is, as `bench list` says it, and whether engines agree."""
+"""What the page on method says: whether engines agree, and by which rules operations are counted."""
 
 from __future__ import annotations
 
@@ -7,21 +7,16 @@ from typing import Any
 
 import pandas as pd
 
-from bench.cli.listing import KINDS
 from bench.engines.counting import RULES as COUNT_RULES
 from bench.findings.selection.needs import CHATTER
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
 from report.figures.kit.rows import small_error_settling_s
 from report.figures.kit.spelling import prose
-from report.figures.kit.tables import Table
 from tasks.rules import RULES
 
 KEY = ["contender", "start_set", "start_id"]
 JUDGED = ["outcome", "settling_time_s", "failure_time_s", "final_angle_rad", "effort", "path_ratio", "peak_u", "ticks"]
-SHOWN = ("engines", "starts", "arm-starts", "metrics", "contact-metrics", "jacobians", "inverses", "axes", "variations")
-"""Kinds of `bench list` that the page names."""
-LISTED = Table("What | Names | With titles and sources")
 
 
 @functools.cache
@@ -80,9 +75,3 @@ def describe_ends(late: pd.Series) -> str:
     """Return the least and the greatest of how much later laws settle, with the law of each."""
     ends = late.idxmin(), late.idxmax()
     return " and ".join(f"{html.cell(float(late[law]), '+.1f')} ms ({families.word(law)})" for law in ends)
-
-
-def tables(_: Run) -> dict[str, Any]:
-    """Return the names of everything of the kinds that the page is about."""
-    rows = ((KINDS[word].title, KINDS[word].find_all(), f"`python -m bench list {word}`") for word in SHOWN)
-    return {"listed": LISTED((title, ", ".join(f"`{name}`" for name in found), more) for title, found, more in rows)}

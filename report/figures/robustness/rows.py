@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import math
 
 import numpy as np
 import pandas as pd
@@ -13,8 +12,6 @@ from bench.experiments.tables.statistics import quantile
 from bench.findings.perturbed import went_well
 from report.figures.kit import families
 from report.figures.kit.page import Run
-
-DEG = 180.0 / math.pi
 
 
 @functools.cache
