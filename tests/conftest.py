@@ -40,6 +40,12 @@ def pytest_testnodedown(node, error):
             session._clone_node(node)
 
 
+def pytest_ignore_collect(collection_path, config):
+    """Leave files that are slow as a whole unread where no slow test is asked for."""
+    is_slow = collection_path.stem.removeprefix("test_") in SLOW
+    return True if is_slow and config.option.markexpr == "not slow" else None
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
     """The slowest files first: begun last, one would be left to a single process while the others wait."""
