@@ -1,43 +1,22 @@
-"""A finished run that tests copy and spoil; which files are begun first; fresh processes; less search for garbage."""
+"""A finished run that tests copy and spoil; which files are begun first; a process a file; less search for garbage."""
 
 import gc
 import shutil
 from pathlib import Path
 
-import psutil
 import pytest
 
 from bench.experiments import plan as planning
+from support.forked import run_in_child
 
 SLOW = Path(__file__).with_name("slow.txt").read_text(encoding="utf-8").split()
 """Files that are slow as a whole, the slowest first: they compile, or start processes."""
-MOST_BYTES = 780 * 10**6
-"""A test process beyond this begins no other file: compiled code is never freed. It begins at 600 MB, all imports."""
 
 
-@pytest.hookimpl(optionalhook=True)
-def pytest_xdist_make_scheduler(config, log):
-    """Return the scheduler of `--dist loadfile`, which gives no file to a process that has grown too large."""
-    from xdist.scheduler import LoadFileScheduling
-
-    class Replacing(LoadFileScheduling):
-        def _reschedule(self, node):
-            if self.workqueue and psutil.Process(node.gateway._rinfo().pid).memory_info().rss > MOST_BYTES:
-                node.shutdown()  # it first finishes the files that it has
-            if node in self.registered_collections:  # xdist calls this for a fresh process when it has its tests
-                super()._reschedule(node)
-
-    return Replacing(config, log) if config.option.dist == "loadfile" else None
-
-
-@pytest.hookimpl(optionalhook=True)
-def pytest_testnodedown(node, error):
-    """End a process that has no more to do; start another one while files are left."""
-    session = node.config.pluginmanager.getplugin("dsession")
-    if error is None:
-        node.gateway.exit()
-        if getattr(session.sched, "workqueue", ()) and not (session.shouldstop or session.shuttingdown):
-            session._clone_node(node)
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_protocol(item, nextitem):
+    """Run each file in a child of the process that has collected, where there are several: compiled code is not freed."""
+    return run_in_child(item, nextitem) if hasattr(item.config, "workerinput") else None
 
 
 def pytest_ignore_collect(collection_path, config):
