@@ -5,9 +5,9 @@ import shutil
 from pathlib import Path
 
 import pytest
+from support.forked import run_in_child
 
 from bench.experiments import plan as planning
-from support.forked import run_in_child
 
 SLOW = Path(__file__).with_name("slow.txt").read_text(encoding="utf-8").split()
 """Files that are slow as a whole, the slowest first: they compile, or start processes."""
@@ -15,7 +15,7 @@ SLOW = Path(__file__).with_name("slow.txt").read_text(encoding="utf-8").split()
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtest_protocol(item, nextitem):
-    """Run each file in a child of the process that has collected, where there are several: compiled code is not freed."""
+    """Run each file in a child of the process that has collected, where there are several."""
     return run_in_child(item, nextitem) if hasattr(item.config, "workerinput") else None
 
 

@@ -59,7 +59,6 @@ def test_export_of_a_user_s_law_is_of_its_file(capsys, tmp_path, language, run):
         (("late-braking", "--to", "c++"), "did you mean 'cpp'"),
         (("pose-spring-geometric", "--to", "c"), "impedance-geometric"),
         (("feedback-linearized", "--to", "c"), "name one: feedback-linearized/mrp"),
-        (("impedance-coordinates", "--to", "c"), "did you mean 'impedance-coordinates/mrp'"),
         (("representation-euler", "--to", "c"), "zyx-euler"),
     ],
 )

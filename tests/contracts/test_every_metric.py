@@ -197,18 +197,11 @@ def test_column_of_a_metric_ends_in_its_unit(touch):
     assert touch.title[0].islower()
 
 
-def test_metric_columns_are_distinct():
-    assert len({touch.column for touch in IN_CONTACT}) == len(IN_CONTACT)
-
-
-def test_metric_answers_a_number_or_nan_on_every_task(touch):
+def test_metric_answers_a_number_or_nan_on_every_task_and_a_number_on_some(touch):
     answers = [touch.measure(pose) for pose in measured_poses()]
     assert all(isinstance(answer, float) for answer in answers)
     assert not any(math.isinf(answer) for answer in answers)
-
-
-def test_metric_has_a_meaning_on_some_task(touch):
-    assert np.isfinite([touch.measure(pose) for pose in measured_poses()]).any()
+    assert np.isfinite(answers).any()
 
 
 def test_metric_answers_a_number_or_nan_of_an_episode_that_broke_off_and_nan_where_nothing_was_recorded(touch):

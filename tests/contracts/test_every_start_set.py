@@ -120,7 +120,7 @@ on_every_arm = pytest.mark.parametrize("arm", ARMS)
 
 FRESH = """
 import tasks
-for arm in reversed(tasks.arm_names()):
+for arm in ("ur5e", "panda"):
     for name in reversed(tasks.start_set_names(arm=True)):
         print(tasks.start_set(name, 3, arm=arm))
 """
@@ -129,7 +129,7 @@ for arm in reversed(tasks.arm_names()):
 def test_fresh_process_gives_the_same_starts():
     """Made in the opposite order, so that nothing hangs on what was made before."""
     done = subprocess.run([sys.executable, "-c", FRESH], capture_output=True, text=True, check=True)
-    expected = [str(tasks.start_set(name, 3, arm=arm)) for arm in reversed(ARMS) for name in reversed(SETS)]
+    expected = [str(tasks.start_set(name, 3, arm=arm)) for arm in ("ur5e", "panda") for name in reversed(SETS)]
     assert done.stdout.splitlines() == expected
 
 

@@ -13,8 +13,7 @@ from pathlib import Path
 import pyarrow.parquet as pq
 import pytest
 from support.command_line import digest
-from support.dropped_files import DROPPED
-from support.planted_files import ASKED_OF_AXIS, DROPPED_EXPERIMENT, EXPERIMENT, PLANTED, PLANTED_AXIS
+from support.dropped_files import ASKED_OF_AXIS, DROPPED, DROPPED_EXPERIMENT, EXPERIMENT, PLANTED, PLANTED_AXIS
 
 from bench.base.provenance import ROOT
 from bench.experiments.tables import store

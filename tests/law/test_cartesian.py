@@ -135,9 +135,3 @@ def test_torques_are_the_formula(arm, jacobian, word):
             wanted = at.D @ (np.linalg.pinv(at.J) @ a + z) + at.fg
         atol = rounding(one, at, at.J) * np.linalg.norm(at.D, 2) * np.linalg.norm(np.linalg.pinv(at.J), 2)
         np.testing.assert_allclose(tau, wanted, rtol=0.0, atol=atol * np.linalg.norm(a) + 10 * EPS * np.abs(tau).max())
-
-
-# ---------------------------------------------------------------------------- (3.7) against (2.2) with (2.15)
-
-
-# ---------------------------------------------------------------------------- seven joints

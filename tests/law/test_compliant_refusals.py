@@ -49,13 +49,7 @@ def line_of(action, kind) -> str:
         (lambda: hybrid("hybrid-tool", "inverse"), ["'hybrid-tool' is no hybrid controller", *HYBRIDS]),
         (lambda: hybrid("hybrid-base", "solve"), ["'solve' is no form of hybrid control", *FORMS]),
         (lambda: hybrid("hybrid", "inverse"), ["needs some", "try: hybrid/zyx-euler+inverse"]),
-        (lambda: hybrid("hybrid-unconverted", "projected"), ["try: hybrid-unconverted/zyx-euler+projected"]),
         (lambda: hybrid("hybrid-base", "inverse", ZYX), ["takes no representation", "try: hybrid-base+inverse"]),
-        (lambda: hybrid("hybrid-hand", "projected", ZYX), ["try: hybrid-hand+projected"]),
-        (
-            lambda: hybrid("hybrid", "inverse", QUATERNION),
-            ["'quaternion' has no coordinate for each", "try: zyx-euler"],
-        ),
         (
             lambda: impedance_controller(COORDINATES, QUATERNION),
             ["'quaternion' has no coordinate for each", "try: zyx-euler"],
@@ -69,7 +63,6 @@ def line_of(action, kind) -> str:
         ),
         (lambda: find_controller("hybrid-base"), ["try: hybrid-base+inverse, or hybrid-base+projected, or"]),
         (lambda: find_controller("impedance-geometric+inverse"), ["omit '+inverse'"]),
-        (lambda: find_controller("impedance-coordinates/quaternion"), ["'quaternion' has no coordinate for each"]),
     ],
 )
 def test_controller_that_has_no_meaning_is_refused_with_the_cure(action, says):

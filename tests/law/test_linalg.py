@@ -176,6 +176,3 @@ def test_orthogonalized_rows_are_orthogonal_turned_from_the_given_ones_and_as_lo
         # U is orthogonal: A^T b is (U^T A)^T (U^T b)
         allowed = 2 * within * norm(B)
         np.testing.assert_allclose(found.T @ beside, A.T @ B[:rows], rtol=0.0, atol=allowed, err_msg=word)
-
-
-# -------------------------------------------------------------------------------- floats, counted, compiled

@@ -31,13 +31,13 @@ def plan(tmp_path_factory):
     return plan_of_all_kinds(tmp_path_factory.mktemp("own"))
 
 
-MADE = ("free-body", "arm", "contact", "robustness", "costs", "springs")
-"""Experiments whose rows a cluster makes here; units of all others are sent as theirs are."""
+MADE = ("free-body", "arm", "costs", "springs")
+"""Experiments whose rows a cluster makes here, and each week those of two more; all units are sent as theirs are."""
 
 
-@pytest.fixture(scope="module")
-def few(plan):
-    return dataclasses.replace(plan, units=plan.of(*MADE))
+@pytest.fixture(scope="module", params=[(), pytest.param(("contact", "robustness"), marks=pytest.mark.weekly)], ids=len)
+def few(plan, request):
+    return dataclasses.replace(plan, units=plan.of(*MADE, *request.param))
 
 
 @pytest.fixture(scope="module")

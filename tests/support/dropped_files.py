@@ -25,3 +25,8 @@ DROPPED = {
     "bench/law/contenders/baselines/dropped_baseline.py": renamed("baselines", "resolved_rate", "baseline"),
     **{str(path.relative_to(HERE)).removesuffix(".text"): path.read_text() for path in sorted(HERE.rglob("*.text"))},
 }
+EXPERIMENT, PLANTED = "bench/experiments/dropped_experiment.py", "tasks/conditions/planted_bias.py"
+DROPPED_EXPERIMENT, PLANTED_AXIS, ASKED_OF_AXIS = (
+    Path(__file__).with_name("planted_texts").joinpath(f"{name}.text").read_text()
+    for name in ("dropped_experiment", "planted_axis", "asked_of_axis")
+)
