@@ -21,16 +21,12 @@ NAMED = pytest.mark.parametrize(("function", "convention"), RIGHT.values(), ids=
 
 
 @NAMED
-def test_nothing_is_said_against_a_right_error(function, convention):
+def test_nothing_is_said_against_a_right_error_and_its_convention_is_found(function, convention):
     report = audited(function)
     notes = {(one.fault.name, one.found.severity) for one in report.findings}
     assert notes == ({("dead-at-180", NOTE)} if report.convention.form == "sine" else set())
     assert report.faults == ()
-
-
-@NAMED
-def test_convention_is_found(function, convention):
-    found = audited(function).convention
+    found = report.convention
     assert (found.takes, found.frame, found.sign, found.form) == convention
     assert found.slope == pytest.approx(1.0, abs=1e-6)
 

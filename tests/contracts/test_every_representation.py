@@ -38,13 +38,13 @@ def draw():
 
 @functools.cache
 def some_rotations(representation) -> tuple:
-    """For what takes 80 digits: the exact ones and those near the identity, and a third of the others, drawn anew for
+    """For what takes 80 digits: the exact ones and those near the identity, and a sixth of the others, drawn anew for
     each representation."""
     every = rotations()
     always = len(axis_permuting()) + len(near_identity())
     seed = list(contenders("representations")).index(representation.name)
     drawn = np.random.default_rng(seed).permutation(len(every) - always)
-    return (*every[:always], *(every[always + i] for i in sorted(drawn[: len(drawn) // 3])))
+    return (*every[:always], *(every[always + i] for i in sorted(drawn[: len(drawn) // 6])))
 
 
 @functools.cache

@@ -23,7 +23,7 @@ from tasks.rotations import zyx
 from tasks.verdict import SETTLED
 
 METRICS = metrics_of(on_arm=False)
-COUNT = 40
+COUNT = 20
 HORIZON = 3.0
 PATH = [NUMBERS.index(name) for name in (*(f"{v}_{x}" for v in ("omega", "n", "o", "a") for x in "xyz"),)]
 
@@ -48,9 +48,9 @@ def drawn_in_angles(reach, goal_reach, speed, seed):
 def anywhere():
     """At rest, tumbling, and towards far goals: the rotation-matrix law knows no place it must avoid but pi."""
     return [
-        *tasks.start_set("uniform", 20, seed=13),
-        *tasks.start_set("tumbling", 10, seed=13),
-        *tasks.start_set("goals", seed=13)[-10:],
+        *tasks.start_set("uniform", 10, seed=13),
+        *tasks.start_set("tumbling", 5, seed=13),
+        *tasks.start_set("goals", seed=13)[-5:],
     ]
 
 

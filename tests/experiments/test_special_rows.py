@@ -73,25 +73,13 @@ def commands():
 
 
 @pytest.mark.parametrize("limiter", LIMITERS.values(), ids=LIMITERS)
-def test_limiter_lengthens_and_reverses_no_component(limiter):
+def test_limiter_is_odd_passes_the_middle_of_its_range_and_lengthens_and_reverses_no_component(limiter):
     for omega in commands():
         limited = np.array(limiter.limit(tuple(omega), K))
         assert (limited * omega >= 0.0).all()
         assert (np.abs(limited) <= np.abs(omega)).all()
-
-
-@pytest.mark.parametrize("limiter", LIMITERS.values(), ids=LIMITERS)
-def test_limiter_passes_the_middle_of_its_range_as_it_is(limiter):
-    omega = (0.5, -0.6, 0.7)
-    assert limiter.limit(omega, K) == omega
-
-
-@pytest.mark.parametrize("name", LIMITERS)
-def test_limiter_is_odd(name):
-    for omega in commands():
-        there = LIMITERS[name].limit(tuple(omega), K)
-        back = LIMITERS[name].limit(tuple(-omega), K)
-        np.testing.assert_array_equal(there, -np.array(back))
+        np.testing.assert_array_equal(limited, -np.array(limiter.limit(tuple(-omega), K)))
+    assert limiter.limit((0.5, -0.6, 0.7), K) == (0.5, -0.6, 0.7)
 
 
 def test_norm_clamp_keeps_the_direction_and_the_clamp_per_axis_does_not():

@@ -56,7 +56,7 @@ def test_file_that_misbehaves_is_refused(capsys, finished, tmp_path, name):
 
 
 def test_file_that_does_not_return_is_refused_by_the_judge(capsys, tmp_path):
-    assert WAITS in refused(capsys, "judge", written(tmp_path, "loops", AT_IMPORT["loops"][0]))
+    assert WAITS in refused(capsys, "judge", written(tmp_path, "sleeps", AT_IMPORT["sleeps"][0]))
 
 
 def run(folder, engine, laws, *words) -> int:
