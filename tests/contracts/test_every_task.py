@@ -14,7 +14,7 @@ from tasks.base import Start, Task
 from tasks.rules import ticks
 from tasks.sensors import SENSORS
 
-COUNT = 12  # starts of each set that every task is tried on
+COUNT = 6  # starts of each set that every task is tried on
 
 
 @pytest.fixture(params=tasks.pairs(), ids="-".join)

@@ -39,10 +39,14 @@ def assert_same(fast, slow) -> None:
     assert different_rows(fast.record, slow.record) == []
 
 
-# Every task with the first of the three, which presses as long as it lasts, and the other two in turns.
+# Every task with the first of the three, which presses as long as it lasts; each week with the others in turns.
 @pytest.mark.parametrize(
     ("k", "word", "arm", "controller"),
-    [(k + c, word, ARMS[(k + c) % len(ARMS)], THREE[c]) for k, word in enumerate(TASKS) for c in (0, 1 + k % 2)],
+    [
+        pytest.param(k + c, word, ARMS[(k + c) % len(ARMS)], THREE[c], marks=pytest.mark.weekly if c else ())
+        for k, word in enumerate(TASKS)
+        for c in (0, 1 + k % 2)
+    ],
 )
 def test_native_record_is_the_reference_record_bit_for_bit_to_the_horizon(k, word, arm, controller):
     task, on, trial = of(word, arm, k)

@@ -224,8 +224,9 @@ def test_gate_catches_in_contact_what_no_rounding_decides(pair, pose, before, af
 def test_rows_of_what_base_has_nowhere_are_no_difference_whatever_the_judge(pair, judge, table, words, count):
     base, head = pair("body")
     unit = Unit("robustness", "rotation-matrix", selector="delay", count=1, total=1, horizon_s=0.05)
+    perturbed = rows_of(Settings(), unit)
     for folder, name in ((base, "the same"), (head, judge)):
-        write_table(folder / "robustness.parquet", rows_of(Settings(), unit), "robustness")
+        write_table(folder / "robustness.parquet", perturbed, "robustness")
         write_json(folder / "provenance.json", read_json(folder / "provenance.json") | {"judge": name})
     change(head, table, lambda frame: pd.concat([frame, frame.head(3).assign(**words)]))
     lines = compare(base, head)

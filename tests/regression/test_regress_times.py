@@ -92,7 +92,7 @@ def test_files_are_those_of_pytest_benchmark_and_name_no_machine(compared, tmp_p
     assert all(word in said for word in ("tilted", "0001", "0002", "2 tests"))
 
 
-@pytest.mark.parametrize("at", [0, 1])
+@pytest.mark.parametrize("at", [pytest.param(0, marks=pytest.mark.weekly), 1])
 def test_side_that_cannot_compile_says_so_and_which_it_is(sides, tmp_path, at):
     broken = tmp_path / "broken.py"
     broken.write_text("REGULATOR = 1 / 0\n")
