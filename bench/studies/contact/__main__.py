@@ -1,6 +1,6 @@
 """What tasks in contact depend on: results/contact/contact.json.
 
-python -m bench.studies.contact                    all of it, some five minutes
+python -m bench.studies.contact                    all of it, some minutes
 python -m bench.studies.contact --only boundary    run one part again; the others stay as they are
 """
 
@@ -11,18 +11,14 @@ from typing import Any
 
 from bench.base.files import read_json, write_json
 from bench.base.provenance import ROOT
-from bench.studies.contact import admittance, pegs, springs, stability, unshaped
+from bench.studies.contact import pegs, stability
 from bench.studies.study import make_parser, make_parts
 
 STORED = ROOT / "results" / "contact" / "contact.json"
 
 PARTS = {
     "boundary": stability.boundaries,
-    "springs": springs.rows,
     "fits": pegs.fits,
-    "admittance": admittance.limits,
-    "unshaped": unshaped.rows,
-    "unshaped-tasks": unshaped.in_tasks,
 }
 
 

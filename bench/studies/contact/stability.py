@@ -93,14 +93,11 @@ def mobility(arm: Arm) -> float:
 
 def boundary(is_stable: Callable[..., bool]) -> float:
     """Return the stiffness [N/m] up to which it is stable: LEAST if never, infinite if everywhere in DECADES."""
-    return bisect_stiffness(is_stable, *DECADES, HALVINGS) if is_stable(LEAST) else LEAST
-
-
-def bisect_stiffness(holds: Callable[..., bool], low: float, high: float, halvings: int) -> float:
-    """Return the stiffness [N/m] up to which something holds, between powers of ten; infinite if at the highest too."""
-    if holds(10.0**high):
+    if not is_stable(LEAST):
+        return LEAST
+    if is_stable(10.0 ** DECADES[1]):
         return math.inf
-    return 10.0 ** (0.5 * sum(bisect(lambda decades: holds(10.0**decades), low, high, halvings)))
+    return 10.0 ** (0.5 * sum(bisect(lambda decades: is_stable(10.0**decades), *DECADES, HALVINGS)))
 
 
 def boundaries() -> list[dict]:
