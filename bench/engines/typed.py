@@ -4,7 +4,11 @@ import typing
 from typing import Annotated, Any
 
 from numba import float64, int64, types
-from numba.extending import intrinsic, overload
+from numba.core import cgutils
+from numba.core.imputils import lower_getattr_generic
+from numba.core.typeconv import Conversion
+from numba.core.typing.templates import AttributeTemplate, infer_getattr
+from numba.extending import lower_builtin, lower_cast, models, register_model, type_callable
 from numba.np.arrayobj import make_array
 
 from bench.engines.arrays import Matrix, Three, Vector
@@ -49,8 +53,55 @@ def type_of(hint: Any) -> types.Type:
     return types.BaseTuple.from_types([*map(type_of, hints)], hint)
 
 
+class Lent(types.Type):
+    """A tuple that stays where the loop has stored it; of its parts only those are read that a function names.
+
+    A tuple that is passed by value is taken apart and put together again at each call: the hundreds of words of a world
+    made a loop compile in twice the time.
+    """
+
+    def __init__(self, whole: types.BaseTuple) -> None:
+        self.whole = whole
+        super().__init__(f"Lent({whole})")
+
+    def can_convert_to(self, typing_context: Any, other: types.Type) -> Conversion | None:
+        """Allow a function to take the tuple itself."""
+        return Conversion.safe if other == self.whole else None
+
+    def part(self, name: str) -> types.Type:
+        """Return the type of a field: of a tuple with names lent too."""
+        kind = self.whole.types[self.whole.fields.index(name)]
+        return Lent(kind) if isinstance(kind, types.BaseNamedTuple) else kind
+
+
+@register_model(Lent)
+class _Pointer(models.PrimitiveModel):
+    def __init__(self, manager: Any, lent: Lent) -> None:
+        super().__init__(manager, lent, manager[lent.whole].get_value_type().as_pointer())
+
+
+@infer_getattr
+class _Fields(AttributeTemplate):
+    key = Lent
+
+    def generic_resolve(self, lent: Lent, name: str) -> types.Type | None:
+        return lent.part(name) if name in lent.whole.fields else None
+
+
+@lower_getattr_generic(Lent)
+def _field(context, builder, lent, value, name):
+    kind = lent.part(name)
+    place = cgutils.gep_inbounds(builder, value, 0, lent.whole.fields.index(name))
+    return place if isinstance(kind, Lent) else _uncount(context, builder, kind, builder.load(place))
+
+
+@lower_cast(Lent, types.BaseTuple)
+def _whole(context, builder, lent, whole, value):
+    return _uncount(context, builder, whole, builder.load(value))
+
+
 def borrow(given):
-    """Return what is given; in compiled code with arrays that nobody counts references to, tuples and all.
+    """Return what is given; in compiled code lent, with arrays that nobody counts references to.
 
     An array that Python passes in is counted each time it is handed on, atomically, and a call with nine of them takes
     120 ns; without it takes 10. Whoever calls the loop keeps them alive.
@@ -58,7 +109,19 @@ def borrow(given):
     return given
 
 
+@type_callable(borrow)
+def _type_borrow(typing_context):
+    return lambda given: Lent(given) if isinstance(given, types.BaseNamedTuple) else given
+
+
+@lower_builtin(borrow, types.Any)
+def _borrow(context, builder, signature, values):
+    (value,) = values
+    return cgutils.alloca_once_value(builder, value) if isinstance(signature.return_type, Lent) else value
+
+
 def _uncount(context, builder, kind, value):
+    """Return arrays without the record of who counts them."""
     if isinstance(kind, types.Array):
         array = make_array(kind)(context, builder, value=value)
         array.meminfo, array.parent = array.meminfo.type(None), array.parent.type(None)
@@ -67,14 +130,3 @@ def _uncount(context, builder, kind, value):
         for i, part in enumerate(kind.types):
             value = builder.insert_value(value, _uncount(context, builder, part, builder.extract_value(value, i)), i)
     return value
-
-
-@intrinsic
-def _uncounted(typing_context, given):
-    """Return the arrays without the record of who counts them."""
-    return given(given), lambda context, builder, _, values: _uncount(context, builder, given, values[0])
-
-
-@overload(borrow, jit_options=PART | {"forceinline": True})
-def _borrow(given):
-    return lambda given: _uncounted(given)
