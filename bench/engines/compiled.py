@@ -11,9 +11,11 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import numba
-from numba import float64, int64, types
+from numba import _dynfunc, float64, int64, types
 from numba.core.bytecode import FunctionIdentity
 from numba.core.caching import IndexDataCacheFile
+from numba.core.codegen import JITCodeLibrary
+from numba.core.cpu import CPUContext
 from numba.extending import overload, register_jitable
 from numba.np import linalg
 
@@ -55,6 +57,32 @@ importlib.import_module("numba.np.arraymath")
 linalg.ensure_blas = _look_for_blas
 """numba imports it with the first signature, and it imports scipy.linalg to see whether there is BLAS: a third of a
 second, and no kernel of ours calls BLAS. One that did would look for it then."""
+
+
+class _Inlined(JITCodeLibrary):
+    """What other compiled code links, and nobody calls: it is optimized, and no machine code is made of it."""
+
+    def _finalize_final_module(self) -> None:
+        self._finalize_dynamic_globals()
+        self._finalized = True
+
+
+_executable = CPUContext.get_executable
+
+
+def _get_executable(self: CPUContext, library: JITCodeLibrary, described: Any, environment: Any) -> Any:
+    """Return what numba does; of a function without wrappers an empty one, for its code goes into its callers."""
+    if library._finalized or {described.llvm_cpython_wrapper_name, described.llvm_cfunc_wrapper_name}.intersection(
+        function.name for function in library._final_module.functions
+    ):
+        return _executable(self, library, described, environment)
+    library.__class__ = _Inlined
+    library.finalize()
+    name = described.qualname.split(".")[-1]
+    return _dynfunc.make_function(described.lookup_module(), name, "", 0, environment, (library,))
+
+
+CPUContext.get_executable = _get_executable
 
 JIT = {"nogil": True, "error_model": "numpy"}
 """Never fastmath: results must be the plain Python call's, bit for bit."""
