@@ -12,7 +12,7 @@ LINES = {
     "bench/audit": 1_928,
     "bench/base": 484,
     "bench/cli": 2_337,
-    "bench/engines": 6_244,
+    "bench/engines": 6_324,
     "bench/experiments": 4_944,
     "bench/export": 2_010,
     "bench/findings": 6_033,
