@@ -5,6 +5,7 @@ import functools
 import importlib
 import itertools
 import math
+import os
 import secrets
 import threading
 from collections.abc import Callable, Iterator
@@ -32,11 +33,17 @@ from bench.law.inputs import Gains, Goal
 from bench.law.so3 import Rotation
 from tasks import moving_goal, truth, velocity, verdict
 
-FunctionIdentity._unique_ids = itertools.count(secrets.randbits(56))
+
+def _count_from_a_random_place() -> None:
+    FunctionIdentity._unique_ids = itertools.count(secrets.randbits(56))
+
+
+_count_from_a_random_place()
+os.register_at_fork(after_in_child=_count_from_a_random_place)
 """numba tells functions of one name apart by a number that counts from 1 in every process, and the linker keeps the
 first of two that have the same. All laws' closures are called `evaluate`; two that two processes had compiled and a
 third took from the cache became one, so that a law was silently run with parts of another. Counting from a random
-place, no two processes meet."""
+place, no two processes meet; a fork begins at another one too."""
 
 
 def _one_at_a_time(method: Callable) -> Callable:

@@ -5,10 +5,12 @@ import os
 import subprocess
 import sys
 import time
+import warnings
 from concurrent.futures import ThreadPoolExecutor
 
 import mujoco
 import pytest
+from numba.core.bytecode import FunctionIdentity
 from support.bits import different_rows
 from support.driving import settings, spread
 
@@ -87,6 +89,18 @@ def test_laws_compiled_by_two_processes_at_once_do_not_mix_in_a_third(tmp_path):
         alone |= json.loads(process.communicate()[0])
     assert angles(tmp_path, *LAWS) == alone
     assert angles(tmp_path, *reversed(LAWS)) == alone
+
+
+def test_fork_numbers_its_functions_from_another_place():
+    """Or two children of one process would compile laws of one name and number, of which the linker keeps one."""
+    reader, writer = os.pipe()
+    with warnings.catch_warnings(action="ignore", category=DeprecationWarning):  # of threads
+        child = os.fork()
+    if not child:
+        os.write(writer, str(next(FunctionIdentity._unique_ids)).encode())
+        os._exit(0)
+    os.waitpid(child, 0)
+    assert abs(int(os.read(reader, 100)) - next(FunctionIdentity._unique_ids)) > 10**6
 
 
 @pytest.mark.parametrize("arm", tasks.arm_names())

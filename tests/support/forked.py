@@ -2,6 +2,7 @@
 
 import os
 import sys
+import warnings
 from multiprocessing.connection import Connection, Pipe
 
 import pytest
@@ -39,7 +40,9 @@ def run_in_child(item, nextitem) -> bool:
 def _start_child(session) -> tuple[int, Connection]:
     """Return the number of a new process that runs the tests it is sent, and the connection to it."""
     here, there = Pipe()
-    pid = os.fork()
+    with warnings.catch_warnings():  # of threads, of which only the one that talks to the scheduler lives
+        warnings.simplefilter("ignore", DeprecationWarning)
+        pid = os.fork()
     if pid:
         there.close()
         return pid, here
