@@ -66,6 +66,7 @@ def _rows(chosen: list[Contender], arm: str = "") -> pd.DataFrame:
     own = tuple(dict.fromkeys(one.regulator for one in chosen if one.regulator.origin))
     plan = Plan(Settings(own=own), tuple(Unit("costs", one.name, arm=arm) for one in chosen))
     with Sandbox(plan) as sandbox, progress("laws", "counting"):
+        sandbox.check()
         made = [
             sandbox.rows(unit).to_pandas() if sandbox.has(unit) else rows_of(plan.settings, unit) for unit in plan.units
         ]

@@ -24,19 +24,25 @@ def COMMAND(law: str, language: str, out: Path | None, laws: options.Files) -> N
 
     A law is named as in `list regulators`, with its coordinates where it has several; representation-NAME are the
     functions of coordinates, impedance-NAME an impedance, spring-NAME a spring, of a pose or of a
-    rotation alone, compensator-NAME a law with a state. --law FILE runs your file to load it.
+    rotation alone, compensator-NAME a law with a state. --law FILE runs your file in a process of its own.
     """
+    from bench.export.apart import files_apart
     from bench.export.language import find_language
-    from bench.export.subject import find_subject, subject_words
-    from bench.law.contenders.law_file import load_law
+    from bench.export.subject import find_subject, identifier_of, subject_words
+    from bench.law.contenders import registry
 
-    made, own = find_language(language), tuple(map(load_law, laws))
-    words = subject_words(own) if law == EVERYTHING else [law]
+    made, own = find_language(language), {one.name: one for one in options.own_laws(laws)}
+    words = subject_words(tuple(own.values())) if law == EVERYTHING else [law]
     for word in words:
-        subject = find_subject(word, own)
-        name = subject.identifier
+        theirs = own.get(word.partition("/")[0])
+        if theirs is not None and theirs.origin:
+            name = identifier_of(registry.find_contender(word, (theirs,)).on_free_body)
+            files = files_apart(theirs, word, language)
+        else:
+            subject = find_subject(word, tuple(own.values()))
+            name, files = subject.identifier, made.files(subject)
         folder = FOLDER / language / name if out is None else out / name if law == EVERYTHING else out
-        _write(folder, made.files(subject))
+        _write(folder, files)
         console().print(f"wrote {shown_path(folder)}   try it there: {made.test.format(name=name)}", soft_wrap=True)
 
 

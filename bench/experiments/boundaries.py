@@ -10,6 +10,7 @@ import math
 
 import numpy as np
 
+from bench.base.lazy import pd
 from bench.engines.episode import OUTCOME, start_rows
 from bench.experiments.columns import read_table
 from bench.experiments.episode_rows import contender_columns
@@ -107,6 +108,11 @@ def _outcomes(
     return on_ideal(unit.engine, one, start_rows(starts), limits, converge=False)[:, OUTCOME].astype(int)
 
 
+def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
+    """Tell whether there is a row for each axis, in order."""
+    return np.array_equal(rows[["axis_x", "axis_y", "axis_z"]], axes(unit.count))
+
+
 EXPERIMENT = Experiment(
     "boundaries",
     "where a law first fails, along geodesics",
@@ -114,6 +120,7 @@ EXPERIMENT = Experiment(
     units,
     rows,
     takes=OF_LAWS,
+    is_whole=is_whole,
     cost_s=lambda unit: unit.count * AXIS_S,
     prepare=prepare,
     ticks=lambda settings, unit: unit.count * len(SCAN) * unit.horizon_s / settings.dt_s,

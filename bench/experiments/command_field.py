@@ -205,6 +205,13 @@ def _along_geodesics(field: Field) -> Iterator[Finding]:
     yield Finding("pull", "swapped" if is_swapped else "some", pulls[-1].mean(), pulls[-1].min(), pulls[-1].max())
 
 
+FINDINGS = (
+    *("goal", "stiffness", "damping", "dead-half-turns", "no-number-half-turns", "away"),
+    *("jump-goal", "jump-half-turns", "jump-elsewhere", "pull"),
+)
+"""Every law has a row of each, in this order."""
+
+
 EXPERIMENT = Experiment(
     NAME,
     "commands over all states",
@@ -213,6 +220,7 @@ EXPERIMENT = Experiment(
     rows,
     cost_s=lambda unit: LAW_S,
     takes=OF_LAWS,
+    is_whole=lambda settings, unit, rows: tuple(rows["finding"]) == FINDINGS,
     prepare=prepare,
     ticks=lambda settings, unit: CALLS,
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tasks
 from bench.base.errors import BadLaw
+from bench.base.lazy import pd
 from bench.experiments import arm, free_body
 from bench.experiments.columns import COUNT, Column, read_table
 from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit, own_last
@@ -54,6 +55,13 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
         return []
 
 
+def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
+    """Tell whether both branches have the same stages, or there are no rows where there may be none."""
+    stages = {branch: tuple(some) for branch, some in rows.groupby("branch", observed=True)["stage"]}
+    expected = unit.engine == BEYOND and not len(rows)
+    return expected or (set(stages) == {"typical", "worst"} and len(set(stages.values())) == 1)
+
+
 def count_operations(one: Contender, joints: int = 0) -> list[dict]:
     """Count the operations of a law alone, or of a controller on so many joints.
 
@@ -76,5 +84,6 @@ EXPERIMENT = Experiment(
     takes=ON_ARMS,
     cost_s=lambda unit: CONTROLLER_S if unit.arm else LAW_S,
     is_tried_first=True,
+    is_whole=is_whole,
     compiles=False,
 )

@@ -151,7 +151,8 @@ class Experiment(NamedTuple):
     order of the rows. rows(settings, unit) -> what `pandas.DataFrame` takes. cost_s(unit) -> seconds it usually takes.
 
     prepare(settings, unit): compile, import and build what its rows need, for all processes that are forked then.
-    lost(settings, unit, outcome) -> what is left of a unit whose law crashed or hung. ticks(settings, unit) -> control
+    lost(settings, unit, outcome) -> what is left of a unit whose law crashed or hung. is_whole(settings, unit, rows):
+    whether rows of a user's law can be all of the unit's, by their number and place. ticks(settings, unit) -> control
     periods that it takes at most, which a user's law has its time by. is_divisible: whether `Unit.part` of it is a unit
     too. is_tried_first: whether a user's law goes through it before a run begins, so that a mistake leaves no folder.
     compiles: whether its contender is compiled. summary(frame) -> what `show` prints of the table.
@@ -171,6 +172,7 @@ class Experiment(NamedTuple):
     takes: tuple[str, ...] = ()
     prepare: Callable[[Settings, Unit], None] = lambda settings, unit: None
     lost: Callable[[Settings, Unit, str], Rows] = no_rows
+    is_whole: Callable[[Settings, Unit, pd.DataFrame], bool] = lambda settings, unit, rows: len(rows) > 0
     ticks: Callable[[Settings, Unit], float] = usual_ticks
     is_divisible: bool = False
     is_tried_first: bool = False
@@ -210,11 +212,6 @@ def experiment_of(unit: Unit) -> Experiment:
 def rows_of(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return the rows of a unit."""
     return pd.DataFrame(experiment_of(unit).rows(settings, unit))
-
-
-def lost_rows_of(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
-    """Return what is left of a unit whose law crashed or hung."""
-    return pd.DataFrame(experiment_of(unit).lost(settings, unit, outcome))
 
 
 def own_last(units: list[Unit], own: tuple[Law, ...]) -> tuple[Unit, ...]:

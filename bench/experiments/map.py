@@ -165,6 +165,21 @@ def _reduced(every: pd.DataFrame) -> pd.DataFrame:
     return pd.concat([cells, slowest, lost], ignore_index=True).sort_values(order, ignore_index=True)
 
 
+def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
+    """Tell whether the cells hold as many starts as the unit has, none lie outside SO(3), and each row has its kind."""
+    at = rows[rows["row"] == CELL]
+    parts = rows[["starts", "settled", "unconverged"]]
+    limits = {"ring_deg": 5 * RINGS, "band": BANDS, "azimuth": AZIMUTHS}
+    return bool(
+        at["starts"].sum() == unit.count
+        and (parts >= 0).all(axis=None)
+        and (parts["settled"] + parts["unconverged"] <= parts["starts"]).all()
+        and all(rows[name].between(0, most - 1).all() for name, most in limits.items())
+        and rows["row"].isin((CELL, SLOWEST, LOST)).all()
+        and ((rows["outcome"] == "") == (rows["row"] == CELL)).all()
+    )
+
+
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile what runs the law without metrics."""
     from bench.engines import simulate
@@ -180,6 +195,7 @@ EXPERIMENT = Experiment(
     rows=rows,
     cost_s=lambda unit: unit.count * START_S,
     prepare=prepare,
+    is_whole=is_whole,
     fold=folded,
     in_suites=False,
 )

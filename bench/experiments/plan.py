@@ -1,6 +1,7 @@
 """A plan: the units of one run, from a suite and what the user narrowed or widened it to."""
 
 import dataclasses
+import functools
 import hashlib
 import itertools
 import json
@@ -51,21 +52,29 @@ class Plan:
         arms = dict.fromkeys(unit.arm for unit in self.units if unit.arm)
         return {
             **self.settings._asdict(),
-            "own": {one.name: _text_digest(one.origin) for one in self.settings.own},
+            "own": {one.name: _digest(one.text) for one in self.settings.own},
             "units": [dataclasses.astuple(unit) for unit in self.units],
-            "arms": {name: hashlib.sha256(tasks.arm(name).xml.encode()).hexdigest()[:16] for name in arms},
+            "arms": {name: _digest(tasks.arm(name).xml) for name in arms},
             "rules": list(RULES),
             "sources": source_digest(),
         }
 
     def digest(self) -> str:
         """Sixteen hex digits of the identity."""
-        return hashlib.sha256(json.dumps(self.identity(), sort_keys=True).encode()).hexdigest()[:16]
+        return self._digest
+
+    @functools.cached_property
+    def _digest(self) -> str:
+        return digest_of(self.identity())
 
 
-def _text_digest(path: str) -> str:
-    with open(path, "rb") as file:
-        return hashlib.sha256(file.read()).hexdigest()[:16]
+def digest_of(identity: dict) -> str:
+    """Return sixteen hex digits of an identity, as it is or as plan.json holds it."""
+    return _digest(json.dumps(identity, sort_keys=True))
+
+
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def chosen(choice: Choice) -> list[Experiment]:

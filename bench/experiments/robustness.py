@@ -119,6 +119,12 @@ def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
     return simulated(settings, unit, simulate, lambda _one, _peak: settings.gains).assign(**nothing, variation=np.nan)
 
 
+def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
+    """Tell whether every level is there at which a law needs no gains of its own."""
+    axis = tasks.axis(unit.selector)
+    return {level for level in axis.levels if not condition_at(axis, level).peak} <= set(rows["level"])
+
+
 def _limits(gains: Gains, horizon_s: float) -> Limits:
     """Return the judge's rules in ticks of a microsecond, which the condition's own steps replace."""
     return Limits(gains, 1e-6, round(1e6 * horizon_s), 1)
@@ -164,6 +170,7 @@ EXPERIMENT = Experiment(
     cost_s=lambda unit: unit.episodes * EPISODE_S,
     prepare=prepare,
     lost=lost,
+    is_whole=is_whole,
     ticks=lambda settings, unit: unit.episodes * unit.horizon_s / SHORTEST_S,
     rank=3,
 )

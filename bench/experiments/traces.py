@@ -64,10 +64,15 @@ def of_arm(contender: str, task: str, arm: str, count: int, start_set: str) -> U
     return Unit("traces", contender, task, arm, "native", start_set, count=count, horizon_s=LONGEST_S)
 
 
+def _on_free_body(unit: Unit) -> tuple[tuple[str, int | None], ...]:
+    """Return the start sets of a law, and how many of each."""
+    return ("paper", None), ("uniform", unit.count)
+
+
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return the samples of all curves of a unit."""
     every = max(1, round(EVERY_S / settings.dt_s))
-    sets = ((unit.selector, unit.count),) if unit.arm else (("paper", None), ("uniform", unit.count))
+    sets = ((unit.selector, unit.count),) if unit.arm else _on_free_body(unit)
     place = {"task": unit.task, "arm": unit.arm, **contender_columns(settings.contender(unit.contender))}
     frames = []
     for name, count in sets:
@@ -79,6 +84,14 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
         whose = {**place, "engine": unit.engine, "start_set": name}
         frames.append(_frame(whose, starts, curves.samples, names, endings))
     return pd.concat(frames, ignore_index=True).reindex(columns=TABLE.names)
+
+
+def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
+    """Tell whether rows are samples of the curves of a unit on the free body."""
+    known = {
+        (name, one.id) for name, count in _on_free_body(unit) for one in tasks.start_set(name, count, settings.seed)
+    }
+    return {*zip(rows["start_set"], rows["start_id"], strict=True)} == known
 
 
 def _frame(place: dict, starts: list[Start], samples: np.ndarray, names: tuple, endings: dict) -> pd.DataFrame:
@@ -103,6 +116,7 @@ EXPERIMENT = Experiment(
     units,
     rows,
     takes=OF_LAWS,
+    is_whole=is_whole,
     cost_s=lambda unit: CURVE_S * curves_of(unit),
     prepare=prepare,
     ticks=lambda settings, unit: curves_of(unit) * unit.horizon_s / settings.dt_s,

@@ -46,7 +46,12 @@ class Subject(NamedTuple):
     @property
     def identifier(self) -> str:
         """Return the word as a name in every language."""
-        return self.word.replace("-", "_").replace("/", "_")
+        return identifier_of(self.word)
+
+
+def identifier_of(word: str) -> str:
+    """Return the word of a subject as a name in every language."""
+    return word.replace("-", "_").replace("/", "_")
 
 
 def subject_words(extra: tuple[Law, ...] = ()) -> list[str]:

@@ -2,6 +2,7 @@
 
 import contextlib
 import functools
+import sys
 import time
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
@@ -11,7 +12,7 @@ from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
 from bench.running.finish import finish
 from bench.running.precompile import compiling_ahead
-from bench.running.run_folder import begin, held, inspect, sweep, tidy
+from bench.running.run_folder import begin, held, inspect, part, sweep, tidy
 from bench.running.sandbox import Sandbox
 from bench.running.schedulers import THREADS, check_scheduler, kind, threads
 
@@ -44,19 +45,23 @@ def run(
         if state.finished:
             tidy(out)
             return False
+        for unit in state.spoiled:
+            print(f"{part(out, unit)}: damaged, or of another run; the unit is run again", file=sys.stderr)
         began = time.time()
         sandbox.check()
         todo = [unit for unit in in_running_order(plan.units) if unit.key not in state.done]
         with _team(plan, todo, out, workers, scheduler, sandbox) as carry_out:
             if state.done:
                 sweep(out)
+                for unit in state.spoiled:
+                    part(out, unit).unlink()
             else:
                 begin(plan, out)
             for unit in plan.units:
                 if unit.key in state.done:
                     report(unit)
             by = {"scheduler": kind(scheduler), "workers": carry_out(report)}
-        finish(plan, out, sandbox.notes, by, began, resumed=bool(state.done))
+        finish(plan, out, sandbox.notes, sandbox.again, by, began, resumed=bool(state.done))
         return True
 
 

@@ -5,26 +5,31 @@ provenance.json last of all, and the parts go (`finish`).
 """
 
 import contextlib
-import functools
+import dataclasses
+import hashlib
+import os
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+import pyarrow as pa
+
 from bench.base import lock
 from bench.base.errors import BadResults
 from bench.base.files import is_leftover, make_folder, read_json, refuse_link, refused, write_atomically, write_json
 from bench.experiments.experiment import Unit, experiment_of, known_experiments
-from bench.experiments.plan import Plan
-from bench.experiments.tables import trust
+from bench.experiments.plan import Plan, digest_of
+from bench.experiments.tables import packed, trust
 from bench.experiments.tables.store import check
 
 
 class State(NamedTuple):
-    """What a results folder holds of a plan."""
+    """What a results folder holds of a plan; spoiled: units whose parts are not as a run of it wrote them."""
 
     finished: bool
     done: frozenset[str]
+    spoiled: tuple[Unit, ...] = ()
 
 
 @contextlib.contextmanager
@@ -61,29 +66,79 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
         refuse_link(path)
     if not (out / "plan.json").is_file():
         raise BadResults(f"{out}: the folder holds something else than a run of ours; choose another with --out")
-    found = read_json(out / "plan.json").get("digest")
+    content = read_json(out / "plan.json")
+    found = content.pop("digest", None)
     if found is None:
         raise BadResults(f"{out}: its plan.json is none of ours; choose another folder with --out")
-    if found != plan.digest():
+    is_whole = found == digest_of(content)
+    if not is_whole or found != plan.digest():
         if replace:
             return State(False, frozenset())
+        is_other = "holds another plan (other suite, options, rules or sources)"
+        was_changed = "has a plan.json that was edited or damaged: its digest is not that of what it says"
         raise BadResults(
-            f"{out}: it holds another plan (other suite, options, rules or sources); add --replace to start over, or "
-            "choose another folder with --out"
+            f"{out}: it {is_other if is_whole else was_changed}; add --replace to start over, or choose another folder "
+            "with --out"
         )
     tables = {out / f"{name}.parquet": table for name, table in plan.tables.items()}
-    finished = (out / "provenance.json").is_file() and all(path.is_file() for path in tables)
+    finished = all(path.is_file() for path in tables) and not units_to_try_again(out)
     for path, table in tables.items() if finished else ():
         check(path, table)
-    done = [unit for unit in plan.units if part(out, unit).is_file()]
-    for unit in () if finished else done:
-        check(part(out, unit), experiment_of(unit).table)
-    return State(finished, frozenset(unit.key for unit in done))
+    if finished:
+        return State(True, frozenset(unit.key for unit in plan.units))
+    found = [unit for unit in plan.units if os.path.lexists(part(out, unit))]
+    done = frozenset(unit.key for unit in found if is_sound(plan, out, unit))
+    return State(False, done, tuple(unit for unit in found if unit.key not in done))
+
+
+def units_to_try_again(out: Path) -> list:
+    """Return the units of a finished run that lack their rows (`finish`); one of no word while provenance.json lacks.
+
+    Errors:
+        BadResults: see `read_json`.
+    """
+    path = out / "provenance.json"
+    return list(read_json(path).get("again", ())) if path.is_file() else [""]
 
 
 def part(out: Path, unit: Unit) -> Path:
     """Return the file of a unit that is done."""
-    return out / "parts" / f"{unit.key}.parquet"
+    return out / "parts" / f"{unit.key}.rows"
+
+
+SEAL = hashlib.sha256().digest_size
+"""Bytes at the beginning of a part: the digest of its plan (settings, rules, sources), its unit and its rows."""
+
+
+def _seal(plan: Plan, unit: Unit, content: bytes) -> bytes:
+    words = f"{plan.digest()} {dataclasses.astuple(unit)!r} "
+    return hashlib.sha256(words.encode() + content).digest()
+
+
+def write_part(plan: Plan, out: Path, unit: Unit, content: bytes) -> None:
+    """Keep the rows of a unit (packed.py), bound to the plan."""
+    sealed = _seal(plan, unit, content) + content
+    write_atomically(part(out, unit), lambda temporary: Path(temporary).write_bytes(sealed))
+
+
+def is_sound(plan: Plan, out: Path, unit: Unit) -> bool:
+    """Tell whether a part is, to the last bit, what a run of this plan wrote for this unit."""
+    path = part(out, unit)
+    refuse_link(path)
+    content = path.read_bytes()
+    return content[:SEAL] == _seal(plan, unit, content[SEAL:])
+
+
+def read_part(plan: Plan, out: Path, unit: Unit) -> pa.Table:
+    """Return the rows of a part.
+
+    Errors:
+        BadResults: it is not as it was written.
+    """
+    path = part(out, unit)
+    if not path.is_file() or not is_sound(plan, out, unit):
+        raise BadResults(f"{path}: it was removed or changed while the run went on; give the same command again")
+    return packed.unpack(path.read_bytes()[SEAL:], experiment_of(unit).table)
 
 
 def _content(out: Path) -> list[Path]:
@@ -107,9 +162,9 @@ def _keep_own_laws(plan: Plan, out: Path) -> None:
     """Copy a user's laws into the run, so that its rows can be read, and its report written, with what made them."""
     for own in plan.settings.own:
         copy = out / "laws" / f"{own.name.replace('-', '_')}.py"
-        write_atomically(copy, functools.partial(shutil.copyfile, own.origin))
+        write_atomically(copy, lambda temporary, own=own: Path(temporary).write_bytes(own.text.encode()))
         with contextlib.suppress(OSError):  # without it the report shows the law's rows, and asks to trust it
-            trust.remember(copy.read_bytes())
+            trust.remember(own.text.encode())
 
 
 def _clear(out: Path) -> None:

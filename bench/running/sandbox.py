@@ -3,23 +3,28 @@
 Each law has processes of its own, so that none disturbs another.
 
 Every request has a limit. A unit that was lost is run again one episode after the other, and only those that do not
-come back are rows with the outcome `hung` or `crashed`; after MOST_LOST of them the rest of the unit counts as lost
-without being tried, and so does a whole unit of which no part can be asked for.
+come back are rows with the outcome `hung` or `crashed`; after MOST_LOST of them, or three that hang, the rest of the
+unit counts as lost without being tried, and so does a whole unit of which no part can be asked for, or whose answer is
+not its rows (answers.py).
+
+A process that is killed while it prepares is started once more, with no other at work; if it is killed again, its
+rows are `crashed` in this run, and the same command tries them again.
 """
 
 import contextlib
+import functools
 import json
 import sys
-import threading
 from collections.abc import Iterator
 
 import pyarrow as pa
 
 from bench.base.errors import BadLaw
-from bench.experiments.experiment import Unit, experiment_of, lost_rows_of
+from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
-from bench.experiments.tables.store import as_table, joined
-from bench.running.sandbox_line import Ended, Lost, Mistake, Process
+from bench.experiments.tables.store import joined, lost_table
+from bench.running.process_pool import Pool
+from bench.running.sandbox_line import Ended, Forged, Killed, Lost, Mistake, Process
 from bench.running.wire_format import described
 from tasks.verdict import CRASHED, HUNG, OUTCOMES
 
@@ -33,8 +38,9 @@ ideal-held is."""
 MOST_LOST = 100
 """Episodes of a unit that may be lost one by one, each for SINGLE_S."""
 
-STARTS_ANEW = 30
-"""What an episode counts that ended the process, which takes seconds to start and to compile again."""
+STARTS_ANEW, HANGS = 0.3, 0.34
+"""Shares of them for an episode that ended the process, which takes seconds to start and to compile again, and for one
+that hung: an endless law costs the limit of its unit and three episodes'."""
 
 MOST_KEPT = 8
 """Processes that are kept, compiled code and all, until another law needs one: each takes 0.2 GB."""
@@ -48,26 +54,26 @@ class Sandbox:
 
     Args:
         limit_s: of processor time for every request, compiling apart; None for the rule above. most_lost: episodes of a
-            unit, see MOST_LOST.
+            unit, see MOST_LOST. is_checked: by another process, see `check`.
+
+    notes: what is to be said of the laws. again: keys of units whose law was killed twice while it prepared.
     """
 
-    def __init__(self, plan: Plan, limit_s: float | None = None, most_lost: int = MOST_LOST):
-        self.plan, self.limit_s, self.most_lost = plan, limit_s, most_lost
+    def __init__(self, plan: Plan, limit_s: float | None = None, most_lost: int = MOST_LOST, is_checked: bool = False):
+        self.plan, self.limit_s, self.most_lost, self.is_checked = plan, limit_s, most_lost, is_checked
         self.stopping = False
         self.notes: list[str] = []
+        self.again: set[str] = set()
         self._own = {one.name: one for one in plan.settings.own}
         self._tried: dict[Unit, pa.Table] = {}
         self._unready: dict[str | tuple[str, ...], Lost] = {}
-        self._idle: list[Process] = []
-        self._all: list[Process] = []
-        self._taking = threading.Lock()
+        self._pool = Pool(MOST_KEPT)
 
     def __enter__(self) -> "Sandbox":
         return self
 
     def __exit__(self, *_: object) -> None:
-        for process in self._all:
-            process.end()
+        self._pool.end_all()
 
     def has(self, unit: Unit) -> bool:
         """Whether the unit is of a user's law."""
@@ -75,6 +81,8 @@ class Sandbox:
 
     def check(self) -> None:
         """Compile the laws for every engine that they run on, and try them where an experiment says so.
+
+        A law that is found to be beyond the dialect later than here was changed, by itself, and is lost.
 
         Errors:
             BadLaw: one beyond the dialect.
@@ -87,6 +95,7 @@ class Sandbox:
         for unit in own:
             if experiment_of(unit).is_tried_first and not unit.arm:
                 self._tried[unit] = self.rows(unit)
+        self.is_checked = True
 
     def rows(self, unit: Unit) -> pa.Table:
         """Return the rows of a unit, whatever becomes of its law.
@@ -100,7 +109,7 @@ class Sandbox:
         try:
             return self._rows(unit, unit, PATIENCE_S)
         except Lost as lost:
-            if not experiment.is_divisible:
+            if not experiment.is_divisible or isinstance(lost, Forged):
                 made = self._lost(unit, lost.outcome)
                 what = f"its {unit.episodes} episodes are {lost.outcome}"
                 self._note(f"{unit.label}: {lost}; {what if made.num_rows else 'it has no rows'}")
@@ -111,7 +120,7 @@ class Sandbox:
         return joined(list(self._one_by_one(unit)))
 
     def _one_by_one(self, unit: Unit) -> Iterator[pa.Table]:
-        lost_before, end = 0, unit.first + unit.count
+        lost_before, end = 0.0, unit.first + unit.count
         for first in range(unit.first, end):
             if self.stopping:
                 raise KeyboardInterrupt
@@ -119,21 +128,22 @@ class Sandbox:
             try:
                 yield self._rows(unit, single, SINGLE_S)
             except Lost as lost:
-                lost_before += STARTS_ANEW if isinstance(lost, Ended) else 1
+                share = HANGS if lost.outcome == OUTCOMES[HUNG] else STARTS_ANEW if isinstance(lost, Ended) else 0.0
+                lost_before += max(1.0, MOST_LOST * share)
                 gives_up = lost_before >= self.most_lost
                 yield self._lost(unit.part(first, end - first) if gives_up else single, lost.outcome)
                 if gives_up:
                     return
 
     def _lost(self, unit: Unit, outcome: str) -> pa.Table:
-        return as_table(lost_rows_of(self.plan.settings, unit, outcome), experiment_of(unit).table)
+        return lost_table(self.plan.settings, unit, outcome)
 
     def _rows(self, unit: Unit, some: Unit, patience_s: float) -> pa.Table:
         """Return the rows of some of a unit's episodes."""
         limit_s = patience_s + TICK_S[unit.engine] * experiment_of(unit).ticks(self.plan.settings, some)
         if self.limit_s is not None:
             limit_s = self.limit_s if some is unit else min(self.limit_s, limit_s)
-        with self._process(unit) as process:
+        with self._process(unit) as process, self._mistakes(unit):
             return process.ask(unit, some, limit_s)
 
     def _unready_for(self, unit: Unit) -> Lost | None:
@@ -145,10 +155,15 @@ class Sandbox:
         """Return what a law is compiled for."""
         return unit.experiment, unit.contender, unit.engine
 
-    def _prepare(self, process: Process, unit: Unit) -> None:
-        """Compile, import and build what the unit needs; a law that hangs or ends its process is lost everywhere."""
+    def _prepared(self, unit: Unit) -> Process:
+        """Return a process that is ready for the unit; a law that hangs or ends its process is lost everywhere."""
         try:
-            process.prepare(unit)
+            try:
+                return self._prepared_once(unit)
+            except Killed as killed:
+                self._note(f"{unit.law}: {killed}; it is tried once more, alone")
+            with self._pool.alone():
+                return self._prepared_once(unit)
         except Lost as lost:
             is_everywhere = isinstance(lost, Ended) or lost.outcome == OUTCOMES[HUNG]
             where = f"for {unit.engine or unit.experiment} "
@@ -156,47 +171,55 @@ class Sandbox:
             self._unready[unit.law if is_everywhere else self._place(unit)] = known
             which = "all its episodes" if is_everywhere else "all its episodes there"
             self._note(f"{unit.law}: {known}; {which} are {lost.outcome}")
-            raise known from lost
+            raise self._known(unit, known) from lost
+
+    def _prepared_once(self, unit: Unit) -> Process:
+        process = self._pool.take(unit.law, functools.partial(self._begin, unit.law))
+        try:
+            with self._mistakes(unit):
+                process.prepare(unit)
+        except BaseException as error:
+            self._pool.give_back(process, isinstance(error, Ended))
+            raise
+        return process
+
+    def _begin(self, law: str) -> Process:
+        mine = [one for one in self.plan.units if one.law == law]
+        return Process(law, self.plan.settings, json.dumps(described(self.plan, mine)).encode())
+
+    def _known(self, unit: Unit, lost: Lost) -> Lost:
+        """Return why a unit is lost; note that it is to be tried again if its law may not be why."""
+        if isinstance(lost, Killed):
+            self.again.add(unit.key)
+        return lost
+
+    @contextlib.contextmanager
+    def _mistakes(self, unit: Unit) -> Iterator[None]:
+        """Name the user's file in a mistake, for the process has the law in another; see `check`."""
+        try:
+            yield
+        except Mistake as mistake:
+            reason = str(mistake).partition(": ")[2] or str(mistake)
+            if self.is_checked:
+                raise Lost(OUTCOMES[CRASHED], f"it was sound before ({reason})") from mistake
+            raise BadLaw(f"--law {self._own[unit.law].origin}: {reason}") from mistake
 
     def _note(self, text: str) -> None:
         text = "".join(sign if sign.isprintable() else " " for sign in text)  # it may hold what a law raised
         self.notes.append(text)
         print(text, file=sys.stderr)
 
-    def _taken(self, unit: Unit) -> Process:
-        """Return an idle process of the law, or a new one."""
-        with self._taking:
-            found = next((one for one in reversed(self._idle) if one.law == unit.law), None)
-            if found is None and len(self._all) >= MOST_KEPT and self._idle:
-                self._end(self._idle.pop())  # the oldest comes first when all are gone through again
-            if found is None:
-                mine = [one for one in self.plan.units if one.law == unit.law]
-                found = Process(unit.law, json.dumps(described(self.plan, mine)).encode())
-                self._all.append(found)
-            else:
-                self._idle.remove(found)
-            return found
-
-    def _end(self, process: Process) -> None:
-        process.end()
-        self._all.remove(process)
-
     @contextlib.contextmanager
     def _process(self, unit: Unit) -> Iterator[Process]:
         """One that is made ready for the unit; it is idle again unless it was lost."""
         if known := self._unready_for(unit):
-            raise known
-        process = self._taken(unit)
-        try:
-            self._prepare(process, unit)
-            yield process
-        except Mistake as mistake:
-            # the process has the law in a file of another name
-            reason = str(mistake).partition(": ")[2] or str(mistake)
-            raise BadLaw(f"--law {self._own[unit.law].origin}: {reason}") from mistake
-        except Ended:
-            self._end(process)
-            raise
-        finally:
-            if process in self._all:
-                self._idle.append(process)
+            raise self._known(unit, known)
+        with self._pool.at_work():
+            process, has_ended = self._prepared(unit), False
+            try:
+                yield process
+            except Ended:
+                has_ended = True
+                raise
+            finally:
+                self._pool.give_back(process, has_ended)

@@ -1,12 +1,16 @@
 """The line from a run to a process of a user's laws (sandbox_process.py): its requests, its limits, and how it ends."""
 
 import json
+import signal
 
 import pyarrow as pa
 
-from bench.experiments.experiment import Unit, experiment_of
+from bench.base.errors import BadResults
+from bench.experiments.experiment import Settings, Unit, experiment_of
+from bench.experiments.tables.packed import most_bytes
 from bench.law.contenders.law_process import LawProcess
 from bench.running import sandbox_process
+from bench.running.answers import most_rows, read_answer
 from tasks.verdict import CRASHED, HUNG, OUTCOMES
 
 WAITING, AND_S = 10.0, 20.0
@@ -14,6 +18,9 @@ WAITING, AND_S = 10.0, 20.0
 
 START_S = 600.0
 """On the wall: for the process to start, and to compile, which has a limit of its own."""
+
+SHORT, SHOWN = 1 << 16, 400
+"""Bytes of an answer that is no rows; and signs of a reason that are shown."""
 
 SIGNS = {sandbox_process.CRASHED: OUTCOMES[CRASHED], sandbox_process.HUNG: OUTCOMES[HUNG]}
 
@@ -30,57 +37,76 @@ class Ended(Lost):
     """The process itself is gone, or must go."""
 
 
+class Killed(Ended):
+    """Something killed the process while it prepared: the system when memory is short, a person, or the law itself."""
+
+
+class Forged(Lost):
+    """What came are no rows, or not those that were asked for."""
+
+
 class Mistake(Exception):
     """The user's mistake, in the words of the other process."""
 
 
 class Process:
-    """One process, and the line to it. chunk: the first message, about one law."""
+    """One process, and the line to it. settings: the plan's. chunk: the first message, about one law."""
 
-    def __init__(self, law: str, chunk: bytes):
-        self.law, self.chunk = law, chunk
+    def __init__(self, law: str, settings: Settings, chunk: bytes):
+        self.law, self.settings, self.chunk = law, settings, chunk
         self.process = LawProcess(sandbox_process.__name__)
         self.prepared: set = set()
 
     def prepare(self, unit: Unit) -> None:
-        """Load the law; compile, import and build what the unit needs."""
-        if self.chunk:
-            self._say(self.chunk, START_S)
-            self.chunk = b""
+        """Load the law; compile, import and build what the unit needs.
+
+        Errors:
+            Lost: the law did not let it. Killed: something else may not have. Mistake: the user's.
+        """
         place = (unit.experiment, unit.contender, unit.engine, unit.selector, unit.arm)
-        if place not in self.prepared:
-            self._say(json.dumps({"key": unit.key}).encode(), START_S)
-            self.prepared.add(place)
+        try:
+            if self.chunk:
+                self._say(self.chunk, START_S)
+                self.chunk = b""
+            if place not in self.prepared:
+                self._say(json.dumps({"key": unit.key}).encode(), START_S)
+                self.prepared.add(place)
+        except Ended as ended:
+            if self.process.process.poll() == -signal.SIGKILL:
+                raise Killed(ended.outcome, "its process was killed while it prepared (SIGKILL)") from ended
+            raise
 
     def ask(self, unit: Unit, some: Unit, limit_s: float) -> pa.Table:
         """Return the rows of a unit, or of some of its starts.
 
         Errors:
-            Lost: they did not come in time, or the process ended, or the law broke the judge. Mistake: the user's.
+            Lost: they did not come in time, or the process ended, or the law broke the judge. Forged: they are
+            others. Mistake: the user's.
         """
         longest_s = AND_S + WAITING * limit_s
         asked = {"key": unit.key, "processor_s": limit_s, "longest_s": longest_s}
         if some is not unit:
             asked |= {"first": some.first, "count": some.count}
-        content = self._say(json.dumps(asked).encode(), longest_s + START_S)
+        most = most_bytes(experiment_of(unit).table, most_rows(some))
+        content = self._say(json.dumps(asked).encode(), longest_s + START_S, most)
         try:
-            return sandbox_process.unpacked(content).cast(experiment_of(unit).table.schema())
-        except (pa.ArrowException, ValueError) as error:
-            raise Ended(OUTCOMES[CRASHED], "its process gave back no rows") from error
+            return read_answer(self.settings, some, content)
+        except (BadResults, ValueError) as error:
+            raise Forged(OUTCOMES[CRASHED], f"what it gave back is not its rows: {str(error)[:SHOWN]}") from error
 
-    def _say(self, said: bytes, longest_s: float) -> bytes:
+    def _say(self, said: bytes, longest_s: float, most: int = SHORT) -> bytes:
         try:
             self.process.line.send_bytes(said)
-            content = self.process.hear(longest_s)
+            content = self.process.hear(longest_s, most)
         except TimeoutError as error:
             raise Ended(OUTCOMES[HUNG], f"it did not return within {longest_s:g} s") from error
         except (EOFError, OSError) as error:
             raise Ended(OUTCOMES[CRASHED], "its process was ended") from error
         sign, rest = content[:1], content[1:]
         if sign == sandbox_process.MISTAKE:
-            raise Mistake(rest.decode())
+            raise Mistake(rest.decode(errors="replace"))
         if sign in SIGNS:
-            raise Lost(SIGNS[sign], rest.decode())
+            raise Lost(SIGNS[sign], rest[:SHOWN].decode(errors="replace"))
         if sign != sandbox_process.DONE:
             raise Ended(OUTCOMES[CRASHED], "its process gave back no answer")
         return rest

@@ -15,12 +15,11 @@ from collections.abc import Callable
 from multiprocessing.connection import Connection, wait
 from typing import NoReturn
 
-import pyarrow as pa
-
 from bench.base.errors import BenchError
-from bench.experiments.experiment import Unit, experiment_of, rows_of
+from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
-from bench.experiments.tables.store import as_table
+from bench.experiments.tables.packed import pack
+from bench.experiments.tables.store import table_of_unit
 from bench.law.contenders.described_law import TRIAL_S, TRIAL_WAITS_S
 from bench.law.contenders.law_file import load_law, trial_error
 from bench.law.contenders.law_process import LOOK_S, ending, limit
@@ -73,20 +72,7 @@ def prepared(plan: Plan, unit: Unit, run_of: Connection) -> bytes:
 
 def made(plan: Plan, unit: Unit) -> bytes:
     """Return the rows of a unit."""
-    return packed(as_table(rows_of(plan.settings, unit), experiment_of(unit).table))
-
-
-def packed(table: pa.Table) -> bytes:
-    """Return a table as bytes."""
-    sink = pa.BufferOutputStream()
-    with pa.ipc.new_stream(sink, table.schema) as stream:
-        stream.write_table(table)
-    return sink.getvalue().to_pybytes()
-
-
-def unpacked(content: bytes) -> pa.Table:
-    """Return the table of such bytes."""
-    return pa.ipc.open_stream(content).read_all()
+    return pack(table_of_unit(plan.settings, unit), experiment_of(unit).table)
 
 
 def answer_of_a_fork(work: Callable[[], bytes], processor_s: float, longest_s: float, run_of: Connection) -> bytes:

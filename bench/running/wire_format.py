@@ -5,9 +5,6 @@ must have the same sources, or its rows would be another run's.
 """
 
 import dataclasses
-import functools
-import hashlib
-import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
@@ -16,6 +13,7 @@ from bench.base.provenance import source_digest
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.plan import Plan
 from bench.law.contenders import described_law
+from bench.law.contenders.law_file import keep_text
 from bench.law.inputs import Gains
 from bench.law.kinds import Law
 
@@ -23,15 +21,15 @@ from bench.law.kinds import Law
 def described(plan: Plan, units: Sequence[Unit]) -> dict:
     """Return the units and what they need of the plan as JSON; of the user's laws those that the units name."""
     named = {unit.law for unit in units}
-    laws = [one.origin for one in plan.settings.own if one.name in named]
+    laws = [one.text for one in plan.settings.own if one.name in named]
     return {
         "sources": source_digest(),
-        "settings": {**plan.settings._asdict(), "own": [Path(path).read_text(encoding="utf-8") for path in laws]},
+        "settings": {**plan.settings._asdict(), "own": laws},
         "units": [dataclasses.astuple(unit) for unit in units],
     }
 
 
-def plan_of(content: dict, read: Callable[[Path], Law] = described_law.described) -> Plan:
+def plan_of(content: dict, read: Callable[[Path, bytes], Law] = described_law.described) -> Plan:
     """Return a plan of these units alone.
 
     Args:
@@ -44,20 +42,6 @@ def plan_of(content: dict, read: Callable[[Path], Law] = described_law.described
             f"the plan was made by the sources {content['sources']}, this process has {source_digest()}; install the "
             "same commit and lock on every machine"
         )
-    settings = Settings(**content["settings"])
-    given = settings._replace(gains=Gains(*settings.gains), own=tuple(read(_file(text)) for text in settings.own))
-    return Plan(given, tuple(Unit(*fields) for fields in content["units"]))
-
-
-@functools.lru_cache(maxsize=32)
-def _file(text: str) -> Path:
-    """Write the text of a user's law to a file that lasts as long as this process, once for all chunks."""
-    digest = hashlib.sha256(text.encode()).hexdigest()[:16]
-    path = Path(_folder().name) / f"law_{digest}.py"
-    path.write_text(text, encoding="utf-8")
-    return path
-
-
-@functools.cache
-def _folder() -> tempfile.TemporaryDirectory:
-    return tempfile.TemporaryDirectory(prefix="orientation-bench-laws-")
+    own = tuple(read(keep_text(text), text.encode()) for text in content["settings"]["own"])
+    settings = Settings(**content["settings"] | {"gains": Gains(*content["settings"]["gains"]), "own": own})
+    return Plan(settings, tuple(Unit(*fields) for fields in content["units"]))

@@ -64,15 +64,10 @@ def test_deleted_table_is_measured_again_by_the_same_command(capsys, finished):
     assert after == before
 
 
-PART = "free-body_reference_rotation-matrix_free-body_nominal_paper_000000.parquet"
-
-
-def cut_a_part(folder):
-    """A run that was stopped, with a part that is truncated."""
-    (folder / "provenance.json").unlink()
-    (folder / "parts").mkdir()
-    shutil.copy(folder / "episodes.parquet", folder / "parts" / PART)
-    cut(folder / "parts" / PART)
+def edit_the_plan(folder):
+    """Other gains under the old digest."""
+    path = folder / "plan.json"
+    path.write_text(path.read_text().replace("100.0", "50.0"))
 
 
 def set_other_schema(folder):
@@ -93,7 +88,7 @@ SPOILT = {
         [*READERS, SAME],
         ("episodes.parquet", "truncated"),
     ),
-    "truncated part": (cut_a_part, [SAME], (PART, "delete it and run again")),
+    "edited plan": (edit_the_plan, [SAME], ("plan.json that was edited or damaged", "--replace")),
     "another schema": (
         set_other_schema,
         [("show",), SAME],

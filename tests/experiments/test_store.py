@@ -106,16 +106,20 @@ def parts(folder: Path, sizes) -> list[Path]:
     return paths
 
 
+def read(paths: list[Path]):
+    """The parts, each when it is asked for."""
+    return (store.read_arrow(path, "episodes") for path in paths)
+
+
 def test_merge_keeps_all_rows_in_the_order_of_the_parts(tmp_path):
-    paths = parts(tmp_path, (3, 1, 4))
-    assert store.merge(tmp_path / "all.parquet", paths, "episodes") == 8
+    assert store.merge(tmp_path / "all.parquet", read(parts(tmp_path, (3, 1, 4))), "episodes") == 8
     found = store.read_arrow(tmp_path / "all.parquet", "episodes").to_pandas()
     pd.testing.assert_frame_equal(found.astype(object), frame("episodes", 8).astype(object), check_dtype=False)
 
 
 def test_merge_writes_a_group_of_rows_as_soon_as_it_is_full(tmp_path):
     """So that memory does not grow with the number of episodes."""
-    store.merge(tmp_path / "all.parquet", parts(tmp_path, (3, 1, 4, 2)), "episodes", group=4)
+    store.merge(tmp_path / "all.parquet", read(parts(tmp_path, (3, 1, 4, 2))), "episodes", group=4)
     found = pq.ParquetFile(tmp_path / "all.parquet").metadata
     assert [found.row_group(i).num_rows for i in range(found.num_row_groups)] == [4, 4, 2]
 
@@ -124,7 +128,7 @@ def test_merge_of_a_truncated_part_names_it_and_leaves_no_file(tmp_path):
     paths = parts(tmp_path, (3, 2))
     paths[1].write_bytes(paths[1].read_bytes()[:-9])
     with pytest.raises(BadResults, match=r"part-3\.parquet: it is truncated"):
-        store.merge(tmp_path / "all.parquet", paths, "episodes")
+        store.merge(tmp_path / "all.parquet", read(paths), "episodes")
     assert sorted(tmp_path.iterdir()) == sorted(paths)
 
 

@@ -71,7 +71,7 @@ def interrupted(tmp_path_factory):
     """A run stopped by SIGINT after its first part: the finished process, what it printed, its folder."""
     out = tmp_path_factory.mktemp("interrupted") / "run"
     process = python("-m", "bench", *MANY, "--out", out, start_new_session=True, preexec_fn=heed_interrupts)
-    while not list((out / "parts").glob("*.parquet")) and process.poll() is None:
+    while not list((out / "parts").glob("*.rows")) and process.poll() is None:
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
     said = process.communicate(timeout=60)
@@ -88,7 +88,7 @@ def test_ctrl_c_exits_130_with_one_line(interrupted):
 def test_ctrl_c_keeps_whole_parts_and_no_other_file(interrupted):
     out = interrupted[-1]
     assert sorted(path.name for path in out.iterdir()) == ["parts", "plan.json"]
-    assert all(path.suffix == ".parquet" for path in (out / "parts").iterdir())
+    assert all(path.suffix == ".rows" for path in (out / "parts").iterdir())
 
 
 def test_stopped_run_says_that_it_goes_on_and_ends_with_the_same_files(interrupted, capsys):

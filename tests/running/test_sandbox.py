@@ -15,8 +15,10 @@ from bench.base.errors import BadLaw
 from bench.base.provenance import ROOT
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
+from bench.experiments.experiment import experiment_of
 from bench.experiments.plan import Plan
 from bench.experiments.tables import store
+from bench.experiments.tables.packed import unpack
 from bench.law.contenders.described_law import described
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import contenders_of
@@ -88,5 +90,8 @@ def test_answer_of_the_process_is_the_rows_that_a_thread_makes(tmp_path):
     here = Plan(plan.settings._replace(own=(load_law(tmp_path / "mine.py"),)), plan.units)
     content = sandbox_process.answer(lambda: sandbox_process.made(here, unit.part(1, 2)))
     assert content[:1] == sandbox_process.DONE
-    assert sandbox_process.unpacked(content[1:]).column("start_id").to_pylist() == ["uniform-00001", "uniform-00002"]
+    assert unpack(content[1:], experiment_of(unit).table).column("start_id").to_pylist() == [
+        "uniform-00001",
+        "uniform-00002",
+    ]
     assert described_plan(plan, [unit])["settings"]["own"]

@@ -17,7 +17,7 @@ import pyarrow.parquet as pq
 from bench.base.errors import BadResults, NoTable
 from bench.base.files import read_json, refuse_link, write_atomically
 from bench.experiments.columns import VERSION, Table
-from bench.experiments.experiment import known_experiments, known_tables
+from bench.experiments.experiment import Settings, Unit, experiment_of, known_experiments, known_tables, rows_of
 from bench.experiments.tables.schema import table_of
 
 
@@ -30,15 +30,14 @@ def encoding(schema: pa.Schema) -> dict:
     split = [column.name for column in schema if pa.types.is_floating(column.type)]
     return {
         "compression": "zstd",
+        "write_page_checksum": True,
         "use_byte_stream_split": split,
         "use_dictionary": [name for name in schema.names if name not in split],
     }
 
 
-OF_A_PART = {"compression": "lz4", "use_dictionary": False, "write_statistics": False}
-"""A part of some 20 rows is read once: written so, it takes half the time there and back."""
-
-PLAIN = re.compile(r"[A-Za-z0-9 .,+_/~@=-]{0,200}")
+LONGEST_WORD = 200
+PLAIN = re.compile(rf"[A-Za-z0-9 .,+_/~@=-]{{0,{LONGEST_WORD}}}")
 """A word of a table: names of contenders, starts, outcomes, nothing that HTML, Markdown or TeX would read."""
 
 FREE_WORDS = ("libraries", "closed_loop", "verdicts")
@@ -54,15 +53,23 @@ def as_table(frame: pd.DataFrame, table: str | Table) -> pa.Table:
     return pa.Table.from_arrays(columns, schema=schema)  # Table.from_pandas takes twice the time for 20 rows
 
 
-def write_table(
-    path: Path, frame: pd.DataFrame | pa.Table, table: str | Table, about: dict | None = None, is_part: bool = False
-) -> None:
+def table_of_unit(settings: Settings, unit: Unit) -> pa.Table:
+    """Return the rows of a unit."""
+    return as_table(rows_of(settings, unit), experiment_of(unit).table)
+
+
+def lost_table(settings: Settings, unit: Unit, outcome: str) -> pa.Table:
+    """Return what is left of a unit whose law crashed or hung."""
+    experiment = experiment_of(unit)
+    return as_table(pd.DataFrame(experiment.lost(settings, unit, outcome)), experiment.table)
+
+
+def write_table(path: Path, frame: pd.DataFrame | pa.Table, table: str | Table, about: dict | None = None) -> None:
     """One table, whole or not at all; `about` goes into its metadata as JSON, for a table that has no run's folder."""
     arrow = frame if isinstance(frame, pa.Table) else as_table(frame, table)
     if about is not None:
         arrow = arrow.replace_schema_metadata({**arrow.schema.metadata, b"about": json.dumps(about, sort_keys=True)})
-    encoded = OF_A_PART if is_part else encoding(arrow.schema)
-    write_atomically(path, lambda temporary: pq.write_table(arrow, temporary, **encoded))
+    write_atomically(path, lambda temporary: pq.write_table(arrow, temporary, **encoding(arrow.schema)))
 
 
 GROUP = 16_384
@@ -72,8 +79,8 @@ PARTS = 64
 """Tables that a merge holds at most; each takes 50 kB beside its rows, as much as those of a hundred episodes."""
 
 
-def merge(path: Path, parts: Iterable[Path], table: str | Table, group: int = GROUP) -> int:
-    """Return all parts in their order as one table, at most `group` rows and one part in memory; the number of rows."""
+def merge(path: Path, parts: Iterable[pa.Table], table: str | Table, group: int = GROUP) -> int:
+    """Write all parts in their order as one table, at most `group` rows and one part in memory; the number of rows."""
     rows = 0
 
     def write(temporary: str) -> None:
@@ -82,7 +89,7 @@ def merge(path: Path, parts: Iterable[Path], table: str | Table, group: int = GR
         with pq.ParquetWriter(temporary, schema, **encoding(schema)) as writer:
             held: list[pa.Table] = []
             for part in parts:
-                held.append(read_arrow(part, table))
+                held.append(part)
                 rows += held[-1].num_rows
                 if len(held) == PARTS:
                     held = [joined(held)]
@@ -107,7 +114,11 @@ def read_arrow(path: Path, table: str | Table) -> pa.Table:
     Errors:
         BadResults: missing, truncated, or of another schema; the message says which and the cure.
     """
-    return _checked(path, table_of(table).name, lambda: pq.ParquetFile(path).read(use_threads=False))
+    return _checked(
+        path,
+        table_of(table).name,
+        lambda: pq.ParquetFile(path, page_checksum_verification=True).read(use_threads=False),
+    )
 
 
 def check(path: Path, table: str | Table) -> None:

@@ -32,7 +32,7 @@ WAITS_S, TRIAL_WAITS_S = 60.0, 10.0
 """The limit in wall time: for a law that waits, or is kept waiting by a busy machine."""
 
 FUNCTIONS = ("law", "law_in", "margin", "coordinate_law_in")
-ELSEWHERE = ("origin", "in_engine", "state", "shipped", "gains", "display")
+ELSEWHERE = ("origin", "text", "in_engine", "state", "shipped", "gains", "display")
 """Fields that say nothing of a user's law, or that only its own process needs."""
 
 WORDS = tuple(name for name in Law._fields if name not in (*FUNCTIONS, *ELSEWHERE))
@@ -50,7 +50,7 @@ def described(path: Path, text: bytes | None = None, limit_s: float = LOAD_S, wa
     if text is None:
         text = read_law(path)
     try:
-        own = stand_in(_described(path, text, limit_s, waits_s), path)
+        own = stand_in(_described(path, text, limit_s, waits_s), path)._replace(text=text.decode())
         check_fields(own, path)
     except (LookupError, TypeError, AttributeError) as error:
         raise BadLaw(f"--law {path}: its process did not say what it is; correct what runs on import") from error

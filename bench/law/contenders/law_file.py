@@ -1,9 +1,11 @@
 """A user's law: the one file outside the package that holds a REGULATOR."""
 
 import ast
+import functools
 import hashlib
 import re
 import sys
+import tempfile
 import traceback
 import types
 from pathlib import Path
@@ -20,6 +22,9 @@ from bench.law.so3 import Rotation
 WORD = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
 """A name as rows, file names and the command line write it."""
 
+LONGEST_NAME, MOST_BYTES = 60, 1 << 20
+"""Letters of a law's name, which names files, and bytes of its file."""
+
 LONGEST = 32
 SHORT = re.compile(rf"[\w ,.'-]{{0,{LONGEST}}}")
 """Characters allowed in the name beside a curve; markup and formulas would break a figure."""
@@ -35,6 +40,8 @@ def read_law(path: Path) -> bytes:
         raise BadLaw(f"{path}: there is no such file; give the path of a Python file with a constant REGULATOR")
     try:
         text = path.read_bytes()
+        if len(text) > MOST_BYTES:
+            raise BadLaw(f"--law {path}: it has {len(text):,} bytes, and a law has up to {MOST_BYTES:,}; shorten it")
         text.decode()
     except OSError as error:
         raise BadLaw(f"--law {path}: it cannot be read ({error.strerror}); run: chmod u+r on it") from error
@@ -43,6 +50,20 @@ def read_law(path: Path) -> bytes:
             f"--law {path}: it is not UTF-8 ({error.reason} at byte {error.start}); save it as UTF-8"
         ) from error
     return text
+
+
+@functools.lru_cache(maxsize=32)
+def keep_text(text: str) -> Path:
+    """Write the text of a user's law to a file that lasts as long as this process, once a text."""
+    digest = hashlib.sha256(text.encode()).hexdigest()[:16]
+    path = Path(_folder().name) / f"law_{digest}.py"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@functools.cache
+def _folder() -> tempfile.TemporaryDirectory:
+    return tempfile.TemporaryDirectory(prefix="orientation-bench-laws-")
 
 
 def load_law(path: Path, text: bytes | None = None) -> Law:
@@ -75,7 +96,7 @@ def load_law(path: Path, text: bytes | None = None) -> Law:
     check_fields(own, path)
     if own.name in contenders("regulators"):
         raise BadLaw(f"--law {path}: the name '{own.name}' is one of ours; give your REGULATOR another name")
-    return own._replace(origin=str(path))
+    return own._replace(origin=str(path), text=text.decode())
 
 
 def check_answers(own: Law) -> None:
@@ -112,8 +133,9 @@ def check_fields(own: Law, path: Path) -> None:
     coordinates = own.coordinates if isinstance(own.coordinates, tuple) else ()
     problems = (
         (
-            not (isinstance(own.name, str) and WORD.fullmatch(own.name)),
-            f"its name {own.name!r} is no word of a-z, 0-9 and dashes, such as 'my-law'",
+            not (isinstance(own.name, str) and WORD.fullmatch(own.name) and len(own.name) <= LONGEST_NAME),
+            f"its name {_shown(own.name)} is no word of a-z, 0-9 and dashes, such as 'my-law', of up to "
+            f"{LONGEST_NAME} letters",
         ),
         (
             not all(isinstance(text, str) for text in (own.title, own.source, own.formula, own.property)),

@@ -7,6 +7,7 @@ DESCRIPTOR` runs MODULE in a fork, ends as that does, and ends it when the line 
 """
 
 import contextlib
+import json
 import os
 import resource
 import runpy
@@ -21,15 +22,19 @@ import sys
 import tempfile
 import threading
 import time
+from collections.abc import Iterator
 from math import ceil
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import NoReturn
 
+from bench.base.errors import BadLaw
+
 TOKEN, FOLDER = "ORIENTATION_BENCH_LAW_PROCESS", "orientation-bench-law-"
 PROCESSES = Path("/proc")
-MEMORY = 4 << 30
-"""Bytes of data that a law's process may have: compiling all engines takes 1.6e9, most of which is never touched."""
+MEMORY, MAPPED, FILE = 4 << 30, 8 << 30, 1 << 28
+"""Bytes of data that a law's process may have: compiling all engines takes 1.6e9, most of which is never touched; of
+all that it maps, shared memory too; and of a file that it writes, in shared memory too."""
 
 LOOK_S = 0.2
 """How often it is asked whether a silent process is there still."""
@@ -61,8 +66,8 @@ class LawProcess:
             )
         self.line = Connection(ours.detach())
 
-    def hear(self, longest_s: float) -> bytes:
-        """Return the next thing that it says.
+    def hear(self, longest_s: float, most: int = MOST) -> bytes:
+        """Return the next thing that it says, of at most so many bytes.
 
         Errors:
             TimeoutError: it said nothing for so long, or halted midway. EOFError, OSError: it has ended.
@@ -74,7 +79,7 @@ class LawProcess:
             if time.monotonic() > deadline:
                 raise TimeoutError
         try:
-            return self.line.recv_bytes(MOST)
+            return self.line.recv_bytes(most)
         except BlockingIOError as error:
             raise TimeoutError from error
 
@@ -88,6 +93,33 @@ class LawProcess:
         end_all(self.token)
         self.folder.cleanup()
         return code
+
+
+def ask(module: str, asked: dict, silent_s: float, files: str) -> Iterator[dict]:
+    """Yield what a process of a module of ours says, each an object of JSON, until it is no longer asked.
+
+    Args:
+        asked: the first message. silent_s: on the wall, from one answer to the next. files: the laws', for errors.
+    Errors:
+        BadLaw: a mistake that the process names, or it did not return, ended, or did not answer in JSON.
+    """
+    process = LawProcess(module)
+    try:
+        process.line.send_bytes(json.dumps(asked).encode())
+        while True:
+            said = dict(json.loads(process.hear(silent_s)))
+            if "mistake" in said:
+                raise BadLaw(str(said["mistake"]))
+            yield said
+    except TimeoutError as error:
+        raise BadLaw(f"--law {files}: it did not return within {silent_s:g} s; correct the file") from error
+    except (EOFError, OSError) as error:
+        code = process.end()
+        raise BadLaw(f"--law {files}: it ended its process ({ending(code)}); correct the file") from error
+    except (ValueError, TypeError, RecursionError) as error:
+        raise BadLaw(f"--law {files}: its process did not give back an answer; correct what runs on import") from error
+    finally:
+        process.end()
 
 
 def end_all(token: str) -> None:
@@ -120,11 +152,17 @@ def limit(processor_s: float, is_last: bool = False) -> None:
     resource.setrlimit(resource.RLIMIT_CPU, (ends, ends + 1 if is_last else most))
 
 
+def confine() -> None:
+    """Limit the memory and the files of this process, and of all that it forks."""
+    most = {resource.RLIMIT_DATA: MEMORY, resource.RLIMIT_AS: MAPPED, resource.RLIMIT_FSIZE: FILE}
+    for what, amount in (most | {resource.RLIMIT_CORE: 0}).items():
+        resource.setrlimit(what, (amount, amount))
+
+
 def guard(module: str, descriptor: int) -> NoReturn:
     """Run the module in a fork, its memory limited, and end as it ends, or with the run and all that was started."""
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     if not (child := os.fork()):
-        resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))
+        confine()
         sys.argv = [module, str(descriptor)]
         runpy.run_module(module, run_name="__main__", alter_sys=True)
         sys.exit()

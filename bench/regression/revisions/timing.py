@@ -23,6 +23,7 @@ import numpy as np
 
 from bench.base.errors import Incompatible
 from bench.base.files import read_json
+from bench.law.contenders.law_process import confine
 from bench.regression.revisions.timed import OTHER_ENDED
 
 P, RATIO = 0.002, 1.10  # of thirty laws and no change, one comparison in seventeen has a p below P by chance
@@ -100,7 +101,8 @@ def _start(checkout: Path, asked: dict[str, Any], log: IO[str]) -> subprocess.Po
     ours = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}
     more = {"PYTHONPATH": str(checkout), "PYTHONHASHSEED": "0", "ORIENTATION_BENCH_TIMED": json.dumps(asked)}
     words, inherited = [sys.executable, "-P", str(PROGRAM)], [asked["line"]] if asked["line"] else []
-    return subprocess.Popen(words, cwd=checkout, env=ours | more, pass_fds=inherited, stdout=log, stderr=log)
+    how: dict[str, Any] = {"pass_fds": inherited, "stdout": log, "stderr": log, "preexec_fn": confine}
+    return subprocess.Popen(words, cwd=checkout, env=ours | more, **how)
 
 
 def _wait_for(processes: list[subprocess.Popen]) -> int | None:

@@ -1,8 +1,8 @@
 """Units carried out by a Dask cluster: of processes of this machine, or one that is there already.
 
-Text travels to a worker (wire_format.py) and parquet travels back; the client writes it, so that no disk is shared. A
-chunk takes a worker 10 to 60 s by what units usually cost: one of less is carried about more than worked on; of one of
-more that is lost with its worker, and run again by another, more is done again.
+Text travels to a worker (wire_format.py) and rows travel back (packed.py); the client writes them, so that no disk is
+shared. A chunk takes a worker 10 to 60 s by what units usually cost: one of less is carried about more than worked on;
+of one of more that is lost with its worker, and run again by another, more is done again.
 
 Limitations: a unit that ends every worker that takes it ends the run.
 """
@@ -19,10 +19,9 @@ import distributed
 from dask import config
 
 from bench.base.errors import LostWorkers, MissingTool
-from bench.base.files import write_atomically
 from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
-from bench.running.run_folder import part
+from bench.running.run_folder import part, write_part
 from bench.running.sandbox import Sandbox
 from bench.running.schedulers import LOCAL, worker
 from bench.running.wire_format import described
@@ -61,7 +60,7 @@ def run(
         MissingTool: a worker without this package. BadResults: a worker has other sources. LostWorkers: a unit ended
         all that took it, or the scheduler is gone. KeyboardInterrupt: what has come back is written.
     """
-    chunks = Chunks(client, plan, out, done, sandbox.limit_s, notes=sandbox.notes)
+    chunks = Chunks(client, plan, out, done, sandbox.limit_s, notes=sandbox.notes, again=sandbox.again)
     chunks.carry_out(todo)
     return chunks.threads
 
@@ -102,7 +101,7 @@ class Chunks:
     """Chunks on their way to workers and back: as many as keep them busy, and no more.
 
     ahead: how many each thread of a worker is given. threads: the most that were there. notes: what workers say of a
-    user's laws. waiting: not given yet.
+    user's laws. again: keys of units that have no rows yet, see `Sandbox`. waiting: not given yet.
     """
 
     client: distributed.Client
@@ -113,6 +112,7 @@ class Chunks:
     ahead: int = AHEAD
     threads: int = 0
     notes: list[str] = field(default_factory=list)
+    again: set[str] = field(default_factory=set)
     waiting: deque[tuple[Unit, ...]] = field(default_factory=deque)
     given: dict[distributed.Future, tuple[Unit, ...]] = field(default_factory=dict)
 
@@ -173,9 +173,10 @@ class Chunks:
             raise LostWorkers(GONE) from error
         self.notes += [text for text in notes if text not in self.notes]
         for unit in units:
-            path, file = part(self.out, unit), files[unit.key]
-            if not path.is_file():  # it is there if Ctrl-C came while the chunk was written
-                write_atomically(path, lambda temporary, file=file: Path(temporary).write_bytes(file))
+            if unit.key not in files:
+                self.again.add(unit.key)
+            elif not part(self.out, unit).is_file():  # it is there if Ctrl-C came while the chunk was written
+                write_part(self.plan, self.out, unit, files[unit.key])
                 self.done(unit)
         del self.given[future]
 

@@ -6,10 +6,11 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
-from bench.experiments.experiment import Unit, experiment_of, rows_of
+from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
-from bench.experiments.tables.store import write_table
-from bench.running.run_folder import part
+from bench.experiments.tables.packed import pack
+from bench.experiments.tables.store import table_of_unit
+from bench.running.run_folder import write_part
 from bench.running.sandbox import Sandbox
 from bench.running.schedulers import share_heap
 
@@ -33,8 +34,9 @@ def run(
     def work(unit: Unit) -> Unit | None:
         if stop.is_set():
             return None
-        made = sandbox.rows(unit) if sandbox.has(unit) else rows_of(plan.settings, unit)
-        write_table(part(out, unit), made, experiment_of(unit).table, is_part=True)
+        made = sandbox.rows(unit) if sandbox.has(unit) else table_of_unit(plan.settings, unit)
+        if unit.key not in sandbox.again:
+            write_part(plan, out, unit, pack(made, experiment_of(unit).table))
         return unit
 
     ours, own = [unit for unit in todo if not sandbox.has(unit)], [unit for unit in todo if sandbox.has(unit)]

@@ -1,21 +1,20 @@
-"""What a worker of a cluster does: a chunk's text in, its rows as parquet out. It knows nothing of Dask."""
+"""What a worker of a cluster does: a chunk's text in, its rows as bytes out. It knows nothing of Dask."""
 
 import importlib
 import json
 import signal
 
-import pyarrow as pa
-import pyarrow.parquet as pq
-
-from bench.experiments.experiment import Unit, experiment_of, rows_of
-from bench.experiments.plan import Plan
-from bench.experiments.tables.store import as_table, encoding
+from bench.experiments.experiment import experiment_of
+from bench.experiments.tables.packed import pack
+from bench.experiments.tables.store import table_of_unit
 from bench.running.sandbox import Sandbox
 from bench.running.wire_format import plan_of
 
 
 def carry_out(text: str, law_limit_s: float | None = None) -> tuple[dict[str, bytes], list[str]]:
-    """Key -> file of its rows of every unit of a chunk, and what is to be said of a user's laws.
+    """Key -> its rows as bytes of every unit of a chunk, and what is to be said of a user's laws.
+
+    A unit that is to be tried again, see `Sandbox.again`, has none.
 
     Args:
         text: what `wire_format.described` says of it, as JSON. law_limit_s: of a user's law, as `bench.running.sandbox`
@@ -24,20 +23,13 @@ def carry_out(text: str, law_limit_s: float | None = None) -> tuple[dict[str, by
         BadResults: this worker has other sources. BadLaw: a user's law that it cannot load.
     """
     plan = plan_of(json.loads(text))
-    with Sandbox(plan, law_limit_s) as sandbox:
-        return {unit.key: _file(_rows(plan, unit, sandbox)) for unit in plan.units}, sandbox.notes
-
-
-def _rows(plan: Plan, unit: Unit, sandbox: Sandbox) -> pa.Table:
-    return (
-        sandbox.rows(unit) if sandbox.has(unit) else as_table(rows_of(plan.settings, unit), experiment_of(unit).table)
-    )
-
-
-def _file(table: pa.Table) -> bytes:
-    sink = pa.BufferOutputStream()
-    pq.write_table(table, sink, **encoding(table.schema))
-    return sink.getvalue().to_pybytes()
+    with Sandbox(plan, law_limit_s, is_checked=True) as sandbox:
+        files = {}
+        for unit in plan.units:
+            made = sandbox.rows(unit) if sandbox.has(unit) else table_of_unit(plan.settings, unit)
+            if unit.key not in sandbox.again:
+                files[unit.key] = pack(made, experiment_of(unit).table)
+        return files, sandbox.notes
 
 
 def dask_setup(_: object) -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 from bench.base.errors import BadLaw, BenchError
 from bench.law.contender import Contender
 from bench.law.contenders.law_file import load_law
-from bench.law.contenders.law_process import LawProcess, ending
+from bench.law.contenders.law_process import ask
 from bench.law.contenders.registry import find_contender
 from bench.running.timing.benchmarks import Progress
 from bench.running.timing.rows import run
@@ -36,26 +36,15 @@ def run_apart(
         BadLaw: a user's law that cannot be compiled, that ends its process, or that does not return.
     """
     contenders = list(contenders)
-    files = sorted({one.regulator.origin for one in contenders if one.regulator.origin})
+    files = sorted({(one.regulator.origin, one.regulator.text) for one in contenders if one.regulator.origin})
     how = {"folder": str(folder), "quick": quick, "arms": arms}
     asked = {"files": files, "names": [one.name for one in contenders], "how": how}
-    process = LawProcess(__name__)
-    try:
-        process.line.send_bytes(json.dumps(asked).encode())
-        while True:
-            said = json.loads(process.hear(silent_s))
-            if "path" in said:
-                return Path(said["path"])
-            if "mistake" in said:
-                raise BadLaw(said["mistake"])
-            report(Progress(*said["progress"]))
-    except TimeoutError as error:
-        raise BadLaw(f"--law {', '.join(files)}: it did not return within {silent_s:g} s; correct the file") from error
-    except (EOFError, OSError) as error:
-        code = process.end()
-        raise BadLaw(f"--law {', '.join(files)}: it ended its process ({ending(code)}); correct the file") from error
-    finally:
-        process.end()
+    named = ", ".join(path for path, _ in files)
+    for said in ask(__name__, asked, silent_s, named):
+        if "path" in said:
+            return Path(said["path"])
+        report(Progress(*said["progress"]))
+    raise BadLaw(f"--law {named}: its process did not say where the times are; correct the file")
 
 
 def main(descriptor: int) -> None:
@@ -67,7 +56,7 @@ def main(descriptor: int) -> None:
             line.send_bytes(json.dumps({"progress": done}).encode())
 
         try:
-            own = tuple(load_law(Path(path)) for path in asked["files"])
+            own = tuple(load_law(Path(path), text.encode()) for path, text in asked["files"])
             contenders = [find_contender(name, own) for name in asked["names"]]
             said = {"path": str(run(contenders, report=report, **asked["how"]))}
         except BenchError as error:

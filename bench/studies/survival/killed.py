@@ -113,7 +113,7 @@ def resumed(wanted: Undisturbed, out: Path, workers: int) -> dict:
 def how_far(out: Path) -> dict:
     """Return what lies in the folder of a killed run, and how many of its units are done."""
     names = sorted(path.name for path in out.glob("*"))
-    return {"names": names, "parts": len(list((out / "parts").glob("*.parquet")))}
+    return {"names": names, "parts": len(list((out / "parts").glob("*.rows")))}
 
 
 def on_threads(one: plan.Plan, out: Path, chance: random.Random) -> int:

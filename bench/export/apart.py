@@ -1,0 +1,55 @@
+"""The export of a user's law, made in a process of its own: here arrive names of files and their texts.
+
+Run as `python -m bench.export.apart DESCRIPTOR`, this is that process.
+"""
+
+import json
+import re
+import sys
+from multiprocessing.connection import Connection
+
+from bench.base.errors import BadLaw, BenchError
+from bench.export.language import find_language
+from bench.export.subject import find_subject
+from bench.law.contenders.law_file import keep_text, load_law
+from bench.law.contenders.law_process import ask, limit
+from bench.law.kinds import Law
+
+LIMIT_S, WAITS_S = 60.0, 300.0
+"""Seconds of processor time for one law, ten times what ours take, and on the wall."""
+
+NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.]{0,120}")
+
+
+def files_apart(own: Law, word: str, language: str, limit_s: float = LIMIT_S) -> dict[str, str]:
+    """Return the files of the export of a user's law by name.
+
+    Args:
+        word: of the law, with its coordinates where it has several.
+    Errors:
+        BadLaw: it cannot be translated, ends its process, does not return, or gives back no files.
+    """
+    asked = {"text": own.text, "origin": own.origin, "word": word, "language": language, "limit_s": limit_s}
+    files = next(ask(__name__, asked, WAITS_S, own.origin)).get("files")
+    if not isinstance(files, dict) or not all(NAME.fullmatch(name) and isinstance(files[name], str) for name in files):
+        raise BadLaw(f"--law {own.origin}: its process gave back no files; correct what runs on import")
+    return files
+
+
+def main(descriptor: int) -> None:
+    """Load the law, translate it, and say the files."""
+    with Connection(descriptor) as line:
+        asked = json.loads(line.recv_bytes())
+        path = keep_text(asked["text"])
+        try:
+            limit(asked["limit_s"])
+            own = load_law(path, asked["text"].encode())
+            files = find_language(asked["language"]).files(find_subject(asked["word"], (own,)))
+            line.send_bytes(json.dumps({"files": files}).encode())
+        except BenchError as error:
+            mistake = str(error).replace(str(path), asked["origin"])
+            line.send_bytes(json.dumps({"mistake": mistake}).encode())
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]))

@@ -1,0 +1,91 @@
+"""Rows that the process of a user's law gave back, checked before they count: whose they are, how many, what they say.
+
+A law shares its process with the engine and can change what that answers. It can lie about its own rows; it cannot
+write another's, leave some out, or give any that would stop the run when they are read.
+"""
+
+import numpy as np
+import pandas as pd
+import pyarrow as pa
+
+from bench.experiments.columns import Table
+from bench.experiments.episode_rows import contender_columns
+from bench.experiments.experiment import Settings, Unit, experiment_of, no_rows
+from bench.experiments.tables.packed import unpack
+from bench.experiments.tables.store import lost_table
+from tasks.cause import CAUSES
+from tasks.verdict import CRASHED, OUTCOMES, SETTLED
+
+MOST_ROWS = 20_000
+"""Rows of a unit that has no episodes: the curves of the suite `full` are 15,000."""
+
+WORDS = {"outcome": OUTCOMES, "outcome_beside": OUTCOMES, "cause": CAUSES, "converged": ("yes", "no")}
+"""Columns of words -> those that a row may have, or none."""
+
+BY_THE_LAW = ("kp", "kv", "step_s", "converged")
+"""What stands before the outcome in a row of an episode and is not known before it is run: a law may have gains for a
+peak of its own, and the ideal plant shortens its step."""
+
+
+def most_rows(unit: Unit) -> int:
+    """Return how many rows a unit may have."""
+    return MOST_ROWS if experiment_of(unit).lost is no_rows else unit.episodes
+
+
+def read_answer(settings: Settings, unit: Unit, content: bytes) -> pa.Table:
+    """Return the rows of an answer.
+
+    Errors:
+        BadResults, ValueError: it holds no rows, or others than the unit's.
+    """
+    made = unpack(content, experiment_of(unit).table, most_rows(unit))
+    check_rows(settings, unit, made.to_pandas())
+    return made
+
+
+def check_rows(settings: Settings, unit: Unit, rows: pd.DataFrame) -> None:
+    """Refuse rows that are not the unit's.
+
+    Errors:
+        ValueError: another law's or start's, a row twice or too few, a word that no row has there.
+    """
+    experiment = experiment_of(unit)
+    for name, value in _pinned(settings, unit).items():
+        if name in rows and not (rows[name] == value).all():
+            raise ValueError(f"a row says {name} {next(iter(rows.loc[rows[name] != value, name]))!r}, not {value!r}")
+    key = rows[list(experiment.table.key)]
+    if key.isna().any(axis=None) or key.duplicated().any():
+        raise ValueError(f"two rows have the same {', '.join(experiment.table.key)}, or a row lacks one of them")
+    for name, words in WORDS.items():
+        if name in rows and not rows[name].isin(("", *words)).all():
+            raise ValueError(f"a row has no known word in {name}")
+    if experiment.lost is not no_rows:
+        _check_given(rows, lost_table(settings, unit, OUTCOMES[CRASHED]).to_pandas(), experiment.table)
+    if not experiment.is_whole(settings, unit, rows):
+        raise ValueError(f"{len(rows)} rows are not all of those that {unit.experiment} has")
+
+
+def _pinned(settings: Settings, unit: Unit) -> dict:
+    """Return what every row of a unit says, where its table has such a column."""
+    place = {"suite": settings.suite, "seed": settings.seed, "task": unit.task, "arm": unit.arm, "engine": unit.engine}
+    return contender_columns(settings.contender(unit.contender)) | place
+
+
+def _check_given(rows: pd.DataFrame, wanted: pd.DataFrame, table: Table) -> None:
+    """Compare what is known of each episode before it is run; of a perturbation, at the levels that are there.
+
+    Errors:
+        ValueError: they differ.
+    """
+    if "level" in rows:
+        wanted = wanted[wanted["level"].isin(rows["level"])]
+    if len(rows) != len(wanted):
+        raise ValueError(f"it has {len(rows)} rows of {len(wanted)}")
+    for name in table.names[: table.names.index("outcome")]:
+        is_number = pd.api.types.is_numeric_dtype(wanted[name])
+        one, other = (frame[name].to_numpy(float if is_number else object) for frame in (rows, wanted))
+        if name not in BY_THE_LAW and not np.array_equal(one, other, equal_nan=is_number):
+            raise ValueError(f"its rows say another {name} than their starts have")
+    ended = rows.loc[rows["outcome"] == OUTCOMES[SETTLED], ["settling_time_s", "final_angle_rad"]]
+    if ended.isna().any(axis=None) or (rows["outcome"] == "").any():
+        raise ValueError("a row has no outcome, or one that settled no time")
