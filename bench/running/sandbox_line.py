@@ -66,8 +66,7 @@ class Process:
         place = (unit.experiment, unit.contender, unit.engine, unit.selector, unit.arm)
         try:
             if self.chunk:
-                self._say(self.chunk, START_S)
-                self.chunk = b""
+                self._load()
             if place not in self.prepared:
                 self._say(json.dumps({"key": unit.key}).encode(), START_S)
                 self.prepared.add(place)
@@ -75,6 +74,13 @@ class Process:
             if self.process.process.poll() == -signal.SIGKILL:
                 raise Killed(ended.outcome, "its process was killed while it prepared (SIGKILL)") from ended
             raise
+
+    def _load(self) -> None:
+        try:
+            self._say(self.chunk, START_S)
+        except Lost as lost:
+            raise (lost if isinstance(lost, Ended) else Ended(lost.outcome, str(lost))) from lost
+        self.chunk = b""
 
     def ask(self, unit: Unit, some: Unit, limit_s: float) -> pa.Table:
         """Return the rows of a unit, or of some of its starts.

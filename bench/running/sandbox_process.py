@@ -15,7 +15,7 @@ from collections.abc import Callable
 from multiprocessing.connection import Connection, wait
 from typing import NoReturn
 
-from bench.base.errors import BenchError
+from bench.base.errors import BadLaw, BenchError
 from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
 from bench.experiments.tables.packed import pack
@@ -149,7 +149,8 @@ def main(descriptor: int) -> None:
             limit(READY_S)
             plan = plan_of(json.loads(run_of.recv_bytes()), load_law)
         except BenchError as error:
-            run_of.send_bytes(MISTAKE + str(error).encode())
+            # the file did import when its fields were read; it may be the sources that changed
+            run_of.send_bytes((CRASHED if isinstance(error, BadLaw) else MISTAKE) + str(error).encode())
             return
         run_of.send_bytes(DONE)
         units = {unit.key: unit for unit in plan.units}
