@@ -110,7 +110,7 @@ def test_law_that_lies_loses_its_own_rows_alone(way, laws):
     assert hostile.is_well(found), found
 
 
-KILLED = "if 'sandbox' in sys.argv[0] and {}: os.kill(os.getpid(), 9)\n"
+KILLED = "if 'sandbox_process' in sys.argv[0] and {}: os.kill(os.getpid(), 9)\n"
 
 
 def killed_while(folder, condition: str):

@@ -36,7 +36,7 @@ def some(line: str) -> str:
 
 def late(line: str) -> str:
     """A file that does this when it is imported in a run, and not when it is first read."""
-    return top(f"if 'sandbox' in sys.argv[0]: {line}")
+    return top(f"if 'sandbox_process' in sys.argv[0]: {line}")
 
 
 PLACES = {"top": top, "each": each, "some": some, "late": late}
