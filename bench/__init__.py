@@ -16,7 +16,7 @@ engines/      one episode, four ways: reference, native, ideal-rk4, ideal-held; 
 experiments/  one file an experiment with its columns, units and rows; what plans them (experiment, plan, suites)
               tables/: schema, store, read, statistics, lock; trust and kept_laws (laws of a results folder)
 export/       laws as code for another's controller: C, C++, Python, JavaScript, with test vectors
-running/      run, run_folder (until it is finished), order, precompile, sandbox (a user's laws), wire_format,
+running/      run, run_folder (until it is finished), order, precompile, sandbox (a user's laws), answers, wire_format,
               schedulers/ (threads, and a Dask cluster), finish (the tables), timing/ (time per tick: pytest-benchmark)
 findings/     claims/ (the paper's sentences), selection/ (which law), why (what a law does), theory/ (closed forms);
               kept: found once, and again when anything differs

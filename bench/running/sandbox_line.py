@@ -19,6 +19,9 @@ WAITING, AND_S = 10.0, 20.0
 START_S = 600.0
 """On the wall: for the process to start, and to compile, which has a limit of its own."""
 
+CLOSING_S = 5.0
+"""On the wall, from the end of the line to that of the process."""
+
 SHORT, SHOWN = 1 << 16, 400
 """Bytes of an answer that is no rows; and signs of a reason that are shown."""
 
@@ -71,7 +74,7 @@ class Process:
                 self._say(json.dumps({"key": unit.key}).encode(), START_S)
                 self.prepared.add(place)
         except Ended as ended:
-            if self.process.process.poll() == -signal.SIGKILL:
+            if self.process.code(CLOSING_S) == -signal.SIGKILL:
                 raise Killed(ended.outcome, "its process was killed while it prepared (SIGKILL)") from ended
             raise
 

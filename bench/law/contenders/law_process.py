@@ -83,6 +83,12 @@ class LawProcess:
         except BlockingIOError as error:
             raise TimeoutError from error
 
+    def code(self, longest_s: float) -> int | None:
+        """Return the exit code of a process whose line has ended; None if it goes on all the same."""
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            return self.process.wait(longest_s)
+        return None
+
     def end(self) -> int:
         """Stop the process and all that it started; return its exit code if it had already ended."""
         self.line.close()
