@@ -68,8 +68,7 @@ class Law(NamedTuple):
     level: what is commanded. gains: those that the authors set, or the paper's.
     shipped: of a controller as its authors ship it; its formula is that of the error, with clips and deadbands in their
     order, and its gains are in N m/rad, in 1/s^2 where an inertia is cancelled or simulated, in 1/s of a velocity.
-    origin, text: the file of a user's law, and what it held when it was read; empty for ours. later: one that the paper
-    does not have: it runs on fewer starts.
+    origin, text: a user's file and what it held; empty for ours. later: not in the paper: it runs on fewer starts.
     costing_only: another way to write a law that is listed already: costed and tested, not run.
     in_engine: MuJoCo's own actuator makes the command, on the free body in MuJoCo alone; `law` is what it computes,
     which is what is tested and counted.

@@ -89,12 +89,9 @@ def _unpacked(content: bytes, table: Table, most_rows: int | None) -> pa.Table:
     for one, size in zip(columns, sizes, strict=True):
         numbers = np.frombuffer(raw, KINDS[one.type], count, at)
         at += size
-        arrays.append(_words(numbers, heading["words"][one.name]) if one.type == WORD else _numbers(numbers))
+        is_word = one.type == WORD
+        arrays.append(_words(numbers, heading["words"][one.name]) if is_word else pa.array(numbers, from_pandas=True))
     return pa.Table.from_arrays(arrays, schema=table.schema())
-
-
-def _numbers(numbers: np.ndarray) -> pa.Array:
-    return pa.array(numbers, from_pandas=True)
 
 
 def _words(places: np.ndarray, words: list[str]) -> pa.Array:
