@@ -83,7 +83,11 @@ def edits(parts: dict[Path, bytes], others: dict[Path, bytes], plan: dict) -> Ch
     of_part |= {"a byte shorter": one[:-1], "its seal alone": one[:SEAL], "a byte longer": one + b"\0"}
     of_part |= {"of zeros": bytes(len(one)), "its rows twice": one + one[SEAL:], "edited": one[:SEAL] + edited}
     of_part |= {"edited, sealed for other gains": theirs[:SEAL] + edited}
-    of_plan = {"other gains": {"gains": [50.0, 20.0]}, "another seed": {"seed": 1}, "another period": {"dt_s": 2e-3}}
+    of_plan: dict[str, dict] = {
+        "other gains": {"gains": [50.0, 20.0]},
+        "another seed": {"seed": 1},
+        "another period": {"dt_s": 2e-3},
+    }
     of_plan |= {"a unit less": {"units": plan["units"][1:]}, "other rules": {"rules": []}}
     made = {f"part {name}": {first: content} for name, content in of_part.items()}
     made |= {"parts exchanged": {first: two, second: one}, "parts of other gains": others, "no plan": {at: b"{"}}

@@ -20,58 +20,15 @@ from bench.cli import main as command
 from bench.experiments.tables.store import read
 from bench.studies.study import make_parser
 
-LAWS: dict[str, list[str]] = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))["laws"]
+DATA = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+LAWS: dict[str, list[str]] = DATA["laws"]
 OURS, SOUND = "rotation-matrix", "sound"
-HEAD = """
-import json, os, struct, sys, types
-from bench.law import Law, kernel
-
-@kernel
-def law(R, omega, goal, gains):
-    x = 0.5 * gains.kp * (R.o[2] - R.a[1]) + gains.kv * omega[0]
-    y = 0.5 * gains.kp * (R.a[0] - R.n[2]) + gains.kv * omega[1]
-    z = 0.5 * gains.kp * (R.n[1] - R.o[0]) + gains.kv * omega[2]
-    return (-x, -y, -z)
-
-REGULATOR, ORIGIN = Law("{name}", "Mine", "none", "u", law), "{origin}"
-"""
-LOADS = """
-if "described" not in sys.argv[0]:
-    {answer}
-"""
-LIES = """
-def put(t, half=False, **words):
-    for name in set(words) & set(t.schema.names):
-        at, field = t.schema.get_field_index(name), t.schema.field(name)
-        kept = [w if half and i % 2 else words[name] for i, w in enumerate(t.column(name).to_pylist())]
-        t = t.set_column(at, field, pa.array(kept, pa.string()).cast(field.type))
-    return t if set(words) & set(t.schema.names) else t.slice(0, 0)
-
-def heading(t, **more):
-    content = say(t)
-    size, = struct.unpack_from("<I", content)
-    text = json.dumps(json.loads(content[4 : 4 + size]) | more).encode()
-    return struct.pack("<I", len(text)) + text + content[4 + size :]
-
-def lie(t, kind):
-    global say
-    say = lambda table: honest(table, kind)
-    made = {answer}
-    return say(made) if isinstance(made, pa.Table) else made
-
-if "described" not in sys.argv[0]:
-    import pyarrow as pa
-    main = sys.modules["__main__"]
-    if hasattr(main, "pack"):
-        honest, main.pack = main.pack, lie
-    main.find_language = lambda word: types.SimpleNamespace(files=lambda subject: {files})
-"""
 
 
 def write_law(folder: Path, name: str) -> Path:
     """Write the file of a law that lies, or of a sound one."""
     path, (answer, files) = folder / f"{name.replace('-', '_')}.py", LAWS.get(name, ("! pass", ""))
-    text = HEAD + (LOADS if answer.startswith("! ") else LIES)
+    text = DATA["head"] + DATA["loads" if answer.startswith("! ") else "lies"]
     for word, value in {"name": name, "origin": str(path), "answer": answer.removeprefix("! "), "files": files}.items():
         text = text.replace(f"{{{word}}}", value)
     path.write_text(text, encoding="utf-8")
