@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.engines.episode import OUTCOME, start_rows
 from bench.experiments.columns import read_table
 from bench.experiments.episode_rows import contender_columns

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tasks
 from bench.base.errors import BadLaw
-from bench.base.lazy import pd
+from bench.base.on_first_use import pd
 from bench.experiments import arm, free_body
 from bench.experiments.columns import COUNT, Column, read_table
 from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit, own_last

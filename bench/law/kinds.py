@@ -70,7 +70,7 @@ class Law(NamedTuple):
     order, and its gains are in N m/rad, in 1/s^2 where an inertia is cancelled or simulated, in 1/s of a velocity.
     origin, text: a user's file and what it held; empty for ours. later: not in the paper: it runs on fewer starts.
     costing_only: another way to write a law that is listed already: costed and tested, not run.
-    in_engine: MuJoCo's own actuator makes the command, on its free body; `law`, tested and counted, is what it computes.
+    in_engine: MuJoCo's own actuator makes the command, on its free body; `law` is what it computes, as tested.
     stiffness: near the goal, about n_d, o_d and a_d, over kp.
     margin: of a law on R that is singular somewhere: margin(R, R_d) in [0, 1], 0 exactly there; else None.
     coordinate_law_in: of a law that commands Eddot itself: coordinate_law_in(coordinates) returns
