@@ -170,14 +170,10 @@ def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
     at = rows[rows["row"] == CELL]
     parts = rows[["starts", "settled", "unconverged"]]
     limits = {"ring_deg": 5 * RINGS, "band": BANDS, "azimuth": AZIMUTHS}
-    return bool(
-        at["starts"].sum() == unit.count
-        and (parts >= 0).all(axis=None)
-        and (parts["settled"] + parts["unconverged"] <= parts["starts"]).all()
-        and all(rows[name].between(0, most - 1).all() for name, most in limits.items())
-        and rows["row"].isin((CELL, SLOWEST, LOST)).all()
-        and ((rows["outcome"] == "") == (rows["row"] == CELL)).all()
-    )
+    is_counted = (parts >= 0).all(axis=None) and (parts["settled"] + parts["unconverged"] <= parts["starts"]).all()
+    is_inside = all(rows[name].between(0, most - 1).all() for name, most in limits.items())
+    has_kinds = rows["row"].isin((CELL, SLOWEST, LOST)) & ((rows["outcome"] == "") == (rows["row"] == CELL))
+    return bool(at["starts"].sum() == unit.count and is_counted and is_inside and has_kinds.all())
 
 
 def prepare(settings: Settings, unit: Unit) -> None:

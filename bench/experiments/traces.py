@@ -64,15 +64,10 @@ def of_arm(contender: str, task: str, arm: str, count: int, start_set: str) -> U
     return Unit("traces", contender, task, arm, "native", start_set, count=count, horizon_s=LONGEST_S)
 
 
-def _on_free_body(unit: Unit) -> tuple[tuple[str, int | None], ...]:
-    """Return the start sets of a law, and how many of each."""
-    return ("paper", None), ("uniform", unit.count)
-
-
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return the samples of all curves of a unit."""
     every = max(1, round(EVERY_S / settings.dt_s))
-    sets = ((unit.selector, unit.count),) if unit.arm else _on_free_body(unit)
+    sets = ((unit.selector, unit.count),) if unit.arm else (("paper", None), ("uniform", unit.count))
     place = {"task": unit.task, "arm": unit.arm, **contender_columns(settings.contender(unit.contender))}
     frames = []
     for name, count in sets:
@@ -88,9 +83,8 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 
 def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
     """Tell whether rows are samples of the curves of a unit on the free body."""
-    known = {
-        (name, one.id) for name, count in _on_free_body(unit) for one in tasks.start_set(name, count, settings.seed)
-    }
+    names = ("paper", None), ("uniform", unit.count)
+    known = {(name, one.id) for name, count in names for one in tasks.start_set(name, count, settings.seed)}
     return {*zip(rows["start_set"], rows["start_id"], strict=True)} == known
 
 

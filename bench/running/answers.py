@@ -50,7 +50,8 @@ def check_rows(settings: Settings, unit: Unit, rows: pd.DataFrame) -> None:
         ValueError: another law's or start's, a row twice or too few, a word that no row has there.
     """
     experiment = experiment_of(unit)
-    for name, value in _pinned(settings, unit).items():
+    place = {"suite": settings.suite, "seed": settings.seed, "task": unit.task, "arm": unit.arm, "engine": unit.engine}
+    for name, value in (contender_columns(settings.contender(unit.contender)) | place).items():
         if name in rows and not (rows[name] == value).all():
             raise ValueError(f"a row says {name} {next(iter(rows.loc[rows[name] != value, name]))!r}, not {value!r}")
     key = rows[list(experiment.table.key)]
@@ -63,12 +64,6 @@ def check_rows(settings: Settings, unit: Unit, rows: pd.DataFrame) -> None:
         _check_given(rows, lost_table(settings, unit, OUTCOMES[CRASHED]).to_pandas(), experiment.table)
     if not experiment.is_whole(settings, unit, rows):
         raise ValueError(f"{len(rows)} rows are not all of those that {unit.experiment} has")
-
-
-def _pinned(settings: Settings, unit: Unit) -> dict:
-    """Return what every row of a unit says, where its table has such a column."""
-    place = {"suite": settings.suite, "seed": settings.seed, "task": unit.task, "arm": unit.arm, "engine": unit.engine}
-    return contender_columns(settings.contender(unit.contender)) | place
 
 
 def _check_given(rows: pd.DataFrame, wanted: pd.DataFrame, table: Table) -> None:

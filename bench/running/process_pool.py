@@ -6,16 +6,22 @@ from collections.abc import Callable, Iterator
 
 from bench.running.sandbox_line import Process
 
+TURNS = 256
+"""Threads that may have a process at work at once."""
+
 
 class Pool:
-    """Processes, each at work for one thread or idle; most: are kept before an idle one of another law is ended."""
+    """Processes, each at work for one thread or idle.
+
+    most: that are kept before an idle one of another law is ended. turns: a thread holds one while it is at work.
+    """
 
     def __init__(self, most: int):
         self.most = most
         self._idle: list[Process] = []
         self._all: list[Process] = []
-        self._taking = threading.Lock()
-        self._turn, self._at_work, self._is_alone = threading.Condition(), 0, False
+        self._taking, self._one_alone = threading.Lock(), threading.Lock()
+        self.turns = threading.Semaphore(TURNS)
 
     def take(self, law: str, begin: Callable[[], Process]) -> Process:
         """Return an idle process of the law, or a new one."""
@@ -48,33 +54,16 @@ class Pool:
         self._all.remove(process)
 
     @contextlib.contextmanager
-    def at_work(self) -> Iterator[None]:
-        """Hold a turn, which begins when no thread is alone."""
-        with self._turn:
-            self._turn.wait_for(lambda: not self._is_alone)
-            self._at_work += 1
-        try:
-            yield
-        finally:
-            self._give_turn(-1)
-
-    @contextlib.contextmanager
     def alone(self) -> Iterator[None]:
         """For a thread that has a turn: wait until it is the only one, and end the processes that are idle."""
-        self._give_turn(-1)
-        with self._turn:
-            self._turn.wait_for(lambda: not (self._is_alone or self._at_work))
-            self._is_alone = True
-        try:
+        self.turns.release()
+        with self._one_alone:
+            for _ in range(TURNS):
+                self.turns.acquire()
             with self._taking:
                 while self._idle:
                     self._end(self._idle.pop())
-            yield
-        finally:
-            self._is_alone = False
-            self._give_turn(1)
-
-    def _give_turn(self, change: int) -> None:
-        with self._turn:
-            self._at_work += change
-            self._turn.notify_all()
+            try:
+                yield
+            finally:
+                self.turns.release(TURNS - 1)

@@ -81,7 +81,8 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
             "with --out"
         )
     tables = {out / f"{name}.parquet": table for name, table in plan.tables.items()}
-    finished = all(path.is_file() for path in tables) and not units_to_try_again(out)
+    has_ended = (out / "provenance.json").is_file() and all(path.is_file() for path in tables)
+    finished = has_ended and not read_json(out / "provenance.json").get("again")
     for path, table in tables.items() if finished else ():
         check(path, table)
     if finished:
@@ -89,16 +90,6 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
     found = [unit for unit in plan.units if os.path.lexists(part(out, unit))]
     done = frozenset(unit.key for unit in found if is_sound(plan, out, unit))
     return State(False, done, tuple(unit for unit in found if unit.key not in done))
-
-
-def units_to_try_again(out: Path) -> list:
-    """Return the units of a finished run that lack their rows (`finish`); one of no word while provenance.json lacks.
-
-    Errors:
-        BadResults: see `read_json`.
-    """
-    path = out / "provenance.json"
-    return list(read_json(path).get("again", ())) if path.is_file() else [""]
 
 
 def part(out: Path, unit: Unit) -> Path:

@@ -214,7 +214,7 @@ class Sandbox:
         """One that is made ready for the unit; it is idle again unless it was lost."""
         if known := self._unready_for(unit):
             raise self._known(unit, known)
-        with self._pool.at_work():
+        with self._pool.turns:
             process, has_ended = self._prepared(unit), False
             try:
                 yield process

@@ -60,10 +60,10 @@ def beside(folder: Path, names: Sequence[str], table: str, *words: object) -> di
     return {way: one | {"same": one.pop("rows") == wanted} for way, one in found.items()}
 
 
-def one_by_one(folder: Path, names: Sequence[str], words: Callable[[str, Path], tuple]) -> dict[str, dict]:
+def one_by_one(folder: Path, names: Sequence[str], words: str) -> dict[str, dict]:
     """Give a command for each law, and once more."""
     given = {f"{name}, {time}": name for name in names for time in ("once", "again")}
-    return {each: say(*words(name, write_law(folder, name))) for each, name in given.items()}
+    return {each: say(*words.format(name=name, path=write_law(folder, name)).split()) for each, name in given.items()}
 
 
 EPISODES = ("run", "--starts", "uniform", "--horizon", 0.02, "--count", 4, "--experiment", "free-body")
@@ -72,10 +72,8 @@ WAYS: dict[str, Callable[[Path, Sequence[str]], dict[str, dict]]] = {
     "run": lambda at, names: beside(at, names, "episodes", *ON_ONE),
     "local:2": lambda at, names: beside(at, names, "episodes", *ON_ONE, "--scheduler", "local:2"),
     "map": lambda at, names: beside(at, names, "map", "map", "--starts", 200, "--horizon", 0.02),
-    "judge": lambda at, names: one_by_one(at, names, lambda name, path: ("judge", path)),
-    "export": lambda at, names: one_by_one(
-        at, names, lambda name, path: ("export", name, "--law", path, "--to", "c", "--out", at / "export")
-    ),
+    "judge": lambda at, names: one_by_one(at, names, "judge {path}"),
+    "export": lambda at, names: one_by_one(at, names, f"export {{name}} --law {{path}} --to c --out {at}/export"),
 }
 
 
