@@ -31,7 +31,8 @@ def files_apart(own: Law, word: str, language: str, limit_s: float = LIMIT_S) ->
     """
     asked = {"text": own.text, "origin": own.origin, "word": word, "language": language, "limit_s": limit_s}
     files = next(ask(__name__, asked, WAITS_S, own.origin)).get("files")
-    if not isinstance(files, dict) or not all(NAME.fullmatch(name) and isinstance(files[name], str) for name in files):
+    is_whole = isinstance(files, dict) and {"README.md", "vectors.json"} <= set(files)
+    if not is_whole or not all(NAME.fullmatch(name) and isinstance(files[name], str) for name in files):
         raise BadLaw(f"--law {own.origin}: its process gave back no files; correct what runs on import")
     return files
 
