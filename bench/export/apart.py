@@ -30,9 +30,10 @@ def files_apart(own: Law, word: str, language: str, limit_s: float = LIMIT_S) ->
         BadLaw: it cannot be translated, ends its process, does not return, or gives back no files.
     """
     asked = {"text": own.text, "origin": own.origin, "word": word, "language": language, "limit_s": limit_s}
-    files = next(ask(__name__, asked, WAITS_S, own.origin)).get("files")
-    is_whole = isinstance(files, dict) and {"README.md", "vectors.json"} <= set(files)
-    if not is_whole or not all(NAME.fullmatch(name) and isinstance(files[name], str) for name in files):
+    said = next(ask(__name__, asked, WAITS_S, own.origin)).get("files")
+    files: dict[str, str] = said if isinstance(said, dict) else {}
+    is_known = all(NAME.fullmatch(name) and isinstance(text, str) for name, text in files.items())
+    if not is_known or not {"README.md", "vectors.json"} <= set(files):
         raise BadLaw(f"--law {own.origin}: its process gave back no files; correct what runs on import")
     return files
 
