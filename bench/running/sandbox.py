@@ -82,7 +82,7 @@ class Sandbox:
     def check(self) -> None:
         """Compile the laws for every engine that they run on, and try them where an experiment says so.
 
-        A law that is found to be beyond the dialect later than here was changed, by itself, and is lost.
+        A law that is found to be beyond the dialect later than here has changed, and is lost.
 
         Errors:
             BadLaw: one beyond the dialect.

@@ -7,16 +7,15 @@ Each way must end with another code than 0 and without a traceback, leave the ro
 without it, and do the same when the command is given again.
 """
 
-import contextlib
-import io
 import json
+import subprocess
 import sys
 import tempfile
 import tomllib
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from bench.cli import main as command
+from bench.base.provenance import ROOT
 from bench.experiments.tables.store import read
 from bench.studies.study import make_parser
 
@@ -36,13 +35,10 @@ def write_law(folder: Path, name: str) -> Path:
 
 
 def say(*words: object) -> dict:
-    """Give a command, and return its code and what it printed or raised."""
-    with contextlib.redirect_stdout(io.StringIO()) as said, contextlib.redirect_stderr(said):
-        try:
-            code: int | str = command([str(word) for word in words])
-        except Exception as error:
-            code = f"raised {error!r}"[:200]
-    return {"code": code, "said": said.getvalue()[-600:]}
+    """Give a command, and return its code and what it printed."""
+    done = subprocess.run([sys.executable, "-m", "bench", *map(str, words)], cwd=ROOT, capture_output=True, text=True)
+    said = done.stdout + done.stderr
+    return {"code": done.returncode, "said": said[-600:], "traceback": "Traceback" in said}
 
 
 def beside(folder: Path, names: Sequence[str], table: str, *words: object) -> dict[str, dict]:
@@ -79,9 +75,7 @@ WAYS: dict[str, Callable[[Path, Sequence[str]], dict[str, dict]]] = {
 
 def is_well(found: dict[str, dict]) -> bool:
     """Tell whether a way ended as it must for every law."""
-    return all(
-        one["code"] in (1, 2) and "Traceback" not in one["said"] and one.get("same", True) for one in found.values()
-    )
+    return all(one["code"] in (1, 2) and not one["traceback"] and one.get("same", True) for one in found.values())
 
 
 def main(ways: Sequence[str], names: Sequence[str]) -> dict:
