@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from rich.cells import cell_len
 from rich.console import Console, ConsoleOptions, JustifyMethod, RenderableType
 from rich.measure import Measurement
 from rich.table import Table
@@ -64,7 +65,8 @@ class Column(NamedTuple):
 class Frame:
     """A data frame as a table, numbers to the right; no name is broken while the screen has room for it.
 
-    What is too wide goes below in blocks of columns, each with the first column again; sentences wrap.
+    What is too wide goes below in blocks of columns, each with the first column again; sentences wrap. Where two
+    columns are too wide already, their cells are folded: nothing is cut off.
     """
 
     def __init__(self, columns: list[Column], title: str):
@@ -79,7 +81,7 @@ class Frame:
         for place, block in enumerate(blocks):
             if place:
                 yield Text()
-            yield _table(block)
+            yield _table(block, is_folded=not _fits(block, screen, options))
 
 
 def word_table(names: Sequence[str], rows: Iterable[Sequence], title: str = "") -> Frame:
@@ -99,29 +101,31 @@ def frame_table(frame: Any, title: str = "") -> Frame:
 
 def _blocks(columns: list[Column], screen: Console, options: ConsoleOptions) -> list[list[Column]]:
     """Return the columns in blocks that fit, the first column in each."""
-
-    def fits(*some: Column) -> bool:
-        return Measurement.get(screen, options.update_width(10**6), _table(some)).minimum <= options.max_width
-
-    if fits(*columns):
+    if _fits(columns, screen, options):
         return [columns]
     key, *others = columns
     key = key._replace(cells=[cell.replace("@", "\n  @") for cell in key.cells])
     blocks = [[key]]
     for one in others:
-        if len(blocks[-1]) > 1 and not fits(*blocks[-1], one):
+        if len(blocks[-1]) > 1 and not _fits([*blocks[-1], one], screen, options):
             blocks.append([key])
         blocks[-1].append(one)
     return blocks
 
 
-def _table(columns: Sequence[Column]) -> Table:
+def _fits(columns: Sequence[Column], screen: Console, options: ConsoleOptions) -> bool:
+    return Measurement.get(screen, options.update_width(10**6), _table(columns)).minimum <= options.max_width
+
+
+def _table(columns: Sequence[Column], is_folded: bool = False) -> Table:
     table = Table(box=None, pad_edge=False)
     for one in columns:
         side: JustifyMethod = "right" if one.is_number else "left"
         wraps = any(" " in cell and len(cell) > SENTENCE for cell in one.cells)
-        width = SENTENCE if wraps else None
-        table.add_column(Text(one.name), justify=side, overflow="fold", no_wrap=not wraps, min_width=width)
+        longest = max(cell_len(line) for cell in (one.name, *one.cells) for line in cell.split("\n"))
+        width = None if is_folded else SENTENCE if wraps else longest
+        is_whole = not (wraps or is_folded)
+        table.add_column(Text(one.name), justify=side, overflow="fold", no_wrap=is_whole, min_width=width)
     for row in zip(*(one.cells for one in columns), strict=True):
         table.add_row(*map(Text, row))
     return table

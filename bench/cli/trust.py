@@ -5,7 +5,7 @@ from pathlib import Path
 import rich_click as click
 
 from bench.base.errors import BadLaw
-from bench.cli.screen import console
+from bench.cli.screen import console, shown_path
 from bench.experiments.tables import trust
 
 
@@ -24,4 +24,4 @@ def COMMAND(files: tuple[Path, ...]) -> None:
             raise BadLaw(
                 f"{path}: it cannot be trusted ({error.strerror}: {error.filename}); check the file"
             ) from error
-        console().print(f"trusted: {path}")
+        console().print(f"trusted: {shown_path(path)}")

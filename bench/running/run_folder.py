@@ -7,6 +7,7 @@ provenance.json last of all, and the parts go (`finish`).
 import contextlib
 import dataclasses
 import hashlib
+import json
 import os
 import shutil
 from collections.abc import Iterator
@@ -74,7 +75,7 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
     if not is_whole or found != plan.digest():
         if replace:
             return State(False, frozenset())
-        is_other = "holds another plan (other suite, options, rules or sources)"
+        is_other = f"holds another plan ({describe_difference(content, plan.identity())})"
         was_changed = "has a plan.json that was edited or damaged: its digest is not that of what it says"
         raise BadResults(
             f"{out}: it {is_other if is_whole else was_changed}; add --replace to start over, or choose another folder "
@@ -90,6 +91,25 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
     found = [unit for unit in plan.units if os.path.lexists(part(out, unit))]
     done = frozenset(unit.key for unit in found if is_sound(plan, out, unit))
     return State(False, done, tuple(unit for unit in found if unit.key not in done))
+
+
+def describe_difference(kept: dict, wanted: dict) -> str:
+    """Say in which fields the identity of a plan that a folder keeps differs from the wanted one."""
+    said = []
+    for name, now in json.loads(json.dumps(wanted)).items():
+        was, word = kept.get(name), name.replace("_", " ")
+        if was == now:
+            continue
+        if name in ("units", "gains") and isinstance(was, list) and len(was) == len(now):
+            changed = [f"{a} there, {b} here" for a, b in zip(was, now, strict=True) if a != b]
+            said.append(f"{word}: {changed[0]}" if name == "gains" else f"{len(changed)} of {len(now)} units differ")
+        elif name == "units" and isinstance(was, list):
+            said.append(f"{len(was)} units there, {len(now)} here")
+        elif isinstance(now, str | int | float) and name != "sources":
+            said.append(f"{word} {was} there, {now} here")
+        else:
+            said.append({"own": "other law files", "sources": "other sources"}.get(name, f"other {word}"))
+    return ", ".join(said) or "of another version of this program"
 
 
 def part(out: Path, unit: Unit) -> Path:
