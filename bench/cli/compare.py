@@ -74,7 +74,11 @@ def _compare(
         means = gates.Means(rounds=0) if no_timing else gates.Means()
         with progress("steps", "checking out") as steps:
             said = gates.compare_revisions(base, head, laws, steps.now, means=means)
-        differences = [f"{one.verdict}: {one.says}" for one in said.findings]
+        folded = " (which: --summary FILE)"
+        differences = [f"{one.verdict}: {one.says}{folded * bool(one.more)}" for one in said.findings]
+    if said.measures:
+        console().print(frame_table(pd.DataFrame(said.measures), "Free body, ideal-rk4"))
+        console().print()
     for line in (*differences, *(rows.describe_skipped(folders[0]) if folders else ())):
         console().print(line)
     for one in said.judgements:

@@ -43,6 +43,8 @@ def COMMAND(law: str, law_limit: float) -> None:
 def print_judgement(one: Judgement) -> None:
     """Print what a judgement says of a law, faults first, and the laws nearest to it."""
     screen = console()
+    if one.heading not in ("", one.name):
+        screen.print(one.heading)
     screen.print(f"{one.name}: {verdict(one)}\n")
     for head, is_fault in (("Faults", True), ("Otherwise" if one.faults else "Findings", False)):
         texts = tuple(f"{each.text} [{each.page}]" for each in one.said if bool(each.fault) == is_fault)

@@ -49,8 +49,8 @@ def judged(regulators: Iterable[Law], limit_s: float = LIMIT_S) -> list[Judgemen
             parts[unit.contender, unit.experiment].append(made)
             if sandbox.notes and unit.experiment == "free-body" and made["outcome"].isin(LOST).all():
                 given_up.add(unit.contender)
-        is_lost = bool(sandbox.notes)
-    return [judgement(one, parts, is_lost) for one in laws]
+        is_lost, reasons = bool(sandbox.notes), sandbox.reasons
+    return [judgement(one, parts, is_lost, reasons.get(one.name, "")) for one in laws]
 
 
 def plan_of(laws: list[Contender]) -> Plan:
@@ -61,17 +61,19 @@ def plan_of(laws: list[Contender]) -> Plan:
     return dataclasses.replace(first, units=first.units + second.units)
 
 
-def judgement(one: Contender, parts: Parts, is_lost: bool = False) -> Judgement:
-    """Return what its rows say of a law."""
+def judgement(one: Contender, parts: Parts, is_lost: bool = False, reason: str = "") -> Judgement:
+    """Return what its rows say of a law; reason: why its process gave no rows, the first time."""
     field, episodes, perturbed = (
         pd.concat([pd.DataFrame(), *parts[one.name, name]], ignore_index=True)
         for name in ("command-field", "free-body", "robustness")
     )
     declared = one.regulator.property
-    said = (*why.sentences(field, declared), *why.ends(episodes, declared), *why.perturbed(perturbed))
+    robust = () if is_lost else why.perturbed(perturbed)  # the first loss ends them: the rest was not tried
+    said = (*why.sentences(field, declared), *why.ends(episodes, declared), *robust)
     if any(each.fault == why.FAULTS["crashed"] for each in said):  # where it raises its command is no number
         said = tuple(each for each in said if each.fault != "no number")
-    return Judgement(one.name, said, _beside(field, with_contender(episodes)), is_lost)
+    heading = why.head_lost(one.name, episodes, reason)
+    return Judgement(one.name, said, _beside(field, with_contender(episodes)), is_lost, heading)
 
 
 def _beside(field: pd.DataFrame, episodes: pd.DataFrame) -> tuple[dict[str, Any], ...]:

@@ -14,13 +14,14 @@ class Said(NamedTuple):
 class Judgement(NamedTuple):
     """What is said of a law, and a line for it and for each law of results/reference nearest to it (`why.beside`).
 
-    is_lost: it crashed or hung; its rows say where.
+    is_lost: it crashed or hung; its rows say where. heading: its name, and the exception that it raises, if it does.
     """
 
     name: str
     said: tuple[Said, ...]
     beside: tuple[dict[str, Any], ...]
     is_lost: bool
+    heading: str = ""
 
     @property
     def faults(self) -> list[str]:

@@ -20,6 +20,7 @@ from bench.findings.perturbed import WITHSTANDS, by_level, perturbations, thresh
 from bench.findings.selection.needs import CHATTER
 from bench.findings.theory.thresholds import near_goal
 from bench.law.contenders.registry import contenders
+from tasks.verdict import CRASHED, HUNG, OUTCOMES
 
 FAILURES, SIDE, ENDS, ROBUSTNESS = "06-failure-map", "15-comparison", "30-method", "16-robustness"
 
@@ -37,6 +38,7 @@ Bach's does, to 0.005 rad."""
 FAULTS = {"oscillating": "oscillation", "creeping": "creeping", "stuck": "stuck"}
 FAULTS |= {"crashed": "raises or exits", "hung": "does not return"}
 """Fault by outcome; starts of any other outcome are called lost."""
+LOST = (OUTCOMES[CRASHED], OUTCOMES[HUNG])
 
 
 def sentences(rows: pd.DataFrame, declared: str) -> list[Said]:
@@ -83,6 +85,21 @@ def ends(rows: pd.DataFrame, declared: str) -> list[Said]:
         text = f"Unwinding: it turns by more than 180 deg from {_counts(long_way)}; {len(uniform)} settle."
         said.append(Said(text, SIDE, "unwinding"))
     return said
+
+
+def head_lost(name: str, rows: pd.DataFrame, reason: str) -> str:
+    """Return the heading of a law that crashes or hangs: why, at what share of its starts, and the nearest to the goal.
+
+    The name alone if it does neither.
+    """
+    lost = rows[rows["outcome"].isin(LOST)] if len(rows) else rows
+    if not reason:
+        return name
+    if lost.empty:
+        return f"{name}: {reason}"
+    nearest = math.degrees(lost["angle0_rad"].min())
+    share = f"{len(lost) / len(rows):.0%} of {len(rows):,} starts"
+    return f"{name}: {reason}, from {share}, the nearest at {nearest:.3g} deg"
 
 
 def perturbed(rows: pd.DataFrame) -> list[Said]:

@@ -78,7 +78,7 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
         is_other = f"holds another plan ({describe_difference(content, plan.identity())})"
         was_changed = "has a plan.json that was edited or damaged: its digest is not that of what it says"
         raise BadResults(
-            f"{out}: it {is_other if is_whole else was_changed}; add --replace to start over, or choose another folder "
+            f"{out}: it {is_other if is_whole else was_changed}; add --replace to start over or choose another folder "
             "with --out"
         )
     tables = {out / f"{name}.parquet": table for name, table in plan.tables.items()}
@@ -100,16 +100,15 @@ def describe_difference(kept: dict, wanted: dict) -> str:
         was, word = kept.get(name), name.replace("_", " ")
         if was == now:
             continue
-        if name in ("units", "gains") and isinstance(was, list) and len(was) == len(now):
-            changed = [f"{a} there, {b} here" for a, b in zip(was, now, strict=True) if a != b]
-            said.append(f"{word}: {changed[0]}" if name == "gains" else f"{len(changed)} of {len(now)} units differ")
-        elif name == "units" and isinstance(was, list):
+        if name == "gains":
+            said.append("kp {:g}, kv {:g} there, kp {:g}, kv {:g} here".format(*was, *now))
+        elif name == "units" and len(was) != len(now):
             said.append(f"{len(was)} units there, {len(now)} here")
         elif isinstance(now, str | int | float) and name != "sources":
             said.append(f"{word} {was} there, {now} here")
         else:
-            said.append({"own": "other law files", "sources": "other sources"}.get(name, f"other {word}"))
-    return ", ".join(said) or "of another version of this program"
+            said.append(f"other {'law files' if name == 'own' else word}")
+    return ", ".join(said) or "its digest alone"
 
 
 def part(out: Path, unit: Unit) -> Path:

@@ -64,6 +64,7 @@ class Sandbox:
         self.stopping = False
         self.notes: list[str] = []
         self.again: set[str] = set()
+        self.reasons: dict[str, str] = {}  # why a law was lost, the first time
         self._own = {one.name: one for one in plan.settings.own}
         self._tried: dict[Unit, pa.Table] = {}
         self._unready: dict[str | tuple[str, ...], Lost] = {}
@@ -109,6 +110,7 @@ class Sandbox:
         try:
             return self._rows(unit, unit, PATIENCE_S)
         except Lost as lost:
+            self.reasons.setdefault(unit.law, str(lost))
             if not experiment.is_divisible or isinstance(lost, Forged):
                 made = self._lost(unit, lost.outcome)
                 what = f"its {unit.episodes} episodes are {lost.outcome}"

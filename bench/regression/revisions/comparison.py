@@ -18,16 +18,23 @@ class Gate(NamedTuple):
 
 
 class Finding(NamedTuple):
-    """One thing that differs: found by which gate, of which law, and in words; several rows may say the same."""
+    """One thing that differs: found by which gate, of which law, and in words; several rows may say the same.
+
+    more: what is folded into it, in words.
+    """
 
     gate: str
     verdict: str
     name: str
     says: str
+    more: tuple[str, ...] = ()
 
 
 class Comparison(NamedTuple):
-    """All that was compared, and what was found; files: of pytest-benchmark, of base and head, if both were timed."""
+    """All that was compared, and what was found.
+
+    files: of pytest-benchmark, of base and head, if both were timed. measures: of a user's laws, see measures.py.
+    """
 
     base: str
     head: str
@@ -36,6 +43,7 @@ class Comparison(NamedTuple):
     times: tuple[Timed, ...] = ()
     judgements: tuple[Judgement, ...] = ()
     files: tuple[dict[str, Any], ...] = ()
+    measures: tuple[dict[str, str], ...] = ()
 
     @property
     def regressions(self) -> list[Finding]:

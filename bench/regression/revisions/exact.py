@@ -5,6 +5,7 @@ the tolerance of bench/regression/rows, or effort, peak or change at rest of the
 reverse of one of these is an improvement, all else a change. Where the judge changed, only that is said.
 """
 
+import statistics
 from pathlib import Path
 
 from bench.base.files import read_json
@@ -19,6 +20,8 @@ GOOD, STUCK = ("settled", "done"), "stuck"
 SMALLER_IS_WORSE = ("fails_from_rad", "settled_to_rad")  # of boundaries: nothing fails up to there
 LARGER_IS_WORSE = {"effort": (1.25, 0.0), "peak_u": (1.25, 0.0), "rest_change": (2.0, 1.0)}
 """Columns of episodes: the factor of a regression, and what is too little: Kp/100 [rad/s^2] of a change at rest."""
+LEADING = ("outcome", "settling_time_s", "effort", "peak_u")
+FEW = 3  # other columns of a law that have a line each; more are folded into one
 
 
 def compare_runs(base: Path, head: Path) -> list[Finding]:
@@ -31,6 +34,7 @@ def compare_runs(base: Path, head: Path) -> list[Finding]:
 def sort_findings(differences: list[Difference]) -> list[Finding]:
     """Return one finding for each law, kind of change and verdict; regressions first."""
     groups: dict[tuple, list[Difference]] = {}
+    others: dict[str, list[Finding]] = {}
     totals = {_name_law(one.row) for one in differences if _is_total(one)}
     for one in differences:
         is_stage = one.table == "costs" and one.kind == CHANGED and not _is_total(one)
@@ -39,8 +43,19 @@ def sort_findings(differences: list[Difference]) -> list[Finding]:
         what = (one.was, one.now) if one.column == "outcome" else one.row.get("branch")
         column = "" if one.table == "traces" and one.kind == CHANGED else one.column  # a curve is one finding
         groups.setdefault((_judge(one), one.table, _name_law(one.row), one.kind, column, what), []).append(one)
-    found = [_make_finding(name, verdict, group) for (verdict, _, name, *_), group in groups.items()]
+    found: list[Finding] = []
+    for (verdict, _, name, kind, column, _), group in groups.items():
+        made = _make_finding(name, verdict, group)
+        is_other = verdict == CHANGE and kind == CHANGED and column not in LEADING
+        (others.setdefault(name, []) if is_other else found).append(made)
+    for name, own in others.items():
+        found += [_fold(name, own)] if len(own) > FEW else own
     return sorted(found, key=lambda one: (REGRESSION, CHANGE, IMPROVEMENT).index(one.verdict))
+
+
+def _fold(name: str, own: list[Finding]) -> Finding:
+    """Return one finding for many columns of a law that changed."""
+    return Finding(own[0].gate, CHANGE, name, f"{name}: {len(own)} other columns moved", tuple(one.says for one in own))
 
 
 def _name_law(row: dict[str, str]) -> str:
@@ -73,7 +88,7 @@ def _make_finding(name: str, verdict: str, group: list[Difference]) -> Finding:
     gate = OPERATIONS if one.table == "costs" and one.column in OPERATION_NAMES else EXACT
     if one.kind in (COLUMN, JUDGE):
         return Finding(gate, verdict, name, one.says)
-    where = " ".join(word for key, word in one.row.items() if word not in ("", "0") and key not in OF_LAW)
+    where = _describe_place(one.row)
     what = name or one.table
     if one.kind in (MISSING, NEW):
         said = f"{what}: {'gone from' if one.kind == MISSING else 'new in'} {one.table}"
@@ -81,4 +96,19 @@ def _make_finding(name: str, verdict: str, group: list[Difference]) -> Finding:
         said = f"{name} is stuck, was {one.was}: new dead point"
     else:
         said = f"{what}: {one.column or one.says} {one.was} -> {one.now}{' a tick' if one.table == 'costs' else ''}"
+    if one.table == "episodes" and one.column in LEADING[1:] and len(group) > 1:
+        said += f" (median {_find_median(group, 'was')} -> {_find_median(group, 'now')})"
     return Finding(gate, verdict, name, f"{said}: {where}{more}")
+
+
+def _describe_place(row: dict[str, str]) -> str:
+    """Return where a row is: of an episode its engine, arm, plant and start, of others the words of its key."""
+    words = {key: word for key, word in row.items() if word not in ("", "0", "nominal") and key not in OF_LAW}
+    if "start_id" not in words or "engine" not in words:
+        return " ".join(words.values())
+    places = (("by", "engine"), ("on", "arm"), ("with", "variation"), ("from", "start_id"))
+    return " ".join(f"{before} {words[key]}" for before, key in places if key in words)
+
+
+def _find_median(group: list[Difference], side: str) -> str:
+    return f"{statistics.median(float(getattr(one, side)) for one in group):.4g}"

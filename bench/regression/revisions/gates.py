@@ -10,6 +10,7 @@ from bench.findings.judgement import Judgement
 from bench.law.contenders.described_law import described
 from bench.regression.revisions import checkouts, exact
 from bench.regression.revisions.comparison import IMPROVEMENT, REGRESSION, Comparison, Finding, Gate, make_gate
+from bench.regression.revisions.measures import compare_measures
 from bench.regression.revisions.timing import ROUNDS, SAME, SLOWER, Side, SideFailed, Timed, compare_times
 
 EXACT, OPERATIONS, TIME, FAULTS = exact.EXACT, exact.OPERATIONS, "time", "faults"
@@ -38,29 +39,34 @@ def compare_revisions(
     with checkouts.check_out_both(base, head, laws) as (old, new):
         if new.is_new:
             raise BadResults(f"{new.name}: none of the --law files is there")
-        gates, found = _compare_rows(old, new, report, means)
+        gates, found, measures = _compare_rows(old, new, report, means)
         if new.only:
             report("judging")
             gate, faults, judgements = _compare_faults(old, new, means.judge)
             gates, found = [*gates, gate], [*found, *faults]
         gate, slower, times, files = _compare_times(old, new, report, means)
     found = sorted([*found, *slower], key=lambda one: one.verdict != REGRESSION)
-    return Comparison(old.name, new.name, (*gates, gate), tuple(found), tuple(times), judgements, tuple(files))
+    made = (*gates, gate), tuple(found), tuple(times), judgements, tuple(files), tuple(measures)
+    return Comparison(old.name, new.name, *made)
 
 
-def _compare_rows(old: Side, new: Side, report: Callable, means: Means) -> tuple[list[Gate], list[Finding]]:
-    """Compare outcomes and operations."""
+def _compare_rows(
+    old: Side, new: Side, report: Callable, means: Means
+) -> tuple[list[Gate], list[Finding], list[dict[str, str]]]:
+    """Compare outcomes and operations; return the measures of a user's laws too."""
     state, says = "passed", "both sides have the same sources and versions, so a run would be the same"
     if old.is_new:
         state, says = "skipped", "base has no such law, or it does not load: there is nothing to compare with"
     if old.is_new or (old.digest == new.digest and not new.only):
-        return [Gate(name, state, says) for name in (EXACT, OPERATIONS)], []
+        return [Gate(name, state, says) for name in (EXACT, OPERATIONS)], [], []
+    measures: list[dict[str, str]] = []
     with means.run_side(old, report) as before, means.run_side(new, report) as after:
         try:
             found = exact.compare_runs(before, after)
+            measures = compare_measures(before, after) if new.only else []
         except BadResults as error:  # each program has just written its own run, so the schema differs
             found = [Finding(EXACT, REGRESSION, "", f"the schema differs: {error}")]
-    return [make_gate(name, found) for name in (EXACT, OPERATIONS)], found
+    return [make_gate(name, found) for name in (EXACT, OPERATIONS)], found, measures
 
 
 def _compare_faults(

@@ -38,8 +38,12 @@ def write_markdown(comparison: Comparison) -> str:
     """Return the whole comparison as a job summary or a comment shows it."""
     found = comparison.findings
     lines = [f"### {escape(write_headline(comparison))}", ""]
+    lines += [*_write_table(comparison.measures), ""] if comparison.measures else []
     lines += [line for one in comparison.judgements for line in (*_write_judgement(one), "")]
-    lines += [f"- **{one.verdict}**: {escape(one.says)}" for one in found[:SHOWN]]
+    for one in found[:SHOWN]:
+        lines.append(f"- **{one.verdict}**: {escape(one.says)}")
+        inner = "".join(f"<br>{escape(says)}" for says in one.more[:SHOWN])
+        lines += [f"  <details><summary>the first rows</summary>{inner}</details>"] if inner else []
     lines += [f"- ... and {len(found) - SHOWN} more"] * (len(found) > SHOWN)
     lines += ["", "| gate | | |", "| --- | --- | --- |"]
     lines += [f"| {one.gate} | {one.state} | {escape(one.says)} |" for one in comparison.gates]
@@ -50,7 +54,7 @@ def write_markdown(comparison: Comparison) -> str:
 
 def _write_judgement(one: Judgement) -> list[str]:
     """Return why a law does what it does, faults first, and the laws nearest to it."""
-    lines = [f"**{escape(one.name)}: {', '.join(one.faults) or 'no fault found'}**", ""]
+    lines = [f"**{escape(one.heading or one.name)}: {', '.join(one.faults) or 'no fault found'}**", ""]
     lines += [f"- {escape(each.text)} ({each.page})" for each in sorted(one.said, key=lambda each: not each.fault)]
     return lines + (
         ["", "The laws nearest to it in pull at 90 degrees and median settling time:", "", *_write_table(one.beside)]
