@@ -100,11 +100,9 @@ def describe_difference(kept: dict, wanted: dict) -> str:
         was, word = kept.get(name), name.replace("_", " ")
         if was == now:
             continue
-        if name == "gains":
-            said.append("kp {:g}, kv {:g} there, kp {:g}, kv {:g} here".format(*was, *now))
-        elif name == "units" and len(was) != len(now):
+        if name == "units" and isinstance(was, list) and len(was) != len(now):
             said.append(f"{len(was)} units there, {len(now)} here")
-        elif isinstance(now, str | int | float) and name != "sources":
+        elif name == "gains" or (isinstance(now, str | int | float) and name != "sources"):
             said.append(f"{word} {was} there, {now} here")
         else:
             said.append(f"other {'law files' if name == 'own' else word}")

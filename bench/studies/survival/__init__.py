@@ -1,1 +1,1 @@
-"""Runs that are killed and started again: a hundred at random moments, some at every one of their file operations."""
+"""Commands that are killed in each of their phases and given again; runs, at every one of their file operations too."""

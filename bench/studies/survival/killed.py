@@ -26,7 +26,7 @@ from bench.law.inputs import Gains
 from bench.running import run
 
 SEED = 20260119
-KILLS = 4  # the study has a hundred
+KILLS = 4
 TRIES = 3  # a kill: a moment after the end of its run kills nothing and is drawn again
 EVENTS = {"open", "os.mkdir", "os.remove", "os.rename", "os.rmdir", "os.chmod"}
 
@@ -116,11 +116,6 @@ def how_far(out: Path) -> dict:
     return {"names": names, "parts": len(list((out / "parts").glob("*.rows")))}
 
 
-def on_threads(one: plan.Plan, out: Path, chance: random.Random) -> int:
-    """Start a run on one thread or two, and return its id."""
-    return start(one, out, chance.choice((1, 2)))
-
-
 def until_it_writes(out: Path, child: int) -> float:
     """Wait for the first file of a run, or its end, and return the time."""
     while not (out / "plan.json").is_file() and not os.waitid(
@@ -130,30 +125,21 @@ def until_it_writes(out: Path, child: int) -> float:
     return time.monotonic()
 
 
-def at_random_moments(
-    wanted: Undisturbed,
-    folder: Path,
-    kills: int = KILLS,
-    begin: Callable[[plan.Plan, Path, random.Random], int] = on_threads,
-    measure: Callable[[int], dict] = lambda child: {},
-) -> Iterator[dict]:
-    """Kill runs a random time after their first file, resume them in the same way or on threads, and yield each."""
+def at_random_moments(wanted: Undisturbed, folder: Path) -> Iterator[dict]:
+    """Kill runs a random time after their first file, resume them on one thread or two, and yield each."""
     chance, found, longest = random.Random(SEED), 0, 0.0
-    for k in range(TRIES * kills + 1):
-        if found == kills:
+    for k in range(TRIES * KILLS + 1):
+        if found == KILLS:
             return
-        out = folder / f"{begin.__name__}-{k}"
-        child = begin(wanted.plan, out, chance)
+        out = folder / f"moment-{k}"
+        child = start(wanted.plan, out, chance.choice((1, 2)))
         began = until_it_writes(out, child)
         if k:
             time.sleep(chance.uniform(0.0, longest))
             os.kill(child, signal.SIGKILL)
         if ended(child) == -signal.SIGKILL:
             found += 1
-            goes_on = chance.choice((on_threads, begin))
-            far = how_far(out) | {"by": goes_on.__name__} | measure(child)
-            code = ended(goes_on(wanted.plan, out, chance))
-            yield {**far, "code": code, "same": files_of(out) == wanted.files}
+            yield resumed(wanted, out, chance.choice((1, 2)))
         longest = longest or time.monotonic() - began  # the first is left alone, and tells how long a run takes
 
 
