@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+from collections import Counter
 
 import pandas as pd
 import pytest
@@ -178,3 +179,13 @@ def test_names_stay_whole_where_the_table_is_wider_than_the_screen(capsys):
     assert max(len(line.rstrip()) for line in lines) <= 80
     assert any(re.match(r"linearized-euler-relative/zyx-euler +\d/\d ", line) for line in lines)
     assert any(line.rstrip() == "  @geometric+pseudo-inverse" for line in lines)
+
+
+@pytest.mark.parametrize("width", [12, 40, 60])
+def test_narrow_screen_shows_every_letter_of_a_table(capsys, width):
+    cells = ["damped-least-squares-variable", "Chiaverini, Siciliano, Egeland 1994; Nakamura & Hanafusa 1986", "120.5"]
+    table = pd.DataFrame([cells], columns=["name", "source", "median [s]"])
+    Console(width=width, highlight=False, markup=False, emoji=False).print(frame_table(table))
+    said = capsys.readouterr().out
+    assert max(map(len, said.splitlines())) <= width
+    assert Counter("".join(cells).replace(" ", "")) <= Counter(said)

@@ -82,7 +82,11 @@ def broken(content):
 
 READERS = (("show",), ("claims",), ("compare",))
 SPOILT = {
-    "another plan": (lambda folder: None, [(*SAME, "--kp", "50")], ("it holds another plan", "--replace")),
+    "another plan": (
+        lambda folder: None,
+        [(*SAME, "--kp", "50")],
+        ("[100.0, 20.0] there, [50.0, 20.0] here", "--replace"),
+    ),
     "truncated table": (
         lambda folder: cut(folder / "episodes.parquet"),
         [*READERS, SAME],

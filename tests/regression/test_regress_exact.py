@@ -10,6 +10,7 @@ from bench.experiments.tables.schema import table_of
 from bench.experiments.tables.store import read, write_table
 from bench.regression.revisions import gates
 from bench.regression.revisions.exact import sort_findings
+from bench.regression.revisions.measures import compare_measures
 from bench.regression.rows import find_differences
 from bench.regression.rows.difference import CHANGED, COLUMN, MISSING, NEW, Difference
 
@@ -104,3 +105,21 @@ def test_table_of_an_experiment_newer_than_base_is_skipped_with_a_sentence_and_a
     assert read(base, "springs").empty
     (base / "episodes.parquet").unlink()
     assert main(["compare", str(base), str(finished)]) == 2
+
+
+def test_other_columns_of_a_law_are_folded_into_one_finding():
+    others = [episode(name, "1.0", "2.0") for name in ("n_x", "n_y", "n_z", "path_ratio")]
+    efforts = [episode("effort", was, "11.0", start=f"start-{was}") for was in ("9.0", "10.0", "10.5")]
+    effort, folded = sort_findings([*others, *efforts])
+    assert effort.says.endswith("11.0 (median 10 -> 11): by native from start-9.0, and 2 rows more")
+    assert folded.says == "rotation-matrix: 4 other columns moved"
+    assert [one.split()[1] for one in folded.more] == ["n_x", "n_y", "n_z", "path_ratio"]
+
+
+def test_measures_of_a_law_are_its_outcomes_medians_and_stiffness_with_their_changes(finished, tmp_path):
+    head = shutil.copytree(finished, tmp_path / "head")
+    rows = read(finished, "episodes")
+    write_table(head / "episodes.parquet", rows.assign(effort=1.02 * rows["effort"], outcome="stuck"), "episodes")
+    lines = {line[""]: line for line in compare_measures(finished, head)}
+    assert lines["settled"]["head"] == "none"
+    assert lines["stuck"]["head"] == lines["settled"]["base"]
