@@ -10,6 +10,7 @@ compiling while numba compiles, in both; merge from the first table until the la
 """
 
 import os
+import runpy
 import signal
 import sys
 from pathlib import Path
@@ -20,8 +21,6 @@ from bench.studies.survival.killed import EVENTS, is_file_below
 
 # isort: split
 from numba.core import event
-
-from bench.__main__ import main as command_line
 
 START, COMPILING, PARTS, MERGE, FINISH = "start-up", "compiling", "parts", "merge", "finish"
 
@@ -82,4 +81,4 @@ if __name__ == "__main__":
     event.register("numba:compile", trace)
     sys.addaudithook(trace.hear)
     sys.argv = [sys.argv[0], *words]
-    sys.exit(command_line())
+    runpy.run_module("bench", run_name="__main__")
