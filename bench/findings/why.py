@@ -88,18 +88,12 @@ def ends(rows: pd.DataFrame, declared: str) -> list[Said]:
 
 
 def head_lost(name: str, rows: pd.DataFrame, reason: str) -> str:
-    """Return the heading of a law that crashes or hangs: why, at what share of its starts, and the nearest to the goal.
-
-    The name alone if it does neither.
-    """
-    lost = rows[rows["outcome"].isin(LOST)] if len(rows) else rows
-    if not reason:
-        return name
+    """Return a law's name and, if it crashes or hangs, why, from what share of its starts, and from which angle on."""
+    lost = rows[rows["outcome"].isin(LOST)] if reason and len(rows) else rows[:0]
     if lost.empty:
-        return f"{name}: {reason}"
-    nearest = math.degrees(lost["angle0_rad"].min())
-    share = f"{len(lost) / len(rows):.0%} of {len(rows):,} starts"
-    return f"{name}: {reason}, from {share}, the nearest at {nearest:.3g} deg"
+        return f"{name}: {reason}" if reason else name
+    share, nearest = f"{len(lost) / len(rows):.0%} of {len(rows):,}", math.degrees(lost["angle0_rad"].min())
+    return f"{name}: {reason}, from {share} starts, the nearest at {nearest:.3g} deg"
 
 
 def perturbed(rows: pd.DataFrame) -> list[Said]:

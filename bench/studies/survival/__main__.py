@@ -4,24 +4,18 @@ python -m bench.studies.survival                             a hundred kills: ha
 python -m bench.studies.survival --kills 16 --out try.json
 """
 
-import multiprocessing
-import random
 import shutil
 import tempfile
 import threading
 import time
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
 
 from bench.base import files
 from bench.base.provenance import ROOT, describe
-from bench.running import run
 from bench.studies.study import make_parser
 from bench.studies.survival.aimed import Aim, kill_evenly, leave_alone
-from bench.studies.survival.killed import SEED, SHORT, files_of, how_far, undisturbed
 from bench.studies.survival.traced import COMPILING, FINISH, MERGE, PARTS, START
 
 LOCAL = "local:2"
@@ -50,8 +44,8 @@ AIMS = (
     Aim("export", ("export", "hybrid", "--to", "cpp", "--out", "{out}"), (START,), by_operation=True),
     Aim("map", MAP, (PARTS, COMPILING, MERGE, FINISH)),
 )
-BY_PROCESSES, WORKER = Aim(f"parts by {LOCAL}", (*RUN, "--scheduler", LOCAL), (PARTS,)), "a worker of two"
-"""Beside the phases: a run by two processes of Dask that is killed, and one of which a worker is."""
+BY_PROCESSES = Aim(f"parts by {LOCAL}", (*RUN, "--scheduler", LOCAL), (PARTS,))
+"""Beside the phases: a tenth as many kills of a run by two processes of Dask."""
 PAGE = "60-provenance.md"
 INDEX = "# A book of one page\n\nIt cites {cite}`murphy1988`.\n"
 CONTENTS = "format: jb-book\nroot: index\nchapters:\n- glob: pages/*\n"
@@ -74,25 +68,6 @@ def make_book(tree: Path, run_folder: Path) -> Aim:
     return Aim("report", (), ("report",), program=tree / "report" / "build.py", folder=html)
 
 
-def kill_workers(kills: int, folder: Path, report: Callable[[dict], None]) -> None:
-    """Kill one of two workers when a random unit but the last is done; the run goes on with the other."""
-    chance, wanted = random.Random(SEED), undisturbed(SHORT, folder / "short")
-    for k in range(kills):
-        out, todo = folder / f"worker-{k}", list(wanted.plan.units)
-        at: list[dict] = []
-        last = chance.randrange(1, len(todo))
-
-        def kill_a_worker(_: Any, out: Path = out, todo: list = todo, at: list = at, last: int = last) -> None:
-            todo.pop()
-            if len(todo) == last:
-                at.append(how_far(out))
-                chance.choice(multiprocessing.active_children()).kill()
-
-        run.run(wanted.plan, out, scheduler=LOCAL, report=kill_a_worker)
-        row = {"phase": WORKER, "units_done": at[0]["parts"], "tables_done": 0, "missed": 0, "went_on": True}
-        report({**row, "same": files_of(out) == wanted.files})
-
-
 def main() -> None:
     """Run the study; the file is written after every kill."""
     phases = [*(one.phase for one in AIMS), "report"]
@@ -113,23 +88,17 @@ def main() -> None:
 
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as here:
         folder, cache = Path(here), Path(here) / "cache"
-        kill_workers(options.kills // 10, folder, report)  # first: threads of this process are copied by a fork
-        known: dict = {}
-        for aim in (*AIMS, BY_PROCESSES):
-            known[aim.words] = known.get(aim.words) or leave_alone(aim, folder, cache)
+        known = {RUN: leave_alone(AIMS[0], folder, cache)}
+        least, more = divmod(options.kills, len(phases))
+        kills = {one: least + (at < more) for at, one in enumerate(phases)} | {BY_PROCESSES.phase: options.kills // 10}
+
+        def study(aim: Aim) -> None:
+            wanted = known.get(aim.words) or leave_alone(aim, folder, cache)
+            kill_evenly(aim, kills[aim.phase], wanted, folder, cache, report)
+
         book = make_book(folder / "tree", folder / f"{AIMS[0].phase}-cold")
-        known[book.words] = leave_alone(book, folder, cache)
         with ThreadPoolExecutor(options.workers) as pool:
-            each = {
-                one: options.kills // len(phases) + (at < options.kills % len(phases)) for at, one in enumerate(phases)
-            }
-            each[BY_PROCESSES.phase] = options.kills // 10
-            started = [
-                pool.submit(kill_evenly, aim, each[aim.phase], known[aim.words], folder, cache, report)
-                for aim in (book, *AIMS, BY_PROCESSES)
-            ]
-            for one in started:
-                one.result()
+            list(pool.map(study, (book, *AIMS, BY_PROCESSES)))
 
 
 if __name__ == "__main__":

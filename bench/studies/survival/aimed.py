@@ -10,25 +10,25 @@ import subprocess
 import sys
 import time
 from collections import Counter, defaultdict
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
 from bench.base.provenance import ROOT
-from bench.studies.survival.killed import SEED, files_of, how_far
+from bench.studies.survival.killed import files_of, how_far
 from bench.studies.survival.traced import START
 
-TRIES = 8
-"""A kill: one that comes when the phase is over, on a machine whose speed varies, is counted as missed and repeated."""
+SEED = 20260119
+TRIES, EARLIER = 8, 0.85
+"""A kill that comes when the phase is over, on a machine whose speed varies, is counted as missed and tried earlier."""
 
 
 class Aim(NamedTuple):
     """A phase in which a command is killed.
 
-    words: of the command, and {out} for its folder. within: the words that the command's trace has for the phase.
-    by_operation: at which shares of the kills the moment is a file operation; the others are moments in time. is_cold:
-    whether nothing is compiled yet. program: what runs, if not this program; it writes no trace and is killed with all
-    that it started. folder: where that program writes.
+    words: of the command, and {out} for its folder. within: the phases of its trace. by_operation: whether the moment is
+    a file operation, not one in time. is_cold: whether nothing is compiled yet. program: what runs, if not this
+    program; it writes no trace into the pipe, writes into `folder`, and is killed with all that it started.
     """
 
     phase: str
@@ -102,11 +102,6 @@ class Try(NamedTuple):
         """Return the digest of every file that the command has written."""
         return files_of(self.aim.folder or self.out)
 
-    def clear(self) -> None:
-        """Remove what an earlier run of a program of its own folder has left."""
-        if self.aim.folder:
-            shutil.rmtree(self.aim.folder.parent, ignore_errors=True)
-
 
 class Undisturbed(NamedTuple):
     """What a command writes if nothing kills it, and how it ran: with nothing compiled yet, and then again."""
@@ -120,7 +115,6 @@ class Undisturbed(NamedTuple):
 def leave_alone(aim: Aim, folder: Path, cache: Path) -> Undisturbed:
     """Run a command to its end, twice: the second time the number of its tables tells the merge from the end."""
     one = Try(aim, folder / f"{aim.phase}-cold", cache)
-    one.clear()
     cold = warm = one.watch()
     content = one.content()
     tables = 0 if aim.program else sum(name.endswith(".parquet") for name in content)
@@ -139,16 +133,14 @@ def kill_evenly(
     seconds = sum(usual.spent_s.get(one, 0.0) for one in aim.within)
     operations = sum(usual.operations[one] for one in aim.within)
     for k in range(kills):
-        missed = 0
-        for at in _moments(k, kills, chance):
+        for missed in range(TRIES):
+            at = (k + chance.random()) / kills * EARLIER**missed
             kept = folder / f"{aim.phase}-cache-{k}-{missed}" if aim.is_cold else cache
             one = Try(aim, folder / f"{aim.phase}-{k}-{missed}", kept, wanted.tables)
-            one.clear()
-            number = int(at * operations) if aim.by_operation else -1
+                    number = int(at * operations) if aim.by_operation else -1
             seen = one.watch(None if aim.by_operation else at * seconds, number)
             if seen.code == -signal.SIGKILL and seen.last in aim.within:
                 break
-            missed += 1
         else:
             raise RuntimeError(f"{aim.phase}: {TRIES} kills came too late; give the machine less to do")
         far = how_far(one.out)
@@ -156,9 +148,3 @@ def kill_evenly(
         row = {"phase": aim.phase, "share_of_phase": round(at, 3), "units_done": far["parts"], "missed": missed}
         row |= {"tables_done": sum(name.endswith(".parquet") for name in far["names"])}
         report({**row, "went_on": code == 0, "same": one.content() == wanted.content})
-
-
-def _moments(k: int, kills: int, chance: random.Random) -> Sequence[float]:
-    """Return the moment of a kill as a share of its phase, and those to try if it comes too late, each earlier."""
-    first = (k + chance.random()) / kills
-    return [first * 0.85**again for again in range(TRIES)]

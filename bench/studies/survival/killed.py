@@ -10,12 +10,10 @@ import dataclasses
 import hashlib
 import json
 import os
-import random
 import shutil
 import signal
 import sys
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -25,9 +23,6 @@ from bench.law.contenders.registry import find_contender
 from bench.law.inputs import Gains
 from bench.running import run
 
-SEED = 20260119
-KILLS = 4
-TRIES = 3  # a kill: a moment after the end of its run kills nothing and is drawn again
 EVENTS = {"open", "os.mkdir", "os.remove", "os.rename", "os.rmdir", "os.chmod"}
 
 
@@ -116,33 +111,6 @@ def how_far(out: Path) -> dict:
     return {"names": names, "parts": len(list((out / "parts").glob("*.rows")))}
 
 
-def until_it_writes(out: Path, child: int) -> float:
-    """Wait for the first file of a run, or its end, and return the time."""
-    while not (out / "plan.json").is_file() and not os.waitid(
-        os.P_PID, child, os.WEXITED | os.WNOHANG | os.WNOWAIT
-    ):  # fmt: skip
-        time.sleep(0.01)
-    return time.monotonic()
-
-
-def at_random_moments(wanted: Undisturbed, folder: Path) -> Iterator[dict]:
-    """Kill runs a random time after their first file, resume them on one thread or two, and yield each."""
-    chance, found, longest = random.Random(SEED), 0, 0.0
-    for k in range(TRIES * KILLS + 1):
-        if found == KILLS:
-            return
-        out = folder / f"moment-{k}"
-        child = start(wanted.plan, out, chance.choice((1, 2)))
-        began = until_it_writes(out, child)
-        if k:
-            time.sleep(chance.uniform(0.0, longest))
-            os.kill(child, signal.SIGKILL)
-        if ended(child) == -signal.SIGKILL:
-            found += 1
-            yield resumed(wanted, out, chance.choice((1, 2)))
-        longest = longest or time.monotonic() - began  # the first is left alone, and tells how long a run takes
-
-
 def is_file_below(out: Path, path: Any, _: Any, flags: int) -> bool:
     """Return whether a file of the run was opened; a folder is opened to be locked or synced, and nothing changes."""
     return str(path).startswith(str(out)) and not flags & os.O_DIRECTORY
@@ -173,6 +141,12 @@ def at_every_file_operation(
         if ended(start(wanted.plan, out, 1, before=killing_at(len(found), out))) == 0 or is_over(out):
             return found
         found.append(resumed(wanted, out, 1))
+
+
+def while_running(wanted: Undisturbed, folder: Path) -> list[dict]:
+    """Kill a run at each file operation of an empty folder, until its first table is there."""
+    (folder / "running").mkdir()
+    return at_every_file_operation(wanted, folder / "running", lambda out: bool(list(out.glob("*.parquet"))))
 
 
 def while_finishing(wanted: Undisturbed, folder: Path) -> list[dict]:
@@ -207,9 +181,9 @@ def main(folder: Path) -> dict:
     long = undisturbed(LONG, folder / "long")
     ended(start(LONG, folder / "one-thread", 1))
     is_same = files_of(folder / "one-thread") == long.files
-    answer = {"one thread": is_same, "files": sorted(long.files), "units": len(LONG.units)}
-    answer["at random moments"] = list(at_random_moments(long, folder))
+    answer = {"one thread": is_same, "files": sorted(long.files), "units": len(SHORT.units)}
     short = undisturbed(SHORT, folder / "short")
+    answer["while running"] = while_running(short, folder)
     answer["while finishing"] = while_finishing(short, folder)
     answer["while clearing"] = while_clearing(short, folder)
     return answer
