@@ -26,8 +26,8 @@ TRIES, EARLIER = 8, 0.85
 class Aim(NamedTuple):
     """A phase in which a command is killed.
 
-    words: of the command, and {out} for its folder. within: the phases of its trace. by_operation: whether the moment is
-    a file operation, not one in time. is_cold: whether nothing is compiled yet. program: what runs, if not this
+    words: of the command, and {out} for its folder. within: the phases of its trace. by_operation: whether the moment
+    is a file operation, not one in time. is_cold: whether nothing is compiled yet. program: what runs, if not this
     program; it writes no trace into the pipe, writes into `folder`, and is killed with all that it started.
     """
 
@@ -137,7 +137,9 @@ def kill_evenly(
             at = (k + chance.random()) / kills * EARLIER**missed
             kept = folder / f"{aim.phase}-cache-{k}-{missed}" if aim.is_cold else cache
             one = Try(aim, folder / f"{aim.phase}-{k}-{missed}", kept, wanted.tables)
-                    number = int(at * operations) if aim.by_operation else -1
+            if aim.folder:
+                shutil.rmtree(aim.folder.parent, ignore_errors=True)
+            number = int(at * operations) if aim.by_operation else -1
             seen = one.watch(None if aim.by_operation else at * seconds, number)
             if seen.code == -signal.SIGKILL and seen.last in aim.within:
                 break
