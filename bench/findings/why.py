@@ -20,7 +20,6 @@ from bench.findings.perturbed import WITHSTANDS, by_level, perturbations, thresh
 from bench.findings.selection.needs import CHATTER
 from bench.findings.theory.thresholds import near_goal
 from bench.law.contenders.registry import contenders
-from tasks.verdict import CRASHED, HUNG, OUTCOMES
 
 FAILURES, SIDE, ENDS, ROBUSTNESS = "06-failure-map", "15-comparison", "30-method", "16-robustness"
 
@@ -38,7 +37,6 @@ Bach's does, to 0.005 rad."""
 FAULTS = {"oscillating": "oscillation", "creeping": "creeping", "stuck": "stuck"}
 FAULTS |= {"crashed": "raises or exits", "hung": "does not return"}
 """Fault by outcome; starts of any other outcome are called lost."""
-LOST = (OUTCOMES[CRASHED], OUTCOMES[HUNG])
 
 
 def sentences(rows: pd.DataFrame, declared: str) -> list[Said]:
@@ -89,7 +87,7 @@ def ends(rows: pd.DataFrame, declared: str) -> list[Said]:
 
 def head_lost(name: str, rows: pd.DataFrame, reason: str) -> str:
     """Return a law's name and, if it crashes or hangs, why, from what share of its starts, and from which angle on."""
-    lost = rows[rows["outcome"].isin(LOST)] if reason and len(rows) else rows[:0]
+    lost = rows[rows["outcome"].isin(("crashed", "hung"))] if reason and len(rows) else rows[:0]
     if lost.empty:
         return f"{name}: {reason}" if reason else name
     share, nearest = f"{len(lost) / len(rows):.0%} of {len(rows):,}", math.degrees(lost["angle0_rad"].min())

@@ -95,18 +95,11 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
 
 def describe_difference(kept: dict, wanted: dict) -> str:
     """Say in which fields the identity of a plan that a folder keeps differs from the wanted one."""
-    said = []
-    for name, now in json.loads(json.dumps(wanted)).items():
-        was, word = kept.get(name), name.replace("_", " ")
-        if was == now:
-            continue
-        if name == "units" and isinstance(was, list) and len(was) != len(now):
-            said.append(f"{len(was)} units there, {len(now)} here")
-        elif name == "gains" or (isinstance(now, str | int | float) and name != "sources"):
-            said.append(f"{word} {was} there, {now} here")
-        else:
-            said.append(f"other {'law files' if name == 'own' else word}")
-    return ", ".join(said) or "its digest alone"
+    now = json.loads(json.dumps(wanted))
+    long = {"own": "other law files"} | {one: f"other {one}" for one in ("units", "arms", "rules", "sources")}
+    names = [name for name in now if kept.get(name) != now[name]]
+    said = (long.get(name) or f"{name} {kept.get(name)} there, {now[name]} here" for name in names)
+    return ", ".join(said).replace("_", " ") or "its digest alone"
 
 
 def part(out: Path, unit: Unit) -> Path:

@@ -31,16 +31,16 @@ def killed(tmp_path_factory):
 
 
 @pytest.mark.weekly
-@pytest.mark.parametrize("moments", ["while running", "while finishing", "while clearing"])
+@pytest.mark.parametrize("moments", ["while running", "while clearing"])
 def test_killed_run_goes_on_and_ends_with_the_same_files(killed, moments):
     assert [one for one in killed[moments] if one["code"] != 0 or not one["same"]] == []
 
 
 @pytest.mark.weekly
 def test_kills_fall_where_they_are_meant_to(killed):
-    """At every file operation of a run, of its end, and of the clearing before it."""
+    """At every file operation of a run, and of the clearing before it."""
     assert {one["parts"] for one in killed["while running"]} == set(range(killed["units"] + 1))
-    assert len(killed["while finishing"]) > 5 * len(killed["files"])
+    assert len(killed["while running"]) > 5 * len(killed["files"])
     assert [".plan.json" in "".join(one["names"]) for one in killed["while clearing"]][-1]
 
 

@@ -18,10 +18,7 @@ class Gate(NamedTuple):
 
 
 class Finding(NamedTuple):
-    """One thing that differs: found by which gate, of which law, and in words; several rows may say the same.
-
-    more: what is folded into it, in words.
-    """
+    """One thing that differs: found by which gate, of which law, and in words; more: what is folded into it."""
 
     gate: str
     verdict: str

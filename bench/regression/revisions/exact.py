@@ -5,7 +5,6 @@ the tolerance of bench/regression/rows, or effort, peak or change at rest of the
 reverse of one of these is an improvement, all else a change. Where the judge changed, only that is said.
 """
 
-import statistics
 from pathlib import Path
 
 from bench.base.files import read_json
@@ -49,13 +48,10 @@ def sort_findings(differences: list[Difference]) -> list[Finding]:
         is_other = verdict == CHANGE and kind == CHANGED and column not in LEADING
         (others.setdefault(name, []) if is_other else found).append(made)
     for name, own in others.items():
-        found += [_fold(name, own)] if len(own) > FEW else own
+        more = tuple(one.says for one in own)
+        folded = Finding(own[0].gate, CHANGE, name, f"{name}: {len(own)} other columns moved", more)
+        found += [folded] if len(own) > FEW else own
     return sorted(found, key=lambda one: (REGRESSION, CHANGE, IMPROVEMENT).index(one.verdict))
-
-
-def _fold(name: str, own: list[Finding]) -> Finding:
-    """Return one finding for many columns of a law that changed."""
-    return Finding(own[0].gate, CHANGE, name, f"{name}: {len(own)} other columns moved", tuple(one.says for one in own))
 
 
 def _name_law(row: dict[str, str]) -> str:
@@ -96,8 +92,6 @@ def _make_finding(name: str, verdict: str, group: list[Difference]) -> Finding:
         said = f"{name} is stuck, was {one.was}: new dead point"
     else:
         said = f"{what}: {one.column or one.says} {one.was} -> {one.now}{' a tick' if one.table == 'costs' else ''}"
-    if one.table == "episodes" and one.column in LEADING[1:] and len(group) > 1:
-        said += f" (median {_find_median(group, 'was')} -> {_find_median(group, 'now')})"
     return Finding(gate, verdict, name, f"{said}: {where}{more}")
 
 
@@ -108,7 +102,3 @@ def _describe_place(row: dict[str, str]) -> str:
         return " ".join(words.values())
     places = (("by", "engine"), ("on", "arm"), ("with", "variation"), ("from", "start_id"))
     return " ".join(f"{before} {words[key]}" for before, key in places if key in words)
-
-
-def _find_median(group: list[Difference], side: str) -> str:
-    return f"{statistics.median(float(getattr(one, side)) for one in group):.4g}"

@@ -20,31 +20,21 @@ from bench.studies.survival.traced import COMPILING, FINISH, MERGE, PARTS, START
 
 LOCAL = "local:2"
 RUN = (
-    *(
-        "run",
-        "--suite",
-        "quick",
-        "--regulator",
-        "rotation-matrix",
-        "--engine",
-        "ideal-rk4",
-        "--experiment",
-        "free-body",
-    ),
-    *("--count", "4", "--workers", "1", "--out", "{out}"),
+    "run --suite quick --regulator rotation-matrix --engine ideal-rk4 --experiment free-body --count 4 --workers 1 "
+    "--out {out}"
 )
 """One law on the free body: eight units."""
-MAP = ("map", "--regulator", "rotation-matrix", "--starts", "10000", "--workers", "1", "--out", "{out}")
+MAP = "map --regulator rotation-matrix --starts 10000 --workers 1 --out {out}"
 AIMS = (
     Aim("start-up", RUN, (START,)),
     Aim("compiling", RUN, (COMPILING,), is_cold=True),
     Aim("parts", RUN, (PARTS,)),
     Aim("merge", RUN, (MERGE,), by_operation=True),
     Aim("finish", RUN, (FINISH,), by_operation=True),
-    Aim("export", ("export", "hybrid", "--to", "cpp", "--out", "{out}"), (START,), by_operation=True),
+    Aim("export", "export hybrid --to cpp --out {out}", (START,), by_operation=True),
     Aim("map", MAP, (PARTS, COMPILING, MERGE, FINISH)),
 )
-BY_PROCESSES = Aim(f"parts by {LOCAL}", (*RUN, "--scheduler", LOCAL), (PARTS,))
+BY_PROCESSES = Aim(f"parts by {LOCAL}", f"{RUN} --scheduler {LOCAL}", (PARTS,))
 """Beside the phases: a tenth as many kills of a run by two processes of Dask."""
 PAGE = "60-provenance.md"
 INDEX = "# A book of one page\n\nIt cites {cite}`murphy1988`.\n"
@@ -65,7 +55,7 @@ def make_book(tree: Path, run_folder: Path) -> Aim:
     (tree / "report" / "_toc.yml").write_text(CONTENTS, encoding="utf-8")
     shutil.copytree(run_folder, tree / "results" / "latest")
     html = tree / "report" / "_build" / "html"
-    return Aim("report", (), ("report",), program=tree / "report" / "build.py", folder=html)
+    return Aim("report", "", ("report",), program=tree / "report" / "build.py", folder=html)
 
 
 def main() -> None:

@@ -32,7 +32,7 @@ class Aim(NamedTuple):
     """
 
     phase: str
-    words: tuple[str, ...]
+    words: str
     within: tuple[str, ...]
     by_operation: bool = False
     is_cold: bool = False
@@ -59,7 +59,7 @@ class Try(NamedTuple):
 
     def start(self, pipe: int = 0, number: int = -1) -> subprocess.Popen:
         """Start the command, with a trace if there is a pipe to write it into."""
-        words = [word.format(out=self.out) for word in self.aim.words]
+        words = [word.format(out=self.out) for word in self.aim.words.split()]
         trace = ["bench.studies.survival.traced", str(pipe), str(self.out), str(self.tables), self.aim.within[0]]
         run = ["-m", *([*trace, str(number)] if pipe else ["bench"])]
         run = [str(self.aim.program)] if self.aim.program else run

@@ -17,7 +17,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from bench.experiments import boundaries, jacobians, plan, traces
+from bench.base.files import write_atomically
+from bench.experiments import boundaries, plan, traces
 from bench.experiments.choice import Choice
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import Gains
@@ -27,25 +28,19 @@ EVENTS = {"open", "os.mkdir", "os.remove", "os.rename", "os.rmdir", "os.chmod"}
 
 
 def plan_of(words: tuple, start_sets: tuple, engines: tuple, count: int, kp: float = 100.0) -> plan.Plan:
-    """Return a small plan with curves, boundaries and costs; with the native engine an arm, its poses, and contact."""
+    """Return a small plan of the free body with curves, boundaries and costs."""
     laws = [find_contender(word) for word in words]
     settings: dict[str, Any] = {"count": count, "horizon_s": 0.25, "gains": Gains(kp, 20.0)}
-    choice = Choice(("free-body", "arm-regulation"), start_sets, engines, ("ur5e",))
-    made = plan.make("quick", laws, choice, **settings)
-    units = [unit for unit in made.of("free-body", "arm") if unit.engine == "native" or not unit.arm]
-    if "native" in engines:
-        touching = Choice(("wrench-probe",), arms=("ur5e",), controllers=("hybrid-base+inverse", "impedance-geometric"))
-        units += plan.make("quick", laws, touching, count=2, horizon_s=0.1).of("contact")
-        units.append(jacobians.of_arm("ur5e", 2))
-    names = {unit.contender for unit in units}
-    units += [unit for unit in made.of("costs") if unit.contender in names]
+    made = plan.make("quick", laws, Choice(("free-body",), start_sets, engines), **settings)
+    names = {unit.contender for unit in made.of("free-body")}
+    units = [unit for unit in made.of("free-body", "costs") if unit.contender in names]
     units += [of_law(one, 2) for of_law in (traces.of_law, boundaries.of_law) for one in laws]
     return dataclasses.replace(made, units=tuple(units))
 
 
 ON_THREE = ("half-turn", "paper"), ("ideal-rk4", "native", "reference"), 12
 LONG = plan_of(("rotation-matrix", "feedback-linearized/zyx-euler"), *ON_THREE)
-"""Units of every experiment but robustness, on three engines: some seconds, most of them for curves and poses."""
+"""Two laws on three engines: some seconds, most of them for curves."""
 
 SHORT, OTHER = (plan_of(("rotation-matrix",), ("paper", "tumbling"), ("ideal-rk4",), 3, kp) for kp in (100.0, 50.0))
 """Five units, so few files: killed at every one of its file operations. OTHER is what SHORT replaces."""
@@ -63,7 +58,6 @@ def start(
     out: Path,
     workers: int,
     before: Callable[[], None] = lambda: None,
-    report: Callable[[Any], None] = lambda _: None,
 ) -> int:
     """Start a run in a process of its own, and return its id."""
     child = os.fork()
@@ -71,7 +65,7 @@ def start(
         return child
     try:
         before()
-        run.run(one, out, workers=workers, replace=True, report=report)
+        run.run(one, out, workers=workers, replace=True)
         os._exit(0)
     finally:
         os._exit(1)
@@ -143,31 +137,12 @@ def at_every_file_operation(
         found.append(resumed(wanted, out, 1))
 
 
-def while_running(wanted: Undisturbed, folder: Path) -> list[dict]:
-    """Kill a run at each file operation of an empty folder, until its first table is there."""
-    (folder / "running").mkdir()
-    return at_every_file_operation(wanted, folder / "running", lambda out: bool(list(out.glob("*.parquet"))))
-
-
-def while_finishing(wanted: Undisturbed, folder: Path) -> list[dict]:
-    """Kill a run that has all its parts at each file operation from there to the end."""
-    left = list(wanted.plan.units)
-
-    def die_at_the_last(_: Any) -> None:
-        left.pop()
-        if not left:
-            os.kill(os.getpid(), signal.SIGKILL)
-
-    ended(start(wanted.plan, folder / "finishing", 1, report=die_at_the_last))
-    return at_every_file_operation(wanted, folder / "finishing")
-
-
 def while_clearing(wanted: Undisturbed, folder: Path) -> list[dict]:
     """Kill a run that replaces a finished one of another plan, with parts, until the new plan is there."""
     template = folder / "clearing"
     ended(start(OTHER, template, 1))
-    shutil.copytree(folder / "finishing" / "parts", template / "parts")
-    (template / "parts" / ".a.parquet.b.tmp").write_text("half")
+    for name in ("a.parquet", ".a.parquet.b.tmp"):
+        write_atomically(template / "parts" / name, lambda path: Path(path).write_text("half"))
 
     def is_new(out: Path) -> bool:
         path = out / "plan.json"
@@ -183,8 +158,8 @@ def main(folder: Path) -> dict:
     is_same = files_of(folder / "one-thread") == long.files
     answer = {"one thread": is_same, "files": sorted(long.files), "units": len(SHORT.units)}
     short = undisturbed(SHORT, folder / "short")
-    answer["while running"] = while_running(short, folder)
-    answer["while finishing"] = while_finishing(short, folder)
+    (folder / "running").mkdir()
+    answer["while running"] = at_every_file_operation(short, folder / "running")
     answer["while clearing"] = while_clearing(short, folder)
     return answer
 
