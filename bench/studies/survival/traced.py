@@ -5,7 +5,7 @@
 PIPE is the number of an open file descriptor, FOLDER the command's --out, TABLES the number of tables that it writes.
 Before operation NUMBER of PHASE below FOLDER the process kills itself; below zero it does not.
 
-The phases of a run are told by its files and by numba: start-up until plan.json is put in place; then parts; but
+Its files and numba tell the phases of a run: start-up until plan.json is put in place; then parts; but
 compiling while numba compiles, in both; merge from the first table until the last is in its place; then finish.
 """
 
