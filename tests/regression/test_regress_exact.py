@@ -115,10 +115,14 @@ def test_other_columns_of_a_law_are_folded_into_one_finding():
     assert [one.split()[1] for one in folded.more] == ["n_x", "n_y", "n_z", "path_ratio"]
 
 
-def test_measures_of_a_law_are_its_outcomes_medians_and_stiffness_with_their_changes(finished, tmp_path):
-    head = shutil.copytree(finished, tmp_path / "head")
-    rows = read(finished, "episodes")
-    write_table(head / "episodes.parquet", rows.assign(effort=1.02 * rows["effort"], outcome="stuck"), "episodes")
-    lines = {line[""]: line for line in compare_measures(finished, head)}
-    assert lines["settled"]["head"] == "none"
-    assert lines["stuck"]["head"] == lines["settled"]["base"]
+def test_measures_of_a_law_are_its_outcomes_and_medians_with_their_changes(finished, tmp_path):
+    rows = read(finished, "episodes").assign(engine="ideal-rk4", outcome="settled", effort=100.0)
+    for name, changed in (("base", rows), ("head", rows.assign(effort=102.0))):
+        shutil.copytree(finished, tmp_path / name)
+        write_table(tmp_path / name / "episodes.parquet", changed, "episodes")
+    lines = {line[""]: line for line in compare_measures(tmp_path / "base", tmp_path / "head")}
+    assert lines["settled"]["base"] == lines["settled"]["head"]
+    assert [lines["effort, median"][name] for name in ("base", "head", "change")] == ["100", "102", "+2.0%"]
+    write_table(tmp_path / "head" / "episodes.parquet", rows.assign(outcome="stuck"), "episodes")
+    lines = {line[""]: line for line in compare_measures(tmp_path / "base", tmp_path / "head")}
+    assert (lines["settled"]["head"], lines["stuck"]["base"]) == ("none", "none")

@@ -10,7 +10,10 @@ from bench.experiments.tables.schema import RESULTS
 from report.figures.kit.page import Run
 from report.figures.method import provenance
 
-KILLS = {"units": 8, "kills": [{"same": True}, {"same": False}, {"same": True}]}
+KILLS = [
+    {"phase": phase, "same": same, "went_on": True, "units_done": done}
+    for phase, same, done in (("merge", True, 8), ("parts", False, 2), ("parts", True, 5))
+]
 
 
 def make_run(scheduler, episodes, each_us, rows="digest"):
@@ -21,16 +24,23 @@ def make_run(scheduler, episodes, each_us, rows="digest"):
 def test_committed_studies_lost_nothing():
     rows = list(provenance.describe_studies(Run(RESULTS)))
     assert len(rows) == 3
-    assert rows[1][2] == "100 ended with the files of an undisturbed run"
+    kills = [row for row in provenance.count_kills(Run(RESULTS)) if "of two" not in row[0] and "local" not in row[0]]
+    assert len(kills) == 8
+    assert min(row[1] for row in kills) >= 10
+    assert sum(row[1] for row in kills) == 100
+    assert all(row[1] == row[3] == row[4] for row in provenance.count_kills(Run(RESULTS)))
+    assert rows[1][2].endswith(" ended with the files of an undisturbed command")
     assert rows[2][2].endswith(", 0 by more than the gate allows")
 
 
 def test_only_studies_that_are_there_have_a_row_and_a_kill_that_changed_the_files_shows(tmp_path):
     (tmp_path / "survival").mkdir()
-    (tmp_path / "survival" / "survival.json").write_text(json.dumps(KILLS))
+    (tmp_path / "survival" / "survival.json").write_text(json.dumps({"kills": KILLS}))
     [row] = provenance.describe_studies(Run(tmp_path, studies=tmp_path))
-    assert row[0].startswith("3 runs of 8 units killed")
-    assert row[2] == "2 ended with the files of an undisturbed run"
+    assert row[0].startswith("3 commands killed in 2 phases")
+    assert row[2].startswith("2 ended with the files")
+    counted = list(provenance.count_kills(Run(tmp_path, studies=tmp_path)))
+    assert counted == [("merge", 1, "8 to 8", 1, 1), ("parts", 2, "2 to 5", 2, 1)]
 
 
 def test_cost_is_the_median_over_runs_and_other_rows_show():

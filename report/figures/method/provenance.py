@@ -27,6 +27,7 @@ SITE_DATA = "../data"
 FACTS = Table("Fact | Value")
 FILES = Table("File | Rows | Size [kB]:.0f")
 TESTED = Table("Test | Command | Result")
+KILLS = Table("Killed in | Kills | Units done | Went on | Same files")
 
 
 def facts(_: Run) -> dict[str, str]:
@@ -48,6 +49,7 @@ def tables(run: Run) -> dict[str, Any]:
         "run": describe_run(read.provenance()),
         "tables": FILES(map(describe_file, list_files(run))),
         "studies": TESTED(describe_studies(run)),
+        "kills": KILLS(count_kills(run)),
     }
 
 
@@ -95,13 +97,22 @@ def describe_scale(found: dict[str, Any]) -> tuple[str, str, str]:
 
 
 def describe_kills(found: dict[str, Any]) -> tuple[str, str, str]:
-    """Return how many runs that were killed at random moments ended with the files of an undisturbed run."""
+    """Return how many commands that were killed ended with the files of an undisturbed one."""
     kills = found["kills"]
     return (
-        f"{len(kills)} runs of {found['units']} units killed at random moments, then the same command again",
+        f"{len(kills)} commands killed in {len({one['phase'] for one in kills})} phases, then the same command again",
         "`python -m bench.studies.survival`",
-        f"{sum(one['same'] for one in kills)} ended with the files of an undisturbed run",
+        f"{sum(one['same'] for one in kills)} ended with the files of an undisturbed command",
     )
+
+
+def count_kills(run: Run) -> Iterator[tuple[str, int, str, int, int]]:
+    """Yield for each phase its kills, how many units were done, and how many went on and ended with the same files."""
+    path = run.studies / "survival" / "survival.json"
+    kills = pd.DataFrame(read_json(path)["kills"] if path.is_file() else [])
+    for phase, own in kills.groupby("phase", sort=False) if len(kills) else ():
+        done = f"{own['units_done'].min()} to {own['units_done'].max()}"
+        yield str(phase), len(own), done, own["went_on"].sum(), own["same"].sum()
 
 
 def describe_settings(found: dict[str, Any]) -> tuple[str, str, str]:
