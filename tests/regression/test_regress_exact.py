@@ -117,12 +117,12 @@ def test_other_columns_of_a_law_are_folded_into_one_finding():
 
 def test_measures_of_a_law_are_its_outcomes_and_medians_with_their_changes(finished, tmp_path):
     rows = read(finished, "episodes").assign(engine="ideal-rk4", outcome="settled", effort=100.0)
-    for name, changed in (("base", rows), ("head", rows.assign(effort=102.0))):
+    sides = {"base": rows, "head": rows.assign(effort=102.0), "worse": rows.assign(outcome="stuck")}
+    for name, changed in sides.items():
         shutil.copytree(finished, tmp_path / name)
         write_table(tmp_path / name / "episodes.parquet", changed, "episodes")
     lines = {line[""]: line for line in compare_measures(tmp_path / "base", tmp_path / "head")}
     assert lines["settled"]["base"] == lines["settled"]["head"]
     assert [lines["effort, median"][name] for name in ("base", "head", "change")] == ["100", "102", "+2.0%"]
-    write_table(tmp_path / "head" / "episodes.parquet", rows.assign(outcome="stuck"), "episodes")
-    lines = {line[""]: line for line in compare_measures(tmp_path / "base", tmp_path / "head")}
+    lines = {line[""]: line for line in compare_measures(tmp_path / "base", tmp_path / "worse")}
     assert (lines["settled"]["head"], lines["stuck"]["base"]) == ("none", "none")
