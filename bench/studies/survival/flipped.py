@@ -23,7 +23,8 @@ from bench.experiments.tables.packed import pack, unpack
 from bench.running import run
 from bench.running.run_folder import SEAL, part
 from bench.studies.study import make_parser
-from bench.studies.survival.killed import OTHER, SEED, SHORT, Undisturbed, files_of, undisturbed
+from bench.studies.survival.aimed import SEED
+from bench.studies.survival.killed import OTHER, SHORT, Undisturbed, files_of, undisturbed
 
 AGAIN, REFUSED, HARMLESS, SILENT = "run again", "refused", "harmless", "silent"
 Changes = dict[str, dict[Path, bytes]]
