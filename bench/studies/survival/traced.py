@@ -80,5 +80,5 @@ if __name__ == "__main__":
     trace.enter(START)
     event.register("numba:compile", trace)
     sys.addaudithook(trace.hear)
-    sys.argv = [sys.argv[0], *words]
+    sys.argv[1:] = words
     runpy.run_module("bench", run_name="__main__")
