@@ -10,32 +10,50 @@ import numpy as np
 from bench.audit import convention, pairs
 from bench.audit.convention import TAKES, Convention, Stated
 from bench.audit.examined import NO_THREE_NUMBERS, Examined, ask
-from bench.audit.fault import Finding
+from bench.audit.fault import Evidence, Finding, Found
 from bench.audit.faults import every_fault
+from bench.audit.lost import Lost
 from bench.audit.pairs import CLOSE, FINE, NEAR_IDENTITY, WIDE
 from bench.audit.report import Report
 from bench.base.errors import BadFunction
 
 
-def examine(function: Callable, stated: Stated, name: str) -> Report:
-    """Report on a function; without a convention, on the input for which the mistake is known."""
+def examine(function: Callable, stated: Stated, name: str, fresh: Callable[[], Callable] | None = None) -> Report:
+    """Report on a function; without a convention, on the input for which the mistake is known.
+
+    Args:
+        fresh: loads the function once more, with none of what it has kept.
+    """
     stated.check([one.name for one in every_fault()])
     reports = []
     with warnings.catch_warnings(), np.errstate(all="ignore"):  # answers may be infinite, or no numbers
         warnings.simplefilter("ignore", RuntimeWarning)
-        for takes, found in understood(function, stated, name):
-            examined = Examined(function, stated, takes, found)
-            reports.append(Report(name, len(examined.e), takes, found, findings(examined)))
+        try:
+            for takes, found in understood(function, stated, name):
+                examined = Examined(function, stated, takes, found, fresh)
+                reports.append(Report(name, len(examined.e), takes, found, findings(examined)))
+        except Lost as lost:
+            return report_lost(name, lost)
     return min(reports, key=lambda one: UNKNOWN in one.faults)
 
 
-UNKNOWN = "misaligned"
+def report_lost(name: str, lost: Lost) -> Report:
+    """Return the report on a function that did not come back from a call: that fault alone."""
+    (fault,) = (one for one in every_fault() if one.name == lost.fault)
+    evidence = Evidence(lost.now, lost.goal, lost.how)
+    takes = "matrix" if lost.now.shape == (3, 3) else "quaternion"
+    return Report(name, 1, takes, None, (Finding(fault, Found(f"{lost.how}; nothing more was asked", evidence)),))
+
+
+UNKNOWN, VOID = "misaligned", "memory"
 
 
 def findings(examined: Examined) -> tuple[Finding, ...]:
     """Return what is wrong with it, faults first, without what others explain."""
     found = [(one, one.find(examined)) for one in every_fault()]
     names = {one.name for one, what in found if what}
+    if VOID in names - set(examined.stated.accept):  # every other answer is in doubt
+        found = [(one, what) for one, what in found if one.name == VOID]
     kept = [
         Finding(one, what, one.name in examined.stated.accept)
         for one, what in found
@@ -68,7 +86,7 @@ def understood(function: Callable, stated: Stated, name: str) -> list[tuple[str,
         said = "; ".join(f"given {one}: {reason.removeprefix(NO_THREE_NUMBERS)}" for one, reason in reasons.items())
         raise BadFunction(
             f"{name} returns three numbers neither of two 3 x 3 matrices nor of two quaternions ({said}); wrap it in "
-            f"a function of (R, R_d) or (q, q_d) that returns its three numbers"
+            f"a function of these that returns three, as: def f(R, R_d): return mine(R[None], R_d[None])[0]"
         )
     return [max(known, key=lambda one: one[0])[1:]] if known else answered
 

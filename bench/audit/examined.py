@@ -13,6 +13,7 @@ from bench.audit import convention, pairs
 from bench.audit.convention import Convention, Stated
 from bench.audit.fault import Evidence
 from bench.audit.forms import FORMS
+from bench.audit.lost import ENDS, Lost
 from bench.audit.pairs import WIDE, Pairs
 
 NO_THREE_NUMBERS = "it returned no three numbers, but "
@@ -59,7 +60,11 @@ def _answer(function: Callable, now: np.ndarray, goal: np.ndarray) -> tuple[np.n
     """Three numbers, or NaN and the reason."""
     try:
         said = function(now, goal)
-    except Exception as error:  # whatever it raises is its answer
+    except (KeyboardInterrupt, Lost):
+        raise
+    except SystemExit as error:
+        raise Lost(ENDS, f"it exits (SystemExit: {error})", now, goal) from error
+    except BaseException as error:  # whatever else it raises is its answer; panics of Rust are no Exception
         return np.nan, f"{type(error).__name__}: {error}"
     try:
         numbers = np.asarray(said).astype(float)
@@ -72,8 +77,10 @@ def _answer(function: Callable, now: np.ndarray, goal: np.ndarray) -> tuple[np.n
     return numbers.reshape(3), ""
 
 
-UNDECIDED_RAD = 1e-7
-"""Nearer to 180° than this, the long way is longer than the short one by less than a count of an encoder."""
+COUNT_RAD = 2.0 * np.pi / 2**24
+"""An error below this is none to a robot: one count of an encoder of 24 bits, 3.7e-7 rad."""
+UNDECIDED_RAD = COUNT_RAD / 2.0
+"""Nearer to 180° than this, the long way is longer than the short one by less than a count."""
 
 
 class Examined:
@@ -82,12 +89,21 @@ class Examined:
     Attributes:
         e: its answers (n x 3); raised: reasons where it had none; changed: where it wrote into its inputs.
         convention: what it means; None if nothing explains its answers.
+        fresh: loads the function once more, with none of what it has kept; None where that cannot be done.
         direction: where they should point (n x 3), zero without a convention.
         truth: what they should be (n x 3), NaN without a form.
     """
 
-    def __init__(self, function: Callable, stated: Stated, takes: str, found: Convention | None):
+    def __init__(
+        self,
+        function: Callable,
+        stated: Stated,
+        takes: str,
+        found: Convention | None,
+        fresh: Callable[[], Callable] | None = None,
+    ):
         self.function, self.stated, self.takes, self.convention = function, stated, takes, found
+        self.fresh = fresh
         self.pairs = pairs.every_pair()
         self.e, self.raised, self.changed = ask(function, takes, self.pairs)
         self.size = np.linalg.norm(self.e, axis=1)

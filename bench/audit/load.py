@@ -61,7 +61,7 @@ def existing(path: Path) -> Path:
 def of_file(path: Path) -> ModuleType:
     """Return a Python file as a module, its folder among those that it may import from."""
     spec: Any = importlib.util.spec_from_file_location(f"audited_{path.stem}", existing(path))
-    module = importlib.util.module_from_spec(spec)
+    module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)  # where dataclasses look for it
     sys.path.insert(0, str(path.resolve().parent))
     try:
         spec.loader.exec_module(module)

@@ -1,19 +1,18 @@
 """pytest --orientation-error FUNCTION: a test for each fault that an orientation error can have.
 
-Where the option is absent nothing but this file is imported.
+Nothing of ours is imported here, for the project under test may have a package `bench` of its own. Installed, this file
+is loaded by its place (installed/orientation_audit_plugin.py); without the option it does nothing.
 """
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Callable
+import importlib.util
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 
-if TYPE_CHECKING:
-    from bench.audit.report import Report
+ROOM = Path(__file__).parent
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -23,52 +22,45 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--orientation-error", action="append", default=[], metavar="FUNCTION", help=function)
     accept = "a fault of it that is meant; repeatable"
     group.addoption("--orientation-error-accept", action="append", default=[], metavar="FAULT", help=accept)
+    limit = "seconds that its audit may take (60)"
+    group.addoption("--orientation-error-limit", type=float, default=60.0, metavar="SECONDS", help=limit)
 
 
 def pytest_collection_modifyitems(session: pytest.Session, config: pytest.Config, items: list[pytest.Item]) -> None:
     """Add the checks to the collected tests."""
     for target in config.getoption("orientation_error"):
-        items.extend(checks(session, target, tuple(config.getoption("orientation_error_accept"))))
+        items.extend(checks(session, target))
 
 
-def checks(session: pytest.Session, target: str, accept: tuple[str, ...]) -> list[pytest.Item]:
+def checks(session: pytest.Session, target: str) -> list[pytest.Item]:
     """One test a fault, over one report.
 
     Errors:
         UsageError: the function cannot be asked.
     """
-    from bench.audit import audit
-    from bench.audit.faults import every_fault
-    from bench.audit.load import load
-    from bench.base.errors import BenchError
-
-    @functools.cache
-    def report() -> Report:
-        try:
-            return audit(load(target), accept=accept, name=target)
-        except BenchError as error:
-            raise pytest.UsageError(str(error)) from error
-
-    report()
-    names = [fault.name for fault in every_fault()]
-    return [Check.from_parent(session, name=f"{target}[{name}]", fault=name, report=report) for name in names]
+    spec: Any = importlib.util.spec_from_file_location("orientation_audit_apart", ROOM / "apart.py")
+    apart = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(apart)
+    accept = session.config.getoption("orientation_error_accept")
+    try:
+        said = apart.audit_apart(target, {"accept": accept}, session.config.getoption("orientation_error_limit"))
+    except apart.NotAsked as error:
+        raise pytest.UsageError(str(error)) from error
+    names = sorted(path.stem.replace("_", "-") for path in (ROOM / "faults").glob("[a-z]*.py"))
+    return [Check.from_parent(session, name=f"{target}[{name}]", fault=name, said=said) for name in names]
 
 
 class Check(pytest.Item):
     """One fault of one function."""
 
-    def __init__(self, *, fault: str, report: Callable[[], Report], **given: Any) -> None:
+    def __init__(self, *, fault: str, said: dict[str, Any], **given: Any) -> None:
         super().__init__(**given)
-        self.fault, self.report = fault, report
+        self.fault, self.said = fault, said
 
     def runtest(self) -> None:
         """Fail if the function has it."""
-        from bench.audit.report import paragraph
-
-        report = self.report()
-        for finding in report.findings:
-            if finding.fault.name == self.fault and finding.is_fault:
-                raise Faulty("\n".join((report.head(), "", paragraph(report.name, finding))))
+        if self.fault in self.said["paragraphs"]:
+            raise Faulty(f"{self.said['head']}\n\n{self.said['paragraphs'][self.fault]}")
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """Return the report's paragraph, and no trace."""

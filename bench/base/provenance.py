@@ -9,9 +9,15 @@ import platform
 import subprocess
 import sys
 import tempfile
+import tomllib
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
+"""The checkout, or the folder of installed packages."""
+IS_CHECKOUT = (ROOT / "Makefile").is_file() and (ROOT / "pyproject.toml").is_file()
+WORKPLACE = ROOT if IS_CHECKOUT else Path.cwd()
+"""Where results and caches go: into no folder of installed packages."""
 DECIDING = ("tasks", *(f"bench/{room}" for room in ("base", "law", "audit", "engines", "experiments", "running")))
 """What numbers of a run depend on; everything else only reads results, or is measured and kept apart from them."""
 JUDGE = ("tasks/rules.py", "tasks/verdict.py", "tasks/truth.py", "tasks/cause.py")
@@ -22,6 +28,17 @@ VERSIONED = ("mujoco", "dm-control", "numpy", "scipy", "numba", "llvmlite", "pan
 def count_episodes(provenance: dict) -> int:
     """Return how many episodes a run simulated: on the free body and arms, trials in contact, and perturbed ones."""
     return sum(provenance.get(name, 0) for name in ("episodes", "trials", "troubled"))
+
+
+@functools.cache
+def describe_project() -> dict[str, Any]:
+    """Return version, dependencies and authors: of the checkout that runs, installed or not, else of the package."""
+    if IS_CHECKOUT:
+        project: dict[str, Any] = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+        return project
+    said = importlib.metadata.metadata("orientation-bench")
+    needs = [one for one in said.get_all("Requires-Dist") or [] if "extra ==" not in one]
+    return {"version": said["Version"], "dependencies": needs, "authors": [{"name": said["Author"]}]}
 
 
 @functools.cache
@@ -57,7 +74,7 @@ def _digest(names: tuple[str, ...], more: str = "") -> str:
     return digest.hexdigest()[:16]
 
 
-def kept_in(variable: str, usual: str, instead: Path = ROOT / ".home") -> Path:
+def kept_in(variable: str, usual: str, instead: Path = WORKPLACE / ".home") -> Path:
     """Our folder where a variable says, or at the usual place in HOME; else in .home of the checkout, as `make` does.
 
     Where none of them can be written, as under `docker run --user`, one in the temporary folder that is this user's

@@ -9,26 +9,22 @@ codes.
 import ast
 import importlib
 import sys
-import tomllib
 from pathlib import Path
 
 import rich_click as click
 from click.exceptions import Exit
 
 from bench.base.errors import BenchError
-from bench.base.provenance import ROOT
+from bench.base.provenance import describe_project
 from bench.cli.screen import examples
 
 click.rich_click.TEXT_MARKUP = "rich"
 click.rich_click.MAX_WIDTH = 110
 click.rich_click.STYLE_OPTIONS_TABLE_PAD_EDGE = False
 
-VERSION = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
-"""The version of the checkout that runs, installed or not."""
-
 
 @click.group(epilog=examples("bench"), context_settings={"help_option_names": ["-h", "--help"]})
-@click.version_option(VERSION)
+@click.version_option(describe_project()["version"])
 def bench() -> None:
     """Which orientation error should a Cartesian controller use, where does it fail, what does it cost per tick?
 

@@ -5,7 +5,6 @@ import os
 import subprocess
 import sys
 import tempfile
-import tomllib
 from collections.abc import Iterable
 from typing import Any
 
@@ -14,7 +13,7 @@ from click.exceptions import Exit
 from rich.text import Text
 
 import tasks
-from bench.base.provenance import ROOT
+from bench.base.provenance import describe_project
 from bench.cli.screen import console, examples, shown_path
 from bench.engines.metrics.registry import metrics_of
 from bench.experiments.contact import can_do
@@ -57,8 +56,7 @@ def _python() -> str:
 
 
 def _versions() -> str:
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
-    pins = dict(line.split("==") for line in project["dependencies"] if "==" in line)
+    pins = dict(line.split("==") for line in describe_project()["dependencies"] if "==" in line)
     wrong = []
     for name, wanted in pins.items():
         wanted = wanted.split(";")[0].strip()

@@ -3,16 +3,15 @@
 import re
 import sys
 import textwrap
-import tomllib
 from collections.abc import Callable
 from typing import Any
 
-from bench.base.provenance import ROOT
+from bench.base.provenance import describe_project
 from bench.engines.counting.costs import FLOPS, cost
 from bench.engines.counting.counted import TOTAL
 from bench.export.subject import COMPENSATOR, IMPEDANCE, SPRING, Subject
 
-PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+PROJECT = describe_project()
 HOLDER = PROJECT["authors"][0]["name"]
 WIDTH = 110
 RESET = (

@@ -1,6 +1,7 @@
 """Faults of an orientation error, one file each: its words are the docstring, and `find(examined)` looks for it.
 
 The first sentence is the title; `effect`, `cure`, `law` and `unless` are fields of `Fault`, names with commas between.
+A fault that ends the asking (lost.py) has no `find`.
 """
 
 import functools
@@ -9,7 +10,12 @@ import inspect
 import pkgutil
 import re
 
+from bench.audit.examined import Examined
 from bench.audit.fault import Fault
+
+
+def no_more(examined: Examined) -> None:
+    """Find nothing: this fault would have ended the asking."""
 
 
 @functools.cache
@@ -24,4 +30,4 @@ def read_fault(name: str) -> Fault:
     title, _, text = (inspect.getdoc(module) or "").partition(".\n\n")
     words = {key: " ".join(said.split()) for key, said in re.findall(r"^(\w+): (.*(?:\n .*)*)", text, re.MULTILINE)}
     unless = tuple(filter(None, words.pop("unless", "").split(", ")))
-    return Fault(title, **words, unless=unless, name=name.replace("_", "-"), find=module.find)
+    return Fault(title, **words, unless=unless, name=name.replace("_", "-"), find=getattr(module, "find", no_more))

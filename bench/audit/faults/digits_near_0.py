@@ -8,6 +8,7 @@ unless: single-precision, deadband, euler-angles, norm-clip, axis-clip, long-way
 
 import numpy as np
 
+from bench.audit.examined import COUNT_RAD as COUNT_RAD
 from bench.audit.examined import Examined
 from bench.audit.fault import FAULT, NOTE, Found
 from bench.audit.pairs import IDENTITY, NEAR_IDENTITY
@@ -15,8 +16,9 @@ from bench.audit.pairs import IDENTITY, NEAR_IDENTITY
 LARGEST_RAD = 0.01
 LOST = 1e-9
 """Share of slope times a radian: rounding leaves 1e-16 here, an arc cosine 1e-8."""
-COUNT_RAD = 2.0 * np.pi / 2**24
-"""An error below this is none to a robot: one count of an encoder of 24 bits, 3.7e-7 rad."""
+NEARER_RAD = 1e-3
+"""Digits are lost the more, the nearer the goal: an arc cosine errs by 1e-16 over the angle. An error that is larger
+farther away is another fault."""
 
 
 def find(examined: Examined) -> Found | None:
@@ -29,9 +31,9 @@ def find(examined: Examined) -> Found | None:
     off = examined.error if examined.convention.form else examined.size * np.sin(examined.apart)
     error = np.where(here, np.nan_to_num(off), 0.0) / examined.slope
     lost = error > LOST
-    if not lost.any():
+    worst = int(np.argmax(error))
+    if not lost.any() or angle[worst] > NEARER_RAD:
         return None
-    worst = int(np.argmax(np.where(lost, error, 0.0)))
     text = f"off by up to {error[worst]:.2g} rad, at {angle[worst]:.2g} rad"
     is_felt = error[worst] > COUNT_RAD
     return Found(

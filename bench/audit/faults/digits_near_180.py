@@ -8,9 +8,8 @@ unless: single-precision, misaligned, euler-angles, axis-clip, long-way
 
 import numpy as np
 
-from bench.audit.examined import Examined
+from bench.audit.examined import COUNT_RAD, Examined
 from bench.audit.fault import Found
-from bench.audit.faults.digits_near_0 import COUNT_RAD
 from bench.audit.pairs import NEAR_180
 
 FARTHEST_RAD = 0.1
@@ -21,8 +20,10 @@ def find(examined: Examined) -> Found | None:
     if not examined.convention:
         return None
     here = examined.at(NEAR_180) & (examined.size > 0.0)
-    error = examined.size * np.sin(examined.apart)
-    if np.nanmax(examined.error[here & (examined.pairs.distance > FARTHEST_RAD)], initial=0.0) < COUNT_RAD:
+    error = np.fmin(examined.size, np.pi * examined.slope) * np.sin(examined.apart)
+    is_endless = examined.convention.form == "gibbs"  # at 180°, where no digit of its size can be kept
+    before = examined.error[here & (examined.pairs.distance > FARTHEST_RAD)]
+    if not is_endless and np.nanmax(before, initial=0.0) < COUNT_RAD:
         error = np.fmax(error, examined.error)
     error = np.where(here, error, 0.0) / examined.slope
     if not (error > COUNT_RAD).any():

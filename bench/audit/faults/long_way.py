@@ -22,6 +22,8 @@ def find(examined: Examined) -> Found | None:
         here = ~examined.at(AT_180, IDENTITY, NEAR_180)
         with np.errstate(invalid="ignore"):
             bad = here & (examined.apart > np.pi - AGAINST_RAD)
+            if (here & (examined.apart > AGAINST_RAD)).sum() > 2 * bad.sum():
+                return None  # most that leave the axis point anywhere
     elif (angles := find_angles(examined)) is not None:
         here, bad = examined.at(WIDE), np.zeros(len(examined.e), dtype=bool)
         off = np.abs(examined.e[here] - angles.values)

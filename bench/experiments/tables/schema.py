@@ -2,12 +2,12 @@
 
 import functools
 
-from bench.base.provenance import ROOT
+from bench.base.provenance import WORKPLACE
 from bench.experiments.columns import Table
 from bench.experiments.experiment import known_experiments
 from bench.experiments.tables.studied import STUDIED
 
-RESULTS = ROOT / "results"
+RESULTS = WORKPLACE / "results"
 
 
 @functools.cache

@@ -1,0 +1,37 @@
+"""another size for some pairs.
+
+effect: the stiffness felt changes from place to place, and jumps at the edge between two
+cure: compute the size from the angle between the two orientations alone
+law: rotation-vector
+unless: norm-clip, axis-clip, deadband, jump, long-way, misaligned, euler-angles, single-precision, digits-near-0,
+  digits-near-180, memory
+"""
+
+import numpy as np
+
+from bench.audit.examined import Examined
+from bench.audit.fault import Found
+from bench.audit.pairs import AT_180, IDENTITY, NEAR_180
+
+DEVIATION = 1e-3
+"""Share of the size that the form has: single precision leaves 1e-6."""
+SMALLEST_RAD = 1e-4
+"""Of smaller angles digits may be lost."""
+
+
+def find(examined: Examined) -> Found | None:
+    """Most sizes are those of a form, and some are not, along the axis all the same."""
+    if not examined.convention or not examined.convention.form:
+        return None
+    right = np.linalg.norm(examined.truth, axis=1)
+    here = ~examined.at(AT_180, IDENTITY, NEAR_180) & (examined.pairs.angle > SMALLEST_RAD)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        ratio = examined.size / right
+        bad = here & (np.abs(ratio - 1.0) > DEVIATION)
+    if not bad.any():
+        return None
+    return Found(
+        f"for {bad.sum()} of {here.sum()} pairs |e| is {np.nanmin(ratio[bad]):.3g} to {np.nanmax(ratio[bad]):.3g} "
+        "times what it is for others of the same angle",
+        examined.evidence(int(np.argmax(bad))),
+    )
