@@ -81,9 +81,9 @@ lint: $(DEV) ## style (ruff), types (mypy), layers (import-linter) and workflow 
 	@$(VENV)/bin/lint-imports --no-logo
 	@$(VENV)/bin/check-jsonschema --quiet --builtin-schema vendor.github-workflows .github/workflows/*.yml
 	@$(VENV)/bin/check-jsonschema --quiet --builtin-schema vendor.dependabot .github/dependabot.yml
-audit: ## known vulnerabilities of what the locks name (pip-audit); without a network it says so
+audit: ## known vulnerabilities of what the locks name (pip-audit); fails too where nobody could be asked
 	@if $(MAKE) --no-print-directory .venv-audit/.made; then .venv-audit/bin/python .ci/audit.py requirements/*.txt; \
-		else echo "audit skipped: pip-audit cannot be installed here (no network?)"; fi
+		else echo "not audited: pip-audit cannot be installed here (no network?)" >&2; exit 2; fi
 gate: $(READY) ## rerun the quick suite and compare it with results/reference
 	@rm -rf results/quick  # a finished run would be resumed, not rerun
 	@$(PY) -m bench run --suite quick --out results/quick

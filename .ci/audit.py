@@ -1,6 +1,8 @@
-"""Known vulnerabilities of what the locks name, by pip-audit: 0 if there are none, 1 if there are, 0 if nobody answers.
+"""Known vulnerabilities of what the locks name, by pip-audit.
 
     .venv-audit/bin/python .ci/audit.py requirements/*.txt      (make audit)
+
+Exit code 0: every lock was looked at, and has none. 1: there is one. 2: a lock could not be looked at.
 
 Names and versions are sent to the index that pip asks; nothing is installed. An index that lists no vulnerabilities
 says so of every package, which is not the same as having none.
@@ -25,11 +27,12 @@ def audit(lock: str) -> list[dict] | str:
 
 def main(locks: list[str]) -> int:
     """Audit every lock, print a line for each and for each vulnerability; the exit code."""
-    found = 0
+    found, unseen = 0, []
     for lock in locks:
         known = audit(lock)
         if isinstance(known, str):
-            print(f"{lock}: audit skipped, no answer ({known})")
+            print(f"{lock}: not audited, no answer ({known})")
+            unseen.append(lock)
             continue
         answered = [one for one in known if "skip_reason" not in one]
         flaws = [(one, flaw) for one in answered for flaw in one["vulns"]]
@@ -40,8 +43,11 @@ def main(locks: list[str]) -> int:
         if answered:
             print(f"{lock}: {len(answered)} of {len(known)} packages audited, {len(flaws)} known vulnerabilities")
         else:
-            print(f"{lock}: audit skipped, the index knows nothing of vulnerabilities ({len(known)} packages)")
-    return 1 if found else 0
+            unseen.append(lock)
+            print(f"{lock}: not audited, the index knows nothing of vulnerabilities ({len(known)} packages)")
+    if unseen:
+        print(f"{len(unseen)} of {len(locks)} locks were not audited; run this where pypi.org answers")
+    return 1 if found else 2 if unseen else 0
 
 
 if __name__ == "__main__":

@@ -52,8 +52,8 @@ def main(folder: Path) -> None:
         if "lost" in asked:
             report = report_lost(target, lost_of(asked["lost"], Lost))
         else:
-            if place.endswith(".py"):  # what it imports when it is called
-                sys.path.insert(0, str(Path(place).resolve().parent))
+            here = [os.getcwd()] + ([str(Path(place).resolve().parent)] if place.endswith(".py") else [])
+            sys.path[:0] = reversed(here)  # it may import from there when it is called
             report = examine(fresh(), stated, target, fresh)
         paragraphs = {one.fault.name: paragraph(target, one) for one in report.findings if one.is_fault}
         said = {"report": report.as_dict(), "text": report.text(), "head": report.head(), "paragraphs": paragraphs}

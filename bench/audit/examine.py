@@ -42,7 +42,7 @@ def report_lost(name: str, lost: Lost) -> Report:
     (fault,) = (one for one in every_fault() if one.name == lost.fault)
     evidence = Evidence(lost.now, lost.goal, lost.how)
     takes = "matrix" if lost.now.shape == (3, 3) else "quaternion"
-    return Report(name, 1, takes, None, (Finding(fault, Found(f"{lost.how}; nothing more was asked", evidence)),))
+    return Report(name, 0, takes, None, (Finding(fault, Found(f"{lost.how}; nothing more was asked", evidence)),))
 
 
 UNKNOWN, VOID = "misaligned", "memory"

@@ -11,7 +11,10 @@ from bench.audit.fault import NOTE, Evidence, Finding
 
 
 class Report(NamedTuple):
-    """The convention of a function (None if no convention explains its answers), and what was found."""
+    """The convention of a function (None if no convention explains its answers), and what was found.
+
+    pairs: how many were answered, 0 if a call did not come back.
+    """
 
     name: str
     pairs: int
@@ -30,9 +33,11 @@ class Report(NamedTuple):
 
     def head(self) -> str:
         """Verdict and convention."""
-        said = self.convention.text() if self.convention else "none that is known explains its answers"
+        none = "not asked for" if self.pairs == 0 else "none that is known explains its answers"
+        said = self.convention.text() if self.convention else none
         verdict = f"FAULTS: {', '.join(self.faults)}" if self.faults else "no fault found"
-        return f"{self.name}: {verdict} ({self.pairs} pairs)\nConvention found: {said}"
+        asked = f" ({self.pairs} pairs)" if self.pairs else ""
+        return f"{self.name}: {verdict}{asked}\nConvention found: {said}"
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""

@@ -169,7 +169,9 @@ def run(pytester):
     pytester.makepyfile(mine=Path(__file__).with_name("errors.python").read_text(), test_one="def test_one(): pass")
 
     def result(*words):
-        return pytester.runpytest("-p", "bench.audit.plugin", "-p", "no:cacheprovider", *words)
+        return pytester.runpytest(
+            "-p", "no:orientation_audit_plugin", "-p", "bench.audit.plugin", "-p", "no:cacheprovider", *words
+        )
 
     return result
 

@@ -98,8 +98,8 @@ FLAW = {"id": "CVE-1", "fix_versions": ["1.1"]}
     [
         ([PACKAGE | {"vulns": []}], 0, "1 of 1 packages audited, 0 known vulnerabilities"),
         ([PACKAGE | {"vulns": [FLAW]}, PACKAGE | {"skip_reason": "x"}], 1, "numpy 1.0 has CVE-1, fixed in 1.1"),
-        ([PACKAGE | {"skip_reason": "not found"}], 0, "audit skipped, the index knows nothing"),
-        ("no route to host", 0, "audit skipped, no answer (no route to host)"),
+        ([PACKAGE | {"skip_reason": "not found"}], 2, "not audited, the index knows nothing"),
+        ("no route to host", 2, "not audited, no answer (no route to host)"),
     ],
 )
 def test_audit_fails_for_a_vulnerability_and_says_what_it_could_not_ask(audit, monkeypatch, capsys, known, code, words):
