@@ -10,6 +10,8 @@ Limitations: a unit that ends every worker that takes it ends the run.
 import contextlib
 import json
 import logging
+import sys
+import threading
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -34,6 +36,12 @@ LOSSES = 3
 
 ANSWER_S = 10.0
 """How long a scheduler may take to answer."""
+
+STARTS = 3
+"""Times that a local cluster is started before it is given up."""
+
+EMPTY_S = 10.0
+"""Between two looks for workers, and two lines while there is none."""
 
 GONE = "the scheduler is gone; what is done is kept (start it again and give the same command)"
 """Message to the user when the scheduler no longer answers."""
@@ -85,15 +93,52 @@ def client_of(word: str) -> Iterator[distributed.Client]:
             yield client
         return
     # A worker is a process of one thread: compiling and the making of rows hold Python's lock.
-    alone = {"threads_per_worker": 1, "host": "127.0.0.1", "dashboard_address": ":0", "memory_limit": None}
+    alone = {"threads_per_worker": 1, "host": "127.0.0.1", "dashboard_address": "127.0.0.1:0", "memory_limit": None}
     quiet = {"silence_logs": logging.CRITICAL, "preload": [worker.__name__]}
     count = int(word.removeprefix(LOCAL))
     with (
         config.set({"distributed.scheduler.allowed-failures": LOSSES}),
-        distributed.LocalCluster(n_workers=count, **alone, **quiet) as cluster,
+        started(lambda: distributed.LocalCluster(n_workers=count, **alone, **quiet)) as cluster,
         distributed.Client(cluster, set_as_default=False) as client,
     ):
         yield client
+
+
+def started(make: Callable[[], distributed.LocalCluster]) -> distributed.LocalCluster:
+    """Return a local cluster all of whose workers have started; made again where one was killed meanwhile.
+
+    Errors:
+        LostWorkers: STARTS times in a row.
+    """
+    for _ in range(STARTS):
+        try:
+            return make()
+        except RuntimeError as error:  # Dask's, of a process that ended before it answered
+            reason = error
+    raise LostWorkers(
+        f"a worker process ended {STARTS} times before it had started ({reason}); free memory, or take fewer processes"
+    ) from reason
+
+
+@contextlib.contextmanager
+def told_while_empty(count: Callable[[], int], every_s: float = EMPTY_S) -> Iterator[None]:
+    """Print a line now and then while there is no worker; count: threads of workers, OSError without a scheduler."""
+    ended = threading.Event()
+
+    def look() -> None:
+        with contextlib.suppress(OSError):  # what is lost then is said by the run
+            while not ended.wait(every_s):
+                if not count():
+                    print(
+                        "no worker has joined the scheduler; waiting (start one: dask worker ADDRESS)", file=sys.stderr
+                    )
+
+    thread = threading.Thread(target=look, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
 
 
 @dataclass
@@ -121,10 +166,11 @@ class Chunks:
         self.waiting.extend(in_batches(todo, self._present()))
         ended = distributed.as_completed(loop=self.client.loop)
         try:
-            self.give(ended)
-            for future in ended:
-                self.take(future)
+            with told_while_empty(lambda: sum(self.client.nthreads().values())):
                 self.give(ended)
+                for future in ended:
+                    self.take(future)
+                    self.give(ended)
         except BaseException:
             for future in [one for one in self.given if one.status == "finished"]:
                 self.take(future)
