@@ -5,7 +5,6 @@ import json
 import os
 import signal
 import sys
-import threading
 from collections import deque
 from pathlib import Path
 
@@ -22,7 +21,7 @@ from bench.law.contenders.registry import find_contender
 from bench.running import run, wire_format
 from bench.running.run import in_running_order
 from bench.running.run_folder import begin, part
-from bench.running.schedulers import check_scheduler, cluster, kind, worker
+from bench.running.schedulers import check_scheduler, cluster, connection, kind, worker
 from bench.running.schedulers.cluster import CHUNK_S, MOST_EPISODES, in_batches, seconds
 from bench.running.wire_format import described
 
@@ -44,7 +43,7 @@ def few(plan, request):
 @pytest.fixture(scope="module")
 def client():
     """Two processes, asked through their address as any cluster is."""
-    with cluster.client_of("local:2") as client:
+    with connection.client_of("local:2") as client:
         yield client
 
 
@@ -127,39 +126,8 @@ def test_chunk_that_lost_all_its_workers_is_taken_apart_and_its_unit_named(plan,
         chunks.take(future)
 
 
-@pytest.mark.parametrize("losses", [1, cluster.STARTS])
-def test_local_cluster_whose_worker_is_killed_at_its_start_is_started_again(losses):
-    left = [RuntimeError("Nanny failed to start worker process")] * losses
-
-    def make():
-        if left:
-            raise left.pop()
-        return "cluster"
-
-    if losses < cluster.STARTS:
-        assert cluster.started(make) == "cluster"
-    else:
-        with pytest.raises(LostWorkers, match="ended 3 times before it had started"):
-            cluster.started(make)
-
-
 def test_local_cluster_listens_on_the_loopback_only(client):
     assert client.cluster.dashboard_link.startswith("http://127.0.0.1:")
-
-
-def test_line_is_printed_while_there_is_no_worker(capsys):
-    looks, seen = iter([1, 0]), threading.Event()
-
-    def count():
-        found = next(looks, None)
-        if found is None:
-            seen.set()
-            raise OSError
-        return found
-
-    with cluster.told_while_empty(count, every_s=0.001):
-        assert seen.wait(60.0)
-    assert capsys.readouterr().err.count("no worker has joined the scheduler; waiting") == 1
 
 
 def test_missing_dask_is_said_with_the_cure(monkeypatch):

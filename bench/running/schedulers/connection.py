@@ -1,0 +1,96 @@
+"""The way to a Dask cluster: one of processes of this machine, started here, or one that is there already."""
+
+import contextlib
+import logging
+import sys
+import threading
+from collections.abc import Callable, Iterator
+
+import distributed
+from dask import config
+
+from bench.base.errors import LostWorkers, MissingTool
+from bench.running.schedulers import LOCAL, worker
+
+LOSSES = 3
+"""Workers that a chunk may lose before it is taken apart: Dask's default, set on a local cluster too."""
+
+ANSWER_S = 10.0
+"""How long a scheduler may take to answer."""
+
+STARTS = 3
+"""Times that a local cluster is started before it is given up."""
+
+EMPTY_S = 10.0
+"""Between two looks for workers, and two lines while there is none."""
+
+logging.getLogger("distributed").setLevel(logging.CRITICAL)
+"""What goes wrong is said by our errors; of a lost worker there is nothing to say, for another takes its chunk."""
+
+
+@contextlib.contextmanager
+def client_of(word: str) -> Iterator[distributed.Client]:
+    """Open a client of the cluster that the word names; a local one lives as long as this.
+
+    Args:
+        word: local:N, or the address of a scheduler.
+    Errors:
+        MissingTool: no scheduler answers there.
+    """
+    if not word.startswith(LOCAL):
+        try:
+            client = distributed.Client(word, timeout=ANSWER_S, set_as_default=False)
+        except OSError as error:
+            raise MissingTool(
+                f"--scheduler {word}: no Dask scheduler answers there (start one: dask scheduler; or try local:2)"
+            ) from error
+        with client:
+            yield client
+        return
+    # A worker is a process of one thread: compiling and the making of rows hold Python's lock.
+    alone = {"threads_per_worker": 1, "host": "127.0.0.1", "dashboard_address": "127.0.0.1:0", "memory_limit": None}
+    quiet = {"silence_logs": logging.CRITICAL, "preload": [worker.__name__]}
+    count = int(word.removeprefix(LOCAL))
+    with (
+        config.set({"distributed.scheduler.allowed-failures": LOSSES}),
+        started(lambda: distributed.LocalCluster(n_workers=count, **alone, **quiet)) as cluster,
+        distributed.Client(cluster, set_as_default=False) as client,
+    ):
+        yield client
+
+
+def started(make: Callable[[], distributed.LocalCluster]) -> distributed.LocalCluster:
+    """Return a local cluster all of whose workers have started; made again where one was killed meanwhile.
+
+    Errors:
+        LostWorkers: STARTS times in a row.
+    """
+    for _ in range(STARTS):
+        try:
+            return make()
+        except RuntimeError as error:  # Dask's, of a process that ended before it answered
+            reason = error
+    raise LostWorkers(
+        f"a worker process ended {STARTS} times before it had started ({reason}); free memory, or take fewer processes"
+    ) from reason
+
+
+@contextlib.contextmanager
+def told_while_empty(count: Callable[[], int], every_s: float = EMPTY_S) -> Iterator[None]:
+    """Print a line now and then while there is no worker; count: threads of workers, OSError without a scheduler."""
+    ended = threading.Event()
+
+    def look() -> None:
+        with contextlib.suppress(OSError):  # what is lost then is said by the run
+            while not ended.wait(every_s):
+                if not count():
+                    print(
+                        "no worker has joined the scheduler; waiting (start one: dask worker ADDRESS)", file=sys.stderr
+                    )
+
+    thread = threading.Thread(target=look, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        ended.set()
