@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 LIMIT_S = 60.0
-"""Of the whole audit, on the wall: fifty times what a function of some microseconds takes."""
+"""Seconds on the wall for the whole audit: fifty times what a function of some microseconds takes."""
 HANGS = 0.1
 """Share of the limit: a call that has lasted longer when time is up hangs; of shorter ones the audit is slow."""
 CALLS = 6000

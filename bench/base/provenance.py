@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[2]
 """The checkout, or the folder of installed packages."""
 IS_CHECKOUT = (ROOT / "Makefile").is_file() and (ROOT / "pyproject.toml").is_file()
 WORKPLACE = ROOT if IS_CHECKOUT else Path.cwd()
-"""Where results and caches go: into no folder of installed packages."""
+"""Results and caches go here; installed packages stay as they are."""
 DECIDING = ("tasks", *(f"bench/{room}" for room in ("base", "law", "audit", "engines", "experiments", "running")))
 """What numbers of a run depend on; everything else only reads results, or is measured and kept apart from them."""
 JUDGE = ("tasks/rules.py", "tasks/verdict.py", "tasks/truth.py", "tasks/cause.py")

@@ -16,7 +16,7 @@ from bench.audit.pairs import AT_180, IDENTITY, NEAR_180
 DEVIATION = 1e-3
 """Share of the size that the form has: single precision leaves 1e-6."""
 SMALLEST_RAD = 1e-4
-"""Of smaller angles digits may be lost."""
+"""Digits may be lost at smaller angles."""
 
 
 def find(examined: Examined) -> Found | None:

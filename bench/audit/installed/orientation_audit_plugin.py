@@ -11,7 +11,7 @@ from typing import Any
 
 HERE = Path(__file__).resolve().parent
 ROOM = HERE.parent if HERE.name == "installed" else HERE / "bench" / "audit"
-"""Where the audit lies: in a checkout, or among installed packages."""
+"""The folder of the audit, in a checkout or among installed packages."""
 
 spec: Any = importlib.util.spec_from_file_location("orientation_audit_hooks", ROOM / "plugin.py")
 hooks = importlib.util.module_from_spec(spec)
