@@ -1,99 +1,164 @@
-"""The process that asks a function (apart.py): python -P asked.py FOLDER, with the request in that folder.
+"""The process that audits a function for another (apart.py): it forks, and the child asks the function.
 
-Once our modules are loaded their names are free again, so that the function may be of another package `bench`.
+The parent keeps our modules, so that it can say how the child ended. The child gives their names free: the function may
+be of another package `bench`.
 """
 
 from __future__ import annotations
 
+import contextlib
 import json
 import mmap
 import os
+import signal
 import sys
-import traceback
+import tempfile
+import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import IO, Any, NoReturn
 
-ROOT = Path(__file__).resolve().parents[2]
+import numpy as np
+
+from bench.audit.apart import CALLS
+from bench.audit.convention import Stated
+from bench.audit.examine import examine, report_lost
+from bench.audit.examined import ENDS, HANGS, Lost
+from bench.audit.faults import every_fault
+from bench.audit.load import load
+from bench.audit.report import Report, paragraph
+from bench.base.errors import BadFunction, BenchError
+
+LONG = 0.1
+"""Share of the limit: a call that has lasted longer when time is up hangs; of shorter ones the audit is slow."""
+LOOK_S = 0.05
+BEGUN, ENDED, SIZE, NOW, GOAL = 0, 1, 2, slice(3, 12), slice(12, 21)
+"""Places on the board that both processes see: calls begun and ended, numbers of an orientation, the two of a call."""
 
 
-def main(folder: Path) -> None:
-    """Write the answer into the folder."""
-    sys.path.insert(0, str(ROOT))
-    from bench.audit import apart, load
-    from bench.audit.convention import Stated
-    from bench.audit.examine import examine, report_lost
-    from bench.audit.faults import every_fault
-    from bench.audit.lost import Lost
-    from bench.audit.report import paragraph
-    from bench.base.errors import BenchError
+def main() -> None:
+    """Print the numbers of calls, then the answer, each a line of JSON."""
+    asked = json.loads(sys.argv[1])
+    try:
+        said = answer_for(asked)
+    except BenchError as error:
+        said = {"refused": str(error)}
+    print(json.dumps(said), flush=True)
 
-    every_fault()
-    asked = json.loads((folder / apart.REQUEST).read_text("utf-8"))
-    ours = {name: sys.modules.pop(name) for name in list(sys.modules) if name.partition(".")[0] == "bench"}
-    sys.path[:] = asked["path"]
-    target = asked["target"]
-    stated = Stated(**asked["stated"] | {"accept": tuple(asked["stated"].get("accept", ()))})
 
-    place, _, _ = target.rpartition(":")
+def answer_for(asked: dict[str, Any]) -> dict[str, Any]:
+    """Return what the child has written, or the report on how it ended.
+
+    Errors:
+        BadFunction: it ended, or time was up, without a call that explains it.
+    """
+    every_fault()  # of modules whose names the child gives free
+    board = np.frombuffer(mmap.mmap(-1, 8 * GOAL.stop))
+    with tempfile.TemporaryFile() as answer:
+        child = os.fork()
+        if not child:
+            ask(asked, board, answer)
+        os.setpgid(child, child)
+        code, lasted = watch(child, asked["limit_s"], board)
+        answer.seek(0)
+        if code == 0 and (text := answer.read()):
+            return dict(json.loads(text))
+    return told(asked["target"], report_lost(asked["target"], lost(asked, board, code, lasted)))
+
+
+def watch(child: int, limit_s: float, board: np.ndarray) -> tuple[int | None, float]:
+    """Wait for the child and print how many calls it has begun.
+
+    Returns:
+        its exit code, None if it did not end in time, and seconds since the last call began.
+    """
+    seen, code = 0.0, None
+    began = time.monotonic()
+    deadline = began + limit_s
+    try:
+        while code is None and time.monotonic() < deadline:
+            time.sleep(LOOK_S)
+            if board[BEGUN] != seen:
+                seen, began = board[BEGUN], time.monotonic()
+                print(int(seen), flush=True)
+            ended, status = os.waitpid(child, os.WNOHANG)
+            code = os.waitstatus_to_exitcode(status) if ended else None
+    finally:
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(child, signal.SIGKILL)
+    return code, time.monotonic() - began
+
+
+def lost(asked: dict[str, Any], board: np.ndarray, code: int | None, lasted: float) -> Lost:
+    """Return the call that did not come back."""
+    target, limit_s, calls = asked["target"], asked["limit_s"], int(board[BEGUN])
+    how = "" if code is None else f"exit code {code}" if code >= 0 else signal.Signals(-code).name
+    if not calls and how:
+        raise BadFunction(f"{target} ended the process while it was loaded ({how}); correct what it does there")
+    if not calls:
+        raise BadFunction(
+            f"{target} was not loaded within {limit_s:g} s; correct what it does there, or give a longer --limit"
+        )
+    if not how and not (board[BEGUN] > board[ENDED] and lasted > LONG * limit_s):
+        raise BadFunction(
+            f"{target} is too slow: {calls:,} of about {CALLS:,} calls were done in {limit_s:g} s; give --limit "
+            f"{CALLS / calls * limit_s * 1.5:.0f}, or a faster function"
+        )
+    size = int(board[SIZE])
+    now, goal = (board[place][:size].reshape((3, 3) if size == 9 else -1) for place in (NOW, GOAL))
+    if how:
+        return Lost(ENDS, f"call {calls:,} ended the process ({how})", now, goal)
+    return Lost(HANGS, f"call {calls:,} had not returned after {lasted:.3g} s", now, goal)
+
+
+def ask(asked: dict[str, Any], board: np.ndarray, answer: IO[bytes]) -> NoReturn:
+    """Ask the function in this process, write what is said of it, and end, without a wait for threads of it."""
+    target, path = asked["target"], asked["path"]
+    nowhere = os.open(os.devnull, os.O_RDWR)
+    for stream in range(3):
+        os.dup2(nowhere, stream)
+    for name in [name for name in sys.modules if name.partition(".")[0] == "bench"]:
+        del sys.modules[name]
+    place = target.rpartition(":")[0]
+    sys.path[:] = [*([str(Path(place).resolve().parent)] if place.endswith(".py") else []), os.getcwd(), *path]
     loaded: list[Callable] = []
 
     def fresh() -> Callable:
         sys.modules.pop(place, None)
         try:
-            loaded.append(load.load(target))
-        except BenchError:
+            loaded.append(load(target))
+        except BadFunction:
             if not loaded:
                 raise  # a module that can be imported only once is asked as it is
-        return watched(loaded[-1], folder / apart.STATE, apart.BOARD.pack_into)
+        return watched(loaded[-1], board)
 
-    said: dict[str, Any]
     try:
-        if "lost" in asked:
-            report = report_lost(target, lost_of(asked["lost"], Lost))
-        else:
-            here = [os.getcwd()] + ([str(Path(place).resolve().parent)] if place.endswith(".py") else [])
-            sys.path[:0] = reversed(here)  # it may import from there when it is called
-            report = examine(fresh(), stated, target, fresh)
-        paragraphs = {one.fault.name: paragraph(target, one) for one in report.findings if one.is_fault}
-        said = {"report": report.as_dict(), "text": report.text(), "head": report.head(), "paragraphs": paragraphs}
+        stated = Stated(**asked["stated"] | {"accept": tuple(asked["stated"].get("accept", ()))})
+        said = told(target, examine(fresh(), stated, target, fresh))
     except BenchError as error:
         said = {"refused": str(error)}
-    except Exception:
-        said = {"refused": f"the audit itself failed; report this: {traceback.format_exc()}"}
-    written = folder / "written"
-    written.write_text(json.dumps(said), "utf-8")
-    written.rename(folder / apart.ANSWER)
-    del ours
-    os._exit(0)  # threads that the function has begun are not waited for
+    except BaseException as error:
+        said = {"refused": f"the audit itself failed ({type(error).__name__}: {error}); report this"}
+    answer.write(json.dumps(said).encode())
+    answer.flush()
+    os._exit(0)
 
 
-def lost_of(said: dict[str, Any], lost: Callable) -> Any:
-    """Return the end of the process before, with the pair as an array of the right shape."""
-    import numpy as np
+def watched(function: Callable, board: np.ndarray) -> Callable:
+    """Return the function, with a note of what it is given before each call, and of its end."""
 
-    now, goal = (np.reshape(said[key], (3, 3) if len(said[key]) == 9 else -1) for key in ("now", "goal"))
-    return lost(said["fault"], said["how"], now, goal)
-
-
-def watched(function: Callable, state: Path, pack_into: Callable) -> Callable:
-    """Return the function, with a note of what it is given before each call and of its end."""
-    with state.open("r+b") as file:
-        board = mmap.mmap(file.fileno(), 0)
-    calls = 0
-
-    def call(now: Any, goal: Any) -> Any:
-        nonlocal calls
-        calls += 1
-        padded = [0.0] * (9 - now.size)
-        pack_into(board, 0, calls, 1.0, now.size, *now.ravel(), *padded, *goal.ravel(), *padded)
+    def call(now: np.ndarray, goal: np.ndarray) -> Any:
+        board[SIZE], board[NOW][: now.size], board[GOAL][: goal.size] = now.size, now.ravel(), goal.ravel()
+        board[BEGUN] += 1.0
         try:
             return function(now, goal)
         finally:
-            pack_into(board, 0, calls, 0.0, now.size, *now.ravel(), *padded, *goal.ravel(), *padded)
+            board[ENDED] += 1.0
 
     return call
 
 
-if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+def told(target: str, report: Report) -> dict[str, Any]:
+    """Return a report as `audit_apart` does."""
+    paragraphs = {one.fault.name: paragraph(target, one) for one in report.findings if one.is_fault}
+    return {"report": report.as_dict(), "text": report.text(), "head": report.head(), "paragraphs": paragraphs}

@@ -9,16 +9,15 @@ import numpy as np
 
 from bench.audit import convention, pairs
 from bench.audit.convention import TAKES, Convention, Stated
-from bench.audit.examined import NO_THREE_NUMBERS, Examined, ask
+from bench.audit.examined import NO_THREE_NUMBERS, Examined, Fresh, Lost, ask
 from bench.audit.fault import Evidence, Finding, Found
 from bench.audit.faults import every_fault
-from bench.audit.lost import Lost
 from bench.audit.pairs import CLOSE, FINE, NEAR_IDENTITY, WIDE
 from bench.audit.report import Report
 from bench.base.errors import BadFunction
 
 
-def examine(function: Callable, stated: Stated, name: str, fresh: Callable[[], Callable] | None = None) -> Report:
+def examine(function: Callable, stated: Stated, name: str, fresh: Fresh | None = None) -> Report:
     """Report on a function; without a convention, on the input for which the mistake is known.
 
     Args:

@@ -13,10 +13,25 @@ from bench.audit import convention, pairs
 from bench.audit.convention import Convention, Stated
 from bench.audit.fault import Evidence
 from bench.audit.forms import FORMS
-from bench.audit.lost import ENDS, Lost
 from bench.audit.pairs import WIDE, Pairs
 
 NO_THREE_NUMBERS = "it returned no three numbers, but "
+
+
+ENDS, HANGS, INTERFACE = "ends-process", "hangs", "c-interface"
+"""Names of the faults that end the asking, each a file of faults/ without a `find`."""
+
+
+class Lost(BaseException):
+    """No answer will come, and nothing more is asked. No `except Exception` of a function that calls another stops it.
+
+    Args:
+        fault: one of those above. how: what happened, as in "SIGSEGV". now, goal: what the function was given.
+    """
+
+    def __init__(self, fault: str, how: str, now: np.ndarray, goal: np.ndarray):
+        super().__init__(how)
+        self.fault, self.how, self.now, self.goal = fault, how, now, goal
 
 
 class Answers(NamedTuple):
@@ -77,6 +92,7 @@ def _answer(function: Callable, now: np.ndarray, goal: np.ndarray) -> tuple[np.n
     return numbers.reshape(3), ""
 
 
+Fresh = Callable[[], Callable]
 COUNT_RAD = 2.0 * np.pi / 2**24
 """An error below this is none to a robot: one count of an encoder of 24 bits, 3.7e-7 rad."""
 UNDECIDED_RAD = COUNT_RAD / 2.0
@@ -95,15 +111,9 @@ class Examined:
     """
 
     def __init__(
-        self,
-        function: Callable,
-        stated: Stated,
-        takes: str,
-        found: Convention | None,
-        fresh: Callable[[], Callable] | None = None,
+        self, function: Callable, stated: Stated, takes: str, found: Convention | None, fresh: Fresh | None = None
     ):
-        self.function, self.stated, self.takes, self.convention = function, stated, takes, found
-        self.fresh = fresh
+        self.function, self.stated, self.takes, self.convention, self.fresh = function, stated, takes, found, fresh
         self.pairs = pairs.every_pair()
         self.e, self.raised, self.changed = ask(function, takes, self.pairs)
         self.size = np.linalg.norm(self.e, axis=1)

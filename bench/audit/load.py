@@ -8,7 +8,8 @@ A C function has the signature
     void f(const double R[9], const double R_d[9], double e[3]);     matrices by rows, or
     void f(const double q[4], const double q_d[4], double e[3]);     quaternions
 
-and is given buffers of 16 numbers, so that asking it for the wrong kind reads nothing that is not there.
+and is given buffers of 64 numbers, so that asking it for the wrong kind reads nothing that is not there, and what it
+writes behind e[2] is seen.
 """
 
 from __future__ import annotations
@@ -25,10 +26,13 @@ from typing import Any
 
 import numpy as np
 
+from bench.audit.examined import INTERFACE, Lost
 from bench.base.errors import BadFunction
 
 LIBRARIES = (".so", ".dylib", ".dll")
-BUFFER = 16
+BUFFER = 64
+UNWRITTEN = 255
+"""Every byte of e before a call: of eight, no number."""
 
 
 def load(target: str) -> Callable:
@@ -133,11 +137,20 @@ def of_library(path: Path, symbol: str) -> Callable:
     numbers = np.ctypeslib.ndpointer(dtype=np.float64, shape=(BUFFER,), flags="C_CONTIGUOUS")
     function.argtypes, function.restype = (numbers, numbers, numbers), None
 
+    has_answered = False
+
     def ask(now: np.ndarray, goal: np.ndarray) -> np.ndarray:
-        given, wanted, e = (np.zeros(BUFFER) for _ in range(3))
+        nonlocal has_answered
+        given, wanted = np.zeros(BUFFER), np.zeros(BUFFER)
+        e = np.full(8 * BUFFER, UNWRITTEN, np.uint8).view(float)
         given[: now.size], wanted[: goal.size] = now.ravel(), goal.ravel()
-        e[:3] = np.nan  # what it leaves unwritten is no number
         function(given, wanted, e)
+        written = np.flatnonzero((e.view(np.uint8).reshape(-1, 8) != UNWRITTEN).any(axis=1))
+        last = int(written[-1]) if len(written) else -1
+        if last > 2 or not (last == 2 or has_answered):
+            how = f"it wrote e[{last}]" if last > 2 else "it wrote no e[2]" if last >= 0 else "it wrote nothing into e"
+            raise Lost(INTERFACE, f"{how}, where three doubles are expected", now, goal)
+        has_answered = True
         now[...], goal[...] = given[: now.size].reshape(now.shape), wanted[: goal.size].reshape(goal.shape)
         return e[:3]
 

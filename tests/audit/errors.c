@@ -15,3 +15,14 @@ void vector_part(const double q[4], const double p[4], double e[3]) {
 }
 
 void lazy(const double R[9], const double R_d[9], double e[3]) { e[0] = R[0]; }
+
+void floats(const float R[9], const float R_d[9], float e[3]) {
+    for (int k = 0; k < 3; k++) e[k] = R[k] - R_d[k];
+}
+
+void error_first(double e[3], const double R[9], const double R_d[9]) { columns(R, R_d, e); }
+
+void beyond(const double R[9], const double R_d[9], double e[3]) {
+    columns(R, R_d, e);
+    e[3] = 0.0;
+}

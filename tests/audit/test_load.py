@@ -59,8 +59,13 @@ def test_c_function_of_quaternions_is_known_for_one_and_its_missing_sign_found(l
     assert report.faults == ("double-cover",)
 
 
-def test_c_function_that_leaves_numbers_unwritten_returns_no_numbers(library):
-    assert "not-a-number" in audit(load(f"{library}:lazy")).faults
+@pytest.mark.parametrize(
+    ("symbol", "said"), [("lazy", "no e[2]"), ("floats", "no e[2]"), ("error_first", "nothing"), ("beyond", "e[3]")]
+)
+def test_c_function_of_another_interface_is_named_so_and_nothing_else(library, symbol, said):
+    report = audit(load(f"{library}:{symbol}"))
+    assert report.faults == ("c-interface",)
+    assert f"it wrote {said}" in report.text()
 
 
 @pytest.mark.parametrize(
@@ -169,9 +174,7 @@ def run(pytester):
     pytester.makepyfile(mine=Path(__file__).with_name("errors.python").read_text(), test_one="def test_one(): pass")
 
     def result(*words):
-        return pytester.runpytest(
-            "-p", "no:orientation_audit_plugin", "-p", "bench.audit.plugin", "-p", "no:cacheprovider", *words
-        )
+        return pytester.runpytest("-p", "orientation_audit_plugin", "-p", "no:cacheprovider", *words)
 
     return result
 
@@ -200,7 +203,3 @@ def test_mistake_is_an_error_of_usage(run):
     result = run("--orientation-error", "mine.py:colums")
     assert result.ret == pytest.ExitCode.USAGE_ERROR
     result.stderr.fnmatch_lines(["ERROR: *has no 'colums'*"])
-
-
-def test_without_the_option_nothing_is_added(run):
-    run().assert_outcomes(passed=1)

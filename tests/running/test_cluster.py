@@ -3,11 +3,14 @@
 import dataclasses
 import json
 import os
+import queue
 import signal
 import sys
 from collections import deque
 from pathlib import Path
+from types import SimpleNamespace
 
+import distributed
 import pytest
 from support.unit_kinds import plan_of_all_kinds
 
@@ -128,6 +131,33 @@ def test_chunk_that_lost_all_its_workers_is_taken_apart_and_its_unit_named(plan,
 
 def test_local_cluster_listens_on_the_loopback_only(client):
     assert client.cluster.dashboard_link.startswith("http://127.0.0.1:")
+
+
+@pytest.mark.parametrize("losses", [1, connection.STARTS])
+def test_local_cluster_whose_worker_is_killed_at_its_start_is_started_again(losses):
+    left = [RuntimeError("Nanny failed to start worker process")] * losses
+
+    def make():
+        if left:
+            raise left.pop()
+        return "cluster"
+
+    if losses < connection.STARTS:
+        assert connection.started(make) == "cluster"
+    else:
+        with pytest.raises(LostWorkers, match="ended 3 times before it had started"):
+            connection.started(make)
+
+
+def test_line_is_printed_while_there_is_no_worker(monkeypatch):
+    line = queue.Queue()
+    monkeypatch.setattr(sys, "stderr", SimpleNamespace(write=line.put, flush=bool))
+    with (
+        distributed.LocalCluster(n_workers=0, host="127.0.0.1", dashboard_address=None) as made,
+        distributed.Client(made, set_as_default=False) as client,
+        connection.told_while_empty(client, every_s=0.01),
+    ):
+        assert "no worker has joined the scheduler; waiting" in line.get(timeout=60.0)
 
 
 def test_missing_dask_is_said_with_the_cure(monkeypatch):

@@ -7,7 +7,7 @@ import pandas as pd
 from scipy.stats import binomtest, fisher_exact
 
 import tasks
-from bench.audit.faults.digits_near_0 import COUNT_RAD
+from bench.audit.examined import COUNT_RAD
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.selection import needs
 from report.figures.kit.families import word

@@ -1,7 +1,7 @@
 """Faults of an orientation error, one file each: its words are the docstring, and `find(examined)` looks for it.
 
 The first sentence is the title; `effect`, `cure`, `law` and `unless` are fields of `Fault`, names with commas between.
-A fault that ends the asking (lost.py) has no `find`.
+A fault that ends the asking (`Lost`) has no `find`.
 """
 
 import functools

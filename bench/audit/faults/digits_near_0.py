@@ -8,8 +8,7 @@ unless: single-precision, deadband, euler-angles, norm-clip, axis-clip, long-way
 
 import numpy as np
 
-from bench.audit.examined import COUNT_RAD as COUNT_RAD
-from bench.audit.examined import Examined
+from bench.audit.examined import COUNT_RAD, Examined
 from bench.audit.fault import FAULT, NOTE, Found
 from bench.audit.pairs import IDENTITY, NEAR_IDENTITY
 

@@ -1,6 +1,7 @@
-"""The pytest plugin under a name that no other project has: the wheel puts this file beside `bench`.
+"""pytest --orientation-error FUNCTION: a test for each fault that an orientation error can have.
 
-A project's own `bench` hides ours, so that the plugin is loaded by its place and not by its name.
+The wheel puts this file beside `bench`, under a name that no other project has. It imports nothing of ours, for the
+project under test may have a package `bench` of its own. Without the option it does nothing.
 """
 
 from __future__ import annotations
@@ -9,12 +10,68 @@ import importlib.util
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 HERE = Path(__file__).resolve().parent
 ROOM = HERE.parent if HERE.name == "installed" else HERE / "bench" / "audit"
 """The folder of the audit, in a checkout or among installed packages."""
 
-spec: Any = importlib.util.spec_from_file_location("orientation_audit_hooks", ROOM / "plugin.py")
-hooks = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(hooks)
-pytest_addoption = hooks.pytest_addoption
-pytest_collection_modifyitems = hooks.pytest_collection_modifyitems
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the options."""
+    group = parser.getgroup("orientation error")
+    function = "check it, FILE.py:NAME, MODULE:NAME or LIBRARY.so:SYMBOL; repeatable"
+    group.addoption("--orientation-error", action="append", default=[], metavar="FUNCTION", help=function)
+    accept = "a fault of it that is meant; repeatable"
+    group.addoption("--orientation-error-accept", action="append", default=[], metavar="FAULT", help=accept)
+    limit = "seconds that its audit may take (60)"
+    group.addoption("--orientation-error-limit", type=float, default=60.0, metavar="SECONDS", help=limit)
+
+
+def pytest_collection_modifyitems(session: pytest.Session, config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Add the checks to the collected tests."""
+    for target in config.getoption("orientation_error"):
+        items.extend(checks(session, target))
+
+
+def checks(session: pytest.Session, target: str) -> list[pytest.Item]:
+    """One test a fault, over one report.
+
+    Errors:
+        UsageError: the function cannot be asked.
+    """
+    spec: Any = importlib.util.spec_from_file_location("orientation_audit_apart", ROOM / "apart.py")
+    apart = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(apart)
+    accept = session.config.getoption("orientation_error_accept")
+    try:
+        said = apart.audit_apart(target, {"accept": accept}, session.config.getoption("orientation_error_limit"))
+    except apart.NotAsked as error:
+        raise pytest.UsageError(str(error)) from error
+    names = sorted(path.stem.replace("_", "-") for path in (ROOM / "faults").glob("[a-z]*.py"))
+    return [Check.from_parent(session, name=f"{target}[{name}]", fault=name, said=said) for name in names]
+
+
+class Check(pytest.Item):
+    """One fault of one function."""
+
+    def __init__(self, *, fault: str, said: dict[str, Any], **given: Any) -> None:
+        super().__init__(**given)
+        self.fault, self.said = fault, said
+
+    def runtest(self) -> None:
+        """Fail if the function has it."""
+        if self.fault in self.said["paragraphs"]:
+            raise Faulty(f"{self.said['head']}\n\n{self.said['paragraphs'][self.fault]}")
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
+        """Return the report's paragraph, and no trace."""
+        return str(excinfo.value) if excinfo.errisinstance(Faulty) else super().repr_failure(excinfo, style)
+
+    def reportinfo(self) -> tuple[Path, int | None, str]:
+        """Return its place in pytest's lists."""
+        return self.path, None, f"orientation error {self.name}"
+
+
+class Faulty(Exception):
+    """A fault, in words."""

@@ -79,7 +79,7 @@ class Chunks:
         self.waiting.extend(in_batches(todo, self._present()))
         ended = distributed.as_completed(loop=self.client.loop)
         try:
-            with told_while_empty(lambda: sum(self.client.nthreads().values())):
+            with told_while_empty(self.client):
                 self.give(ended)
                 for future in ended:
                     self.take(future)

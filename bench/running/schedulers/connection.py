@@ -3,11 +3,11 @@
 import contextlib
 import logging
 import sys
-import threading
 from collections.abc import Callable, Iterator
 
 import distributed
 from dask import config
+from tornado.ioloop import PeriodicCallback
 
 from bench.base.errors import LostWorkers, MissingTool
 from bench.running.schedulers import LOCAL, worker
@@ -59,38 +59,31 @@ def client_of(word: str) -> Iterator[distributed.Client]:
         yield client
 
 
-def started(make: Callable[[], distributed.LocalCluster]) -> distributed.LocalCluster:
-    """Return a local cluster all of whose workers have started; made again where one was killed meanwhile.
-
-    Errors:
-        LostWorkers: STARTS times in a row.
-    """
-    for _ in range(STARTS):
-        try:
-            return make()
-        except RuntimeError as error:  # Dask's, of a process that ended before it answered
-            reason = error
-    raise LostWorkers(
-        f"a worker process ended {STARTS} times before it had started ({reason}); free memory, or take fewer processes"
-    ) from reason
+def started(make: Callable[[], distributed.LocalCluster], starts: int = STARTS) -> distributed.LocalCluster:
+    """Return a local cluster all of whose workers have started; made again where one was killed meanwhile."""
+    try:
+        return make()
+    except RuntimeError as error:  # Dask's, of a process that ended before it answered
+        if starts > 1:
+            return started(make, starts - 1)
+        raise LostWorkers(
+            f"a worker process ended {STARTS} times before it had started ({error}); free memory, or take fewer "
+            "processes"
+        ) from error
 
 
 @contextlib.contextmanager
-def told_while_empty(count: Callable[[], int], every_s: float = EMPTY_S) -> Iterator[None]:
-    """Print a line now and then while there is no worker; count: threads of workers, OSError without a scheduler."""
-    ended = threading.Event()
+def told_while_empty(client: distributed.Client, every_s: float = EMPTY_S) -> Iterator[None]:
+    """Print a line now and then while there is no worker."""
 
-    def look() -> None:
-        with contextlib.suppress(OSError):  # what is lost then is said by the run
-            while not ended.wait(every_s):
-                if not count():
-                    print(
-                        "no worker has joined the scheduler; waiting (start one: dask worker ADDRESS)", file=sys.stderr
-                    )
+    async def look() -> None:
+        with contextlib.suppress(OSError):  # the run says that the scheduler is lost
+            if not await client.scheduler.ncores():
+                print("no worker has joined the scheduler; waiting (start one: dask worker ADDRESS)", file=sys.stderr)
 
-    thread = threading.Thread(target=look, daemon=True)
-    thread.start()
+    looks = PeriodicCallback(look, 1e3 * every_s)
+    client.loop.add_callback(looks.start)
     try:
         yield
     finally:
-        ended.set()
+        client.loop.add_callback(looks.stop)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from bench.audit.faults.digits_near_0 import COUNT_RAD as COUNT_RAD
+from bench.audit.examined import COUNT_RAD as COUNT_RAD
 from bench.audit.forms import FORMS as SIZED
 from bench.studies.libraries.library import QUATERNION, Function, answer, quiet
 

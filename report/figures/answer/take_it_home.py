@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from bench.audit.examined import COUNT_RAD
 from bench.audit.faults import every_fault
-from bench.audit.faults.digits_near_0 import COUNT_RAD
 from bench.audit.forms import FORMS
 from bench.audit.pairs import NEAR_IDENTITY, every_pair
 from bench.export.language import find_language, language_words
