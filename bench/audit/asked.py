@@ -91,20 +91,16 @@ def watch(child: int, limit_s: float, board: np.ndarray) -> tuple[int | None, fl
 
 def lost(asked: dict[str, Any], board: np.ndarray, code: int | None, lasted: float) -> Lost:
     """Return the call that did not come back."""
-    target, limit_s, calls = asked["target"], asked["limit_s"], int(board[BEGUN])
+    target, limit_s, calls, size = asked["target"], asked["limit_s"], int(board[BEGUN]), int(board[SIZE])
     how = "" if code is None else f"exit code {code}" if code >= 0 else signal.Signals(-code).name
-    if not calls and how:
-        raise BadFunction(f"{target} ended the process while it was loaded ({how}); correct what it does there")
     if not calls:
-        raise BadFunction(
-            f"{target} was not loaded within {limit_s:g} s; correct what it does there, or give a longer --limit"
-        )
+        happened = f"ended the process ({how})" if how else f"did not return within {limit_s:g} s (--limit)"
+        raise BadFunction(f"the import of {target} {happened}; correct what it does while it is loaded")
     if not how and not (board[BEGUN] > board[ENDED] and lasted > LONG * limit_s):
         raise BadFunction(
             f"{target} is too slow: {calls:,} of about {CALLS:,} calls were done in {limit_s:g} s; give --limit "
             f"{CALLS / calls * limit_s * 1.5:.0f}, or a faster function"
         )
-    size = int(board[SIZE])
     now, goal = (board[place][:size].reshape((3, 3) if size == 9 else -1) for place in (NOW, GOAL))
     if how:
         return Lost(ENDS, f"call {calls:,} ended the process ({how})", now, goal)

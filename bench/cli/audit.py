@@ -19,13 +19,7 @@ from bench.cli.screen import examples
 @click.option("--sign", metavar="WORD", help="Where it must point: to-goal or from-goal.")
 @click.option("--stiffness", type=float, default=1.0, show_default=True, help="Slope that your gains reckon with.")
 @click.option("--accept", multiple=True, metavar="FAULT", help="A fault that is meant; repeatable.")
-@click.option(
-    "--limit",
-    type=click.FloatRange(0.0, min_open=True),
-    default=LIMIT_S,
-    show_default=True,
-    help="Seconds it may take.",
-)
+@click.option("--limit", type=click.FloatRange(0.1), default=LIMIT_S, show_default=True, help="Seconds it may take.")
 @click.option("--json", "json_file", type=click.Path(path_type=Path), metavar="FILE", help="All of it for machines.")
 def COMMAND(
     function: str, takes: str | None, frame: str | None, sign: str | None, stiffness: float, accept: tuple[str, ...],

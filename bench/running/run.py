@@ -82,9 +82,9 @@ def _team(
         with compiling_ahead(_ours(todo, sandbox)):
             yield by_threads
         return
-    from bench.running.schedulers import cluster, connection  # Dask is an extra, and takes a second to import
+    from bench.running.schedulers import cluster  # Dask is an extra, and takes a second to import
 
-    with connection.client_of(scheduler) as client:
+    with cluster.client_of(scheduler) as client:
         yield functools.partial(cluster.run, client, plan, todo, out, sandbox=sandbox)
 
 

@@ -24,7 +24,7 @@ from bench.law.contenders.registry import find_contender
 from bench.running import run, wire_format
 from bench.running.run import in_running_order
 from bench.running.run_folder import begin, part
-from bench.running.schedulers import check_scheduler, cluster, connection, kind, worker
+from bench.running.schedulers import check_scheduler, cluster, kind, worker
 from bench.running.schedulers.cluster import CHUNK_S, MOST_EPISODES, in_batches, seconds
 from bench.running.wire_format import described
 
@@ -46,7 +46,8 @@ def few(plan, request):
 @pytest.fixture(scope="module")
 def client():
     """Two processes, asked through their address as any cluster is."""
-    with connection.client_of("local:2") as client:
+    with cluster.client_of("local:2") as client:
+        assert client.cluster.dashboard_link.startswith("http://127.0.0.1:")
         yield client
 
 
@@ -129,11 +130,7 @@ def test_chunk_that_lost_all_its_workers_is_taken_apart_and_its_unit_named(plan,
         chunks.take(future)
 
 
-def test_local_cluster_listens_on_the_loopback_only(client):
-    assert client.cluster.dashboard_link.startswith("http://127.0.0.1:")
-
-
-@pytest.mark.parametrize("losses", [1, connection.STARTS])
+@pytest.mark.parametrize("losses", [1, cluster.STARTS])
 def test_local_cluster_whose_worker_is_killed_at_its_start_is_started_again(losses):
     left = [RuntimeError("Nanny failed to start worker process")] * losses
 
@@ -142,11 +139,11 @@ def test_local_cluster_whose_worker_is_killed_at_its_start_is_started_again(loss
             raise left.pop()
         return "cluster"
 
-    if losses < connection.STARTS:
-        assert connection.started(make) == "cluster"
+    if losses < cluster.STARTS:
+        assert cluster.started(make) == "cluster"
     else:
         with pytest.raises(LostWorkers, match="ended 3 times before it had started"):
-            connection.started(make)
+            cluster.started(make)
 
 
 def test_line_is_printed_while_there_is_no_worker(monkeypatch):
@@ -155,7 +152,7 @@ def test_line_is_printed_while_there_is_no_worker(monkeypatch):
     with (
         distributed.LocalCluster(n_workers=0, host="127.0.0.1", dashboard_address=None) as made,
         distributed.Client(made, set_as_default=False) as client,
-        connection.told_while_empty(client, every_s=0.01),
+        cluster.told_while_empty(client, every_s=0.01),
     ):
         assert "no worker has joined the scheduler; waiting" in line.get(timeout=60.0)
 
