@@ -110,10 +110,8 @@ def started(make: Callable[[], distributed.LocalCluster], starts: int = STARTS) 
     except RuntimeError as error:  # Dask's, of a process that ended before it answered
         if starts > 1:
             return started(make, starts - 1)
-        raise LostWorkers(
-            f"a worker process ended {STARTS} times before it had started ({error}); free memory, or take fewer "
-            "processes"
-        ) from error
+        cure = "free memory, or take fewer processes"
+        raise LostWorkers(f"a worker process ended {STARTS} times before it had started ({error}); {cure}") from error
 
 
 @contextlib.contextmanager
