@@ -40,11 +40,6 @@ def test_function_and_class_of_a_file_are_asked(file, name):
     assert (report.convention.form, report.faults) == ("sine", ())
 
 
-def test_function_of_a_module_is_asked(file, monkeypatch):
-    monkeypatch.chdir(file.parent)
-    assert audit(load("my_file:half")).faults == ("stiffness",)
-
-
 def test_c_function_of_matrices_is_that_of_python(library, file):
     rng = np.random.default_rng(1)
     R, R_d = rng.normal(size=(2, 3, 3))
@@ -193,9 +188,6 @@ def test_fault_fails_its_own_test_and_says_the_cure(run):
     result = run("--orientation-error", "mine:half")
     result.assert_outcomes(passed=len(every_fault()), failed=1)
     result.stdout.fnmatch_lines(["fault stiffness: *", "*Cure: *", "*FAILED*mine:half[[]stiffness[]]*"])
-
-
-def test_accepted_fault_passes(run):
     assert run("--orientation-error", "mine:half", "--orientation-error-accept", "stiffness").ret == 0
 
 

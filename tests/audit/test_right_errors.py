@@ -31,13 +31,6 @@ def test_nothing_is_said_against_a_right_error_and_its_convention_is_found(funct
     assert found.slope == pytest.approx(1.0, abs=1e-6)
 
 
-def test_right_errors_are_twenty_and_of_every_convention():
-    assert len(RIGHT) >= 20
-    conventions = [convention for _, convention in RIGHT.values()]
-    assert {one[0] for one in conventions} == {"matrix", "wxyz", "xyzw"}
-    assert {one[1:3] for one in conventions} == {(f, s) for f in ("base", "body") for s in ("to-goal", "from-goal")}
-
-
 @pytest.mark.parametrize("scale", [0.5, 2.0, 30.0])
 def test_slope_is_the_gain_that_is_in_a_function(scale):
     def scaled(R, R_d):

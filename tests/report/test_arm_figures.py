@@ -8,7 +8,7 @@ import pytest
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
 from bench.experiments.tables.schema import RESULTS
-from report.figures.arms import arm_ranking, arm_rows, jacobians, velocity_commands
+from report.figures.arms import arm_ranking, arm_rows, jacobians
 from report.figures.kit.page import run_in
 
 ARM = "puma560"
@@ -65,10 +65,3 @@ def test_stock_pose_is_well_conditioned_and_on_the_pole():
     said = jacobians.describe_first(jacobians.papers(RUN, **jacobians.FIRST_EXAMPLE))
     # how large that of the angles is, rounding decides, up to a one with nothing before its power of ten
     assert re.search(r"number 7\.9; .* is ([2-9]·)?10[⁰¹²³⁴⁵⁶⁷⁸⁹]{2}, .* β = 90°", said)
-
-
-def test_velocity_laws_that_are_dead_at_180_degrees_or_unwind_are_named():
-    facts = velocity_commands.facts(RUN)
-    assert "rotation matrix" in facts["dead"]
-    assert "rotation vector" not in facts["dead"]
-    assert "control: no sign" in facts["unwinds"]

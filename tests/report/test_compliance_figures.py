@@ -36,19 +36,6 @@ def test_hand_is_drawn_turning_as_the_closed_form_of_the_papers_force_control_ha
         assert one["share"] == pytest.approx(np.linalg.norm(C[:, k]) / full, rel=0.02)
 
 
-def test_euler_hand_turns_the_further_off_the_more_it_leans():
-    turns = hand_axes.turns(of_task(RUN, compliance.PROBE))
-    off = [one["off"] for one in turns if one["contender"] == PAPERS_EULER and one["pushed"] == "x"]
-    assert off == sorted(off)
-    assert off[-1] > 80.0
-
-
-def test_loop_shows_a_tool_that_lies_flat_and_one_that_does_not():
-    said = in_contact.plate(of_task(RUN, "surface-alignment"))
-    assert float(said["plate_cartesian"]) < 0.1
-    assert float(said["plate_euler"]) > 10.0
-
-
 def test_every_task_in_contact_is_shown():
     free = {"wrench-probe", "compliance-loop"}
     assert set(in_contact.MEASURES) == set(tasks.contact_names()) - free

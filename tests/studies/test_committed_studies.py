@@ -23,8 +23,7 @@ from bench.findings.maps import lost_share
 from bench.findings.perturbed import by_level, studied
 from bench.law.contenders.registry import find_contender
 from bench.law.control.setpoint import TOUCH
-from bench.running.schedulers import THREADS
-from bench.studies import scale, verdicts
+from bench.studies import verdicts
 from bench.studies.contact import __main__ as contact
 from bench.studies.contact import pegs, stability
 from bench.studies.robustness import STARTS
@@ -98,18 +97,6 @@ def test_seed_and_step_run_what_hangs_on_them():
     kinds, stepped = ({unit.experiment for unit in plan.units} for plan in (drawn, halved))
     assert {"free-body", "arm", "jacobians", "traces", "robustness"} == kinds
     assert stepped == kinds - {"jacobians"} | {"boundaries", "contact"}
-
-
-def test_every_process_begins_before_it_is_measured():
-    assert [len(scale.make_smallest_plan(one).units) for one in scale.SCHEDULERS] == [1, 1, 2]
-    assert scale.make_smallest_plan("local:2").episodes() == 2
-
-
-def test_run_is_measured():
-    found = scale.measure(THREADS, 300)
-    assert (found["scheduler"], found["episodes"]) == (THREADS, 300)
-    assert found["cpu_s"] > 0.0
-    assert found["peak_bytes"] > 5e7
 
 
 PATCHES = sorted((ROOT / "bench" / "studies" / "libraries" / "patches").glob("*.patch"))

@@ -76,24 +76,10 @@ def describe_file(path: Path) -> tuple:
 
 def describe_studies(run: Run) -> Iterator[tuple[str, str, str]]:
     """Yield a row for each study of the tool that is in the results."""
-    for name, describe in (("scale", describe_scale), ("survival", describe_kills), ("settings", describe_settings)):
+    for name, describe in (("survival", describe_kills), ("settings", describe_settings)):
         path = run.studies / name / f"{name}.json"
         if path.is_file():
             yield describe(read_json(path))
-
-
-def describe_scale(found: dict[str, Any]) -> tuple[str, str, str]:
-    """Return what an episode costs in small and large runs, and whether one thread and two processes agree."""
-    sizes, runs = pd.DataFrame(found["sizes"]), pd.DataFrame(found["schedulers"])
-    cost = (1e6 * sizes["cpu_s"] / sizes["episodes"]).groupby(sizes["episodes"]).median()
-    same = "the same" if runs["rows"].nunique() == 1 else "**other**"
-    few, many = html.number(cost.index.min()), html.number(cost.index.max())
-    return (
-        f"Runs of {few} to {many} episodes; one thread and two processes",
-        "`python -m bench.studies.scale`",
-        f"{cost.iloc[0]:.0f} µs of CPU an episode in the smallest run, {cost.iloc[-1]:.0f} µs in the largest; at most "
-        f"{sizes['peak_bytes'].max() / 1e6:.0f} MB of memory; two processes give {same} rows",
-    )
 
 
 def describe_kills(found: dict[str, Any]) -> tuple[str, str, str]:
