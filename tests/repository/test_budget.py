@@ -8,19 +8,19 @@ ROOT = Path(__file__).parents[2]
 
 LINES = {
     "bench/__init__.py": 29,
-    "bench/__main__.py": 29,
-    "bench/audit": 1_928,
-    "bench/base": 484,
+    "bench/__main__.py": 32,
+    "bench/audit": 2_270,
+    "bench/base": 501,
     "bench/cli": 2_354,
     "bench/engines": 6_331,
     "bench/experiments": 5_114,
-    "bench/export": 2_072,
+    "bench/export": 2_071,
     "bench/findings": 6_045,
     "bench/law": 6_347,
     "bench/regression": 1_295,
-    "bench/running": 2_438,
-    "bench/studies": 3_491,
-    "tests/audit": 571,
+    "bench/running": 2_474,
+    "bench/studies": 3_363,
+    "tests/audit": 625,
     "tests/cli": 747,
     "tests/conftest.py": 73,
     "tests/contracts": 2_620,
@@ -30,17 +30,17 @@ LINES = {
     "tests/findings": 2_060,
     "tests/law": 2_542,
     "tests/regression": 722,
-    "tests/report": 1_952,
+    "tests/report": 1_919,
     "tests/repository": 585,
-    "tests/running": 1_147,
-    "tests/studies": 690,
+    "tests/running": 1_178,
+    "tests/studies": 660,
     "tests/support": 2_936,
     "tests/tasks": 1_893,
-    "report": 6_522,
+    "report": 6_508,
     "tasks": 5_040,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
-FILES = {"bench/audit": 35, "bench/experiments": 46, "bench/export": 19, "bench/law": 102, "tasks": 75}
+FILES = {"bench/audit": 42, "bench/experiments": 46, "bench/export": 19, "bench/law": 102, "tasks": 75}
 """Python files of the rooms in which one file adds one thing: with one more, a room may have as many lines more."""
 LONGEST_FILE = 250
 TOO_LONG: dict[str, int] = {}
