@@ -63,7 +63,7 @@ def answer_for(asked: dict[str, Any]) -> dict[str, Any]:
         answer.seek(0)
         if code == 0 and (text := answer.read()):
             return dict(json.loads(text))
-    return told(asked["target"], report_lost(asked["target"], lost(asked, board, code, lasted)))
+    return describe_report(asked["target"], report_lost(asked["target"], find_lost_call(asked, board, code, lasted)))
 
 
 def watch(child: int, limit_s: float, board: np.ndarray) -> tuple[int | None, float]:
@@ -89,7 +89,7 @@ def watch(child: int, limit_s: float, board: np.ndarray) -> tuple[int | None, fl
     return code, time.monotonic() - began
 
 
-def lost(asked: dict[str, Any], board: np.ndarray, code: int | None, lasted: float) -> Lost:
+def find_lost_call(asked: dict[str, Any], board: np.ndarray, code: int | None, lasted: float) -> Lost:
     """Return the call that did not come back."""
     target, limit_s, calls, size = asked["target"], asked["limit_s"], int(board[BEGUN]), int(board[SIZE])
     how = "" if code is None else f"exit code {code}" if code >= 0 else signal.Signals(-code).name
@@ -126,11 +126,11 @@ def ask(asked: dict[str, Any], board: np.ndarray, answer: IO[bytes]) -> NoReturn
         except BadFunction:
             if not loaded:
                 raise  # a module that can be imported only once is asked as it is
-        return watched(loaded[-1], board)
+        return note_calls(loaded[-1], board)
 
     try:
         stated = Stated(**asked["stated"] | {"accept": tuple(asked["stated"].get("accept", ()))})
-        said = told(target, examine(fresh(), stated, target, fresh))
+        said = describe_report(target, examine(fresh(), stated, target, fresh))
     except BenchError as error:
         said = {"refused": str(error)}
     except BaseException as error:
@@ -140,7 +140,7 @@ def ask(asked: dict[str, Any], board: np.ndarray, answer: IO[bytes]) -> NoReturn
     os._exit(0)
 
 
-def watched(function: Callable, board: np.ndarray) -> Callable:
+def note_calls(function: Callable, board: np.ndarray) -> Callable:
     """Return the function, with a note of what it is given before each call, and of its end."""
 
     def call(now: np.ndarray, goal: np.ndarray) -> Any:
@@ -154,7 +154,7 @@ def watched(function: Callable, board: np.ndarray) -> Callable:
     return call
 
 
-def told(target: str, report: Report) -> dict[str, Any]:
+def describe_report(target: str, report: Report) -> dict[str, Any]:
     """Return a report as `audit_apart` does."""
     paragraphs = {one.fault.name: paragraph(target, one) for one in report.findings if one.is_fault}
     return {"report": report.as_dict(), "text": report.text(), "head": report.head(), "paragraphs": paragraphs}

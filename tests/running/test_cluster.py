@@ -3,12 +3,11 @@
 import dataclasses
 import json
 import os
-import queue
 import signal
 import sys
+import time
 from collections import deque
 from pathlib import Path
-from types import SimpleNamespace
 
 import distributed
 import pytest
@@ -140,21 +139,23 @@ def test_local_cluster_whose_worker_is_killed_at_its_start_is_started_again(loss
         return "cluster"
 
     if losses < cluster.STARTS:
-        assert cluster.started(make) == "cluster"
+        assert cluster.start_local(make) == "cluster"
     else:
         with pytest.raises(LostWorkers, match="ended 3 times before it had started"):
-            cluster.started(make)
+            cluster.start_local(make)
 
 
-def test_line_is_printed_while_there_is_no_worker(monkeypatch):
-    line = queue.Queue()
-    monkeypatch.setattr(sys, "stderr", SimpleNamespace(write=line.put, flush=bool))
+def test_line_is_printed_while_there_is_no_worker(capsys):
     with (
         distributed.LocalCluster(n_workers=0, host="127.0.0.1", dashboard_address=None) as made,
         distributed.Client(made, set_as_default=False) as client,
-        cluster.told_while_empty(client, every_s=0.01),
+        cluster.print_while_empty(client, every_s=0.01),
     ):
-        assert "no worker has joined the scheduler; waiting" in line.get(timeout=60.0)
+        end, said = time.monotonic() + 60.0, ""
+        while not said and time.monotonic() < end:
+            time.sleep(0.05)
+            said = capsys.readouterr().err
+    assert "no worker has joined the scheduler; waiting" in said
 
 
 def test_missing_dask_is_said_with_the_cure(monkeypatch):

@@ -97,25 +97,25 @@ def client_of(word: str) -> Iterator[distributed.Client]:
     count = int(word.removeprefix(LOCAL))
     with (
         config.set({"distributed.scheduler.allowed-failures": LOSSES}),
-        started(lambda: distributed.LocalCluster(n_workers=count, **alone, **quiet)) as cluster,
+        start_local(lambda: distributed.LocalCluster(n_workers=count, **alone, **quiet)) as cluster,
         distributed.Client(cluster, set_as_default=False) as client,
     ):
         yield client
 
 
-def started(make: Callable[[], distributed.LocalCluster], starts: int = STARTS) -> distributed.LocalCluster:
+def start_local(make: Callable[[], distributed.LocalCluster], starts: int = STARTS) -> distributed.LocalCluster:
     """Return a local cluster all of whose workers have started; made again where one was killed meanwhile."""
     try:
         return make()
     except RuntimeError as error:  # Dask's, of a process that ended before it answered
         if starts > 1:
-            return started(make, starts - 1)
+            return start_local(make, starts - 1)
         cure = "free memory, or take fewer processes"
         raise LostWorkers(f"a worker process ended {STARTS} times before it had started ({error}); {cure}") from error
 
 
 @contextlib.contextmanager
-def told_while_empty(client: Any, every_s: float = EMPTY_S) -> Iterator[None]:
+def print_while_empty(client: Any, every_s: float = EMPTY_S) -> Iterator[None]:
     """Print a line now and then while there is no worker."""
 
     async def look() -> None:
@@ -156,7 +156,7 @@ class Chunks:
         self.waiting.extend(in_batches(todo, self._present()))
         ended = distributed.as_completed(loop=self.client.loop)
         try:
-            with told_while_empty(self.client):
+            with print_while_empty(self.client):
                 self.give(ended)
                 for future in ended:
                     self.take(future)
