@@ -32,7 +32,7 @@ LINES = {
     "tests/regression": 722,
     "tests/report": 1_919,
     "tests/repository": 585,
-    "tests/running": 1_178,
+    "tests/running": 1_179,
     "tests/studies": 660,
     "tests/support": 2_936,
     "tests/tasks": 1_893,
