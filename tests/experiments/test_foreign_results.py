@@ -173,13 +173,13 @@ def test_path_in_a_word_leads_nowhere(theirs):
     assert digest(theirs.parent) == before
 
 
-def test_plan_whose_names_lead_outside_is_another_plan(capsys, theirs):
+def test_plan_whose_names_lead_outside_is_refused_as_edited(capsys, theirs):
     plan = json.loads((theirs / "plan.json").read_text())
     plan["units"] = [["../../../x", "../y", "/etc/passwd", "", 0, 10**18, 10**18, 1e300]] * 3
     plan["digest"] = "../../x"
     (theirs / "plan.json").write_text(json.dumps(plan))
     before = digest(theirs.parent)
-    assert "it holds another plan" in refused(capsys, "run", *TINY, "--out", theirs)
+    assert "plan.json that was edited or damaged" in refused(capsys, "run", *TINY, "--out", theirs)
     assert digest(theirs.parent) == before
 
 
