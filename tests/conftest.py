@@ -20,7 +20,7 @@ def pytest_runtest_protocol(item, nextitem):
 
 
 def pytest_ignore_collect(collection_path, config):
-    """Leave files that are slow as a whole unread where no slow test is asked for."""
+    """Skip the files of slow tests if the slow tests are deselected."""
     is_slow = collection_path.stem.removeprefix("test_") in SLOW
     return True if is_slow and config.option.markexpr == "not slow" else None
 

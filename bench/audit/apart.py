@@ -16,7 +16,7 @@ from typing import Any
 LIMIT_S = 60.0
 """Seconds on the wall for the whole audit: fifty times what a function of some microseconds takes."""
 CALLS = 6000
-"""About how many times a function is asked."""
+"""Approximate number of calls of the function in one audit."""
 ROOT = str(Path(__file__).resolve().parents[2])
 BEGIN = f"import sys; sys.path.insert(0, {ROOT!r}); from bench.audit.asked import main; main()"
 

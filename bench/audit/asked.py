@@ -108,7 +108,7 @@ def find_lost_call(asked: dict[str, Any], board: np.ndarray, code: int | None, l
 
 
 def ask(asked: dict[str, Any], board: np.ndarray, answer: IO[bytes]) -> NoReturn:
-    """Ask the function in this process, write what is said of it, and end, without a wait for threads of it."""
+    """Call the function in this process, write the report, and exit without waiting for its threads."""
     target, path = asked["target"], asked["path"]
     nowhere = os.open(os.devnull, os.O_RDWR)
     for stream in range(3):
@@ -125,7 +125,7 @@ def ask(asked: dict[str, Any], board: np.ndarray, answer: IO[bytes]) -> NoReturn
             loaded.append(load(target))
         except BadFunction:
             if not loaded:
-                raise  # a module that can be imported only once is asked as it is
+                raise  # else a module that can be imported only once is called without a new import
         return note_calls(loaded[-1], board)
 
     try:

@@ -23,7 +23,7 @@ ENDS, HANGS, INTERFACE = "ends-process", "hangs", "c-interface"
 
 
 class Lost(BaseException):
-    """No answer will come, and nothing more is asked. No `except Exception` of a function that calls another stops it.
+    """A call did not return, and the audit stops. No `except Exception` of a function that calls another stops it.
 
     Args:
         fault: one of those above. how: what happened, as in "SIGSEGV". now, goal: what the function was given.

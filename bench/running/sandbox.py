@@ -56,7 +56,7 @@ class Sandbox:
         limit_s: of processor time for every request, compiling apart; None for the rule above. most_lost: episodes of a
             unit, see MOST_LOST. is_checked: by another process, see `check`.
 
-    notes: what is to be said of the laws. again: keys of units whose law was killed twice while it prepared.
+    notes: messages about the laws. again: keys of units whose law was killed twice while it prepared.
     """
 
     def __init__(self, plan: Plan, limit_s: float | None = None, most_lost: int = MOST_LOST, is_checked: bool = False):

@@ -45,7 +45,7 @@ class Killed(Ended):
 
 
 class Forged(Lost):
-    """What came are no rows, or not those that were asked for."""
+    """The answer holds no rows, or other rows than the unit has."""
 
 
 class Mistake(Exception):

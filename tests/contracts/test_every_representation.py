@@ -38,8 +38,8 @@ def draw():
 
 @functools.cache
 def some_rotations(representation) -> tuple:
-    """For what takes 80 digits: the exact ones and those near the identity, and a sixth of the others, drawn anew for
-    each representation."""
+    """Return rotations for tests in 80 digits: the exact ones, those near the identity, and a sixth of the others. Each
+    representation has a draw of its own."""
     every = rotations()
     always = len(axis_permuting()) + len(near_identity())
     seed = list(contenders("representations")).index(representation.name)

@@ -107,7 +107,7 @@ def parts(folder: Path, sizes) -> list[Path]:
 
 
 def read(paths: list[Path]):
-    """The parts, each when it is asked for."""
+    """Yield the parts one by one."""
     return (store.read_arrow(path, "episodes") for path in paths)
 
 
