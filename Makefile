@@ -54,16 +54,16 @@ time: $(READY) ## time every law per control tick on this machine: results/timin
 libraries: .venv-libraries/.made $(APART:%=.venv-%/.made) ## compare other robot libraries (5 GB): results/libraries
 	@.venv-libraries/bin/python -m bench.studies.libraries $(ARGS)
 	@for name in $(APART); do .venv-$$name/bin/python -m bench.studies.libraries $$name || exit; done
-judge: $(READY) ## your law against an older one: make judge LAW=my_law.py BASE=main (alone: python -m bench judge FILE)
+judge: $(READY) ## your law against an older one: make judge LAW=my_law.py BASE=main (alone: bench judge FILE)
 	@test -n "$$LAW" || { echo "Name your law's file: make judge LAW=my_law.py BASE=main" >&2; exit 2; }
 	@rm -rf judge.md judge
 	@$(PY) -m bench compare $(BASE) --law "$$LAW" --summary judge.md --benchmarks judge $(ARGS)
 history: $(READY) ## measure this commit, add a file of pytest-benchmark to results/history, and show it (minutes)
 	@$(PY) -m bench history add $(ARGS)
 setup: $(READY) ## install what the benchmark needs, and nothing else
-	@echo "Ready. Run the benchmark: make bench. Look around: $(PY) -m bench --help"
+	@echo "Ready. Run the benchmark: make bench. Look around: $(VENV)/bin/bench --help"
 setup-cluster: $(VENV)/.cluster ## install Dask too, for bench run --scheduler: on every machine of a cluster
-	@echo "Ready. Two processes of this machine: $(PY) -m bench run --scheduler local:2"
+	@echo "Ready. Two processes of this machine: $(VENV)/bin/bench run --scheduler local:2"
 
 ##@ Develop
 test: $(DEV) ## run the tests (ARGS="-k so3" for some, -m 'not slow' for the fast ones)

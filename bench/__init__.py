@@ -1,4 +1,4 @@
-"""Orientation regulators on a free body and on arms: laws, engines, costs, results. Way in: `python -m bench --help`.
+"""Orientation regulators on a free body and on arms: laws, engines, costs, results. Way in: `bench --help`.
 
 Rooms, bottom up; each imports only from rooms above it in this list (pyproject.toml says so, and `make lint` looks):
 

@@ -1,7 +1,6 @@
-"""`python -m bench`."""
+"""Run the command line: `bench`, which the installation makes, or `python -m bench` in the checkout."""
 
 import io
-import os
 import sys
 
 
@@ -10,8 +9,6 @@ def main() -> int:
 
     A sign that the terminal's encoding lacks, as ° in ASCII, is printed as a question mark.
     """
-    if sys.path and sys.path[0] == os.getcwd() != os.path.dirname(os.path.dirname(os.path.abspath(__file__))):
-        del sys.path[0]  # of `python -m` elsewhere: results that are looked at there run no code of theirs
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")

@@ -9,7 +9,7 @@ LISTED = (
     *("regulator", "representation", "jacobian", "inverse"),
     *("task", "arm", "variation", "start", "engine", "suite", "controller", "impedance"),
 )
-"""Kinds of words that `python -m bench list` has a table of."""
+"""Kinds of words that `bench list` has a table of."""
 
 
 class BenchError(Exception):
@@ -24,7 +24,7 @@ class UnknownWord(BenchError):
         near = [meant] if meant else difflib.get_close_matches(given, known, n=1)
         guess = f" (did you mean '{near[0]}'?)" if near else ""
         word = kind.lower()  # "Jacobian" in a sentence, "jacobians" on the command line
-        cure = f"try: python -m bench list {word}s" if word in LISTED else "give one of these"
+        cure = f"try: bench list {word}s" if word in LISTED else "give one of these"
         super().__init__(f"{kind} '{given}' is unknown{guess}; known: {listed} ({cure})")
 
 

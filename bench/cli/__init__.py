@@ -1,4 +1,4 @@
-"""The command line: `python -m bench COMMAND`. One file a command, collected from this folder.
+"""The command line: `bench COMMAND`. One file a command, collected from this folder.
 
 Only the module of the command that is given is imported: the others, and numpy, would take a third of a second more.
 
@@ -60,7 +60,7 @@ def main(words: list[str] | None = None) -> int:
         if command is not None:
             bench.add_command(command)
     try:
-        return bench.main(words or ["--help"], prog_name="python -m bench", standalone_mode=False) or 0
+        return bench.main(words or ["--help"], prog_name="bench", standalone_mode=False) or 0
     except Exit as stop:
         return stop.exit_code
     except click.ClickException as error:
@@ -89,4 +89,4 @@ def _refused(reason: str) -> int:
 def _path(error: click.ClickException) -> str:
     """Return the command that the mistake was made with."""
     context = getattr(error, "ctx", None)
-    return context.command_path if context else "python -m bench"
+    return context.command_path if context else "bench"

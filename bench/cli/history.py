@@ -50,7 +50,7 @@ def _show(folder: Path) -> None:
 
     rows = read_history(folder)
     if rows.empty:
-        raise BadResults("the history is empty; add a build to it (try: python -m bench history add)")
+        raise BadResults("the history is empty; add a build to it (try: bench history add)")
     builds = rows["commit"].unique()
     for machine, timed in rows.groupby("machine"):
         newest = timed[timed["commit"].isin(timed["commit"].unique()[-SHOWN:])]

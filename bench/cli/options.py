@@ -126,9 +126,7 @@ def chosen(files: Files, regulators: Words, representations: Words, costings: bo
     if representations:
         picked = [one for one in picked if one.representation and one.representation.name in representations]
         if not picked:
-            raise click.UsageError(
-                f"no chosen law acts on {', '.join(representations)} (try: python -m bench list regulators)"
-            )
+            raise click.UsageError(f"no chosen law acts on {', '.join(representations)} (try: bench list regulators)")
     return list(dict.fromkeys(picked))
 
 

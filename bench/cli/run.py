@@ -64,10 +64,10 @@ def COMMAND(
     a Jacobian or an inverse, and all that go together are run on arms; a combination that cannot be is refused with
     the reason.
 
-    A task in contact has controllers (python -m bench list controllers) and trials of its own. It is run with the suite
+    A task in contact has controllers (bench list controllers) and trials of its own. It is run with the suite
     unless something is named that it does not take: another task, a regulator, a Jacobian, starts, an engine, ...
 
-    Robustness is of the free body: under a perturbation (python -m bench list axes), from initial conditions of its
+    Robustness is of the free body: under a perturbation (bench list axes), from initial conditions of its
     own, as a low control rate, delay, noise, saturation or a moving goal. Name one, and nothing else is run.
     """
     from bench.cli import planned
@@ -114,8 +114,6 @@ def COMMAND(
         by: dict[str, Any] = {"workers": workers, "scheduler": scheduler, "law_limit_s": law_limit}
         did = running.run(plan, out, replace=replace, report=report, **by)
     took = f" in {timedelta(seconds=round(time.monotonic() - began))}" if did else ""
-    console().print(
-        f"{'wrote' if did else 'up to date:'} {shown_path(out)}{took}   (python -m bench show {shown_path(out)})"
-    )
+    console().print(f"{'wrote' if did else 'up to date:'} {shown_path(out)}{took}   (bench show {shown_path(out)})")
     if read_json(out / "provenance.json")["lost"]:
         raise Exit(1)  # a law of the user's crashed or hung

@@ -46,7 +46,7 @@ def examples(command: str) -> Text:
     """Return the end of a command's help: what each example does, and its words on their own line (60 characters)."""
     said, own = Text(), _examples()[command]
     for what, words in own["examples"]:
-        said.append(f"{what}:\n").append(f"  python -m bench {words}\n", "bold")
+        said.append(f"{what}:\n").append(f"  bench {words}\n", "bold")
     return said.append(own.get("after", ""))
 
 

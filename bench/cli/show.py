@@ -57,7 +57,7 @@ def _meant(folder: str | None, part: str | None) -> tuple[Path, str | None]:
     if folder and not path.exists():
         raise BadResults(
             f"{folder}: there is no such folder, nor such a part; parts: {', '.join(parts())}; `make bench` makes "
-            "results/latest (try: python -m bench show)"
+            "results/latest (try: bench show)"
         )
     return path, part
 

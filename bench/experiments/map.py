@@ -1,6 +1,6 @@
 """Millions of random starts of a law, counted in cells of SO(3), the slowest of each ring, and those that are lost.
 
-No suite has this experiment; `python -m bench map` runs it.
+No suite has this experiment; `bench map` runs it.
 
 A start is settled, lost or unconverged: what becomes of it depends on the step (`engines.convergence`).
 

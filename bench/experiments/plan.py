@@ -111,7 +111,7 @@ def _taking(choice: Choice) -> list[Experiment]:
     if choice.tasks and set(choice.tasks) <= set(tasks.contact_names()):
         for kind in set(choice.named) - set(known_experiments()["contact"].takes):
             raise Incompatible(
-                f"tasks in contact take an arm and a --controller, no {_shown(choice, kind)} (try: python -m bench "
+                f"tasks in contact take an arm and a --controller, no {_shown(choice, kind)} (try: bench "
                 "list controllers)"
             )
     return found

@@ -11,7 +11,6 @@ results/reference, bit for bit and by the gate.
 import functools
 import os
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
@@ -19,6 +18,7 @@ import numpy as np
 import pandas as pd
 
 from bench.base.files import read_json, write_json
+from bench.base.processes import module_command
 from bench.base.provenance import ROOT, machine_key, rounded_on
 from bench.experiments.tables.store import read
 from bench.regression.rows import RULES, find_differences
@@ -48,7 +48,7 @@ def measure(variables: dict[str, str]) -> dict:
 
 
 def _compare(variables: dict[str, str], folder: Path) -> dict:
-    command = [sys.executable, "-m", "bench", "run", "--suite", "quick", "--out", str(folder)]
+    command = module_command("bench", "run", "--suite", "quick", "--out", str(folder))
     subprocess.run(command, env=os.environ | variables, check=True)
     return {
         "made_on": rounded_on(read_json(folder / "provenance.json")),

@@ -76,7 +76,7 @@ def test_help_of_a_command_that_may_end_with_1_says_when(capsys, name):
 
 def test_examples_of_the_help_are_words_that_the_commands_take(capsys):
     helps = [bench(capsys, *words, "--help").out for words in ((), *((name,) for name in COMMANDS))]
-    lines = [line.split()[3:] for said in helps for line in said.splitlines() if line.startswith("   python -m bench ")]
+    lines = [line.split()[1:] for said in helps for line in said.splitlines() if line.startswith("   bench ")]
     assert len(lines) > 20
     for name, *words in lines:
         assert COMMANDS[name].make_context(name, words)
@@ -115,7 +115,7 @@ def test_run_prints_its_plan_and_what_to_do_next(capsys, tmp_path):
     assert (
         "suite quick: 3 episodes in 1 unit\n" in bench(capsys, "run", *TINY, "--engine", "reference", "--dry-run").out
     )
-    assert f"python -m bench show {tmp_path / 'run'}" in said.out.replace("\n", "")
+    assert f"bench show {tmp_path / 'run'}" in said.out.replace("\n", "")
 
 
 @pytest.mark.parametrize("suite", SUITES)

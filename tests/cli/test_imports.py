@@ -2,8 +2,10 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
+from support.user_law import spring_text
 
 from bench.base.provenance import ROOT
 
@@ -63,3 +65,14 @@ def test_python_without_our_packages_says_the_cure():
     ended = subprocess.run([sys.executable, "-S", "-m", "bench"], capture_output=True, text=True, cwd=ROOT)
     assert ended.returncode == 2
     assert ended.stderr == "error: the package rich_click is not installed (try: make setup)\n"
+
+
+@pytest.mark.parametrize("words", ["--help", "show none", f"{ONE} --out ran --law mine.py", "audit mine.py:law"])
+def test_nothing_in_the_working_folder_runs(tmp_path, words):
+    (tmp_path / "bench").mkdir()
+    for name in ("bench/__init__", "tasks", "numpy", "pandas"):
+        (tmp_path / f"{name}.py").write_text(f"open({str(tmp_path / 'found')!r}, 'w')")
+    (tmp_path / "mine.py").write_text(spring_text())
+    done = subprocess.run([Path(sys.executable).with_name("bench"), *words.split()], cwd=tmp_path, capture_output=True)
+    assert (tmp_path / "ran" / "plan.json").is_file() == ("--out" in words), done.stdout
+    assert not (tmp_path / "found").exists()

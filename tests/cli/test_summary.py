@@ -69,12 +69,12 @@ def test_summary_of_a_tiny_run_fits_too_and_says_what_is_not_in_it(capsys, finis
     assert lines[0].startswith("Which law    This run cannot say: it lacks starts")
     assert re.search(r"Not in this run: arms, contact, robustness[^.]* and", said.out)
     assert "settled 0 of 3 episodes" in said.out
-    assert f"python -m bench show {finished.name} --details" in said.out
+    assert f"bench show {finished.name} --details" in said.out
 
 
 def test_what_a_narrowed_run_offers_next_works(capsys, finished, monkeypatch):
     monkeypatch.chdir(finished.parent)
-    offered = re.findall(r"python -m bench (.*?)   ", bench(capsys, "show", finished.name).out)
+    offered = re.findall(r"bench (.*?)   ", bench(capsys, "show", finished.name).out)
     said = [bench(capsys, *words.split()) for words in offered]
     assert [words.split()[0] for words in offered] == ["show", "claims"]
     assert {(one.code, "There is nothing" in one.out) for one in said} == {(0, False)}

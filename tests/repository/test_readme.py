@@ -17,8 +17,8 @@ TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```", TEXT, re.DOTALL | re.MULTILINE)
 PASTED = "\n".join(text for kind, text in BLOCKS if kind == "sh").replace("\\\n", " ")
 LINES = [line.partition("#")[0].split() for line in PASTED.splitlines() if line]
-OURS = [words[3:] for words in LINES if words[2:3] == ["bench"]]
-OTHERS = [words for words in LINES if words[2:3] != ["bench"]]
+OURS = [words[1:] for words in LINES if words[0] == ".venv/bin/bench"]
+OTHERS = [words for words in LINES if words[0] != ".venv/bin/bench"]
 LAW, PLANT, ERROR = (
     next(text for kind, text in BLOCKS if kind == "python" and has in text)
     for has in ("REGULATOR", "load(", "my_error")

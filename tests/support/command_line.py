@@ -22,7 +22,7 @@ class Said(NamedTuple):
 
 
 def bench(capsys, *words) -> Said:
-    """`python -m bench WORDS...`; what was printed before is dropped."""
+    """`bench WORDS...`; what was printed before is dropped."""
     capsys.readouterr()
     code = main([str(word) for word in words])
     return Said(code, *capsys.readouterr())

@@ -21,7 +21,7 @@ from bench.law.contenders.registry import all_contenders
 
 UNDECIDED = (
     "This run cannot say: it lacks starts, perturbations or costs by which laws are compared. A whole suite can (try: "
-    "python -m bench run --suite quick)."
+    "bench run --suite quick)."
 )
 
 
@@ -59,7 +59,7 @@ def _instead(folder: Path, is_named: bool) -> list[str]:
 
 def _next(folder: Path, is_named: bool, present: list[str]) -> Paragraph:
     here = shown_path(folder)
-    show = f"python -m bench show {here}" if is_named else "python -m bench show"
+    show = f"bench show {here}" if is_named else "bench show"
     book = f"{results.VARIABLE}={here} make report" if is_named else "make report"
     parts = f", or one part: {', '.join(present)}" if len(present) > 1 else ""
     return Paragraph(
@@ -67,7 +67,7 @@ def _next(folder: Path, is_named: bool, present: list[str]) -> Paragraph:
         (
             f"{book}   the book of this run",
             f"{show} --details   every table{parts}",
-            f"python -m bench claims {here}   each claim with its evidence",
+            f"bench claims {here}   each claim with its evidence",
         ),
     )
 

@@ -58,7 +58,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
             raise Incompatible("nothing to run: no arm has a site 'wrist' (add one to a file of tasks/arms)")
         raise Incompatible(
             f"nothing to run: no controller of the suite's, or that was named, acts on "
-            f"{', '.join(choice.representations)} (try: python -m bench list controllers, and --controller)"
+            f"{', '.join(choice.representations)} (try: bench list controllers, and --controller)"
         )
     return tuple(found)
 

@@ -135,7 +135,7 @@ def _checked(path: Path, table: str, opened: Callable) -> pa.Table:
     try:
         arrow = opened()
     except FileNotFoundError:
-        raise NoTable(f"{path}: there is no such file; run `make bench` (or python -m bench run) first") from None
+        raise NoTable(f"{path}: there is no such file; run `make bench` (or bench run) first") from None
     except (OSError, pa.ArrowException) as error:
         reason = str(error).splitlines()[0]
         raise BadResults(f"{path}: it is truncated or no parquet file ({reason}); delete it and run again") from error
@@ -183,9 +183,9 @@ def read(folder: Path, table: str | Table) -> pd.DataFrame:
     """
     table, folder = table_of(table), Path(folder)
     if not folder.is_dir():
-        raise BadResults(f"{folder}: there is no such folder; run `make bench` (or python -m bench run) first")
+        raise BadResults(f"{folder}: there is no such folder; run `make bench` (or bench run) first")
     if not (folder / "provenance.json").is_file():
-        raise BadResults(f"{folder}: the run there has not finished; the same `python -m bench run` command resumes it")
+        raise BadResults(f"{folder}: the run there has not finished; the same `bench run` command resumes it")
     if table.name in find_newer(folder):
         return table.schema().empty_table().to_pandas(ignore_metadata=True)
     return frame(folder / f"{table.name}.parquet", table)

@@ -41,7 +41,7 @@ def c12(results: Results) -> tuple[Word, Evidence]:
     known = adequacy.of_three(results)
     pairs = [known.stand(*pair) for pair in itertools.pairwise(THREE)]
     if not all(one.sign for one in pairs):
-        raise NoEvidence("flops and calls say different things, and no time decides: run python -m bench time")
+        raise NoEvidence("flops and calls say different things, and no time decides: run bench time")
     in_order = [one.sign == ORDERED and not one.is_disputed for one in pairs]
     paper, total = (
         ", ".join(f"{short} {one[name]}" for short, name in zip(NAMES, THREE, strict=True)) for one in known.accountings
@@ -114,7 +114,7 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
     some([one for one in later if one.name in held], f"later law by {engine} on which noise was tried")
     known, small = adequacy.of_three(results), closed_form.linear_settling(*results.gains())
     if not known.times:
-        raise NoEvidence("no law was timed, and flops and calls alone give no cost: run python -m bench time")
+        raise NoEvidence("no law was timed, and flops and calls alone give no cost: run bench time")
     lacks = {one.name: adequacy.missed(one, known, small, held) for one in later}
     adequate = [one.name for one in later if not set(lacks[one.name]) & set(adequacy.BOTH)]
     answers = [_answer(one, known) for one in later if not lacks[one.name]]

@@ -35,7 +35,7 @@ def measure_velocities(results: Results) -> Measured:
     Errors:
         NoEvidence: the run commands no robot by velocities.
     """
-    advice = "no robot was commanded by velocities (try: python -m bench run --experiment velocity)"
+    advice = "no robot was commanded by velocities (try: bench run --experiment velocity)"
     rows = _rows(results, advice, "velocity", limiter="none")
     rows = rows[rows["share"] == 1.0] if len(rows) else rows
     if rows.empty:
@@ -70,7 +70,7 @@ def measure_uncancelled(results: Results) -> Measured:
         NoEvidence: the run has no such row.
     """
     tables = tables_of(results)
-    advice = "no shipped controller was run (try: python -m bench run --experiment shipped)"
+    advice = "no shipped controller was run (try: bench run --experiment shipped)"
     rows = _rows(results, advice, "shipped", level=TORQUE, shapes_inertia="no")
     rows = rows[rows["law"].astype(str).isin(tables.contenders)].sort_values("shipped", kind="stable")
     if rows.empty:

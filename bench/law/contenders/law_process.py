@@ -29,6 +29,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from bench.base.errors import BadLaw
+from bench.base.processes import module_command
 
 TOKEN, FOLDER = "ORIENTATION_BENCH_LAW_PROCESS", "orientation-bench-law-"
 PROCESSES = Path("/proc")
@@ -56,7 +57,7 @@ class LawProcess:
         nowhere = subprocess.DEVNULL
         with theirs:
             self.process = subprocess.Popen(
-                [sys.executable, "-m", __name__, module, str(theirs.fileno())],
+                module_command(__name__, module, str(theirs.fileno())),
                 stdin=nowhere,
                 stdout=nowhere,
                 stderr=nowhere,

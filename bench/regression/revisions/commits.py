@@ -62,7 +62,7 @@ def find_default_base(folder: Path, head: str | None) -> str:
                 return left
             changed = head is None and git(folder, "status", "--porcelain", "--untracked-files=no")
             return tip if changed else find_commit(folder, f"{tip}~1")
-    raise Incompatible(f"no branch of {', '.join(MAIN)} is here; name the base (try: python -m bench compare HEAD~1)")
+    raise Incompatible(f"no branch of {', '.join(MAIN)} is here; name the base (try: bench compare HEAD~1)")
 
 
 @contextlib.contextmanager

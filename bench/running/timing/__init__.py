@@ -1,4 +1,4 @@
-"""Time per tick of every law and engine on this machine (`python -m bench time`), as ratios to a reference kernel.
+"""Time per tick of every law and engine on this machine (`bench time`), as ratios to a reference kernel.
 
 The same code timed twice on a shared machine differs by half and more; a ratio to something timed a moment before or
 after does not. So everything is timed in one run, in passes: each pass samples the reference kernel and every measured

@@ -1,4 +1,4 @@
-"""What pytest collects for `python -m bench time`: one benchmark for each sample. `make test` does not collect it.
+"""What pytest collects for `bench time`: one benchmark for each sample. `make test` does not collect it.
 
 `session` parametrizes it with the samples of all passes, in their order.
 """

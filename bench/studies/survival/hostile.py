@@ -15,6 +15,7 @@ import tomllib
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from bench.base.processes import module_command
 from bench.base.provenance import ROOT
 from bench.experiments.tables.store import read
 from bench.studies.study import make_parser
@@ -36,7 +37,7 @@ def write_law(folder: Path, name: str) -> Path:
 
 def say(*words: object) -> dict:
     """Give a command, and return its code and what it printed."""
-    done = subprocess.run([sys.executable, "-m", "bench", *map(str, words)], cwd=ROOT, capture_output=True, text=True)
+    done = subprocess.run(module_command("bench", *map(str, words)), cwd=ROOT, capture_output=True, text=True)
     said = done.stdout + done.stderr
     return {"code": done.returncode, "said": said[-600:], "traceback": "Traceback" in said}
 

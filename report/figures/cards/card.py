@@ -109,4 +109,4 @@ def take_files(word: str, files: dict[str, tuple[str, str]], live: str) -> str:
     """Return what leads to its files and to the page on which it runs."""
     links = ", ".join(f'<a href="code/{name}" download>{title}</a>' for title, (name, _) in files.items())
     tried = f'<a href="../{live}.html#a={word}">Try it</a>, or take it' if live else "Take it"
-    return f"<p>{tried}: {links}. <code>python -m bench export {word} --to c</code> adds test vectors and a test.</p>"
+    return f"<p>{tried}: {links}. <code>bench export {word} --to c</code> adds test vectors and a test.</p>"

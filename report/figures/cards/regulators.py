@@ -24,7 +24,7 @@ from report.figures.kit.tables import Table
 
 UNTRUSTED = (
     "A law of somebody else, by its rows alone: its file came with these results and was not run. If you have read it, "
-    "python -m bench trust FILE lets it run, and its card then says what it is."
+    "bench trust FILE lets it run, and its card then says what it is."
 )
 LAWS = Table("Law | Proved | Settles | On the command line", {"Settles": lambda share: f"{100 * share:.1f} %"})
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
