@@ -64,23 +64,24 @@ def refined_step(evaluate, R, omega, u, goal, gains, memory, numbers, effort):
     if size == 0:
         size = shortest = numbers.divisions
     unit = numbers.dt / numbers.divisions
-    at = 0
+    at, is_known, whole, whole_omega = 0, False, R, omega
     while at < numbers.divisions and steps <= numbers.most_steps:
         h = size * unit
-        whole, whole_omega = rk4_step(evaluate, R, omega, u, goal, gains, memory, h)
+        if not is_known:
+            whole, whole_omega = rk4_step(evaluate, R, omega, u, goal, gains, memory, h)
         middle, middle_omega = rk4_step(evaluate, R, omega, u, goal, gains, memory, 0.5 * h)
         u_middle, memory_middle, _ = evaluate(middle, middle_omega, goal, gains, memory)
         end, end_omega = rk4_step(evaluate, middle, middle_omega, u_middle, goal, gains, memory_middle, 0.5 * h)
         squared = difference_squared(whole, whole_omega, end, end_omega)
         steps += 1
         if not squared <= numbers.tolerance_squared:
-            if size > 2:
-                size //= 2
+            if size > 2:  # the next whole step is the first half of this one
+                size, is_known, whole, whole_omega = size // 2, True, middle, middle_omega
                 continue
             row, rough = row + 1, rough + sqrt(squared)
         else:
             row = 0
-        at += size
+        at, is_known = at + size, False
         shortest, longest = min(shortest, size), max(longest, row)
         R, omega, memory = end, end_omega, memory_middle
         if squared - squared != 0.0:

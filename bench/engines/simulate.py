@@ -104,12 +104,12 @@ def run(
         return on_ideal(engine, contender, begun, settings, metrics, total, curves, converge)
     import mujoco
 
-    from bench.engines.native.libmujoco import model_of
+    from bench.engines.native.libmujoco import model_of, skip_constraints
     from bench.engines.plants import free_body
     from bench.engines.simulated import compiled_view
 
     plant = plant_of(contender, task, settings.gains)
-    model = model_of(plant.xml(settings.dt_s), integrator)
+    model = skip_constraints(model_of(plant.xml(settings.dt_s), integrator))
     data = mujoco.MjData(model)
     states = np.array([[*qpos, *qvel] for qpos, qvel in map(plant.state, starts)], dtype=float)
     world = free_body.World(compiled_view(model, data), int(contender.regulator.in_engine), states)

@@ -24,7 +24,7 @@ from bench.engines.compiled import (
 )
 from bench.engines.curve import Curves
 from bench.engines.episode import Metrics, Settings, Starts, blank, numbers, start_rows
-from bench.engines.native.libmujoco import model_of
+from bench.engines.native.libmujoco import model_of, skip_constraints
 from bench.engines.plants import arm as on_arm
 from bench.engines.plants import impedance, velocity
 from bench.engines.plants.impedance import Springs
@@ -86,7 +86,7 @@ def _model(task: str, arm: Arm, dt_s: float, integrator: str, variation: str) ->
     model = model_of(tasks.task(task, arm.name).xml(dt_s), integrator)
     if variation != NOMINAL:
         tasks.variation(variation).apply(model, arm.rated)
-    return model
+    return skip_constraints(model)
 
 
 def pointers(contender: Contender) -> tuple:

@@ -12,7 +12,7 @@ from bench.engines.compiled import TOUCH, compile_function, made_once, register
 from bench.engines.contact_episode import BROKEN, TIME, USUAL, Conditions, Ended, made
 from bench.engines.episode import FAILURE_TICK, FIRST_METRIC, NEVER, OUTCOME, START_WIDTH
 from bench.engines.native import trapped
-from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS, model_of
+from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS, model_of, skip_constraints
 from bench.engines.plants import contact as in_contact
 from bench.engines.simulate import compiled_loop, simulate
 from bench.engines.simulated import compiled_view
@@ -76,7 +76,7 @@ def _check(
 
 def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: ContactModel = STANDARD) -> Scene:
     """Return a fresh model of a task on an arm."""
-    model = model_of(model_xml(task, arm, conditions.dt_s, contact), conditions.integrator)
+    model = skip_constraints(model_of(model_xml(task, arm, conditions.dt_s, contact), conditions.integrator))
     data = mujoco.MjData(model)
     asked = np.array((model._address, data._address, 0), np.int64)
     noise = conditions.sensor.noise(ticks(task.horizon_s, conditions.dt_s))

@@ -49,3 +49,20 @@ def model_of(xml: str, integrator: str) -> mujoco.MjModel:
     model = text.compile()
     model.opt.integrator = MUJOCO_INTEGRATORS[integrator]
     return model
+
+
+def skip_constraints(model: mujoco.MjModel) -> mujoco.MjModel:
+    """Switch off the constraints of a model that can have none: they cost up to a sixth of a step and change no bit."""
+    off, flags = mujoco.mjtDisableBit, model.opt.disableflags
+    can_touch = model.npair or model.geom_contype.any() or model.geom_conaffinity.any()
+    can_end = model.jnt_limited.any() or model.tendon_limited.any()
+    if not (
+        (can_touch and not flags & off.mjDSBL_CONTACT)
+        or (can_end and not flags & off.mjDSBL_LIMIT)
+        or model.neq
+        or model.nflex
+        or model.dof_frictionloss.any()
+        or model.tendon_frictionloss.any()
+    ):
+        model.opt.disableflags |= off.mjDSBL_CONSTRAINT
+    return model
