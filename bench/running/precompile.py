@@ -1,7 +1,8 @@
-"""Compile in a process of its own what a run needs last, while the run itself begins with what it needs first.
+"""Compile a run's contenders in a process of its own, in the order in which the run needs them.
 
-The compiler holds Python's lock, so that threads compile one after the other. What another process compiles goes to the
-cache on disk, where the run finds it; so do the operations of laws, which it counts then, for the run's end.
+The compiler holds Python's lock and never frees its memory: a law that is compiled takes 6 MB or more, one that is
+loaded from the cache on disk 2 MB. So the run waits for a contender until it is in the cache, and loads it. The
+operations of laws are counted after that, for the run's end.
 """
 
 import contextlib
@@ -16,18 +17,41 @@ from collections.abc import Callable, Iterable, Iterator
 WORTH = 8
 """Contenders from which on a process more is worth its start of some seconds."""
 
-LIFE = 56
-"""Contenders after which a new process goes on: what is compiled stays in memory, some 6 MB of each."""
+LIFE = 40
+"""Contenders after which a new process goes on, which begins without the memory of the one before."""
 
 COUNT = "count:"
 """Before a law's name: count its operations."""
 
 
-@contextlib.contextmanager
-def compiling_ahead(contenders: Iterable[str]) -> Iterator[subprocess.Popen | None]:
-    """While inside, another process compiles these contenders, the last one first; it is stopped at the end.
+class Ahead:
+    """The process that compiles, and which contenders it has compiled."""
 
-    Of fewer than WORTH there is none.
+    def __init__(self, process: subprocess.Popen, names: Iterable[str]) -> None:
+        self.process = process
+        self._compiled = {name: threading.Event() for name in names}
+        threading.Thread(target=self._follow, daemon=True).start()
+
+    def wait_for(self, name: str, stop: threading.Event) -> None:
+        """Wait until a contender is compiled, the process has ended, or `stop` is set."""
+        compiled = self._compiled.get(name)
+        while compiled and not stop.is_set() and not compiled.wait(0.2):
+            pass
+
+    def _follow(self) -> None:
+        assert self.process.stdout
+        for line in self.process.stdout:
+            if compiled := self._compiled.get(line.rstrip("\n")):
+                compiled.set()
+        for compiled in self._compiled.values():
+            compiled.set()
+
+
+@contextlib.contextmanager
+def compiling_ahead(contenders: Iterable[str]) -> Iterator[Ahead | None]:
+    """While inside, another process compiles these contenders; it is stopped at the end.
+
+    There is none for fewer than WORTH.
 
     Args:
         contenders: names of laws, of controllers of arms (with `@`) and of controllers in contact.
@@ -38,13 +62,14 @@ def compiling_ahead(contenders: Iterable[str]) -> Iterator[subprocess.Popen | No
     if len(names) < WORTH:
         yield None
         return
-    quiet = subprocess.DEVNULL
     counted = {one.name for one in all_contenders()}.intersection(names)
-    work = [*reversed(names), *(COUNT + name for name in reversed(names) if name in counted)]
-    words = [sys.executable, "-m", __name__, str(os.getpid()), *work]
-    with subprocess.Popen(words, stdin=quiet, stdout=quiet, stderr=quiet, start_new_session=True) as process:
+    work = [*names, *(COUNT + name for name in reversed(names) if name in counted)]
+    words, quiet = [sys.executable, "-m", __name__, str(os.getpid()), *work], subprocess.DEVNULL
+    with subprocess.Popen(
+        words, stdin=quiet, stdout=subprocess.PIPE, stderr=quiet, text=True, start_new_session=True
+    ) as process:
         try:
-            yield process
+            yield Ahead(process, names)
         finally:
             process.terminate()
 
@@ -67,7 +92,7 @@ def compiler_of(name: str) -> Callable[[], object]:
 
 
 def main(parent: int, work: list[str]) -> None:
-    """Compile, or count, one after the other, as long as the process that asked for it lives.
+    """Compile or count one after the other, and print the name of each, as long as the parent lives.
 
     After LIFE of them a new program takes this process over, with the rest.
     """
@@ -77,6 +102,7 @@ def main(parent: int, work: list[str]) -> None:
             count_one(word.removeprefix(COUNT))
         else:
             compiler_of(word)()
+        print(word, flush=True)
     if rest := work[LIFE:]:
         os.execv(sys.executable, [sys.executable, "-m", "bench.running.precompile", str(parent), *rest])
 

@@ -74,12 +74,12 @@ def _team(
     A cluster has answered when this yields, so that nothing is written, or replaced, for one that does not.
     """
     if scheduler == THREADS:
+        with compiling_ahead(_ours(todo, sandbox)) as ahead:
 
-        def by_threads(done: Callable[[Unit], None]) -> int:
-            threads.run(plan, todo, out, workers, sandbox, done)
-            return workers
+            def by_threads(done: Callable[[Unit], None]) -> int:
+                threads.run(plan, todo, out, workers, sandbox, done, ahead)
+                return workers
 
-        with compiling_ahead(_ours(todo, sandbox)):
             yield by_threads
         return
     from bench.running.schedulers import cluster  # Dask is an extra, and takes a second to import

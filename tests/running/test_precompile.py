@@ -44,14 +44,14 @@ def test_what_is_beyond_a_life_is_done_by_the_next(tmp_path):
 
 
 def test_a_few_contenders_are_not_worth_a_process():
-    with precompile.compiling_ahead(["hybrid"] * 100) as process:
-        assert process is None
+    with precompile.compiling_ahead(["hybrid"] * 100) as ahead:
+        assert ahead is None
 
 
 def interrupted(begun):
-    with precompile.compiling_ahead(["rotation-matrix", *map(str, range(precompile.WORTH))]) as process:
-        begun.append(process)
-        assert process.poll() is None
+    with precompile.compiling_ahead(["rotation-matrix", *map(str, range(precompile.WORTH))]) as ahead:
+        begun.append(ahead.process)
+        assert ahead.process.poll() is None
         raise KeyboardInterrupt
 
 
@@ -65,8 +65,8 @@ def test_the_process_ends_with_the_run_even_if_that_fails():
 def test_the_process_ends_with_a_run_that_is_killed(tmp_path):
     script = (
         "import time; from bench.law.contenders.registry import all_contenders; from bench.running import precompile\n"
-        "with precompile.compiling_ahead(one.name for one in all_contenders()) as process:\n"
-        "    print(process.pid, flush=True); time.sleep(60)"
+        "with precompile.compiling_ahead(one.name for one in all_contenders()) as ahead:\n"
+        "    print(ahead.process.pid, flush=True); time.sleep(60)"
     )
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
     with subprocess.Popen([sys.executable, "-c", script], env=environment, stdout=subprocess.PIPE, cwd=ROOT) as run:

@@ -10,6 +10,7 @@ from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
 from bench.experiments.tables.packed import pack
 from bench.experiments.tables.store import table_of_unit
+from bench.running.precompile import Ahead
 from bench.running.run_folder import write_part
 from bench.running.sandbox import Sandbox
 from bench.running.schedulers import share_heap
@@ -19,12 +20,13 @@ UNITS_A_PROCESS = 8
 
 
 def run(
-    plan: Plan, todo: Sequence[Unit], out: Path, workers: int, sandbox: Sandbox, done: Callable[[Unit], None]
-) -> None:
+    plan: Plan, todo: Sequence[Unit], out: Path, workers: int, sandbox: Sandbox, done: Callable[[Unit], None],
+    ahead: Ahead | None = None,
+) -> None:  # fmt: skip
     """Carry out units, in their order, and write each when it is done.
 
     Args:
-        sandbox: of the user's laws. done: called for each unit when it is written.
+        sandbox: of the user's laws. done: called for each unit when it is written. ahead: compiles our contenders.
     Errors:
         KeyboardInterrupt: after the units under way are written.
     """
@@ -32,6 +34,8 @@ def run(
     stop = threading.Event()
 
     def work(unit: Unit) -> Unit | None:
+        if ahead and experiment_of(unit).compiles and not sandbox.has(unit):
+            ahead.wait_for(unit.contender, stop)
         if stop.is_set():
             return None
         made = sandbox.rows(unit) if sandbox.has(unit) else table_of_unit(plan.settings, unit)
