@@ -117,6 +117,12 @@ def _loop() -> Callable:
     return compiled_loop("contact")
 
 
+def prepare_contact(controller: ContactController) -> None:
+    """Compile what `run_contact` will need, or take it from the disk cache."""
+    _loop()
+    pointer(controller)
+
+
 def pointer(controller: ContactController) -> Callable:
     """Return the rows of a controller, compiled or taken from the disk cache."""
     return _pointer(controller._replace(form=""))

@@ -1,110 +1,121 @@
-"""Compile a run's contenders in a process of its own, in the order in which the run needs them.
+"""Compile what a run needs in a process of its own, in the order in which the run needs it.
 
 The compiler holds Python's lock and never frees its memory: a law that is compiled takes 6 MB or more, one that is
-loaded from the cache on disk 2 MB. So the run waits for a contender until it is in the cache, and loads it. The
-operations of laws are counted after that, for the run's end.
+loaded from the cache on disk 2 MB. So the run waits for each contender until it is in the cache, and loads it. After
+that the process counts operations of laws, for the run's end.
 """
 
 import contextlib
 import functools
+import importlib
+import json
 import os
 import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+
+from bench.base.processes import module_command
+from bench.experiments.experiment import Settings, Unit, experiment_of
+from bench.experiments.plan import Plan
+from bench.running.wire_format import described, plan_of
 
 WORTH = 8
 """Contenders from which on a process more is worth its start of some seconds."""
 
-LIFE = 40
-"""Contenders after which a new process goes on, which begins without the memory of the one before."""
+LIFE = 80
+"""Requests after which a fresh fork goes on, without the memory that the one before has filled."""
 
-COUNT = "count:"
-"""Before a law's name: count its operations."""
+ENGINES = ("simulate_arms", "simulate_bodies", "simulate_contact")
+"""Modules of bench.engines that all forks share."""
 
 
 class Ahead:
-    """The process that compiles, and which contenders it has compiled."""
+    """The process that compiles, and what it has compiled."""
 
-    def __init__(self, process: subprocess.Popen, names: Iterable[str]) -> None:
+    def __init__(self, process: subprocess.Popen, units: Sequence[Unit]) -> None:
         self.process = process
-        self._compiled = {name: threading.Event() for name in names}
-        threading.Thread(target=self._follow, daemon=True).start()
+        self._compiled = {_kind(unit): threading.Event() for unit in units}
+        threading.Thread(target=self._follow, args=(units,), daemon=True).start()
 
-    def wait_for(self, name: str, stop: threading.Event) -> None:
-        """Wait until a contender is compiled, the process has ended, or `stop` is set."""
-        compiled = self._compiled.get(name)
+    def wait_for(self, unit: Unit, stop: threading.Event) -> None:
+        """Wait until what a unit needs is compiled, the process has ended, or `stop` is set."""
+        compiled = self._compiled.get(_kind(unit))
         while compiled and not stop.is_set() and not compiled.wait(0.2):
             pass
 
-    def _follow(self) -> None:
+    def _follow(self, units: Sequence[Unit]) -> None:
         assert self.process.stdout
         for line in self.process.stdout:
-            if compiled := self._compiled.get(line.rstrip("\n")):
-                compiled.set()
+            if int(line) < len(units):
+                self._compiled[_kind(units[int(line)])].set()
         for compiled in self._compiled.values():
             compiled.set()
 
 
+def _kind(unit: Unit) -> tuple:
+    """Return what units have in common that need the same compiled code."""
+    return unit.experiment, unit.engine, unit.contender, bool(unit.arm)
+
+
 @contextlib.contextmanager
-def compiling_ahead(contenders: Iterable[str]) -> Iterator[Ahead | None]:
-    """While inside, another process compiles these contenders; it is stopped at the end.
+def compiling_ahead(plan: Plan, units: Sequence[Unit]) -> Iterator[Ahead | None]:
+    """While inside, another process compiles what these units need; it is stopped at the end.
 
-    There is none for fewer than WORTH.
-
-    Args:
-        contenders: names of laws, of controllers of arms (with `@`) and of controllers in contact.
+    There is none for fewer contenders than WORTH.
     """
     from bench.law.contenders.registry import all_contenders
 
-    names = list(dict.fromkeys(contenders))
+    heads = list({_kind(unit): unit for unit in reversed(units)}.values())[::-1]
+    names = dict.fromkeys(unit.contender for unit in heads)
     if len(names) < WORTH:
         yield None
         return
-    counted = {one.name for one in all_contenders()}.intersection(names)
-    work = [*names, *(COUNT + name for name in reversed(names) if name in counted)]
-    words, quiet = [sys.executable, "-m", __name__, str(os.getpid()), *work], subprocess.DEVNULL
+    counted = [one.name for one in all_contenders() if one.name in names]
+    command, quiet = module_command(__name__, str(os.getpid())), subprocess.DEVNULL
     with subprocess.Popen(
-        words, stdin=quiet, stdout=subprocess.PIPE, stderr=quiet, text=True, start_new_session=True
+        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=quiet, text=True, start_new_session=True
     ) as process:
         try:
-            yield Ahead(process, names)
+            assert process.stdin
+            with contextlib.suppress(BrokenPipeError), process.stdin:
+                json.dump({"plan": described(plan, heads), "count": counted}, process.stdin)
+            yield Ahead(process, heads)
         finally:
             process.terminate()
 
 
-def compiler_of(name: str) -> Callable[[], object]:
-    """Return what compiles a contender of ours into the cache.
+def main(parent: int, content: dict) -> None:
+    """Do what the content asks for, and print the number of each request when it is done, as long as the parent lives.
 
-    Errors:
-        UnknownWord: there is none of this name.
-    """
-    from bench.engines import simulate_arms, simulate_contact
-    from bench.engines.simulate import evaluation
-    from bench.law.contenders.registry import find_contender
-    from bench.law.control.registry import all_controllers
-
-    touching = {one.name: one for one in all_controllers()}
-    if name in touching:
-        return functools.partial(simulate_contact.pointer, touching[name])
-    return functools.partial(simulate_arms.pointers if "@" in name else evaluation, find_contender(name))
-
-
-def main(parent: int, work: list[str]) -> None:
-    """Compile or count one after the other, and print the name of each, as long as the parent lives.
-
-    After LIFE of them a new program takes this process over, with the rest.
+    Forks do it, LIFE requests each: the run finds the error of one that fails when it compiles for itself.
     """
     threading.Thread(target=_end_without, args=(parent,), daemon=True).start()
-    for word in work[:LIFE]:
-        if word.startswith(COUNT):
-            count_one(word.removeprefix(COUNT))
-        else:
-            compiler_of(word)()
-        print(word, flush=True)
-    if rest := work[LIFE:]:
-        os.execv(sys.executable, [sys.executable, "-m", "bench.running.precompile", str(parent), *rest])
+    for name in ENGINES:
+        importlib.import_module(f"bench.engines.{name}")
+    plan = plan_of(content["plan"])
+    work: list[Callable[[], object]] = [
+        *(functools.partial(prepare, plan.settings, unit) for unit in plan.units),
+        *(functools.partial(count_one, name) for name in content["count"]),
+    ]
+    for first in range(0, len(work), LIFE):
+        some = range(first, min(first + LIFE, len(work)))
+        if child := os.fork():
+            os.waitpid(child, 0)
+            print(*some, sep="\n", flush=True)
+            continue
+        threading.Thread(target=_end_without, args=(os.getppid(),), daemon=True).start()
+        for number in some:
+            with contextlib.suppress(Exception):
+                work[number]()
+            print(number, flush=True)
+        os._exit(0)
+
+
+def prepare(settings: Settings, unit: Unit) -> None:
+    """Compile what the rows of a unit need into the cache."""
+    experiment_of(unit).prepare(settings, unit)
 
 
 def count_one(name: str) -> None:
@@ -122,4 +133,4 @@ def _end_without(parent: int) -> None:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]), sys.argv[2:])
+    main(int(sys.argv[1]), json.load(sys.stdin))

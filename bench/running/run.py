@@ -74,7 +74,7 @@ def _team(
     A cluster has answered when this yields, so that nothing is written, or replaced, for one that does not.
     """
     if scheduler == THREADS:
-        with compiling_ahead(_ours(todo, sandbox)) as ahead:
+        with compiling_ahead(plan, _ours(todo, sandbox)) as ahead:
 
             def by_threads(done: Callable[[Unit], None]) -> int:
                 threads.run(plan, todo, out, workers, sandbox, done, ahead)
@@ -88,9 +88,9 @@ def _team(
         yield functools.partial(cluster.run, client, plan, todo, out, sandbox=sandbox)
 
 
-def _ours(todo: list[Unit], sandbox: Sandbox) -> Iterator[str]:
-    """Contenders that a user's laws have no part in, in the order in which they run."""
-    return (unit.contender for unit in todo if experiment_of(unit).compiles and not sandbox.has(unit))
+def _ours(todo: list[Unit], sandbox: Sandbox) -> list[Unit]:
+    """Return the units of compiled contenders that a user's laws have no part in."""
+    return [unit for unit in todo if experiment_of(unit).compiles and not sandbox.has(unit)]
 
 
 def in_running_order(units: Iterable[Unit]) -> list[Unit]:

@@ -170,6 +170,13 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     return frame(settings.suite, one, task._replace(horizon_s=unit.horizon_s), arm, some, conditions)
 
 
+def prepare(settings: Settings, unit: Unit) -> None:
+    """Compile the loop and the controller."""
+    from bench.engines.simulate_contact import prepare_contact
+
+    prepare_contact(find_controller(unit.contender))
+
+
 EXPERIMENT = Experiment(
     "contact",
     "controllers of a hand in contact",
@@ -178,5 +185,6 @@ EXPERIMENT = Experiment(
     rows,
     takes=("tasks", "arms", "controllers", "representations"),
     cost_s=lambda unit: unit.episodes * TRIAL_S,
+    prepare=prepare,
     rank=2,
 )

@@ -34,8 +34,8 @@ def run(
     stop = threading.Event()
 
     def work(unit: Unit) -> Unit | None:
-        if ahead and experiment_of(unit).compiles and not sandbox.has(unit):
-            ahead.wait_for(unit.contender, stop)
+        if ahead and not sandbox.has(unit):
+            ahead.wait_for(unit, stop)
         if stop.is_set():
             return None
         made = sandbox.rows(unit) if sandbox.has(unit) else table_of_unit(plan.settings, unit)
