@@ -1,55 +1,74 @@
 """Compiling ahead, into a cache that a run finds, by a process that ends with it; one heap for a run's threads."""
 
+import json
 import os
 import platform
 import re
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import psutil
 import pytest
 
+from bench.base.processes import module_command
 from bench.base.provenance import ROOT
 from bench.experiments import plan
-from bench.experiments.experiment import experiment_of
-from bench.law.contenders.registry import all_contenders
+from bench.experiments.choice import Choice
+from bench.law.contenders.registry import all_contenders, find_contender
 from bench.running import precompile
+from bench.running.wire_format import described
+
+EVERY = plan.make("quick", all_contenders())
 
 
-def compiled(folder: Path, *work: str) -> set[str]:
-    """Compile and count in a process with a cache of its own; the laws whose counts are kept there."""
-    words = [sys.executable, "-m", "bench.running.precompile", str(os.getpid()), *work]
-    subprocess.run(words, env={**os.environ, "NUMBA_CACHE_DIR": str(folder)}, check=True, capture_output=True)
-    return {path.stem.partition("-")[2] for path in (folder / "costs").iterdir()}
+def compile_apart(folder: Path, units: tuple, *counted: str) -> list[int]:
+    """Compile and count in a process with a cache of its own; the numbers that it prints."""
+    content = json.dumps({"plan": described(EVERY, units), "count": counted})
+    command = module_command("bench.running.precompile", str(os.getpid()))
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder)}
+    done = subprocess.run(command, env=environment, input=content, text=True, check=True, capture_output=True)
+    return [int(line) for line in done.stdout.splitlines()]
 
 
-def test_it_leaves_laws_controllers_of_arms_and_of_contact_in_the_cache(tmp_path):
-    names = ["rotation-matrix", "rotation-matrix@geometric+solve", "impedance-geometric"]
-    assert compiled(tmp_path, *names, f"{precompile.COUNT}rotation-matrix") == {"rotation-matrix"}
-    assert {"binding", "resolved_acceleration"} <= {path.name.split(".")[0] for path in tmp_path.rglob("*.nbi")}
-    assert len(list(tmp_path.rglob("*.nbi"))) >= len(names)
+def test_it_leaves_loops_laws_and_controllers_of_arms_and_of_contact_in_the_cache(tmp_path):
+    units = [next(one for one in EVERY.units if one.experiment == kind) for kind in ("free-body", "arm", "contact")]
+    assert set(compile_apart(tmp_path, units, "hybrid")) == {0, 1, 2, 3}
+    assert {path.stem.partition("-")[2] for path in (tmp_path / "costs").iterdir()} == {"hybrid"}
+    kept = {path.name.split(".")[0] for path in tmp_path.rglob("*.nbi")}
+    assert {"binding", "resolved_acceleration", "loop", "trapped"} <= kept
 
 
-def test_every_name_that_a_default_run_compiles_ahead_is_one_it_can_compile():
-    every = plan.make("default", all_contenders())
-    names = {unit.contender for unit in every.units if experiment_of(unit).compiles}
-    assert len(names) > precompile.LIFE
-    assert all(callable(precompile.compiler_of(name)) for name in names)
-
-
-def test_what_is_beyond_a_life_is_done_by_the_next(tmp_path):
-    work = [f"{precompile.COUNT}rotation-matrix"] * precompile.LIFE + [f"{precompile.COUNT}hybrid"]
-    assert compiled(tmp_path, *work) == {"rotation-matrix", "hybrid"}
+def test_what_is_beyond_a_life_is_done_by_the_next_fork(tmp_path):
+    counted = ["rotation-matrix"] * precompile.LIFE + ["hybrid"]
+    assert {0, precompile.LIFE} <= set(compile_apart(tmp_path, (), *counted))
+    assert {path.stem.partition("-")[2] for path in (tmp_path / "costs").iterdir()} == {"rotation-matrix", "hybrid"}
 
 
 def test_a_few_contenders_are_not_worth_a_process():
-    with precompile.compiling_ahead(["hybrid"] * 100) as ahead:
+    few = plan.make("quick", [find_contender("hybrid")], Choice(tasks=("free-body",)))
+    with precompile.compiling_ahead(few, few.units) as ahead:
         assert ahead is None
 
 
+def test_a_thread_waits_until_what_it_needs_is_compiled_or_the_process_has_ended():
+    units = EVERY.units[:2]
+    with subprocess.Popen(["cat"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        ahead, stop = precompile.Ahead(process, units), threading.Event()
+        waiting = threading.Thread(target=ahead.wait_for, args=(units[0], stop))
+        waiting.start()
+        waiting.join(0.5)
+        assert waiting.is_alive()
+        print(0, file=process.stdin, flush=True)
+        waiting.join(60)
+        assert not waiting.is_alive()
+        process.stdin.close()
+        ahead.wait_for(units[1], stop)
+
+
 def interrupted(begun):
-    with precompile.compiling_ahead(["rotation-matrix", *map(str, range(precompile.WORTH))]) as ahead:
+    with precompile.compiling_ahead(EVERY, EVERY.units) as ahead:
         begun.append(ahead.process)
         assert ahead.process.poll() is None
         raise KeyboardInterrupt
@@ -62,17 +81,21 @@ def test_the_process_ends_with_the_run_even_if_that_fails():
     assert begun[0].poll() is not None
 
 
-def test_the_process_ends_with_a_run_that_is_killed(tmp_path):
+def test_the_process_and_its_fork_end_with_a_run_that_is_killed(tmp_path):
     script = (
-        "import time; from bench.law.contenders.registry import all_contenders; from bench.running import precompile\n"
-        "with precompile.compiling_ahead(one.name for one in all_contenders()) as ahead:\n"
+        "import time; from bench.experiments import plan; from bench.law.contenders.registry import all_contenders\n"
+        "from bench.running import precompile; every = plan.make('quick', all_contenders())\n"
+        "with precompile.compiling_ahead(every, every.units) as ahead:\n"
         "    print(ahead.process.pid, flush=True); time.sleep(60)"
     )
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
     with subprocess.Popen([sys.executable, "-c", script], env=environment, stdout=subprocess.PIPE, cwd=ROOT) as run:
         compiling = psutil.Process(int(run.stdout.readline()))
+        while not (forks := compiling.children()):
+            compiling.status()
         run.kill()
-    compiling.wait(timeout=10)
+    for one in (compiling, *forks):
+        one.wait(timeout=10)
 
 
 ASKED = """
