@@ -8,20 +8,20 @@ ROOT = Path(__file__).parents[2]
 
 LINES = {
     "bench/__init__.py": 29,
-    "bench/__main__.py": 32,
+    "bench/__main__.py": 29,
     "bench/audit": 2_270,
-    "bench/base": 501,
-    "bench/cli": 2_354,
-    "bench/engines": 6_331,
-    "bench/experiments": 5_114,
+    "bench/base": 516,
+    "bench/cli": 2_350,
+    "bench/engines": 6_355,
+    "bench/experiments": 5_122,
     "bench/export": 2_071,
-    "bench/findings": 6_045,
-    "bench/law": 6_347,
+    "bench/findings": 6_052,
+    "bench/law": 6_348,
     "bench/regression": 1_295,
-    "bench/running": 2_474,
-    "bench/studies": 3_363,
+    "bench/running": 2_515,
+    "bench/studies": 3_364,
     "tests/audit": 625,
-    "tests/cli": 747,
+    "tests/cli": 760,
     "tests/conftest.py": 73,
     "tests/contracts": 2_620,
     "tests/engines": 2_771,
@@ -31,8 +31,8 @@ LINES = {
     "tests/law": 2_542,
     "tests/regression": 722,
     "tests/report": 1_919,
-    "tests/repository": 585,
-    "tests/running": 1_179,
+    "tests/repository": 521,
+    "tests/running": 1_201,
     "tests/studies": 660,
     "tests/support": 2_936,
     "tests/tasks": 1_893,
@@ -47,7 +47,7 @@ TOO_LONG: dict[str, int] = {}
 """Files that are still longer, with their lines."""
 
 
-DATA = {"bench": 3_005, "report": 1_369, "tasks": 474, "tests": 953}
+DATA = {"bench": 2_841, "report": 1_369, "tasks": 474, "tests": 935}
 """Lines of text in other files than Python: what moves into them counts too. One new file may come on top."""
 SUFFIXES = (".toml", ".text", ".xml", ".js", ".c", ".html", ".css")
 
