@@ -2,6 +2,7 @@
 
 import functools
 import math
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -9,6 +10,7 @@ import pandas as pd
 
 from bench.experiments.tables.read import with_contender
 from bench.experiments.tables.statistics import Estimate
+from bench.experiments.tables.store import read
 
 SPEEDS = ["least_speed", "most_speed"]
 
@@ -31,6 +33,12 @@ def counted(rows: pd.DataFrame) -> pd.DataFrame:
     numbers = ["starts", "settled", "unconverged"]
     found = cells.groupby(["contender", *SPEEDS], sort=False, observed=True)[numbers].sum().reset_index()
     return found.assign(lost=found["starts"] - found["settled"] - found["unconverged"])
+
+
+@functools.lru_cache(maxsize=1)
+def count_in(folder: Path) -> pd.DataFrame:
+    """Return `counted` of the maps in a folder, once for the runs at all gains."""
+    return counted(read(folder, "map"))
 
 
 def lost_between(lost: int, unconverged: int, of: int) -> Estimate:

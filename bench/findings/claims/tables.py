@@ -109,12 +109,12 @@ class Results:
 
     def spun(self, law: str) -> list[Spun]:
         """Return starts of a law at stated speeds, from the maps in the repository; maybe none."""
-        from bench.findings.maps import counted, spun
+        from bench.findings.maps import count_in, counted, spun
 
         if law not in self._spun:
             if "counted" not in self.frames:
                 given = self.frames.get("map")
-                self.frames["counted"] = _count_map(self.maps_folder) if given is None else counted(given)
+                self.frames["counted"] = count_in(self.maps_folder) if given is None else counted(given)
             self._spun[law] = spun(self.frames["counted"], law)
         return self._spun[law]
 
@@ -243,12 +243,3 @@ def settled_of(frame: pd.DataFrame) -> str:
 def evidence(sentence: str, rows: int, tables: tuple[str, ...] = (), **parts: str) -> Evidence:
     """Evidence whose sentence may be broken into lines as the file likes."""
     return Evidence(" ".join(sentence.split()), int(rows), tables, parts)
-
-
-@functools.lru_cache(maxsize=1)
-def _count_map(folder: Path) -> pd.DataFrame:
-    """Return `maps.counted` of the maps in a folder, once for the runs at all gains."""
-    from bench.experiments.tables.store import read as read_table
-    from bench.findings.maps import counted
-
-    return counted(read_table(folder, "map"))
