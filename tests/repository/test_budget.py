@@ -15,7 +15,7 @@ LINES = {
     "bench/engines": 6_355,
     "bench/experiments": 5_122,
     "bench/export": 2_071,
-    "bench/findings": 6_052,
+    "bench/findings": 6_051,
     "bench/law": 6_348,
     "bench/regression": 1_295,
     "bench/running": 2_515,
