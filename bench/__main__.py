@@ -1,6 +1,7 @@
 """Run the command line: `bench`, which the installation makes, or `python -m bench` in the checkout."""
 
 import io
+import os
 import sys
 
 
@@ -9,6 +10,7 @@ def main() -> int:
 
     A sign that the terminal's encoding lacks, as ° in ASCII, is printed as a question mark.
     """
+    os.environ["PYTHONSAFEPATH"] = "1"  # nor does a process of Dask or multiprocessing import from the working folder
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")

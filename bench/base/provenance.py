@@ -179,5 +179,5 @@ def describe() -> dict:
         "vectors": vectors(),
         "arithmetic": {name: os.environ[name] for name in ARITHMETIC if os.environ.get(name)},
         "cores": os.cpu_count(),
-        "command": " ".join(["python -m bench", *map(_without_folders, sys.argv[1:])]),
+        "command": " ".join(["bench", *map(_without_folders, sys.argv[1:])]),
     }

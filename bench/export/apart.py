@@ -1,7 +1,4 @@
-"""The export of a user's law, made in a process of its own: here arrive names of files and their texts.
-
-Run as `python -m bench.export.apart DESCRIPTOR`, this is that process.
-"""
+"""The export of a user's law, made in this process of its own, which gives back names of files and their texts."""
 
 import json
 import re

@@ -24,7 +24,7 @@ from bench.experiments.tables.store import read
 from tasks.condition import condition_at
 
 STUDY = RESULTS / "robustness"
-"""What `python -m bench.studies.robustness` keeps: `by_level` of hundreds of starts a level."""
+"""What `python -P -m bench.studies.robustness` keeps: `by_level` of hundreds of starts a level."""
 
 FOLLOWED_RAD = math.radians(3.0)
 LOST, FEWEST = 0.05, 0.5

@@ -1,6 +1,6 @@
 """Check the regression gate: false alarms on the same code, and planted faults.
 
-    python -m bench.studies.gates [--only same-code]
+    python -P -m bench.studies.gates [--only same-code]
 
 same-code   COMPARISONS timings of this checkout against itself, at the gate's own settings; every verdict but "same"
             is a false alarm
@@ -162,7 +162,7 @@ def main() -> None:
         make, count = PARTS[name]
         path = FOLDER / f"{name.replace('-', '_')}.json"
         made = make_parts(path, {f"{name} {k}": functools.partial(make, k) for k in range(count)})
-        about = {**describe(), "command": f"python -m bench.studies.gates --only {name}"}
+        about = {**describe(), "command": f"python -P -m bench.studies.gates --only {name}"}
         write_json(path, {"about": about, "rows": [*made.values()]})
 
 

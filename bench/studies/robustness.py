@@ -1,6 +1,6 @@
 """How many of hundreds of starts does each law lose at each level of each perturbation? Kept in results/robustness.
 
-    python -m bench.studies.robustness                 some six CPU minutes; goes on where it was stopped
+    python -P -m bench.studies.robustness                 some six CPU minutes; goes on where it was stopped
 
 A suite's two dozen starts a level tell 24 of 24 from 20 of 24. Of STARTS the exact 95 % interval of a share is 5 points
 to either side at the widest.
@@ -36,7 +36,7 @@ def study(workers: int, starts: int = STARTS, folder: Path = STUDY) -> None:
         **describe(),
         "sources": source_digest(),
         "starts": starts,
-        "command": "python -m bench.studies.robustness",
+        "command": "python -P -m bench.studies.robustness",
     }
     write_table(folder / "perturbed.parquet", kept, "perturbed")
     write_json(folder / "provenance.json", about)

@@ -1,7 +1,7 @@
 """Is a run the same on every processor? Quick suites under settings that round as others do: results/settings.
 
-    python -m bench.studies.settings                every setting, some two minutes each
-    python -m bench.studies.settings --only blas    one again; the others, and other machines', stay as they are
+    python -P -m bench.studies.settings                every setting, some two minutes each
+    python -P -m bench.studies.settings --only blas    one again; the others, and other machines', stay as they are
 
 Libraries choose their kernels by the processor: OpenBLAS those of its linear algebra, numpy its vectors, the C library
 its sin and cos, the compiler its target. Variables make them choose as on another one. Each run is held against

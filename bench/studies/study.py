@@ -13,8 +13,8 @@ from bench.base.provenance import source_digest
 def make_parser(
     name: str, doc: str | None, parts: Iterable[str] = (), out: Path | None = None, workers: int = 0
 ) -> argparse.ArgumentParser:
-    """Return the parser of `python -m bench.studies.NAME`: --only where there are parts, --out, --workers."""
-    parser = argparse.ArgumentParser(prog=f"python -m bench.studies.{name}", description=(doc or "").split("\n")[0])
+    """Return the parser of `python -P -m bench.studies.NAME`: --only where there are parts, --out, --workers."""
+    parser = argparse.ArgumentParser(prog=f"python -P -m bench.studies.{name}", description=(doc or "").split("\n")[0])
     if parts:
         parser.add_argument("--only", nargs="+", choices=list(parts), metavar="PART", help=f"of {', '.join(parts)}")
     if out:

@@ -1,7 +1,7 @@
 """Does a verdict depend on the draw, the step or the gains? Claims on 20 seeds, half the step and results/gains.
 
-    python -m bench.studies.verdicts                     what results/verdicts lacks: about a minute of CPU a seed
-    python -m bench.studies.verdicts --only 3 half-step  these again
+    python -P -m bench.studies.verdicts                     what results/verdicts lacks: about a minute of CPU a seed
+    python -P -m bench.studies.verdicts --only 3 half-step  these again
 
 The words are stored in results/verdicts. A seed draws other starts and poses; what follows from no draw (operations,
 contact, boundaries) is the reference's. At half the step all that steps is run again, contact too. Each run is judged
@@ -127,7 +127,7 @@ def study(names: tuple[str, ...], workers: int, out: Path, again: bool) -> dict:
         "runs": {one: runs[one] for one in RUNS if one in runs},
         "reference": {one.id: str(one.word) for one in claims.judge_all(REFERENCE)},
         "gains": at_other_gains(),
-        "provenance": {**describe(), "command": "python -m bench.studies.verdicts"},
+        "provenance": {**describe(), "command": "python -P -m bench.studies.verdicts"},
     }
     write_json(out, content)
     for id, words in turned(content["runs"], content["reference"]).items():

@@ -76,3 +76,11 @@ def test_nothing_in_the_working_folder_runs(tmp_path, words):
     done = subprocess.run([Path(sys.executable).with_name("bench"), *words.split()], cwd=tmp_path, capture_output=True)
     assert (tmp_path / "ran" / "plan.json").is_file() == ("--out" in words), done.stdout
     assert not (tmp_path / "found").exists()
+
+
+def test_process_of_multiprocessing_imports_nothing_from_the_working_folder(tmp_path):
+    (tmp_path / "multiprocessing.py").write_text("open('found', 'w')")
+    here = "import sys; sys.path.pop(0); import multiprocessing as m, bench.__main__ as b; b.main()"
+    command = [sys.executable, "-c", f"{here}; m.get_context('spawn').Process(target=int).start()", "--version"]
+    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
+    assert not (tmp_path / "found").exists()

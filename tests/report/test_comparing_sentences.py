@@ -3,8 +3,6 @@
 import numpy as np
 import pandas as pd
 import pytest
-from scipy.spatial.transform import Rotation
-from support.states import of_scipy
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
@@ -13,8 +11,6 @@ from bench.findings.perturbed import Threshold, Way
 from bench.findings.selection import gains, needs
 from bench.findings.selection.measured import measured
 from bench.findings.selection.words import leaders, standing
-from bench.law.contenders.registry import find_contender
-from bench.law.inputs import AT_REST, Gains, Goal
 from report.figures.answer import which_law
 from report.figures.arms import arm_ranking
 from report.figures.comparison import a_new_law, comparison
@@ -23,7 +19,7 @@ from report.figures.cost import cost
 from report.figures.failures import failure_map
 from report.figures.kit.page import Run
 from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX
-from report.figures.libraries import answers, libraries, loops
+from report.figures.libraries import libraries, loops
 from report.figures.robustness import half_turn_noise, robustness
 
 FOLDER = RESULTS / "reference"
@@ -62,12 +58,6 @@ def plant_axis(off_deg):
     return hand_axes.measured([one, plain])["off_word"]
 
 
-def plant_near(*times_s):
-    """State by how much the medians of two laws near the goal differ."""
-    rows = pd.DataFrame({"contender": ["a", "b"], "start_id": 1, "angle0_rad": 0.1, "settling_time_s": times_s})
-    return f"{comparison.near(rows)['apart_30']} %"
-
-
 def plant_arm(torque):
     """State on which arms no law passes, by two laws whose torques are so large a share of the rated ones."""
     law = {"controller": "rotation-matrix@geometric", "start_set": "uniform", "outcome": "settled", "start_id": [1, 2]}
@@ -85,12 +75,6 @@ def plant_thresholds(*held):
 def plant_decision(tied, asked):
     """State whether the advised law is alone."""
     return standing(needs.Decision(needs.DEFAULT, "a", tied, ("a", *tied), asked), str)
-
-
-def plant_library(**columns):
-    """Count the functions that are right."""
-    rows = answers.table().query("library != @libraries.OURS").assign(**columns)
-    return f"{len(libraries.right(libraries.errors(answers.functions(rows))))} right"
 
 
 def plant_loops(**columns):
@@ -142,28 +126,6 @@ def plant_order(*times):
     return cost.order_papers_laws(dict(zip((MATRIX, LINEARIZED, FEEDBACK), times, strict=True)))
 
 
-def plant_dearest(law):
-    """Name the law that takes most time alone."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(cost, "ticks", lambda results: {MATRIX: 1.0, LINEARIZED: 1.5, FEEDBACK: 2.0, law: 3.0})
-        return cost.share_of_time(Run(FOLDER))["time_most_law"]
-
-
-def plant_exact(**columns):
-    """State the least angle from which the rotation matrix fails, and the least pitch from which feedback does."""
-    rows = Planted(**columns).rows("episodes", task="free-body", engine="ideal-rk4")
-    lost = rows[rows["start_id"].str.contains("-exact") & (rows["outcome"] != "settled")].groupby("contender")
-    least = lost["angle0_rad"].min().get(MATRIX, np.nan), lost["beta0"].agg(lambda beta: beta.abs().min()).get(FEEDBACK)
-    return " and ".join(f"{np.degrees(one or np.nan):.3f}" for one in least)
-
-
-def plant_gain(k_dt):
-    """State how much of a radian one tick of a velocity command leaves, the error being the logarithm."""
-    R = Rotation.from_rotvec((0.6, 0.0, 0.8))
-    omega = np.array(find_contender("rotation-vector").law(of_scipy(R), AT_REST, Goal(), Gains(1.0, 0.0)))
-    return f"{100 * (Rotation.from_rotvec(k_dt * omega) * R).magnitude():.0f} %"
-
-
 def plant_fact(facts, key):
     """Return a function of columns that states one fact of the reference so changed."""
     return lambda **columns: facts(Planted(**columns))[key]
@@ -173,7 +135,6 @@ SENTENCES = {
     "pegs": (plant_pegs, [((3,), "do not differ significantly"), ((18,), "frames differ significantly")]),
     "fits": (plant_fits, [((0.03, 0.03, 0.03, 0.0), "fewer pegs"), ((0.03,) * 4, "not fewer pegs")]),
     "axis": (plant_axis, [((24.0,), "less than β"), ((31.0,), "not always less than β")]),
-    "near": (plant_near, [((0.5, 0.6), "20 %"), ((0.5, 0.5), "0 %")]),
     "arms": (plant_arm, [((2.0,), "no law passes: Franka Emika Panda."), ((0.5,), "no law passes: none.")]),
     "thresholds": (plant_thresholds, [((1.0, 1.0), "[]"), ((1.0, 2.0), "['delay']")]),
     "alone": (
@@ -189,7 +150,6 @@ SENTENCES = {
         plant_peak,
         [({}, "(1 of 15"), ({"settling_time_s": 9.0}, "median settling time 9 s")],
     ),
-    "right": (plant_library, [({}, "38 right"), ({"turn_error_rad": 1.0}, "0 right")]),
     "loops": (plant_loops, [({}, "3 dead, 4 away"), ({"dead": 0, "away": 1}, "0 dead, 55 away")]),
     "unstable": (plant_fact(as_arms_run.facts, "unstable"), [({}, "Panda"), ({"radius": 0.5}, "none")]),
     "noise": (plant_fact(half_turn_noise.facts, "blind_middle"), [({}, "25"), ({"outcome": "settled"}, "100")]),
@@ -200,9 +160,6 @@ SENTENCES = {
     "ours": (plant_gains, [({}, "better at every ratio by effort"), ({"effort": 1e9}, "worse at 1 by effort")]),
     "time": (plant_leader, [({"criterion": "time"}, "gibbs"), ({"criterion": "time", "time": 1e-9}, FEEDBACK)]),
     "effort": (plant_leader, [({"criterion": "effort"}, MATRIX), ({"criterion": "effort", "effort": 1e-9}, FEEDBACK)]),
-    "exact": (plant_exact, [({}, "180.000 and 90.000"), ({"outcome": "settled"}, "nan and nan")]),
-    "one tick": (plant_gain, [((1.0,), "0 %"), ((0.4,), "60 %")]),
-    "dearest": (plant_dearest, [((LINEARIZED,), "linearized"), ((MATRIX,), "rotation matrix")]),
 }
 
 

@@ -1,6 +1,6 @@
 """Find the law that the rule advises at other damping ratios, and compare our own law with it.
 
-`python -m bench.findings.selection.gains FOLDER OUT` keeps of a quick suite what the rule reads.
+`python -P -m bench.findings.selection.gains FOLDER OUT` keeps of a quick suite what the rule reads.
 """
 
 from __future__ import annotations

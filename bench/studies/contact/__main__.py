@@ -1,7 +1,7 @@
 """What tasks in contact depend on: results/contact/contact.json.
 
-python -m bench.studies.contact                    all of it, some minutes
-python -m bench.studies.contact --only boundary    run one part again; the others stay as they are
+python -P -m bench.studies.contact                    all of it, some minutes
+python -P -m bench.studies.contact --only boundary    run one part again; the others stay as they are
 """
 
 import functools

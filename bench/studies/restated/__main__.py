@@ -1,4 +1,4 @@
-"""python -m bench.studies.restated FOLDER: compare each restated controller with its source; writes restated.json.
+"""python -P -m bench.studies.restated FOLDER: compare each restated controller with its source; writes restated.json.
 
 FOLDER has a copy of each repository as `owner+name` or `owner+name/repo`: a clone, bare or not, that has the commit of
 `SHIPPED.source`, or, of a release, its files. A file of sources/ is a few lines of ours around the lines of theirs: a
@@ -157,7 +157,7 @@ def main() -> None:
     rows = [
         kept(compare(one, files[name], asked.folder, options), earlier) for name, one in contenders("shipped").items()
     ]
-    about = describe() | {"command": "python -m bench.studies.restated FOLDER"}
+    about = describe() | {"command": "python -P -m bench.studies.restated FOLDER"}
     write_json(STORED, {"controllers": rows, "provenance": about})
 
 

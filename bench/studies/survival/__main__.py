@@ -1,7 +1,7 @@
 """Kill commands in each of their phases, give them again, and compare what they end with: results/survival.
 
-python -m bench.studies.survival                             a hundred kills: half an hour
-python -m bench.studies.survival --kills 16 --out try.json
+python -P -m bench.studies.survival                             a hundred kills: half an hour
+python -P -m bench.studies.survival --kills 16 --out try.json
 """
 
 import shutil
@@ -64,7 +64,7 @@ def main() -> None:
     parser = make_parser("survival", __doc__, out=ROOT / "results" / "survival" / "survival.json", workers=3)
     parser.add_argument("--kills", type=int, default=100, help="how many, over all phases (default: 100)")
     options = parser.parse_args()
-    about, began = describe() | {"command": "python -m bench.studies.survival"}, time.monotonic()
+    about, began = describe() | {"command": "python -P -m bench.studies.survival"}, time.monotonic()
     about["versions"]["distributed"] = version("distributed")
     found: dict = {"provenance": about, "kills": []}
     writing = threading.Lock()

@@ -1,6 +1,6 @@
 """Run a command of this program, write each change of its phase into a pipe, and die at one of its file operations.
 
-    python -m bench.studies.survival.traced PIPE FOLDER TABLES PHASE NUMBER WORDS...
+    python -P -m bench.studies.survival.traced PIPE FOLDER TABLES PHASE NUMBER WORDS...
 
 PIPE is the number of an open file descriptor, FOLDER the command's --out, TABLES the number of tables that it writes.
 Before operation NUMBER of PHASE below FOLDER the process kills itself; below zero it does not.

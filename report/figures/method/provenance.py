@@ -87,7 +87,7 @@ def describe_kills(found: dict[str, Any]) -> tuple[str, str, str]:
     kills = found["kills"]
     return (
         f"{len(kills)} commands killed in {len({one['phase'] for one in kills})} phases, then the same command again",
-        "`python -m bench.studies.survival`",
+        "`python -P -m bench.studies.survival`",
         f"{sum(one['same'] for one in kills)} ended with the files of an undisturbed command",
     )
 
@@ -107,7 +107,7 @@ def describe_settings(found: dict[str, Any]) -> tuple[str, str, str]:
     rows = pd.DataFrame([table for one in runs for table in one["tables"].values()]).sum()
     return (
         f"The quick suite under {len(runs)} settings of libraries and compiler that round as on other processors",
-        "`python -m bench.studies.settings`",
+        "`python -P -m bench.studies.settings`",
         f"{html.number(rows['differ'])} of {html.number(rows['rows'])} rows differ in some bit from the published "
         f"ones, {rows['outcomes']} in the outcome, {sum(one['gate'] for one in runs)} by more than the gate allows",
     )

@@ -2,7 +2,7 @@
 
 A TOML file declares one whose error is made of those in `bench.law.shipped`; a module with one constant SHIPPED has an
 error of its own. Each states what its source at the named commit does to a rotation, in its order and with its gains;
-none of their code is here. `python -m bench.studies.restated` holds each to its source by a file of the same name in
+none of their code is here. `python -P -m bench.studies.restated` holds each to its source by a file of the same name in
 its sources/. Not read, and so not here: placo, and the controllers of UR, KUKA and ABB, whose source is closed.
 """
 
