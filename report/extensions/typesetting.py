@@ -42,7 +42,7 @@ def close_up(block: nodes.TextElement) -> None:
     for leaf in leaves:
         begin, end = end, end + len(leaf)
         if text[begin:end] != leaf and not isinstance(leaf.parent, VERBATIM):
-            leaf.parent.replace(leaf, nodes.Text(text[begin:end]))
+            put_in_place(leaf, text[begin:end])
 
 
 def keep_punctuation(node: nodes.math) -> None:
@@ -51,7 +51,13 @@ def keep_punctuation(node: nodes.math) -> None:
     found = PUNCTUATION.match(following.astext()) if isinstance(following, nodes.Text) else None
     if found:
         node["punctuation"] = found[0]
-        following.parent.replace(following, nodes.Text(following.astext()[found.end() :]))
+        put_in_place(following, following.astext()[found.end() :])
+
+
+def put_in_place(leaf: nodes.Text, text: str) -> None:
+    """Put other text in the place of this leaf; docutils itself would take the first leaf of the same text."""
+    place = next(i for i, one in enumerate(leaf.parent.children) if one is leaf)
+    leaf.parent[place] = nodes.Text(text)
 
 
 def inline(self: Any, node: nodes.math) -> None:

@@ -170,3 +170,14 @@ def test_number_and_unit_stay_on_one_line_wherever_the_text_is_cut():
     block = nodes.paragraph("", "", pasted, nodes.Text(" % (n = 3) of starts in 5 ms, "), nodes.literal("", "2 s"))
     typesetting.close_up(block)
     assert block.astext() == "12\u00a0% (n\u00a0=\u00a03) of starts in 5\u00a0ms, 2 s"
+
+
+def test_punctuation_joins_its_own_formula_where_the_same_stands_elsewhere():
+    nodes = pytest.importorskip("docutils.nodes", reason="the report extra is not installed (cure: make setup)")
+    import typesetting
+
+    word, formula = nodes.strong("", "a"), nodes.math("", "x")
+    nodes.paragraph("", "", word, nodes.Text(", "), formula, nodes.Text(", "))
+    typesetting.keep_punctuation(formula)
+    assert formula["punctuation"] == ","
+    assert [one.astext() for one in formula.parent.children] == ["a", ", ", "x", " "]
