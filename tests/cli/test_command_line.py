@@ -22,6 +22,7 @@ from bench.law.contenders import combinations
 from bench.law.contenders.registry import all_contenders
 from tasks.errors import BadArm
 
+LAWS = ("hybrid", "linearized-euler/zyx-euler", "rotation-matrix")
 EULER = "hybrid/zyx-euler+inverse"
 FOUND = (command_of(path, is_given=True) for path in (ROOT / "bench" / "cli").glob("*.py"))
 COMMANDS = {command.name: command for command in FOUND if command}
@@ -120,8 +121,8 @@ def test_run_prints_its_plan_and_what_to_do_next(capsys, tmp_path):
 
 @pytest.mark.parametrize("suite", SUITES)
 def test_suite_runs_every_law_that_is_not_a_costing(capsys, suite):
-    said = bench(capsys, "run", "--suite", suite, "--dry-run")
-    laws = re.search(r"laws: (.*?)\nbaselines: ", said.out, re.DOTALL)[1].replace(",", " ").split()
+    said = bench(capsys, "run", "--suite", suite, "--experiment", "free-body", "--dry-run")
+    laws = re.search(r"laws: (.*?)\n(?:baselines|free-body)", said.out, re.DOTALL)[1].replace(",", " ").split()
     assert laws == [one.name for one in all_contenders() if not one.regulator.costing_only]
 
 
@@ -182,6 +183,7 @@ def contact_run(ran):
     return ran("run", *place, *words)
 
 
+@pytest.mark.slow
 def test_run_in_contact_has_its_rows_and_no_episodes(contact_run):
     rows = store.read(contact_run, "compliance")
     assert list(zip(rows.controller, rows.form, strict=True)) == [("hybrid-base", "inverse")] * 3 + [
@@ -195,11 +197,12 @@ def test_run_in_contact_has_its_rows_and_no_episodes(contact_run):
 # --------------------------------------------------------------------------------------- count, doctor
 
 
-def test_count_has_a_line_for_each_law_and_branch(capsys):
-    said = bench(capsys, "count")
+@pytest.mark.parametrize("laws", [LAWS, pytest.param((), marks=pytest.mark.weekly)])
+def test_count_has_a_line_for_each_law_and_branch(capsys, laws):
+    said = bench(capsys, "count", *(word for law in laws for word in ("--regulator", law)))
     rows = [line.split()[:2] for line in said.out.splitlines() if " typical " in line]
     assert said.code == 0
-    assert [row[0] for row in rows] == [one.regulator.name for one in all_contenders()]
+    assert [row[0] for row in rows] == [one.regulator.name for one in all_contenders() if one.name in laws or not laws]
 
 
 def test_count_of_joints_alone_counts_the_quick_suites_controllers(capsys):
@@ -222,6 +225,7 @@ def test_count_of_controllers_in_contact_has_their_stages(capsys):
     assert flops[EULER]["invert"] == flops["hybrid-base+inverse"]["invert"]
 
 
+@pytest.mark.slow
 def test_doctor_says_what_it_checked(capsys):
     said = bench(capsys, "doctor")
     checked = ["python", "versions", "compiler", "engines", "arms", "contact", "rendering", "results"]

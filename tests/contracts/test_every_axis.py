@@ -118,6 +118,7 @@ NAMED = {
 LAWS = [find_contender("rotation-matrix"), find_contender("linearized-euler/zyx-euler")]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", NAMED)
 def test_named_word_leaves_only_experiments_that_take_it(kind):
     made = plan.make("quick", LAWS, Choice(**{kind: (NAMED[kind],)}))

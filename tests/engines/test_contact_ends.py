@@ -75,6 +75,7 @@ def test_mean_error_is_over_the_window_and_what_rests_stays(kept):
     assert rms(short, error[:kept]) == pytest.approx(expected, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_hand_that_yields_to_a_moment_takes_energy_as_its_inertia_and_damping_do():
     """m theta(t) = m^2 free(t), free(t) being that of an inertia with a damper (compliance_theory)."""
     task = wrench_probe.TASK

@@ -150,6 +150,7 @@ ARM_CASES = [
     for arm in ("ur5e", "panda")
     for word in ("rotation-matrix@geometric+standard", "rotation-matrix@geometric+transpose")
     for name in ("clear", "wrist", "tumbling")
+    if (arm, name) != ("panda", "wrist")  # whose starts take three seconds to find
 ]
 
 

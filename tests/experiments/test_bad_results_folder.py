@@ -128,4 +128,4 @@ def test_folder_named_like_a_partition_is_read_as_it_is(capsys, tmp_path):
     out = tmp_path / "kp=7"
     assert bench(capsys, *SAME, "--kp", "7", "--out", out).code == 0
     assert set(store.read(out, "episodes")["kp"]) == {7.0}
-    assert bench(capsys, "show", out).code == 0
+    assert bench(capsys, "show", out, "--regulator", "rotation-matrix").code == 0

@@ -134,6 +134,7 @@ def test_counts_of_words_are_told_in_their_order():
     assert claims.told(one.word for one in EVERY) == "2 hold, 1 does not hold, 1 depends on the gains"
 
 
+@pytest.mark.slow
 def test_run_of_two_starts_a_set_judges_no_claim_about_episodes(tmp_path):
     for name in ("plan.json", "provenance.json", "costs.parquet"):
         shutil.copy(REFERENCE / name, tmp_path)

@@ -91,7 +91,7 @@ def test_perfect_model_gives_the_tool_the_commanded_acceleration(arm):
     for one in combinations.every(LAWS, tasks.arm(arm).joints):
         if one.inverse.name in APPROXIMATE:
             continue
-        for q, qdot, goal, p_d in states(arm)[:6]:
+        for q, qdot, goal, p_d in states(arm)[:2]:
             at = here(arm, q, qdot)
             J = inverted(one, at)
             if not is_exact(one, J):
