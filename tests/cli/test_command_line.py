@@ -197,12 +197,11 @@ def test_run_in_contact_has_its_rows_and_no_episodes(contact_run):
 # --------------------------------------------------------------------------------------- count, doctor
 
 
-@pytest.mark.parametrize("laws", [LAWS, pytest.param((), marks=pytest.mark.weekly)])
-def test_count_has_a_line_for_each_law_and_branch(capsys, laws):
-    said = bench(capsys, "count", *(word for law in laws for word in ("--regulator", law)))
+def test_count_has_a_line_for_each_law_and_branch(capsys):
+    said = bench(capsys, "count", *(word for law in LAWS for word in ("--regulator", law)))
     rows = [line.split()[:2] for line in said.out.splitlines() if " typical " in line]
     assert said.code == 0
-    assert [row[0] for row in rows] == [one.regulator.name for one in all_contenders() if one.name in laws or not laws]
+    assert [row[0] for row in rows] == [law.partition("/")[0] for law in LAWS]
 
 
 def test_count_of_joints_alone_counts_the_quick_suites_controllers(capsys):

@@ -68,14 +68,13 @@ def elsewhere():
         yield pool
 
 
-# Laws of each kind: with a memory, with branches, with and without libm, on coordinates that differentiate. They take
-# turns on the plants, of which the second asks a law four times in a tick; every week each is on both, and every other
-# law on the first.
+# Laws of each kind: with a memory, with branches, with and without libm, on coordinates that differentiate. Every week
+# each is on both plants, of which the second calls a law four times in a tick, and every other law on the first.
 KINDS = (
     *("hybrid", "sliding", "rotation-matrix", "paielli-bach", "linearized-euler-relative/zyx-euler"),
     *("feedback-linearized/mrp", "feedback-linearized/zyx-euler"),
 )
-ALWAYS = [(IDEAL[k % 2], word) for k, word in enumerate(KINDS) if word not in ("sliding", "paielli-bach")]
+ALWAYS = [("ideal-held", KINDS[0]), ("ideal-rk4", KINDS[2]), ("ideal-held", KINDS[-1])]
 EVERY = [("ideal-held", one.name) for one in LAWS] + [("ideal-rk4", word) for word in KINDS]
 CASES = [pytest.param(*case, marks=() if case in ALWAYS else pytest.mark.weekly) for case in EVERY]
 
@@ -109,8 +108,9 @@ def test_any_number_of_starts_may_be_given(count):
 
 @pytest.mark.parametrize("engine", IDEAL)
 def test_judges_columns_are_the_same_without_metrics(engine):
-    there = rows(engine, HYBRID, "the judge's", begun())
-    assert same_bits(rows(engine, HYBRID, "the judge's", begun(), metrics=()), there[:, :FIRST_METRIC])
+    law = find_contender("rotation-matrix")
+    there = rows(engine, law, "the judge's", begun())
+    assert same_bits(rows(engine, law, "the judge's", begun(), metrics=()), there[:, :FIRST_METRIC])
 
 
 def test_vectors_of_sines_are_not_taken_from_a_library_of_their_own():

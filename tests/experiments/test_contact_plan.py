@@ -61,16 +61,6 @@ def test_suite_sets_every_task_to_every_arm_that_can_do_it(suite):
     assert episodes > 0
 
 
-@pytest.mark.parametrize("suite", ["quick", "default"])
-def test_seven_joints_take_some_of_the_suites_controllers_and_poses(suite):
-    part = SUITES[suite].in_contact
-    assert set(part.redundant) < set(part.controllers)
-    units, _ = contacts(suite)
-    on = {joints: sum(unit.episodes for unit in units if tasks.arm(unit.arm).joints == joints) for joints in (6, 7)}
-    assert 0 < 10 * on[7] < on[6]
-
-
-@pytest.mark.slow
 @pytest.mark.parametrize("suite", SUITES)
 def test_units_cover_each_pose_once_and_have_keys_of_their_own(suite):
     plan = planning.make(suite, LAW)
@@ -118,7 +108,9 @@ def test_impedance_is_set_what_differs_in_more_than_the_selection():
 
 
 def test_integrator_in_contact_is_implicit_unless_one_is_named():
-    usual, both = (planning.make("quick", LAW, Choice(arms=("ur5e",)), integrator=word).settings for word in (None, "rk4"))
+    usual, both = (
+        planning.make("quick", LAW, Choice(arms=("ur5e",)), integrator=word).settings for word in (None, "rk4")
+    )
     assert (usual.integrator, usual.contact_integrator) == ("euler", "implicitfast")
     assert (both.integrator, both.contact_integrator) == ("rk4", "rk4")
 
@@ -208,7 +200,6 @@ def rows(tmp_path_factory) -> pd.DataFrame:
     return with_contender(read(out, "robustness"))
 
 
-@pytest.mark.slow
 def test_there_is_a_row_for_each_law_level_and_start(rows):
     assert not rows.duplicated(list(table_of("robustness").key)).any()
     counts = rows.groupby(["contender", "axis", "level"], observed=True).size()
@@ -217,7 +208,6 @@ def test_there_is_a_row_for_each_law_level_and_start(rows):
         assert sorted(rows.loc[rows["axis"] == axis, "level"].unique()) == list(tasks.axis(axis).levels)
 
 
-@pytest.mark.slow
 def test_a_law_without_a_greatest_command_has_no_rows_at_equal_peak(rows):
     equal = rows[rows["axis"] == "equal-peak"]
     assert set(equal["contender"]) == {"rotation-matrix", "hybrid"}
@@ -225,7 +215,6 @@ def test_a_law_without_a_greatest_command_has_no_rows_at_equal_peak(rows):
     np.testing.assert_allclose(equal["kv"], 2.0 * np.sqrt(equal["kp"]))
 
 
-@pytest.mark.slow
 def test_noise_at_the_half_turn_holds_the_law_that_rests_there_and_not_the_one_with_memory(rows):
     small = rows[(rows["axis"] == "half-turn-noise") & (rows["level"] == 0.01)]
     settled = (small["outcome"] == "settled").groupby(small["contender"], observed=True).mean()
@@ -233,7 +222,6 @@ def test_noise_at_the_half_turn_holds_the_law_that_rests_there_and_not_the_one_w
     assert settled["rotation-matrix"] == 0.0
 
 
-@pytest.mark.slow
 def test_table_says_up_to_which_level_a_law_withstands(rows):
     lines = details.summary(rows).set_index("law")
     assert lines.loc["rotation-matrix", "half-turn-noise"] == "none"

@@ -103,7 +103,7 @@ def test_suite_follows_the_papers_laws_and_a_users(tmp_path):
     (tmp_path / "mine.py").write_text(law_text(DAMPER))
     names = (PAPERS, "quaternion-unwinding", "feedback-linearized/mrp")
     chosen = [*map(find_contender, names), find_contender("mine", (load_law(tmp_path / "mine.py"),))]
-    followed = {unit.contender for unit in plan.make("quick", chosen).units if unit.experiment == "traces"}
+    followed = {unit.contender for unit in plan.make("quick", chosen, Choice(experiments=("traces",))).units}
     assert followed == {PAPERS, "mine"}
 
 

@@ -135,7 +135,7 @@ def test_run_of_a_law_that_only_raises_in_some_states_does_not_end_with_0(tmp_pa
     assert run(tmp_path, "ideal-rk4", {"raises": COMPILED["raises"][0]}) == 1
 
 
-@pytest.mark.parametrize("engine", ["reference", pytest.param("ideal-rk4", marks=pytest.mark.weekly)], indirect=True)
+@pytest.mark.weekly
 def test_cluster_makes_the_same_tables(engine, beside, tmp_path):
     assert run(tmp_path, engine, LAWS[engine], "--scheduler", "local:2") == 1
     made, wanted = ({path.name: path.read_bytes() for path in at.glob("run/*.parquet")} for at in (tmp_path, beside))

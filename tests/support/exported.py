@@ -34,11 +34,13 @@ def subjects() -> tuple[Subject, ...]:
     return tuple(find_subject(word) for word in subject_words())
 
 
-def written(subject: Subject, language: str, folder: Path) -> Path:
-    """The files of an export, in an empty folder of their own."""
+def written(subject: Subject, language: str, folder: Path, is_tested: bool = True) -> Path:
+    """Write the files of an export, or the law alone without test vectors, into an empty folder of their own."""
     here = folder / language / subject.identifier
     here.mkdir(parents=True)
-    for name, text in find_language(language).files(subject).items():
+    chosen = find_language(language)
+    laws_alone = [one.law(subject) for one in (chosen, chosen.around) if one]
+    for name, text in chosen.files(subject).items() if is_tested else laws_alone:
         (here / name).write_text(text, encoding="utf-8")
     return here
 

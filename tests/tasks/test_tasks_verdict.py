@@ -195,8 +195,6 @@ def test_thresholds_themselves_are_not_near():
     assert cause("stuck", NEAR_MARGIN, NEAR_CONDITION) == "law"
 
 
-# ---------------------------------------------------------------------------- in rows
-
 ARM = "ur5e"
 METRICS = metrics_of(on_arm=True)
 
