@@ -79,7 +79,7 @@ def write_wheels(folder: Path) -> str:
     target = folder / "wheels"
     target.mkdir(exist_ok=True)
     locks = [word for name in LOCKS for word in ("-r", str(ROOT / "requirements" / f"{name}.txt"))]
-    command = [sys.executable, "-m", "pip", "download", "--quiet", "--disable-pip-version-check", "--no-input"]
+    command = [sys.executable, "-P", "-m", "pip", "download", "--quiet", "--disable-pip-version-check", "--no-input"]
     command += ["--require-hashes", "--no-deps", "--only-binary", ":all:", "--dest", str(target), *locks]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:

@@ -134,7 +134,7 @@ def _rendering() -> str:
     code = "import mujoco; m = mujoco.MjModel.from_xml_string('<mujoco/>'); mujoco.Renderer(m, 8, 8).close()"
     for backend in filter(None, (os.environ.get("MUJOCO_GL"), "egl", "osmesa")):
         environment = {**os.environ, "MUJOCO_GL": backend, "PYOPENGL_PLATFORM": backend}
-        done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, timeout=120)
+        done = subprocess.run([sys.executable, "-P", "-c", code], env=environment, capture_output=True, timeout=120)
         if done.returncode == 0:
             return f"MUJOCO_GL={backend} works"
     raise RuntimeError(

@@ -1,8 +1,8 @@
 """A user's laws in a process of their own: it compiles them once, and forks for whatever may hang, crash or exit.
 
-`bench.running.sandbox` starts it as `python -m bench.running.sandbox_process DESCRIPTOR`. Over that descriptor comes a
-chunk (wire_format.py), then one request after the other, JSON; back go bytes, the first of them a sign. A request has
-a limit of processor time, which no other load on the machine shortens, and one of time for a law that waits.
+`bench.running.sandbox` starts it with a DESCRIPTOR. Over that descriptor comes a chunk (wire_format.py), then one
+request after the other, JSON; back go bytes, the first of them a sign. A request has a limit of processor time, which
+no other load on the machine shortens, and one of time for a law that waits.
 """
 
 import functools

@@ -2,7 +2,7 @@
 
     described(path) -> a Law whose functions are in the sandbox alone
 
-Run as `python -m bench.law.contenders.described_law DESCRIPTOR`, this is that process: over the line comes the path and
+Run with a DESCRIPTOR (`module_command`), this module is that process: over the line comes the path and
 the text, back go the fields, or the mistake.
 """
 

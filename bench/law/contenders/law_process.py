@@ -2,8 +2,8 @@
 
 Nothing of the file runs in the process that asks. What a law prints goes nowhere, its memory has a limit, its temporary
 files go with it, and whatever it forks is found again by a token in its environment, if the system shows it (Linux).
-Between the two stands a guard, which is the parent that a law sees: `python -m bench.law.contenders.law_process MODULE
-DESCRIPTOR` runs MODULE in a fork, ends as that does, and ends it when the line of this descriptor hangs up.
+Between the two runs a guard, which is the parent that a law sees. It is this module, started with MODULE DESCRIPTOR: it
+runs MODULE in a fork, ends as that does, and ends it when the line of this descriptor hangs up.
 """
 
 import contextlib

@@ -53,7 +53,7 @@ def _make(stack: contextlib.ExitStack, folder: Path, revision: str | None, laws:
 
 def run_python(checkout: Path, *words: str, allowed: tuple[int, ...] = (0,), report: Callable = lambda _: None) -> str:
     """Run Python with a checkout's sources, report shares done, return its last line; BadResults says it on failure."""
-    said, command, more = "it said nothing", [sys.executable, *words], os.environ | {"PYTHONPATH": str(checkout)}
+    said, command, more = "it said nothing", [sys.executable, "-P", *words], os.environ | {"PYTHONPATH": str(checkout)}
     with Popen(command, cwd=checkout, env=more, text=True, stdout=PIPE, stderr=STDOUT) as process:
         for line in process.stdout or ():
             said = line.strip() or said

@@ -1,7 +1,7 @@
 """The timing of a user's laws, with all else that is timed beside them, in a process of its own.
 
-Run as `python -m bench.running.timing.apart DESCRIPTOR`, this is that process: over the line comes what to
-time; back go the progress, sample by sample, and at last the file's path or the mistake.
+Run with a DESCRIPTOR (`module_command`), this module is that process: over the line comes what to time; back go the
+progress, sample by sample, and at last the file's path or the mistake.
 """
 
 import json

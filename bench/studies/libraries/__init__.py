@@ -1,1 +1,1 @@
-"""What robot libraries return as an orientation error, all at the same turns: python -m bench.studies.libraries."""
+"""What robot libraries return as an orientation error, all at the same turns: python -P -m bench.studies.libraries."""

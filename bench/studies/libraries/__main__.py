@@ -1,4 +1,4 @@
-"""python -m bench.studies.libraries [NAME ...]: ask every library installed here, or those named; results/libraries.
+"""python -P -m bench.studies.libraries [NAME ...]: ask every library installed here, or those named; results/libraries.
 
 A NAME is a function of asked/. Rows of libraries that are not asked stay as they are, so that one which needs an
 environment of its own adds its own; what a new version has fixed is marked.
