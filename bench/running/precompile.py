@@ -27,6 +27,9 @@ WORTH = 8
 LIFE = 80
 """Requests after which a fresh fork goes on, without the memory that the one before has filled."""
 
+SILENT_S = 120.0
+"""Seconds without a request done after which the run compiles for itself: some ten times what a loop takes."""
+
 ENGINES = ("simulate_arms", "simulate_bodies", "simulate_contact")
 """Modules of bench.engines that all forks share."""
 
@@ -35,23 +38,27 @@ class Ahead:
     """The process that compiles, and what it has compiled."""
 
     def __init__(self, process: subprocess.Popen, units: Sequence[Unit]) -> None:
-        self.process = process
+        self.process, self._heard_s = process, time.monotonic()
         self._compiled = {_kind(unit): threading.Event() for unit in units}
         threading.Thread(target=self._follow, args=(units,), daemon=True).start()
 
     def wait_for(self, unit: Unit, stop: threading.Event) -> None:
-        """Wait until what a unit needs is compiled, the process has ended, or `stop` is set."""
+        """Wait until what a unit needs is compiled, the process has ended or is silent, or `stop` is set."""
         compiled = self._compiled.get(_kind(unit))
-        while compiled and not stop.is_set() and not compiled.wait(0.2):
-            pass
+        while compiled and not stop.is_set() and time.monotonic() < self._heard_s + SILENT_S:
+            if compiled.wait(0.2):
+                break
 
     def _follow(self, units: Sequence[Unit]) -> None:
         assert self.process.stdout
-        for line in self.process.stdout:
-            if int(line) < len(units):
-                self._compiled[_kind(units[int(line)])].set()
-        for compiled in self._compiled.values():
-            compiled.set()
+        try:
+            for line in self.process.stdout:
+                self._heard_s = time.monotonic()
+                if int(line) < len(units):
+                    self._compiled[_kind(units[int(line)])].set()
+        finally:
+            for compiled in self._compiled.values():
+                compiled.set()
 
 
 def _kind(unit: Unit) -> tuple:
