@@ -18,7 +18,7 @@ LINES = {
     "bench/findings": 6_051,
     "bench/law": 6_348,
     "bench/regression": 1_295,
-    "bench/running": 2_515,
+    "bench/running": 2_522,
     "bench/studies": 3_364,
     "tests/audit": 625,
     "tests/cli": 771,
