@@ -10,8 +10,12 @@ import subprocess
 import sys
 import tempfile
 import tomllib
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
+
+from bench.base.errors import BadResults
+from bench.base.files import read_json
 
 ROOT = Path(__file__).resolve().parents[2]
 """The checkout, or the folder of installed packages."""
@@ -23,6 +27,37 @@ DECIDING = ("tasks", *(f"bench/{room}" for room in ("base", "law", "audit", "eng
 JUDGE = ("tasks/rules.py", "tasks/verdict.py", "tasks/truth.py", "tasks/cause.py")
 """What decides how a given motion is judged."""
 VERSIONED = ("mujoco", "dm-control", "numpy", "scipy", "numba", "llvmlite", "pandas", "pyarrow")
+
+
+TYPES: dict[str, type] = {
+    **dict.fromkeys(("suite", "command", "commit", "judge", "platform", "cpu", "vectors", "finished"), str),
+    **dict.fromkeys(("episodes", "trials", "troubled", "seed"), int),
+    **{"dirty": bool, "versions": dict, "arithmetic": dict, "lost": list, "again": list, "wall_s": float},
+}
+"""Types of what is read of provenance.json; the entries of a dict or list are texts."""
+MOST_SIGNS = 200
+"""Of a text or a number that is shown; a command may be longer."""
+
+
+def read_provenance(folder: Path, needed: Iterable[str] = ()) -> dict:
+    """Return provenance.json of a run, which may come from anywhere.
+
+    Errors:
+        BadResults: see `read_json`; it lacks something needed; a value of another type, or too long to be shown.
+    """
+    path = folder / "provenance.json"
+    found = read_json(path)
+    if lacking := [name for name in needed if name not in found]:
+        raise BadResults(f"{path}: it lacks {', '.join(lacking)}; delete the folder and run again")
+    for name, kind in TYPES.items():
+        value = found.get(name, kind())
+        entries = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+        is_typed = type(value) is kind or (kind is float and type(value) is int)
+        is_long = not entries and name != "command" and len(str(value)) > MOST_SIGNS
+        if is_long or not is_typed or not all(isinstance(one, str) for one in entries):
+            wanted = f"{kind.__name__} of at most {MOST_SIGNS} signs" if is_long else kind.__name__
+            raise BadResults(f"{path}: '{name}' is no {wanted}, as a run writes it; delete the folder and run again")
+    return found
 
 
 def count_episodes(provenance: dict) -> int:
@@ -125,9 +160,8 @@ def vectors() -> str:
 
 def rounded_on(origin: dict) -> str:
     """Return a run's processor, and what made its libraries round as on another one, in words; of its provenance."""
-    arithmetic = origin.get("arithmetic")
-    settings = [f"{name}={value}" for name, value in arithmetic.items()] if isinstance(arithmetic, dict) else []
-    return ", ".join(filter(None, (*(str(origin.get(name, "")) for name in ("cpu", "vectors")), *settings)))
+    settings = [f"{name}={value}" for name, value in origin.get("arithmetic", {}).items()]
+    return ", ".join(filter(None, (*(origin.get(name, "") for name in ("cpu", "vectors")), *settings)))
 
 
 def machine_key() -> str:

@@ -82,7 +82,8 @@ def mistakes() -> tuple[type[Exception], ...]:
 
 def _refused(reason: str) -> int:
     """Say on one line what was wrong; the exit code of every mistake."""
-    print(f"error: {' '.join(reason.split())}", file=sys.stderr)
+    shown = "".join(sign if sign.isprintable() else "?" for sign in " ".join(reason.split()))  # of a file, perhaps
+    print(f"error: {shown}", file=sys.stderr)
     return 2
 
 

@@ -8,9 +8,9 @@ import rich_click as click
 from click.exceptions import Exit
 
 from bench.base.errors import BenchError
-from bench.base.files import read_json, write_json
+from bench.base.files import write_json
 from bench.base.on_first_use import pd
-from bench.base.provenance import rounded_on
+from bench.base.provenance import read_provenance, rounded_on
 from bench.cli import options
 from bench.cli.judge import print_judgement
 from bench.cli.progress import progress
@@ -94,7 +94,7 @@ def _compare(
     leave(words.write_markdown(said))
     if folders:
         for folder in folders:
-            made_on = rounded_on(read_json(folder / "provenance.json")) or "an unknown machine"
+            made_on = rounded_on(read_provenance(folder)) or "an unknown machine"
             console().print(f"{folder} was made on: {made_on}")
         agree = f"{len(differences)} differences between {base} and {head}"
         console().print(agree if differences else f"{head} agrees with {base}")

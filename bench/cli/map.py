@@ -6,7 +6,7 @@ from typing import Any
 import rich_click as click
 from click.exceptions import Exit
 
-from bench.base.files import read_json
+from bench.base.provenance import read_provenance
 from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, frame_table, shown_path
@@ -87,7 +87,7 @@ def COMMAND(
         steps.now("compiling the laws")
         running.run(plan, out, workers=workers, scheduler=scheduler, replace=replace, report=report)
     _print(out)
-    if read_json(out / "provenance.json")["lost"]:
+    if read_provenance(out)["lost"]:
         raise Exit(1)  # a law of the user's crashed or hung: what was lost has been said
 
 

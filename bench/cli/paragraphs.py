@@ -4,9 +4,7 @@ import textwrap
 from pathlib import Path
 from typing import NamedTuple
 
-from bench.base.errors import BadResults
-from bench.base.files import read_json
-from bench.base.provenance import count_episodes
+from bench.base.provenance import count_episodes, read_provenance
 from bench.cli.screen import console, counted, shown_path
 
 WIDTH = 100
@@ -53,20 +51,9 @@ def listed(words: list[str], last: str = "and") -> str:
     return f"{', '.join(others)} {last} {end}" if others else end
 
 
-NEEDED = ("suite", "episodes", "commit", "dirty", "cpu", "wall_s")
-
-
 def origin(folder: Path) -> str:
-    """Suite, size, commit, processor and time of a run.
-
-    Errors:
-        BadResults: provenance.json lacks one of them.
-    """
-    path = folder / "provenance.json"
-    found = read_json(path)
-    lacking = [name for name in NEEDED if name not in found]
-    if lacking:
-        raise BadResults(f"{path}: it lacks {', '.join(lacking)}; delete the folder and run again")
+    """Return suite, size, commit, processor and time of a run."""
+    found = read_provenance(folder, ("suite", "episodes", "commit", "dirty", "cpu", "wall_s"))
     episodes = count_episodes(found)
     changed = " with changes" if found["dirty"] else ""
     return (

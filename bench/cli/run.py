@@ -8,7 +8,7 @@ from typing import Any
 import rich_click as click
 from click.exceptions import Exit
 
-from bench.base.files import read_json
+from bench.base.provenance import read_provenance
 from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, shown_path
@@ -115,5 +115,5 @@ def COMMAND(
         did = running.run(plan, out, replace=replace, report=report, **by)
     took = f" in {timedelta(seconds=round(time.monotonic() - began))}" if did else ""
     console().print(f"{'wrote' if did else 'up to date:'} {shown_path(out)}{took}   (bench show {shown_path(out)})")
-    if read_json(out / "provenance.json")["lost"]:
+    if read_provenance(out)["lost"]:
         raise Exit(1)  # a law of the user's crashed or hung

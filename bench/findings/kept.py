@@ -61,7 +61,7 @@ def _digest(folder: Path) -> str:
 
 
 def _files(folder: Path) -> Iterator[Path]:
-    yield from sorted(path for path in folder.iterdir() if path.suffix in (".parquet", ".json"))
+    yield from sorted(path for path in folder.iterdir() if path.suffix in (".parquet", ".json") and path.is_file())
 
 
 def _committed() -> Iterator[Path]:

@@ -19,6 +19,7 @@ import pyarrow as pa
 from bench.base import lock
 from bench.base.errors import BadResults
 from bench.base.files import is_leftover, make_folder, read_json, refuse_link, refused, write_atomically, write_json
+from bench.base.provenance import read_provenance
 from bench.experiments.experiment import Unit, experiment_of, known_experiments
 from bench.experiments.plan import Plan, digest_of
 from bench.experiments.tables import packed, trust
@@ -83,7 +84,7 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
         )
     tables = {out / f"{name}.parquet": table for name, table in plan.tables.items()}
     has_ended = (out / "provenance.json").is_file() and all(path.is_file() for path in tables)
-    finished = has_ended and not read_json(out / "provenance.json").get("again")
+    finished = has_ended and not read_provenance(out).get("again")
     for path, table in tables.items() if finished else ():
         check(path, table)
     if finished:
@@ -98,7 +99,7 @@ def describe_difference(kept: dict, wanted: dict) -> str:
     now = json.loads(json.dumps(wanted))
     long = {"own": "other law files"} | {one: f"other {one}" for one in ("units", "arms", "rules", "sources")}
     names = [name for name in now if kept.get(name) != now[name]]
-    said = (long.get(name) or f"{name} {kept.get(name)} there, {now[name]} here" for name in names)
+    said = (long.get(name) or f"{name} {kept.get(name)!s:.60} there, {now[name]} here" for name in names)
     return ", ".join(said).replace("_", " ") or "its digest alone"
 
 

@@ -1,7 +1,5 @@
 """Check the regression gate: false alarms on the same code, and planted faults.
 
-    python -P -m bench.studies.gates [--only same-code]
-
 same-code   COMPARISONS timings of this checkout against itself, at the gate's own settings; every verdict but "same"
             is a false alarm
 faults      one fault at a time in a copy of the sources: is it caught, and is the law named?

@@ -1,7 +1,5 @@
 """How many of hundreds of starts does each law lose at each level of each perturbation? Kept in results/robustness.
 
-    python -P -m bench.studies.robustness                 some six CPU minutes; goes on where it was stopped
-
 A suite's two dozen starts a level tell 24 of 24 from 20 of 24. Of STARTS the exact 95 % interval of a share is 5 points
 to either side at the widest.
 """

@@ -1,8 +1,5 @@
 """Is a run the same on every processor? Quick suites under settings that round as others do: results/settings.
 
-    python -P -m bench.studies.settings                every setting, some two minutes each
-    python -P -m bench.studies.settings --only blas    one again; the others, and other machines', stay as they are
-
 Libraries choose their kernels by the processor: OpenBLAS those of its linear algebra, numpy its vectors, the C library
 its sin and cos, the compiler its target. Variables make them choose as on another one. Each run is held against
 results/reference, bit for bit and by the gate.
@@ -19,7 +16,7 @@ import pandas as pd
 
 from bench.base.files import read_json, write_json
 from bench.base.processes import module_command
-from bench.base.provenance import ROOT, machine_key, rounded_on
+from bench.base.provenance import ROOT, machine_key, read_provenance, rounded_on
 from bench.experiments.tables.store import read
 from bench.regression.rows import RULES, find_differences
 from bench.studies.study import make_parser, make_parts
@@ -51,7 +48,7 @@ def _compare(variables: dict[str, str], folder: Path) -> dict:
     command = module_command("bench", "run", "--suite", "quick", "--out", str(folder))
     subprocess.run(command, env=os.environ | variables, check=True)
     return {
-        "made_on": rounded_on(read_json(folder / "provenance.json")),
+        "made_on": rounded_on(read_provenance(folder)),
         "gate": len(find_differences(REFERENCE, folder)),
         "tables": {table: _bits(read(REFERENCE, table), read(folder, table)) for table in RULES},
     }

@@ -1,8 +1,5 @@
 """Does a verdict depend on the draw, the step or the gains? Claims on 20 seeds, half the step and results/gains.
 
-    python -P -m bench.studies.verdicts                     what results/verdicts lacks: about a minute of CPU a seed
-    python -P -m bench.studies.verdicts --only 3 half-step  these again
-
 The words are stored in results/verdicts. A seed draws other starts and poses; what follows from no draw (operations,
 contact, boundaries) is the reference's. At half the step all that steps is run again, contact too. Each run is judged
 in this process, by the tables that it made and the reference's for the rest, and written when it is done: another call

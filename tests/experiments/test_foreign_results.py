@@ -2,8 +2,6 @@
 
 import json
 import shutil
-import subprocess
-import sys
 
 import pyarrow as pa
 import pyarrow.compute as pc
@@ -139,7 +137,6 @@ def test_run_into_a_folder_that_leads_outside_touches_neither(capsys, theirs, tm
 
 
 def rename_regulators(folder, word: str) -> None:
-    """Put one word in the place of every regulator's name."""
     path = folder / "episodes.parquet"
     table = pq.read_table(path)
     at = table.schema.names.index("regulator")
@@ -202,10 +199,29 @@ def test_file_that_is_no_table_of_ours_is_not_offered(evil):
     assert not any("img" in path.name for path in origin.list_files(run_in(read.folder())))
 
 
-@pytest.mark.parametrize("banned", ["import pickle", "from joblib import load", "import numpy as np\nnp.load('x')"])
-def test_what_runs_code_when_it_reads_is_no_import_of_ours(banned):
-    pytest.importorskip("ruff", reason="the dev extra is not installed")
-    for room in ("bench", "tasks", "report"):
-        words = ["check", "--no-cache", "--select", "TID251", "--stdin-filename", f"{room}/new.py", "-"]
-        said = subprocess.run([sys.executable, "-m", "ruff", *words], input=banned, text=True, capture_output=True)
-        assert (said.returncode, "TID251" in said.stdout) == (1, True), said
+WRONG = {"suite": ["quick"], "cpu": "x" * 1000, "episodes": "many", "dirty": 1, "wall_s": None, "arithmetic": {"a": []}}
+
+
+def write_about(folder, **changed) -> None:
+    about = json.loads((folder / "provenance.json").read_text())
+    (folder / "provenance.json").write_text(json.dumps(about | changed))
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_provenance_of_another_type_or_length_is_refused_by_name(capsys, theirs, name):
+    write_about(theirs, **{name: WRONG[name]})
+    assert f"'{name}' is no " in refused(capsys, "show", theirs, "contact")
+
+
+def test_markup_in_provenance_is_shown_as_text(capsys, theirs):
+    write_about(theirs, cpu="[red]x[/red] {x} %s :smile:")
+    assert ", [red]x[/red] {x} %s :smile:, " in bench(capsys, "show", theirs, "contact").out
+
+
+@pytest.mark.parametrize("metadata", [b"\xff", b"\x1b[2J", b"x" * 1000], ids=repr)
+def test_schema_of_a_foreign_table_is_named_in_signs_that_can_be_printed(capsys, theirs, metadata):
+    table = pq.read_table(theirs / "compliance.parquet")
+    table = table.replace_schema_metadata(table.schema.metadata | {b"orientation-bench schema": metadata})
+    pq.write_table(table, theirs / "compliance.parquet")
+    said = refused(capsys, "show", theirs, "contact")
+    assert (said.isprintable(), "x" * 300 in said) == (True, False)

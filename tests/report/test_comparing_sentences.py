@@ -14,7 +14,7 @@ from bench.findings.selection.words import leaders, standing
 from report.figures.answer import which_law
 from report.figures.arms import arm_ranking
 from report.figures.comparison import a_new_law, comparison
-from report.figures.contact import as_arms_run, hand_axes, in_contact
+from report.figures.contact import as_arms_run, in_contact
 from report.figures.cost import cost
 from report.figures.failures import failure_map
 from report.figures.kit.page import Run
@@ -49,13 +49,6 @@ def plant_pegs(bad):
 def plant_fits(*depths_m):
     """State how pegs of two fits go in, two of each."""
     return in_contact.said_of_fits(pd.DataFrame({"clearance": [0.02, 0.02, 0.001, 0.001], "depth_m": depths_m}))
-
-
-def plant_axis(off_deg):
-    """State whether an axis is less off than the hand's tilt of 30°."""
-    one = {"contender": hand_axes.PAPERS_EULER, "beta": 30.0, "pushed": "x", "share": 1.0, "off": off_deg}
-    plain = {"contender": hand_axes.PAPERS, "beta": 60.0, "pushed": "z", "share": 0.2, "off": 5.0}
-    return hand_axes.measured([one, plain])["off_word"]
 
 
 def plant_arm(torque):
@@ -134,7 +127,6 @@ def plant_fact(facts, key):
 SENTENCES = {
     "pegs": (plant_pegs, [((3,), "do not differ significantly"), ((18,), "frames differ significantly")]),
     "fits": (plant_fits, [((0.03, 0.03, 0.03, 0.0), "fewer pegs"), ((0.03,) * 4, "not fewer pegs")]),
-    "axis": (plant_axis, [((24.0,), "less than β"), ((31.0,), "not always less than β")]),
     "arms": (plant_arm, [((2.0,), "no law passes: Franka Emika Panda."), ((0.5,), "no law passes: none.")]),
     "thresholds": (plant_thresholds, [((1.0, 1.0), "[]"), ((1.0, 2.0), "['delay']")]),
     "alone": (

@@ -18,8 +18,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from bench.base.errors import BadResults
-from bench.base.files import read_json
 from bench.base.on_first_use import pd
+from bench.base.provenance import read_provenance
 from bench.experiments.tables.kept_laws import kept_laws
 from bench.experiments.tables.schema import RESULTS
 from bench.law.kinds import Law
@@ -57,7 +57,7 @@ def converged(frame: pd.DataFrame) -> pd.DataFrame:
 
 def provenance() -> dict:
     """Return where the run comes from: provenance.json."""
-    return read_json(folder() / "provenance.json")
+    return read_provenance(folder())
 
 
 def own_laws(run: Path | None = None) -> tuple[Law, ...]:

@@ -140,10 +140,10 @@ def _checked(path: Path, table: str, opened: Callable) -> pa.Table:
         reason = str(error).splitlines()[0]
         raise BadResults(f"{path}: it is truncated or no parquet file ({reason}); delete it and run again") from error
     metadata = arrow.schema.metadata or {}
-    version = metadata.get(b"orientation-bench schema", b"none").decode()
-    if metadata.get(b"orientation-bench table", b"").decode() != table or version != VERSION:
+    version = metadata.get(b"orientation-bench schema", b"none").decode(errors="replace")
+    if metadata.get(b"orientation-bench table", b"").decode(errors="replace") != table or version != VERSION:
         raise BadResults(
-            f"{path}: its schema is '{version}', this program reads '{VERSION}' of table '{table}'; run again into "
+            f"{path}: its schema is '{version:.60}', this program reads '{VERSION}' of table '{table}'; run again into "
             "another folder with --out"
         )
     if table not in FREE_WORDS:
@@ -163,7 +163,7 @@ def _refuse_words(path: Path, arrow: pa.Table) -> None:
             raise BadResults(f"{path}: column {name!r} holds {kind}, and ours hold words and numbers; delete the file")
         for word in words:
             if word is None or not PLAIN.fullmatch(word):
-                raise BadResults(f"{path}: {word!r} in column {name!r} is no word of ours; delete the file")
+                raise BadResults(f"{path}: {word!r:.80} in column {name!r} is no word of ours; delete the file")
 
 
 def frame(path: Path, table: str | Table) -> pd.DataFrame:

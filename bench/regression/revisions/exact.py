@@ -7,7 +7,7 @@ reverse of one of these is an improvement, all else a change. Where the judge ch
 
 from pathlib import Path
 
-from bench.base.files import read_json
+from bench.base.provenance import read_provenance
 from bench.engines.counting import OPERATIONS as OPERATION_NAMES
 from bench.engines.counting import TOTAL
 from bench.regression.revisions.comparison import CHANGE, IMPROVEMENT, REGRESSION, Finding
@@ -26,7 +26,7 @@ FEW = 3  # other columns of a law that have a line each; more are folded into on
 def compare_runs(base: Path, head: Path) -> list[Finding]:
     """Return all findings between two runs' folders; first what head's run says of a law that crashed or hung."""
     found = sort_findings(find_differences(base, head))  # first, for it refuses a folder without a finished run
-    lost = [Finding(EXACT, REGRESSION, "", note) for note in read_json(head / "provenance.json").get("lost", [])]
+    lost = [Finding(EXACT, REGRESSION, "", note) for note in read_provenance(head).get("lost", [])]
     return [*lost, *found, *(Finding(EXACT, CHANGE, "", note) for note in describe_skipped(base))]
 
 

@@ -9,7 +9,7 @@ start (`rounding_change`): one outcome of base must be one of head, and a number
 from collections import Counter
 from pathlib import Path
 
-from bench.base.files import read_json
+from bench.base.provenance import read_provenance
 from bench.experiments.columns import Table
 from bench.experiments.experiment import known_tables
 from bench.experiments.tables.store import find_newer, read, read_arrow
@@ -41,7 +41,7 @@ def find_differences(base: Path, head: Path) -> list[Difference]:
     for name in (one for one in dict.fromkeys((*RULES, *tables)) if one not in newer):
         old, new = read(base, tables[name]), read(head, tables[name])
         found += _compare_columns(tables[name], base, head) or compare_tables(tables[name], old, new)
-    was, now = (read_json(Path(folder) / "provenance.json").get("judge") for folder in (base, head))
+    was, now = (read_provenance(Path(folder)).get("judge") for folder in (base, head))
     kept = _drop_additions(found, base) if was and now and was != now else []
     if not kept:
         return found

@@ -1,8 +1,4 @@
-"""What tasks in contact depend on: results/contact/contact.json.
-
-python -P -m bench.studies.contact                    all of it, some minutes
-python -P -m bench.studies.contact --only boundary    run one part again; the others stay as they are
-"""
+"""What tasks in contact depend on: results/contact/contact.json."""
 
 import functools
 import math

@@ -1,8 +1,4 @@
-"""Kill commands in each of their phases, give them again, and compare what they end with: results/survival.
-
-python -P -m bench.studies.survival                             a hundred kills: half an hour
-python -P -m bench.studies.survival --kills 16 --out try.json
-"""
+"""Kill commands in each of their phases, give them again, and compare what they end with: results/survival."""
 
 import shutil
 import tempfile

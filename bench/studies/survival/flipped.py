@@ -1,7 +1,5 @@
 """Flip bits of an unfinished run, swap and edit its parts and its plan, and give the same command again.
 
-    python -P -m bench.studies.survival.flipped --flips 400
-
 Each time the run is refused with a sentence, or the unit is run again and the tables are those of an undisturbed run.
 SILENT is what must not be: other tables, and nothing said. Bits are spread evenly over the bytes of all parts.
 """

@@ -1,8 +1,5 @@
 """Run laws that lie through every command that executes a law, and compare what is left of the others.
 
-    python -P -m bench.studies.survival.hostile                              all laws of hostile.toml, every command
-    python -P -m bench.studies.survival.hostile --way judge --law bomb
-
 Each way must end with another code than 0 and without a traceback, leave the rows of the other laws as they are
 without it, and do the same when the command is given again.
 """

@@ -1,7 +1,5 @@
 """Kill runs by SIGKILL, resume them, and print as one JSON object what they end with; a test of the tool starts this.
 
-    python -P -m bench.studies.survival.killed FOLDER
-
 Everything is imported and compiled once; each run is then a fork of this process, so that a run costs its episodes and
 its files only.
 """
