@@ -36,7 +36,7 @@ TYPES: dict[str, type] = {
 }
 """Types of what is read of provenance.json; the entries of a dict or list are texts."""
 MOST_SIGNS = 200
-"""Of a text or a number that is shown; a command may be longer."""
+"""Longest text or number that is shown; a command may be longer."""
 
 
 def read_provenance(folder: Path, needed: Iterable[str] = ()) -> dict:
