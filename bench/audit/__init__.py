@@ -4,7 +4,7 @@ A function f(R, R_d) of two 3 x 3 matrices, or of two unit quaternions, returns 
 is found first (`convention.py`), then each file of `faults/` looks for one fault. Nothing of ours is the measure: the
 pairs are made from axis and angle in closed form, so what the function should say of them is known.
 
-This module imports nothing: a pytest plugin that is not asked for must cost nothing.
+This module imports nothing: a pytest plugin that is not used must cost nothing.
 """
 
 from __future__ import annotations

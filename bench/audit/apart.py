@@ -1,4 +1,4 @@
-"""Audit a function in a process of its own (asked.py): what it prints goes nowhere; it may hang, exit or crash.
+"""Audit a function in a process of its own (audit_process.py): what it prints goes nowhere; it may hang, exit or crash.
 
 This file imports nothing of ours, and neither does the pytest plugin that loads it by its place: a project may have a
 package `bench` of its own.
@@ -18,10 +18,10 @@ LIMIT_S = 60.0
 CALLS = 6000
 """Approximate number of calls of the function in one audit."""
 ROOT = str(Path(__file__).resolve().parents[2])
-BEGIN = f"import sys; sys.path.insert(0, {ROOT!r}); from bench.audit.asked import main; main()"
+BEGIN = f"import sys; sys.path.insert(0, {ROOT!r}); from bench.audit.audit_process import main; main()"
 
 
-class NotAsked(Exception):
+class NotAudited(Exception):
     """No report: the reason and the cure, in one sentence."""
 
 
@@ -39,10 +39,10 @@ def audit_apart(
         fault -> text.
 
     Errors:
-        NotAsked: nothing that can be asked is there, or it takes too long.
+        NotAudited: nothing that can be audited is there, or it takes too long.
     """
-    asked = {"target": target, "stated": stated, "limit_s": limit_s, "path": sys.path}
-    command = [sys.executable, "-P", "-c", BEGIN, json.dumps(asked)]
+    request = {"target": target, "stated": stated, "limit_s": limit_s, "path": sys.path}
+    command = [sys.executable, "-P", "-c", BEGIN, json.dumps(request)]
     said: Any = 0
     with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True) as process:
         for line in process.stdout or ():
@@ -50,7 +50,7 @@ def audit_apart(
             if isinstance(said, int):
                 progress(said)
     if isinstance(said, int):
-        raise NotAsked(f"the audit of {target} ended without a report (exit code {process.returncode}); report this")
+        raise NotAudited(f"the audit of {target} ended without a report (exit code {process.returncode}); report this")
     if "refused" in said:
-        raise NotAsked(said["refused"])
+        raise NotAudited(said["refused"])
     return dict(said)

@@ -9,7 +9,7 @@ import numpy as np
 
 from bench.audit import convention, pairs
 from bench.audit.convention import TAKES, Convention, Stated
-from bench.audit.examined import NO_THREE_NUMBERS, Examined, Fresh, Lost, ask
+from bench.audit.examined import NO_THREE_NUMBERS, Examined, Fresh, Lost, evaluate
 from bench.audit.fault import Evidence, Finding, Found
 from bench.audit.faults import every_fault
 from bench.audit.pairs import CLOSE, FINE, NEAR_IDENTITY, WIDE
@@ -41,7 +41,7 @@ def report_lost(name: str, lost: Lost) -> Report:
     (fault,) = (one for one in every_fault() if one.name == lost.fault)
     evidence = Evidence(lost.now, lost.goal, lost.how)
     takes = "matrix" if lost.now.shape == (3, 3) else "quaternion"
-    return Report(name, 0, takes, None, (Finding(fault, Found(f"{lost.how}; nothing more was asked", evidence)),))
+    return Report(name, 0, takes, None, (Finding(fault, Found(f"{lost.how}; nothing more was tried", evidence)),))
 
 
 UNKNOWN, VOID = "misaligned", "memory"
@@ -73,12 +73,12 @@ def understood(function: Callable, stated: Stated, name: str) -> list[tuple[str,
     answered: list[tuple[str, Convention | None]] = []
     reasons = {}
     for takes in possible(stated):
-        first = ask(function, takes, some.chosen(slice(0, None, 90)))
+        first = evaluate(function, takes, some.chosen(slice(0, None, 90)))
         if sum(map(bool, first.raised)) > len(first.raised) / 2:
             reasons[takes] = next(filter(None, first.raised))
             continue
         answered.append((takes, None))
-        share, found = convention.find(takes, some, ask(function, takes, some).e)
+        share, found = convention.find(takes, some, evaluate(function, takes, some).e)
         if found:
             known.append((share, takes, found))
     if not answered:

@@ -53,12 +53,12 @@ def inputs(takes: str, pairs: Pairs) -> tuple[np.ndarray, np.ndarray]:
     return pairs.q[:, order], pairs.q_d[:, order]
 
 
-def ask(function: Callable, takes: str, pairs: Pairs) -> Answers:
-    """Its answers to every pair, each from arrays of its own."""
-    return ask_of(function, *inputs(takes, pairs))
+def evaluate(function: Callable, takes: str, pairs: Pairs) -> Answers:
+    """Return its answers to every pair, each from arrays of its own."""
+    return evaluate_at(function, *inputs(takes, pairs))
 
 
-def ask_of(function: Callable, now: np.ndarray, goal: np.ndarray) -> Answers:
+def evaluate_at(function: Callable, now: np.ndarray, goal: np.ndarray) -> Answers:
     """Return its answers to every pair of two arrays."""
     e, raised, changed = np.full((len(now), 3), np.nan), [], np.zeros(len(now), bool)
     with warnings.catch_warnings(), np.errstate(all="ignore"):
@@ -115,7 +115,7 @@ class Examined:
     ):
         self.function, self.stated, self.takes, self.convention, self.fresh = function, stated, takes, found, fresh
         self.pairs = pairs.every_pair()
-        self.e, self.raised, self.changed = ask(function, takes, self.pairs)
+        self.e, self.raised, self.changed = evaluate(function, takes, self.pairs)
         self.size = np.linalg.norm(self.e, axis=1)
         self.direction, self.truth = self.known(self.pairs)
 
@@ -138,9 +138,9 @@ class Examined:
         """Return the pairs of these places, as a mask."""
         return np.isin(self.pairs.place, places)
 
-    def ask(self, of: Pairs) -> Answers:
-        """Answers to other pairs."""
-        return ask(self.function, self.takes, of)
+    def evaluate(self, of: Pairs) -> Answers:
+        """Return its answers to other pairs."""
+        return evaluate(self.function, self.takes, of)
 
     def evidence(self, i: int, right: bool = True) -> Evidence:
         """Return the pair of this number."""

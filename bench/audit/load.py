@@ -39,7 +39,7 @@ def load(target: str) -> Callable:
     """Return the function that FILE:NAME or MODULE:NAME names. This runs the file.
 
     Errors:
-        BadFunction: nothing that can be asked is there.
+        BadFunction: nothing that can be audited is there.
     """
     place, colon, name = target.rpartition(":")
     if not (place and colon and name):
@@ -139,7 +139,7 @@ def of_library(path: Path, symbol: str) -> Callable:
 
     has_answered = False
 
-    def ask(now: np.ndarray, goal: np.ndarray) -> np.ndarray:
+    def call(now: np.ndarray, goal: np.ndarray) -> np.ndarray:
         nonlocal has_answered
         given, wanted = np.zeros(BUFFER), np.zeros(BUFFER)
         e = np.full(8 * BUFFER, UNWRITTEN, np.uint8).view(float)
@@ -154,4 +154,4 @@ def of_library(path: Path, symbol: str) -> Callable:
         now[...], goal[...] = given[: now.size].reshape(now.shape), wanted[: goal.size].reshape(goal.shape)
         return e[:3]
 
-    return ask
+    return call

@@ -1,4 +1,4 @@
-"""The pairs of orientations at which a function is asked, with the rotation theta about k from R to R_d that is true.
+"""The pairs of orientations at which a function is called, with the rotation theta about k from R to R_d that is true.
 
 A pair is made from integers and from cos(theta/2), sin(theta/2): R_d = T R. Where digits or exactness matter, R is one
 of the four diagonal rotations, by which products are exact, so that T itself is what the function sees; elsewhere R is

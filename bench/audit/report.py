@@ -33,11 +33,11 @@ class Report(NamedTuple):
 
     def head(self) -> str:
         """Verdict and convention."""
-        none = "not asked for" if self.pairs == 0 else "none that is known explains its answers"
+        none = "not looked for" if self.pairs == 0 else "none that is known explains its answers"
         said = self.convention.text() if self.convention else none
         verdict = f"FAULTS: {', '.join(self.faults)}" if self.faults else "no fault found"
-        asked = f" ({self.pairs} pairs)" if self.pairs else ""
-        return f"{self.name}: {verdict}{asked}\nConvention found: {said}"
+        pairs = f" ({self.pairs} pairs)" if self.pairs else ""
+        return f"{self.name}: {verdict}{pairs}\nConvention found: {said}"
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""

@@ -6,7 +6,7 @@ from pathlib import Path
 import rich_click as click
 from click.exceptions import Exit
 
-from bench.audit.apart import CALLS, LIMIT_S, NotAsked, audit_apart
+from bench.audit.apart import CALLS, LIMIT_S, NotAudited, audit_apart
 from bench.base.errors import BadFunction
 from bench.cli.progress import progress
 from bench.cli.screen import examples
@@ -28,14 +28,14 @@ def COMMAND(
     """Check an orientation error of yours: its convention, and what is wrong with it, each with a pair to reproduce.
 
     FUNCTION is FILE.py:NAME, MODULE:NAME or LIBRARY.so:SYMBOL. It takes (R, R_d), 3 x 3, or (q, q_d), and returns three
-    numbers. Which frame, direction, form and order of quaternions it has is found, and said. It is asked over some
+    numbers. Which frame, direction, form and order of quaternions it has is found, and said. It is called with some
     thousand pairs of orientations, in a process of its own that has a time limit and whose output is dropped: a second.
     """
     stated = {"takes": takes, "frame": frame, "sign": sign, "stiffness": stiffness, "accept": accept}
     try:
         with progress("calls", f"loading {function}") as steps:
-            said = audit_apart(function, stated, limit, lambda calls: steps.now(f"asking {function}", calls, CALLS))
-    except NotAsked as error:
+            said = audit_apart(function, stated, limit, lambda calls: steps.now(f"calling {function}", calls, CALLS))
+    except NotAudited as error:
         raise BadFunction(str(error)) from error
     click.echo(said["text"], nl=False)
     if json_file:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from bench.audit.apart import NotAsked, audit_apart
+from bench.audit.apart import NotAudited, audit_apart
 from bench.base.provenance import ROOT
 
 ERRORS = Path(__file__).with_name("errors.python").read_text(encoding="utf-8")
@@ -35,17 +35,17 @@ def test_function_is_named_for_what_it_does_and_for_nothing_else(tmp_path, capfd
     assert capfd.readouterr() == ("", "")
 
 
-def test_function_that_is_too_slow_is_not_asked_and_the_limit_that_it_needs_is_said(tmp_path):
+def test_function_that_is_too_slow_is_not_audited_and_the_limit_that_it_needs_is_said(tmp_path):
     (tmp_path / "mine.py").write_text(ERRORS)
     calls = []
-    with pytest.raises(NotAsked, match=r"too slow: .* calls were done in 4 s; give --limit \d+"):
+    with pytest.raises(NotAudited, match=r"too slow: .* calls were done in 4 s; give --limit \d+"):
         audit_apart(f"{tmp_path / 'mine.py'}:sleeps", {}, limit_s=4.0, progress=calls.append)
     assert calls == sorted(calls) != []
 
 
 def test_file_that_ends_the_process_when_it_is_loaded_is_refused(tmp_path):
     (tmp_path / "mine.py").write_text("import os; os._exit(0)")
-    with pytest.raises(NotAsked, match=r"the import of .* ended the process \(exit code 0\)"):
+    with pytest.raises(NotAudited, match=r"the import of .* ended the process \(exit code 0\)"):
         audit_apart(f"{tmp_path / 'mine.py'}:f", {})
 
 

@@ -7,7 +7,7 @@ law: quaternion-shortest
 
 import numpy as np
 
-from bench.audit.examined import Examined, ask_of, inputs
+from bench.audit.examined import Examined, evaluate_at, inputs
 from bench.audit.fault import Evidence, Found
 from bench.audit.pairs import WIDE
 
@@ -22,7 +22,7 @@ def find(examined: Examined) -> Found | None:
     here = np.flatnonzero(examined.at(WIDE))[::4]
     now, goal = inputs(examined.takes, examined.pairs.chosen(here))
     for other, given in (("-q_d", (now, -goal)), ("-q", (-now, goal))):
-        said = ask_of(examined.function, *given).e
+        said = evaluate_at(examined.function, *given).e
         apart = np.linalg.norm(said - examined.e[here], axis=1)
         bad = ~(apart <= OTHERWISE * examined.slope * examined.pairs.angle[here])
         if bad.any():

@@ -29,14 +29,14 @@ def find(examined: Examined) -> Found | None:
         return None
     for q, axis in lines():
         angle = np.radians(np.arange(1.0, 179.5, STEP_DEG))
-        e = examined.ask(along(q, axis, angle)).e
+        e = examined.evaluate(along(q, axis, angle)).e
         step = np.linalg.norm(np.diff(e, axis=0), axis=1) / examined.slope
         beside = np.fmax(np.append(step[1:], 0.0), np.insert(step[:-1], 0, 0.0))
         suspects = np.flatnonzero((step > np.radians(STEP_DEG) + SUSPECT) & (step > STEEPER * beside))
         for i in suspects:
             low, high = narrowed(examined, q, axis, angle[i], angle[i + 1])
             ends = along(q, axis, np.array((low, high)))
-            said = examined.ask(ends).e
+            said = examined.evaluate(ends).e
             size = float(np.linalg.norm(said[1] - said[0])) / examined.slope
             if size > JUMP:
                 (_, now), (_, goal) = inputs(examined.takes, ends)
@@ -63,7 +63,7 @@ def narrowed(examined: Examined, q: np.ndarray, axis: np.ndarray, low: float, hi
     """Bisection, into the half with the larger difference."""
     while high - low > WIDTH_RAD:
         middle = 0.5 * (low + high)
-        first, second, third = examined.ask(along(q, axis, np.array((low, middle, high)))).e
+        first, second, third = examined.evaluate(along(q, axis, np.array((low, middle, high)))).e
         if np.linalg.norm(second - first) > np.linalg.norm(third - second):
             high = middle
         else:

@@ -7,7 +7,7 @@ law: quaternion-shortest
 
 import numpy as np
 
-from bench.audit.examined import Examined, ask
+from bench.audit.examined import Examined, evaluate
 from bench.audit.fault import Found
 from bench.audit.pairs import CUBE, WIDE
 
@@ -21,13 +21,13 @@ def find(examined: Examined) -> Found | None:
     CUBE has many goals for each R: a value that is kept for an R, and never computed again, shows there.
     """
     here = np.flatnonzero(examined.at(WIDE, CUBE))[::-10]
-    first, again = examined.e[here], examined.ask(examined.pairs.chosen(here)).e
+    first, again = examined.e[here], examined.evaluate(examined.pairs.chosen(here)).e
     if examined.fresh and np.array_equal(first, again, equal_nan=True):
-        again = ask(examined.fresh(), examined.takes, examined.pairs.chosen(here)).e
+        again = evaluate(examined.fresh(), examined.takes, examined.pairs.chosen(here)).e
     differs = np.linalg.norm(again - first, axis=1) > DIFFERENCE * examined.slope
     if not differs.any():
         return None
     return Found(
-        f"{differs.sum()} of {len(here)} pairs have another answer when they are asked again, in reverse order",
+        f"{differs.sum()} of {len(here)} pairs have another answer when they are evaluated again, in reverse order",
         examined.evidence(int(here[np.argmax(differs)])),
     )

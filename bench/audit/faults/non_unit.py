@@ -8,7 +8,7 @@ unless: raises, not-a-number, deadband, jump, memory, single-precision
 
 import numpy as np
 
-from bench.audit.examined import Examined, ask_of, inputs
+from bench.audit.examined import Examined, evaluate_at, inputs
 from bench.audit.fault import NOTE, Evidence, Found
 from bench.audit.pairs import IDENTITY, NEAR_IDENTITY, WIDE
 
@@ -22,13 +22,13 @@ def find(examined: Examined) -> Found | None:
     """Both inputs longer or shorter by a millionth: no number, or another error; a note if it refuses them."""
     if not examined.convention:
         return None
-    asked = (examined.at(IDENTITY), examined.at(NEAR_IDENTITY, WIDE))
+    places = (examined.at(IDENTITY), examined.at(NEAR_IDENTITY, WIDE))
     usable = np.isfinite(examined.e).all(axis=1)
-    here = np.concatenate([np.flatnonzero(which & usable)[::step] for which, step in zip(asked, (1, 20), strict=True)])
+    here = np.concatenate([np.flatnonzero(which & usable)[::step] for which, step in zip(places, (1, 20), strict=True)])
     now, goal = inputs(examined.takes, examined.pairs.chosen(here))
     refused = None
     for scale in (1.0 + OFF, 1.0 - OFF):
-        said = ask_of(examined.function, scale * now, scale * goal)
+        said = evaluate_at(examined.function, scale * now, scale * goal)
         for i, reason in enumerate(said.raised):
             right = examined.e[here[i]]
             evidence = Evidence(scale * now[i], scale * goal[i], reason or said.e[i], right)

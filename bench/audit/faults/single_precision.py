@@ -8,7 +8,7 @@ law: rotation-vector
 import numpy as np
 
 from bench.audit.examined import Examined
-from bench.audit.fault import Found
+from bench.audit.fault import FAULT, Found
 from bench.audit.pairs import CLOSE, WIDE
 
 LEAST, MOST = 1e-9, 1e-4
@@ -16,6 +16,8 @@ LEAST, MOST = 1e-9, 1e-4
 
 Along it a small constant in a denominator leaves as much.
 """
+HALF = 1e-5
+"""Half precision leaves more (5e-4 in a number, of which what is below MOST counts here), single precision less."""
 
 
 def find(examined: Examined) -> Found | None:
@@ -26,4 +28,7 @@ def find(examined: Examined) -> Found | None:
     if not examined.convention or fits.sum() < len(here) / 5 or np.median(across[fits]) < LEAST:
         return None
     i = int(here[np.flatnonzero(fits)[np.argmax(across[fits])]])
-    return Found(f"answers are off by {np.median(across[fits]):.1g} of their size everywhere", examined.evidence(i))
+    off = np.median(across[fits])
+    text = f"answers are off by {off:.1g} of their size everywhere{', as in half precision' if off > HALF else ''}"
+    effect = f"steps of {off:.1g} of the error, which a derivative or high damping makes audible"
+    return Found(text, examined.evidence(i), FAULT, effect)

@@ -41,7 +41,7 @@ def find(examined: Examined) -> Found | None:
     ratio = examined.slope / examined.stated.stiffness
     i = int(np.flatnonzero(examined.at(NEAR_IDENTITY) & (examined.pairs.angle > LARGEST_RAD))[0])
     evidence = examined.evidence(i, False)._replace(right=examined.e[i] / ratio)
-    effect = f"the robot is {ratio:.3g} times as stiff as set, and damped {ratio**-0.5:.2g} times as much for it"
+    effect = f"the robot is {ratio:.4g} times as stiff as set, and damped {ratio**-0.5:.2g} times as much for it"
     if abs(ratio * np.radians(1.0) - 1.0) <= DEVIATION:
         return Found(f"e is in degrees: the slope is {ratio:.6g} = 180/pi", evidence, FAULT, effect, RADIANS)
     return Found(f"the stiffness felt is {ratio:.4g} of the stiffness set", evidence, FAULT, effect)

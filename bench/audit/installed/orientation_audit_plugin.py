@@ -38,7 +38,7 @@ def checks(session: pytest.Session, target: str) -> list[pytest.Item]:
     """One test a fault, over one report.
 
     Errors:
-        UsageError: the function cannot be asked.
+        UsageError: the function cannot be audited.
     """
     spec: Any = importlib.util.spec_from_file_location("orientation_audit_apart", ROOM / "apart.py")
     apart = importlib.util.module_from_spec(spec)
@@ -46,7 +46,7 @@ def checks(session: pytest.Session, target: str) -> list[pytest.Item]:
     accept = session.config.getoption("orientation_error_accept")
     try:
         said = apart.audit_apart(target, {"accept": accept}, session.config.getoption("orientation_error_limit"))
-    except apart.NotAsked as error:
+    except apart.NotAudited as error:
         raise pytest.UsageError(str(error)) from error
     names = sorted(path.stem.replace("_", "-") for path in (ROOM / "faults").glob("[a-z]*.py"))
     return [Check.from_parent(session, name=f"{target}[{name}]", fault=name, said=said) for name in names]

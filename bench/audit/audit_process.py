@@ -1,4 +1,4 @@
-"""The process that audits a function for another (apart.py): it forks, and the child asks the function.
+"""The process that audits a function for another (apart.py): it forks, and the child calls the function.
 
 The parent keeps our modules, so that it can say how the child ended. The child gives their names free: the function may
 be of another package `bench`.
@@ -38,15 +38,15 @@ BEGUN, ENDED, SIZE, NOW, GOAL = 0, 1, 2, slice(3, 12), slice(12, 21)
 
 def main() -> None:
     """Print the numbers of calls, then the answer, each a line of JSON."""
-    asked = json.loads(sys.argv[1])
+    request = json.loads(sys.argv[1])
     try:
-        said = answer_for(asked)
+        said = answer_for(request)
     except BenchError as error:
         said = {"refused": str(error)}
     print(json.dumps(said), flush=True)
 
 
-def answer_for(asked: dict[str, Any]) -> dict[str, Any]:
+def answer_for(request: dict[str, Any]) -> dict[str, Any]:
     """Return what the child has written, or the report on how it ended.
 
     Errors:
@@ -57,13 +57,15 @@ def answer_for(asked: dict[str, Any]) -> dict[str, Any]:
     with tempfile.TemporaryFile() as answer:
         child = os.fork()
         if not child:
-            ask(asked, board, answer)
+            audit_and_exit(request, board, answer)
         os.setpgid(child, child)
-        code, lasted = watch(child, asked["limit_s"], board)
+        code, lasted = watch(child, request["limit_s"], board)
         answer.seek(0)
         if code == 0 and (text := answer.read()):
             return dict(json.loads(text))
-    return describe_report(asked["target"], report_lost(asked["target"], find_lost_call(asked, board, code, lasted)))
+    return describe_report(
+        request["target"], report_lost(request["target"], find_lost_call(request, board, code, lasted))
+    )
 
 
 def watch(child: int, limit_s: float, board: np.ndarray) -> tuple[int | None, float]:
@@ -89,9 +91,9 @@ def watch(child: int, limit_s: float, board: np.ndarray) -> tuple[int | None, fl
     return code, time.monotonic() - began
 
 
-def find_lost_call(asked: dict[str, Any], board: np.ndarray, code: int | None, lasted: float) -> Lost:
+def find_lost_call(request: dict[str, Any], board: np.ndarray, code: int | None, lasted: float) -> Lost:
     """Return the call that did not come back."""
-    target, limit_s, calls, size = asked["target"], asked["limit_s"], int(board[BEGUN]), int(board[SIZE])
+    target, limit_s, calls, size = request["target"], request["limit_s"], int(board[BEGUN]), int(board[SIZE])
     how = "" if code is None else f"exit code {code}" if code >= 0 else signal.Signals(-code).name
     if not calls:
         happened = f"ended the process ({how})" if how else f"did not return within {limit_s:g} s (--limit)"
@@ -107,9 +109,9 @@ def find_lost_call(asked: dict[str, Any], board: np.ndarray, code: int | None, l
     return Lost(HANGS, f"call {calls:,} had not returned after {lasted:.3g} s", now, goal)
 
 
-def ask(asked: dict[str, Any], board: np.ndarray, answer: IO[bytes]) -> NoReturn:
+def audit_and_exit(request: dict[str, Any], board: np.ndarray, answer: IO[bytes]) -> NoReturn:
     """Call the function in this process, write the report, and exit without waiting for its threads."""
-    target, path = asked["target"], asked["path"]
+    target, path = request["target"], request["path"]
     nowhere = os.open(os.devnull, os.O_RDWR)
     for stream in range(3):
         os.dup2(nowhere, stream)
@@ -129,7 +131,7 @@ def ask(asked: dict[str, Any], board: np.ndarray, answer: IO[bytes]) -> NoReturn
         return note_calls(loaded[-1], board)
 
     try:
-        stated = Stated(**asked["stated"] | {"accept": tuple(asked["stated"].get("accept", ()))})
+        stated = Stated(**request["stated"] | {"accept": tuple(request["stated"].get("accept", ()))})
         said = describe_report(target, examine(fresh(), stated, target, fresh))
     except BenchError as error:
         said = {"refused": str(error)}
