@@ -14,10 +14,8 @@ from bench.audit.pairs import CLOSE, WIDE
 LEAST, MOST = 1e-9, 1e-4
 """Across the axis, of the size, where double precision has 1e-16 and single precision 6e-8 times a few operations.
 
-Along it a small constant in a denominator leaves as much.
+Along it a small constant in a denominator leaves as much. Half precision leaves a tenth of MOST and more.
 """
-HALF = 1e-5
-"""Half precision leaves more (5e-4 in a number, of which what is below MOST counts here), single precision less."""
 
 
 def find(examined: Examined) -> Found | None:
@@ -29,6 +27,6 @@ def find(examined: Examined) -> Found | None:
         return None
     i = int(here[np.flatnonzero(fits)[np.argmax(across[fits])]])
     off = np.median(across[fits])
-    text = f"answers are off by {off:.1g} of their size everywhere{', as in half precision' if off > HALF else ''}"
+    text = f"answers are off by {off:.1g} of their size everywhere{', as in half precision' if off > MOST / 10 else ''}"
     effect = f"steps of {off:.1g} of the error, which a derivative or high damping makes audible"
     return Found(text, examined.evidence(i), FAULT, effect)

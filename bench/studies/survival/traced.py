@@ -1,10 +1,7 @@
 """Run a command of this program, write each change of its phase into a pipe, and die at one of its file operations.
 
-    python -P -m bench.studies.survival.traced PIPE FOLDER TABLES PHASE NUMBER WORDS...
-
-PIPE is the number of an open file descriptor, FOLDER the command's --out, TABLES the number of tables that it writes.
-Before operation NUMBER of PHASE below FOLDER the process kills itself; below zero it does not.
-
+Its words are PIPE FOLDER TABLES PHASE NUMBER WORDS: an open file descriptor, the command's --out, how many tables it
+writes, and its words. Before operation NUMBER of PHASE below FOLDER the process kills itself; below zero it does not.
 Its files and numba tell the phases of a run: start-up until plan.json is put in place; then parts; but
 compiling while numba compiles, in both; merge from the first table until the last is in its place; then finish.
 """
