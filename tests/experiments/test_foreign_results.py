@@ -162,12 +162,10 @@ def test_column_of_another_kind_is_refused(theirs, values):
         store.read(theirs, "episodes")
 
 
-def test_path_in_a_word_leads_nowhere(theirs):
-    """Words may hold dots and slashes, as contenders do: they name no file."""
-    rename_regulators(theirs, "../../outside")
-    before = digest(theirs.parent)
-    assert set(store.read(theirs, "episodes")["regulator"]) == {"../../outside"}
-    assert digest(theirs.parent) == before
+def test_table_that_lacks_a_column_is_refused(theirs):
+    pq.write_table(pq.read_table(theirs / "episodes.parquet").drop(["outcome"]), theirs / "episodes.parquet")
+    with pytest.raises(BadResults, match="no column outcome as ours"):
+        store.read(theirs, "episodes")
 
 
 def test_plan_whose_names_lead_outside_is_refused_as_edited(capsys, theirs):

@@ -109,11 +109,7 @@ def joined(tables: list[pa.Table]) -> pa.Table:
 
 
 def read_arrow(path: Path, table: str | Table) -> pa.Table:
-    """Return a table of ours with its schema checked.
-
-    Errors:
-        BadResults: missing, truncated, or of another schema; the message says which and the cure.
-    """
+    """Return a table of ours; BadResults, with the cure, if it is missing, truncated, or of another schema."""
     return _checked(
         path,
         table_of(table).name,
@@ -122,11 +118,7 @@ def read_arrow(path: Path, table: str | Table) -> pa.Table:
 
 
 def check(path: Path, table: str | Table) -> None:
-    """Return the same checks from the file's end alone, where parquet keeps its schema: what a truncated file lacks.
-
-    Errors:
-        BadResults: see `read_arrow`.
-    """
+    """Make the checks of `read_arrow` from the file's end alone, where parquet keeps its schema."""
     _checked(path, table_of(table).name, lambda: pq.read_schema(path).empty_table())
 
 
@@ -148,6 +140,10 @@ def _checked(path: Path, table: str, opened: Callable) -> pa.Table:
         )
     if table not in FREE_WORDS:
         _refuse_words(path, arrow)
+    kinds = {column.name: pa.types.is_dictionary(column.type) for column in arrow.schema}
+    for column in table_of(table).schema():
+        if kinds.get(column.name) != pa.types.is_dictionary(column.type):
+            raise BadResults(f"{path}: it has no column {column.name} as ours is; delete the file and run again")
     return arrow
 
 
@@ -176,10 +172,9 @@ def frame(path: Path, table: str | Table) -> pd.DataFrame:
 
 
 def read(folder: Path, table: str | Table) -> pd.DataFrame:
-    """One table of a finished run as a data frame; without rows if its experiment is newer than the run.
+    """Return one table of a finished run; without rows if its experiment is newer than the run.
 
-    Errors:
-        BadResults: see `read_arrow`; also a folder whose run has not finished.
+    BadResults: see `read_arrow`; also of a run that has not finished.
     """
     table, folder = table_of(table), Path(folder)
     if not folder.is_dir():
@@ -197,6 +192,7 @@ def find_newer(folder: Path) -> list[str]:
     plan = Path(folder) / "plan.json"
     if not (missing and plan.is_file()):
         return []
-    planned = [unit[:1] for unit in read_json(plan).get("units", []) if isinstance(unit, list)]
+    units = read_json(plan).get("units")
+    planned = [unit[:1] for unit in (units if isinstance(units, list) else []) if isinstance(unit, list)]
     known = {one.table.name for name, one in known_experiments().items() if [name] in planned}
     return [name for name in missing if name not in known]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
+from bench.base.errors import BadResults
 from bench.base.files import read_json
 from bench.base.on_first_use import pd
 from bench.experiments.tables import read
@@ -121,7 +122,10 @@ class Results:
     @functools.cached_property
     def _plan(self) -> dict:
         path = self.folder and self.folder / "plan.json"
-        return read_json(path) if path and path.is_file() else {"seed": 0, "dt_s": 1e-3}
+        plan = read_json(path) if path and path.is_file() else {"seed": 0, "dt_s": 1e-3}
+        if type(plan.get("seed")) is not int or type(plan.get("dt_s")) not in (int, float):
+            raise BadResults(f"{path}: its seed or control period is no number; delete the folder and run again")
+        return plan
 
     @property
     def seed(self) -> int:
