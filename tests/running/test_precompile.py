@@ -20,7 +20,7 @@ from bench.law.contenders.registry import all_contenders, find_contender
 from bench.running import precompile
 from bench.running.wire_format import described
 
-EVERY = plan.make("quick", all_contenders())
+EVERY = plan.make("quick", all_contenders(), Choice(tasks=("free-body",)))  # starts of arms take seconds to find
 
 
 def compile_apart(folder: Path, units: tuple, *counted: str) -> list[int]:
@@ -74,16 +74,16 @@ def interrupted(begun):
 
 
 def test_the_process_ends_with_the_run_even_if_that_fails():
-    begun = []
     with pytest.raises(KeyboardInterrupt):
-        interrupted(begun)
+        interrupted(begun := [])
     assert begun[0].poll() is not None
 
 
 def test_the_process_and_its_fork_end_with_a_run_that_is_killed(tmp_path):
     script = (
-        "import time; from bench.experiments import plan; from bench.law.contenders.registry import all_contenders\n"
-        "from bench.running import precompile; every = plan.make('quick', all_contenders())\n"
+        "import time; from bench.experiments import choice, plan; from bench.law.contenders import registry\n"
+        "from bench.running import precompile\n"
+        "every = plan.make('quick', registry.all_contenders(), choice.Choice(tasks=('free-body',)))\n"
         "with precompile.compiling_ahead(every, every.units) as ahead:\n"
         "    print(ahead.process.pid, flush=True); time.sleep(60)"
     )
