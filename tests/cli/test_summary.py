@@ -48,15 +48,15 @@ def text(*found) -> str:
 # ------------------------------------------------------------------------------------------- its size
 
 
+@pytest.mark.weekly
 def test_summary_of_the_reference_fits_the_screen_and_begins_with_the_law(reference):
     """In a process of its own: it judges every claim, which takes memory."""
     said = subprocess.run([sys.executable, "-m", "bench", "show", REFERENCE], capture_output=True, text=True, cwd=ROOT)
     lines = said.stdout.splitlines()
-    law = advise(measure(reference)).default.law
     assert said.returncode == 0
     assert (len(lines) <= LINES, max(map(len, lines)) <= COLUMNS) == (True, True)
     assert lines[0].startswith("Which law ")
-    assert f"Use the law {law} (published" in lines[0]
+    assert f"Use the law {advise(measure(reference)).default.law} (published" in lines[0]
     for head in ("Exceptions", "Claims", "What failed", "This run", "Next"):
         assert any(line.startswith(head) for line in lines)
 
