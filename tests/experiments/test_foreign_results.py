@@ -165,7 +165,7 @@ def test_column_of_another_kind_is_refused(theirs, values):
 def test_table_that_lacks_a_column_is_refused(theirs):
     pq.write_table(pq.read_table(theirs / "episodes.parquet").drop(["outcome"]), theirs / "episodes.parquet")
     with pytest.raises(BadResults, match="no column outcome as ours"):
-        store.read(theirs, "episodes")
+        read.table(theirs, "episodes")
 
 
 def test_plan_whose_names_lead_outside_is_refused_as_edited(capsys, theirs):

@@ -21,7 +21,7 @@ from bench.base.errors import BadResults
 from bench.base.on_first_use import pd
 from bench.base.provenance import read_provenance
 from bench.experiments.tables.kept_laws import kept_laws
-from bench.experiments.tables.schema import RESULTS
+from bench.experiments.tables.schema import RESULTS, table_of
 from bench.law.kinds import Law
 
 VARIABLE = "ORIENTATION_BENCH_RESULTS"
@@ -72,6 +72,10 @@ def table(path: Path, name: str) -> pd.DataFrame:
     from bench.experiments.tables.store import read
 
     frame = read(path, name)
+    for column in table_of(name).schema():  # numbers may be missing: a metric may be newer than the run
+        is_word = column.name in frame and isinstance(frame[column.name].dtype, pd.CategoricalDtype)
+        if is_word != str(column.type).startswith("dictionary"):
+            raise BadResults(f"{path}: table {name} has no column {column.name} as ours is; run again")
     if "controller" in frame:
         return with_controller(frame)
     return with_contender(frame) if "regulator" in frame else frame
