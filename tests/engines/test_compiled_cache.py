@@ -18,7 +18,7 @@ import tasks
 from bench.engines import simulate as engines
 from bench.engines.compiled import made_once
 from bench.engines.metrics.registry import metrics_of
-from bench.engines.native.libmujoco import model_of
+from bench.engines.native.libmujoco import model_of, skip_constraints
 from bench.law.contenders.registry import find_contender
 from tasks.contact_model import model_xml
 
@@ -118,6 +118,16 @@ def test_keeps_every_geom_that_can_touch(name):
     )
     assert kept == touching
     assert lean.ngeom < whole.ngeom
+
+
+@pytest.mark.parametrize(("variation", "skips"), [("mass-0.85", True), ("friction-5", False)])
+def test_constraints_are_skipped_only_where_a_model_has_none(variation, skips):
+    arm = tasks.arm("ur5e")
+    model = model_of(tasks.task("arm-regulation", "ur5e").xml(1e-3), "euler")
+    tasks.variation(variation).apply(model, arm.rated)
+    assert bool(skip_constraints(model).opt.disableflags & mujoco.mjtDisableBit.mjDSBL_CONSTRAINT) == skips
+    pressed = model_of(model_xml(tasks.contact_task("surface-alignment"), arm, 1e-3), "implicitfast")
+    assert not skip_constraints(pressed).opt.disableflags & mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
 
 
 def test_clock_is_not_asked():

@@ -2,6 +2,8 @@
 
 import json
 import shutil
+import subprocess
+import sys
 
 import pyarrow as pa
 import pyarrow.compute as pc
@@ -223,3 +225,12 @@ def test_schema_of_a_foreign_table_is_named_in_signs_that_can_be_printed(capsys,
     pq.write_table(table, theirs / "compliance.parquet")
     said = refused(capsys, "show", theirs, "contact")
     assert (said.isprintable(), "x" * 300 in said) == (True, False)
+
+
+@pytest.mark.parametrize("banned", ["import pickle", "from joblib import load", "import numpy as np\nnp.load('x')"])
+def test_what_runs_code_when_it_reads_is_no_import_of_ours(banned):
+    pytest.importorskip("ruff", reason="the dev extra is not installed")
+    for room in ("bench", "tasks", "report"):
+        words = ["check", "--no-cache", "--select", "TID251", "--stdin-filename", f"{room}/new.py", "-"]
+        said = subprocess.run([sys.executable, "-m", "ruff", *words], input=banned, text=True, capture_output=True)
+        assert (said.returncode, "TID251" in said.stdout) == (1, True), said

@@ -109,7 +109,11 @@ def joined(tables: list[pa.Table]) -> pa.Table:
 
 
 def read_arrow(path: Path, table: str | Table) -> pa.Table:
-    """Return a table of ours; BadResults, with the cure, if it is missing, truncated, or of another schema."""
+    """Return a table of ours with its schema checked.
+
+    Errors:
+        BadResults: missing, truncated, or of another schema; the message says which and the cure.
+    """
     return _checked(
         path,
         table_of(table).name,
@@ -118,7 +122,11 @@ def read_arrow(path: Path, table: str | Table) -> pa.Table:
 
 
 def check(path: Path, table: str | Table) -> None:
-    """Make the checks of `read_arrow` from the file's end alone, where parquet keeps its schema."""
+    """Make the checks of `read_arrow` from the file's end alone, where parquet keeps its schema.
+
+    Errors:
+        BadResults: see `read_arrow`.
+    """
     _checked(path, table_of(table).name, lambda: pq.read_schema(path).empty_table())
 
 
@@ -170,7 +178,8 @@ def frame(path: Path, table: str | Table) -> pd.DataFrame:
 def read(folder: Path, table: str | Table) -> pd.DataFrame:
     """Return one table of a finished run; without rows if its experiment is newer than the run.
 
-    BadResults: see `read_arrow`; also of a run that has not finished.
+    Errors:
+        BadResults: see `read_arrow`; also of a run that has not finished.
     """
     table, folder = table_of(table), Path(folder)
     if not folder.is_dir():
