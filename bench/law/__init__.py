@@ -7,6 +7,7 @@ here alone:
 
 scalar           the dialect: @kernel, and the functions of a number that it has
 so3              rotations as three columns, and vectors
+side             the side of a 180° rotation that a law keeps in memory
 linalg/          products, eliminations and rotations of small matrices
 kinds            Law, Coordinates, Jacobian, Inverse, Impedance, Spring: a file of contenders/ holds one of them
 inputs           Gains, Goal; chain: an arm as kernels see it
@@ -39,6 +40,7 @@ from bench.law.linalg import (
     solve_upper,
 )
 from bench.law.scalar import acos, atan2, copysign, cos, kernel, sin, sqrt
+from bench.law.side import DELTA, turn_on_kept_side
 from bench.law.so3 import (
     IDENTITY,
     Rotation,

@@ -21,7 +21,6 @@ from bench.engines.simulate import simulate
 from bench.engines.simulate_bodies import drawn
 from bench.engines.simulate_bodies import run_disturbed as run
 from bench.law.contenders.registry import find_contender
-from bench.law.contenders.regulators.hybrid import DELTA
 from tasks.base import Start
 from tasks.condition import NO_FEEDFORWARD, RATE, Condition
 from tasks.moving_goal import reference_rates
@@ -164,8 +163,11 @@ def test_the_worst_noise_holds_a_law_without_memory_at_the_half_turn(word, beyon
     assert np.all(ended(word, HALF_TURNS, Condition(period_s=period_s))[:, OUTCOME] == SETTLED)
 
 
-WIDTH = {"hybrid": 2.0 * math.asin(DELTA), "late-braking": math.pi / 3.0}
-"""Angle beyond 180° at which a law leaves the side it remembers: where the reported eta is -DELTA, or -1/2."""
+WIDTH = {
+    **dict.fromkeys(("hybrid", "rotation-vector-memory", "mrp-memory", "sliding-memory"), 2.0 * math.asin(0.4)),
+    "late-braking": math.pi / 3.0,
+}
+"""Angle beyond 180° at which a law leaves the side it remembers: where the reported eta is -0.4, or -1/2."""
 
 
 @pytest.mark.parametrize("word", WIDTH)

@@ -125,10 +125,13 @@ QUATERNIONS = {
     "mju_mat2Quat": shortest(mujocos_quaternion),
     "pinocchio": shortest(lambda turn: pinocchio.Quaternion(turn.R).coeffs()[[3, 0, 1, 2]]),
 }
+MRPS = {"scipy": asked("scipy", "4 as_mrp")}
 ORACLES = {
-    "rotation-vector": ROTATION_VECTORS,
-    **dict.fromkeys(("quaternion-shortest", "square-root", "hybrid", "sliding", "mrp-linearized"), QUATERNIONS),
-    "mrp": {"scipy": asked("scipy", "4 as_mrp")},
+    **dict.fromkeys(("rotation-vector", "rotation-vector-memory"), ROTATION_VECTORS),
+    **dict.fromkeys(
+        ("quaternion-shortest", "square-root", "hybrid", "sliding", "sliding-memory", "mrp-linearized"), QUATERNIONS
+    ),
+    **dict.fromkeys(("mrp", "mrp-memory"), MRPS),
     "in-engine": {"orientation-actuator": ROTATION_VECTORS["orientation-actuator"]},
     "late-braking": {name: braking_late(oracle) for name, oracle in QUATERNIONS.items()},
 }

@@ -113,9 +113,9 @@ def test_sliding_law_slides():
 
 
 def test_laws_with_memory_keep_their_side_beyond_a_half_turn_and_change_it_later():
-    """From just short of a half turn: hybrid to eta = -0.4, late-braking to -0.5, mrp-linearized to |sigma|^2 = 1.5."""
+    """From just short of a half turn: most to eta = -0.4, late-braking to -0.5, mrp-linearized to |sigma|^2 = 1.5."""
     ends = {
-        "hybrid": 2.0 * math.acos(-0.4),
+        **dict.fromkeys(WITH_SIDE, 2.0 * math.acos(-0.4)),
         "mrp-linearized": 4.0 * math.atan(math.sqrt(1.5)),
         "late-braking": 2.0 * math.acos(-0.5),
     }
@@ -155,23 +155,50 @@ def lift(E, near):
     return q if q @ near >= 0.0 else -q
 
 
-def written_out(q, omega):
-    """The law's equation on a quaternion (eta, eps) that knows its side."""
+def brake_late(q, omega):
+    """Return the command of late-braking on a quaternion (eta, eps) that knows its side."""
     eta, eps = q[0], q[1:]
     pull = GAINS.kp * (1.0 + eta**2) + 0.8 * GAINS.kv * max(0.0, eps @ omega)
-    return pull * eps - GAINS.kv * np.asarray(omega)
+    return pull * eps - GAINS.kv * omega
 
 
-def test_command_is_the_equation_on_the_side_it_is_on_to_240_degrees_and_on_the_other_beyond():
+def slide(q, omega):
+    """Return the command at K = 10, lambda = 20, the derivative of eps as scipy turns quaternions."""
+    eta, eps = q[0], q[1:]
+    return -10.0 * (eta * omega + np.cross(eps, omega)) - 10.0 * (omega - 20.0 * eps)
+
+
+def spring(of_half_angle):
+    """Return the command of a spring along the axis, its force over Kp a function of the angle up to 2 pi."""
+
+    def written(q, omega):
+        half = math.acos(np.clip(q[0], -1.0, 1.0)) if q[0] < 0.9 else math.asin(np.linalg.norm(q[1:]))
+        return GAINS.kp * of_half_angle(half) / math.sin(half) * q[1:] - GAINS.kv * omega
+
+    return written
+
+
+WITH_SIDE = {
+    "hybrid": spring(lambda half: 2.0 * math.sin(half)),
+    "rotation-vector-memory": spring(lambda half: 2.0 * half),
+    "mrp-memory": spring(lambda half: 4.0 * math.tan(half / 2.0)),
+    "sliding-memory": slide,
+}
+"""Law on the side that `bench.law.side` keeps, to 227 degrees -> its equation, written out."""
+ON_A_SIDE = [(word, 227, written) for word, written in WITH_SIDE.items()] + [("late-braking", 240, brake_late)]
+
+
+@pytest.mark.parametrize(("word", "last", "written"), ON_A_SIDE)
+def test_command_is_the_equation_on_the_side_it_is_on_to_its_last_angle_and_on_the_other_beyond(word, last, written):
     for k, omega in zip(TURNS, np.random.default_rng(2).normal(scale=8.0, size=(len(TURNS), 3)), strict=True):
         q, memory = np.array(NONE_YET), NONE_YET
-        for theta in np.radians(np.arange(1.0, 240.0, 2.0)):
+        for theta in np.radians(np.arange(1.0, last, 2.0)):
             q = lift(turn(theta, k), q)
-            u, memory = command("late-braking", turn(theta, k).inv(), omega, memory=memory)
-            np.testing.assert_allclose(u, written_out(q, omega), rtol=0.0, atol=LOOSE)
-        beyond = turn(np.radians(241.0), k)
-        u, memory = command("late-braking", beyond.inv(), omega, memory=memory)
-        np.testing.assert_allclose(u, written_out(-lift(beyond, q), omega), rtol=0.0, atol=LOOSE)
+            u, memory = command(word, turn(theta, k).inv(), omega, memory=memory)
+            np.testing.assert_allclose(u, written(q, omega), rtol=0.0, atol=LOOSE)
+        beyond = turn(np.radians(last + 1.0), k)
+        u, memory = command(word, beyond.inv(), omega, memory=memory)
+        np.testing.assert_allclose(u, written(-lift(beyond, q), omega), rtol=0.0, atol=LOOSE)
 
 
 # --------------------------------------------------------------------------- the paper's (Murphy 1988, 2.14-2.15)

@@ -10,13 +10,18 @@ from bench.base.bisection import bisect
 from bench.findings.perturbed import FOLLOWED_RAD
 from bench.findings.theory import robustness_theory
 from bench.findings.theory.isotropic import EQUATIONS
+from bench.law import DELTA
 from bench.law.contenders.registry import all_contenders
 from tasks.condition import condition_at
 
 HALF_TURN = "half-turn-noise"
 
-WITH_MEMORY = ("hybrid", "late-braking", "mrp-linearized")
-"""Laws that `keeps` knows."""
+DELTAS = {
+    **dict.fromkeys(("hybrid", "mrp-memory", "rotation-vector-memory", "sliding-memory"), DELTA),
+    "mrp-linearized": 0.2,
+    "late-braking": 0.5,
+}
+"""Law -> -eta where it leaves the side that it keeps in memory, eta = cos(theta/2)."""
 
 UNBOUNDED = tuple(law for law, equation in EQUATIONS.items() if not equation.is_bounded)
 """Laws without a greatest command: at a 180° rotation they have none that a tick could hold."""
@@ -30,15 +35,7 @@ TAIL_HORIZON_S = 5.0
 
 def keeps(law: str) -> float:
     """Return the angle [rad] beyond 180° up to which a law with memory keeps its direction; NaN of other laws."""
-    if law == "hybrid":
-        from bench.law.contenders.regulators.hybrid import DELTA
-
-        return 2.0 * math.asin(DELTA)
-    if law == "mrp-linearized":
-        from bench.law.contenders.regulators.mrp_linearized import SWITCH
-
-        return 4.0 * math.atan(math.sqrt(SWITCH)) - math.pi
-    return math.pi / 3.0 if law == "late-braking" else math.nan
+    return 2.0 * math.asin(DELTAS.get(law, math.nan))
 
 
 @functools.cache

@@ -31,6 +31,7 @@ FIRST = (
     "On the matrix",
     "On the quaternion",
     "On three parameters",
+    "With memory",
     "Feedback-linearized elsewhere",
     "Euler variants, controls",
 )

@@ -12,9 +12,10 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from bench.experiments.tables import read
-from bench.findings.theory.thresholds import HALF_TURN, WITH_MEMORY, keeps, least
+from bench.findings.theory.thresholds import DELTAS, HALF_TURN, keeps, least
+from bench.law import DELTA
 from bench.law.contenders.registry import find_contender
-from bench.law.contenders.regulators import hybrid, mrp_linearized
+from bench.law.contenders.regulators import mrp_linearized
 from bench.law.kinds import Law
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
@@ -87,7 +88,7 @@ def facts(run: Run) -> dict:
     with_memory = [law for law in own if regulator_of(law).memory]
     without_memory = [law for law in own if law not in with_memory]
     jumping = [begin for law, begin in known.items() if law in without_memory and begin > 0.0]
-    middle = float(noisy.index[noisy.index < min(map(keeps, WITH_MEMORY))].max())
+    middle = float(noisy.index[noisy.index < min(map(keeps, DELTAS))].max())
     return {
         "n": starts(rows),
         "agree": sum(map(bool, agree)),
@@ -98,8 +99,8 @@ def facts(run: Run) -> dict:
         "stuck": int((shares.loc[0.0, own] < 1.0).sum()),
         "least": f"{min(jumping):.2g}",
         "most": f"{max(jumping):.2g}",
-        **{law: f"{keeps(law):.3f}" for law in WITH_MEMORY},
-        "delta": f"{hybrid.DELTA:g}",
+        **{law: f"{keeps(law):.3f}" for law in DELTAS},
+        "delta": f"{DELTA:g}",
         "switch": f"{mrp_linearized.SWITCH:g}",
     }
 

@@ -1,18 +1,14 @@
 """The square-root law with one quaternion of memory: global, with no point of rest but the goal.
 
-The error quaternion is followed from tick to tick, and its sign changed only where its scalar part has fallen below
--DELTA: near a 180° rotation the law keeps the side it has begun on, so that noise does not hold it there. No
-continuous law without memory can do it (Bhat & Bernstein 2000). The memory outlives the goal: reset it before the first
-tick, after a pause, and when the goal jumps.
+The error quaternion is on the side that `bench.law.side` keeps: near a 180° rotation the law goes on as it has begun,
+so that noise does not hold it there. The memory outlives the goal: reset it before the first tick, after a pause, and
+when the goal jumps.
 
 Limitations: up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it keeps turning the longer
 way, and so it may without a reset when the goal jumps.
 """
 
-from bench.law import CHORD, Display, Law, Look, kernel, spring_damper, sqrt, turn_quaternion
-
-DELTA = 0.4
-"""Half the width of the hysteresis, in eta = cos(theta/2)."""
+from bench.law import CHORD, DELTA, Display, Law, Look, kernel, spring_damper, turn_on_kept_side
 
 
 @kernel
@@ -21,11 +17,7 @@ def law(R, omega, goal, gains, memory):
 
     Here (eta, eps) = (w, v)/(2 root): eta and eps themselves are needed nowhere.
     """
-    w, v, t = turn_quaternion(R, goal.R)
-    root = sqrt(t)
-    kept = memory[0] * w + memory[1] * v[0] + memory[2] * v[1] + memory[3] * v[2]
-    if kept < 0.0 and w < 2.0 * DELTA * root:
-        w, v = -w, (-v[0], -v[1], -v[2])
+    w, v, root = turn_on_kept_side(R, goal.R, memory, DELTA)
     pull = gains.kp / root
     u = spring_damper(pull, v, gains.kv, omega)
     return u, (w, v[0], v[1], v[2])

@@ -7,11 +7,17 @@ from bench.law import QUARTER, Display, Law, Look, kernel, spring_damper, sqrt, 
 
 
 @kernel
+def turn_by_quarter(w, v, root, omega, gains):
+    """4 Kp tan(theta/4) k - Kv omega of the turn with the quaternion (w, v) of length 2 root."""
+    scale = 4.0 * gains.kp / (w + 2.0 * root)
+    return spring_damper(scale, v, gains.kv, omega)
+
+
+@kernel
 def law(R, omega, goal, gains):
     """u = 4 Kp eps/(1 + eta) - Kv omega, (eta, eps) the unit quaternion of the turn from R to R_d, eta >= 0."""
     w, v, t = turn_quaternion(R, goal.R)
-    scale = 4.0 * gains.kp / (w + 2.0 * sqrt(t))
-    return spring_damper(scale, v, gains.kv, omega)
+    return turn_by_quarter(w, v, sqrt(t), omega, gains)
 
 
 REGULATOR = Law(

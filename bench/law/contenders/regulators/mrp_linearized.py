@@ -8,10 +8,12 @@ Limitations: where the sheet changes the command jumps; a goal that jumps withou
 reached the longer way.
 """
 
-from bench.law import LINEAR_MRP, Display, Law, Look, dot, kernel, sqrt, turn_quaternion
+from bench.law import LINEAR_MRP, Display, Law, Look, dot, kernel, turn_on_kept_side
 
 SWITCH = 1.5
 """|sigma|^2 at which the sheet changes: 23 degrees beyond 180°, where it is 1."""
+DELTA = (SWITCH - 1.0) / (SWITCH + 1.0)
+"""-eta there, for sigma^2 = (1 - eta)/(1 + eta)."""
 
 
 @kernel
@@ -21,14 +23,8 @@ def law(R, omega, goal, gains, memory):
     Re-derived from sigmadot = -((1 - sigma^2) I + 2 [sigma]x + 2 sigma sigma^T) omega / 4, base frame; see tests.
     Here sigma = v/(w + 2 root) and 1 + sigma^2 = 4 root/(w + 2 root).
     """
-    w, v, t = turn_quaternion(R, goal.R)
-    root = sqrt(t)
-    whole = root + root
-    kept = memory[0] * w + memory[1] * v[0] + memory[2] * v[1] + memory[3] * v[2]
-    # on the sheet that was kept |sigma|^2 = (whole + w)/(whole - w), for this w >= 0
-    if kept < 0.0 and whole + w < SWITCH * (whole - w):
-        w, v = -w, (-v[0], -v[1], -v[2])
-    down = 1.0 / (w + whole)
+    w, v, root = turn_on_kept_side(R, goal.R, memory, DELTA)
+    down = 1.0 / (w + (root + root))
     spring = gains.kp / root - 0.5 * down * dot(omega, omega)
     along = down * dot(omega, v) - gains.kv
     u = (

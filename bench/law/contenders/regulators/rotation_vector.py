@@ -7,9 +7,8 @@ from bench.law import ANGLE, Display, Law, Look, atan2, dot, kernel, spring_damp
 
 
 @kernel
-def law(R, omega, goal, gains):
-    """u = Kp log(R_d R^T) - Kv omega, the logarithm by theta = 2 atan2(sin(theta/2), cos(theta/2)) in [0, pi]."""
-    w, v, _ = turn_quaternion(R, goal.R)
+def turn_by_angle(w, v, omega, gains):
+    """Kp theta k - Kv omega of the turn with the quaternion (w, v), of any length but 0: theta = 2 atan2(|v|, w)."""
     square = dot(v, v)
     if square > 0.0:
         size = sqrt(square)
@@ -17,6 +16,13 @@ def law(R, omega, goal, gains):
     else:
         scale = 2.0 * gains.kp / w
     return spring_damper(scale, v, gains.kv, omega)
+
+
+@kernel
+def law(R, omega, goal, gains):
+    """u = Kp log(R_d R^T) - Kv omega, the logarithm by theta = 2 atan2(sin(theta/2), cos(theta/2)) in [0, pi]."""
+    w, v, _ = turn_quaternion(R, goal.R)
+    return turn_by_angle(w, v, omega, gains)
 
 
 REGULATOR = Law(

@@ -12,13 +12,12 @@ from bench.law import CHORD, Display, Equation, Law, Look, cos, cross, kernel, s
 
 
 @kernel
-def law(R, omega, goal, gains):
-    """u = -(lambda/2)(eta omega + eps x omega) - K (omega - lambda eps), base frame, eta >= 0.
+def slide(w, v, root, omega, gains):
+    """-(lambda/2)(eta omega + eps x omega) - K (omega - lambda eps), (eta, eps) = (w, v)/(2 root).
 
     Re-derived, see tests.
     """
-    w, v, t = turn_quaternion(R, goal.R)
-    scale = 0.5 / sqrt(t)
+    scale = 0.5 / root
     eta, eps = scale * w, (scale * v[0], scale * v[1], scale * v[2])
     half = 0.5 * gains.kv
     square = half * half - gains.kp
@@ -35,10 +34,23 @@ def law(R, omega, goal, gains):
     )
 
 
+@kernel
+def law(R, omega, goal, gains):
+    """u = -(lambda/2)(eta omega + eps x omega) - K (omega - lambda eps), base frame, eta >= 0."""
+    w, v, t = turn_quaternion(R, goal.R)
+    return slide(w, v, sqrt(t), omega, gains)
+
+
 def half_lambda(kp, kv):
     """Half the rate of the path [1/s], as the law above has it."""
     return kv / 2.0 - sqrt(max(0.0, kv * kv / 4.0 - kp))
 
+
+SLIDING = Equation(
+    r"2 \sin(\theta/2) - \lambda\,(1 - \cos(\theta/2))\,\dot\theta/(2 K_p)",
+    CHORD.spring,
+    lambda theta, rate, kp, kv: half_lambda(kp, kv) * (1.0 - cos(theta / 2.0)) * rate,
+)
 
 REGULATOR = Law(
     name="sliding",
@@ -48,14 +60,5 @@ REGULATOR = Law(
     law=law,
     property="almost global",
     later=True,
-    display=Display(
-        "sliding",
-        Look("orange", "v", "dash-dot"),
-        "On the quaternion",
-        Equation(
-            r"2 \sin(\theta/2) - \lambda\,(1 - \cos(\theta/2))\,\dot\theta/(2 K_p)",
-            CHORD.spring,
-            lambda theta, rate, kp, kv: half_lambda(kp, kv) * (1.0 - cos(theta / 2.0)) * rate,
-        ),
-    ),
+    display=Display("sliding", Look("orange", "v", "dash-dot"), "On the quaternion", SLIDING),
 )
