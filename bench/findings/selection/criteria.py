@@ -144,6 +144,11 @@ def settled_under(axis: str, level: float) -> Measure:
     return perturbed(axis, level, "settling_time_s")
 
 
+def in_degrees(measure: Measure) -> Measure:
+    """Return a measure of angles in degrees."""
+    return lambda tables: {name: np.degrees(angles) for name, angles in measure(tables).items()}
+
+
 MEASURES: dict[str, Measure] = {
     "unsettled": lambda tables: {name: 100.0 * lost for name, lost in by_law(tables.uniform, "lost").items()},
     "lost": lambda tables: {name: np.array([lost.sum()]) for name, lost in by_law(tables.directed, "lost").items()},
@@ -158,6 +163,7 @@ MEASURES: dict[str, Measure] = {
     "peak": over_uniform("peak_u"),
     "chatter": over_uniform("rest_change"),
     "variation": perturbed("delay", 0.0, "variation"),
+    "overshoot": in_degrees(perturbed("saturation", BOUND, "overshoot_rad")),
     "matched": settled_under("equal-peak", PEAK),
     "bounded": settled_under("saturation", BOUND),
     "slow": settled_under("control-rate", SLOW_HZ),

@@ -1,4 +1,4 @@
-"""The way that the body takes: how far it turns, how far it comes out of the band again, how near to a singularity."""
+"""The path of the body: how far it turns, and how near it comes to a singularity."""
 
 import math
 
@@ -15,20 +15,6 @@ def smallest_margin(value, sample):
 
 
 @kernel
-def largest_haversine(value, sample):
-    """Largest haversine since the band was first entered."""
-    if sample.entered and sample.haversine > value:
-        return sample.haversine
-    return value
-
-
-def angle_outside(value, ending):
-    """Return the angle, if it lies outside the band; else 0."""
-    angle = 2.0 * math.asin(min(1.0, math.sqrt(value)))
-    return angle if angle > ending.band else 0.0
-
-
-@kernel
 def travel(value, sample):
     """Travelled angle: the sum of |omega| dt."""
     return value + sqrt(dot(sample.omega, sample.omega)) * sample.dt
@@ -41,8 +27,5 @@ def over_initial(value, ending):
 
 METRICS = (
     Metric("min_margin", "1", "smallest distance to the singular set", math.inf, smallest_margin, if_finite),
-    Metric(
-        "overshoot_rad", "rad", "largest angle after the band was first entered", 0.0, largest_haversine, angle_outside
-    ),
     Metric("path_ratio", "1", "travelled angle over initial angle", 0.0, travel, over_initial),
 )
