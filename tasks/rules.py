@@ -12,6 +12,15 @@ import math
 from typing import NamedTuple
 
 
+def band_rad(angle0: float, tolerance: float, floor_rad: float, at_goal_rad: float) -> float:
+    """Return the half width of the settling band [rad], by numbers of the rules: `Rules.band_rad`."""
+    return floor_rad if angle0 < at_goal_rad else tolerance * angle0
+
+
+COMPILABLE = (band_rad,)
+"""What a compiled loop needs of this module."""
+
+
 class Rules(NamedTuple):
     """When an episode is settled, stuck, or has failed."""
 
@@ -46,7 +55,7 @@ class Rules(NamedTuple):
 
     def band_rad(self, angle0: float) -> float:
         """Half width of the settling band [rad] of an episode that begins at this angle to its goal [rad]."""
-        return self.floor_rad if angle0 < self.at_goal_rad else self.tolerance * angle0
+        return band_rad(angle0, self.tolerance, self.floor_rad, self.at_goal_rad)
 
     def band_haversine(self, angle0: float) -> float:
         """Return the band as sin^2(band/2), to compare with `truth.haversine`."""

@@ -31,7 +31,7 @@ from bench.law.chain import Chain, Scratch
 from bench.law.control.setpoint import ContactParameters, Rows, Setpoint
 from bench.law.inputs import Gains, Goal
 from bench.law.so3 import Rotation
-from tasks import moving_goal, truth, velocity, verdict
+from tasks import moving_goal, rules, truth, velocity, verdict
 
 
 def _count_from_a_random_place() -> None:
@@ -144,7 +144,7 @@ def register_kernels() -> None:
         for function in scalar.PRIMITIVES:
             if function not in _registered:
                 _register_primitive(function)
-        judges = (verdict, truth, moving_goal, velocity)
+        judges = (verdict, truth, rules, moving_goal, velocity)
         for function in (*scalar.KERNELS, *(one for module in judges for one in module.COMPILABLE)):
             register(function)
 

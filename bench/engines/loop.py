@@ -112,16 +112,17 @@ ACCELERATION = Controller(begin, accelerate)
 
 
 class Record(NamedTuple):
-    """Functions that fill a row; the last two may be missing.
+    """Functions that fill a row; the last three may be missing.
 
     see(row, curves, now, body, sensed, act, before, numbers): before the plant moves; before: the u before this one.
     account(row, body, state, sensed, act, tick, numbers): after it has. close(row, body, state, k, numbers): at the
-    end.
+    end. restart(row, start, body, sensed, tick): before the judge sees a tick; may begin the row and the band anew.
     """
 
     see: Callable
     account: Callable | None = None
     close: Callable | None = None
+    restart: Callable | None = None
 
 
 def sampled(observe) -> Record:
@@ -141,7 +142,7 @@ def episodes_of(plant: Plant, controller: Controller, record: Record):
     """Return the loop, which fills the last two of its arguments: a row an episode, and curves where there is room."""
     reset, sense, advance, measure = plant
     begin, command = controller
-    see, account, close = record
+    see, account, close, restart = record
 
     def episodes(first, second, third, world, memory0, starts, numbers, rows, curves):
         laws, gains, body = Laws(first, second, third), Gains(numbers.kp, numbers.kv), borrow(world)
@@ -167,6 +168,8 @@ def episodes_of(plant: Plant, controller: Controller, record: Record):
                     failure = check_state(sensed.speed, numbers.speed_limit_squared)
                 if failure != GOING:
                     break
+                if restart is not None:
+                    restart(row, start, body, sensed, tick)
                 watch = watched(watch, tick, sensed.haversine, start[11], sensed.turning, numbers.slow_squared)
                 if account is not None:
                     account(row, body, state, sensed, act, tick, numbers)

@@ -10,6 +10,7 @@ from bench.engines.binding import memory_of
 from bench.engines.compiled import BEGIN_STATE, STATEFUL, made_once, part
 from bench.engines.episode import (
     FINAL_ANGLE,
+    NEVER,
     SETTLING_TICK,
     START_WIDTH,
     Metrics,
@@ -38,7 +39,7 @@ def run_disturbed(
     contender: Contender, starts: Starts, condition: Condition, settings: Settings, metrics: Metrics, seed: int = 0,
     noise_bytes: float = NOISE_BYTES,
 ) -> np.ndarray:  # fmt: skip
-    """Rows of `engines.episode`, one a start, with `perturbed.EXTRA` columns more.
+    """Rows of `engines.episode`, one a start, with `perturbed.EXTRA` columns more; settling counts from a jump.
 
     Args:
         settings: gains and limits; dt_s is the condition's.
@@ -53,7 +54,9 @@ def run_disturbed(
     for first in range(0, len(starts), block):
         some = slice(first, first + block)
         noise = drawn(len(begun[some]), periods, seed, condition.is_noisy, first)
-        simulate(loop, law, perturbed.world(condition, noise), memory, begun[some], limits, rows[some])
+        simulate(loop, law, perturbed.world(condition, noise, rows[some]), memory, begun[some], limits, rows[some])
+    has_settled = rows[:, SETTLING_TICK] != NEVER
+    rows[has_settled, SETTLING_TICK] -= perturbed.timing(condition).jump
     return rows
 
 

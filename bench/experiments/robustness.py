@@ -116,7 +116,9 @@ def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
         return lost_numbers(blank(len(starts), metrics, (0.0,) * EXTRA), outcome)
 
     nothing = dict.fromkeys((metric.column for metric in metrics_of(on_arm=False)), np.nan)
-    return simulated(settings, unit, simulate, lambda _one, _peak: settings.gains).assign(**nothing, variation=np.nan)
+    return simulated(settings, unit, simulate, lambda _one, _peak: settings.gains).assign(
+        **nothing, variation=np.nan, judged_rad=np.nan
+    )
 
 
 def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
@@ -137,6 +139,8 @@ def _rows(settings: Settings, starts: list, condition: Condition, limits: Limits
     ran = episode_columns(settings, starts, numbers, step_s, limits.ticks * limits.dt_s)
     finals = ran["final_angle_rad"]
     extra = numbers[:, -perturbed.EXTRA :]
+    jumped = extra[:, perturbed.JUMPED]
+    judged = ran | {"angle0_rad": np.where(jumped > 0.0, jumped, ran["angle0_rad"])}
     tail = extra[:, perturbed.TAIL_COUNT]
     has_tail = tail > 0
     rms = np.sqrt(extra[:, perturbed.TAIL_SQUARES] / np.where(has_tail, tail, 1.0))
@@ -145,10 +149,11 @@ def _rows(settings: Settings, starts: list, condition: Condition, limits: Limits
         "kp": limits.gains.kp,
         "kv": limits.gains.kv,
         "dt_s": condition.period_s,
-        **measured_columns(numbers, metrics_of(on_arm=False), ran),
+        **measured_columns(numbers, metrics_of(on_arm=False), judged),
         "tail_rms_rad": np.where(has_tail, rms, finals),
         "tail_max_rad": np.where(has_tail, extra[:, perturbed.TAIL_WORST], finals),
         "variation": extra[:, perturbed.VARIATION],
+        "judged_rad": judged["angle0_rad"],
     }
 
 

@@ -50,7 +50,7 @@ def test_without_perturbation_it_is_the_sampled_plant_bit_for_bit(word):
 
 EVERYTHING = Condition(
     period_s=2e-3, delay_s=3e-3, attitude_noise=0.01, rate_noise=0.1, worst_attitude_error=0.2, bound=80.0,
-    inertia=(0.7, 1.0, 1.4), reference_amplitude=2.0,
+    inertia=(0.7, 1.0, 1.4), reference_amplitude=2.0, jump_s=0.02, jump_resets=1,
 )  # fmt: skip
 
 
@@ -61,7 +61,7 @@ def test_compiled_and_plain_loops_agree_bit_for_bit(word):
     rows = blank(len(starts), METRICS, (0.0,) * perturbed.EXTRA)
     given = perturbed.in_steps(numbers(settings()), EVERYTHING, RULES.hold_s, horizon_s)
     noise = drawn(len(starts), given.ticks, 0, True)
-    plain, world = perturbed.loop_of(observer(METRICS)), perturbed.world(EVERYTHING, noise)
+    plain, world = perturbed.loop_of(observer(METRICS)), perturbed.world(EVERYTHING, noise, rows)
     with np.errstate(all="ignore"):
         simulate(plain, (evaluation_of(one),), world, memory_of(one), start_rows(starts), given, rows)
     assert same_bits(ended(word, starts, EVERYTHING, horizon_s), rows)

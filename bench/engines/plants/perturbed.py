@@ -9,18 +9,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.engines.arrays import Cube, Matrix
-from bench.engines.episode import Numbers
+from bench.engines.arrays import Cube, Matrix, Vector
+from bench.engines.episode import FIRST_METRIC, Numbers
 from bench.engines.ideal import angle_between, haversine, plus, turned
 from bench.engines.loop import Act, Controller, Plant, Sensed, episodes_of, sampled
+from bench.engines.plants.goals import NO_BAND, fed_forward, goal_at, restart
 from bench.engines.plants.ideal import measure
 from bench.engines.rigid_body import bounded, step
 from bench.law.inputs import AT_REST, Goal
 from bench.law.scalar import kernel, sqrt
-from bench.law.so3 import Rotation, dot, from_quaternion, minus, turn_quaternion
+from bench.law.so3 import IDENTITY, Rotation, dot, from_quaternion, minus, turn_quaternion
 from bench.law.tracking import carried_along
-from tasks.condition import RATE, RATE_AND_ACCELERATION, Condition
-from tasks.moving_goal import reference_column, reference_rates
+from tasks.condition import Condition
 from tasks.verdict import GOING, check_command
 
 STEP_S = 1e-3
@@ -32,25 +32,26 @@ TAIL_S = 1.0
 LEAD = 2.0
 """Periods that the worst of measurements looks ahead."""
 
-TAIL_SQUARES, TAIL_COUNT, TAIL_WORST, VARIATION = range(4)
-EXTRA = 4
-"""Columns behind the metrics', zero at first: sum of squared angles in the tail, how many, the largest, and the
-variation of u."""
+TAIL_SQUARES, TAIL_COUNT, TAIL_WORST, VARIATION, JUMPED = range(5)
+EXTRA = 5
+"""Columns behind the metrics', zero at first: sum of squared angles in the tail, how many, the largest, the variation
+of u, and the angle to a goal that jumps (`goal_jump`)."""
 
 
 class Timing(NamedTuple):
-    """A condition's times in steps of the plant: a period of control, how late a command is, the tail."""
+    """A condition's times in steps of the plant: a period of control, how late a command is, the tail, the jump."""
 
     steps: int
     late: int
     tail: int
+    jump: int
 
 
 def timing(condition: Condition) -> Timing:
     """Return the condition's times."""
     steps = steps_of(condition)
     step_s = condition.period_s / steps
-    return Timing(steps, round(condition.delay_s / step_s), round(TAIL_S / step_s))
+    return Timing(steps, *(round(seconds / step_s) for seconds in (condition.delay_s, TAIL_S, condition.jump_s)))
 
 
 def steps_of(condition: Condition) -> int:
@@ -80,47 +81,31 @@ def reported(R, omega, R_d, noise, condition, ahead):
     return R, omega
 
 
-@kernel
-def goal_at(R_0, time, amplitude):
-    """(R_d, omega_d, alpha_d) at a time."""
-    if amplitude > 0.0:
-        R_d = Rotation(
-            reference_column(time, amplitude, R_0.n),
-            reference_column(time, amplitude, R_0.o),
-            reference_column(time, amplitude, R_0.a),
-        )
-        omega_d, alpha_d = reference_rates(time, amplitude)
-        return R_d, omega_d, alpha_d
-    return R_0, AT_REST, AT_REST
-
-
-@kernel
-def fed_forward(omega_d, alpha_d, feedforward):
-    """Return what the law is given of the goal's motion."""
-    if feedforward < RATE:
-        return AT_REST, AT_REST
-    if feedforward < RATE_AND_ACCELERATION:
-        return omega_d, AT_REST
-    return omega_d, alpha_d
-
-
 class World(NamedTuple):
-    """A condition, its times, noise (episodes x periods x six, read only if there is noise), and room for commands."""
+    """A condition, its times, noise (episodes x periods x six, read only if there is noise), and room for commands.
+
+    fresh: a row's columns from the metrics on, as they are at first.
+    """
 
     condition: Condition
     timing: Timing
     noise: Cube
     sent: Matrix
+    fresh: Vector
 
 
-def world(condition: Condition, noise: np.ndarray) -> World:
-    """Return the world of a condition: commands on their way are kept in a ring."""
+def world(condition: Condition, noise: np.ndarray, rows: np.ndarray) -> World:
+    """Return the world of a condition: commands on their way are kept in a ring.
+
+    Args:
+        rows: to be filled, as they are at first.
+    """
     times = timing(condition)
-    return World(condition, times, noise, np.zeros((times.late // times.steps + 2, 3)))
+    return World(condition, times, noise, np.zeros((times.late // times.steps + 2, 3)), rows[0, FIRST_METRIC:].copy())
 
 
 class State(NamedTuple):
-    """The body, and the goal at first."""
+    """The body, and the goal at first; where it jumps, after the jump."""
 
     R: Rotation
     omega: tuple
@@ -128,18 +113,24 @@ class State(NamedTuple):
 
 
 class Periodic(NamedTuple):
-    """Hold what a controller that runs once a period stores: number of periods, the last command, as it was given."""
+    """Hold what a controller that runs once a period stores: number of periods, the last command, as it was given.
+
+    law, first: the law's memory, now and at first.
+    """
 
     law: tuple
     periods: int
     u: tuple
     given: tuple
     margin: float
+    first: tuple
 
 
 @kernel
 def reset(body, k, start):
-    """Place the body at a start."""
+    """Place the body at a start. Nothing is in the band of a goal that is to jump."""
+    if body.timing.jump > 0:
+        start[11] = NO_BAND
     R = from_quaternion((start[0], start[1], start[2], start[3]))
     R_0 = from_quaternion((start[7], start[8], start[9], start[10]))
     return State(R, (start[4], start[5], start[6]), R_0)
@@ -149,7 +140,8 @@ def reset(body, k, start):
 def sense(body, state, tick, numbers):
     """Give the truth, what is measured is `reported`; the goal has moved."""
     R, omega, R_0 = state
-    R_d, omega_d, alpha_d = goal_at(R_0, tick * numbers.dt, body.condition.reference_amplitude)
+    held = IDENTITY if tick < body.timing.jump else R_0
+    R_d, omega_d, alpha_d = goal_at(held, tick * numbers.dt, body.condition.reference_amplitude)
     behind = minus(omega, omega_d)
     turning, speed = dot(behind, behind), dot(omega, omega)
     return Sensed(R, omega, Goal(R_d, omega_d, alpha_d), haversine(R, R_d), turning, speed, turning, GOING, ())
@@ -165,17 +157,19 @@ def advance(laws, body, state, act, gains, memory, numbers):
 @kernel
 def begin(laws, memory0, sensed):
     """Start with the law's own memory, and no command."""
-    return Periodic(memory0, 0, AT_REST, AT_REST, math.nan), Act(AT_REST, AT_REST, 0.0, math.nan, GOING, 0.0)
+    return Periodic(memory0, 0, AT_REST, AT_REST, math.nan, memory0), Act(AT_REST, AT_REST, 0.0, math.nan, GOING, 0.0)
 
 
 @kernel
 def command(laws, body, sensed, now, gains, memory, numbers):
     """Ask the law once a period, and apply what it commanded a delay ago; more: how far this command jumps."""
     condition, timing, sent = body.condition, body.timing, body.sent
-    law, periods, u, given, margin = memory
+    law, periods, u, given, margin, first = memory
     steps, slots, failure, jump = timing.steps, sent.shape[0], GOING, 0.0
     if now.tick == periods * steps:
         before, goal = u, sensed.goal
+        if condition.jump_resets > 0 and 0 <= now.tick - timing.jump < steps:
+            law = first
         is_noisy = condition.attitude_noise > 0.0 or condition.rate_noise > 0.0
         noise = body.noise[now.k, periods] if is_noisy else body.noise[0, 0]
         R, turning = reported(sensed.R, sensed.omega, goal.R, noise, condition, LEAD * (steps * numbers.dt))
@@ -197,7 +191,7 @@ def command(laws, body, sensed, now, gains, memory, numbers):
         if now.tick >= timing.late:
             slot = ((now.tick - timing.late) // steps) % slots
             applied = (sent[slot, 0], sent[slot, 1], sent[slot, 2])
-    return Act(applied, given, dot(u, u), margin, failure, jump), Periodic(law, periods, u, given, margin)
+    return Act(applied, given, dot(u, u), margin, failure, jump), Periodic(law, periods, u, given, margin, first)
 
 
 @kernel
@@ -222,13 +216,16 @@ def loop_of(observe):
         show(row, curves, now, body, sensed, act, before, numbers)
 
     plant = Plant(reset, sense, advance, measure)
-    return episodes_of(plant, Controller(begin, command), metrics._replace(see=see, account=account))
+    return episodes_of(plant, Controller(begin, command), metrics._replace(see=see, account=account, restart=restart))
 
 
 def in_steps(numbers: Numbers, condition: Condition, hold_s: float, horizon_s: float) -> Numbers:
-    """Return the numbers with the plant's step for a tick; no episode stops early under a perturbation that lasts."""
+    """Return the numbers with the plant's step for a tick; the horizon begins where the goal has jumped.
+
+    No episode stops early under a perturbation that lasts.
+    """
     step_s = condition.period_s / steps_of(condition)
-    ticks = max(1, round(horizon_s / step_s))
+    ticks = max(1, round(horizon_s / step_s)) + timing(condition).jump
     rest = max(1, round(hold_s / step_s))
     hold = ticks + 1 if condition.lasts else rest
     return numbers._replace(dt=step_s, ticks=ticks, hold_ticks=hold, rest_ticks=rest)
