@@ -22,7 +22,7 @@ TOLERANCE, FLOOR_RAD, AT_GOAL_RAD = RULES.tolerance, RULES.floor_rad, RULES.at_g
 
 @kernel
 def goal_at(R_0, time, amplitude):
-    """(R_d, omega_d, alpha_d) at a time."""
+    """Return (R_d, omega_d, alpha_d) at a time."""
     if amplitude > 0.0:
         R_d = Rotation(
             reference_column(time, amplitude, R_0.n),

@@ -35,7 +35,7 @@ LEAD = 2.0
 TAIL_SQUARES, TAIL_COUNT, TAIL_WORST, VARIATION, JUMPED = range(5)
 EXTRA = 5
 """Columns behind the metrics', zero at first: sum of squared angles in the tail, how many, the largest, the variation
-of u, and the angle to a goal that jumps (`goal_jump`)."""
+of u, and the angle to a goal that jumps (`goals.restart`)."""
 
 
 class Timing(NamedTuple):
