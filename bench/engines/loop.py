@@ -116,7 +116,7 @@ class Record(NamedTuple):
 
     see(row, curves, now, body, sensed, act, before, numbers): before the plant moves; before: the u before this one.
     account(row, body, state, sensed, act, tick, numbers): after it has. close(row, body, state, k, numbers): at the
-    end. restart(row, start, body, sensed, tick): before the judge sees a tick; may begin the row and the band anew.
+    end. restart(row, start, body, sensed, tick): before the judge sees a tick; may begin the row and the band again.
     """
 
     see: Callable

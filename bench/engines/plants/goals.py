@@ -1,6 +1,6 @@
 """Goals that move: where a swaying one is, what a law is given of its motion, and one that jumps.
 
-Until a goal jumps (tasks/conditions/goal_jump.py) nothing is judged; there the row and the band begin anew.
+Until a goal jumps (tasks/conditions/goal_jump.py) nothing is judged; there the row and the band begin again.
 """
 
 import math
