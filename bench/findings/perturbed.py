@@ -29,6 +29,13 @@ STUDY = RESULTS / "robustness"
 FOLLOWED_RAD = math.radians(3.0)
 LOST, FEWEST = 0.05, 0.5
 
+DETOUR = 1.5
+"""Path over shortest path from which a start at rest counts as unwinding: halfway from 180° to 360° is
+3/2, and no spring that pulls towards the goal goes so far."""
+
+FAR_RAD = 0.5
+"""Angle to a goal that jumps, up to which no path counts: the body's stop alone is a long one beside it."""
+
 WITHSTANDS = (
     f"at most {100 * LOST:g} points fewer of its starts go well than at the mildest level; + : the last level tried"
 )
@@ -98,12 +105,16 @@ def went_well(rows: pd.DataFrame) -> pd.Series:
 
 
 def by_level(rows: pd.DataFrame) -> pd.DataFrame:
-    """Return a row a perturbation, law and level: starts, how many go well, median and longest time [s].
+    """Return a row a perturbation, law and level: starts, how many go well, median and longest time [s], paths.
 
-    The median counts what never settles as infinite; the longest is of those that settle.
+    The median counts what never settles as infinite; the longest is of those that settle. Paths are of starts more than
+    FAR_RAD from the goal where the judge begins, none of a run that does not say so.
     """
     is_settled = rows["outcome"] == "settled"
     times = rows.assign(good=went_well(rows), time_s=rows["settling_time_s"].where(is_settled, np.inf))
+    angle, ratio = (rows.reindex(columns=[name])[name].astype(float) for name in ("judged_rad", "path_ratio"))
+    angle = angle.where(angle > FAR_RAD)
+    times = times.assign(path_rad=angle * ratio, is_long=angle.notna() & (ratio > DETOUR))
     keys = ["axis", *(name for name in CONTENDER_KEY if name in rows), "level"]
     groups = times.groupby(keys, observed=True, sort=False)
     return pd.DataFrame(
@@ -112,6 +123,9 @@ def by_level(rows: pd.DataFrame) -> pd.DataFrame:
             "good": groups["good"].sum(),
             "median_s": groups["time_s"].agg(lambda each: float(quantile(each.to_numpy(), 0.5))),
             "longest_s": groups["time_s"].agg(lambda each: each[np.isfinite(each)].max()),
+            "far": groups["path_rad"].count(),
+            "long": groups["is_long"].sum(),
+            "path_rad": groups["path_rad"].max(),
         }
     ).reset_index()
 

@@ -94,6 +94,18 @@ def test_body_at_its_first_goal_is_judged_only_from_the_jump_on():
     assert change == pytest.approx(200.0 * math.sin(0.5), rel=1e-12)  # the command of the jump, from zero
 
 
+def test_jump_of_a_swaying_goal_is_followed_as_that_of_a_still_one():
+    """Told rate and acceleration, the error takes the course of regulation but for the hold and the first rate."""
+    starts = tasks.axis("goal-jump").starts(10, 0, 0.2)
+    still, swaying = (
+        ended("hybrid", starts, Condition(jump_s=0.2, reference_amplitude=rate, period_s=1e-4)) for rate in (0.0, 0.2)
+    )
+    assert np.all(swaying[:, OUTCOME] == SETTLED)
+    np.testing.assert_allclose(swaying[:, SETTLING_TICK], still[:, SETTLING_TICK], atol=16)
+    tail = swaying[:, -ENDS:]
+    assert np.sqrt(tail[:, perturbed.TAIL_SQUARES] / tail[:, perturbed.TAIL_COUNT]).max() < 1e-5
+
+
 REFEREE = {
     "late-braking": (7.5, 2.04),
     "hybrid": (4.7, 1.72),

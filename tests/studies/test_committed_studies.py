@@ -68,6 +68,13 @@ def test_median_counts_what_never_settles_and_the_longest_does_not():
     assert by_level(rows.assign(outcome="timed-out"))["median_s"].tolist() == [np.inf]
 
 
+def test_paths_count_from_where_the_judge_begins_and_not_near_the_goal():
+    rows = pd.DataFrame({"judged_rad": [2.0, 1.0, 0.4], "path_ratio": [1.4, 1.6, 9.0]})
+    rows = rows.assign(axis="goal-jump", regulator="mine", level=0.1, tail_rms_rad=0.0, outcome="settled")
+    [one] = by_level(rows.assign(settling_time_s=0.5)).to_dict("records")
+    assert (one["far"], one["long"], one["path_rad"]) == (2, 1, 2.8)
+
+
 @pytest.fixture(scope="module")
 def stored():
     return read_json(STORED)

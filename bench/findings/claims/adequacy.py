@@ -13,6 +13,7 @@ from bench.findings.claims import probes
 from bench.findings.claims.probes import EXACT_RAD
 from bench.findings.claims.standing import ORDERED, Ledger, Operations, price_of_a_call, times_of
 from bench.findings.claims.tables import Results, settled, settling_times, some
+from bench.findings.perturbed import DETOUR
 from bench.findings.start_sets import describe_lacking, least_starts
 
 if TYPE_CHECKING:
@@ -37,10 +38,6 @@ SETTLED_SHARE, NEARLY_ALL, SLOW = 0.999, 0.99, 2.0
 LOST_SHARE = 1.0 - SETTLED_SHARE
 DIRECTED_SHARE = 0.99
 """Share of the directed starts at rest, a few of which may be as near to a singular place as doubles can be."""
-
-DETOUR = 1.5
-"""Path over shortest path from which a start at rest counts as unwinding: halfway from 180° to 360° is
-3/2, and no spring that pulls towards the goal goes so far."""
 
 NOISE, HELD_RAD = "half-turn-noise", 0.1
 """Greatest worst-case noise near 180° that must not hold a law there: six degrees, which no sensor of
