@@ -46,11 +46,6 @@ def plant_pegs(bad):
     return in_contact.stuck(frame.assign(task="peg-in-hole"), "c", "e")
 
 
-def plant_fits(*depths_m):
-    """State how pegs of two fits go in, two of each."""
-    return in_contact.said_of_fits(pd.DataFrame({"clearance": [0.02, 0.02, 0.001, 0.001], "depth_m": depths_m}))
-
-
 def plant_arm(torque):
     """State on which arms no law passes, by two laws whose torques are so large a share of the rated ones."""
     law = {"controller": "rotation-matrix@geometric", "start_set": "uniform", "outcome": "settled", "start_id": [1, 2]}
@@ -126,7 +121,6 @@ def plant_fact(facts, key):
 
 SENTENCES = {
     "pegs": (plant_pegs, [((3,), "do not differ significantly"), ((18,), "frames differ significantly")]),
-    "fits": (plant_fits, [((0.03, 0.03, 0.03, 0.0), "fewer pegs"), ((0.03,) * 4, "not fewer pegs")]),
     "arms": (plant_arm, [((2.0,), "no law passes: Franka Emika Panda."), ((0.5,), "no law passes: none.")]),
     "thresholds": (plant_thresholds, [((1.0, 1.0), "[]"), ((1.0, 2.0), "['delay']")]),
     "alone": (

@@ -48,10 +48,6 @@ def test_look_of_every_law_and_of_all_coordinates_can_be_drawn():
     assert list(style.LINES) == list(LINES)
 
 
-def test_outcome_colours_have_dark_twins():
-    assert {colour for colour, _ in style.OUTCOMES.values()} <= set(style.TWINS)
-
-
 def test_contender_looks_like_its_regulator():
     assert style.look("linearized-euler/zyx-euler") == style.look("linearized-euler")
 

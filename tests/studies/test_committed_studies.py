@@ -22,10 +22,7 @@ from bench.findings import claims
 from bench.findings.maps import lost_share
 from bench.findings.perturbed import by_level, studied
 from bench.law.contenders.registry import find_contender
-from bench.law.control.setpoint import TOUCH
 from bench.studies import verdicts
-from bench.studies.contact import __main__ as contact
-from bench.studies.contact import pegs, stability
 from bench.studies.robustness import STARTS
 from bench.studies.verdicts import HALF_STEP, RUNS, SEEDS, STORED, plan_of, turned
 from tasks.condition import condition_at
@@ -129,32 +126,3 @@ def test_patch_cures_the_installed_library(patch, tmp_path):
     for part, expected in ((["--include", added], 1), (["--exclude", added], 0)):
         subprocess.run(["git", "apply", *part, patch], cwd=tmp_path, check=True)
         assert outcome(tmp_path, source) == expected
-
-
-FOUND = {part: pd.DataFrame(rows) for part, rows in read_json(contact.STORED).items()}
-
-
-def one_of(part, rows):
-    """Return the only row of a part of the study that an expression chooses."""
-    [row] = FOUND[part].query(rows).to_dict("records")
-    return row
-
-
-def test_every_part_is_there():
-    assert set(FOUND) == set(contact.PARTS)
-    assert all(map(len, FOUND.values()))
-    assert set(FOUND["fits"]["clearance"]) == set(pegs.CLEARANCES)
-
-
-def test_pegs_that_stick_at_rest_between_the_walls_are_jammed_by_their_load():
-    stuck = FOUND["fits"].query("margin > 0 and rested")
-    assert len(stuck) >= 3
-    assert (stuck["margin"] > 1).all()
-
-
-@pytest.mark.parametrize("delay", [10, 20])
-def test_boundary_is_where_it_was(delay):
-    controller = "hybrid-base+inverse"
-    row = one_of("boundary", f"controller == '{controller}' and delay_ms == {delay}")
-    assert stability.is_steady(stability.pressed(controller, TOUCH.kf, row["measured"] / 1.12, 1e-3 * delay))
-    assert not stability.is_steady(stability.pressed(controller, TOUCH.kf, row["measured"] * 1.12, 1e-3 * delay))

@@ -3,7 +3,6 @@
 import json
 
 import numpy as np
-import pandas as pd
 from scipy.stats import binomtest, fisher_exact
 
 import tasks
@@ -72,11 +71,8 @@ def recompute_contact():
         flat, leans = own["time_to_align_s"].notna(), own["tilt_deg"] != 0
         turned = float(f"{np.degrees(own['held_turn_rad'].max()):.1f}")
         said += [flat.sum(), len(own), (flat & leans).sum(), leans.sum(), turned]
-    fits = pd.DataFrame(read_json("contact/contact.json")["fits"])
-    is_in = (fits["depth_m"] >= 0.027).groupby(fits["clearance"]).agg(["sum", "size"]).iloc[::-1]
-    by_fit = [number for share, (good, n) in is_in.iterrows() for number in (good, n, 100 * share)]
     stuck, other = map(recompute_pegs, ("transpose", "inverse"))
-    return {"flat": said, "stuck": stuck, "other_stuck": other, "fits": by_fit}
+    return {"flat": said, "stuck": stuck, "other_stuck": other}
 
 
 def recompute_impedance():

@@ -1,1 +1,1 @@
-"""Commands that are killed in each of their phases and given again; runs, at every one of their file operations too."""
+"""Runs that are killed, damaged or given laws that lie: programs that the tests start."""

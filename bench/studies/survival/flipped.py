@@ -21,9 +21,9 @@ from bench.experiments.tables.packed import pack, unpack
 from bench.running import run
 from bench.running.run_folder import SEAL, part
 from bench.studies.study import make_parser
-from bench.studies.survival.aimed import SEED
 from bench.studies.survival.killed import OTHER, SHORT, Undisturbed, files_of, undisturbed
 
+SEED = 20260119
 AGAIN, REFUSED, HARMLESS, SILENT = "run again", "refused", "harmless", "silent"
 Changes = dict[str, dict[Path, bytes]]
 """Name of a change -> file of the run -> what it holds then."""

@@ -61,9 +61,7 @@ def make_page(name: str, title: str, card: str, source: Source, word: str = "", 
     return LawPage(name, title, body, dict(files.values()))
 
 
-def make_card(
-    record: Any, title: str, said: tuple[list[str], Mapping[str, str]], look: str, costs: str = "", drawn: str = ""
-) -> str:
+def make_card(record: Any, title: str, said: tuple[list[str], Mapping[str, str]], look: str, costs: str = "") -> str:
     """Return the card of a law.
 
     Args:
@@ -73,10 +71,10 @@ def make_card(
     lines = [f"<p>{html.foreign(text)}</p>" for text in said[0]]
     lines += [f'<p class="card-fact"><b>{head}.</b> {html.foreign(text)}</p>' for head, text in said[1].items() if text]
     return (
-        f'<section class="law-card{"" if drawn else " alone"}" style="--law: {look}"'
+        f'<section class="law-card" style="--law: {look}"'
         f' aria-label="{markup.escape(title, quote=True)}">'
         f'<header><span class="card-source">{html.foreign(record.source)}</span></header>{formula}'
-        f'<div class="card-body"><div class="card-text">{"".join(lines)}{costs}</div>{drawn}</div></section>'
+        f'<div class="card-body"><div class="card-text">{"".join(lines)}{costs}</div></div></section>'
     )
 
 

@@ -16,7 +16,6 @@ from bench.law.contenders import regulators
 from bench.law.contenders.registry import contenders, contenders_of, papers_laws
 from bench.law.kinds import Law
 from report.figures.cards.card import LawPage, Source, docstring, make_card, make_page, say_property
-from report.figures.cards.card_map import card_map
 from report.figures.kit import families, html, laws, style
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.share import share
@@ -73,7 +72,7 @@ def page(one: Contender, run: Run, live: str = "") -> LawPage:
 
 
 def card(one: Contender, run: Run) -> str:
-    """Return the card of one law: source, formula, words, costs, and the map of its failures."""
+    """Return the card of one law: source, formula, words and costs."""
     title, episodes = laws.title_of(one), run.any_rows("episodes", contender=one.name, engine=engine_of(one.regulator))
     what, fails = text_of(one.regulator)
     acts = one.representation.title if one.representation else "the rotation matrix"
@@ -87,10 +86,7 @@ def card(one: Contender, run: Run) -> str:
         "Advised": advised(one.name, run),
     }
     look, costs = html.both(style.look(one.name).colour), html.plain_table(costs_of(one, run))
-    drawn = f'<div class="card-map">{card_map(episodes, title)._repr_html_()}</div>' if len(episodes) else ""
-    return make_card(
-        one.regulator, title, (what, fields), look, f'<div class="card-costs" tabindex="0">{costs}</div>', drawn
-    )
+    return make_card(one.regulator, title, (what, fields), look, f'<div class="card-costs" tabindex="0">{costs}</div>')
 
 
 def costs_of(one: Contender, run: Run) -> pd.DataFrame:

@@ -11,9 +11,6 @@ import pandas as pd
 from scipy.stats import fisher_exact
 
 import tasks
-from bench.base.files import read_json
-from bench.engines.metrics.contact.scene import IN
-from bench.studies.contact.__main__ import STORED
 from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER, of, of_task
 from report.figures.kit import html, media
 from report.figures.kit.page import ABSENT, NotInRun, Run, in_run
@@ -70,8 +67,7 @@ def all_rows(run: Run) -> pd.DataFrame:
 
 def facts(run: Run) -> dict:
     """Return how episodes end, and what they are."""
-    fits = pd.DataFrame(read_json(STORED)["fits"])
-    return describe_tasks() | (in_run(lambda: of_run(all_rows(run))) or {}) | {"fits": said_of_fits(fits)}
+    return describe_tasks() | (in_run(lambda: of_run(all_rows(run))) or {})
 
 
 def describe_tasks() -> dict[str, str]:
@@ -150,14 +146,6 @@ def flat(rows: pd.DataFrame) -> str:
             "axis that is to be held"
         )
     return "; ".join(parts)
-
-
-def said_of_fits(fits: pd.DataFrame) -> str:
-    """How many pegs go in at each clearance, the widest first, and whether closer fits take fewer."""
-    counts = (fits["depth_m"] >= IN).groupby(fits["clearance"]).agg(["sum", "size"]).sort_index(ascending=False)
-    told = ", ".join(f"{one['sum']} of {one['size']} at {100 * share:g} %" for share, one in counts.iterrows())
-    falls = counts["sum"].is_monotonic_decreasing and counts["sum"].nunique() > 1
-    return f"{'fewer' if falls else 'not fewer'} pegs go in the closer they fit: {told} of play"
 
 
 def tables(run: Run) -> dict:

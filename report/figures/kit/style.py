@@ -82,20 +82,6 @@ SPARE_COLOURS = ("#a39400", "#56b4e9", "#cc79a7")
 SPARE_MARKERS = ("P", "X", "h", "*", "<")
 SPARE_LINES: tuple[Any, ...] = (SOLID, DASHED, DASH_DOT)
 
-# outcome -> colour and marker, in the order in which failure maps and legends name them
-OUTCOMES = {
-    "settled": ("#b9c3cf", "."),
-    "stuck": ("#000001", "X"),
-    "creeping": ("#a39400", "*"),
-    "oscillating": ("#009e73", "h"),
-    "timed-out": ("#e69f00", "o"),
-    "diverged": ("#d55e00", "^"),
-    "singular": ("#cc79a7", "s"),
-    "saturated": ("#56b4e9", "v"),
-    "crashed": ("#0072b2", "P"),
-    "hung": ("#009e73", "D"),
-}
-
 
 def look(name: str) -> Look:
     """How to draw a regulator or a contender (`regulator/representation@...`), unknown ones included."""

@@ -1,9 +1,8 @@
-"""What the page on provenance shows: the run, its files with links to take them, and tests of the tool itself."""
+"""What the page on provenance shows: the run, its files with links to take them, and what rounding changes."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -26,15 +25,14 @@ SITE_DATA = "../data"
 """Seen from a page in pages/; report/build.py copies there what pages link to."""
 FACTS = Table("Fact | Value")
 FILES = Table("File | Rows | Size [kB]:.0f")
-TESTED = Table("Test | Command | Result")
-KILLS = Table("Killed in | Kills | Units done | Went on | Same files")
 
 
-def facts(_: Run) -> dict[str, str]:
-    """Return the title and the version that are cited, with its date."""
+def facts(run: Run) -> dict[str, str]:
+    """Return the title and the version that are cited, with its date, and what rounding changes."""
     said = cited()
     version = f"{said['version']} ({said['date-released']})" if "date-released" in said else said["version"]
-    return {"title": said["title"], "version": version}
+    settings = describe_settings(read_json(run.studies / "settings" / "settings.json"))
+    return {"title": said["title"], "version": version, "settings": settings}
 
 
 def cited() -> dict[str, str]:
@@ -44,12 +42,10 @@ def cited() -> dict[str, str]:
 
 
 def tables(run: Run) -> dict[str, Any]:
-    """Return the run, its files, and the tests that are too long for every test run."""
+    """Return the run and its files."""
     return {
         "run": describe_run(read.provenance()),
         "tables": FILES(map(describe_file, list_files(run))),
-        "studies": TESTED(describe_studies(run)),
-        "kills": KILLS(count_kills(run)),
     }
 
 
@@ -74,40 +70,13 @@ def describe_file(path: Path) -> tuple:
     return link, rows, path.stat().st_size / 1e3
 
 
-def describe_studies(run: Run) -> Iterator[tuple[str, str, str]]:
-    """Yield a row for each study of the tool that is in the results."""
-    for name, describe in (("survival", describe_kills), ("settings", describe_settings)):
-        path = run.studies / name / f"{name}.json"
-        if path.is_file():
-            yield describe(read_json(path))
-
-
-def describe_kills(found: dict[str, Any]) -> tuple[str, str, str]:
-    """Return how many commands that were killed ended with the files of an undisturbed one."""
-    kills = found["kills"]
-    return (
-        f"{len(kills)} commands killed in {len({one['phase'] for one in kills})} phases, then the same command again",
-        "`python -P -m bench.studies.survival`",
-        f"{sum(one['same'] for one in kills)} ended with the files of an undisturbed command",
-    )
-
-
-def count_kills(run: Run) -> Iterator[tuple[str, int, str, int, int]]:
-    """Yield for each phase its kills, how many units were done, and how many went on and ended with the same files."""
-    path = run.studies / "survival" / "survival.json"
-    kills = pd.DataFrame(read_json(path)["kills"] if path.is_file() else [])
-    for phase, own in kills.groupby("phase", sort=False) if len(kills) else ():
-        done = f"{own['units_done'].min()} to {own['units_done'].max()}"
-        yield str(phase), len(own), done, own["went_on"].sum(), own["same"].sum()
-
-
-def describe_settings(found: dict[str, Any]) -> tuple[str, str, str]:
-    """Return how many rows of the quick suite differ under settings that round as other processors do."""
+def describe_settings(found: dict[str, Any]) -> str:
+    """Say how many rows of the quick suite differ under settings that round as other processors do."""
     runs = [one for machine in found.values() for one in machine.values()]
     rows = pd.DataFrame([table for one in runs for table in one["tables"].values()]).sum()
     return (
-        f"The quick suite under {len(runs)} settings of libraries and compiler that round as on other processors",
-        "`python -P -m bench.studies.settings`",
-        f"{html.number(rows['differ'])} of {html.number(rows['rows'])} rows differ in some bit from the published "
-        f"ones, {rows['outcomes']} in the outcome, {sum(one['gate'] for one in runs)} by more than the gate allows",
+        f"Under {len(runs)} settings of libraries and compiler that round as on other processors "
+        f"{html.number(rows['differ'])} of {html.number(rows['rows'])} rows of the quick suite differ in some bit from "
+        f"the published ones, {rows['outcomes']} in the outcome, {sum(one['gate'] for one in runs)} by more than the "
+        "gate allows"
     )

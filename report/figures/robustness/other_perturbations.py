@@ -8,39 +8,19 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from bench.findings.perturbed import FOLLOWED_RAD
 from bench.findings.selection.measured import measured
 from bench.findings.selection.words import leaders
 from bench.findings.theory import robustness_theory
 from report.figures.kit import families
 from report.figures.kit.page import Run, in_run
 from report.figures.robustness.rows import along, gains, medians, nominal, with_unit, worst
-from tasks.condition import condition_at
 from tasks.goal_stream import PERIOD_S
 from tasks.rules import RULES
 
 TIMED = ("control-rate", "delay", "inertia", "uneven-inertia", "spin")
 """Perturbations under which laws settle."""
 
-NOISES = ("attitude-noise", "rate-noise")
-MOVING = ("moving-goal", "moving-goal-rate", "moving-goal-untold")
 BOUND = "saturation"
-
-
-def left(rows: pd.DataFrame, name: str) -> float:
-    """Root mean square angle that the linear loop keeps of noise or of a slightly moving goal [rad], over the level."""
-    unit = condition_at(tasks.axis(name), 1.0)
-    if unit.is_noisy:
-        return robustness_theory.noisy_rms(*gains(rows), unit.period_s, unit.attitude_noise, unit.rate_noise)
-    horizon_s = float(rows["horizon_s"].iloc[0])
-    return robustness_theory.tracking_rms(*gains(rows), unit.feedforward, unit.period_s, horizon_s)
-
-
-def over_theory(rows: pd.DataFrame, name: str) -> pd.DataFrame:
-    """Return the median error over `left`: a row a level that is not zero, a column a law."""
-    found = medians(rows, "tail_rms_rad")
-    found = found[found.index > 0.0]
-    return found.div(left(rows, name) * found.index.to_series(), axis=0)
 
 
 def change(rows: pd.DataFrame, name: str) -> str:
@@ -62,23 +42,6 @@ def timed(run: Run) -> dict[str, str]:
         "limit": f"{robustness_theory.least_rate(kp, kv):g}",
         "margin_ms": f"{1000.0 * robustness_theory.delay_margin(kp, kv):.0f}",
         "changes": "; ".join(change(along(run, name), name) for name in TIMED),
-    }
-
-
-def tracked(run: Run) -> dict:
-    """Return what noise and moving goals leave, over what the linear theory says, and how many laws lag without it."""
-    without_feedforward = along(run, MOVING[-1])
-    noisy = pd.concat([over_theory(along(run, name), name) for name in NOISES])
-    moving = pd.concat([over_theory(along(run, name), name).iloc[:1] for name in MOVING])
-    kp, kv = gains(without_feedforward)
-    slow = float(moving.index[0])
-    return {
-        **{f"{word}_low": f"{one.min(axis=None):.2f}" for word, one in (("noise", noisy), ("moving", moving))},
-        **{f"{word}_high": f"{one.max(axis=None):.2f}" for word, one in (("noise", noisy), ("moving", moving))},
-        "lag_s": f"{kv / kp:g}",
-        "slow": with_unit(slow, MOVING[0]),
-        "behind": int((medians(without_feedforward, "tail_rms_rad").loc[slow] > FOLLOWED_RAD).sum()),
-        "laws": moving.shape[1],
     }
 
 
@@ -118,6 +81,6 @@ def streamed(run: Run) -> dict[str, str]:
 def facts(run: Run) -> dict:
     """Return the facts of every section whose rows the run has."""
     found: dict = {}
-    for section in (timed, tracked, saturated, streamed):
+    for section in (timed, saturated, streamed):
         found |= in_run(section, run) or {}
     return found
