@@ -13,15 +13,22 @@ WEIGHTS = (0.8, 1.0, 1.2)
 
 
 @kernel
+def pull_columns(R, R_d, k_1, k_2, k_3):
+    """k_1 n x n_d + k_2 o x o_d + k_3 a x a_d, base frame."""
+    n, o, a = cross(R.n, R_d.n), cross(R.o, R_d.o), cross(R.a, R_d.a)
+    return (
+        k_1 * n[0] + k_2 * o[0] + k_3 * a[0],
+        k_1 * n[1] + k_2 * o[1] + k_3 * a[1],
+        k_1 * n[2] + k_2 * o[2] + k_3 * a[2],
+    )
+
+
+@kernel
 def law(R, omega, goal, gains):
     """u = Kp/2 (k_1 n x n_d + k_2 o x o_d + k_3 a x a_d) - Kv omega, k = WEIGHTS."""
-    n, o, a = cross(R.n, goal.R.n), cross(R.o, goal.R.o), cross(R.a, goal.R.a)
     k_1, k_2, k_3 = 0.5 * gains.kp * WEIGHTS[0], 0.5 * gains.kp * WEIGHTS[1], 0.5 * gains.kp * WEIGHTS[2]
-    return (
-        k_1 * n[0] + k_2 * o[0] + k_3 * a[0] - gains.kv * omega[0],
-        k_1 * n[1] + k_2 * o[1] + k_3 * a[1] - gains.kv * omega[1],
-        k_1 * n[2] + k_2 * o[2] + k_3 * a[2] - gains.kv * omega[2],
-    )
+    e = pull_columns(R, goal.R, k_1, k_2, k_3)
+    return (e[0] - gains.kv * omega[0], e[1] - gains.kv * omega[1], e[2] - gains.kv * omega[2])
 
 
 REGULATOR = Law(
