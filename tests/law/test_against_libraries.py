@@ -105,21 +105,6 @@ def braking_late(double):
     return called
 
 
-def limiting(double):
-    """Return the same vector no longer than 1."""
-    return lambda turn: double(turn) / max(1.0, np.linalg.norm(double(turn)))
-
-
-def hardening(double):
-    """1/2 ((eta I + [eps]x) Gp + gamma (1 - eta) I) eps, Gp = 4 I, gamma = 8, of a function that gives 2 eps."""
-
-    def called(turn):
-        eps, eta = 0.5 * double(turn), abs(turn.quat_wxyz[0])
-        return 0.5 * (eta * 4.0 * eps + np.cross(eps, 4.0 * eps) + 8.0 * (1.0 - eta) * eps)
-
-    return called
-
-
 def mujocos_quaternion(turn):
     quat_wxyz = np.empty(4)
     mujoco.mju_mat2Quat(quat_wxyz, turn.R.ravel())
@@ -149,8 +134,6 @@ ORACLES = {
     **dict.fromkeys(("mrp", "mrp-memory"), MRPS),
     "in-engine": {"orientation-actuator": ROTATION_VECTORS["orientation-actuator"]},
     "late-braking": {name: braking_late(oracle) for name, oracle in QUATERNIONS.items()},
-    "slew-limited": {name: limiting(oracle) for name, oracle in QUATERNIONS.items()},
-    "joshi-kelkar-wen": {name: hardening(oracle) for name, oracle in QUATERNIONS.items()},
 }
 PAIRS = [(law, oracle) for law, oracles in ORACLES.items() for oracle in oracles]
 

@@ -3,20 +3,21 @@
 With V = 1/2 (k_1 (1 - n.n_d) + k_2 (1 - o.o_d) + k_3 (1 - a.a_d)), k = WEIGHTS, and s its pull, the body is seen as
 turned further about its own axis b = R AXIS by q KAPPA V, q = 1 or -1: U_q = V of the turned body R_q. Both U_q have
 the goal for a minimum. Where one is at rest elsewhere, near a 180° rotation about n_d, o_d or a_d, the other is lower
-by 0.45 at least, and q changes where it is lower by GAP: no other point of rest is left. U_+ - U_- = -2 sin(KAPPA V)
-b.s: to compare them takes no second potential. The memory outlives the goal: reset it before the first tick, after a
-pause, and when the goal jumps.
+by 0.16 at least, and q changes where it is lower by GAP: no other point of rest is left. U_+ - U_- = -2 sin(KAPPA V)
+b.s: to compare them takes no second potential. The pull is of 2 TOP (1 - sqrt(1 - U_q/TOP)), which grows like the
+distance: that of V itself fades towards a 180° rotation. The memory outlives the goal: reset it before the first tick,
+after a pause, and when the goal jumps.
 
-Global: W = Kp U_q + |omega|^2/2 has Wdot = -Kv |omega|^2, a change of q takes GAP Kp from it, and KAPPA |s| < 1 keeps
-the turned body from resting anywhere else.
+Global: the potential in force and |omega|^2/2 fall together as -Kv |omega|^2, a change of q takes GAP Kp or more from
+them, and KAPPA |s| < 1 keeps the turned body from resting anywhere else.
 
-Sources: Mayhew & Teel 2013; Berkane & Tayebi, arXiv:1502.07386 and 1510.03878; Wang & Tayebi, arXiv:2012.12470. Their
-abstracts were read; the formulas, WEIGHTS, AXIS, KAPPA and GAP are derived here. The angle of Wang & Tayebi is a state
-that flows and jumps; a law's memory has no period to let it flow. Held between jumps it cannot serve: a weight on the
-angle that makes it return to 0 near the goal keeps it at 0 on 180° rotations. So the angle is KAPPA V, as in the
-papers before, and its sign is remembered.
+Sources: Mayhew & Teel 2013, not read; Berkane & Tayebi, arXiv:1502.07386 and (with Abdessameud) 1510.03878, and Wang &
+Tayebi, arXiv:2012.12470, whose abstracts were read. The formulas and all constants are derived here. The angle of Wang
+& Tayebi is a state that flows and jumps; a law's memory has no period to let it flow. Held between jumps it cannot
+serve: a weight on the angle that makes it return to 0 near the goal keeps it at 0 on 180° rotations. So the angle is
+KAPPA V, as in angular warping, and its sign is remembered.
 
-Limitations: about other axes than n_d, o_d and a_d the turn is curved; stiffness depends on the axis.
+Limitations: the turn is curved, and longer than about one axis; stiffness depends on the axis.
 """
 
 from bench.law import Display, Law, Look, Rotation, cos, cross, dot, kernel, rotate, sin, sqrt
@@ -25,10 +26,12 @@ from bench.law.contenders.regulators.weighted_columns import WEIGHTS, pull_colum
 SHARE = 2.0 / (1.0 / WEIGHTS[0] + 1.0 / WEIGHTS[1] + 1.0 / WEIGHTS[2])
 AXIS = (sqrt(1.0 - SHARE / WEIGHTS[0]), sqrt(1.0 - SHARE / WEIGHTS[1]), sqrt(1.0 - SHARE / WEIGHTS[2]))
 """Unit vector, body frame: with it a small further turn lowers V equally at the three 180° rotations."""
-KAPPA = 0.6
-"""Further turn over V [rad]; |s| is 1.1 at most."""
-GAP = 0.2
-"""Difference of the potentials at which q changes, over Kp: under half of the least where one is at rest."""
+KAPPA = 0.3
+"""Further turn over V [rad]; |s| is 1.1 at most. The more, the greater the gap, and the slower the turn."""
+GAP = 0.08
+"""Difference U_q - U_-q at which q changes: half of the least where one is at rest."""
+TOP = 2.4
+"""V is 2.2 at most, at the 180° rotation about n_d."""
 
 
 @kernel
@@ -43,14 +46,20 @@ def turn_column(c, b, angle_cos, angle_sin, along):
 
 
 @kernel
-def law(R, omega, goal, gains, memory):
-    """u = Kp (s_q - q KAPPA (b.s_q) s) - Kv omega, s_q the pull at R_q; memory: q, then zeros; its sign alone is read.
+def energy(R, R_d, k_1, k_2, k_3):
+    """k_1 (1 - n.n_d) + k_2 (1 - o.o_d) + k_3 (1 - a.a_d)."""
+    return k_1 * (1.0 - dot(R.n, R_d.n)) + k_2 * (1.0 - dot(R.o, R_d.o)) + k_3 * (1.0 - dot(R.a, R_d.a))
 
-    u is -Kp times the gradient of U_q, with the derivative of the further turn: see tests.
+
+@kernel
+def law(R, omega, goal, gains, memory):
+    """u = Kp (s_q - q KAPPA (b.s_q) s)/sqrt(1 - U_q/TOP) - Kv omega, s_q the pull at R_q; memory: q, then zeros.
+
+    At rest u is -Kp times the gradient of the potential in force, the further turn a function of R: see tests.
     """
     R_d, k_1, k_2, k_3 = goal.R, 0.5 * WEIGHTS[0], 0.5 * WEIGHTS[1], 0.5 * WEIGHTS[2]
     s, b = pull_columns(R, R_d, k_1, k_2, k_3), rotate(R, AXIS)
-    angle = KAPPA * (k_1 * (1.0 - dot(R.n, R_d.n)) + k_2 * (1.0 - dot(R.o, R_d.o)) + k_3 * (1.0 - dot(R.a, R_d.a)))
+    angle = KAPPA * energy(R, R_d, k_1, k_2, k_3)
     q = 1.0
     if memory[0] < 0.0:
         q = -1.0
@@ -62,10 +71,11 @@ def law(R, omega, goal, gains, memory):
     )
     e = pull_columns(turned, R_d, k_1, k_2, k_3)
     back = q * KAPPA * dot(b, e)
+    pull = gains.kp / sqrt(1.0 - energy(turned, R_d, k_1, k_2, k_3) / TOP)
     u = (
-        gains.kp * (e[0] - back * s[0]) - gains.kv * omega[0],
-        gains.kp * (e[1] - back * s[1]) - gains.kv * omega[1],
-        gains.kp * (e[2] - back * s[2]) - gains.kv * omega[2],
+        pull * (e[0] - back * s[0]) - gains.kv * omega[0],
+        pull * (e[1] - back * s[1]) - gains.kv * omega[1],
+        pull * (e[2] - back * s[2]) - gains.kv * omega[2],
     )
     return u, (q, 0.0, 0.0, 0.0)
 
@@ -73,8 +83,8 @@ def law(R, omega, goal, gains, memory):
 REGULATOR = Law(
     name="synergistic",
     title="Synergistic hybrid, two potentials",
-    source="after Mayhew & Teel 2013; Berkane & Tayebi 2015; Wang & Tayebi 2020 (abstracts read)",
-    formula=r"u = K_p\,\bigl(s_q - q\,\kappa\,(b \cdot s_q)\,s\bigr) - K_v\,\omega, \quad q^+ = -q"
+    source="after Berkane & Tayebi, arXiv:1502.07386, and Wang & Tayebi, arXiv:2012.12470 (abstracts read)",
+    formula=r"u = K_p\,\bigl(s_q - q\,\kappa\,(b \cdot s_q)\,s\bigr)/\sqrt{1 - U_q/U_0} - K_v\,\omega, \quad q^+ = -q"
     r" \text{ where } U_q - U_{-q} > \delta",
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),
