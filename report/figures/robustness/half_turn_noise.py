@@ -99,7 +99,7 @@ def facts(run: Run) -> dict:
         "stuck": int((shares.loc[0.0, own] < 1.0).sum()),
         "least": f"{min(jumping):.2g}",
         "most": f"{max(jumping):.2g}",
-        **{law: f"{keeps(law):.3f}" for law in DELTAS},
+        **{law: f"{keeps(law):.3f}" for law in ("hybrid", "late-braking", "mrp-linearized")},
         "delta": f"{DELTA:g}",
         "switch": f"{mrp_linearized.SWITCH:g}",
     }
