@@ -85,8 +85,8 @@ def facts(run: Run) -> dict:
     own = laws(rows, controls=False)
     known = {law: least(law, kp, kv) for law in own if not math.isnan(least(law, kp, kv))}
     agree = [(level >= begin) == (noisy.loc[level, law] < 0.5) for law, begin in known.items() for level in noisy.index]
-    with_memory = [law for law in own if regulator_of(law).memory]
-    without_memory = [law for law in own if law not in with_memory]
+    on_a_side = [law for law in own if law in DELTAS]
+    without_memory = [law for law in own if not regulator_of(law).memory]
     jumping = [begin for law, begin in known.items() if law in without_memory and begin > 0.0]
     middle = float(noisy.index[noisy.index < min(map(keeps, DELTAS))].max())
     return {
@@ -95,7 +95,7 @@ def facts(run: Run) -> dict:
         "decided": len(agree),
         "middle": f"{middle:g}",
         "blind_middle": f"{100 * float(noisy.loc[middle, without_memory].max()):.0f}",
-        "memory_middle": f"{100 * float(noisy.loc[middle, with_memory].min()):.0f}",
+        "memory_middle": f"{100 * float(noisy.loc[middle, on_a_side].min()):.0f}",
         "stuck": int((shares.loc[0.0, own] < 1.0).sum()),
         "least": f"{min(jumping):.2g}",
         "most": f"{max(jumping):.2g}",
