@@ -36,7 +36,7 @@ CELL_KEY = BUILD / "cells.key"
 STAMP = BUILD / "finished.json"
 RESULTS_VARIABLE = "ORIENTATION_BENCH_RESULTS"
 # folders of results that are no run's
-STUDIES = ("timings", "libraries", "settings")
+STUDIES = ("timings", "libraries")
 WRITTEN_LAST = "provenance.json"  # a run without it is unfinished
 NO_GIT_EPOCH = 1_793_491_200  # 2026-11-01, the date printed by a copy without git history
 # It has no __main__, and its script in bin names the folder it was installed in.

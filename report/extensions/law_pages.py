@@ -12,13 +12,12 @@ FOLDER, CODE, LIVE = "laws", "laws/code", "pages/26-live"
 def collected(app: Any) -> Iterator[tuple[str, dict, str]]:
     """(name, context, template) of each page; the files that it offers are written beside it."""
     from bench.experiments.tables import read
-    from report.figures.cards import other_page, regulators
+    from report.figures.cards import regulators
     from report.figures.kit.page import run_in
 
     run = run_in(read.folder())
     live = LIVE if LIVE in app.env.found_docs else ""
-    laws = (regulators.page(one, run, live) for one in regulators.every_law())
-    for made in (*laws, *map(other_page.page, other_page.every_other())):
+    for made in (regulators.page(one, run, live) for one in regulators.every_law()):
         for name, text in made.files.items():
             target = Path(app.outdir) / CODE / name
             target.parent.mkdir(parents=True, exist_ok=True)

@@ -11,7 +11,7 @@ from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.export.language import language_words
 from bench.law.contenders.registry import contenders, papers_laws
-from report.figures.cards import other_page, regulators
+from report.figures.cards import regulators
 from report.figures.cost import cost
 from report.figures.kit import families, spelling
 from report.figures.kit.page import Run, run_in
@@ -35,17 +35,6 @@ def test_every_law_has_a_page_with_its_source_and_its_files():
         made, file = pages[families.anchor(one.on_free_body)], f"{one.regulator.name.replace('-', '_')}.py"
         assert f"bench/law/contenders/regulators/{file}" in made.body
         assert len(made.files) == (0 if one.regulator.costing_only else len(language_words()))
-        assert all(f'href="code/{name}"' in made.body for name in made.files)
-
-
-def test_every_law_of_another_kind_has_a_page_with_its_source_and_its_files():
-    others = other_page.every_other()
-    assert {one.folder for one in others} == {folder for folder, _ in other_page.KINDS.values()}
-    for one in others:
-        made = other_page.page(one)
-        assert one.source.file.is_file()
-        assert one.source.where in made.body
-        assert len(made.files) == len(language_words())
         assert all(f'href="code/{name}"' in made.body for name in made.files)
 
 

@@ -22,7 +22,7 @@ from bench.findings import claims
 from bench.findings.maps import lost_share
 from bench.findings.perturbed import by_level, studied
 from bench.law.contenders.registry import find_contender
-from bench.studies import verdicts
+from bench.studies import gates, verdicts
 from bench.studies.robustness import STARTS
 from bench.studies.verdicts import HALF_STEP, RUNS, SEEDS, STORED, plan_of, turned
 from tasks.condition import condition_at
@@ -70,6 +70,12 @@ def test_paths_count_from_where_the_judge_begins_and_not_near_the_goal():
     rows = rows.assign(axis="goal-jump", regulator="mine", level=0.1, tail_rms_rad=0.0, outcome="settled")
     [one] = by_level(rows.assign(settling_time_s=0.5)).to_dict("records")
     assert (one["far"], one["long"], one["path_rad"]) == (2, 1, 2.8)
+
+
+def test_same_code_raised_no_false_alarm():
+    rows = read_json(gates.STORED)["rows"]
+    assert len(rows) == gates.COMPARISONS
+    assert not any(one["alarms"] for one in rows)
 
 
 @pytest.fixture(scope="module")

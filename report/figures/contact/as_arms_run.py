@@ -10,15 +10,8 @@ from bench.experiments.impedance import ZETA
 from bench.findings.theory.impedance_modes import longest_tick, with_theory
 from bench.law.control.unshaped import DAMPINGS
 from report.figures.arms.arm_rows import name_arm
-from report.figures.kit import style
-from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
 
-LOOKS = {
-    "diagonal": style.Look("#d55e00", "s", style.DASH_DOT),
-    "per-axis": style.Look("#0072b2", "o", style.SOLID),
-    "double-diagonalization": style.Look("#009e73", "^", style.DASHED),
-}
 BARE = "panda"
 """The arm whose model has neither hand nor rotors."""
 PRACTICE = (600.0, 50.0)
@@ -34,7 +27,7 @@ def modes(run: Run) -> pd.DataFrame:
 def facts(run: Run) -> dict:
     """Return the damping felt by each design, and where a loop is unstable."""
     found = modes(run)
-    felt = {name: found.loc[found["damping"] == name, "ratio"] for name in LOOKS}
+    felt = {name: found.loc[found["damping"] == name, "ratio"] for name in DAMPINGS}
     double, axes = felt["double-diagonalization"], felt["per-axis"]
     lost = found[found["radius"] >= 1.0].groupby(["arm", "stiffness_n_m", "stiffness_nm_rad"]).size().index
     k, r = PRACTICE
@@ -60,30 +53,3 @@ def slower(rows: pd.DataFrame) -> float:
     settled = rows[rows["outcome"].astype(str) == "settled"]
     wide = settled.pivot_table(index=key, columns="damping", values="settling_time_s", observed=True)
     return float((wide["diagonal"] / wide["double-diagonalization"]).median())
-
-
-def figures(run: Run) -> dict:
-    """Draw the ratios felt."""
-    return {"ratios-felt": ratios_felt(modes(run))}
-
-
-@responsive_picture
-def ratios_felt(rows: pd.DataFrame, narrow: bool) -> Drawing:
-    """Return the damping ratio of every mode over its frequency: marks measured, points theory."""
-    figure, axes = style.panels(height=3.6 if narrow else 3.2, narrow=narrow)
-    said = []
-    for name, look in LOOKS.items():
-        own = rows[rows["damping"] == name]
-        marks = {"linestyle": "none", "marker": look.marker, "markersize": 5, "color": look.colour, "alpha": 0.7}
-        axes.plot(own["omega"], own["ratio"], label=DAMPINGS[name].title, **marks)
-        axes.plot(own["omega_theory"], own["ratio_theory"], ".", color=style.INK, markersize=2)
-        said.append(f"{DAMPINGS[name].title.lower()} {own['ratio'].min():.2g} to {own['ratio'].max():.2g}")
-    axes.axhline(float(rows["zeta"].iloc[0]), color=style.MUTED, linewidth=0.7, linestyle=style.DASHED)
-    axes.set(xscale="log", yscale="log", xlabel="natural frequency of the mode [1/s]", ylabel="damping ratio felt")
-    axes.set_yticks([0.2, 0.5, 1, 2, 5, 10], ["0.2", "0.5", "1", "2", "5", "10"])
-    axes.set_xticks([1, 3, 10, 30, 100], ["1", "3", "10", "30", "100"])
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=1 if narrow else 3)
-    return (
-        figure,
-        f"Damping ratio of the modes of {rows['arm'].nunique()} arms designed for a ratio of 1: {', '.join(said)}.",
-    )

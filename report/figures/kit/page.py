@@ -39,7 +39,7 @@ class NotInRun(NoEvidence):
 
 
 class Run:
-    """The run that is shown, beside the studies that are committed: timings, history, faults, kills."""
+    """The run that is shown, beside the timings that are committed."""
 
     def __init__(self, folder: Path, studies: Path = RESULTS):
         self.folder, self.studies = folder, studies

@@ -1,4 +1,4 @@
-"""What the page on provenance shows: the run, its files with links to take them, and what rounding changes."""
+"""What the page on provenance shows: the run, its files with links to take them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from typing import Any
 import pandas as pd
 import pyarrow.parquet as pq
 
-from bench.base.files import read_json
 from bench.base.provenance import ROOT
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import all_tables
@@ -27,12 +26,11 @@ FACTS = Table("Fact | Value")
 FILES = Table("File | Rows | Size [kB]:.0f")
 
 
-def facts(run: Run) -> dict[str, str]:
-    """Return the title and the version that are cited, with its date, and what rounding changes."""
+def facts(_: Run) -> dict[str, str]:
+    """Return the title and the version that are cited, with its date."""
     said = cited()
     version = f"{said['version']} ({said['date-released']})" if "date-released" in said else said["version"]
-    settings = describe_settings(read_json(run.studies / "settings" / "settings.json"))
-    return {"title": said["title"], "version": version, "settings": settings}
+    return {"title": said["title"], "version": version}
 
 
 def cited() -> dict[str, str]:
@@ -68,15 +66,3 @@ def describe_file(path: Path) -> tuple:
     is_large = path.stat().st_size > OFFERED_BYTES
     link = f"`{name}` (too large for this site)" if is_large else f'<a href="{SITE_DATA}/{name}" download>{name}</a>'
     return link, rows, path.stat().st_size / 1e3
-
-
-def describe_settings(found: dict[str, Any]) -> str:
-    """Say how many rows of the quick suite differ under settings that round as other processors do."""
-    runs = [one for machine in found.values() for one in machine.values()]
-    rows = pd.DataFrame([table for one in runs for table in one["tables"].values()]).sum()
-    return (
-        f"Under {len(runs)} settings of libraries and compiler that round as on other processors "
-        f"{html.number(rows['differ'])} of {html.number(rows['rows'])} rows of the quick suite differ in some bit from "
-        f"the published ones, {rows['outcomes']} in the outcome, {sum(one['gate'] for one in runs)} by more than the "
-        "gate allows"
-    )
