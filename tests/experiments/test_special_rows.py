@@ -18,7 +18,7 @@ from bench.engines.simulate_bodies import run_compensated, run_stream
 from bench.experiments.compensators import BAND_RAD, DISTURBANCES, law_of
 from bench.experiments.equal_peak import gains_at, greatest_command
 from bench.experiments.experiment import Settings, Unit, rows_of
-from bench.experiments.limiters import GREATEST_RATE, LIMITERS
+from bench.experiments.limiters import LIMITERS
 from bench.experiments.suites import STREAMED
 from bench.law.contenders.registry import all_contenders, contenders, find_contender
 from bench.law.inputs import PAPERS_GAINS, Gains
@@ -80,14 +80,6 @@ def test_limiter_is_odd_passes_the_middle_of_its_range_and_lengthens_and_reverse
         assert (np.abs(limited) <= np.abs(omega)).all()
         np.testing.assert_array_equal(limited, -np.array(limiter.limit(tuple(-omega), K)))
     assert limiter.limit((0.5, -0.6, 0.7), K) == (0.5, -0.6, 0.7)
-
-
-def test_norm_clamp_keeps_the_direction_and_the_clamp_per_axis_does_not():
-    omega = np.array((9.0, 3.0, 1.0))
-    kept, bent = (np.array(LIMITERS[name].limit(tuple(omega), K)) for name in ("norm-clamp", "axis-clamp"))
-    np.testing.assert_allclose(np.cross(kept, omega), 0.0, atol=1e-15)
-    assert np.linalg.norm(kept) == pytest.approx(GREATEST_RATE)
-    np.testing.assert_array_equal(bent, (GREATEST_RATE, GREATEST_RATE, 1.0))
 
 
 def test_deadband_is_of_the_error_whatever_the_gain():

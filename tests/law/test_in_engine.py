@@ -7,20 +7,16 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
-from support.driving import recorder, settings
 from support.states import of_scipy, vector
 
 import tasks
 from bench.base.errors import Incompatible
-from bench.engines.simulate import run
 from bench.experiments.choice import Choice
 from bench.experiments.plan import make
 from bench.experiments.suites import SUITES
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import Gains, Goal
-from tasks.base import Start
 from tasks.errors import BadValue
-from tasks.rotations import about
 
 GAINS = Gains(kp=100.0, kv=20.0)
 ONE = find_contender("in-engine")
@@ -79,22 +75,6 @@ def test_torque_is_kp_times_the_rotation_vector_and_minus_kv_times_the_rate(angl
 
 
 # ---------------------------------------------------------------------------- before the judge
-
-
-def angle_left(t):
-    """Return the angle at t from 1 rad at rest by thetadd = -100 theta - 20 thetad."""
-    return (1.0 + 10.0 * t) * math.exp(-10.0 * t)
-
-
-@pytest.mark.parametrize("angle", [1e-3, 1.0, 2.0, 3.0, math.pi - 1e-9, math.pi])
-def test_response_from_rest_is_linear_from_every_angle(angle):
-    """f(theta) = theta to the end; Runge-Kutta of MuJoCo asks the actuator at each stage: of fourth order, 1e-9."""
-    kept: list = []
-    starts = [Start("one", about((2.0, -1.0, 2.0), angle))]
-    run("reference", ONE, "free-body", starts, settings(DT, 0.8), (recorder(kept),), "rk4")
-    found = [2.0 * math.asin(math.sqrt(one.haversine)) for one in kept]
-    expected = [angle * angle_left(one.time) for one in kept]
-    np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-8 * angle)
 
 
 @pytest.mark.parametrize("word", SUITES)

@@ -9,24 +9,14 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, NEAREST_RAD, settling
 from report.figures.comparison import cells, comparison
 from report.figures.kit import families
-from report.figures.kit.page import Run, run_in
+from report.figures.kit.page import Run
 
 
 @pytest.fixture(autouse=True)
 def reference(monkeypatch):
     monkeypatch.setenv(read.VARIABLE, str(RESULTS / "reference"))
-
-
-RUN = run_in(RESULTS / "reference")
-EXACT_RAD = 1e-13
-"""Between the nearest of the near starts (1e-12 rad) and what rounding leaves of an exact one (4e-16 rad)."""
-
-
-def rows():
-    return comparison.uniform(RUN)
 
 
 def episode(contender, start, outcome="settled", time=1.0, **more):
@@ -71,39 +61,9 @@ def test_law_of_no_family_comes_last_under_its_own_name():
     assert found[-1].laws == {"my-law": "my-law"}
 
 
-def test_measured_times_are_within_a_tick_after_the_equations():
-    found = rows()
-    kp, kv, tolerance, tick = (float(found[column].iloc[0]) for column in ("kp", "kv", "tolerance", "dt_s"))
-    laws = set(found["contender"]) & set(EQUATIONS)
-    assert laws
-    for name in laws:
-        own = found[(found["contender"] == name) & (found["outcome"] == "settled")]
-        within = own[own["angle0_rad"].between(LEAST_RAD, math.pi - NEAREST_RAD)]
-        for one in within.iloc[:: max(1, len(within) // 12)].itertuples():
-            expected = settling(EQUATIONS[name], one.angle0_rad, kp, kv, tolerance)
-            assert -1e-6 < one.settling_time_s - expected < tick + 1e-6
-
-
-def test_dead_points_are_where_the_laws_are_known_to_fail():
-    found = cells.directed_starts(comparison.ideal(RUN))
-    lost = found[found["outcome"] != "settled"].set_index("contender")
-    on_half_turn, on_pole = math.pi - lost["angle0_rad"] < EXACT_RAD, math.pi / 2.0 - lost["beta0"].abs() < EXACT_RAD
-    assert on_half_turn["rotation-matrix"].all()
-    assert on_pole["feedback-linearized/zyx-euler"].all()
-
-
 def test_an_orientation_counts_once_whatever_the_sign_of_its_quaternion():
     turns = pd.DataFrame([(0.6, 0.8, 0.0, 0.0), (-0.6, -0.8, 0.0, 0.0)], columns=[f"quat_{one}" for one in "wxyz"])
     assert len(cells.orientation(turns).drop_duplicates()) == 1
-
-
-def test_negative_controls_fail_as_they_must():
-    found = rows()
-    literal, unwinding = (found[found["contender"] == name] for name in families.CONTROLS)
-    assert not (literal["outcome"] == "settled").any()
-    if len(unwinding):  # not in a run from before it was written
-        is_near = unwinding["angle0_rad"] < 2.0 * math.pi / (1.0 + 1.5)
-        assert (unwinding.loc[is_near, "path_ratio"] > 1.5).all()
 
 
 class Unperturbed(Run):

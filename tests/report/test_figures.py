@@ -136,10 +136,6 @@ def test_badge_refuses_a_word_that_is_no_verdict():
         html.badge("true")
 
 
-def test_ball_cannot_break_out_of_its_script():
-    assert "</script>" not in html.ball("b", "words", {"</script>": {"xyz": []}}).split("json", 1)[1][:60]
-
-
 def test_labels_beside_curves_do_not_touch_and_keep_their_order():
     assert style.apart([30.0, 0.0, 10.0], 5.0) == [30.0, 0.0, 10.0]
     moved = style.apart([-80.0, 4.0, 0.0], 10.0)
