@@ -215,13 +215,6 @@ def test_a_law_without_a_greatest_command_has_no_rows_at_equal_peak(rows):
     np.testing.assert_allclose(equal["kv"], 2.0 * np.sqrt(equal["kp"]))
 
 
-def test_noise_at_the_half_turn_holds_the_law_that_rests_there_and_not_the_one_with_memory(rows):
-    small = rows[(rows["axis"] == "half-turn-noise") & (rows["level"] == 0.01)]
-    settled = (small["outcome"] == "settled").groupby(small["contender"], observed=True).mean()
-    assert settled["hybrid"] == 1.0
-    assert settled["rotation-matrix"] == 0.0
-
-
 def test_table_says_up_to_which_level_a_law_withstands(rows):
     lines = details.summary(rows).set_index("law")
     assert lines.loc["rotation-matrix", "half-turn-noise"] == "none"

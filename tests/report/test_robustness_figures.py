@@ -6,23 +6,20 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-import tasks
 from bench.cli.details import robustness as details
 from bench.experiments import plan
 from bench.experiments.choice import Choice
 from bench.experiments.tables import read
 from bench.findings import perturbed, why
 from bench.findings.perturbed import Way
-from bench.findings.theory import robustness_theory, thresholds
+from bench.findings.theory import thresholds
 from bench.law.contenders.registry import find_contender
 from bench.running import run
 from report.figures.cards import regulators
 from report.figures.kit.page import run_in
-from report.figures.robustness import half_turn_noise, other_perturbations, robustness, rows
-from tasks.condition import condition_at
-from tasks.rules import RULES
+from report.figures.robustness import half_turn_noise, other_perturbations, robustness
 
-KP, KV, TOLERANCE = 100.0, 20.0, RULES.tolerance
+KP, KV = 100.0, 20.0
 LAWS = ("rotation-vector", "paielli-bach", "hybrid", "quaternion-shortest", "quaternion-unwinding")
 STARTS = 2
 
@@ -43,35 +40,6 @@ def small_run(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv(read.VARIABLE, str(folder))
         yield run_in(folder)
-
-
-@pytest.fixture
-def along(small_run):
-    return lambda name: rows.along(small_run, name)
-
-
-def step_linear_loop(period_s: float, delay_s: float, inertia: float) -> float:
-    """Return the settling time [s] of the linear loop from rest: sampled, held, late, and with another inertia."""
-    steps = max(1, math.ceil(period_s / robustness_theory.STEP_S - 1e-9))
-    h = period_s / steps
-    late, x, v, last, sent = round(delay_s / h), 1.0, 0.0, -1, []
-    for tick in range(round(3.0 / h)):
-        if tick % steps == 0:
-            sent.append(-(KP * x + KV * v) / inertia)
-        u = sent[(tick - late) // steps] if tick >= late else 0.0
-        x, v = x + h * v + 0.5 * h * h * u, v + h * u
-        if abs(x) > TOLERANCE:
-            last = tick + 1
-    return math.inf if last >= round(3.0 / h) else (last + 1) * h
-
-
-@pytest.mark.parametrize("name", ["control-rate", "delay", "inertia"])
-def test_rotation_vector_is_the_linear_loop_from_rest_at_every_level_and_angle(name, along):
-    own = rows.of(along(name), "rotation-vector")
-    for level, times in own.groupby("level")["time_s"]:
-        at = condition_at(tasks.axis(name), level)
-        theory = step_linear_loop(at.period_s, at.delay_s, at.inertia[0])
-        assert times.to_numpy() == pytest.approx(theory, abs=1e-9)
 
 
 def test_no_law_settles_sooner_than_the_bound_on_its_command_allows(small_run):
