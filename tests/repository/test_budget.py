@@ -36,7 +36,7 @@ LINES = {
     "tests/studies": 617,
     "tests/support": 2_934,
     "tests/tasks": 1_893,
-    "report": 6_210,
+    "report": 6_208,
     "tasks": 5_096,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
