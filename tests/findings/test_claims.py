@@ -16,7 +16,7 @@ from bench.base.provenance import ROOT
 from bench.cli import claims as command
 from bench.cli.summary.whole import count_verdicts
 from bench.findings import claims
-from bench.findings.claims.errata import ERRATA, UNTESTABLE
+from bench.findings.claims.errata import COVERAGE, ERRATA, UNTESTABLE
 from bench.findings.claims.tables import share
 from bench.findings.claims.verdict import (
     HISTORY,
@@ -35,7 +35,7 @@ from report.figures.claims import claims as page
 
 
 def test_every_claim_is_there_once():
-    assert [one.id for one in claims.all_claims()] == [f"C{i:02d}" for i in range(1, 36)]
+    assert [one.id for one in claims.all_claims()] == [f"C{i:02d}" for i in range(1, 47)]
     assert set(read_texts(HISTORY)) <= {one.id for one in claims.all_claims()}
 
 
@@ -87,6 +87,25 @@ def test_errata_are_numbered_and_complete():
     assert [one.id for one in ERRATA] == [f"E{i:02d}" for i in range(1, len(ERRATA) + 1)]
     assert all(one.where and one.printed and one.right and one.how for one in ERRATA)
     assert all(one.section and one.quote and one.why for one in UNTESTABLE)
+
+
+NUMBERED = [
+    *(f"(2.{i})" for i in range(1, 17)),
+    *(f"Figure 2.{i}" for i in range(1, 6)),
+    *(f"(3.{i})" for i in range(1, 13)),
+]
+"""Equations and figures that the paper numbers."""
+
+
+def test_every_numbered_equation_and_figure_has_its_place():
+    ids = {one.id for one in (*claims.all_claims(), *ERRATA)}
+    names = [one.paper for one in COVERAGE]
+    assert [name for name in names if name in NUMBERED] == NUMBERED
+    assert len(set(names)) == len(names)
+    for one in COVERAGE:
+        assert set(one.claims) <= ids
+        assert one.pages
+        assert all((ROOT / "report" / "pages" / f"{page}.md").is_file() for page in one.pages)
 
 
 def verdict(id, word, *earlier):

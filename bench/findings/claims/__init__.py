@@ -1,4 +1,4 @@
-"""The paper's claims, C01 to C35: each sentence with a criterion fixed before the results, and its verdict.
+"""The paper's claims, C01 to C46: each sentence with a criterion fixed before the results, and its verdict.
 
 A module holds measurements alone; the TOML file of the same name holds the texts of its claims.
 
@@ -13,13 +13,16 @@ A module holds measurements alone; the TOML file of the same name holds the text
     force_conversion.py      C21
     compliance.py            C22 to C24
     contact.py               C25
+    regions.py               C36 to C39
+    representations.py       C40 to C43
+    linearization.py         C44 to C46
     adequacy.py              every law by the tests of C17 and C27
     at_gains.py              the same claim at other gains, and by the sampled engines
     standing.py              how two laws stand in cost, by time and by operations
     tables.py                what a judging function reads
     probes.py                the small experiments of claims that no table answers, on arms too
     side_by_side.py          rows of two controllers in contact, side by side
-    errata.py                what is printed wrongly in the paper, each with a check, and what no run can decide
+    errata.py                what is printed wrongly in the paper, what no run can decide, where each part is treated
 """
 
 from __future__ import annotations

@@ -1,5 +1,7 @@
 """What is printed wrongly in Murphy 1988 (errata.toml), each with its check, and what no run decides (untestable.toml).
 
+coverage.toml: what the book does with each numbered equation and figure.
+
 Where a check can be computed it is a function that returns True if the erratum is confirmed; the others are by reading.
 """
 
@@ -38,6 +40,15 @@ class Sentence(NamedTuple):
     section: str
     quote: str
     why: str
+
+
+class Item(NamedTuple):
+    """A part of the paper: its number or place, what it says, claims and errata on it, and pages that use it."""
+
+    paper: str
+    says: str
+    claims: tuple[str, ...]
+    pages: tuple[str, ...]
 
 
 def _to_matrix(E: Sequence) -> Any:
@@ -108,3 +119,8 @@ ERRATA = tuple(
 )
 
 UNTESTABLE = tuple(Sentence(**words) for words in read_texts(Path(__file__).with_name("untestable.toml"))["sentences"])
+
+COVERAGE = tuple(
+    Item(one["paper"], one["says"], tuple(one.get("claims", ())), tuple(one["pages"]))
+    for one in read_texts(Path(__file__).with_name("coverage.toml"))["items"]
+)

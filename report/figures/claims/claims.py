@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from bench.base.files import read_json
 from bench.findings import claims
 from bench.findings.claims import Verdict, Word, tally
-from bench.findings.claims.errata import ERRATA, UNTESTABLE, Erratum
+from bench.findings.claims.errata import COVERAGE, ERRATA, UNTESTABLE, Erratum, Item
 from bench.findings.claims.verdict import MISPRINTS, does
 from bench.studies import verdicts
 from report.figures.kit import html
@@ -22,6 +22,7 @@ ORDER = (Word.FAILS, Word.DEPENDS, Word.CORRECTED, Word.UNTESTABLE, Word.ANSWERE
 
 VERDICTS = Table("Claim | Section | The paper | Verdict | Criterion revised? | What is true")
 SENTENCES = Table("Section | The paper | Why it is not tested")
+PARTS = Table("The paper | What it says | Claims and errata | Pages")
 SLIPS = Table(" | Where | Printed | Should be | Checked")
 
 
@@ -73,7 +74,15 @@ def tables(_: Run) -> dict:
         "sections": html.Html("".join(map(section, every))),
         "untestable": sentences,
         "slips": slips,
+        "coverage": PARTS(map(describe_item, COVERAGE)),
     }
+
+
+def describe_item(one: Item) -> tuple:
+    """Return a row of the table of what the book does with each part of the paper."""
+    ids = ", ".join(f'<a href="#{id.lower()}">{id}</a>' if id.startswith("C") else id for id in one.claims)
+    pages = ", ".join(f"[{page.partition('-')[2].replace('-', ' ')}]({page}.md)" for page in one.pages)
+    return prose(one.paper), prose(one.says), ids, pages
 
 
 def checked(one: Erratum) -> str:

@@ -1,0 +1,169 @@
+"""C40 to C43: what three variables of an orientation can and cannot be (Murphy 1988, 2.2, 3.1 and 4).
+
+Oracle: scipy's rotations.
+"""
+
+from __future__ import annotations
+
+import itertools
+
+import numpy as np
+
+from bench.base.on_first_use import Turn
+from bench.findings.claims.tables import Results, evidence
+from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
+
+LIMIT = read_limits(__file__)
+
+
+@claim("C40")
+def c40(results: Results) -> tuple[Word, Evidence]:
+    """Divisors of every elimination, and a second rotation with the same elements kept."""
+    R = Turn.random(LIMIT.MATRICES, rng=np.random.default_rng(results.seed)).as_matrix()
+    trios = list(itertools.combinations(range(6), 3))
+    possible = [trio for trio in trios if np.abs(divisor(R, trio)).max() > LIMIT.SAME]
+    off = max(float(np.abs(divisor(R, trio) - product(R, trio)).max()) for trio in possible)
+    second = [another(R, trio) for trio in possible]
+    left = max(float(np.abs(constraints(other)).max()) for other in second)
+    apart = min(float(np.median(np.abs(other - R).max(axis=(1, 2)))) for other in second)
+    divides, is_double = off <= LIMIT.SAME, left <= LIMIT.SAME and apart > LIMIT.APART
+    return word_of(divides and not is_double and len(possible) == len(trios), divides and is_double), evidence(
+        f"""Of {len(trios)} choices of three elements of n and o {len(possible)} can be eliminated. Their divisor, the
+        determinant of the constraints' derivatives over 4, is a product of two elements of the matrix, to {off:.0e} at
+        {LIMIT.MATRICES} random orientations, and so zero somewhere. For each choice a second matrix, apart by
+        {apart:.2f} in the median, has the same three elements left and meets (2.5) to {left:.0e}.""",
+        LIMIT.MATRICES * len(trios),
+    )
+
+
+def constraints(R: np.ndarray) -> np.ndarray:
+    """Compute what (2.5) leaves, k x 3, of k matrices."""
+    n, o = R[:, :, 0], R[:, :, 1]
+    return np.stack([(n * n).sum(axis=1) - 1, (o * o).sum(axis=1) - 1, (n * o).sum(axis=1)], axis=1)
+
+
+def divisor(R: np.ndarray, trio: tuple[int, ...]) -> np.ndarray:
+    """Compute the determinant of the derivatives of (2.5) by three of n_x, n_y, n_z, o_x, o_y, o_z, over 4."""
+    n, o = R[:, :, 0], R[:, :, 1]
+    zero = np.zeros_like(n)
+    slopes = np.stack([np.hstack([2 * n, zero]), np.hstack([zero, 2 * o]), np.hstack([o, n])], axis=1)
+    return np.linalg.det(slopes[:, :, list(trio)]) / 4
+
+
+def product(R: np.ndarray, trio: tuple[int, ...]) -> np.ndarray:
+    """Compute the same by theory: an element of the column with one eliminated, times one of a = n x o."""
+    of_n, of_o = [i for i in trio if i < 3], [i - 3 for i in trio if i >= 3]
+    alone, pair = (of_o, of_n) if len(of_n) == 2 else (of_n, of_o)
+    third = 3 - sum(pair)
+    sign = -1.0 if third != 1 else 1.0
+    return sign * R[:, alone[0], 1 if alone is of_o else 0] * R[:, third, 2]
+
+
+def another(R: np.ndarray, trio: tuple[int, ...]) -> np.ndarray:
+    """Return rotations with the same three elements left: two of one column reflected about the other column's two."""
+    of_n = [i for i in trio if i < 3]
+    column, pair = (0, of_n) if len(of_n) == 2 else (1, [i - 3 for i in trio if i >= 3])
+    other = R.copy()
+    along = R[:, pair, 1 - column] / np.linalg.norm(R[:, pair, 1 - column], axis=1)[:, None]
+    part = R[:, pair, column]
+    other[:, pair, column] = 2 * (part * along).sum(axis=1)[:, None] * along - part
+    other[:, :, 2] = np.cross(other[:, :, 0], other[:, :, 1])
+    return other
+
+
+@claim("C41")
+def c41(results: Results) -> tuple[Word, Evidence]:
+    """A second set of variables for random orientations, and sets for a degenerate one, of four representations."""
+    rng = np.random.default_rng(results.seed)
+    sets = rng.uniform(0.1, 1.4, (LIMIT.MATRICES, 3))
+    turned = sets + np.array((np.pi, 0.0, np.pi))
+    flipped = np.array((1.0, -1.0, 1.0))
+    angle, axis = sets[:, :1], sets / np.linalg.norm(sets, axis=1)[:, None]
+    pairs = {
+        "Z-Y-X": (_of("ZYX", sets), _of("ZYX", turned * flipped + np.array((0.0, np.pi, 0.0)))),
+        "Z-Y-Z": (_of("ZYZ", sets), _of("ZYZ", turned * flipped)),
+        "roll, pitch and yaw": (
+            _of("xyz", sets[:, ::-1]),
+            _of("xyz", (turned * flipped + np.array((0.0, np.pi, 0.0)))[:, ::-1]),
+        ),
+        "angle and axis": (_about(axis, angle), _about(-axis, -angle)),
+    }
+    twice = {name: float(np.abs(one - other).max()) for name, (one, other) in pairs.items()}
+    shifts = rng.uniform(-3.0, 3.0, (LIMIT.MATRICES, 1))
+    pole, zero = np.full_like(shifts, np.pi / 2), np.zeros_like(shifts)
+    many = {
+        "Z-Y-X": _of("ZYX", np.hstack([shifts, pole, shifts])),
+        "Z-Y-Z": _of("ZYZ", np.hstack([shifts, zero, -shifts])),
+        "roll, pitch and yaw": _of("xyz", np.hstack([shifts, pole, shifts])),
+        "angle and axis": _about(axis, zero),
+    }
+    spread = {name: float(np.abs(R - R[0]).max()) for name, R in many.items()}
+    word = word_of(max(twice.values()) <= LIMIT.SAME and max(spread.values()) <= LIMIT.SAME, False)
+    return word, evidence(
+        f"""Two different sets give the same matrix to {max(twice.values()):.0e} at {LIMIT.MATRICES} orientations, in
+        each of {", ".join(pairs)}. {LIMIT.MATRICES} sets along a line give one matrix to {max(spread.values()):.0e}: at
+        beta = pi/2 of Z-Y-X angles and of roll, pitch and yaw, at zero rotation of the others.""",
+        2 * len(pairs) * LIMIT.MATRICES,
+    )
+
+
+def _of(sequence: str, angles: np.ndarray) -> np.ndarray:
+    with np.errstate(all="ignore"):
+        return Turn.from_euler(sequence, angles).as_matrix()
+
+
+def _about(axis: np.ndarray, angle: np.ndarray) -> np.ndarray:
+    return Turn.from_rotvec(axis * angle).as_matrix()
+
+
+FORMS = tuple("".join(axes) for axes in itertools.product("XYZ", repeat=3) if axes[0] != axes[1] != axes[2])
+"""The twelve forms of Euler angles, each turn about an axis of the body."""
+
+
+@claim("C42")
+def c42(results: Results) -> tuple[Word, Evidence]:
+    """Smallest singular value of B of every form at two middle angles, and at random ones."""
+    outer = np.random.default_rng(results.seed).uniform(-3.0, 3.0, (LIMIT.PAIRS, 2)).tolist()
+    least = {
+        form: max(least_of(form, (one, 0.0 if form[0] == form[2] else np.pi / 2, two)) for one, two in outer)
+        for form in FORMS
+    }
+    regular = min(least_of(form, (one, 0.8, two)) for form in FORMS for one, two in outer)
+    return word_of(max(least.values()) <= LIMIT.SAME and regular > LIMIT.APART, False), evidence(
+        f"""Smallest singular value of B: at most {max(least.values()):.0e} in all {len(FORMS)} forms at a middle angle
+        of 0 (where the first and the last axis are the same) or pi/2, whatever the others are; at a middle angle of 0.8
+        rad at least {regular:.2f}.""",
+        2 * len(FORMS) * LIMIT.PAIRS,
+    )
+
+
+def least_of(form: str, angles: tuple[float, float, float]) -> float:
+    """Compute the smallest singular value of B: its columns are the axes of the three turns in the base."""
+    axes = np.eye(3)[["XYZ".index(letter) for letter in form]]
+    first = Turn.from_euler(form[0], angles[0])
+    second = first * Turn.from_euler(form[1], angles[1])
+    B = np.array([axes[0], first.apply(axes[1]), second.apply(axes[2])]).T
+    return float(np.linalg.svd(B, compute_uv=False)[-1])
+
+
+@claim("C43")
+def c43(results: Results) -> tuple[Word, Evidence]:
+    """Lengths of straight ways in two sets of coordinates, and how unevenly errors of the angles turn the hand."""
+    rng = np.random.default_rng(results.seed)
+    start, end = (Turn.random(LIMIT.MATRICES, rng=rng) for _ in range(2))
+    shortest = (end * start.inv()).magnitude()
+    ends = (one.as_euler("ZYX") for one in (start, end))
+    first, last = ends
+    steps = np.linspace(0.0, 1.0, LIMIT.STEPS)
+    ways = [Turn.from_euler("ZYX", first + s * (last - first)) for s in steps]
+    length = np.sum([(after * before.inv()).magnitude() for before, after in itertools.pairwise(ways)], axis=0)
+    longer = float(np.median(length / shortest))
+    tilts = np.abs(np.sin(first[:, 1]))
+    uneven = float(np.median(np.sqrt((1 + tilts) / (1 - tilts))))  # singular values of B: 1 and sqrt(1 -+ |sin beta|)
+    return word_of(longer >= LIMIT.LONGER and uneven >= LIMIT.UNEVEN, False), evidence(
+        f"""Between {LIMIT.MATRICES} pairs of random orientations the straight way in Z-Y-X angles is {longer:.2f} times
+        the shortest, in the median; in the rotation vector of the difference it is the shortest. Equal errors of three
+        Z-Y-X angles turn a hand {uneven:.2f} times as far in one direction as in another, in the median; as errors of
+        a small rotation vector they are even. Compliance: C22 to C25.""",
+        2 * LIMIT.MATRICES,
+    )
