@@ -28,8 +28,8 @@ def c44(results: Results) -> tuple[Word, Evidence]:
     typical = float(np.median(np.concatenate(wrong)))
     return word_of(exact <= LIMIT.SAME < off, False), evidence(
         f"""At {LIMIT.POSES} random states each of {", ".join(arms)} the hand's acceleration, from MuJoCo's forward
-        dynamics and differences of its velocity, is u to {exact:.0e} of its size. With all masses {LIMIT.OFF.partition("-")[2]}
-        times the model's it misses u by {typical:.0%}, in the median.""",
+        dynamics and differences of its velocity, is u to {exact:.0e} of its size. With all masses
+        {LIMIT.OFF.partition("-")[2]} times the model's it misses u by {typical:.0%}, in the median.""",
         2 * LIMIT.POSES * len(arms),
     )
 
