@@ -15,9 +15,10 @@ from pathlib import Path
 from typing import Any
 
 from bench.base.files import read_json, write_json
+from bench.base.on_first_use import pd
 from bench.base.provenance import ROOT, describe, source_digest
 from bench.experiments import plan as planning
-from bench.experiments.experiment import Unit, known_experiments
+from bench.experiments.experiment import Settings, Unit, known_experiments, rows_of
 from bench.experiments.plan import Plan
 from bench.experiments.suites import NOMINAL
 from bench.experiments.tables import read
@@ -27,6 +28,7 @@ from bench.findings.claims.at_gains import GAINS
 from bench.findings.claims.controller_costs import BY_COMMON, BY_EULER, ON_MATRIX
 from bench.findings.claims.tables import MAIN_ENGINE, Results
 from bench.law.contenders.registry import all_contenders
+from bench.law.inputs import Gains
 from bench.running import run
 from bench.studies.study import make_parser, make_parts
 
@@ -101,7 +103,16 @@ def words_of(results: Results) -> dict[str, str]:
 def at_other_gains() -> list[dict]:
     """Return the gains of each run of results/gains, and the words of the claims that its tables decide."""
     runs = [Results(path.parent) for path in sorted(GAINS.glob("*/episodes.parquet"))]
-    return [{**run.gains()._asdict(), "words": words_of(run)} for run in runs]
+    return [
+        {**run.gains()._asdict(), "words": words_of(Results(run.folder, {"traces": traces_at(run.gains())}))}
+        for run in runs
+    ]
+
+
+def traces_at(gains: Gains) -> pd.DataFrame:
+    """Return the traces that claims look at, by other gains: results/gains has none."""
+    units = [one for one in plan_of(HALF_STEP).units if one.experiment == "traces"]
+    return pd.concat([rows_of(Settings(gains=gains), one) for one in units], ignore_index=True)
 
 
 def turned(runs: dict[str, dict], reference: dict[str, str]) -> dict[str, dict[str, str]]:

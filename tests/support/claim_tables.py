@@ -232,5 +232,6 @@ def later_laws() -> Frames:
 
 
 TABLES = {"C18": jacobians, "C19": jacobians, "C20": controllers, "C26": controllers, "C25": contact, "C27": later_laws}
+TABLES["C46"] = controllers
 TABLES |= dict.fromkeys(("C21", "C22", "C23", "C24"), compliances)
-TABLES |= {f"C{i:02d}": reference for i in (*range(1, 18), 31, 32, 34, 35)}
+TABLES |= {f"C{i:02d}": reference for i in (*range(1, 18), 31, 32, *range(34, 39))}

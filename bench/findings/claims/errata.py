@@ -121,6 +121,6 @@ ERRATA = tuple(
 UNTESTABLE = tuple(Sentence(**words) for words in read_texts(Path(__file__).with_name("untestable.toml"))["sentences"])
 
 COVERAGE = tuple(
-    Item(one["paper"], one["says"], tuple(one.get("claims", ())), tuple(one["pages"]))
-    for one in read_texts(Path(__file__).with_name("coverage.toml"))["items"]
+    Item(paper, says, tuple(on.split()), tuple(pages.split()))
+    for paper, says, on, pages in read_texts(Path(__file__).with_name("coverage.toml"))["items"]
 )
