@@ -116,3 +116,23 @@ def test_acceleration_of_the_angles_is_that_of_a_body_that_spins_freely():
     rates = (angles(h) - angles(-h)) / (2 * h)
     expected = (angles(h) - 2 * angles(0.0) + angles(-h)) / h**2
     assert np.allclose(linearization.angular_acceleration(E, rates, np.zeros(3)), expected, atol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("force", "moment", "turn", "outcome", "word"),
+    [
+        (3.0, 1e-4, 1e-3, "done", Word.HOLDS),
+        (3.0, 1e-4, 0.02, "done", Word.CORRECTED),
+        (9.0, 1e-4, 1e-3, "done", Word.FAILS),
+        (3.0, 1e-2, 1e-3, "done", Word.FAILS),
+        (3.0, 1e-4, 1e-3, "singular", Word.FAILS),
+    ],
+)
+def test_force_control_is_judged_by_force_moment_and_rotation(force, moment, turn, outcome, word):
+    rows = [
+        {"task": task, "controller": "hybrid-base", "form": form, "outcome": outcome, "held_turn_rad": turn}
+        | {"normal_force_error_n": pressed, "alignment_error_rad": laid}
+        for task, pressed, laid in (("force-on-plane", force, np.nan), ("surface-alignment", np.nan, moment))
+        for form in ("transpose", "inverse")
+    ]
+    assert decided(judged("C47", compliance=pd.DataFrame(rows)), word)

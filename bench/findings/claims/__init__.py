@@ -1,4 +1,4 @@
-"""The paper's claims, C01 to C46: each sentence with a criterion fixed before the results, and its verdict.
+"""The paper's claims, C01 to C47: each sentence with a criterion fixed before the results, and its verdict.
 
 A module holds measurements alone; the TOML file of the same name holds the texts of its claims.
 
@@ -12,7 +12,7 @@ A module holds measurements alone; the TOML file of the same name holds the text
     controller_costs.py      C20, C26, C33
     force_conversion.py      C21
     compliance.py            C22 to C24
-    contact.py               C25
+    contact.py               C25, C47
     regions.py               C36 to C39
     representations.py       C40 to C43
     linearization.py         C44 to C46

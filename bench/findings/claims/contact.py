@@ -1,4 +1,4 @@
-"""C25: complex compliant motions by both Jacobians (Murphy 1988, 3.3)."""
+"""C25, C47: complex compliant motions by both Jacobians, and force control by the common one (Murphy 1988, 3.3)."""
 
 from __future__ import annotations
 
@@ -117,3 +117,26 @@ def _parted(rows: pd.DataFrame) -> str:
     by_outcome = np.isinf(rows["factor"])
     ends = f"{by_outcome.sum()} by outcome, the others " if by_outcome.any() else ""
     return f"{rows['parts'].sum()} of {len(rows)} ({ends}up to {rows['factor'][~by_outcome].max():.3g} times)"
+
+
+@claim("C47")
+@by_papers_form
+def c47(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
+    """Errors of force, of moment and of rotation of the controller on the common Jacobian."""
+    rows = results.table("compliance", controller=BASE)
+    rows = rows[rows["form"].isin(forms) & rows["task"].isin((LIMIT.PRESSED, LIMIT.ALIGNED))]
+    pressed, aligned = (
+        some(rows[rows["task"] == task], f"pose of {task} by {BASE}, +{' or +'.join(forms)}")
+        for task in (LIMIT.PRESSED, LIMIT.ALIGNED)
+    )
+    force = float(pressed["normal_force_error_n"].max()) / LIMIT.FORCE_N
+    moment, turn = (float(rows[name].max()) for name in ("alignment_error_rad", "held_turn_rad"))
+    done = int((rows["outcome"] == "done").sum())
+    yields = done == len(rows) and force <= LIMIT.MISSED and moment <= FLOORS["rad"]
+    return word_of(yields and turn <= LIMIT.HELD_RAD, yields), evidence(
+        f"""{done} of {len(rows)} runs of {pressed["task"].iloc[0]} and {aligned["task"].iloc[0]} end as they should.
+        The force normal to the plane is off by at most {force:.0%} of {LIMIT.FORCE_N:g} N, root mean square; a tool
+        that complies about two axes lies flush to {moment:.1e} rad; what is held has turned by at most {turn:.1e} rad
+        at the end.""",
+        len(rows),
+    )
