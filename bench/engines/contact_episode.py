@@ -1,6 +1,5 @@
 """What the engines of contact share: the settings of an episode, what is recorded at each tick, and how it ends."""
 
-import math
 from typing import Any, NamedTuple
 
 import mujoco
@@ -40,7 +39,7 @@ class Numbers(NamedTuple):
     """What a loop needs of an episode besides the models; see `Specification`, `ContactParameters`.
 
     rated: seven numbers, filled up with ones on fewer joints. moves_s: until when the place moves [s]. legs: pushes.
-    delay: ticks by which the sensor of forces lags. rest: when it is over.
+    rest: when it is over.
     """
 
     dt: float
@@ -56,7 +55,6 @@ class Numbers(NamedTuple):
     rated: Seven
     legs: int
     moves_s: float
-    delay: int
     rest: RestNumbers
 
 
@@ -72,23 +70,6 @@ class Ended(NamedTuple):
     rested: bool = False
 
 
-class Sensor(NamedTuple):
-    """What a controller is given of the wrench, beside the wrench itself: the record keeps the true one.
-
-    delay_s: how late [s]. force, moment: standard deviation of white noise a tick [N], [N m]; seed: of its draw.
-    """
-
-    delay_s: float = 0.0
-    force: float = 0.0
-    moment: float = 0.0
-    seed: int = 0
-
-    def noise(self, count: int) -> np.ndarray:
-        """So many ticks' noise, count x 6 [N, N m]."""
-        drawn = np.random.default_rng(self.seed).standard_normal((count, 6))
-        return drawn * ((self.force,) * 3 + (self.moment,) * 3)
-
-
 class Conditions(NamedTuple):
     """What is common to the episodes of a run."""
 
@@ -96,7 +77,6 @@ class Conditions(NamedTuple):
     touch: ContactParameters = TOUCH
     dt_s: float = 1e-3
     integrator: str = "implicitfast"
-    sensor: Sensor = Sensor()
 
 
 USUAL = Conditions()
@@ -123,7 +103,6 @@ def numbers(
         (*map(float, rated), *[1.0] * (MOST - len(rated))),
         len(trial.pushes),
         float(specification.moves_s),
-        math.floor(conditions.sensor.delay_s / conditions.dt_s + 0.5),
         rest_numbers(task.rests, min(specification.moves_s, task.horizon_s), conditions.dt_s),
     )
 
@@ -147,18 +126,6 @@ def wrench(R, s):
     MuJoCo's sensors say what the hand does to the wrist's side of them, in the hand's frame.
     """
     return rotate(R, (-s[19], -s[20], -s[21])), rotate(R, (-s[22], -s[23], -s[24]))
-
-
-@kernel
-def sensed(f, m, record, tick, delay, noise):
-    """Return the wrench as the controller is given it: that of `delay` ticks ago, and noise."""
-    if tick < delay:
-        f, m = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
-    elif delay > 0:
-        past = record[tick - delay]
-        f, m = (past[16], past[17], past[18]), (past[19], past[20], past[21])
-    e = noise[tick]
-    return (f[0] + e[0], f[1] + e[1], f[2] + e[2]), (m[0] + e[3], m[1] + e[4], m[2] + e[5])
 
 
 @kernel

@@ -93,9 +93,9 @@ def run_contact(
         except mujoco.FatalError as error:
             row[:] = contact_episode.BROKEN
             return row, str(error), data
-        sim, noise = plain_view(loop), conditions.sensor.noise(shape.ticks)
+        sim = plain_view(loop)
         gap, turned = contact_episode.sensors_of(loop.physics.model.ptr)
-        work = contact.work(arm.joints, sim.n, noise)
+        work = contact.work(arm.joints, sim.n)
         touch = type(conditions.touch)(*map(np.float64, conditions.touch))
         asked, push = np.zeros(3, np.int64), np.zeros(6)
         world = contact.World(sim, arm.joints, push, gap, turned, 0, 0, asked, work, shape, touch, record)

@@ -23,7 +23,6 @@ from tasks.contact import ContactTask, Trial, leg, prepare, refuse
 from tasks.contact_checks import check_contact, check_trial
 from tasks.contact_model import STANDARD, ContactModel, model_xml
 from tasks.contact_rest import has_left
-from tasks.rules import ticks
 from tasks.verdict import GOING
 
 ENGINES = ("native", "reference")
@@ -67,9 +66,6 @@ def _check(
         raise BadNumber(f"dt_s = {conditions.dt_s} s: give a finite number above 0 (try: {USUAL.dt_s})")
     check_constants(conditions.gains, conditions.touch)
     check_contact(contact)
-    for name, value in conditions.sensor._asdict().items():
-        if not 0.0 <= value < np.inf:
-            raise BadNumber(f"sensor: {name} = {value}: give a finite number of 0 or more")
     for trial in trials:
         check_trial(trial, arm)
 
@@ -79,11 +75,10 @@ def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: Con
     model = skip_constraints(model_of(model_xml(task, arm, conditions.dt_s, contact), conditions.integrator))
     data = mujoco.MjData(model)
     asked = np.array((model._address, data._address, 0), np.int64)
-    noise = conditions.sensor.noise(ticks(task.horizon_s, conditions.dt_s))
     gap, turned = contact_episode.sensors_of(model)
     world = {
         **{"sim": compiled_view(model, data), "n": arm.joints, "push": data.xfrc_applied[model.body("hand").id]},
-        **{"gap": gap, "turned": turned, "work": in_contact.work(arm.joints, model.nv, noise)},
+        **{"gap": gap, "turned": turned, "work": in_contact.work(arm.joints, model.nv)},
         **{"batch": trapped.batch().address, "callback": trapped.CALLBACK, "asked": asked},
     }
     return Scene(model, data, world)

@@ -47,8 +47,8 @@ DENSE_HOLES = tuple(itertools.product((2, 4, 6, 8), range(0, 360, 45)))
 UP = (0.0, 1.0, 0.0, 0.0)  # turns the wrist's frame, which points down, so that z points up
 
 
-def surroundings(arm: Arm, hole: float = HOLE) -> Surroundings:
-    """Return a peg on a stem, and four walls with their chamfers and a bottom; half the side of the hole [m]."""
+def surroundings(arm: Arm) -> Surroundings:
+    """Return a peg on a stem, and four walls with their chamfers and a bottom."""
     length = TIP[2]
     hand = (
         f'<geom type="cylinder" size=".008 {length / 2 - DEPTH}" pos="0 0 {length / 2 - DEPTH}" mass="0" '
@@ -57,23 +57,18 @@ def surroundings(arm: Arm, hole: float = HOLE) -> Surroundings:
         'rgba=".3 .5 .8 1"/>'
     )
     half = WALL / 2
-    bottom = _box("bottom", (hole, hole, half), (0.0, 0.0, -DEPTH - half), 0)
-    return Surroundings(hand, TIP, bottom + "".join(_side(k, hole) for k in range(4)))
+    bottom = _box("bottom", (HOLE, HOLE, half), (0.0, 0.0, -DEPTH - half), 0)
+    return Surroundings(hand, TIP, bottom + "".join(map(_side, range(4))))
 
 
-def with_clearance(share: float) -> ContactTask:
-    """Return the task with a hole that is wider than the peg by this share of the peg's side."""
-    return TASK._replace(surroundings=functools.partial(surroundings, hole=PEG * (1.0 + share)))
-
-
-def _side(k: int, hole: float) -> str:
+def _side(k: int) -> str:
     """Return the wall and the chamfer in the direction of +x, turned by k quarters about z."""
     half, slope = WALL / 2, CHAMFER / math.sqrt(2)
     deep = (DEPTH - CHAMFER) / 2
-    wall = _box(f"wall {k}", (half, hole + WALL, deep), (hole + half, 0.0, -CHAMFER - deep), k)
+    wall = _box(f"wall {k}", (half, HOLE + WALL, deep), (HOLE + half, 0.0, -CHAMFER - deep), k)
     sunk = half / math.sqrt(2)
-    middle = (hole + CHAMFER / 2 + sunk, 0.0, -CHAMFER / 2 - sunk)
-    return wall + _box(f"chamfer {k}", (half, hole + CHAMFER, slope), middle, k, math.pi / 4)
+    middle = (HOLE + CHAMFER / 2 + sunk, 0.0, -CHAMFER / 2 - sunk)
+    return wall + _box(f"chamfer {k}", (half, HOLE + CHAMFER, slope), middle, k, math.pi / 4)
 
 
 def _box(name: str, size: Vector, pos: Vector, quarters: int, lean: float = 0.0) -> str:

@@ -8,8 +8,7 @@ from support.bits import different_rows, same_bits
 from support.in_contact import ARMS
 
 import tasks
-from bench.base.errors import BadNumber
-from bench.engines.contact_episode import FORCE, USUAL, WIDTH, Sensor, sensed
+from bench.engines.contact_episode import FORCE, USUAL
 from bench.engines.native.libmujoco import MUJOCO_INTEGRATORS
 from bench.engines.simulate_contact import run_contact as run
 from bench.law.control.registry import all_controllers, find_controller
@@ -17,7 +16,6 @@ from tasks.contact_model import STANDARD
 
 TASKS = tasks.contact_names()
 THREE = ("hybrid-base+inverse", "hybrid/zyx-euler+projected", "impedance-coordinates/zyx-euler")
-LATE = Sensor(0.003, 0.5, 0.05, seed=4)
 ENGINES = ("native", "reference")
 
 
@@ -64,39 +62,15 @@ BRIEFLY = [
         (THREE[k % 3], word, k, USUAL._replace(integrator=integrator, dt_s=(1e-3, 5e-4)[k % 2]))
         for k, (word, integrator) in enumerate(zip(TASKS, itertools.cycle(MUJOCO_INTEGRATORS), strict=False))
     ),
-    *((one, "surface-alignment", 0, USUAL._replace(sensor=LATE)) for one in THREE),
 ]
 
 
 @pytest.mark.parametrize(("controller", "word", "k", "conditions"), BRIEFLY)
-def test_native_record_is_the_reference_record_of_every_controller_integrator_and_sensor(
-    controller, word, k, conditions
-):
+def test_native_record_is_the_reference_record_of_every_controller_and_integrator(controller, word, k, conditions):
     task, arm, trial = of(word, ARMS[k % len(ARMS)], k)
-    task = task._replace(horizon_s=0.3 if conditions.sensor == LATE else 0.2)
+    task = task._replace(horizon_s=0.2)
     fast, slow = both(controller, task, arm, trial, conditions)
     assert_same(fast, slow)
-    if conditions.sensor == LATE:
-        assert not same_bits(fast.record, both(controller, task, arm, trial)[0].record)
-
-
-def test_controller_is_given_the_wrench_of_some_ticks_ago_and_none_before():
-    record, still = np.arange(10.0 * WIDTH).reshape(10, WIDTH), np.zeros((10, 6))
-    now = (1.0, 2.0, 3.0), (4.0, 5.0, 6.0)
-    assert sensed(*now, record, 7, 0, still) == now
-    assert sensed(*now, record, 2, 3, still) == ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
-    f, m = sensed(*now, record, 7, 3, still)
-    assert (*f, *m) == tuple(record[4, FORCE : FORCE + 6])
-    noise = LATE.noise(1000)
-    assert (np.array(sensed(*now, record, 7, 0, noise)) - np.array(now)).ravel() == pytest.approx(noise[7])
-    assert noise.std(axis=0) == pytest.approx([0.5] * 3 + [0.05] * 3, rel=0.1)
-
-
-@pytest.mark.parametrize("name", Sensor._fields[:3])
-def test_sensor_that_is_none_is_refused(name):
-    task, arm, trial = of("surface-alignment", ARMS[0], 1)
-    with pytest.raises(BadNumber, match=f"sensor: {name} = -1"):
-        both(THREE[0], task, arm, trial, USUAL._replace(sensor=Sensor(**{name: -1.0})))
 
 
 def with_memory(task, size: str):

@@ -13,7 +13,7 @@ import numpy as np
 from bench.engines import contact_episode
 from bench.engines.arm_episode import MOST
 from bench.engines.arrays import Integers, Matrix, Vector
-from bench.engines.contact_episode import BROKEN, RESTED, Numbers, overload, sensed, setpoint, wrench, write_record
+from bench.engines.contact_episode import BROKEN, RESTED, Numbers, overload, setpoint, wrench, write_record
 from bench.engines.episode import Numbers as Limits
 from bench.engines.loop import NO_ACT, Act, Controller, Plant, Record, Sensed, episodes_of
 from bench.engines.native.trapped import BEGIN, RUNGE_KUTTA, STEP, advance_trapped
@@ -30,7 +30,7 @@ from tasks.verdict import GOING, check_command
 
 
 class Work(NamedTuple):
-    """Buffers of a controller and of an episode: D (nv x nv), the trial's pushes, the sensor's noise, ticks x 6."""
+    """Buffers of a controller and of an episode: D (nv x nv), and the trial's pushes."""
 
     rows: Rows
     room: ContactBuffers
@@ -39,7 +39,6 @@ class Work(NamedTuple):
     fg: Vector
     tau: Vector
     legs: Matrix
-    noise: Matrix
 
 
 class World(NamedTuple):
@@ -63,11 +62,11 @@ class World(NamedTuple):
     record: Matrix
 
 
-def work(n: int, nv: int, noise: np.ndarray) -> Work:
+def work(n: int, nv: int) -> Work:
     """Return fresh buffers for an arm of n joints in a scene of nv degrees of freedom."""
     D, legs = np.zeros((nv, nv)), np.zeros((MOST_LEGS, 6))
     room = contact_episode.rows(), contact_episode.room()
-    return Work(*room, np.zeros((6, MOST)), D, np.zeros(n), np.zeros(n), legs, noise)
+    return Work(*room, np.zeros((6, MOST)), D, np.zeros(n), np.zeros(n), legs)
 
 
 class State(NamedTuple):
@@ -129,12 +128,11 @@ def begin(laws, memory0, sensed_now):
 def command(laws, body, sensed_now, now, gains, memory, numbers):
     """Compute the torques of a controller, whose rows are the law; the act's square is the largest over its rated."""
     sim, shape, work, hand, n = body.sim, body.shape, body.work, sensed_now.more, body.n
-    f, m = sensed(hand.f, hand.m, body.record, now.tick, shape.delay, work.noise)
     wanted = setpoint(sensed_now.goal.R, hand.p_0, shape, now.tick * numbers.dt)
     fill_inertia(sim, work.D)
     for i in range(n):
         work.fg[i] = sim.qfrc_bias[i] - sim.qfrc_passive[i]
-    laws.law(hand.chain, wanted, f, m, gains, body.touch, work.J, work.rows)
+    laws.law(hand.chain, wanted, hand.f, hand.m, gains, body.touch, work.J, work.rows)
     comply(
         shape.form, shape.held, hand.chain, work.D, work.fg, work.J, work.rows, gains, body.touch, work.room, work.tau
     )
