@@ -50,11 +50,6 @@ def test_finished_run_leaves_its_tables_and_nothing_else(killed):
     assert killed["files"] == sorted(tables | {"plan.json", "provenance.json"})
 
 
-@pytest.mark.weekly
-def test_one_thread_and_two_give_the_same_files(killed):
-    assert killed["one thread"]
-
-
 RUN = ("run", "--suite", "quick", *ALONE, "--starts", "half-turn", "--engine", "reference")
 MANY = (*RUN, "--regulator", "rotation-matrix", "--count", "60", "--horizon", "1", "--workers", "1")
 """Fifteen units of four episodes, each about a tenth of a second: time to be stopped in, on a busy machine too."""

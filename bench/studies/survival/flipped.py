@@ -9,8 +9,6 @@ import io
 import json
 import random
 import shutil
-import sys
-import tempfile
 from collections import Counter
 from pathlib import Path
 
@@ -20,7 +18,6 @@ from bench.experiments.plan import Plan, digest_of
 from bench.experiments.tables.packed import pack, unpack
 from bench.running import run
 from bench.running.run_folder import SEAL, part
-from bench.studies.study import make_parser
 from bench.studies.survival.killed import OTHER, SHORT, Undisturbed, files_of, undisturbed
 
 SEED = 20260119
@@ -104,10 +101,3 @@ def main(folder: Path, count: int) -> dict:
     changes = edits(parts, others, json.loads((stopped / "plan.json").read_text()))
     flipped = disturb(wanted, stopped, flips(parts, count))
     return {"bits": dict(Counter(flipped.values())), "edits": disturb(wanted, stopped, changes)}
-
-
-if __name__ == "__main__":
-    parser = make_parser("survival.flipped", __doc__)
-    parser.add_argument("--flips", type=int, default=400, help="how many bits (default: 400)")
-    with tempfile.TemporaryDirectory() as here:
-        json.dump(main(Path(here), parser.parse_args().flips), sys.stdout, indent=1)

@@ -4,7 +4,6 @@ Each way must end with another code than 0 and without a traceback, leave the ro
 without it, and do the same when the command is given again.
 """
 
-import json
 import subprocess
 import sys
 import tempfile
@@ -15,7 +14,6 @@ from pathlib import Path
 from bench.base.processes import module_command
 from bench.base.provenance import ROOT
 from bench.experiments.tables.store import read
-from bench.studies.study import make_parser
 
 DATA = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 LAWS: dict[str, list[str]] = DATA["laws"]
@@ -84,11 +82,3 @@ def main(ways: Sequence[str], names: Sequence[str]) -> dict:
             every[way] = WAYS[way](Path(here), names)
         print(f"{way}: {'well' if is_well(every[way]) else 'NOT WELL'}, {len(names)} laws", file=sys.stderr, flush=True)
     return every
-
-
-if __name__ == "__main__":
-    parser = make_parser("survival.hostile", __doc__)
-    parser.add_argument("--way", action="append", choices=[*WAYS], help="repeatable (default: all)")
-    parser.add_argument("--law", action="append", choices=[*LAWS], help="repeatable (default: all)")
-    options = parser.parse_args()
-    json.dump(main(options.way or [*WAYS], options.law or [*LAWS]), sys.stdout, indent=1)

@@ -36,10 +36,6 @@ def plan_of(words: tuple, start_sets: tuple, engines: tuple, count: int, kp: flo
     return dataclasses.replace(made, units=tuple(units))
 
 
-ON_THREE = ("half-turn", "paper"), ("ideal-rk4", "native", "reference"), 12
-LONG = plan_of(("rotation-matrix", "feedback-linearized/zyx-euler"), *ON_THREE)
-"""Two laws on three engines: some seconds, most of them for curves."""
-
 SHORT, OTHER = (plan_of(("rotation-matrix",), ("paper", "tumbling"), ("ideal-rk4",), 3, kp) for kp in (100.0, 50.0))
 """Five units, so few files: killed at every one of its file operations. OTHER is what SHORT replaces."""
 
@@ -151,11 +147,8 @@ def while_clearing(wanted: Undisturbed, folder: Path) -> list[dict]:
 
 def main(folder: Path) -> dict:
     """Kill runs in all these ways, and return what the tests read."""
-    long = undisturbed(LONG, folder / "long")
-    ended(start(LONG, folder / "one-thread", 1))
-    is_same = files_of(folder / "one-thread") == long.files
-    answer = {"one thread": is_same, "files": sorted(long.files), "units": len(SHORT.units)}
     short = undisturbed(SHORT, folder / "short")
+    answer: dict[str, Any] = {"files": sorted(short.files), "units": len(SHORT.units)}
     (folder / "running").mkdir()
     answer["while running"] = at_every_file_operation(short, folder / "running")
     answer["while clearing"] = while_clearing(short, folder)

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 import pandas as pd
 
+from bench.findings.claims.tables import Share, share
 from bench.findings.on_arms import MEASURES, best, passed
 from report.figures.arms import arm_rows
 from report.figures.kit import html
-from report.figures.kit.share import Share, share
 from report.figures.kit.spelling import listed
 from report.figures.kit.tables import Table
 
@@ -45,7 +45,7 @@ def ranked(rows: pd.DataFrame) -> Iterator[tuple]:
         cells = []
         for name, measure in COLUMNS:
             mine = own.loc[(own["controller"] == controller) & (own["start_set"] == name), measure]
-            text = in_short(share(int(mine.sum()), len(mine))) if len(mine) else html.MISSING
+            text = in_short(share(mine)) if len(mine) else html.MISSING
             cells.append(f"**{text}**" if controller in top[name, measure] else text)
         yield arm_rows.title(controller), *cells
 
@@ -58,7 +58,7 @@ def in_short(found: Share) -> str:
 def told(rows: pd.DataFrame, controller: str, measure: str) -> str:
     """Share of a controller's episodes that pass, with its interval and n, in words."""
     own = passed(rows[rows["controller"] == controller])[measure]
-    found = share(int(own.sum()), len(own))
+    found = share(own)
     return f"{100 * found.value:.0f} % ({100 * found.low:.0f} to {100 * found.high:.0f} %, n = {found.n})"
 
 

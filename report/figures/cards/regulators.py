@@ -10,6 +10,7 @@ import pandas as pd
 from bench.experiments.tables import read
 from bench.export.heading import RESET, SIDE
 from bench.findings import why
+from bench.findings.claims.tables import share
 from bench.findings.selection import needs
 from bench.law.contender import Contender
 from bench.law.contenders import regulators
@@ -18,7 +19,6 @@ from bench.law.kinds import Law
 from report.figures.cards.card import LawPage, Source, docstring, make_card, make_page, say_property
 from report.figures.kit import families, html, laws, style
 from report.figures.kit.page import Run, in_run
-from report.figures.kit.share import share
 from report.figures.kit.tables import Table
 
 UNTRUSTED = (
@@ -108,11 +108,11 @@ def measured(episodes: pd.DataFrame, regulator: Law) -> str:
         return "Its price only: it gives the command of another law to rounding, and is not run again."
     if uniform.empty:
         return "Not in this run."
-    settled = uniform[uniform["outcome"] == "settled"]
-    found = share(len(settled), len(uniform))
-    times = settled["settling_time_s"]
-    pace = f", in {times.median():.2f} s (median) to {times.max():.2f} s (worst)" if len(settled) else ""
-    return f"{found} of {html.number(len(uniform))} uniform starts settle{pace}."
+    settled = uniform["outcome"] == "settled"
+    found = f"{share(settled)}".replace("%", " %")
+    times = uniform.loc[settled, "settling_time_s"]
+    pace = f", in {times.median():.2f} s (median) to {times.max():.2f} s (worst)" if len(times) else ""
+    return f"{found} of the uniform starts settle{pace}."
 
 
 def found_of(one: Contender, run: Run) -> str:

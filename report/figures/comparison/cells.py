@@ -10,11 +10,11 @@ from scipy.spatial.transform import Rotation
 
 from bench.experiments.tables.read import converged
 from bench.experiments.tables.statistics import Estimate, quantile, quantile_estimate
+from bench.findings.claims.tables import share
 from bench.findings.start_sets import AT_REST
 from report.figures.cost.cost import spent, totals
 from report.figures.cost.operations import CALLS
 from report.figures.kit import families, html
-from report.figures.kit.share import share
 from report.figures.kit.spelling import power
 
 NEVER = "never"
@@ -64,7 +64,7 @@ def by_law(names: Iterable[str], line: Callable[[str], dict]) -> html.Markdown |
 
 def settles(own: pd.DataFrame) -> str:
     """Return the share of a law's rows that settle [%], with its interval."""
-    found = share(int((own["outcome"] == "settled").sum()), len(own))
+    found = share(own["outcome"] == "settled")
     return with_interval(*map(percent, (found.value, found.low, found.high)))
 
 
