@@ -18,8 +18,9 @@ def COMMAND(folder: Path | None, criteria: bool) -> None:
 
     A claim is judged only if the run has the starts that it needs. The others are at the end, with what is lacking.
     """
+    from bench.base.files import read_json
     from bench.experiments.tables import read
-    from bench.findings.claims import Results, judge_possible
+    from bench.findings.claims import Results, judge_possible, steadiness
     from bench.findings.claims.tables import WHOLE
 
     results = Results(folder or read.folder())
@@ -32,6 +33,11 @@ def COMMAND(folder: Path | None, criteria: bool) -> None:
         record = _record(one) if criteria else ()
         print_paragraphs(Paragraph(one.id, (claimed, *correction, f"Evidence: {one.evidence}", *record)))
         console().print()
+    if steadiness.STORED.is_file():
+        study = read_json(steadiness.STORED)
+        print_paragraphs(
+            Paragraph("Steady?", (f"Of results/reference: {steadiness.describe(study, study['reference'])}",))
+        )
     if lacks:
         reasons = ((id, reason.removesuffix(f": {WHOLE}")) for id, reason in lacks.items())
         said = (f"{id} cannot be judged from this run: {reason}." for id, reason in reasons)

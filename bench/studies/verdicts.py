@@ -26,6 +26,7 @@ from bench.findings import claims
 from bench.findings.claims.adequacy import NOISE
 from bench.findings.claims.at_gains import GAINS
 from bench.findings.claims.controller_costs import BY_COMMON, BY_EULER, ON_MATRIX
+from bench.findings.claims.steadiness import HALF_STEP, STORED, turned
 from bench.findings.claims.tables import MAIN_ENGINE, Results
 from bench.law.contenders.registry import all_contenders
 from bench.law.inputs import Gains
@@ -33,12 +34,8 @@ from bench.running import run
 from bench.studies.study import make_parser, make_parts
 
 REFERENCE = ROOT / "results" / "reference"
-STORED = ROOT / "results" / "verdicts" / "verdicts.json"
 
 SEEDS = tuple(range(1, 21))
-HALF_STEP = "half-step"
-"""The reference's seed, at half its control period."""
-
 STEP_S = 1e-3
 RUNS = (*map(str, SEEDS), HALF_STEP)
 
@@ -113,17 +110,6 @@ def traces_at(gains: Gains) -> pd.DataFrame:
     """Return the traces that claims look at, by other gains: results/gains has none."""
     units = [one for one in plan_of(HALF_STEP).units if one.experiment == "traces"]
     return pd.concat([rows_of(Settings(gains=gains), one) for one in units], ignore_index=True)
-
-
-def turned(runs: dict[str, dict], reference: dict[str, str]) -> dict[str, dict[str, str]]:
-    """Claim -> run -> its word, of the claims that get another word somewhere than on the reference."""
-    found: dict[str, dict[str, str]] = {}
-    for name, one in runs.items():
-        for id in {*reference, *one["words"]}:
-            word = one["words"].get(id, "not judged")
-            if word != reference.get(id):
-                found.setdefault(id, {})[name] = word
-    return dict(sorted(found.items()))
 
 
 def study(names: tuple[str, ...], workers: int, out: Path, again: bool) -> dict:

@@ -18,6 +18,7 @@ A module holds measurements alone; the TOML file of the same name holds the text
     linearization.py         C44 to C46
     adequacy.py              every law by the tests of C17 and C27
     at_gains.py              the same claim at other gains, and by the sampled engines
+    steadiness.py            what other draws, half the step and other gains do to the words
     standing.py              how two laws stand in cost, by time and by operations
     tables.py                what a judging function reads
     probes.py                the small experiments of claims that no table answers, on arms too

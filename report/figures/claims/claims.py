@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import html as escape
-import math
 from collections.abc import Iterable
 
 from bench.base.files import read_json
 from bench.findings import claims
-from bench.findings.claims import Verdict, Word, tally
+from bench.findings.claims import Verdict, Word, steadiness, tally
 from bench.findings.claims.errata import COVERAGE, ERRATA, UNTESTABLE, Erratum, Item
 from bench.findings.claims.verdict import MISPRINTS, does
-from bench.studies import verdicts
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose, typeset
@@ -40,28 +38,8 @@ def facts(_: Run) -> dict:
         "n_computed": sum(one.check is not None for one in ERRATA),
         "n_read": sum(one.check is None for one in ERRATA),
         "misprints": typeset(" ".join(MISPRINTS.split())),
-        "steady": steady(read_json(verdicts.STORED), {one.id: str(one.word) for one in every}),
+        "steady": steadiness.describe(read_json(steadiness.STORED), {one.id: str(one.word) for one in every}),
     }
-
-
-def steady(study: dict, words: dict[str, str]) -> str:
-    """Return what the study of seeds, of half the step and of other gains found, in a sentence or two."""
-    runs = study["runs"]
-    seeds = sum(name != verdicts.HALF_STEP for name in runs)
-    other = verdicts.turned(runs, words)
-    found = "every verdict stays the same" if not other else f"these change: {', '.join(other)}"
-    step = " and with half the step size" if verdicts.HALF_STEP in runs else ""
-    return f"With {seeds} other random seeds{step}, {found}.{by_gains(study, words)}"
-
-
-def by_gains(study: dict, words: dict[str, str]) -> str:
-    """Which verdicts are other ones at other damping ratios; nothing where no run at other gains was judged."""
-    said = []
-    for one in study.get("gains", ()):
-        changed = (f"{id} ({word})" for id, word in one["words"].items() if word != words[id])
-        ratio = one["kv"] / (2.0 * math.sqrt(one["kp"]))
-        said.append(f"with a damping ratio of {ratio:g}: {', '.join(changed) or 'none'} of {len(one['words'])}")
-    return f" Other gains change these verdicts, of those that their runs decide: {'; '.join(said)}." if said else ""
 
 
 def tables(_: Run) -> dict:
