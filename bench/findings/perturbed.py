@@ -13,14 +13,13 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-import pandas as pd
 
 import tasks
+from bench.base.on_first_use import pd
 from bench.experiments.columns import CONTENDER_KEY
 from bench.experiments.tables.read import with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.statistics import quantile
-from bench.experiments.tables.store import read
 from tasks.condition import condition_at
 
 STUDY = RESULTS / "robustness"
@@ -154,4 +153,6 @@ def _threshold(shares: pd.Series, way: Way) -> Threshold:
 @functools.cache
 def studied(folder: Path = STUDY) -> pd.DataFrame:
     """Return the study's rows with `contender`."""
+    from bench.experiments.tables.store import read  # imports pyarrow: listing claims must not
+
     return with_contender(read(folder, "perturbed"))
