@@ -6,6 +6,8 @@ is the last level, from the mildest outwards, up to which at most LOST fewer of 
 a law that loses more than FEWEST of them there has none.
 """
 
+from __future__ import annotations
+
 import functools
 import math
 from collections.abc import Iterable
