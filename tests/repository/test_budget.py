@@ -15,7 +15,7 @@ LINES = {
     "bench/engines": 6_385,
     "bench/experiments": 5_132,
     "bench/export": 2_068,
-    "bench/findings": 6_476,
+    "bench/findings": 6_478,
     "bench/law": 6_730,
     "bench/regression": 1_295,
     "bench/running": 2_523,
