@@ -1,0 +1,212 @@
+"""Laws of the free body in situations of dimensionless numbers: a row a law and situation, of some hundreds of starts.
+
+No suite has this experiment; `bench advise --run` and the study of the map (`bench/studies/advice.py`) plan it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+import tasks
+from bench.base.on_first_use import pd
+from bench.engines.metrics.metric import Metric, as_it_is
+from bench.engines.metrics.registry import known_metrics
+from bench.experiments.columns import read_table
+from bench.experiments.costs import count_operations
+from bench.experiments.episode_rows import contender_columns
+from bench.experiments.experiment import Experiment, Settings, Unit
+from bench.experiments.plan import Plan
+from bench.experiments.tables.statistics import quantile
+from bench.law import kernel
+from bench.law.contender import Contender
+from bench.law.contenders.registry import all_contenders
+from bench.law.inputs import Gains
+from tasks.base import Start
+from tasks.situation import KP, NOMINAL, Situation, read_situation
+from tasks.verdict import SETTLED
+
+if TYPE_CHECKING:
+    from tasks.condition import Condition
+
+FIRST, MOST = 512, 4096
+"""Starts of a situation, at first and at most: doubled until the interval of the 99 % time is short enough. A law that
+exact 180° rotations hold has a time without a limit near them; of it FIRST suffice."""
+
+PRECISION = 0.01
+"""Half of that interval over the time, at most."""
+
+EXACT = 24
+"""Starts at exact 180° rotations."""
+
+NOISE_RAD = 0.1
+"""Worst error of orientation at 180° [rad]; no sensor's exceeds it by much."""
+
+AWAY_RAD = 0.05
+"""Angle to the goal gained by a body that turns away from it [rad]."""
+
+HORIZON_S = 5.0
+START_S = 2e-4
+"""CPU seconds a start."""
+
+CROWD = 0.99
+"""The share of the starts whose settling time is compared."""
+
+
+@kernel
+def largest_haversine(value, sample):  # noqa: D103
+    if sample.haversine > value:
+        return sample.haversine
+    return value
+
+
+FARTHEST = Metric("farthest", "1", "largest haversine of the angle to the goal", 0.0, largest_haversine, as_it_is)
+
+
+def metrics() -> tuple[Metric, ...]:
+    """Return what is measured of each start: farthest, effort, peak, overshoot."""
+    known = known_metrics()
+    return (FARTHEST, known["effort"], known["peak_u"], known["overshoot_rad"])
+
+
+def mapped_laws() -> list[Contender]:
+    """Return the laws that are run: on the rotation matrix or its quaternion, no control, no actuator of MuJoCo's.
+
+    Laws on coordinates of SO(3) lose some of the uniform starts, so that none can be advised.
+    """
+    every = [one for one in all_contenders() if one.representation is None]
+    return [one for one in every if not (one.regulator.in_engine or one.regulator.control)]
+
+
+def plan_of(pairs: Iterable[tuple[Contender, Situation]], seed: int = 0) -> Plan:
+    """Plan laws, each in its situations."""
+    every = list(pairs)
+    units = tuple(
+        Unit(
+            "situations",
+            one.name,
+            "free-body",
+            selector=at.word,
+            count=FIRST,
+            total=FIRST,
+            episodes=FIRST,
+            horizon_s=HORIZON_S,
+        )
+        for one, at in every
+    )
+    own = tuple(dict.fromkeys(one.regulator for one, _ in every if one.regulator.origin))
+    return Plan(Settings("situations", seed=seed, own=own), units)
+
+
+def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
+    """Return the row of a law in a situation."""
+    one, at = settings.contender(unit.contender), read_situation(unit.selector)
+    condition, exact = at.condition(), tasks.axis("half-turn-noise").starts(EXACT, settings.seed, 0.0)
+    noisy = at._replace(delay=NOMINAL.delay, period=NOMINAL.period).condition(NOISE_RAD)
+    stuck, trapped = (
+        int((_run(settings, one, at, exact, each)["time"] == math.inf).sum()) for each in (condition, noisy)
+    )
+    every = at.starts(FIRST if stuck else MOST, settings.seed)
+    ended, count = _run(settings, one, at, every[:FIRST], condition), FIRST
+    while count < len(every) and not is_precise(summarize(ended, at.spin > 0.0)):
+        more = _run(settings, one, at, every[count : 2 * count], condition)
+        ended, count = {name: np.concatenate((ended[name], more[name])) for name in more}, 2 * count
+    found = summarize(ended, at.spin > 0.0)
+    facts = {"stuck": stuck, "trapped": trapped, "operations": count_typical(one)}
+    return pd.DataFrame([{**contender_columns(one), **at._asdict(), **found, **facts}])
+
+
+def count_typical(one: Contender) -> int:
+    """Return the operations of a typical tick, the goal given as R_d: each flop and each call counted once."""
+    whole = next(row for row in count_operations(one) if row["branch"] == "typical" and row["stage"] == "total")
+    return int(whole["flops"] + whole["sin"] + whole["cos"] + whole["acos"] + whole["atan2"])
+
+
+def is_precise(found: dict[str, float]) -> bool:
+    """Tell whether the interval of the 99 % time is short enough, or cannot become so: a hundredth does not settle."""
+    half = 0.5 * (found["time_high"] - found["time_low"])
+    return not math.isfinite(found["time"]) or half <= PRECISION * found["time"]
+
+
+def summarize(ended: dict[str, np.ndarray], spins: bool) -> dict[str, Any]:
+    """Return the columns of a row that are made of its starts."""
+    times = ended["time"]
+    low, high = order_interval(len(times), CROWD)
+    ordered = np.sort(times)
+    return {
+        "starts": len(times),
+        "lost": int((times == math.inf).sum()),
+        "unwound": 0 if spins else int((ended["farthest"] > ended["angle0"] + AWAY_RAD).sum()),
+        "median": float(quantile(times, 0.5)),
+        "time": float(quantile(times, CROWD)),
+        "time_low": float(ordered[low]),
+        "time_high": float(ordered[high]),
+        "latest": float(quantile(times, 0.999)),
+        "slowest": float(ordered[-1]),
+        "peak": float(ended["peak_u"].max()) / KP,
+        "effort": float(quantile(ended["effort"], 0.5)) / KP**1.5,
+        "overshoot": math.degrees(float(quantile(ended["overshoot_rad"], CROWD))),
+    }
+
+
+def order_interval(count: int, level: float) -> tuple[int, int]:
+    """Return the places in order, from 0, of the ends of a quantile's 95 % interval.
+
+    The number of values below the quantile is binomial (W. Conover, Practical Nonparametric Statistics, 1999, 3.2).
+    """
+    from scipy.stats import binom
+
+    low, high = binom.ppf((0.025, 0.975), count, level)
+    return max(0, int(low) - 1), min(count - 1, int(high))
+
+
+def _run(
+    settings: Settings, one: Contender, at: Situation, starts: list[Start], condition: Condition
+) -> dict[str, np.ndarray]:
+    """Return time (times sqrt(kp); infinite: not settled), angle0 [rad], and the metrics of each start."""
+    from bench.engines.episode import FIRST_METRIC, OUTCOME, SETTLING_TICK
+    from bench.engines.episode import Settings as Limits
+    from bench.engines.plants import perturbed
+    from bench.engines.simulate_bodies import run_disturbed
+    from tasks.rules import RULES
+    from tasks.truth import angle
+
+    limits = Limits(Gains(KP, at.kv), 1e-6, round(1e6 * HORIZON_S), 1)
+    numbers = run_disturbed(one, starts, condition, limits, metrics(), settings.seed)
+    step_s = condition.period_s / perturbed.steps_of(condition)
+    is_settled = numbers[:, OUTCOME] == SETTLED
+    angle0 = np.array([angle(start.quat_wxyz, start.goal_wxyz) for start in starts])
+    seen = numbers[:, FIRST_METRIC : FIRST_METRIC + 4].T
+    overshoot = 2.0 * np.arcsin(np.sqrt(np.minimum(seen[3], 1.0)))
+    return {
+        "time": np.where(is_settled, numbers[:, SETTLING_TICK] * step_s * math.sqrt(KP), math.inf),
+        "angle0": angle0,
+        "farthest": 2.0 * np.arcsin(np.sqrt(np.minimum(seen[0], 1.0))),
+        "effort": np.where(is_settled, seen[1], math.inf),
+        "peak_u": np.sqrt(seen[2]),
+        "overshoot_rad": np.where(overshoot > RULES.tolerance * angle0, overshoot, 0.0),
+    }
+
+
+def prepare(settings: Settings, unit: Unit) -> None:
+    """Compile the loop and the law."""
+    from bench.engines.simulate import compiled_loop, evaluation
+
+    compiled_loop("perturbed", metrics())
+    evaluation(settings.contender(unit.contender))
+
+
+EXPERIMENT = Experiment(
+    "situations",
+    "laws on the free body in situations of dimensionless numbers",
+    read_table(__file__, "situations"),
+    units=lambda asked: (),
+    rows=rows,
+    cost_s=lambda unit: unit.episodes * START_S,
+    prepare=prepare,
+    ticks=lambda settings, unit: 3 * MOST * HORIZON_S / 1e-3,
+    in_suites=False,
+)

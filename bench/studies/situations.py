@@ -1,0 +1,149 @@
+"""Which law is the best in which situation? The map of `bench advise`: results/situations.
+
+Planes of the damping ratio and each other number; situations drawn at random in all of them; then, for ROUNDS rounds,
+points halfway between neighbours in a plane that get other advice. The held-out set (`--only held-out`) is drawn by
+another seed, is run once, and decides nothing.
+"""
+
+import itertools
+import math
+import shutil
+from collections.abc import Iterable
+from operator import attrgetter
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from bench.base.files import write_json
+from bench.base.provenance import describe, source_digest
+from bench.experiments.situations import mapped_laws, plan_of
+from bench.experiments.tables.schema import table_of
+from bench.experiments.tables.store import read, write_table
+from bench.findings.selection.regions import NAMES, STUDY, Verdict, decide, with_words
+from bench.running import run
+from bench.studies.study import make_parser
+from tasks.situation import COORDINATES, NOMINAL, Situation, read_situation, rounded
+
+ROUNDS, DRAWN, SEED = 2, 300, 1988
+HELD_OUT, HELD_OUT_SEED = 200, 20261126
+"""Number and seed of the held-out situations; published with the commit before they were run."""
+
+DIFFERS = 0.35
+"""Chance that a number of a drawn situation is not the nominal one; the damping ratio is always drawn."""
+
+FINE = tuple(round(0.5 + 0.02 * k, 2) for k in range(36))
+"""Damping ratios of the nominal line, along which each law is tuned."""
+
+
+def planes() -> list[Situation]:
+    """Return the situations of every plane of the damping ratio and one other number."""
+    zetas = COORDINATES["zeta"].levels
+    each = (
+        NOMINAL._replace(zeta=zeta, **{name: value})
+        for name in NAMES[1:]
+        for value in COORDINATES[name].levels
+        for zeta in zetas
+    )
+    return list(dict.fromkeys((*each, *(NOMINAL._replace(zeta=zeta) for zeta in FINE))))
+
+
+def draw(count: int, seed: int) -> list[Situation]:
+    """Return situations drawn at random: each number nominal or anywhere between its levels, two others at least."""
+    rng, found = np.random.default_rng(seed), []
+    while len(found) < count:
+        values = []
+        for name, one in COORDINATES.items():
+            finite = [level for level in one.levels if math.isfinite(level)]
+            low, high = min(finite), max(finite)
+            place, is_other = rng.random(2)
+            drawn = low * (high / low) ** place if one.is_ratio else low + (high - low) * place
+            values.append(drawn if name == "zeta" or is_other < DIFFERS else one.nominal)
+        at = rounded(values)
+        if sum(value != one.nominal for value, one in zip(at[1:], [*COORDINATES.values()][1:], strict=True)) > 1:
+            found.append(at)
+    return found
+
+
+def between(verdicts: dict[Situation, Verdict]) -> list[Situation]:
+    """Return the situations halfway between neighbours along a plane that get other advice."""
+    found = []
+    for name in NAMES[1:]:
+        nominal = {"zeta": NOMINAL.zeta, name: getattr(NOMINAL, name)}
+        plane = [at for at in verdicts if at._replace(**nominal) == NOMINAL]
+        for along, across in (("zeta", name), (name, "zeta")):
+            ordered = sorted(plane, key=attrgetter(across, along))
+            for one, other in itertools.pairwise(ordered):
+                is_line = getattr(one, across) == getattr(other, across) and math.isfinite(getattr(other, along))
+                if is_line and verdicts[one].law != verdicts[other].law:
+                    found.append(halfway(one, other, along))
+    return [at for at in dict.fromkeys(found) if at not in verdicts]
+
+
+def halfway(one: Situation, other: Situation, along: str) -> Situation:
+    """Return the situation between two that differ in one number."""
+    a, b = getattr(one, along), getattr(other, along)
+    return rounded(one._replace(**{along: math.sqrt(a * b) if COORDINATES[along].is_ratio else 0.5 * (a + b)}))
+
+
+def run_lacking(rows: pd.DataFrame, situations: Iterable[Situation], folder: Path, workers: int) -> pd.DataFrame:
+    """Return rows of every law in every situation: those that are there, and the others by a run.
+
+    A call that was stopped goes on in the run's folder; a new law alone is run where there are rows of the others.
+    """
+    known = with_words(rows) if len(rows) else rows.assign(contender=[], situation=[])
+    has = set(zip(known["contender"].astype(str), known["situation"], strict=True))
+    pairs = [(one, at) for one in mapped_laws() for at in situations if (one.name, at.word) not in has]
+    print(f"{folder.name}: {len(pairs)} laws in situations to run", flush=True)
+    if not pairs:
+        return rows
+    run.run(plan_of(pairs), folder, workers=workers, replace=True)
+    return pd.concat([rows, read(folder, "situations")], ignore_index=True)
+
+
+def verdicts_of(rows: pd.DataFrame) -> dict[Situation, Verdict]:
+    """Return the rule's verdict on every situation of some rows."""
+    groups = with_words(rows).groupby("situation", sort=False, observed=True)
+    return {read_situation(str(word)): decide(own) for word, own in groups}
+
+
+def make_map(workers: int, folder: Path) -> pd.DataFrame:
+    """Return the rows of the map: planes, drawn situations, then rounds of halfway points."""
+    rows, every = kept(folder), [*planes(), *draw(DRAWN, SEED)]
+    for number in range(ROUNDS + 1):
+        rows = run_lacking(rows, every, folder / f"round-{number}", workers)
+        every = [*verdicts_of(rows)]
+        every += between(verdicts_of(rows))
+    return rows
+
+
+def kept(folder: Path) -> pd.DataFrame:
+    """Return the rows that are there already; delete the folder to run all of them again."""
+    is_there = (folder / "situations.parquet").is_file()
+    return read(folder, "situations") if is_there else table_of("situations").schema().empty_table().to_pandas()
+
+
+def keep(rows: pd.DataFrame, folder: Path, **about: object) -> None:
+    """Write rows with their provenance, and remove the runs that they came from."""
+    write_table(folder / "situations.parquet", rows, "situations")
+    command = "python -P -m bench.studies.situations"
+    write_json(folder / "provenance.json", {**describe(), "sources": source_digest(), "command": command, **about})
+    for path in folder.glob("round-*"):
+        shutil.rmtree(path)
+    print(f"wrote {folder.name}/situations.parquet: {len(rows)} rows")
+
+
+def main() -> None:
+    """Run the study."""
+    words = make_parser("situations", __doc__, ("map", "held-out"), workers=2).parse_args()
+    wanted = words.only or ["map"]
+    if "map" in wanted:
+        keep(make_map(words.workers, STUDY), STUDY, drawn=DRAWN, seed=SEED)
+    if "held-out" in wanted:
+        folder = STUDY / "held-out"
+        rows = run_lacking(kept(folder), draw(HELD_OUT, HELD_OUT_SEED), folder / "round-0", words.workers)
+        keep(rows, folder, drawn=HELD_OUT, seed=HELD_OUT_SEED)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,124 @@
+"""A situation of the free body in dimensionless numbers: gains, motors, timing, inertia and spin.
+
+Time is counted in 1/sqrt(kp), commands in kp: at equal numbers every kp gives the same motion on another clock.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from tasks.axis import spread
+from tasks.base import Start
+from tasks.condition import Condition, known_axes
+
+KP = 100.0
+"""At which situations are simulated [1/s^2]: the paper's."""
+
+
+class Coordinate(NamedTuple):
+    """One number of a situation: what it is, its value where nothing is said, and the values at which laws are run.
+
+    text: how its value is written, with the number in braces. is_ratio: whether half and twice are equally far away.
+    """
+
+    title: str
+    text: str
+    nominal: float
+    levels: tuple[float, ...]
+    is_ratio: bool = False
+
+    def scale(self, value: float) -> float:
+        """Return a value's place between the extreme levels, 0 to 1; a bound that is infinite lies above the others."""
+        finite = [self._place(level) for level in self.levels if math.isfinite(level)]
+        low, high = min(finite), max(finite)
+        place = self._place(value) if math.isfinite(value) else high + 0.25 * (high - low)
+        return (min(max(place, low), high + 0.25 * (high - low)) - low) / (high - low)
+
+    def _place(self, value: float) -> float:
+        return math.log(value) if self.is_ratio else value
+
+
+COORDINATES = {
+    "zeta": Coordinate("damping ratio kv/(2 √kp)", "{:g}", 1.0, (0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5, 2.0), True),
+    "bound": Coordinate(
+        "bound of the command over kp [rad]",
+        "{:g} kp",
+        math.inf,
+        (0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0, 3.0, math.inf),
+        True,
+    ),
+    "delay": Coordinate("delay times √kp", "{:g}/√kp", 0.0, (0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3)),
+    "period": Coordinate("control period times √kp", "{:g}/√kp", 0.01, (0.01, 0.05, 0.1, 0.2, 0.3, 0.5)),
+    "inertia": Coordinate("inertia over its model", "{:g}", 1.0, (0.4, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 4.0), True),
+    "unevenness": Coordinate("principal moments 1 - s, 1 and 1 + s", "{:g}", 0.0, (0.0, 0.1, 0.2, 0.3, 0.4, 0.5)),
+    "spin": Coordinate("speed at the start over √kp", "{:g} √kp", 0.0, (0.0, 0.5, 1.0, 1.5, 2.0, 3.0)),
+}
+"""The numbers of a situation, in order."""
+
+
+class Situation(NamedTuple):
+    """A value of each of COORDINATES."""
+
+    zeta: float = 1.0
+    bound: float = math.inf
+    delay: float = 0.0
+    period: float = 0.01
+    inertia: float = 1.0
+    unevenness: float = 0.0
+    spin: float = 0.0
+
+    @property
+    def word(self) -> str:
+        """Return the situation as one word; `read_situation` takes it."""
+        return "_".join(f"{value:g}" for value in self)
+
+    @property
+    def kv(self) -> float:
+        """Velocity gain at KP [1/s]."""
+        return 2.0 * self.zeta * math.sqrt(KP)
+
+    def condition(self, worst_attitude_error: float = 0.0) -> Condition:
+        """Return the condition of an episode at KP; worst_attitude_error: an adversary's at 180° [rad]."""
+        unit_s = 1.0 / math.sqrt(KP)
+        uneven = (1.0 - self.unevenness, 1.0, 1.0 + self.unevenness)
+        return Condition(
+            bound=self.bound * KP,
+            delay_s=self.delay * unit_s,
+            period_s=self.period * unit_s,
+            inertia=tuple(self.inertia * one for one in uneven),
+            worst_attitude_error=worst_attitude_error,
+        )
+
+    def starts(self, count: int, seed: int) -> list[Start]:
+        """Return orientations spread evenly over SO(3), each spinning about an axis of its own if bodies spin."""
+        if self.spin:
+            return known_axes()["spin"].starts(count, seed, self.spin * math.sqrt(KP))
+        return spread(count, seed, 0.0)
+
+    def scaled(self) -> tuple[float, ...]:
+        """Return the place of every number between its extreme levels."""
+        return tuple(one.scale(value) for one, value in zip(COORDINATES.values(), self, strict=True))
+
+    def describe(self) -> str:
+        """Say in which numbers it differs from the nominal situation, the damping ratio always."""
+        parts = [
+            f"{name} {one.text.format(value)}"
+            for (name, one), value in zip(COORDINATES.items(), self, strict=True)
+            if name == "zeta" or value != one.nominal
+        ]
+        return ", ".join(parts)
+
+
+NOMINAL = Situation()
+
+
+def read_situation(word: str) -> Situation:
+    """Return the situation of a word."""
+    return Situation(*map(float, word.split("_")))
+
+
+def rounded(values: Iterable[float]) -> Situation:
+    """Return a situation with numbers of three digits, as its word has them."""
+    return Situation(*(float(f"{value:.3g}") for value in values))
