@@ -1,6 +1,7 @@
 """Paragraphs with their heads in a column of their own, as a summary and a plan are printed; where a run comes from."""
 
 import textwrap
+from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -45,7 +46,7 @@ def print_paragraphs(*every: Paragraph) -> None:
         screen.print(line, soft_wrap=True)
 
 
-def listed(words: list[str], last: str = "and") -> str:
+def listed(words: Sequence[str], last: str = "and") -> str:
     """Words as a sentence has them: a, b and c."""
     *others, end = words
     return f"{', '.join(others)} {last} {end}" if others else end

@@ -13,7 +13,8 @@ import numpy as np
 
 import tasks
 from bench.base.on_first_use import pd
-from bench.engines.metrics.metric import Metric, as_it_is
+from bench.engines.metrics.farthest import FARTHEST
+from bench.engines.metrics.metric import Metric
 from bench.engines.metrics.registry import known_metrics
 from bench.experiments.columns import read_table
 from bench.experiments.costs import count_operations
@@ -21,7 +22,6 @@ from bench.experiments.episode_rows import contender_columns
 from bench.experiments.experiment import Experiment, Settings, Unit
 from bench.experiments.plan import Plan
 from bench.experiments.tables.statistics import quantile
-from bench.law import kernel
 from bench.law.contender import Contender
 from bench.law.contenders.registry import all_contenders
 from bench.law.inputs import Gains
@@ -54,16 +54,6 @@ START_S = 2e-4
 
 CROWD = 0.99
 """The share of the starts whose settling time is compared."""
-
-
-@kernel
-def largest_haversine(value, sample):  # noqa: D103
-    if sample.haversine > value:
-        return sample.haversine
-    return value
-
-
-FARTHEST = Metric("farthest", "1", "largest haversine of the angle to the goal", 0.0, largest_haversine, as_it_is)
 
 
 def metrics() -> tuple[Metric, ...]:

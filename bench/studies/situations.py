@@ -50,7 +50,8 @@ def planes() -> list[Situation]:
 
 def draw(count: int, seed: int) -> list[Situation]:
     """Return situations drawn at random: each number nominal or anywhere between its levels, two others at least."""
-    rng, found = np.random.default_rng(seed), []
+    found: list[Situation] = []
+    rng = np.random.default_rng(seed)
     while len(found) < count:
         values = []
         for name, one in COORDINATES.items():

@@ -80,7 +80,7 @@ class Verdict(NamedTuple):
     @property
     def unbeaten(self) -> frozenset[str]:
         """The advised law and those that tie with it."""
-        return frozenset({self.law, *self.tied} - {None})
+        return frozenset((self.law, *self.tied) if self.law else ())
 
 
 class Facts(NamedTuple):

@@ -46,12 +46,8 @@ def figures(run: Run) -> dict[str, Any]:
 def plane(name: str, laws: list[str]) -> dict[str, Any]:
     """Return the situations of the plane of the damping ratio and another number, each with its verdicts by SHOWN."""
     one = COORDINATES[name]
-    nominal = {other: getattr(NOMINAL, other) for other in COORDINATES if other not in ("zeta", name)}
-    every = [
-        at
-        for at in decide_all()
-        if not is_drawn(at) and all(getattr(at, key) == value for key, value in nominal.items())
-    ]
+    nominal = {"zeta": NOMINAL.zeta, name: getattr(NOMINAL, name)}
+    every = [at for at in decide_all() if at._replace(**nominal) == NOMINAL]
     return {
         "top": max(one.scale(level) for level in one.levels),
         "ticks": [[one.scale(level), "none" if math.isinf(level) else f"{level:g}"] for level in one.levels],
