@@ -5,6 +5,7 @@ No suite has this experiment; `bench advise --run` and the study of the map (`be
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
@@ -99,7 +100,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     stuck, trapped = (
         int((_run(settings, one, at, exact, each)["time"] == math.inf).sum()) for each in (condition, noisy)
     )
-    every = at.starts(FIRST if stuck else MOST, settings.seed)
+    every = starts_of(at.spin, settings.seed)[: FIRST if stuck else MOST]
     ended, count = _run(settings, one, at, every[:FIRST], condition), FIRST
     while count < len(every) and not is_precise(summarize(ended, at.spin > 0.0)):
         more = _run(settings, one, at, every[count : 2 * count], condition)
@@ -107,6 +108,12 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     found = summarize(ended, at.spin > 0.0)
     facts = {"stuck": stuck, "trapped": trapped, "operations": count_typical(one)}
     return pd.DataFrame([{**contender_columns(one), **at._asdict(), **found, **facts}])
+
+
+@functools.lru_cache(maxsize=64)
+def starts_of(spin: float, seed: int) -> list[Start]:
+    """Return the uniform starts of every situation of that spin."""
+    return NOMINAL._replace(spin=spin).starts(MOST, seed)
 
 
 def count_typical(one: Contender) -> int:
