@@ -104,7 +104,7 @@ def _of_other_robot(robot: str) -> Paragraph:
     """Say what is advised where a robot takes velocities or positions, by the run that came with the benchmark."""
     from bench.findings.selection.robots import ROBOTS, word_of
 
-    one = next(each for each in ROBOTS if each.takes.startswith({"velocity": "velocities"}.get(robot, "positions")))
+    one = ROBOTS[robot]
     found = word_of(one, options.REFERENCE)
     if found is None or found.law is None:
         return Paragraph("Which law", (f"No law of results/reference is advised where a robot takes {one.takes}.",))

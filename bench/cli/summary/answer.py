@@ -1,85 +1,86 @@
-"""Which law to use, and the situations in which another is better, as a run's numbers decide."""
+"""Which law to use, from the map of situations; robots that the map does not cover, and laws compared in the run."""
 
 from __future__ import annotations
 
-from bench.cli.paragraphs import Paragraph, listed
-from bench.cli.screen import counted
-from bench.findings.claims.adequacy import HELD_RAD
-from bench.findings.selection import gains, needs
-from bench.findings.selection.criteria import BY_NAME
+from bench.cli.options import REFERENCE
+from bench.cli.paragraphs import Paragraph
 from bench.findings.selection.measured import Measured
-from bench.findings.selection.needs import Advice, Decision, advise
-from bench.findings.selection.words import NAMED, cost, number, standing, together
+from bench.findings.selection.regions import (
+    Rule,
+    compare_ours,
+    decide_all,
+    find_bounds,
+    find_regions,
+    is_drawn,
+    list_ours,
+    read_map,
+)
+from bench.findings.selection.robots import ROBOTS, word_of
+from bench.findings.selection.sensitivity import vary
+from bench.findings.selection.words import compare, cost, describe_bounds, together
+from bench.law.contenders.registry import find_contender
+from bench.law.inputs import PAPERS_GAINS
+from tasks.situation import KP, NOMINAL
 
-NOISE = f"worst-case attitude noise up to {HELD_RAD:g} rad"
+
+def paragraphs(found: Measured | None) -> list[Paragraph]:
+    """Return what the map advises, what else to use elsewhere, and how laws of ours and the user's compare.
+
+    Args:
+        found: what a run measured; None of a run that cannot compare laws.
+    """
+    default = find_regions()[0]
+    said = [Paragraph("Which law", _default(found)), Paragraph("Elsewhere", _elsewhere(default.law))]
+    said += [Paragraph("Ours", (_ours(law, found, default.law),)) for law in list_ours()]
+    own = [law for law in (found.laws if found else ()) if found and found.tables.contenders[law].regulator.origin]
+    said += [Paragraph("Yours", (f"{law}: {_compared(found, law, default.law)}",)) for law in own]
+    others = [one for one in vary()[1:] if one.law != default.law]
+    rules = [f"If {one.words}: {one.law} ({one.advised:.0%} of situations)." for one in others]
+    return [*said, Paragraph("Other rules", tuple(rules) or ("Every other rule that was tried advises the same.",))]
 
 
-def paragraphs(found: Measured) -> list[Paragraph]:
-    """Return the law to use, and the exceptions where there are laws to choose from."""
-    advice = advise(found)
-    said = [Paragraph("Which law", (_default(advice, found),))]
-    said += _ours(found) if advice.default.law else []
-    every = tuple(_exception(one, advice.default.law, found) for one in advice.exceptions if one.law)
-    return [*said, Paragraph("Exceptions", every)] if every and len(found.laws) > 1 else said
-
-
-def _default(advice: Advice, found: Measured) -> str:
-    one = advice.default
-    starts = (len(found.tables.uniform) + len(found.tables.directed)) // len(found.laws)
-    everywhere = f"settles from all {starts:,} starts tried without unwinding"
-    if one.law is None:
-        return _nothing(found, everywhere)
-    alone = standing(one, str) if len(found.laws) > 1 else "This run has no other law to compare it with."
+def _default(found: Measured | None) -> tuple[str, ...]:
+    region = find_regions()[0]
+    rows = read_map()
+    [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == region.law)].to_dict("records")
+    drawn = sum(map(is_drawn, decide_all()))
+    priced = f" A tick takes {cost(found, region.law)}." if found and region.law in found.laws else ""
     return (
-        f"Use the law {one.law} (published: {found.tables.contenders[one.law].regulator.source}) at "
-        f"{gains.gains_in_words(found)}, in simulation. It {everywhere}, 99 % of the uniform ones within "
-        f"{number('time', found.number('time', one.law))}, and no {NOISE} can trap it at a 180° rotation. {alone} It "
-        f"takes {cost(found, one.law)}."
+        f"Use the law {region.law} (published: {find_contender(region.law).regulator.source}) for a body that turns "
+        f"freely, in simulation. Of {drawn} situations drawn at random it is advised in {region.advised:.0%}, and "
+        f"nothing published beats it in {region.unbeaten:.0%}.",
+        f"One number at a time: {describe_bounds(find_bounds(region.law))}.",
+        f"At kp = {PAPERS_GAINS.kp:g} 1/s², kv = {PAPERS_GAINS.kv:g} 1/s 99 % of the starts settle within "
+        f"{row['time'] / KP**0.5:.3f} s.{priced} Your own numbers: bench advise --help.",
     )
 
 
-def _ours(found: Measured) -> list[Paragraph]:
-    """Compare our own law with the advised one at each damping ratio, and say what other rules advise."""
-    own = gains.ours(found)
-    if own is None:
-        return []
-    others = [
-        f"If {words}: {law}{f' (a tie of {len(tied) + 1})' if tied else ''}."
-        for words, law, tied in gains.by_other_rules(found)
-        if law
-    ]
-    compared = f"{gains.ours_in_words(own)} {gains.compare_at_all_gains()}"
-    return [Paragraph("Ours", (compared,)), Paragraph("Other rules", tuple(others))]
+def _elsewhere(default: str) -> tuple[str, ...]:
+    """Return the law for each other region, for robots beside those of the map, and without memory."""
+    regions = [f"{one.law} ({one.advised:.0%})" for one in find_regions()[1:] if one.advised >= 0.05]
+    lines = [f"In other situations: {together(regions)}; bench advise says which."] if regions else []
+    for words, rule in (("No memory", Rule(forgetful=True)), ("A continuous command", Rule(continuous=True))):
+        lines.append(f"{words}: {find_regions(rule=rule)[0].law}.")
+    decided = {robot.takes: word_of(robot, REFERENCE) for robot in ROBOTS.values()}
+    for takes, one in decided.items():
+        if one and one.law:
+            lines.append(
+                f"{takes[0].upper()}{takes[1:]}: {one.law}{f', tied with {together(one.tied)}' * bool(one.tied)}."
+            )
+    return tuple(lines)
 
 
-def _nothing(found: Measured, everywhere: str) -> str:
-    """Return the answer of a run in which no law meets all requirements of the default."""
-    simplest = next((law for law in found.laws if needs.EVERYWHERE.has(found, law)), None)
-    laws = listed(found.laws) if len(found.laws) <= NAMED else counted(len(found.laws), "law")
-    if simplest is None:
-        return f"No law of this run ({laws}) {everywhere}."
-    why = f"{NOISE} holds each such law at some 180° rotation"
-    if not needs.TRIED.has(found, simplest):
-        why = "it was not tried under perturbations"
-    elif not found.values["held"]:
-        why = "whether noise traps it at a 180° rotation was not tried (perturbation half-turn-noise)"
-    return f"Of this run ({laws}) {simplest} is the simplest law that {everywhere}; {why}."
+def _ours(law: str, found: Measured | None, default: str) -> str:
+    """Return the sentences on a law of ours: its origin, where the map has it, and the run's comparison."""
+    ties, beats = compare_ours(law)
+    return (
+        f"{law} is ours: 2026, simulation only, not reviewed. Nothing published beats it in {ties:.0%} of the drawn "
+        f"situations; it beats the advised law in {beats:.0%}. {_compared(found, law, default)} Reset its memory when "
+        "the goal jumps."
+    )
 
 
-def _exception(one: Decision, usual: str | None, found: Measured) -> str:
-    """Say which law a situation leads to, its numbers and the default's, and with what it ties.
-
-    A criterion is named where there are several.
-    """
-
-    def has(law: str) -> str:
-        several = len(one.need.by) > 1 and law == one.law
-        names = [f"{BY_NAME[by].title.lower()} " if several else "" for by in one.need.by]
-        return ", ".join(name + number(by, found.number(by, law)) for name, by in zip(names, one.need.by, strict=True))
-
-    law = one.law or ""
-    beside = f"; {usual} {has(usual)}" if usual in one.asked else ""
-    numbers = f" ({has(law)}{beside})" if one.need.by else ""
-    tied = f", tied with {together(one.tied)}" if one.tied else ""
-    words = one.need.words
-    return f"{words[0].upper()}{words[1:]}: {law}{numbers}{tied}."
+def _compared(found: Measured | None, law: str, default: str) -> str:
+    if found is None or not {law, default} <= set(found.laws):
+        return f"This run cannot compare it with {default}."
+    return f"In this run: {compare(found, law, default)}"

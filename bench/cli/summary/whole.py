@@ -19,11 +19,6 @@ from bench.findings.kept import keep
 from bench.findings.selection.measured import measure
 from bench.law.contenders.registry import all_contenders
 
-UNDECIDED = (
-    "This run cannot say: it lacks starts, perturbations or costs by which laws are compared. A whole suite can (try: "
-    "bench run --suite quick)."
-)
-
 
 def print_summary(folder: Path, is_named: bool) -> None:
     """Print it. `is_named`: whether the user named the folder, so that the commands below name it too."""
@@ -48,7 +43,7 @@ def _answer(found: Results) -> dict:
     try:
         return {"said": answer.paragraphs(measure(found))}
     except NoEvidence:
-        return {"said": [("Which law", (UNDECIDED,))]}
+        return {"said": answer.paragraphs(None)}
 
 
 def _instead(folder: Path, is_named: bool) -> list[str]:

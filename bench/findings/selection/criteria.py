@@ -50,9 +50,8 @@ class Criterion(NamedTuple):
     form: str = "{:.3g}"
 
 
-SLOW_HZ, LATE_S, BOUND, PEAK, HEAVY, SPIN, MOVING, NOISY_RAD = 20.0, 0.02, 10.0, 100.0, 2.0, 20.0, 10.0, 0.01
-"""The level of each perturbation at which laws are asked: the hardest, but for peak (the paper's own, at kp = 100)
-and for noise, where it is what a cheap sensor has."""
+LATE_S, BOUND, PEAK = 0.02, 10.0, 100.0
+"""The level of each perturbation at which laws are asked: the hardest, but for peak (the paper's own, at kp = 100)."""
 LATE_MS = 1e3 * LATE_S
 
 
@@ -75,12 +74,6 @@ def perturbed(axis: str, level: float, column: str) -> Measure:
         return by_law(rows.sort_values("start_id", kind="stable"), column, math.inf)
 
     return measure
-
-
-def later_than_fastest(tables: Tables) -> dict[str, np.ndarray]:
-    """How much later each uniform start settles than the law's fastest [s]; infinite where it does not settle."""
-    times = by_law(tables.uniform, "settling_time_s", math.inf)
-    return {name: values - min(values[np.isfinite(values)], default=0.0) for name, values in times.items()}
 
 
 def longest_path(tables: Tables) -> dict[str, np.ndarray]:
@@ -154,7 +147,6 @@ MEASURES: dict[str, Measure] = {
     "lost": lambda tables: {name: np.array([lost.sum()]) for name, lost in by_law(tables.directed, "lost").items()},
     "detour": longest_path,
     **dict.fromkeys(("time", "median", "worst"), over_uniform("settling_time_s")),
-    "spread": later_than_fastest,
     "tick": of_one_law(lambda tables, name: tables.ticks.get(name, math.nan)),
     "memory": of_one_law(Tables.memory),
     "jump": of_one_law(lambda tables, name: jump(tables.contenders[name])),
@@ -166,12 +158,7 @@ MEASURES: dict[str, Measure] = {
     "overshoot": in_degrees(perturbed("saturation", BOUND, "overshoot_rad")),
     "matched": settled_under("equal-peak", PEAK),
     "bounded": settled_under("saturation", BOUND),
-    "slow": settled_under("control-rate", SLOW_HZ),
     "late": settled_under("delay", LATE_S),
-    "heavy": settled_under("inertia", HEAVY),
-    "spinning": settled_under("spin", SPIN),
-    "follows": perturbed("moving-goal", MOVING, "tail_max_rad"),
-    "noisy": perturbed("attitude-noise", NOISY_RAD, "variation"),
     "arms": on_arms("settled"),
     "within": on_arms("range"),
 }

@@ -243,3 +243,14 @@ def find_bounds(law: str, folder: Path = STUDY, rule: Rule = RULE) -> dict[str, 
         line = [at for at in verdicts if at._replace(**{name: nominal}) == NOMINAL]
         found[name] = sorted((getattr(at, name), law in verdicts[at].unbeaten) for at in line)
     return found
+
+
+def compare_ours(law: str, folder: Path = STUDY, rule: Rule = RULE) -> tuple[float, float]:
+    """Return the shares of drawn situations in which nothing published beats our law, and it beats the advised one."""
+    drawn = [one for at, one in decide_all(folder, rule).items() if is_drawn(at)]
+    return sum(law in one.ours for one in drawn) / len(drawn), sum(law in one.faster for one in drawn) / len(drawn)
+
+
+def list_ours(folder: Path = STUDY) -> list[str]:
+    """Return our own laws of the map."""
+    return [str(law) for law in read_map(folder)["contender"].unique() if facts_of(str(law)).is_ours]

@@ -7,9 +7,10 @@ not run on it is not asked.
 from __future__ import annotations
 
 import math
+import tomllib
 from collections.abc import Callable, Container
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -19,9 +20,8 @@ from bench.experiments.shipped import SETTLING_DEG
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.criteria import BY_NAME, CRITERIA
-from bench.findings.selection.measured import Measured
-from bench.findings.selection.measured import measure as measure_all
-from bench.findings.selection.needs import OF_TORQUES, SITUATIONS, Advice, Decision, Need, advice, read_needs
+from bench.findings.selection.measured import Measured, measure, measured
+from bench.findings.selection.needs import FACTS, Decision, Need, decide
 from bench.findings.selection.tables import Tables, by_law, by_standard_inverse, common, tables_of
 from bench.law.kinds import TORQUE
 
@@ -109,49 +109,51 @@ def _measured(tables: Tables, usual: tuple[str, ...], **values: dict[str, np.nda
 class Robot(NamedTuple):
     """A kind of robot.
 
-    takes: the command. rows: what was run. page: its file in the book. need: its situation. measure: how laws are
-    measured on it. usual: the default requirements. needs: the other situations.
+    name: in a command. takes: what commands it. rows: what was run. page: its file in the book. measure: how laws are
+    measured on it.
     """
 
+    name: str
     takes: str
     rows: str
     page: str
     need: Need
     measure: Callable[[Results], Measured]
-    usual: Need
-    needs: tuple[Need, ...]
 
 
 MEASURES = {
-    **{"torques": measure_all, "uncancelled": measure_uncancelled},
-    **dict.fromkeys(("velocities", "positions"), measure_velocities),
+    "arm": measure,
+    "uncancelled": measure_uncancelled,
+    **dict.fromkeys(("velocity", "position"), measure_velocities),
 }
 
 
-def read_robot(command: str, need: str = "default", **texts: str) -> Robot:
-    """Return a robot of situations.toml, whose situation is the usual one of its command unless another is named."""
-    needs = OF_TORQUES if command == "torques" else read_needs(command)
-    usual, *others = needs.values()
-    return Robot(**texts, need=needs[need], measure=MEASURES[command], usual=usual, needs=tuple(others))
+def read_robots() -> dict[str, Robot]:
+    """Return the robots of robots.toml by name."""
+    found = {}
+    for name, said in tomllib.loads(Path(__file__).with_name("robots.toml").read_text(encoding="utf-8")).items():
+        one: dict[str, Any] = dict(said)
+        need = Need(one.pop("words"), tuple(FACTS[word] for word in one.pop("facts")), tuple(one.pop("by", ())))
+        found[name] = Robot(name, **one, need=need, measure=MEASURES[name])
+    return found
 
 
-ROBOTS = tuple(read_robot(**words) for words in SITUATIONS["robots"])
-_, _, _uncancelled, VELOCITIES, _positions = ROBOTS
-VELOCITY, UNCANCELLED, POSITION = VELOCITIES.need, _uncancelled.need, _positions.need
+ROBOTS = read_robots()
+ARM, UNCANCELLED, VELOCITY, POSITION = ROBOTS.values()
 
 
-def advise_for(robot: Robot, folder: Path) -> Advice:
-    """Return what is advised in every situation of a robot by the run in a folder.
+def decide_for(robot: Robot, folder: Path) -> Decision:
+    """Return what is advised for a robot by the run in a folder.
 
     Errors:
         NoEvidence: the run has no rows of such robots.
     """
-    return advice(folder, robot.measure, robot.usual, robot.needs)
+    return decide(robot.need, measured(folder, robot.measure))
 
 
 def word_of(robot: Robot, folder: Path) -> Decision | None:
     """Return what is advised for a robot by the run in a folder; None where the run has no such rows."""
     try:
-        return advise_for(robot, folder).of(robot.need)
+        return decide_for(robot, folder)
     except NoEvidence:
         return None

@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from bench.findings.perturbed import studied
-from bench.findings.selection.criteria import BOUND, BY_NAME, Criterion
-from bench.findings.selection.measured import Measured
-from bench.findings.selection.needs import NEARLY, SURE, TRIED, Decision, best_by, has_all
+from bench.findings.selection.measured import GENERAL, Measured
+from bench.findings.selection.needs import SURE, Decision, best_by, has_all
+from tasks.situation import COORDINATES, Coordinate
 
 NAMED = 3
 """Laws named where several tie; the others are counted."""
@@ -46,22 +45,6 @@ def leaders(found: Measured, criterion: str, called: Called) -> str:
     return f"{_tie(every, called)}; among laws that settle from every start: {_tie(sure, called)}"
 
 
-def faster_under_a_bound(found: Measured, usual: str, called: Called = str) -> str:
-    """Say which law that fails at some directed start is the fastest under a bound, if it is faster than the usual."""
-    rows = studied()
-    at = rows[(rows["axis"].astype(str) == "saturation") & (rows["level"] == BOUND)].set_index("contender")
-    laws = [law for law in found.laws if has_all(found, law, (TRIED, NEARLY)) and found.number("lost", law)]
-    times = at["median_s"].reindex([usual, *laws]).dropna()
-    if usual not in times or times.idxmin() == usual:
-        return ""
-    law = times.idxmin()
-    own, other = times[law], times[usual]
-    return (
-        f"Under a command bounded by {BOUND:g} rad/s² {called(law)} settles {100 * (1 - own / other):.0f} % sooner in "
-        f"the median ({own:.3f} s against {other:.3f} s, {at['starts'][law]} starts), but gets stuck at 180° rotations."
-    )
-
-
 def _tie(laws: Sequence[str], called: Called) -> str:
     named = together([called(law) for law in laws]) or "none"
     return f"{named} (a tie)" if len(laws) > 1 else named
@@ -75,11 +58,64 @@ def cost(found: Measured, law: str) -> str:
     return f"{flops} + {calls} operations{timed}" if calls else f"{flops} operations{timed}"
 
 
-def number(criterion: Criterion | str, value: float) -> str:
-    """Return a number with its unit, as its criterion writes it."""
-    one = BY_NAME[criterion] if isinstance(criterion, str) else criterion
-    if math.isnan(value):
-        return "not measured"
-    if math.isinf(value):
-        return "none" if one.sense < 0 else "never"
-    return f"{one.form.format(value)} {one.unit}".strip()
+WORDS = {"effort": "effort", "peak": "peak command", "variation": "variation", "tick": "time a tick"}
+TIMES = {"time": "99 %", "worst": "slowest start"}
+"""Criteria, and in TIMES settling times, as a list of what a law is better or worse by has them."""
+
+
+def compare(found: Measured, law: str, other: str) -> str:
+    """Say by which criteria a law is better and worse than another in a run; by all others they tie."""
+    both = [one for one in GENERAL if {law, other} <= set(found.values[one])]
+    better, worse = (
+        name_criteria([one for one in both if found.beats(one, *pair)]) for pair in ((law, other), (other, law))
+    )
+    return f"Beside {other} it is better by {better}, worse by {worse}."
+
+
+def name_criteria(names: Sequence[str]) -> str:
+    """List criteria, the settling times among them in brackets."""
+    words = [word for name, word in WORDS.items() if name in names]
+    times = [word for name, word in TIMES.items() if name in names]
+    return ", ".join([*words, *([f"settling time ({', '.join(times)})"] if times else [])]) or "nothing"
+
+
+def describe_bounds(bounds: dict[str, list[tuple[float, bool]]]) -> str:
+    """Say how far from the nominal situation nothing beats a law, one number at a time (`regions.find_bounds`)."""
+    parts, free = [], []
+    for name, line in bounds.items():
+        one = COORDINATES[name]
+        if all(is_unbeaten for _, is_unbeaten in line):
+            free.append(NAMES[name])
+            continue
+        place = min(range(len(line)), key=lambda i: abs(one.scale(line[i][0]) - one.scale(one.nominal)))
+        low, high = (_walk(line, place, step) for step in (-1, 1))
+        parts.append(f"{NAMES[name]} {_span(one, line[low][0], line[high][0])}")
+    whatever = f"; every {together(free)} that was tried" if free else ""
+    return f"{', '.join(parts)}{whatever}"
+
+
+NAMES = {
+    "zeta": "damping ratio",
+    "bound": "bound",
+    "delay": "delay",
+    "period": "period",
+    "inertia": "inertia",
+    "unevenness": "unevenness",
+    "spin": "spin",
+}
+"""What the numbers of a situation are called in a sentence."""
+
+
+def _walk(line: Sequence[tuple[float, bool]], place: int, step: int) -> int:
+    """Return the last place in a direction up to which nothing beats the law."""
+    while 0 <= place + step < len(line) and line[place + step][1]:
+        place += step
+    return place
+
+
+def _span(one: Coordinate, low: float, high: float) -> str:
+    """Return a range of a number; up to or from one value where the other end is the extreme one that was tried."""
+    low_text, high_text = (one.text.format(value) for value in (low, high))
+    if low == min(one.levels):
+        return f"up to {high_text}"
+    return f"from {low_text}" if high == max(one.levels) else f"{low_text} to {high_text}"

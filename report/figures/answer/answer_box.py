@@ -1,9 +1,10 @@
-"""The box on the front page: the law that is advised, its formula, its page with code, and where another is better."""
+"""The box on the front page: the law that is advised, its formula, its page with code, and what leads to another."""
 
 from __future__ import annotations
 
-from bench.export.subject import find_subject, subject_words
-from bench.findings.selection import needs
+from bench.export.subject import find_subject
+from bench.findings.selection.regions import Rule, find_default
+from bench.findings.selection.robots import ROBOTS, word_of
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
 
@@ -14,37 +15,31 @@ SYMBOLS = (
 """What the formulas of laws are written in."""
 
 
-def answer(run: Run) -> html.Markdown | None:
-    """Return the box by what the rule makes of a run."""
-    return box(needs.advice(run.folder))
-
-
-def box(advice: needs.Advice) -> html.Markdown | None:
-    """Return formula, exceptions and a link to the code of the advised law; None where no law meets the requirements.
-
-    Of a user's law the exceptions alone: its file is the user's already.
-    """
-    if advice.default.law is None:
-        return None
-    if advice.default.law not in subject_words():
-        return html.Markdown(exceptions(advice))
-    subject = find_subject(advice.default.law)
+def answer(run: Run) -> html.Markdown:
+    """Return the advised law's formula, the laws for other needs, and a link to its code."""
+    law = find_default()
     parts = (
-        f"$$\n{subject.record.formula}\n$$",
+        f"$$\n{find_subject(law).record.formula}\n$$",
         SYMBOLS,
-        f"Use another law if one of these applies:\n\n{exceptions(advice)}",
-        f"Its code in every language, with test vectors: {_linked(advice.default.law)}.",
+        f"Use another law if one of these applies:\n\n{exceptions(run, law)}",
+        f"Its code in every language, with test vectors: {_linked(law)}.",
     )
     return html.Markdown("\n\n".join(parts))
 
 
-def exceptions(advice: needs.Advice) -> str:
-    """For each other law the situations in which it is better, as a list."""
-    situations: dict[str, list[str]] = {}
-    for one in advice.exceptions:
-        if one.law:
-            situations.setdefault(one.law, []).append(one.need.words)
-    lines = [f"- {_linked(law)}: {'; '.join(words)}" for law, words in situations.items()]
+def exceptions(run: Run, default: str) -> str:
+    """For each other law what leads to it, as a list."""
+    needs: dict[str, list[str]] = {}
+    for words, rule in (
+        ("your controller keeps nothing from tick to tick", Rule(forgetful=True)),
+        ("the command must be continuous", Rule(continuous=True)),
+    ):
+        needs.setdefault(find_default(rule=rule), []).append(words)
+    for robot in ROBOTS.values():
+        one = word_of(robot, run.folder)
+        if one and one.law:
+            needs.setdefault(one.law, []).append(f"your robot takes {robot.takes}")
+    lines = [f"- {_linked(law)}: {'; '.join(words)}" for law, words in needs.items() if law != default]
     return "\n".join(lines)
 
 

@@ -1,159 +1,141 @@
-"""The page that says which law to use: in which situation, by which criteria."""
+"""The page that says which law to use: the map of situations, its regions, and what changes the advice."""
 
 from __future__ import annotations
 
-import math
+from typing import Any
 
-import pandas as pd
-
-from bench.experiments.tables.statistics import Estimate
+from bench.experiments.situations import FIRST, MOST, NOISE_RAD
 from bench.findings.claims import Results, judge
-from bench.findings.claims.adequacy import HELD_RAD
 from bench.findings.claims.standing import MEASURABLE
-from bench.findings.selection import gains, needs
-from bench.findings.selection.criteria import BY_NAME, Criterion
-from bench.findings.selection.measured import Measured, measured
+from bench.findings.selection import regions, sensitivity
+from bench.findings.selection.measured import measured
+from bench.findings.selection.needs import EVERYWHERE, UNHELD, has_all
+from bench.findings.selection.regions import Rule, decide_all, facts_of, find_bounds, find_regions, is_drawn, read_map
 from bench.findings.selection.robots import ROBOTS, word_of
-from bench.findings.selection.words import cost, faster_under_a_bound, standing, together
-from report.figures.kit import families, html
+from bench.findings.selection.words import describe_bounds, together
+from report.figures.kit import families
 from report.figures.kit.page import Run
+from report.figures.kit.tables import Table
+from tasks.situation import KP, NOMINAL
+
+REGIONS = Table("Law | Advised [%]:.0f | Nothing beats it [%]:.0f | One number at a time, nothing beats it")
+RULES = Table("Rule | Law of the widest region | Advised [%]:.0f | Nothing beats it [%]:.0f | Advice changes [%]:.0f")
+TUNED = Table(
+    "Law | kv = 2√kp [1/√kp]:.2f | best zeta:.2f | its time [1/√kp]:.2f | best zeta at equal peak:.2f | "
+    "its time [1/√peak]:.2f"
+)
+HELD_OUT = Table(
+    "Held-out situations | Same law [%]:.0f | Nothing beats it [%]:.0f | Later, median [%]:.1f | Later, 95 % [%]:.1f"
+)
+ROBOTS_TABLE = Table("If your robot takes | use | Tied with | Of laws | Measured")
 
 
-def shown(found: Measured) -> list[str]:
-    """Return all laws but the negative controls."""
-    return [law for law in found.laws if law not in families.CONTROLS]
-
-
-def facts(run: Run) -> dict:
+def facts(run: Run) -> dict[str, Any]:
     """Return the advice in a few sentences, and the numbers about it."""
-    found = measured(run.folder)
-    whole = [law for law in shown(found) if needs.EVERYWHERE.has(found, law)]
-    forgetful = [law for law in shown(found) if not found.number("memory", law) and law in found.values["held"]]
+    found, verdicts = measured(run.folder), decide_all()
+    shown = [law for law in found.laws if law not in families.CONTROLS]
+    whole = [law for law in shown if EVERYWHERE.has(found, law)]
+    forgetful = [law for law in shown if not found.number("memory", law) and law in found.values["held"]]
+    beaten, left = sensitivity.correct()
+    halves, of = sensitivity.count_halves()
     return {
         "lead": lead(run),
-        "same": "; ".join(one.need.words for one in needs.advice(run.folder).others) or "none",
-        "laws": len(shown(found)),
-        "tried": sum(needs.TRIED.has(found, law) for law in shown(found)),
+        "situations": len(verdicts),
+        "drawn": sum(map(is_drawn, verdicts)),
+        "episodes": f"{read_map()['starts'].sum() / 1e6:.1f}",
+        "mapped": read_map()["contender"].nunique(),
+        "first": FIRST,
+        "most": MOST,
+        "beaten": beaten,
+        "left": left,
+        "halves": halves,
+        "of_halves": of,
+        "slower": f"{100 * sensitivity.bound_slower(FIRST):.1f}",
+        "with_memory": sum(facts_of(str(law)).memory > 0 for law in read_map()["contender"].unique()),
+        "laws": len(shown),
         "whole": len(whole),
-        "unheld": sum(needs.UNHELD.has(found, law) for law in whole),
-        "uniform": len(found.values["time"][found.laws[0]]),
-        "directed": len(found.tables.directed) // len(found.laws),
-        "perturbed": max(map(len, found.values["bounded"].values()), default=0),
-        "noise": f"{HELD_RAD:g}",
+        "unheld": sum(UNHELD.has(found, law) for law in whole),
+        "noise": f"{NOISE_RAD:g}",
         "measurable": f"{100 * MEASURABLE:g}",
-        "band": f"{100 * float(found.tables.uniform['tolerance'].iloc[0]):g}",
         "forgetful": len(forgetful),
-        "forgetful_both": sum(needs.has_all(found, law, (needs.EVERYWHERE, needs.UNHELD)) for law in forgetful)
-        or "none",
+        "forgetful_both": sum(has_all(found, law, (EVERYWHERE, UNHELD)) for law in forgetful) or "none",
         "verdict": str(judge("C27", Results(run.folder)).word),
     }
 
 
 def front_page(run: Run) -> str:
     """Return the advice in a few words."""
-    found, one = measured(run.folder), needs.advice(run.folder).default
-    if one.law is None:
-        return f"No law of this run settles from every start tried and is trapped by no noise up to {HELD_RAD:g} rad."
-    rest = (standing(one, families.word), faster_under_a_bound(found, one.law, families.word), _ours(found))
-    word, time = families.word(one.law), told(BY_NAME["time"], found.estimate("time", one.law))
+    one = find_regions()[0]
+    word, rows = families.word(one.law), read_map()
+    [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == one.law)].to_dict("records")
     return (
-        f"{word[0].upper()}{word[1:]}, a published law, at {gains.gains_in_words(found)}, in simulation only: it "
-        f"settles from every start tried, even an adversary who falsifies the measured orientation by up to "
-        f"{HELD_RAD:g} rad cannot hold the body at 180°, and 99 % of all starts settle in {time}. "
-        f"{' '.join(filter(None, rest))}"
+        f"{word[0].upper()}{word[1:]}, a published law, in simulation only: it settles from every start tried, noise of "
+        f"orientation up to {NOISE_RAD:g} rad cannot trap it at 180°, and nothing published is faster in "
+        f"{one.unbeaten:.0%} of the situations that were drawn at random. One number at a time that holds for "
+        f"{describe_bounds(find_bounds(one.law))}. At kp = {KP:g} 1/s² and critical damping 99 % of the starts settle "
+        f"in {row['time'] / KP**0.5:.2f} s. {_ours()}"
     )
 
 
-def _ours(found: Measured) -> str:
-    """Our own law compared with the advised one at each damping ratio; empty where the run has no law of ours."""
-    own = gains.ours(found)
-    if own is None:
-        return ""
-    return (
-        f"Our own law beside it is {families.word(own)}: 2026, simulation only, not reviewed. "
-        f"{gains.compare_at_all_gains(families.word)} Reset its memory when the goal jumps, which was not tested here."
-    )
+def _ours() -> str:
+    """Return how our own laws compare with what is advised."""
+    said = []
+    for law in regions.list_ours():
+        ties, beats = regions.compare_ours(law)
+        said.append(
+            f"Our own law, {families.word(law)} (2026, not reviewed), is not advised: nothing published beats it in "
+            f"{ties:.0%} of the situations, and it beats what is advised in {beats:.0%}."
+        )
+    return " ".join(said)
 
 
 def lead(run: Run) -> str:
-    """Return the front page's answer, the cost of a tick, and in how many situations another law is better."""
-    advice = needs.advice(run.folder)
-    if advice.default.law is None:
-        return front_page(run)
-    return (
-        f"{front_page(run)} A tick takes {cost(measured(run.folder), advice.default.law)}. In {len(advice.others)} of "
-        f"{len(advice.exceptions) + len(advice.others)} situations no published law is "
-        f"better by more than {needs.MATTERS:.0%}."
-    )
+    """Return the front page's answer, and the laws of the other regions."""
+    others = [f"{families.word(one.law)} ({one.advised:.0%})" for one in find_regions()[1:]]
+    return f"{front_page(run)} Elsewhere: {together(others)}." if others else front_page(run)
 
 
-def tables(run: Run) -> dict:
-    """Return what to use by what a robot takes, and by situation."""
-    found = measured(run.folder)
+def tables(run: Run) -> dict[str, Any]:
+    """Return regions, rules, tuned laws, the held-out set, and other robots."""
+    held = sensitivity.count_agreeing()
     return {
-        "robots": by_robot(run),
-        "decided": decided(needs.advice(run.folder), found),
+        "regions": REGIONS(_region(one) for one in find_regions()),
+        "rules": RULES(
+            (one.words, _link(one.law), 100 * one.advised, 100 * one.unbeaten, 100 * one.changed)
+            for one in sensitivity.vary()
+        ),
+        "tuned": TUNED(
+            (_link(one.law), one.at_one, one.zeta, one.time, one.peak_zeta, one.peak_time) for one in sensitivity.tune()
+        ),
+        "held_out": HELD_OUT([(held["of"], *(100 * held[name] for name in ("same", "unbeaten", "half", "most")))]),
+        "robots": ROBOTS_TABLE(_robot_lines(run)),
     }
 
 
-def by_robot(run: Run) -> html.Markdown:
-    """Return a line for each thing that a robot may take: the law to use, with whom it ties, the rows that say so."""
-    lines = []
-    for robot in ROBOTS:
+def _region(one: regions.Region) -> tuple:
+    return _link(one.law), 100 * one.advised, 100 * one.unbeaten, describe_bounds(find_bounds(one.law))
+
+
+def _link(law: str) -> str:
+    ours = " (ours)" if facts_of(law).is_ours else ""
+    return f"{families.link(law, families.word(law))}{ours}"
+
+
+def _robot_lines(run: Run) -> list[tuple]:
+    """Return a line for each robot: the law, with whom it ties, of how many, and the rows that say so."""
+    lines: list[tuple] = []
+    for robot in ROBOTS.values():
         one = word_of(robot, run.folder)
-        cells = {"If your robot takes": robot.takes}
-        if one is None:
-            cells["use"] = "not in this run"
-        elif one.law is None:
-            cells["use"] = "no law of this run"
-        else:
-            tied = [families.word(law) for law in one.tied]
-            cells |= {
-                "use": families.link(one.law, families.word(one.law)),
-                "Tied with": together(tied) if tied else "",
-            }
-            cells["Of laws"] = str(len(one.asked))
-        lines.append(cells | {"Measured": html.Html(f'<a href="{robot.page}.html">{robot.rows}</a>')})
-    return html.table(pd.DataFrame(lines).fillna(""))
-
-
-def decided(advice: needs.Advice, found: Measured) -> html.Markdown:
-    """Return a line a situation: the law to use, its numbers and the default's, and with what it ties."""
-    usual = advice.default.law
-    lines = [_line(one, usual, found) for one in (advice.default, *advice.exceptions)]
-    return html.table(pd.DataFrame(lines).fillna(""))
-
-
-def _line(one: needs.Decision, usual: str | None, found: Measured) -> dict:
-    words = {"If": one.need.words}
-    if one.law is None:
-        return {**words, "use": "no law of this run"}
-    cells = {**words, "use": families.link(one.law, families.word(one.law)), "It has": _has(one, one.law, found)}
-    if usual and one.need is not needs.DEFAULT:
-        has = _has(one, usual, found) if usual in one.asked else "not this"
-        cells[f"{families.word(usual)} has".capitalize()] = has
-    return cells | {"Tied with": together([families.word(law) for law in one.tied]) if one.tied else ""}
-
-
-def _has(one: needs.Decision, law: str, found: Measured) -> str:
-    """Format a law's estimate by each of a situation's criteria, named where they are several."""
-    parts = [(BY_NAME[name], found.estimate(name, law)) for name in one.need.by]
-    named = [f"{criterion.title.lower()}: " if len(parts) > 1 else "" for criterion, _ in parts]
-    return "; ".join(name + told(*part) for name, part in zip(named, parts, strict=True))
-
-
-def told(criterion: Criterion, number: Estimate) -> str:
-    """Return a number with its unit, and its interval where it has one."""
-    value, low, high = (written(criterion, part) for part in number)
-    span = "" if value == low == high else f" ({low} to {high})"
-    return f"{value} {criterion.unit}{span}" if criterion.unit else f"{value}{span}"
-
-
-def written(criterion: Criterion, value: float) -> str:
-    """Return a number as its criterion writes it."""
-    if math.isnan(value):
-        return html.MISSING
-    if math.isinf(value):
-        return "none" if criterion.sense < 0 else "never" if criterion.unit == "s" else "∞"
-    text = criterion.form.format(value)
-    return html.number(float(text)) if "e" in text or abs(value) >= 1e3 else text
+        if one is None or one.law is None:
+            lines.append((robot.takes, "not in this run", "", "", ""))
+            continue
+        tied = together([families.word(law) for law in one.tied]) if one.tied else ""
+        where = f'<a href="{robot.page}.html">{robot.rows}</a>'
+        lines.append((robot.takes, _link(one.law), tied, str(len(one.asked)), where))
+    forgets = find_regions(rule=Rule(forgetful=True))[0].law
+    smooth = find_regions(rule=Rule(continuous=True))[0].law
+    return [
+        *lines,
+        ("torques, and your controller keeps nothing from tick to tick", _link(forgets), "", "", "the map"),
+        ("torques, and the command must be continuous", _link(smooth), "", "", "the map"),
+    ]

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from bench.findings.selection import needs
+from bench.findings.selection.robots import ARM, word_of
 from report.figures.arms import arm_ranking, arm_rows
 from report.figures.kit import families
 from report.figures.kit.page import NotInRun, Run, in_run
@@ -61,9 +61,9 @@ def pass_pole(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def advised(run: Run) -> str:
-    """Return the law that is advised for an arm (`selection.needs`)."""
-    law = in_run(lambda: needs.advice(run.folder).of(needs.ARM).law)
-    return families.word(law) if law else "none, for this run does not tell"
+    """Return the law that is advised for an arm (`selection.robots`)."""
+    one = word_of(ARM, run.folder)
+    return families.word(one.law) if one and one.law else "none, for this run does not tell"
 
 
 def describe_model_errors(run: Run) -> str:

@@ -7,8 +7,8 @@ from collections.abc import Iterable
 import pandas as pd
 
 from bench.findings.claims.adequacy import DETOUR
-from bench.findings.selection.needs import Advice
-from bench.findings.selection.robots import VELOCITIES, advise_for
+from bench.findings.selection.needs import Decision
+from bench.findings.selection.robots import VELOCITY, decide_for
 from bench.findings.selection.words import standing
 from bench.findings.theory.velocity_limits import with_theory
 from report.figures.kit import families
@@ -32,7 +32,7 @@ def facts(run: Run) -> dict:
     logarithm = found[(found["law"] == "rotation-vector") & (found["arm"] == "") & (found["share"] == 1.0)]
     logarithm = logarithm[logarithm["reach"] == "near"]
     return {
-        "lead": lead(advise_for(VELOCITIES, run.folder)),
+        "lead": lead(decide_for(VELOCITY, run.folder)),
         "gain": float(rows["gain"].iloc[0]),
         "log_limit": f"{float(logarithm['k_dt'].iloc[0]):.3g}" if len(logarithm) else None,
         "uniform": len(uniform) // uniform["law"].nunique(),
@@ -50,9 +50,9 @@ def named(laws: Iterable[str]) -> str:
     return "; ".join(families.word(name) for name in families.in_order(laws)) or "none"
 
 
-def lead(advice: Advice) -> str:
+def lead(one: Decision) -> str:
     """Return what is advised, and with whom it ties."""
-    if advice.default.law is None:
+    if one.law is None:
         return "No law of this run settles from every start when it commands velocities."
-    said = standing(advice.default, families.word)
-    return f"{families.word(advice.default.law)}. {said[0].upper()}{said[1:]}"
+    said = standing(one, families.word)
+    return f"{families.word(one.law)}. {said[0].upper()}{said[1:]}"

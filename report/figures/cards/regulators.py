@@ -11,14 +11,14 @@ from bench.experiments.tables import read
 from bench.export.heading import RESET, SIDE
 from bench.findings import why
 from bench.findings.claims.tables import share
-from bench.findings.selection import needs
+from bench.findings.selection.regions import compare_ours, find_regions, list_ours
 from bench.law.contender import Contender
 from bench.law.contenders import regulators
 from bench.law.contenders.registry import contenders, contenders_of, papers_laws
 from bench.law.kinds import Law
 from report.figures.cards.card import LawPage, Source, docstring, make_card, make_page, say_property
 from report.figures.kit import families, html, laws, style
-from report.figures.kit.page import Run, in_run
+from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
 
 UNTRUSTED = (
@@ -83,7 +83,7 @@ def card(one: Contender, run: Run) -> str:
         "Proved": say_property(one.regulator.property),
         "Measured": measured(episodes, one.regulator),
         "Its command": found_of(one, run),
-        "Advised": advised(one.name, run),
+        "Advised": advised(one.name),
     }
     look, costs = html.both(style.look(one.name).colour), html.plain_table(costs_of(one, run))
     return make_card(one.regulator, title, (what, fields), look, f'<div class="card-costs" tabindex="0">{costs}</div>')
@@ -122,11 +122,15 @@ def found_of(one: Contender, run: Run) -> str:
     return " ".join(EXAMPLE.split(each.text)[0].rstrip(".") + "." for each in said)
 
 
-def advised(law: str, run: Run) -> str:
-    """Return the situations in which a law is advised (`selection.needs`), and those in which it ties with what is."""
-    here, tied = in_run(lambda: needs.advice(run.folder).uses(law)) or ((), ())
-    said = {"If ": here, "No worse, and less simple, if ": tied}
-    return " ".join(f"{start}{'; '.join(one.words for one in found)}." for start, found in said.items() if found)
+def advised(law: str) -> str:
+    """Return the share of the map's drawn situations in which a law is advised, and in which nothing beats it."""
+    found = next((one for one in find_regions() if one.law == law), None)
+    if law in list_ours():
+        ties, beats = compare_ours(law)
+        return f"Not advised, ours: unbeaten in {ties:.0%} of situations, better than the advised law in {beats:.0%}."
+    if found is None:
+        return ""
+    return f"Advised in {found.advised:.0%} of situations, and unbeaten in {found.unbeaten:.0%}."
 
 
 def tables(run: Run) -> dict:

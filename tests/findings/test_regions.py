@@ -1,0 +1,138 @@
+"""The map of advice: its rows against episodes run anew, its rule against one written again, and `bench advise`."""
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+from scipy.stats import binom
+from support.command_line import bench, refused
+
+from bench.experiments.experiment import Settings, Unit
+from bench.experiments.situations import mapped_laws, order_interval, rows
+from bench.findings.selection.regions import RULE, Rule, answer, decide, facts_of, read_map, with_words
+from bench.findings.selection.sensitivity import bound_slower, count_rejected
+from tasks.situation import COORDINATES, NOMINAL, Situation, read_situation
+
+LAWS = sorted(read_map()["contender"].unique())
+DRAWN = np.random.default_rng(7).permutation(sorted(read_map()["situation"].unique()))[:30].tolist()
+RUN_AGAIN = [word for word in DRAWN if not read_situation(word).spin][:10]
+"""Spinning bodies take ten times as many starts."""
+
+
+def decide_again(own):
+    """Return the advised law of a situation's rows by the rule, written on dictionaries."""
+    has = ("lost", "stuck", "unwound", "trapped")
+    asked = [row for row in own.to_dict("records") if not any(row[name] for name in has)]
+    asked = [row for row in asked if not facts_of(row["contender"]).is_ours]
+    unbeaten = [
+        row
+        for row in asked
+        if not any(o["time"] < 0.99 * row["time"] and o["time_high"] < row["time_low"] for o in asked)
+    ]
+    order = sorted((facts_of(row["contender"]).memory, row["operations"], row["contender"]) for row in unbeaten)
+    return order[0][2] if order else None
+
+
+@pytest.mark.parametrize("word", DRAWN)
+def test_advise_answers_a_situation_at_any_kp_as_its_rows_do(capsys, word):
+    at, kp = read_situation(word), float(10 ** (1.0 + 2.0 * DRAWN.index(word) / len(DRAWN)))
+    root = math.sqrt(kp)
+    words = {"kp": kp, "kv": 2.0 * at.zeta * root, "delay": at.delay / root, "rate": root / at.period}
+    words |= {"spin": at.spin * root, "inertia": at.inertia, "unevenness": at.unevenness}
+    words |= {"bound": at.bound * kp} if math.isfinite(at.bound) else {}
+    said = bench(capsys, "advise", *(f"--{name}={value!r}" for name, value in words.items())).out
+    law = decide_again(read_map()[read_map()["situation"] == word])
+    assert "It is in the map." in said
+    assert f"Use {law}." in said if law else "No published law" in said
+
+
+@pytest.mark.parametrize("word", RUN_AGAIN)
+def test_rows_of_the_map_are_those_of_episodes_run_again(word):
+    made = with_words(
+        pd.concat([rows(Settings("situations"), Unit("situations", law, selector=word)) for law in LAWS])
+    ).set_index("contender")
+    kept = read_map()[read_map()["situation"] == word].set_index("contender").loc[made.index]
+    counts = ["starts", "lost", "stuck", "trapped", "unwound", "operations"]
+    assert made[counts].equals(kept[counts].astype(made[counts].dtypes))
+    assert made["time"].to_numpy() == pytest.approx(kept["time"].to_numpy(), abs=0.02)
+    assert made["overshoot"].to_numpy() == pytest.approx(kept["overshoot"].to_numpy(), abs=0.05)
+    assert decide_again(made.reset_index()) == decide(made.reset_index()).law
+
+
+def test_map_has_every_law_in_every_situation():
+    assert set(LAWS) == {one.name for one in mapped_laws()}
+    assert not read_map().duplicated(["contender", "situation"]).any()
+    assert len(read_map()) == len(LAWS) * read_map()["situation"].nunique()
+
+
+def test_linear_law_settles_as_the_linear_system_does():
+    # (1 + t) exp(-t) = 0.02 for a double pole at -1: t = 5.8339
+    [own] = read_map().query("contender == 'rotation-vector' and situation == @NOMINAL.word").to_dict("records")
+    assert own["time"] == pytest.approx(5.8339, abs=0.011)
+    assert own["peak"] == pytest.approx(math.pi, abs=0.01)
+
+
+def test_rule_that_is_changed_changes_the_advice_as_it_says():
+    own = read_map()[read_map()["situation"] == NOMINAL.word]
+    assert facts_of(decide(own, Rule(forgetful=True)).law).memory == 0
+    assert facts_of(decide(own, Rule(continuous=True)).law).is_continuous
+    assert decide(own, Rule(tie=0.5)).unbeaten >= decide(own, RULE).unbeaten
+    assert not any(facts_of(law).is_ours for law in decide(own).unbeaten)
+    assert decide(own.assign(lost=1)).law is None
+
+
+def test_interval_of_a_quantile_covers_it_as_often_as_it_says():
+    low, high = order_interval(512, 0.99)
+    # the quantile lies between two ordered values if as many lie below it
+    covered = binom.cdf(high, 512, 0.99) - binom.cdf(low, 512, 0.99)
+    assert 0.95 <= covered < 0.99
+
+
+def test_nearest_situation_answers_what_lies_between():
+    found = answer(Situation(zeta=0.71, bound=0.21, delay=0.003))
+    assert (found.at.zeta, found.at.bound) == (0.7, 0.2)
+    assert found.distance > 0.0
+
+
+def test_coordinates_are_scaled_to_the_unit_interval():
+    for one in COORDINATES.values():
+        places = [one.scale(level) for level in one.levels]
+        assert (min(places), sorted(places)) == (0.0, places)
+        assert max(place for place, level in zip(places, one.levels, strict=True) if math.isfinite(level)) == 1.0
+
+
+def test_holm_rejects_step_by_step():
+    # 0.01 <= 0.05/4, 0.013 <= 0.05/3, 0.03 > 0.05/2: the third and all after it are kept
+    assert count_rejected(np.array([0.04, 0.01, 0.03, 0.013])) == 2
+    assert count_rejected(np.array([0.01])) == 1
+
+
+def test_slowest_of_59_starts_is_exceeded_by_5_percent_at_most():
+    assert bound_slower(59) == pytest.approx(0.05, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (("--delay", "5 minutes"), "5ms"),
+        (("--kp", "-1"), "kp"),
+        (("--unevenness", "0.7"), "0.5"),
+        (("--robot", "x"), "torque"),
+    ],
+)
+def test_number_that_cannot_be_is_refused_with_the_cure(capsys, words, named):
+    assert named in refused(capsys, "advise", *words)
+
+
+@pytest.mark.parametrize("robot", ["velocity", "position"])
+def test_robot_that_takes_no_torque_is_advised_by_the_reference(capsys, robot):
+    said = bench(capsys, "advise", "--robot", robot)
+    assert said.code == 0
+    assert said.out.startswith("Which law    Use ")
+
+
+def test_situation_that_is_simulated_gets_the_answer_of_the_map(capsys):
+    said = [bench(capsys, "advise", "--kv", "14", *more).out for more in ((), ("--run",))]
+    assert said[0].splitlines()[0][:40] == said[1].splitlines()[0][:40]
+    assert "It was simulated now." in said[1]
