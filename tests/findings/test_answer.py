@@ -15,10 +15,9 @@ from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
-from bench.findings.selection import gains
 from bench.findings.selection.criteria import BY_NAME, CRITERIA, jump
 from bench.findings.selection.measured import GENERAL, Measured, dominates, front, measured
-from bench.findings.selection.needs import DEFAULT, NEEDS, Fact, Need, advice, decide, has_all
+from bench.findings.selection.needs import Fact, Need, decide, has_all, is_ours
 from bench.findings.selection.robots import (
     POSITION,
     ROBOTS,
@@ -107,11 +106,10 @@ def test_share_of_a_law_is_its_time_over_the_median_whole_controller():
     assert ticks(Results(None, {"timings": pd.DataFrame(rows[:2])})) == {}
 
 
-def test_every_situation_decides_by_criteria_and_every_criterion_says_what_it_means():
-    assert {by for need in NEEDS for by in need.by} | set(GENERAL) <= set(BY_NAME)
+def test_every_robot_decides_by_criteria_and_every_criterion_says_what_it_means():
+    assert {by for robot in ROBOTS.values() for by in robot.need.by} | set(GENERAL) <= set(BY_NAME)
     assert len({one.name for one in CRITERIA}) == len(CRITERIA)
     assert all(one.meaning for one in CRITERIA)
-    assert len({need.words for need in (DEFAULT, *NEEDS)}) == len(NEEDS) + 1
 
 
 def test_names_that_are_many_are_counted():
@@ -168,9 +166,10 @@ def lagging():
 
 def test_uncancelled_law_has_the_facts_and_nothing_dominates_it():
     found = measure_uncancelled(Results(REFERENCE, {"shipped": shipped()}))
-    one = decide(UNCANCELLED, found)
-    assert set(one.asked) == set(shipped()["law"].astype(str)) - {"", gains.ours(found)}
-    assert has_all(found, one.law, UNCANCELLED.facts)
+    one = decide(UNCANCELLED.need, found)
+    laws = set(shipped()["law"].astype(str)) - {""}
+    assert set(one.asked) == {law for law in laws if not is_ours(found, law)}
+    assert has_all(found, one.law, UNCANCELLED.need.facts)
     assert not any(dominates(found, law, one.law, ("time", "worst", "tick")) for law in one.asked)
 
 
@@ -178,7 +177,7 @@ def test_uncancelled_law_that_rests_or_goes_the_long_way_is_not_asked():
     rows = shipped().copy()
     rows.loc[rows["law"] == FASTEST, "dead"] = 1
     rows.loc[rows["law"] == "rotation-vector", "away"] = 1
-    asked = decide(UNCANCELLED, measure_uncancelled(Results(REFERENCE, {"shipped": rows}))).asked
+    asked = decide(UNCANCELLED.need, measure_uncancelled(Results(REFERENCE, {"shipped": rows}))).asked
     assert asked
     assert not {FASTEST, "rotation-vector"} & set(asked)
 
@@ -196,16 +195,15 @@ def test_position_is_judged_by_servos_that_lag():
     assert len(found.values["late"][FASTEST]) == len(late)
     median = late["settling_time_s"].fillna(math.inf).median()
     assert found.number("late", FASTEST) == pytest.approx(median, abs=0.02)
-    assert decide(POSITION, found).law == FASTEST
+    assert decide(POSITION.need, found).law == FASTEST
 
 
 def test_every_robot_has_a_word_of_the_reference():
-    words = {robot.takes: word_of(robot, REFERENCE) for robot in ROBOTS}
-    assert all(one is not None and one.law for one in words.values())
-    assert words["torques, and a model cancels the inertia"].law == advice(REFERENCE).default.law
+    words = [word_of(robot, REFERENCE) for robot in ROBOTS.values()]
+    assert all(one is not None and one.law for one in words)
 
 
-@pytest.mark.parametrize("robot", ROBOTS, ids=lambda robot: robot.page)
+@pytest.mark.parametrize("robot", ROBOTS.values(), ids=lambda robot: robot.name)
 def test_robot_names_a_page_of_the_book(robot):
     assert (RESULTS.parent / "report" / "pages" / f"{robot.page}.md").is_file()
 
@@ -219,7 +217,7 @@ def test_criterion_of_velocity_laws_is_what_their_rows_say(criterion):
 
 
 def test_law_that_is_dead_and_law_that_unwinds_are_not_asked():
-    asked = velocities().decide(VELOCITY).asked
+    asked = velocities().decide(VELOCITY.need).asked
     assert not {"rotation-matrix", "quaternion-unwinding"} & set(asked)
     assert "rotation-vector" in asked
 

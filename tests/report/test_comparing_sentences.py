@@ -8,10 +8,9 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.perturbed import Threshold, Way
-from bench.findings.selection import gains, needs
+from bench.findings.selection import needs
 from bench.findings.selection.measured import measured
-from bench.findings.selection.words import leaders, standing
-from report.figures.answer import which_law
+from bench.findings.selection.words import compare, leaders, standing
 from report.figures.arms import arm_ranking
 from report.figures.comparison import a_new_law, comparison
 from report.figures.contact import as_arms_run, in_contact
@@ -62,7 +61,7 @@ def plant_thresholds(*held):
 
 def plant_decision(tied, asked):
     """State whether the advised law is alone."""
-    return standing(needs.Decision(needs.DEFAULT, "a", tied, ("a", *tied), asked), str)
+    return standing(needs.Decision(needs.Need("", ()), "a", tied, ("a", *tied), asked), str)
 
 
 def plant_loops(**columns):
@@ -81,20 +80,9 @@ def plant_numbers(laws=None, **numbers):
     return found._replace(values=found.values | {name: found.values[name] | own for name, own in new.items()})
 
 
-def plant_advice(laws=None, **numbers):
-    """State what is advised."""
-    found = plant_numbers(laws, **numbers)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(which_law, "measured", lambda folder: found)
-        patch.setattr(needs, "advice", lambda folder: needs.advise(found))
-        return which_law.lead(Run(FOLDER))
-
-
-def plant_gains(**numbers):
-    """State how our law compares with the advised one at the reference's gains."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(gains, "committed", lambda: (plant_numbers([OURS], **numbers),))
-        return gains.compare_at_all_gains()
+def plant_comparison(**numbers):
+    """State how our law compares with another."""
+    return compare(plant_numbers([OURS], **numbers), OURS, ADVISED)
 
 
 def plant_leader(criterion, **numbers):
@@ -140,10 +128,7 @@ SENTENCES = {
     "unstable": (plant_fact(as_arms_run.facts, "unstable"), [({}, "Panda"), ({"radius": 0.5}, "none")]),
     "noise": (plant_fact(half_turn_noise.facts, "blind_middle"), [({}, "25"), ({"outcome": "settled"}, "100")]),
     "least": (plant_fact(failure_map.facts, "least"), [({}, "135"), ({"alpha0": 2.0}, "114")]),
-    "held": (plant_advice, [({}, "cannot hold the body"), ({"held": 0.01}, "No law of this run settles")]),
-    "lost": (plant_advice, [({}, "it settles from every start"), ({"lost": 1.0}, "No law of this run settles")]),
-    "no better": (plant_advice, [({}, "In 9 of 16"), ({"laws": [ADVISED], "time": 0.1}, "In 10 of 16")]),
-    "ours": (plant_gains, [({}, "better at every ratio by effort"), ({"effort": 1e9}, "worse at 1 by effort")]),
+    "ours": (plant_comparison, [({}, "better by effort"), ({"effort": 1e9}, "worse by effort")]),
     "time": (plant_leader, [({"criterion": "time"}, "gibbs"), ({"criterion": "time", "time": 1e-9}, FEEDBACK)]),
     "effort": (plant_leader, [({"criterion": "effort"}, MATRIX), ({"criterion": "effort", "effort": 1e-9}, FEEDBACK)]),
 }

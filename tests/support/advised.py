@@ -1,8 +1,9 @@
-"""The law that the rule of `bench.findings.selection` advises, by the rule written a second time, on arrays.
+"""The laws that the rules of `bench.findings.selection` advise, by the rules written a second time, on arrays.
 
-Only what the situations ask (`needs.NEEDS`), whose laws are ours and what a law remembers is read from the program.
+Only what robots ask (robots.toml), whose laws are ours and what a law remembers is read from the program.
 """
 
+import collections
 import functools
 from typing import NamedTuple
 
@@ -14,20 +15,16 @@ from bench.findings.selection import criteria, needs
 from bench.findings.start_sets import DIRECTED
 from bench.law.contenders.registry import find_contender
 from support.tables import table
+from tasks.situation import COORDINATES
 
 GENERAL = ("time", "worst", "effort", "peak", "variation", "tick")
 PERTURBED = {
     "variation": ("delay", 0.0, "variation"),
     "matched": ("equal-peak", 100.0, "settling_time_s"),
     "bounded": ("saturation", 10.0, "settling_time_s"),
-    "slow": ("control-rate", 20.0, "settling_time_s"),
     "late": ("delay", 0.02, "settling_time_s"),
-    "heavy": ("inertia", 2.0, "settling_time_s"),
-    "spinning": ("spin", 20.0, "settling_time_s"),
-    "follows": ("moving-goal", 10.0, "tail_max_rad"),
-    "noisy": ("attitude-noise", 0.01, "variation"),
 }
-LEVELS = {"time": 0.99, "worst": 1.0, "spread": 1.0, "peak": 1.0, "chatter": 1.0}
+LEVELS = {"time": 0.99, "worst": 1.0, "peak": 1.0, "chatter": 1.0}
 MEANS, MORE_IS_BETTER = ("unsettled", "arms", "within"), ("held", "arms", "within")
 DRAWS = 1000
 
@@ -102,8 +99,6 @@ class Asked:
             needs.EVERYWHERE: lambda: (number("unsettled") + number("lost") == 0) & (number("detour") < 1.5),
             needs.QUIET: lambda: number("chatter") <= 1.0,
             needs.UNHELD: lambda: number("held") > 0.1,
-            needs.FORGETFUL: lambda: number("memory") == 0.0,
-            needs.SMOOTH: lambda: number("jump").abs() < 1e-3,
             needs.NEARLY: lambda: number("unsettled") <= 0.1 + 1e-9,
             needs.TRIED: lambda: number("variation").notna(),
         }[fact]()
@@ -117,14 +112,6 @@ class Asked:
         kept = self.front(best, GENERAL)
         law = min(kept, key=lambda law: (*self.simplicity(law), law))
         return Decision(law, tuple(one for one in kept if one != law), tuple(best), tuple(asked))
-
-    def is_decisive(self, need, usual):
-        """Return whether a situation's law is better than the usual one by more than a tenth, or that lacks a fact."""
-        one = self.decide(need)
-        if need.is_apart or usual not in one.asked:
-            return True
-        pairs = [(self.number(by)[one.law], self.number(by)[usual]) for by in need.by]
-        return usual not in one.best and any(abs(own - other) > 0.1 * abs(other) for own, other in pairs)
 
 
 def is_ours(law):
@@ -174,7 +161,6 @@ def timed(uniform, directed, peak):
         "unsettled": 100.0 * np.isinf(time),
         "lost": alone(lost.reindex(laws, fill_value=0)),
         "detour": alone(ways.reindex(laws)),
-        "spread": (time - time.min()).fillna(np.inf),
         "peak": by_start(uniform, peak, np.inf),
         "tick": alone(shares_of_time().reindex(laws)),
         "memory": alone({law: len(find_contender(law).regulator.memory or ()) for law in laws}),
@@ -238,3 +224,50 @@ def velocities():
     arms = arms[arms["law"].isin(uniform["law"])]
     arms = arms.assign(settled=100.0 * (arms["outcome"] == "settled"))
     return Asked({**timed(uniform, exact, "peak_omega"), "arms": by_start(arms, "settled")})
+
+
+RULE_COLUMNS = ("lost", "stuck", "unwound", "trapped")
+
+
+@functools.cache
+def map_verdicts():
+    """Return situation -> (advised law, unbeaten published laws, unbeaten laws of ours, those that beat the advised)."""
+    rows, found = table("situations", "situations"), {}
+    for at, own in rows.groupby([*COORDINATES]):
+        asked = own[(own[[*RULE_COLUMNS]] == 0).all(axis=1) & np.isfinite(own["time"])].set_index("law")
+        ours = [law for law in asked.index if is_ours(law)]
+        beats = {
+            law: [
+                o
+                for o in asked.index
+                if row["time"] < 0.99 * asked["time"][o] and row["time_high"] < asked["time_low"][o]
+            ]
+            for law, row in asked.iterrows()
+        }
+        published = [law for law in asked.index if law not in ours]
+        beaten = {law for one in published for law in beats[one]}
+        kept = sorted(
+            set(published) - beaten,
+            key=lambda law: (len(find_contender(law).regulator.memory or ()), asked["operations"][law], law),
+        )
+        law = kept[0] if kept else None
+        free = tuple(one for one in ours if one not in beaten) if law else tuple(ours)
+        found[at] = law, frozenset(kept), free, tuple(one for one in ours if law in beats[one])
+    return found
+
+
+def drawn_verdicts():
+    """Return the verdicts on the situations that differ from the nominal one in two numbers beside the damping ratio."""
+    nominal = [one.nominal for one in COORDINATES.values()][1:]
+    return [one for at, one in map_verdicts().items() if sum(a != b for a, b in zip(at[1:], nominal, strict=True)) > 1]
+
+
+def widest():
+    """Return (law, advised share, unbeaten share) of every region, the widest first."""
+    drawn = drawn_verdicts()
+    count = collections.Counter(law for law, *_ in drawn if law)
+    shares = {
+        law: (number / len(drawn), sum(law in kept for _, kept, *_ in drawn) / len(drawn))
+        for law, number in count.items()
+    }
+    return sorted(((law, *own) for law, own in shares.items()), key=lambda one: (-one[1], one[0]))

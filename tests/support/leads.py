@@ -4,7 +4,6 @@ A value is the text that a key shows, or a list: every number of that text, and 
 """
 
 import collections
-import math
 
 import numpy as np
 import pandas as pd
@@ -13,11 +12,11 @@ from scipy.stats import binomtest
 import tasks
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
-from bench.findings.selection import gains, needs
+from bench.findings.selection import needs
 from bench.findings.selection.robots import VELOCITY
 from bench.law.contenders.registry import find_contender
 from report.figures.kit.families import word
-from support.advised import accelerations, operations, shares_of_time, velocities
+from support.advised import accelerations, drawn_verdicts, velocities, widest
 from support.leads_of_arms import (
     CONTROLS,
     FEEDBACK,
@@ -126,52 +125,23 @@ def recompute_thresholds():
 
 def recompute_velocities():
     rows = table("velocity-limits").query("law == 'rotation-vector' and arm == '' and share == 1 and reach == 'near'")
-    one = velocities().decide(VELOCITY)
+    one = velocities().decide(VELOCITY.need)
     said = [word(one.law), *name_together(one.tied)] if one.tied else [word(one.law), len(one.asked)]
     return {"log_limit": f"{rows['k_dt'].iloc[0]:.3g}", "lead": said}
 
 
-def bounded(found, usual):
-    """Return what is said of the fastest law under a bounded command, which is stuck at 180°."""
-    at = table("perturbed", "robustness").query("axis == 'saturation' and level == 10").set_index("law")
-    law = at["median_s"].idxmin()
-    assert found.number("lost")[law] > 0
-    own, other = at["median_s"][law], at["median_s"][usual]
-    return [10, word(law), round(100 * (1 - own / other)), f"{own:.3f}", f"{other:.3f}", at["starts"][law], 180]
-
-
 def recompute_advice():
-    """Return what is said of the law that is advised first, and of ours beside it at four damping ratios."""
-    found = accelerations()
-    one, usual = found.decide(needs.DEFAULT), word(found.decide(needs.DEFAULT).law)
-    drawn = found.drawn("time")[:, list(found.values["time"]).index(one.law)]
-    times = found.number("time")[one.law], *np.quantile(drawn, (0.025, 0.975), method="inverted_cdf")
-    kp, kv = table("episodes").query("task == 'free-body'")[["kp", "kv"]].iloc[0]
-    said = [usual, kp, kv, kv / (2 * math.sqrt(kp)), 0.1, 180, 99, *(f"{time:.3f}" for time in times)]
-    said += [*name_together(one.tied)] if one.tied else [len(one.asked)]
-    said += [*bounded(found, one.law), word(LATE), 2026, 99]
-    at = {f"{kv / 20:g}": accelerations(f"gains/kv-{kv}" if kv != 20 else "reference") for kv in (10, 14, 20, 30)}
-    words = {ratio: own.decide(needs.DEFAULT).law for ratio, own in at.items()}
-    for ratio, own in at.items():
-        pair = (f"{own.number('time')[law]:.3f}" for law in (LATE, words[ratio]))
-        said += [*pair, *([f"({word(words[ratio])})"] if ratio == "0.5" else []), ratio]
-    called = gains.WORDS | gains.TIMES
-    better = {ratio: {by: own.beats(by) for by in called} for ratio, own in at.items()}
-    wins, losses = (
-        {by: tuple(ratio for ratio in at if better[ratio][by].loc[pair(words[ratio])]) for by in called}
-        for pair in (lambda law: (LATE, law), lambda law: (law, LATE))
-    )
-    said += ["better at every ratio by", *(called[by] for by, ratios in wins.items() if len(ratios) == len(at))]
-    by_ratios = collections.defaultdict(list)
-    for by, ratios in losses.items():
-        by_ratios[ratios].append(called[by])
-    for ratios, names in by_ratios.items():
-        said += [*ratios, *names] if ratios else []
-    share = shares_of_time()[one.law]
-    others = sum(not found.is_decisive(need, one.law) for need in needs.NEEDS)
-    flops, calls = operations(one.law)
-    said += [flops, calls] if calls else [flops]
-    return {"lead": [*said, f"{share:.1f}", others, len(needs.NEEDS), 10]}
+    """Return what is said of the law of the widest region, of ours, and of the other regions."""
+    (law, _, unbeaten), *others = widest()
+    rows, drawn = table("situations", "situations"), drawn_verdicts()
+    nominal = rows[(rows["zeta"] == 1.0) & (rows["law"] == law) & (rows["period"] == 0.01)]
+    nominal = nominal[np.isinf(nominal["bound"]) & (nominal[["delay", "unevenness", "spin"]] == 0.0).all(axis=1)]
+    [time] = nominal.loc[nominal["inertia"] == 1.0, "time"]
+    said = [word(law), 0.1, 180, f"{unbeaten:.0%}", 100, 99, f"{time / 10:.2f} s", word(LATE), 2026]
+    for place in (2, 3):
+        said.append(f"{sum(LATE in one[place] for one in drawn) / len(drawn):.0%}")
+    front = list(said)
+    return {"lead": [*said, *name_together([f"{word(one)} ({share:.0%})" for one, share, _ in others], str)]}, front
 
 
 def recompute_verdicts():
@@ -194,7 +164,7 @@ COMPUTED = {
         "off": recompute_compliance()["off"],
         "pegs": recompute_pegs("transpose"),
         "pegs_by_accelerations": recompute_pegs("inverse"),
-        "which_law": recompute_advice()["lead"][:-5],
+        "which_law": recompute_advice()[1],
     },
     "06-failure-map": recompute_failure_map,
     "07-cost": recompute_times,
@@ -206,7 +176,7 @@ COMPUTED = {
     "17-velocity-commands": recompute_velocities,
     "23-as-arms-run": recompute_impedance,
     "25-libraries": recompute_libraries,
-    "27-which-law": recompute_advice,
+    "27-which-law": lambda: recompute_advice()[0],
     "28-a-new-law": recompute_new_law,
     "40-claims": recompute_verdicts,
 }

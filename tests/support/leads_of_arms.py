@@ -8,7 +8,7 @@ from scipy.stats import binomtest, fisher_exact
 import tasks
 from bench.audit.examined import COUNT_RAD
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.selection import needs
+from bench.findings.selection.robots import ARM
 from report.figures.kit.families import word
 from support.advised import accelerations, costs, operations, shares_of_time
 from support.tables import table
@@ -119,7 +119,7 @@ def recompute_arms():
     said += [*share(within["feedback-linearized/zyx-euler@analytic"]), *(never or ["none"])]
     able = within[within.groupby("arm").transform("any").any(axis=1)]
     said += [*share(able[min(within, key=lambda name: (-within[name].mean(), name))]), *lead_on_arms(settled)]
-    return {"advised": word(accelerations().decide(needs.ARM).law), "lead": said}
+    return {"advised": word(accelerations().decide(ARM.need).law), "lead": said}
 
 
 def is_right(own):

@@ -69,8 +69,8 @@ def front_page(run: Run) -> str:
     word, rows = families.word(one.law), read_map()
     [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == one.law)].to_dict("records")
     return (
-        f"{word[0].upper()}{word[1:]}, a published law, in simulation only: it settles from every start tried, noise of "
-        f"orientation up to {NOISE_RAD:g} rad cannot trap it at 180°, and nothing published is faster in "
+        f"{word[0].upper()}{word[1:]}, a published law, in simulation only: it settles from every start tried, noise "
+        f"of orientation up to {NOISE_RAD:g} rad cannot trap it at 180°, and nothing published is faster in "
         f"{one.unbeaten:.0%} of the situations that were drawn at random. One number at a time that holds for "
         f"{describe_bounds(find_bounds(one.law))}. At kp = {KP:g} 1/s² and critical damping 99 % of the starts settle "
         f"in {row['time'] / KP**0.5:.2f} s. {_ours()}"
