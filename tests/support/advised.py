@@ -231,19 +231,14 @@ RULE_COLUMNS = ("lost", "stuck", "unwound", "trapped")
 
 @functools.cache
 def map_verdicts():
-    """Return situation -> (advised law, unbeaten published laws, unbeaten laws of ours, those that beat the advised)."""
+    """Return situation -> (advised law, unbeaten published laws, unbeaten ones of ours, those that beat the first)."""
     rows, found = table("situations", "situations"), {}
     for at, own in rows.groupby([*COORDINATES]):
         asked = own[(own[[*RULE_COLUMNS]] == 0).all(axis=1) & np.isfinite(own["time"])].set_index("law")
         ours = [law for law in asked.index if is_ours(law)]
-        beats = {
-            law: [
-                o
-                for o in asked.index
-                if row["time"] < 0.99 * asked["time"][o] and row["time_high"] < asked["time_low"][o]
-            ]
-            for law, row in asked.iterrows()
-        }
+        times = asked[["time", "time_low", "time_high"]].to_numpy()
+        is_beaten = (times[:, 0] < 0.99 * times[:, :1]) & (times[:, 2] < times[:, 1:2])
+        beats = {law: set(asked.index[is_beaten[:, i]]) for i, law in enumerate(asked.index)}
         published = [law for law in asked.index if law not in ours]
         beaten = {law for one in published for law in beats[one]}
         kept = sorted(
@@ -257,7 +252,7 @@ def map_verdicts():
 
 
 def drawn_verdicts():
-    """Return the verdicts on the situations that differ from the nominal one in two numbers beside the damping ratio."""
+    """Return the verdicts on situations that differ from the nominal one in two numbers beside the damping ratio."""
     nominal = [one.nominal for one in COORDINATES.values()][1:]
     return [one for at, one in map_verdicts().items() if sum(a != b for a, b in zip(at[1:], nominal, strict=True)) > 1]
 
@@ -266,8 +261,6 @@ def widest():
     """Return (law, advised share, unbeaten share) of every region, the widest first."""
     drawn = drawn_verdicts()
     count = collections.Counter(law for law, *_ in drawn if law)
-    shares = {
-        law: (number / len(drawn), sum(law in kept for _, kept, *_ in drawn) / len(drawn))
-        for law, number in count.items()
-    }
+    unbeaten = {law: sum(law in kept for _, kept, *_ in drawn) for law in count}
+    shares = {law: (number / len(drawn), unbeaten[law] / len(drawn)) for law, number in count.items()}
     return sorted(((law, *own) for law, own in shares.items()), key=lambda one: (-one[1], one[0]))
