@@ -78,7 +78,10 @@ class Asked:
         with np.errstate(invalid="ignore"):
             least = 4.0 if criterion == "tick" else 0.01 * np.abs(other)
             is_better = (own < other) & (np.isinf(other) | (other - own > least))
-            if len(self.values[criterion]) > 1:
+            values = sense * self.values[criterion].to_numpy(float)
+            if LEVELS.get(criterion) == 1.0:
+                is_better &= (values[:, None, :] > values.max(axis=0)[None, :, None]).sum(axis=0) >= 5
+            elif len(values) > 1:
                 drawn = sense * self.drawn(criterion)
                 less = np.nan_to_num(drawn[:, :, None] - drawn[:, None, :], nan=0.0, posinf=np.inf, neginf=-np.inf)
                 is_better &= np.quantile(less, 0.975, axis=0, method="inverted_cdf") < 0.0

@@ -1,8 +1,11 @@
-"""Which law to use, computed from a run: criteria a row a law, Pareto fronts, and a law for each situation.
+"""Which law to use: the map of situations and its regions, and criteria, a row a law, for robots beside it.
 
+regions.py      the law that nothing beats in a situation, by results/situations; the regions and the default
+sensitivity.py  other rules, random halves, Holm's correction, laws tuned for themselves, the held-out set
 tables.py       the rows of a run that laws are compared on, the same starts for each
 criteria.py     what is measured of a law, each criterion a NamedTuple of data
 measured.py     all criteria of all laws, and the rule: ties, Pareto fronts, the simplest; fixed before it was run
-needs.py        situations, and the law advised in each: the one place that pages, cards and commands ask
-robots.py       the same on robots that take velocities, positions, or torques with no inertia cancelled
+needs.py        what a robot asks of a law, and the law advised for it
+robots.py       the robots beside the map: arms, velocities, positions, torques with no inertia cancelled
+words.py        what is advised in sentences
 """
