@@ -33,8 +33,8 @@ from bench.findings.selection.criteria import BY_NAME, CRITERIA, Criterion
 from bench.findings.selection.tables import Tables, tables_of
 
 LARGEST, EXCEEDING = 1.0, 5
-"""Level of a maximum; and how many starts of one law must exceed all of another's: of equal laws as many do by chance in
-2^-5, 3 %, of cases."""
+"""Level of a maximum; and how many starts of one law must exceed all of another's: of equal laws as many do by chance
+in 2^-5, 3 %, of cases."""
 
 
 class Measured(NamedTuple):

@@ -53,7 +53,7 @@ def measure_velocities(results: Results) -> Measured:
     at_once = at_once[at_once["start_set"] == "uniform"]
     return _measured(
         tables,
-        ("unsettled", "lost", "time", "worst", "spread", "tick", "memory", "jump"),
+        ("unsettled", "lost", "time", "worst", "tick", "memory", "jump"),
         detour={name: np.array([np.nanmax([way[name].max() for way in ways])]) for name in tables.contenders},
         peak=by_law(uniform, "peak_omega", math.inf),
         arms=by_law(at_once.assign(passed=100.0 * ~at_once["lost"]), "passed"),
