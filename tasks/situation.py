@@ -21,6 +21,8 @@ class Coordinate(NamedTuple):
     """One number of a situation: what it is, its value where nothing is said, and the values at which laws are run.
 
     text: how its value is written, with the number in braces. is_ratio: whether half and twice are equally far away.
+    weight: how much it counts where the nearest of some situations is sought; of a few weights those were taken with
+    which, of situations left out one by one, the nearest other one gave the best advice.
     """
 
     title: str
@@ -28,6 +30,7 @@ class Coordinate(NamedTuple):
     nominal: float
     levels: tuple[float, ...]
     is_ratio: bool = False
+    weight: float = 1.0
 
     def scale(self, value: float) -> float:
         """Return a value's place between the extreme levels, 0 to 1; a bound that is infinite lies above the others."""
@@ -41,19 +44,24 @@ class Coordinate(NamedTuple):
 
 
 COORDINATES = {
-    "zeta": Coordinate("damping ratio kv/(2 √kp)", "{:g}", 1.0, (0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5, 2.0), True),
+    "zeta": Coordinate(
+        "damping ratio kv/(2 √kp)", "{:g}", 1.0, (0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5, 2.0), True, 3.0
+    ),
     "bound": Coordinate(
         "bound of the command over kp [rad]",
         "{:g} kp",
         math.inf,
-        (0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0, 3.0, math.inf),
+        (0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0, 3.0, math.inf),
         True,
+        3.0,
     ),
     "delay": Coordinate("delay times √kp", "{:g}/√kp", 0.0, (0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3)),
     "period": Coordinate("control period times √kp", "{:g}/√kp", 0.01, (0.01, 0.05, 0.1, 0.2, 0.3, 0.5)),
-    "inertia": Coordinate("inertia over its model", "{:g}", 1.0, (0.4, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 4.0), True),
-    "unevenness": Coordinate("principal moments 1 - s, 1 and 1 + s", "{:g}", 0.0, (0.0, 0.1, 0.2, 0.3, 0.4, 0.5)),
-    "spin": Coordinate("speed at the start over √kp", "{:g} √kp", 0.0, (0.0, 0.5, 1.0, 1.5, 2.0, 3.0)),
+    "inertia": Coordinate("inertia over its model", "{:g}", 1.0, (0.4, 0.5, 0.7, 1.0, 1.4, 2.0, 3.0, 4.0), True, 2.0),
+    "unevenness": Coordinate(
+        "principal moments 1 - s, 1 and 1 + s", "{:g}", 0.0, (0.0, 0.1, 0.2, 0.3, 0.4, 0.5), weight=0.5
+    ),
+    "spin": Coordinate("speed at the start over √kp", "{:g} √kp", 0.0, (0.0, 0.5, 1.0, 1.5, 2.0, 3.0), weight=0.5),
 }
 """The numbers of a situation, in order."""
 
@@ -98,8 +106,8 @@ class Situation(NamedTuple):
         return spread(count, seed, 0.0)
 
     def scaled(self) -> tuple[float, ...]:
-        """Return the place of every number between its extreme levels."""
-        return tuple(one.scale(value) for one, value in zip(COORDINATES.values(), self, strict=True))
+        """Return the place of every number between its extreme levels, times its weight."""
+        return tuple(one.weight * one.scale(value) for one, value in zip(COORDINATES.values(), self, strict=True))
 
     def describe(self) -> str:
         """Say in which numbers it differs from the nominal situation, the damping ratio always."""

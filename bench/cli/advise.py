@@ -151,9 +151,10 @@ def _said(found: Answer, wanted: Situation, kp: float) -> list[Paragraph]:
     else:
         row = found.rows[found.rows["contender"] == one.law].iloc[0]
         tied = f" It ties with {listed(one.tied)}." if one.tied else " Nothing ties with it."
+        place = "" if found.distance == 0.0 else "In the nearest situation of the map "
         which = (
-            f"Use {one.law}.{tied if one.asked > 1 else ' No other law has what is asked.'} 99 % of the starts settle "
-            f"in {row['time'] / unit:.3f} s ({row['time_low'] / unit:.3f} to {row['time_high'] / unit:.3f})."
+            f"Use {one.law}.{tied if one.asked > 1 else ' No other law has what is asked.'} {place}99 % of the starts "
+            f"settle in {row['time'] / unit:.3f} s ({row['time_low'] / unit:.3f} to {row['time_high'] / unit:.3f})."
         )
     lines = [Paragraph("Which law", (which,))]
     if one.ours:
@@ -165,7 +166,7 @@ def _said(found: Answer, wanted: Situation, kp: float) -> list[Paragraph]:
     near = (
         "It is in the map."
         if found.distance == 0.0
-        else f"The nearest that was run: {found.at.describe()} (distance {found.distance:.2f})."
+        else f"The nearest of the map: {found.at.describe()} (distance {found.distance:.2f})."
     )
     agree = f"Nothing beats the law in {found.agree[0]} of the {found.agree[1]} situations next to it"
     return [*lines, Paragraph("How sure", (where, near, f"{agree}; --run simulates yours."))]
