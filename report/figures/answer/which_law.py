@@ -6,7 +6,6 @@ from typing import Any
 
 from bench.experiments.situations import FIRST, MOST, NOISE_RAD
 from bench.findings.claims import Results, judge
-from bench.findings.claims.standing import MEASURABLE
 from bench.findings.selection import regions, sensitivity
 from bench.findings.selection.measured import measured
 from bench.findings.selection.needs import EVERYWHERE, UNHELD, has_all
@@ -51,12 +50,10 @@ def facts(run: Run) -> dict[str, Any]:
         "halves": halves,
         "of_halves": of,
         "slower": f"{100 * sensitivity.bound_slower(FIRST):.1f}",
-        "with_memory": sum(facts_of(str(law)).memory > 0 for law in read_map()["contender"].unique()),
         "laws": len(shown),
         "whole": len(whole),
         "unheld": sum(UNHELD.has(found, law) for law in whole),
         "noise": f"{NOISE_RAD:g}",
-        "measurable": f"{100 * MEASURABLE:g}",
         "forgetful": len(forgetful),
         "forgetful_both": sum(has_all(found, law, (EVERYWHERE, UNHELD)) for law in forgetful) or "none",
         "verdict": str(judge("C27", Results(run.folder)).word),
