@@ -1,4 +1,4 @@
-"""A situation of the free body in dimensionless numbers: gains, motors, timing, inertia and spin.
+"""A situation of the free body in dimensionless numbers: gains, motors, timing, inertia, spin and jumps of the goal.
 
 Time is counted in 1/sqrt(kp), commands in kp: at equal numbers every kp gives the same motion on another clock.
 """
@@ -62,6 +62,9 @@ COORDINATES = {
         "principal moments 1 - s, 1 and 1 + s", "{:g}", 0.0, (0.0, 0.1, 0.2, 0.3, 0.4, 0.5), weight=0.5
     ),
     "spin": Coordinate("speed at the start over √kp", "{:g} √kp", 0.0, (0.0, 0.5, 1.0, 1.5, 2.0, 3.0), weight=0.5),
+    "jump": Coordinate(
+        "time at which the goal jumps, times √kp", "{:g}/√kp", 0.0, (0.0, 0.5, 1.0, 2.0, 5.0), weight=0.5
+    ),
 }
 """The numbers of a situation, in order."""
 
@@ -76,6 +79,7 @@ class Situation(NamedTuple):
     inertia: float = 1.0
     unevenness: float = 0.0
     spin: float = 0.0
+    jump: float = 0.0
 
     @property
     def word(self) -> str:
@@ -96,14 +100,18 @@ class Situation(NamedTuple):
             delay_s=self.delay * unit_s,
             period_s=self.period * unit_s,
             inertia=tuple(self.inertia * one for one in uneven),
+            jump_s=self.jump * unit_s,
             worst_attitude_error=worst_attitude_error,
         )
 
     def starts(self, count: int, seed: int) -> list[Start]:
-        """Return orientations spread evenly over SO(3), each spinning about an axis of its own if bodies spin."""
-        if self.spin:
-            return known_axes()["spin"].starts(count, seed, self.spin * math.sqrt(KP))
-        return spread(count, seed, 0.0)
+        """Return orientations spread evenly over SO(3); with a spin or a goal of their own where those are asked."""
+        speed = self.spin * math.sqrt(KP)
+        every = known_axes()["spin"].starts(count, seed, speed) if speed else spread(count, seed, 0.0)
+        if self.jump:
+            jumping = known_axes()["goal-jump"].starts(count, seed, self.jump)
+            every = [one._replace(omega=other.omega) for one, other in zip(jumping, every, strict=True)]
+        return every
 
     def scaled(self) -> tuple[float, ...]:
         """Return the place of every number between its extreme levels, times its weight."""

@@ -96,24 +96,24 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return the row of a law in a situation."""
     one, at = settings.contender(unit.contender), read_situation(unit.selector)
     condition, exact = at.condition(), tasks.axis("half-turn-noise").starts(EXACT, settings.seed, 0.0)
-    noisy = at._replace(delay=NOMINAL.delay, period=NOMINAL.period).condition(NOISE_RAD)
+    noisy = at._replace(delay=NOMINAL.delay, period=NOMINAL.period, jump=NOMINAL.jump).condition(NOISE_RAD)
     stuck, trapped = (
         int((_run(settings, one, at, exact, each)["time"] == math.inf).sum()) for each in (condition, noisy)
     )
-    every = starts_of(at.spin, settings.seed)[: FIRST if stuck else MOST]
+    every, is_moving = starts_of(at.spin, at.jump, settings.seed)[: FIRST if stuck else MOST], at.spin + at.jump > 0.0
     ended, count = _run(settings, one, at, every[:FIRST], condition), FIRST
-    while count < len(every) and not is_precise(summarize(ended, at.spin > 0.0)):
+    while count < len(every) and not is_precise(summarize(ended, is_moving)):
         more = _run(settings, one, at, every[count : 2 * count], condition)
         ended, count = {name: np.concatenate((ended[name], more[name])) for name in more}, 2 * count
-    found = summarize(ended, at.spin > 0.0)
+    found = summarize(ended, is_moving)
     facts = {"stuck": stuck, "trapped": trapped, "operations": count_typical(one)}
     return pd.DataFrame([{**contender_columns(one), **at._asdict(), **found, **facts}])
 
 
 @functools.lru_cache(maxsize=64)
-def starts_of(spin: float, seed: int) -> list[Start]:
-    """Return the uniform starts of every situation of that spin."""
-    return NOMINAL._replace(spin=spin).starts(MOST, seed)
+def starts_of(spin: float, jump: float, seed: int) -> list[Start]:
+    """Return the uniform starts of every situation of that spin and jump."""
+    return NOMINAL._replace(spin=spin, jump=jump).starts(MOST, seed)
 
 
 def count_typical(one: Contender) -> int:
@@ -128,7 +128,7 @@ def is_precise(found: dict[str, float]) -> bool:
     return not math.isfinite(found["time"]) or half <= PRECISION * found["time"]
 
 
-def summarize(ended: dict[str, np.ndarray], spins: bool) -> dict[str, Any]:
+def summarize(ended: dict[str, np.ndarray], is_moving: bool) -> dict[str, Any]:
     """Return the columns of a row that are made of its starts."""
     times = ended["time"]
     low, high = order_interval(len(times), CROWD)
@@ -136,7 +136,7 @@ def summarize(ended: dict[str, np.ndarray], spins: bool) -> dict[str, Any]:
     return {
         "starts": len(times),
         "lost": int((times == math.inf).sum()),
-        "unwound": 0 if spins else int((ended["farthest"] > ended["angle0"] + AWAY_RAD).sum()),
+        "unwound": 0 if is_moving else int((ended["farthest"] > ended["angle0"] + AWAY_RAD).sum()),
         "median": float(quantile(times, 0.5)),
         "time": float(quantile(times, CROWD)),
         "time_low": float(ordered[low]),
@@ -163,7 +163,7 @@ def order_interval(count: int, level: float) -> tuple[int, int]:
 def _run(
     settings: Settings, one: Contender, at: Situation, starts: list[Start], condition: Condition
 ) -> dict[str, np.ndarray]:
-    """Return time (times sqrt(kp); infinite: not settled), angle0 [rad], and the metrics of each start."""
+    """Return time (times sqrt(kp); infinite: not settled), angle at first or at the jump, and metrics of each start."""
     from bench.engines.episode import FIRST_METRIC, OUTCOME, SETTLING_TICK
     from bench.engines.episode import Settings as Limits
     from bench.engines.plants import perturbed
@@ -175,7 +175,9 @@ def _run(
     numbers = run_disturbed(one, starts, condition, limits, metrics(), settings.seed)
     step_s = condition.period_s / perturbed.steps_of(condition)
     is_settled = numbers[:, OUTCOME] == SETTLED
+    jumped = numbers[:, perturbed.JUMPED - perturbed.EXTRA]
     angle0 = np.array([angle(start.quat_wxyz, start.goal_wxyz) for start in starts])
+    angle0 = np.where(jumped > 0.0, jumped, angle0)
     seen = numbers[:, FIRST_METRIC : FIRST_METRIC + 4].T
     overshoot = 2.0 * np.arcsin(np.sqrt(np.minimum(seen[3], 1.0)))
     return {

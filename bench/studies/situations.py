@@ -1,6 +1,6 @@
 """Which law is the best in which situation? The map of `bench advise`: results/situations.
 
-Planes of the damping ratio and each other number; situations drawn at random in all of them; then, for ROUNDS rounds,
+Planes of the damping ratio and each other number; situations drawn at random, without jumps; then, for ROUNDS rounds,
 points halfway between neighbours in a plane that get other advice. The held-out set (`--only held-out`) is drawn by
 another seed, is run once, and decides nothing.
 """
@@ -20,7 +20,7 @@ from bench.base.provenance import describe, source_digest
 from bench.experiments.situations import mapped_laws, plan_of
 from bench.experiments.tables.schema import table_of
 from bench.experiments.tables.store import read, write_table
-from bench.findings.selection.regions import NAMES, STUDY, Verdict, decide, with_words
+from bench.findings.selection.regions import NAMES, STUDY, Verdict, decide, is_drawn, with_words
 from bench.running import run
 from bench.studies.study import make_parser
 from tasks.situation import COORDINATES, NOMINAL, Situation, read_situation, rounded
@@ -48,20 +48,25 @@ def planes() -> list[Situation]:
     return list(dict.fromkeys((*each, *(NOMINAL._replace(zeta=zeta) for zeta in FINE))))
 
 
-def draw(count: int, seed: int) -> list[Situation]:
-    """Return situations drawn at random: each number nominal or anywhere between its levels, two others at least."""
+def draw(count: int, seed: int, names: Iterable[str]) -> list[Situation]:
+    """Return situations drawn at random: each number nominal or anywhere between its levels, two others at least.
+
+    Args:
+        names: of the numbers that may differ from the nominal ones.
+    """
     found: list[Situation] = []
     rng = np.random.default_rng(seed)
     while len(found) < count:
-        values = []
-        for name, one in COORDINATES.items():
+        values = dict(NOMINAL._asdict())
+        for name in names:
+            one = COORDINATES[name]
             finite = [level for level in one.levels if math.isfinite(level)]
             low, high = min(finite), max(finite)
             place, is_other = rng.random(2)
             drawn = low * (high / low) ** place if one.is_ratio else low + (high - low) * place
-            values.append(drawn if name == "zeta" or is_other < DIFFERS else one.nominal)
-        at = rounded(values)
-        if sum(value != one.nominal for value, one in zip(at[1:], [*COORDINATES.values()][1:], strict=True)) > 1:
+            values[name] = drawn if name == "zeta" or is_other < DIFFERS else one.nominal
+        at = rounded(values.values())
+        if is_drawn(at):
             found.append(at)
     return found
 
@@ -110,7 +115,8 @@ def verdicts_of(rows: pd.DataFrame) -> dict[Situation, Verdict]:
 
 def make_map(workers: int, folder: Path) -> pd.DataFrame:
     """Return the rows of the map: planes, drawn situations, then rounds of halfway points."""
-    rows, every = kept(folder), [*planes(), *draw(DRAWN, SEED)]
+    rows = kept(folder)
+    every = [*dict.fromkeys((*verdicts_of(rows), *planes(), *draw(DRAWN, SEED, NAMES[:-1])))]
     for number in range(ROUNDS + 1):
         rows = run_lacking(rows, every, folder / f"round-{number}", workers)
         every = [*verdicts_of(rows)]
@@ -142,7 +148,7 @@ def main() -> None:
         keep(make_map(words.workers, STUDY), STUDY, drawn=DRAWN, seed=SEED)
     if "held-out" in wanted:
         folder = STUDY / "held-out"
-        rows = run_lacking(kept(folder), draw(HELD_OUT, HELD_OUT_SEED), folder / "round-0", words.workers)
+        rows = run_lacking(kept(folder), draw(HELD_OUT, HELD_OUT_SEED, NAMES), folder / "round-0", words.workers)
         keep(rows, folder, drawn=HELD_OUT, seed=HELD_OUT_SEED)
 
 

@@ -102,6 +102,7 @@ NAMES = {
     "inertia": "inertia",
     "unevenness": "unevenness",
     "spin": "spin",
+    "jump": "time of a jump of the goal",
 }
 """What the numbers of a situation are called in a sentence."""
 
