@@ -8,9 +8,9 @@ from support.command_line import bench
 
 from bench.base.provenance import ROOT
 from bench.experiments.tables import store
-from bench.findings.selection import needs
-from bench.findings.selection.measured import measured
-from bench.findings.selection.words import faster_under_a_bound
+from bench.findings.selection.regions import Rule, compare_ours, find_bounds, find_default, find_regions
+from bench.findings.selection.robots import ARM, word_of
+from bench.findings.selection.words import describe_bounds
 from bench.law.contenders.registry import find_contender
 
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -71,17 +71,14 @@ def test_audit_says_what_the_readme_says_of_the_error(capsys, here):
     assert "slope at the goal 0.5" in said.out
 
 
-def test_answer_is_the_one_that_the_rule_gives():
-    advice = needs.advice(ROOT / "results" / "reference")
+def test_answer_is_the_one_that_the_map_gives():
     [answer] = re.findall(r"\*\*The answer\.\*\* (.*?)\n\n", TEXT, re.DOTALL)
-    arm, default, forgetful, own = re.findall(r"`([\w-]+)`", answer)
-    assert (arm, default) == (advice.of(needs.ARM).law, advice.default.law)
-    assert forgetful == advice.of(needs.FORGETS).law
+    said, [widest, *_] = " ".join(answer.split()), find_regions()
+    default, forgetful, continuous, arm, own = re.findall(r"`([\w-]+)`", said)
+    assert (default, arm) == (widest.law, word_of(ARM, ROOT / "results" / "reference").law)
+    assert forgetful == find_default(rule=Rule(forgetful=True))
+    assert continuous == find_default(rule=Rule(continuous=True))
     assert find_contender(own).regulator.is_ours()
-    assert not find_contender(default).regulator.is_ours()
-    bounded = faster_under_a_bound(measured(ROOT / "results" / "reference"), default)
-    assert (
-        re.search(r"bounded by (\S+ rad/s²) .* (\d+ % sooner in the median)", bounded).groups()
-        == re.search(r"bounded by (\S+ rad/s²) .* (\d+ % sooner in the median)", " ".join(answer.split())).groups()
-    )
-    assert bounded.partition("s² ")[2].startswith(arm)
+    ties, beats = (f"{share:.0%}".replace("%", " %") for share in compare_ours(own))
+    for words in (f"{widest.unbeaten:.0%}".replace("%", " %"), ties, beats, describe_bounds(find_bounds(default))):
+        assert words in said

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Sequence
 
@@ -80,18 +81,16 @@ def name_criteria(names: Sequence[str]) -> str:
 
 
 def describe_bounds(bounds: dict[str, list[tuple[float, bool]]]) -> str:
-    """Say how far from the nominal situation nothing beats a law, one number at a time (`regions.find_bounds`)."""
+    """Say where nothing beats a law, one number away from the nominal situation at a time (`regions.find_bounds`)."""
     parts, free = [], []
     for name, line in bounds.items():
-        one = COORDINATES[name]
-        if all(is_unbeaten for _, is_unbeaten in line):
+        runs = itertools.groupby(line, lambda one: one[1])
+        spans = [[value for value, _ in some] for is_unbeaten, some in runs if is_unbeaten]
+        if spans and len(spans[0]) == len(line):
             free.append(NAMES[name])
-            continue
-        place = min(range(len(line)), key=lambda i: abs(one.scale(line[i][0]) - one.scale(one.nominal)))
-        low, high = (_walk(line, place, step) for step in (-1, 1))
-        parts.append(f"{NAMES[name]} {_span(one, line[low][0], line[high][0])}")
-    whatever = f"; every {together(free)} that was tried" if free else ""
-    return f"{', '.join(parts)}{whatever}"
+        elif spans:
+            parts.append(f"{NAMES[name]} {together([_span(COORDINATES[name], span[0], span[-1]) for span in spans])}")
+    return "; ".join([*parts, *([f"every {together(free)} that was tried"] if free else [])]) or "nowhere"
 
 
 NAMES = {
@@ -107,16 +106,11 @@ NAMES = {
 """What the numbers of a situation are called in a sentence."""
 
 
-def _walk(line: Sequence[tuple[float, bool]], place: int, step: int) -> int:
-    """Return the last place in a direction up to which nothing beats the law."""
-    while 0 <= place + step < len(line) and line[place + step][1]:
-        place += step
-    return place
-
-
 def _span(one: Coordinate, low: float, high: float) -> str:
     """Return a range of a number; up to or from one value where the other end is the extreme one that was tried."""
     low_text, high_text = (one.text.format(value) for value in (low, high))
+    if low == high:
+        return low_text
     if low == min(one.levels):
         return f"up to {high_text}"
     return f"from {low_text}" if high == max(one.levels) else f"{low_text} to {high_text}"
