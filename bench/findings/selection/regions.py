@@ -13,6 +13,7 @@ The rule was committed before the map was run:
 
 from __future__ import annotations
 
+import collections
 import functools
 from collections.abc import Sequence
 from pathlib import Path
@@ -218,15 +219,9 @@ def find_regions(folder: Path = STUDY, rule: Rule = RULE, some: Sequence[Situati
     """Return the region of each advised law, the widest first."""
     verdicts = decide_all(folder, rule)
     drawn = [verdicts[at] for at in (some or verdicts) if is_drawn(at)]
-    laws = {one.law for one in drawn if one.law}
-    found = [
-        Region(
-            law,
-            sum(one.law == law for one in drawn) / len(drawn),
-            sum(law in one.unbeaten for one in drawn) / len(drawn),
-        )
-        for law in laws
-    ]
+    advised = collections.Counter(one.law for one in drawn if one.law)
+    unbeaten = collections.Counter(law for one in drawn for law in one.unbeaten)
+    found = [Region(law, count / len(drawn), unbeaten[law] / len(drawn)) for law, count in advised.items()]
     return sorted(found, key=lambda one: (-one.advised, one.law))
 
 
