@@ -130,16 +130,6 @@ def test_each_thing_told_of_a_goal_makes_the_error_smaller():
     assert errors[0] > 5.0 * errors[1] > 500.0 * errors[2]
 
 
-def test_least_settling_time_is_reached_by_full_thrust_and_full_brakes():
-    angle, bound = 2.0, 30.0
-    turned = math.sqrt((1.0 + TOLERANCE) * angle / bound)
-    left, speed = angle - 0.5 * bound * turned**2, bound * turned
-    braking = robustness_theory.least_settling(angle, bound, TOLERANCE) - turned
-    left, speed = left - speed * braking + 0.5 * bound * braking**2, speed - bound * braking
-    assert left == pytest.approx(TOLERANCE * angle)  # enters the band, and stops at its far edge:
-    assert left - 0.5 * speed**2 / bound == pytest.approx(-TOLERANCE * angle)
-
-
 @pytest.mark.parametrize(("factor", "is_held"), [(0.99, False), (1.01, True)])
 def test_noise_holds_a_law_of_constant_force_if_it_is_more_than_two_ticks_of_it(factor, is_held):
     """One tick of U makes the rate U h before the law can measure it; the next, of -U - Kv U h, takes it."""

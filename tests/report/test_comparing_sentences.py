@@ -10,7 +10,7 @@ from bench.experiments.tables.schema import RESULTS
 from bench.findings.perturbed import Threshold, Way
 from bench.findings.selection import needs
 from bench.findings.selection.measured import measured
-from bench.findings.selection.words import compare, leaders, standing
+from bench.findings.selection.words import compare, standing
 from report.figures.arms import arm_ranking
 from report.figures.comparison import a_new_law, comparison
 from report.figures.contact import as_arms_run, in_contact
@@ -85,11 +85,6 @@ def plant_comparison(**numbers):
     return compare(plant_numbers([OURS], **numbers), OURS, ADVISED)
 
 
-def plant_leader(criterion, **numbers):
-    """Name what is best by a criterion."""
-    return leaders(plant_numbers([FEEDBACK], **numbers), criterion, str)
-
-
 def plant_peak(**columns):
     """State how our law compares at equal peak command."""
     rows = comparison.at_peak(Run(FOLDER))
@@ -129,8 +124,6 @@ SENTENCES = {
     "noise": (plant_fact(half_turn_noise.facts, "blind_middle"), [({}, "25"), ({"outcome": "settled"}, "100")]),
     "least": (plant_fact(failure_map.facts, "least"), [({}, "135"), ({"alpha0": 2.0}, "114")]),
     "ours": (plant_comparison, [({}, "better by effort"), ({"effort": 1e9}, "worse by effort")]),
-    "time": (plant_leader, [({"criterion": "time"}, "gibbs"), ({"criterion": "time", "time": 1e-9}, FEEDBACK)]),
-    "effort": (plant_leader, [({"criterion": "effort"}, MATRIX), ({"criterion": "effort", "effort": 1e-9}, FEEDBACK)]),
 }
 
 

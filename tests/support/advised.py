@@ -20,8 +20,6 @@ from tasks.situation import COORDINATES
 GENERAL = ("time", "worst", "effort", "peak", "variation", "tick")
 PERTURBED = {
     "variation": ("delay", 0.0, "variation"),
-    "matched": ("equal-peak", 100.0, "settling_time_s"),
-    "bounded": ("saturation", 10.0, "settling_time_s"),
     "late": ("delay", 0.02, "settling_time_s"),
 }
 LEVELS = {"time": 0.99, "worst": 1.0, "peak": 1.0, "chatter": 1.0}
@@ -100,7 +98,6 @@ class Asked:
         number = self.number
         return {
             needs.EVERYWHERE: lambda: (number("unsettled") + number("lost") == 0) & (number("detour") < 1.5),
-            needs.QUIET: lambda: number("chatter") <= 1.0,
             needs.UNHELD: lambda: number("held") > 0.1,
             needs.NEARLY: lambda: number("unsettled") <= 0.1 + 1e-9,
             needs.TRIED: lambda: number("variation").notna(),

@@ -12,11 +12,10 @@ from scipy.stats import binomtest
 import tasks
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
-from bench.findings.selection import needs
 from bench.findings.selection.robots import VELOCITY
 from bench.law.contenders.registry import find_contender
 from report.figures.kit.families import word
-from support.advised import accelerations, drawn_verdicts, velocities, widest
+from support.advised import drawn_verdicts, velocities, widest
 from support.leads_of_arms import (
     CONTROLS,
     FEEDBACK,
@@ -81,12 +80,6 @@ def recompute_comparison():
         medians = own.groupby("law")["settling_time_s"].median()
         said |= {f"within_{angle}": own["start_id"].nunique()}
         said |= {f"apart_{angle}": f"{np.ceil(100 * (medians.max() / medians.min() - 1) - 1e-9):.0f}"}
-    asked = accelerations()
-    sure = [law for law in asked.laws if all(asked.has(fact).get(law, False) for fact in needs.SURE)]
-    for key, by in {"fastest": "time", "surest": "worst", "sparest": "effort", "peak_fastest": "matched"}.items():
-        known = [law for law in asked.laws if law in asked.values[by]]
-        every, some = (asked.front(laws, (by,)) for laws in (known, [law for law in known if law in sure]))
-        said[key] = name_together(every) + ([] if set(every) <= set(some) else name_together(some))
     return said | {"fastest_s": f"{middle.min():.2f}", "slowest_s": f"{middle.max():.2f}"}
 
 

@@ -156,8 +156,6 @@ MEASURES: dict[str, Measure] = {
     "chatter": over_uniform("rest_change"),
     "variation": perturbed("delay", 0.0, "variation"),
     "overshoot": in_degrees(perturbed("saturation", BOUND, "overshoot_rad")),
-    "matched": settled_under("equal-peak", PEAK),
-    "bounded": settled_under("saturation", BOUND),
     "late": settled_under("delay", LATE_S),
     "arms": on_arms("settled"),
     "within": on_arms("range"),

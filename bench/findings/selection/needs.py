@@ -5,7 +5,7 @@ Where a robot takes torques and a model cancels the inertia, the map (`regions`)
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import NamedTuple
 
 from bench.findings.claims.adequacy import DETOUR, HELD_RAD, SETTLED_SHARE
@@ -52,7 +52,6 @@ def _settles(found: Measured, law: str) -> bool:
 
 
 EVERYWHERE = Fact("settles from every start of the run, without unwinding", _settles)
-QUIET = Fact("its command is quiet at rest", lambda found, law: found.number("chatter", law) <= CHATTER)
 UNHELD = Fact(
     f"no worst-case noise up to {HELD_RAD:g} rad can trap it at a 180° rotation",
     lambda found, law: found.number("held", law) > HELD_RAD,
@@ -63,7 +62,6 @@ NEARLY = Fact(
 )
 TRIED = Fact("was perturbed in this run", lambda found, law: law in found.values["variation"])
 
-SURE = (TRIED, EVERYWHERE, QUIET)
 FACTS = {"tried": TRIED, "everywhere": EVERYWHERE, "nearly": NEARLY}
 """The facts by their words in robots.toml."""
 
@@ -93,9 +91,3 @@ def decide(need: Need, found: Measured) -> Decision:
     kept = front(found, best, GENERAL)
     law = simplest(found, kept)
     return Decision(need, law, tuple(one for one in kept if one != law), tuple(best), asked)
-
-
-def best_by(found: Measured, criterion: str, laws: Sequence[str]) -> tuple[str, ...]:
-    """Return the laws that were measured by a criterion and that no other is better than: several tie."""
-    asked = [law for law in laws if len(found.values[criterion].get(law, ()))]
-    return tuple(front(found, asked, (criterion,)))

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Sequence
 
 from bench.findings.selection.measured import GENERAL, Measured
-from bench.findings.selection.needs import SURE, Decision, best_by, has_all
+from bench.findings.selection.needs import Decision
 from tasks.situation import COORDINATES, Coordinate
 
 NAMED = 3
@@ -35,20 +35,6 @@ def together(words: Sequence[str]) -> str:
         return f"{', '.join(words[:NAMED])} and {more} more"
     *first, last = words or ("",)
     return f"{', '.join(first)} and {last}" if first else last
-
-
-def leaders(found: Measured, criterion: str, called: Called) -> str:
-    """Return what is best by a criterion, of all laws and of those that settle from every start: one law, or a tie."""
-    every = best_by(found, criterion, found.laws)
-    sure = best_by(found, criterion, [law for law in found.laws if has_all(found, law, SURE)])
-    if not sure or set(every) <= set(sure):
-        return _tie(every, called)
-    return f"{_tie(every, called)}; among laws that settle from every start: {_tie(sure, called)}"
-
-
-def _tie(laws: Sequence[str], called: Called) -> str:
-    named = together([called(law) for law in laws]) or "none"
-    return f"{named} (a tie)" if len(laws) > 1 else named
 
 
 def cost(found: Measured, law: str) -> str:

@@ -93,17 +93,6 @@ def tracking_rms(
     return math.sqrt(float((tail**2).sum(axis=1).mean()))
 
 
-def least_settling(angle: float, bound: float, tolerance: float) -> float:
-    """Least time [s] in which any law with |u| <= bound settles a turn from rest to within `tolerance` of it.
-
-    The angle shrinks no faster than |omega|, and what has entered the band must be able to stop before its far edge:
-    full thrust to (1 + tolerance) of the angle and full brakes, up to where the band begins.
-
-        2 sqrt((1 + tolerance) angle/bound) - sqrt(4 tolerance angle/bound)
-    """
-    return (2.0 * math.sqrt(1.0 + tolerance) - math.sqrt(4.0 * tolerance)) * math.sqrt(angle / bound)
-
-
 def is_held(equation: Equation, kp: float, kv: float, worst_error: float, period_s: float = STEP_S) -> bool:
     """Tell whether the worst noise holds a law at 180°: its scalar equation, evaluated every tick on a wrong angle.
 

@@ -85,19 +85,9 @@ def percent(part: float) -> str:
     return f"{100 * part:.0f}" if part in (0.0, 1.0) else f"{100 * part:.1f}"
 
 
-def slowest(values: pd.Series) -> str:
-    """Return the longest of some times."""
-    return f"{values.max():.2f}" if np.isfinite(values.max()) else NEVER
-
-
 def seconds(values: pd.Series, level: float = 0.5) -> str:
     """Return a quantile of times with its interval; among the failures it is never reached."""
     return spelled(quantile_estimate(values.to_numpy(), level), lambda value: f"{value:.3f}")
-
-
-def three_figures(values: pd.Series) -> str:
-    """Return the median of numbers of any size with its interval."""
-    return spelled(quantile_estimate(values.to_numpy(), 0.5), lambda value: html.number(float(f"{value:.3g}")))
 
 
 def large(value: float) -> str:

@@ -9,8 +9,7 @@ import numpy as np
 import pandas as pd
 
 from bench.experiments.tables import read
-from bench.findings.selection.measured import GENERAL, front, measured
-from bench.findings.selection.words import leaders
+from bench.findings.selection.measured import measured
 from report.figures.comparison import cells
 from report.figures.comparison.angle import curves
 from report.figures.kit import families, html
@@ -44,8 +43,6 @@ def facts(run: Run) -> dict:
     """Return the numbers in the sentences of the page."""
     return {
         **of_all(uniform(run), cells.directed_starts(ideal(run))),
-        **(in_run(lambda: best(run)) or {}),
-        **(in_run(lambda: of_peak(at_peak(run))) or {}),
     }
 
 
@@ -86,32 +83,15 @@ def near(rows: pd.DataFrame) -> dict:
     return found
 
 
-def best(run: Run) -> dict:
-    """Return what no law beats by the criteria of `selection`, ties named as ties."""
-    found = measured(run.folder)
-    names = {"fastest": "time", "surest": "worst", "sparest": "effort", "peak_fastest": "matched"}
-    return {key: leaders(found, criterion, families.word) for key, criterion in names.items()}
-
-
-def of_peak(rows: pd.DataFrame) -> dict:
-    """Return the peak command, and from how many starts."""
-    times = cells.costs(rows, "settling_time_s")
-    return {"peak": html.number(cells.LEVEL), "peak_starts": len(times)}
-
-
 def tables(run: Run) -> dict:
-    """Return all laws, and those whose command has a bound at equal peak command."""
-    return {
-        "all_laws": all_laws(run),
-        "at_peak": in_run(lambda: at_equal_peak(at_peak(run))),
-    }
+    """Return all laws."""
+    return {"all_laws": all_laws(run)}
 
 
 def all_laws(run: Run) -> html.Markdown | None:
-    """Return a row a law: what settles, how fast, effort, peak, operations, lost starts, what noise holds, front."""
+    """Return a row a law: what settles, how fast, effort, peak, operations, lost starts, what noise holds."""
     rows, tried, counted = uniform(run), cells.directed_starts(ideal(run)), run.any_rows("costs", **read.FREE_BODY)
     held = in_run(lambda: measured(run.folder).values["held"]) or {}
-    ahead = in_run(lambda: find_front(run)) or ()
     times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
 
     def line(name: str) -> dict:
@@ -126,31 +106,6 @@ def all_laws(run: Run) -> html.Markdown | None:
             "A tick": cells.tick(counted, name),
             "Directed, lost": cells.count_lost(tried[tried["contender"] == name]),
             "Held": html.cell(float(held[name][0])) if name in held else html.MISSING,
-            "Front": "●" if name in ahead else "",
-        }
-
-    return cells.by_law(times, line)
-
-
-def find_front(run: Run) -> list[str]:
-    """Return the laws that no other beats by one criterion without being worse by another, controls aside."""
-    found = measured(run.folder)
-    laws = [law for law in found.laws if law not in families.CONTROLS]
-    return front(found, laws, ("unsettled", "lost", *GENERAL))
-
-
-def at_equal_peak(rows: pd.DataFrame) -> html.Markdown | None:
-    """Return a row a law: the gain that the peak allows, what settles, median and slowest time, and effort."""
-    times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
-
-    def line(name: str) -> dict:
-        own = rows[rows["contender"] == name]
-        return {
-            "$K_p$": f"{own['kp'].iloc[0]:.1f}",
-            "Settles [%]": cells.settles(own),
-            "Median [s]": cells.seconds(times[name]),
-            "Slowest [s]": cells.slowest(times[name]),
-            "Effort": cells.three_figures(efforts[name]),
         }
 
     return cells.by_law(times, line)

@@ -12,11 +12,12 @@ from matplotlib.patches import Rectangle
 import tasks
 from bench.experiments.tables.read import with_contender
 from bench.findings.perturbed import FOLLOWED_RAD, LOST, Threshold, Way, by_level, perturbations, studied, thresholds
+from bench.findings.theory import robustness_theory
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import NotInRun, Run, in_run
 from report.figures.kit.spelling import listed
-from report.figures.robustness.rows import along, laws, starts
+from report.figures.robustness.rows import along, gains, laws, starts
 
 AXES = perturbations()
 
@@ -72,7 +73,10 @@ def facts(run: Run) -> dict:
     """Return how laws differ under the perturbations, without the negative controls."""
     each = found(run)
     apart, _ = differing(each)
+    kp, kv = gains(along(run, "delay"))
     return {
+        "limit": f"{robustness_theory.least_rate(kp, kv):g}",
+        "margin_ms": f"{1000.0 * robustness_theory.delay_margin(kp, kv):.0f}",
         "laws": len([law for law in each if law not in families.CONTROLS]),
         "axes": len(AXES),
         "lost": f"{100 * LOST:g}",
