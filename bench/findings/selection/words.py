@@ -76,7 +76,10 @@ def describe_bounds(bounds: dict[str, list[tuple[float, bool]]]) -> str:
             free.append(NAMES[name])
         elif spans:
             parts.append(f"{NAMES[name]} {together([_span(COORDINATES[name], span[0], span[-1]) for span in spans])}")
-    return "; ".join([*parts, *([f"every {together(free)} that was tried"] if free else [])]) or "nowhere"
+    if free:
+        *first, last = free
+        parts.append(f"every {', '.join(first)}{' and ' if first else ''}{last} that was tried")
+    return "; ".join(parts) or "nowhere"
 
 
 NAMES = {
