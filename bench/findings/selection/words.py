@@ -69,7 +69,8 @@ def name_criteria(names: Sequence[str]) -> str:
 def describe_bounds(bounds: dict[str, list[tuple[float, bool]]]) -> str:
     """Say where nothing beats a law, one number away from the nominal situation at a time (`regions.find_bounds`)."""
     parts, free = [], []
-    for name, line in bounds.items():
+    for name, every in bounds.items():
+        line = [one for one in every if name != "jump" or one[0]]  # 0 is no jump, and no end of a range
         runs = itertools.groupby(line, lambda one: one[1])
         spans = [[value for value, _ in some] for is_unbeaten, some in runs if is_unbeaten]
         if spans and len(spans[0]) == len(line):
