@@ -9,7 +9,7 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
-from report.figures.comparison import cells, comparison
+from report.figures.comparison import cells
 from report.figures.kit import families
 from report.figures.kit.page import Run
 
@@ -71,9 +71,3 @@ class Unperturbed(Run):
 
     def any_rows(self, table, **words):
         return super().any_rows(table, **words).iloc[: 0 if table == "robustness" else None]
-
-
-def test_page_says_so_where_there_are_no_rows_at_equal_peak():
-    run = Unperturbed(RESULTS / "reference")
-    assert comparison.tables(run)["at_peak"] is None
-    assert "peak_starts" not in comparison.facts(run)

@@ -60,16 +60,6 @@ def worst(rows: pd.DataFrame, name: str) -> float:
     return there[0] if place > len(there) - 1 - place else there[-1]
 
 
-def with_unit(level: float, name: str) -> str:
-    """Return a level with its unit, in a unit that suits it."""
-    unit = tasks.axis(name).unit
-    if unit == "s":
-        return f"{1000.0 * level:g} ms"
-    if unit == "Hz" and level >= 1000.0:
-        return f"{level / 1000.0:g} kHz"
-    return f"{level:g}" if unit == "1" else f"{level:g} {unit.replace('^2', '²')}"
-
-
 def medians(rows: pd.DataFrame, column: str = "time_s") -> pd.DataFrame:
     """Median of a column: a row a level, a column a law; negative controls left out."""
     kept = rows[rows["contender"].isin(laws(rows, controls=False))].groupby(["level", "contender"], observed=True)
