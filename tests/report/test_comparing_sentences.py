@@ -117,7 +117,7 @@ SENTENCES = {
     "order": (plant_order, [((1, 2, 3), "dearest, as the paper"), ((3, 2, 1), "dearest, other than the paper")]),
     "peak": (
         plant_peak,
-        [({}, "(1 of 15"), ({"settling_time_s": 9.0}, "median settling time 9 s")],
+        [({}, "(1 of 22"), ({"settling_time_s": 9.0}, "median settling time 9 s")],
     ),
     "loops": (plant_loops, [({}, "3 dead, 4 away"), ({"dead": 0, "away": 1}, "0 dead, 55 away")]),
     "unstable": (plant_fact(as_arms_run.facts, "unstable"), [({}, "Panda"), ({"radius": 0.5}, "none")]),

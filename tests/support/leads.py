@@ -4,6 +4,7 @@ A value is the text that a key shows, or a list: every number of that text, and 
 """
 
 import collections
+import itertools
 
 import numpy as np
 import pandas as pd
@@ -15,7 +16,7 @@ from bench.findings import claims
 from bench.findings.selection.robots import VELOCITY
 from bench.law.contenders.registry import find_contender
 from report.figures.kit.families import word
-from support.advised import drawn_verdicts, velocities, widest
+from support.advised import drawn_verdicts, map_verdicts, velocities, widest
 from support.leads_of_arms import (
     CONTROLS,
     FEEDBACK,
@@ -34,6 +35,7 @@ from support.leads_of_arms import (
 )
 from support.tables import table
 from tasks.condition import condition_at
+from tasks.situation import COORDINATES
 
 
 def name_together(laws):
@@ -123,14 +125,29 @@ def recompute_velocities():
     return {"log_limit": f"{rows['k_dt'].iloc[0]:.3g}", "lead": said}
 
 
+def list_bounds(law):
+    """Return the ends of the ranges, one number away from the nominal situation, in which nothing beats a law."""
+    verdicts, found, nominal = map_verdicts(), [], tuple(one.nominal for one in COORDINATES.values())
+    for i, (name, one) in enumerate(COORDINATES.items()):
+        line = sorted(at for at in verdicts if at[:i] + at[i + 1 :] == nominal[:i] + nominal[i + 1 :])
+        has = {at[i]: law in verdicts[at][1] for at in line if name != "jump" or at[i]}
+        for is_unbeaten, some in itertools.groupby(has, has.get):
+            low, *_, high = [*(ends := [*some]), ends[-1]]
+            if is_unbeaten and not all(has.values()):
+                found += [high] if low in (high, min(one.levels)) else [low] if high == max(one.levels) else [low, high]
+    return [f"{value:g}" for value in found]
+
+
 def recompute_advice():
     """Return what is said of the law of the widest region, of ours, and of the other regions."""
     (law, _, unbeaten), *others = widest()
     rows, drawn = table("situations", "situations"), drawn_verdicts()
     nominal = rows[(rows["zeta"] == 1.0) & (rows["law"] == law) & (rows["period"] == 0.01)]
-    nominal = nominal[np.isinf(nominal["bound"]) & (nominal[["delay", "unevenness", "spin"]] == 0.0).all(axis=1)]
+    nominal = nominal[
+        np.isinf(nominal["bound"]) & (nominal[["delay", "unevenness", "spin", "jump"]] == 0.0).all(axis=1)
+    ]
     [time] = nominal.loc[nominal["inertia"] == 1.0, "time"]
-    said = [word(law), 0.1, 180, f"{unbeaten:.0%}", 100, 99, f"{time / 10:.2f} s", word(LATE), 2026]
+    said = [word(law), 0.1, 180, f"{unbeaten:.0%}", *list_bounds(law), 100, 99, f"{time / 10:.2f} s", word(LATE), 2026]
     for place in (2, 3):
         said.append(f"{sum(LATE in one[place] for one in drawn) / len(drawn):.0%}")
     front = list(said)

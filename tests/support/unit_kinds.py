@@ -3,7 +3,7 @@
 import dataclasses
 from pathlib import Path
 
-from bench.experiments import plan
+from bench.experiments import plan, situations
 from bench.experiments.choice import EVERYTHING, Choice
 from bench.experiments.experiment import Asked, Unit, known_experiments
 from bench.experiments.map import plan_of
@@ -11,6 +11,7 @@ from bench.experiments.suites import suite
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import find_contender
 from support.user_law import DAMPER, law_text
+from tasks.situation import NOMINAL
 
 
 def plan_of_all_kinds(folder: Path) -> plan.Plan:
@@ -43,6 +44,7 @@ def plan_of_all_kinds(folder: Path) -> plan.Plan:
         Unit("costs", "mine"),
         Unit("jacobians", arm="ur5e", count=1, total=1),
         *plan_of([ours], 200, speeds=((0.0, 20.0),), horizon_s=1.0).units,
+        *situations.plan_of([(ours, NOMINAL)]).units,
     )
     runs = (*alone.units, *(unit for unit in on_arm if unit.experiment == "arm"), *contact[:1], *perturbed)
     kinds, asked = {unit.experiment for unit in (*runs, *made)}, Asked(suite("quick"), (ours,), EVERYTHING, **short)

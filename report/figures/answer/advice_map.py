@@ -7,7 +7,7 @@ import json
 import math
 from typing import Any
 
-from bench.findings.selection.regions import decide_all, read_map
+from bench.findings.selection.regions import decide_all, find_regions, read_map
 from bench.findings.selection.sensitivity import RULES
 from report.figures.kit import families, html, style
 from report.figures.kit.page import Run
@@ -24,7 +24,7 @@ def figures(run: Run) -> dict[str, Any]:
     )
     planes = {name: plane(name, names) for name in list(COORDINATES)[1:]}
     data = {
-        "laws": [_law(name) for name in names],
+        "laws": _colour(names),
         "rules": SHOWN,
         "zetas": [[COORDINATES["zeta"].scale(level), f"{level:g}"] for level in COORDINATES["zeta"].levels],
         "planes": planes,
@@ -79,9 +79,19 @@ def _verdict(at: Situation, words: str, laws: list[str]) -> dict[str, Any]:
     }
 
 
-def _law(name: str) -> dict[str, Any]:
-    look = style.look(name)
-    return {"name": families.word(name), "colour": [look.colour, look.dark]}
+def _colour(names: list[str]) -> list[dict[str, Any]]:
+    """Return the laws' names and colours: a law's own, or another where a law that is advised has it already."""
+    advised = [one.law for words in SHOWN for one in find_regions(rule=RULES[words])]
+    taken: dict[str, str] = {}
+    for law in dict.fromkeys(advised):
+        own = style.look(law).colour
+        free = [one for one in (own, *style.COLOURS.values(), *style.TWINS) if one not in taken.values()]
+        taken[law] = free[0]
+    colours = [taken.get(name, style.look(name).colour) for name in names]
+    return [
+        {"name": families.word(name), "colour": [one, style.TWINS[one]]}
+        for name, one in zip(names, colours, strict=True)
+    ]
 
 
 def _select(word: str, label: str, options: dict[str, str]) -> str:
