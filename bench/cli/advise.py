@@ -56,6 +56,7 @@ POSITIVE = click.FloatRange(0.0, min_open=True)
 @click.option("--delay", type=Duration(), default=0.0, show_default=True, help="From measuring to the effect, as 5ms.")
 @click.option("--rate", type=POSITIVE, default=1000.0, show_default=True, help="Control rate [Hz].")
 @click.option("--spin", type=click.FloatRange(0.0), default=0.0, show_default=True, help="Speed at the start [rad/s].")
+@click.option("--jump", type=Duration(), default=0.0, show_default="none", help="When the goal jumps, after the start.")
 @click.option("--inertia", type=POSITIVE, default=1.0, show_default=True, help="True inertia over the model's.")
 @click.option(
     "--unevenness",
@@ -74,7 +75,7 @@ POSITIVE = click.FloatRange(0.0, min_open=True)
 @click.option("--no-adversary", is_flag=True, help="Do not ask that worst-case noise cannot trap the law at 180°.")
 @click.option("--run", "is_run", is_flag=True, help="Simulate this very situation (seconds) in place of the nearest.")
 def COMMAND(
-    kp: float, kv: float, bound: float, delay: float, rate: float, spin: float, inertia: float,
+    kp: float, kv: float, bound: float, delay: float, rate: float, spin: float, jump: float, inertia: float,
     unevenness: float | None, robot: str, no_memory: bool, continuous: bool, no_adversary: bool, is_run: bool,
 ) -> None:  # fmt: skip
     """Say which law to use in your situation, which laws tie with it, and how sure that is.
@@ -93,7 +94,9 @@ def COMMAND(
     if unevenness is None:
         unevenness = UNEVEN if robot == TORQUES[1] else 0.0
     root = math.sqrt(kp)
-    wanted = rounded((kv / (2.0 * root), bound / kp, delay * root, root / rate, inertia, unevenness, spin / root))
+    wanted = rounded(
+        (kv / (2.0 * root), bound / kp, delay * root, root / rate, inertia, unevenness, spin / root, jump * root)
+    )
     rule = Rule(adversary=not no_adversary, forgetful=no_memory, continuous=continuous)
     found = _simulated(wanted, rule) if is_run else _nearest(wanted, rule)
     print_paragraphs(*_said(found, wanted, kp))
@@ -147,14 +150,15 @@ def _simulated(wanted: Situation, rule: Rule) -> Answer:
 def _said(found: Answer, wanted: Situation, kp: float) -> list[Paragraph]:
     one, unit = found.verdict, math.sqrt(kp)
     if one.law is None:
-        which = "No published law that was run has what is asked; the table shows what fails."
+        which = "No published law that was run meets the requirements; the table shows what fails."
     else:
         row = found.rows[found.rows["contender"] == one.law].iloc[0]
         tied = f" It ties with {listed(one.tied)}." if one.tied else " Nothing ties with it."
         place = "" if found.distance == 0.0 else "In the nearest situation of the map "
+        others = tied if one.asked > 1 else " No other law meets the requirements."
         which = (
-            f"Use {one.law}.{tied if one.asked > 1 else ' No other law has what is asked.'} {place}99 % of the starts "
-            f"settle in {row['time'] / unit:.3f} s ({row['time_low'] / unit:.3f} to {row['time_high'] / unit:.3f})."
+            f"Use {one.law}.{others} {place}99 % of the starts settle in {row['time'] / unit:.3f} s "
+            f"({row['time_low'] / unit:.3f} to {row['time_high'] / unit:.3f})."
         )
     lines = [Paragraph("Which law", (which,))]
     if one.ours:

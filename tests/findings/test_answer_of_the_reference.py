@@ -1,7 +1,7 @@
 """The advice of the map and of the committed run: the rules written again, and the same law wherever it is read."""
 
 import pytest
-from support import advised
+from support import advised, map_rule
 from support.pages import assert_is_whole
 
 from bench.experiments import suites
@@ -42,9 +42,9 @@ def test_robot_is_advised_as_by_the_rule_written_again(robot, again):
 
 
 def test_map_is_decided_as_by_the_rule_written_again():
-    again = advised.map_verdicts()
+    again = map_rule.map_verdicts()
     assert {at: (one.law, one.unbeaten, one.ours, one.faster) for at, one in decide_all().items()} == again
-    assert [tuple(one) for one in find_regions()] == advised.widest()
+    assert [tuple(one) for one in find_regions()] == map_rule.widest()
 
 
 def test_laws_that_are_advised_and_run_on_arms_are_in_the_suite():
@@ -100,7 +100,10 @@ def test_cards_say_in_how_many_situations_a_law_is_advised():
 
 
 def test_open_question_has_the_advised_law_among_the_later_laws_that_were_judged():
-    assert find_default() in claims.judge("C27", Results(FOLDER)).evidence.parts["answers"]
+    evidence, law = claims.judge("C27", Results(FOLDER)).evidence, find_default()
+    assert law in evidence.parts["answers"] or f"{law} (b)" in str(
+        evidence
+    )  # (b): a suite runs few laws from every directed set
 
 
 # ---------------------------------------------------------------------------------------------- the page

@@ -40,6 +40,7 @@ def test_advise_answers_a_situation_at_any_kp_as_its_rows_do(capsys, word):
     root = math.sqrt(kp)
     words = {"kp": kp, "kv": 2.0 * at.zeta * root, "delay": at.delay / root, "rate": root / at.period}
     words |= {"spin": at.spin * root, "inertia": at.inertia, "unevenness": at.unevenness}
+    words |= {"jump": at.jump / root}
     words |= {"bound": at.bound * kp} if math.isfinite(at.bound) else {}
     said = bench(capsys, "advise", *(f"--{name}={value!r}" for name, value in words.items())).out
     law = decide_again(read_map()[read_map()["situation"] == word])

@@ -16,7 +16,7 @@ from bench.findings import claims
 from bench.findings.selection.robots import VELOCITY
 from bench.law.contenders.registry import find_contender
 from report.figures.kit.families import word
-from support.advised import drawn_verdicts, map_verdicts, velocities, widest
+from support.advised import velocities
 from support.leads_of_arms import (
     CONTROLS,
     FEEDBACK,
@@ -33,6 +33,7 @@ from support.leads_of_arms import (
     recompute_pegs,
     recompute_times,
 )
+from support.map_rule import drawn_verdicts, map_verdicts, widest
 from support.tables import table
 from tasks.condition import condition_at
 from tasks.situation import COORDINATES
@@ -40,7 +41,11 @@ from tasks.situation import COORDINATES
 
 def name_together(laws):
     """Return the words of the first three laws and how many more, or of four laws and fewer all."""
-    words = [word(law) for law in laws]
+    return list_together([word(law) for law in laws])
+
+
+def list_together(words):
+    """Return the first three words and how many more, or four and fewer whole."""
     return words if len(words) <= 4 else [*words[:3], len(words) - 3]
 
 
@@ -109,12 +114,13 @@ def recompute_thresholds():
     noise = table("robustness").query(f"axis == 'half-turn-noise' and law not in {CONTROLS} and level > 0")
     left = (noise["outcome"] == "settled").groupby([noise["law"], noise["level"]]).mean().unstack()
     remembers = np.array([find_contender(law).regulator.memory is not None for law in left.index])
-    middle = max(level for level in left if (left.loc[remembers, level] == 1.0).all())
+    sided = remembers & ~left.index.isin(["predicted-side", "synergistic"])  # those whose width theory knows
+    middle = max(level for level in left if (left.loc[sided, level] == 1.0).all())
     return {
         "apart": f"{', '.join(most)} and {last}",
         "half_turn_noise.middle": f"{middle:g}",
         "half_turn_noise.blind_middle": f"{100 * left.loc[~remembers, middle].max():.0f}",
-        "half_turn_noise.memory_middle": f"{100 * left.loc[remembers, middle].min():.0f}",
+        "half_turn_noise.memory_middle": f"{100 * left.loc[sided, middle].min():.0f}",
     }
 
 
@@ -151,7 +157,7 @@ def recompute_advice():
     for place in (2, 3):
         said.append(f"{sum(LATE in one[place] for one in drawn) / len(drawn):.0%}")
     front = list(said)
-    return {"lead": [*said, *name_together([f"{word(one)} ({share:.0%})" for one, share, _ in others], str)]}, front
+    return {"lead": [*said, *list_together([f"{word(one)} ({share:.0%})" for one, share, _ in others])]}, front
 
 
 def recompute_verdicts():

@@ -136,13 +136,12 @@ def decide(rows: pd.DataFrame, rule: Rule = RULE) -> Verdict:
     order = ["peak"] if rule.least_peak else []
     kept = asked[~is_ours & ~by_published].sort_values([*order, "memory", "operations", "contender"])
     law, *tied = kept["contender"].astype(str)
-    place = list(asked["contender"].astype(str)).index(law)
     own = asked["contender"].astype(str).to_numpy()
     return Verdict(
         law,
         tuple(tied),
         tuple(own[is_ours & ~by_published]),
-        tuple(own[is_ours & beaten[place]]),
+        tuple(own[is_ours & beaten[own.tolist().index(law)]]),
         len(asked),
     )
 
@@ -208,7 +207,7 @@ def is_drawn(at: Situation) -> bool:
 
 
 class Region(NamedTuple):
-    """The drawn situations in which a law is advised, and of those drawn the share in which nothing beats it."""
+    """A law, the share of the drawn situations in which it is advised, and the share in which nothing beats it."""
 
     law: str
     advised: float

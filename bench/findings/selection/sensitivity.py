@@ -165,7 +165,7 @@ def count_agreeing(folder: Path = STUDY) -> dict[str, float]:
     Returns:
         of: how many; same: share whose nearest row advises the law that their own rows do; unbeaten: share in which
         nothing beats the advised law; half, most: median and 95 % of the time that the advised law takes longer than
-        the fastest published law that has what is asked.
+        the fastest published law that meets the requirements.
     """
     from bench.findings.selection.regions import answer
 

@@ -85,8 +85,7 @@ def _colour(names: list[str]) -> list[dict[str, Any]]:
     taken: dict[str, str] = {}
     for law in dict.fromkeys(advised):
         own = style.look(law).colour
-        free = [one for one in (own, *style.COLOURS.values(), *style.TWINS) if one not in taken.values()]
-        taken[law] = free[0]
+        taken[law] = next((one for one in (own, *style.COLOURS.values()) if one not in taken.values()), own)
     colours = [taken.get(name, style.look(name).colour) for name in names]
     return [
         {"name": families.word(name), "colour": [one, style.TWINS[one]]}
