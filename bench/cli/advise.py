@@ -61,7 +61,8 @@ POSITIVE = click.FloatRange(0.0, min_open=True)
 @click.option(
     "--unevenness",
     type=click.FloatRange(0.0, 0.5),
-    help=f"s of principal moments 1 - s, 1, 1 + s.  [default: 0; {UNEVEN:g} of torque-no-model]",
+    show_default=f"0; {UNEVEN:g} of torque-no-model",
+    help="s of principal moments 1 - s, 1, 1 + s.",
 )
 @click.option(
     "--robot",

@@ -34,9 +34,12 @@ def paragraphs(found: Measured | None) -> list[Paragraph]:
     said += [Paragraph("Ours", (_ours(law, found, default.law),)) for law in list_ours()]
     own = [law for law in (found.laws if found else ()) if found and found.tables.contenders[law].regulator.origin]
     said += [Paragraph("Yours", (f"{law}: {_compared(found, law, default.law)}",)) for law in own]
-    others = [one for one in vary()[1:] if one.law != default.law]
-    rules = [f"If {one.words}: {one.law} ({one.advised:.0%} of situations)." for one in others]
-    return [*said, Paragraph("Other rules", tuple(rules) or ("Every other rule that was tried advises the same.",))]
+    others = [
+        one for one in vary()[1:] if one.law != default.law and one.words not in ("no memory", "a continuous command")
+    ]
+    rules = "; ".join(f"if {one.words}: {one.law} ({one.advised:.0%})" for one in others)
+    text = f"{rules[:1].upper()}{rules[1:]}." if rules else "Every other rule that was tried advises the same."
+    return [*said, Paragraph("Other rules", (text,))]
 
 
 def _default(found: Measured | None) -> tuple[str, ...]:
@@ -59,8 +62,8 @@ def _elsewhere(default: str) -> tuple[str, ...]:
     """Return the law for each other region, for robots beside those of the map, and without memory."""
     regions = [f"{one.law} ({one.advised:.0%})" for one in find_regions()[1:] if one.advised >= 0.05]
     lines = [f"In other situations: {together(regions)}; bench advise says which."] if regions else []
-    for words, rule in (("No memory", Rule(forgetful=True)), ("A continuous command", Rule(continuous=True))):
-        lines.append(f"{words}: {find_regions(rule=rule)[0].law}.")
+    forgets, smooth = (find_regions(rule=rule)[0].law for rule in (Rule(forgetful=True), Rule(continuous=True)))
+    lines.append(f"No memory: {forgets}. A continuous command: {smooth}.")
     decided = {robot.takes: word_of(robot, REFERENCE) for robot in ROBOTS.values()}
     for takes, one in decided.items():
         if one and one.law:
@@ -83,4 +86,5 @@ def _ours(law: str, found: Measured | None, default: str) -> str:
 def _compared(found: Measured | None, law: str, default: str) -> str:
     if found is None or not {law, default} <= set(found.laws):
         return f"This run cannot compare it with {default}."
-    return f"In this run: {compare(found, law, default)}"
+    said = compare(found, law, default)
+    return f"In this run: {said[0].lower()}{said[1:]}"
