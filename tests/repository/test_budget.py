@@ -11,7 +11,7 @@ LINES = {
     "bench/__main__.py": 31,
     "bench/audit": 2_275,
     "bench/base": 550,
-    "bench/cli": 2_546,
+    "bench/cli": 2_551,
     "bench/engines": 6_400,
     "bench/experiments": 5_344,
     "bench/export": 2_068,
