@@ -1,4 +1,4 @@
-"""The map of advice: its rows against episodes run anew, its rule against one written again, and `bench advise`."""
+"""The map of advice: its rows against new episodes, its rule against a second implementation, and `bench advise`."""
 
 import math
 

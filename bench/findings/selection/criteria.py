@@ -50,8 +50,8 @@ class Criterion(NamedTuple):
     form: str = "{:.3g}"
 
 
-LATE_S, BOUND, PEAK = 0.02, 10.0, 100.0
-"""The level of each perturbation at which laws are asked: the hardest, but for peak (the paper's own, at kp = 100)."""
+LATE_S, BOUND = 0.02, 10.0
+"""The level of each perturbation at which laws are compared: the largest delay [s], the smallest bound [rad/s^2]."""
 LATE_MS = 1e3 * LATE_S
 
 

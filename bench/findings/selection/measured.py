@@ -49,14 +49,14 @@ class Measured(NamedTuple):
         return list(self.tables.contenders)
 
     def number(self, criterion: str, law: str) -> float:
-        """Return a criterion of a law; not a number if it was not asked."""
+        """Return a criterion of a law; not a number if the law was not run for it."""
         values = self.values[criterion].get(law)
         return math.nan if values is None or not len(values) else float(statistic(BY_NAME[criterion])(values))
 
     def beats(self, criterion: str, law: str, other: str) -> bool:
         """Whether a law is better by a criterion, notably, and not by the chance of these starts.
 
-        Notably: by more than the criterion's `notable` and `least`. Both are asked the same starts, so what is
+        Notably: by more than the criterion's `notable` and `least`. Both have the same starts, so what is
         resampled is the start, and what must not change its sign the difference (a paired bootstrap). Of maxima: at
         least EXCEEDING of the other's starts exceed all of the law's (S. Rosenbaum, Ann. Math. Statist. 25, 1954).
         """

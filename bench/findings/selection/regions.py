@@ -182,11 +182,11 @@ class Answer(NamedTuple):
     agree: tuple[int, int] | None
 
 
-def answer(asked: Situation, rule: Rule = RULE, folder: Path = STUDY) -> Answer:
+def answer(wanted: Situation, rule: Rule = RULE, folder: Path = STUDY) -> Answer:
     """Return the verdict on the situation of the map that is nearest to the user's."""
     verdicts = decide_all(folder, rule)
     every = list(verdicts)
-    away = np.linalg.norm(_scaled(folder) - np.array(asked.scaled()), axis=1)
+    away = np.linalg.norm(_scaled(folder) - np.array(wanted.scaled()), axis=1)
     nearest = np.argsort(away, kind="stable")
     at = every[nearest[0]]
     law = verdicts[at].law
