@@ -105,7 +105,7 @@ class Situation(NamedTuple):
         )
 
     def starts(self, count: int, seed: int) -> list[Start]:
-        """Return orientations spread evenly over SO(3), with the initial spin or the goals that jump of the situation."""
+        """Return orientations spread evenly over SO(3), with the spin or the jumping goals of the situation."""
         speed = self.spin * math.sqrt(KP)
         every = known_axes()["spin"].starts(count, seed, speed) if speed else spread(count, seed, 0.0)
         if self.jump:
