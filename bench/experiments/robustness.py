@@ -17,7 +17,6 @@ from bench.engines.metrics.registry import metrics_of
 from bench.experiments.choice import Choice
 from bench.experiments.columns import SINGLE, of_metrics, read_table
 from bench.experiments.episode_rows import episode_columns, lost_numbers, measured_columns
-from bench.experiments.equal_peak import gains_at
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit
 from bench.experiments.suites import Robustness
 from bench.law.contender import Contender
@@ -74,57 +73,44 @@ def _takes_part(one: Contender, part: Robustness, choice: Choice) -> bool:
 
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
-    """Return one row a level and start; none at a level whose command the law has no gains for."""
+    """Return one row a level and start."""
     from bench.engines.simulate_bodies import run_disturbed as run
 
     return simulated(settings, unit, run)
 
 
-def simulated(settings: Settings, unit: Unit, simulate: Callable, gains: Callable = gains_at) -> pd.DataFrame:
-    """Return one row a level and start; none at a level whose command the law has no gains for.
-
-    The starts and the noise are the same for every law.
+def simulated(settings: Settings, unit: Unit, simulate: Callable) -> pd.DataFrame:
+    """Return one row a level and start. The starts and the noise are the same for every law.
 
     Args:
-        simulate: makes the numbers of the rows, as `run_disturbed`. gains(law, peak): those that give the peak.
+        simulate: makes the numbers of the rows, as `run_disturbed`.
     """
     one, axis, seed = settings.contender(unit.contender), tasks.axis(unit.selector), settings.seed
     metrics, parts = metrics_of(on_arm=False), []
     for level in axis.levels:
         condition = condition_at(axis, level)
-        chosen = gains(one, condition.peak) if condition.peak else settings.gains
-        if chosen is not None:
-            some = axis.starts(unit.count, seed, level)
-            limits = _limits(chosen, unit.horizon_s)
-            rows = _rows(settings, some, condition, limits, simulate(one, some, condition, limits, metrics, seed))
-            parts.append(pd.DataFrame({"axis": axis.name, "level": level, **rows}))
-    if not parts:
-        return pd.DataFrame()
+        some, limits = axis.starts(unit.count, seed, level), _limits(settings.gains, unit.horizon_s)
+        rows = _rows(settings, some, condition, limits, simulate(one, some, condition, limits, metrics, seed))
+        parts.append(pd.DataFrame({"axis": axis.name, "level": level, **rows}))
     coordinates = one.representation.name if one.representation else ""
     whole = pd.concat(parts, ignore_index=True)
     return whole.assign(regulator=one.regulator.name, representation=coordinates)
 
 
 def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
-    """Return the settings and the outcome, no measure.
-
-    A row has the run's gains: only the law knows those that give a peak.
-    """
+    """Return the settings and the outcome, no measure."""
     from bench.engines.plants.perturbed import EXTRA
 
     def simulate(_one: Contender, starts: list, _condition: Condition, _limits: Limits, metrics: tuple, _: int) -> Any:
         return lost_numbers(blank(len(starts), metrics, (0.0,) * EXTRA), outcome)
 
     nothing = dict.fromkeys((metric.column for metric in metrics_of(on_arm=False)), np.nan)
-    return simulated(settings, unit, simulate, lambda _one, _peak: settings.gains).assign(
-        **nothing, variation=np.nan, judged_rad=np.nan
-    )
+    return simulated(settings, unit, simulate).assign(**nothing, variation=np.nan, judged_rad=np.nan)
 
 
 def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
-    """Tell whether every level is there at which a law needs no gains of its own."""
-    axis = tasks.axis(unit.selector)
-    return {level for level in axis.levels if not condition_at(axis, level).peak} <= set(rows["level"])
+    """Tell whether every level is there."""
+    return set(tasks.axis(unit.selector).levels) <= set(rows["level"])
 
 
 def _limits(gains: Gains, horizon_s: float) -> Limits:

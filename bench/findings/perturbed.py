@@ -80,15 +80,9 @@ class Threshold(NamedTuple):
 
 
 @functools.cache
-def perturbations() -> tuple[str, ...]:
-    """Axes that perturb; one that sets the gains alone, so that peak commands are equal, does not."""
-    return tuple(name for name in tasks.axis_names() if not condition_at(tasks.axis(name), 1.0).peak)
-
-
-@functools.cache
 def ways() -> tuple[Way, ...]:
     """Return every perturbation, once for each side of its mildest level on which it has others."""
-    each = (Way(name, grows) for name in perturbations() for grows in (True, False))
+    each = (Way(name, grows) for name in tasks.axis_names() for grows in (True, False))
     return tuple(way for way in each if len(way.outwards(tasks.axis(way.axis).levels)) > 1)
 
 

@@ -16,7 +16,7 @@ import tasks
 from bench.experiments.tables.read import with_contender
 from bench.experiments.tables.statistics import quantile
 from bench.findings.judgement import Said
-from bench.findings.perturbed import WITHSTANDS, by_level, perturbations, thresholds
+from bench.findings.perturbed import WITHSTANDS, by_level, thresholds
 from bench.findings.selection.needs import CHATTER
 from bench.findings.theory.thresholds import near_goal
 from bench.law.contenders.registry import contenders
@@ -96,7 +96,6 @@ def head_lost(name: str, rows: pd.DataFrame, reason: str) -> str:
 
 def perturbed(rows: pd.DataFrame) -> list[Said]:
     """State up to which level the law withstands each perturbation, and what closed forms say of it."""
-    rows = rows[rows["axis"].isin(perturbations())] if len(rows) else rows
     if rows.empty:
         return []
     gains = float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0])

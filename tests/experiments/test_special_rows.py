@@ -8,19 +8,14 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bodies import left, motion
-from support.driving import settings
 
 import tasks
-from bench.engines.episode import FIRST_METRIC
-from bench.engines.metrics.registry import metrics_of
-from bench.engines.simulate import run
 from bench.engines.simulate_bodies import run_compensated, run_stream
 from bench.experiments.compensators import BAND_RAD, DISTURBANCES, law_of
-from bench.experiments.equal_peak import gains_at, greatest_command
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.experiments.limiters import LIMITERS
 from bench.experiments.suites import STREAMED
-from bench.law.contenders.registry import all_contenders, contenders, find_contender
+from bench.law.contenders.registry import contenders, find_contender
 from bench.law.inputs import PAPERS_GAINS, Gains
 from tasks.base import Start
 from tasks.rotations import about
@@ -86,48 +81,6 @@ def test_deadband_is_of_the_error_whatever_the_gain():
     limit = LIMITERS["deadband"].limit
     for gain in (1.0, 10.0, 300.0):
         assert limit((gain * 4.9e-3, gain * 5.1e-3, -gain * 4.9e-3), gain) == (0.0, gain * 5.1e-3, 0.0)
-
-
-METRICS = metrics_of(on_arm=False)
-SPRINGS = {
-    "rotation-matrix": 1.0,
-    "square-root": 2.0,
-    "quaternion-shortest": 2.0,
-    "hybrid": 2.0,
-    "sliding": 2.0,
-    "rotation-vector": math.pi,
-    "mrp": 4.0,
-}
-
-
-@pytest.mark.parametrize(("word", "greatest"), SPRINGS.items())
-def test_it_is_the_greatest_of_the_spring(word, greatest):
-    one = find_contender(word)
-    assert greatest_command(one) == pytest.approx(greatest, rel=1e-12)
-    gains = gains_at(one, 200.0)
-    assert gains.kp == pytest.approx(200.0 / greatest, rel=1e-12)
-    assert gains.kv == pytest.approx(2.0 * math.sqrt(gains.kp), rel=1e-15)
-
-
-@pytest.mark.parametrize("word", ["gibbs", "paielli-bach"])
-def test_a_law_without_a_greatest_command_has_no_gains(word):
-    assert gains_at(find_contender(word), 100.0) is None
-
-
-@pytest.mark.slow
-def test_at_rest_no_start_asks_for_more_and_one_asks_for_nearly_as_much():
-    """Episodes of one tick show the first commands."""
-    column = FIRST_METRIC + [metric.column for metric in METRICS].index("peak_u")
-    starts = [*tasks.start_set("uniform", 1000, seed=5), *tasks.start_set("half-turn"), *tasks.start_set("wraps")]
-    laws = [one for one in all_contenders() if not one.regulator.in_engine]
-    for one, gains in [(one, gains_at(one, 300.0)) for one in laws]:
-        if gains is None:
-            continue
-        rows = run("ideal-held", one, "free-body", starts, settings(horizon_s=1e-3, gains=gains), METRICS)
-        # of a law that tells axes apart it is that of the starts looked at
-        is_isotropic = one.representation is None and len(set(one.regulator.stiffness)) == 1
-        room = 1.0 + 1e-4 if is_isotropic else 1.1
-        assert 300.0 * 0.9 <= math.sqrt(np.nanmax(rows[:, column])) <= 300.0 * room, one.name
 
 
 NAMES = ("", *contenders("compensators"))

@@ -12,7 +12,6 @@ from bench.findings.selection import needs
 from bench.findings.selection.measured import measured
 from bench.findings.selection.words import compare, standing
 from report.figures.arms import arm_ranking
-from report.figures.comparison import a_new_law, comparison
 from report.figures.contact import as_arms_run, in_contact
 from report.figures.cost import cost
 from report.figures.failures import failure_map
@@ -85,13 +84,6 @@ def plant_comparison(**numbers):
     return compare(plant_numbers([OURS], **numbers), OURS, ADVISED)
 
 
-def plant_peak(**columns):
-    """State how our law compares at equal peak command."""
-    rows = comparison.at_peak(Run(FOLDER))
-    own = rows["contender"] == OURS
-    return a_new_law.compare_at_equal_peak(rows.assign(**{key: rows[key].where(~own, x) for key, x in columns.items()}))
-
-
 def plant_order(*times):
     """State which of the paper's three laws takes least time alone."""
     return cost.order_papers_laws(dict(zip((MATRIX, LINEARIZED, FEEDBACK), times, strict=True)))
@@ -115,10 +107,6 @@ SENTENCES = {
         ],
     ),
     "order": (plant_order, [((1, 2, 3), "dearest, as the paper"), ((3, 2, 1), "dearest, other than the paper")]),
-    "peak": (
-        plant_peak,
-        [({}, "(1 of 22"), ({"settling_time_s": 9.0}, "median settling time 9 s")],
-    ),
     "loops": (plant_loops, [({}, "3 dead, 4 away"), ({"dead": 0, "away": 1}, "0 dead, 55 away")]),
     "unstable": (plant_fact(as_arms_run.facts, "unstable"), [({}, "Panda"), ({"radius": 0.5}, "none")]),
     "noise": (plant_fact(half_turn_noise.facts, "blind_middle"), [({}, "25"), ({"outcome": "settled"}, "100")]),

@@ -38,7 +38,7 @@ def test_unit_gives_up_after_some_lost_episodes(tmp_path):
 def test_perturbed_law_that_hangs_loses_the_whole_unit(tmp_path):
     path = tmp_path / "own.py"
     path.write_text(spring_text("while R.n[0] < -0.1: x = x + 1e-9"))
-    choice = Choice(axes=("delay", "equal-peak"), experiments=("robustness",))
+    choice = Choice(axes=("delay", "spin"), experiments=("robustness",))
     plan = planning.make("quick", contenders_of(described(path)), choice, count=3, horizon_s=0.05)
     run.run(plan, tmp_path / "run", workers=1, law_limit_s=LIMIT_S)
     rows = store.read(tmp_path / "run", "robustness")

@@ -97,7 +97,7 @@ def recompute_thresholds():
     good = (run["tail_rms_rad"] <= np.radians(3)).where(run["axis"].isin(lasts), run["outcome"] == "settled")
     own = good.groupby([run["law"], run["axis"], run["level"]]).agg(good="sum", starts="size").reset_index()
     rows = pd.concat([study[study["law"].isin(run["law"])], own[~own["law"].isin(study["law"])]])
-    rows = rows.query(f"law not in {CONTROLS} and axis != 'equal-peak'")
+    rows = rows.query(f"law not in {CONTROLS}")
     each = collections.defaultdict(dict)
     for (law, axis), own in rows.groupby(["law", "axis"]):
         share, nominal = (own["good"] / own["starts"]).set_axis(own["level"]), tasks.axis(axis).nominal

@@ -18,9 +18,6 @@ from report.figures.kit import families, html
 from report.figures.kit.spelling import power
 
 NEVER = "never"
-LEVEL = 100.0
-"""Greatest command from rest [rad/s^2]: what the 1980 law asks for at the paper's gains. Time goes as 1/sqrt(LEVEL)."""
-
 SMALL_PEAK = 1e4
 """Commands [rad/s^2] above this are those of a division by nearly nothing."""
 

@@ -32,13 +32,6 @@ def uniform(run: Run) -> pd.DataFrame:
     return cells.common(ideal(run))
 
 
-@functools.cache
-def at_peak(run: Run) -> pd.DataFrame:
-    """Return the rows of every law at cells.LEVEL, family by family; a law whose command has no bound has none."""
-    every = run.rows("robustness", axis="equal-peak")
-    return cells.in_families(every[every["level"] == cells.LEVEL])
-
-
 def facts(run: Run) -> dict:
     """Return the numbers in the sentences of the page."""
     return {

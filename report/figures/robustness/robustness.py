@@ -11,7 +11,7 @@ from matplotlib.patches import Rectangle
 
 import tasks
 from bench.experiments.tables.read import with_contender
-from bench.findings.perturbed import FOLLOWED_RAD, LOST, Threshold, Way, by_level, perturbations, studied, thresholds
+from bench.findings.perturbed import FOLLOWED_RAD, LOST, Threshold, Way, by_level, studied, thresholds
 from bench.findings.theory import robustness_theory
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
@@ -19,7 +19,7 @@ from report.figures.kit.page import NotInRun, Run, in_run
 from report.figures.kit.spelling import listed
 from report.figures.robustness.rows import along, gains, laws, starts
 
-AXES = perturbations()
+AXES = tuple(tasks.axis_names())
 
 FAULT, FINE = "#d55e00", "#b9c3cf"
 
@@ -70,7 +70,7 @@ def named(way: Way) -> str:
 
 
 def facts(run: Run) -> dict:
-    """Return how laws differ under the perturbations, without the negative controls."""
+    """Return how laws differ under the without the negative controls."""
     each = found(run)
     apart, _ = differing(each)
     kp, kv = gains(along(run, "delay"))
