@@ -128,6 +128,8 @@ class Situation(NamedTuple):
 
 
 NOMINAL = Situation()
+UNCANCELLED = NOMINAL._replace(unevenness=0.3)
+"""Where no model cancels the inertia and nothing else is said: principal moments 0.7, 1 and 1.3 and their torques."""
 
 
 def read_situation(word: str) -> Situation:

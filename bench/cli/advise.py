@@ -15,6 +15,7 @@ from bench.cli import options
 from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
 from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, frame_table
+from tasks.situation import NOMINAL, UNCANCELLED, rounded
 
 if TYPE_CHECKING:
     from bench.findings.selection.regions import Answer, Rule
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
 UNITS = {"": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6}
 FORMS = re.compile(r"([0-9.eE+-]+) *(|s|ms|us)")
 TORQUES = ("torque", "torque-no-model")
-UNEVEN = 0.3
-"""Unevenness of the inertia where no model cancels it and nothing is said: principal moments 0.7, 1 and 1.3."""
 
 
 class Duration(click.ParamType):
@@ -61,7 +60,7 @@ POSITIVE = click.FloatRange(0.0, min_open=True)
 @click.option(
     "--unevenness",
     type=click.FloatRange(0.0, 0.5),
-    show_default=f"0; {UNEVEN:g} of torque-no-model",
+    show_default=f"0; {UNCANCELLED.unevenness:g} of torque-no-model",
     help="s of principal moments 1 - s, 1, 1 + s.",
 )
 @click.option(
@@ -90,10 +89,9 @@ def COMMAND(
         print_paragraphs(_of_other_robot(robot))
         return
     from bench.findings.selection.regions import Rule
-    from tasks.situation import rounded
 
     if unevenness is None:
-        unevenness = UNEVEN if robot == TORQUES[1] else 0.0
+        unevenness = (UNCANCELLED if robot == TORQUES[1] else NOMINAL).unevenness
     root = math.sqrt(kp)
     wanted = rounded(
         (kv / (2.0 * root), bound / kp, delay * root, root / rate, inertia, unevenness, spin / root, jump * root)

@@ -17,20 +17,18 @@ from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.criteria import BY_NAME, CRITERIA, jump
 from bench.findings.selection.measured import GENERAL, Measured, dominates, front, measured
-from bench.findings.selection.needs import Fact, Need, decide, has_all, is_ours
+from bench.findings.selection.needs import Fact, Need, decide
 from bench.findings.selection.robots import (
     POSITION,
     ROBOTS,
-    UNCANCELLED,
     VELOCITY,
-    measure_uncancelled,
     measure_velocities,
     word_of,
 )
 from bench.findings.selection.tables import Tables, ticks
 from bench.findings.selection.words import together
 from bench.law.contenders.described_law import described
-from bench.law.contenders.registry import contenders, contenders_of, find_contender
+from bench.law.contenders.registry import contenders_of, find_contender
 
 CHEAP, MIDDLE, DEAR = "quaternion-shortest", "mrp", "hybrid"
 """The simplest first: the last has memory."""
@@ -147,14 +145,6 @@ FASTEST = "mrp"
 
 
 @functools.cache
-def shipped():
-    one = next(
-        one for one in contenders("shipped").values() if one.level == "torque" and not one.shipped.shapes_inertia
-    )
-    return rows_of(Settings("quick"), Unit("shipped", selector=one.name, count=1, total=1, horizon_s=20.0))
-
-
-@functools.cache
 def lagging():
     settings, laws = Settings("quick"), ("rotation-vector", FASTEST)
     units = [Unit("velocity", law, "free-body", count=24, horizon_s=2.5) for law in laws]
@@ -162,30 +152,6 @@ def lagging():
         Unit("velocity", f"{law}@geometric+solve", "arm-regulation", "ur5e", count=2, horizon_s=2.5) for law in laws
     ]
     return with_contender(pd.concat([rows_of(settings, unit) for unit in units], ignore_index=True))
-
-
-def test_uncancelled_law_has_the_facts_and_nothing_dominates_it():
-    found = measure_uncancelled(Results(REFERENCE, {"shipped": shipped()}))
-    one = decide(UNCANCELLED.need, found)
-    laws = set(shipped()["law"].astype(str)) - {""}
-    assert set(one.asked) == {law for law in laws if not is_ours(found, law)}
-    assert has_all(found, one.law, UNCANCELLED.need.facts)
-    assert not any(dominates(found, law, one.law, ("time", "worst", "tick")) for law in one.asked)
-
-
-def test_uncancelled_law_that_rests_or_goes_the_long_way_is_not_asked():
-    rows = shipped().copy()
-    rows.loc[rows["law"] == FASTEST, "dead"] = 1
-    rows.loc[rows["law"] == "rotation-vector", "away"] = 1
-    asked = decide(UNCANCELLED.need, measure_uncancelled(Results(REFERENCE, {"shipped": rows}))).asked
-    assert asked
-    assert not {FASTEST, "rotation-vector"} & set(asked)
-
-
-def test_uncancelled_choice_without_rows_is_no_evidence():
-    rows = shipped()
-    with pytest.raises(NoEvidence, match="no law was run"):
-        measure_uncancelled(Results(REFERENCE, {"shipped": rows[rows["law"] == ""]}))
 
 
 def test_position_is_judged_by_servos_that_lag():

@@ -4,8 +4,8 @@ import pytest
 
 from bench.experiments.tables.schema import RESULTS
 from bench.export.subject import find_subject
-from bench.findings.selection.regions import Rule, find_default
-from bench.findings.selection.robots import ROBOTS, word_of
+from bench.findings.selection.regions import find_default
+from bench.findings.selection.robots import ROBOTS, list_elsewhere
 from report.figures.answer import answer_box
 from report.figures.kit.page import run_in
 
@@ -23,8 +23,8 @@ def test_box_holds_the_formula_and_leads_to_the_code(box):
 
 
 def test_box_names_every_need_that_leads_to_another_law(box):
-    found = [(robot.takes, word_of(robot, REFERENCE).law) for robot in ROBOTS.values()]
-    found += [("nothing from tick to tick", find_default(rule=Rule(forgetful=True)))]
-    for words, law in found:
+    found = list_elsewhere(REFERENCE)
+    assert {robot.takes in " ".join(one.words for one in found) for robot in ROBOTS.values()} == {True}
+    for words, law in ((one.words, one.law) for one in found):
         lines = [line for line in box.splitlines() if words in line]
         assert [f"laws/{law}.html" in line for line in lines] == [True] * (law != find_default())

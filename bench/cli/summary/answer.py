@@ -6,7 +6,6 @@ from bench.cli.options import REFERENCE
 from bench.cli.paragraphs import Paragraph
 from bench.findings.selection.measured import Measured
 from bench.findings.selection.regions import (
-    Rule,
     compare_ours,
     decide_all,
     find_bounds,
@@ -15,7 +14,7 @@ from bench.findings.selection.regions import (
     list_ours,
     read_map,
 )
-from bench.findings.selection.robots import ROBOTS, word_of
+from bench.findings.selection.robots import list_elsewhere
 from bench.findings.selection.sensitivity import vary
 from bench.findings.selection.words import compare, cost, describe_bounds, together
 from bench.law.contenders.registry import find_contender
@@ -62,14 +61,9 @@ def _elsewhere(default: str) -> tuple[str, ...]:
     """Return the law for each other region, for robots beside those of the map, and without memory."""
     regions = [f"{one.law} ({one.advised:.0%})" for one in find_regions()[1:] if one.advised >= 0.05]
     lines = [f"In other situations: {together(regions)}; bench advise says which."] if regions else []
-    forgets, smooth = (find_regions(rule=rule)[0].law for rule in (Rule(forgetful=True), Rule(continuous=True)))
-    lines.append(f"No memory: {forgets}. A continuous command: {smooth}.")
-    decided = {robot.takes: word_of(robot, REFERENCE) for robot in ROBOTS.values()}
-    for takes, one in decided.items():
-        if one and one.law:
-            lines.append(
-                f"{takes[0].upper()}{takes[1:]}: {one.law}{f', tied with {together(one.tied)}' * bool(one.tied)}."
-            )
+    for one in list_elsewhere(REFERENCE):
+        tied = f", tied with {together(one.tied)}" if one.tied else ""
+        lines.append(f"If {one.words}: {one.law}{tied}.")
     return tuple(lines)
 
 

@@ -16,17 +16,14 @@ import numpy as np
 import pandas as pd
 
 from bench.base.errors import BadResults
-from bench.experiments.shipped import SETTLING_DEG
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.criteria import BY_NAME, CRITERIA
 from bench.findings.selection.measured import Measured, measure, measured
 from bench.findings.selection.needs import FACTS, Decision, Need, decide
+from bench.findings.selection.regions import Rule, answer, find_default
 from bench.findings.selection.tables import Tables, by_law, by_standard_inverse, common, tables_of
-from bench.law.kinds import TORQUE
-
-FULL_TURN = 2.0
-"""Way over the shortest, at the least, of a start at 120 degrees or less that goes the long way."""
+from tasks.situation import UNCANCELLED
 
 
 def measure_velocities(results: Results) -> Measured:
@@ -58,34 +55,6 @@ def measure_velocities(results: Results) -> Measured:
         peak=by_law(uniform, "peak_omega", math.inf),
         arms=by_law(at_once.assign(passed=100.0 * ~at_once["lost"]), "passed"),
         late=by_law(late, "settling_time_s", math.inf),
-    )
-
-
-def measure_uncancelled(results: Results) -> Measured:
-    """Return the criteria of every law that was run at the gains of shipped controllers that cancel no inertia.
-
-    They take torques, tau = K e - D omega: a value for each controller and angle of start.
-
-    Errors:
-        NoEvidence: the run has no such row.
-    """
-    tables = tables_of(results)
-    advice = "no shipped controller was run (try: bench run --experiment shipped)"
-    rows = _rows(results, advice, "shipped", level=TORQUE, shapes_inertia="no")
-    rows = rows[rows["law"].astype(str).isin(tables.contenders)].sort_values("shipped", kind="stable")
-    if rows.empty:
-        raise NoEvidence("no law was run at a shipped controller's gains")
-    known = {str(name): own for name, own in rows.groupby("law", observed=True)}
-    columns = [f"settling_{angle}_s" for angle in SETTLING_DEG]
-    times = {law: own[columns].fillna(math.inf).to_numpy(dtype=float).ravel() for law, own in known.items()}
-    return _measured(
-        _of_laws(tables, known),
-        ("tick", "memory", "jump"),
-        time=times,
-        worst=times,
-        unsettled={law: (100.0 * own["lost"] / own["starts"]).to_numpy() for law, own in known.items()},
-        lost={law: np.array([float(own["dead"].sum())]) for law, own in known.items()},
-        detour={law: np.array([FULL_TURN if own["away"].any() else 1.0]) for law, own in known.items()},
     )
 
 
@@ -123,7 +92,6 @@ class Robot(NamedTuple):
 
 MEASURES = {
     "arm": measure,
-    "uncancelled": measure_uncancelled,
     **dict.fromkeys(("velocity", "position"), measure_velocities),
 }
 
@@ -139,7 +107,7 @@ def read_robots() -> dict[str, Robot]:
 
 
 ROBOTS = read_robots()
-ARM, UNCANCELLED, VELOCITY, POSITION = ROBOTS.values()
+ARM, VELOCITY, POSITION = ROBOTS.values()
 
 
 def decide_for(robot: Robot, folder: Path) -> Decision:
@@ -157,3 +125,28 @@ def word_of(robot: Robot, folder: Path) -> Decision | None:
         return decide_for(robot, folder)
     except NoEvidence:
         return None
+
+
+class Elsewhere(NamedTuple):
+    """What leads to a law: the words after "if", the law, those that tie with it, how many were compared, the page."""
+
+    words: str
+    law: str
+    tied: tuple[str, ...] = ()
+    compared: int = 0
+    page: str = "27-which-law"
+
+
+def list_elsewhere(folder: Path) -> list[Elsewhere]:
+    """Return the law for robots and controllers that are not those of the default, by the map and by a run."""
+    uneven = answer(UNCANCELLED).verdict
+    found = [
+        Elsewhere("your robot takes torques, no inertia cancelled", uneven.law or "none", uneven.tied, uneven.asked),
+        Elsewhere("your controller keeps nothing from tick to tick", find_default(rule=Rule(forgetful=True))),
+        Elsewhere("the command must be continuous", find_default(rule=Rule(continuous=True))),
+    ]
+    for robot in ROBOTS.values():
+        one = word_of(robot, folder)
+        if one and one.law:
+            found.append(Elsewhere(f"your robot takes {robot.takes}", one.law, one.tied, len(one.asked), robot.page))
+    return found

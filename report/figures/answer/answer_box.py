@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from bench.export.subject import find_subject
-from bench.findings.selection.regions import Rule, find_default
-from bench.findings.selection.robots import ROBOTS, word_of
+from bench.findings.selection.regions import find_default
+from bench.findings.selection.robots import list_elsewhere
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
 
@@ -30,15 +30,8 @@ def answer(run: Run) -> html.Markdown:
 def exceptions(run: Run, default: str) -> str:
     """For each other law what leads to it, as a list."""
     needs: dict[str, list[str]] = {}
-    for words, rule in (
-        ("your controller keeps nothing from tick to tick", Rule(forgetful=True)),
-        ("the command must be continuous", Rule(continuous=True)),
-    ):
-        needs.setdefault(find_default(rule=rule), []).append(words)
-    for robot in ROBOTS.values():
-        one = word_of(robot, run.folder)
-        if one and one.law:
-            needs.setdefault(one.law, []).append(f"your robot takes {robot.takes}")
+    for one in list_elsewhere(run.folder):
+        needs.setdefault(one.law, []).append(one.words)
     lines = [f"- {_linked(law)}: {'; '.join(words)}" for law, words in needs.items() if law != default]
     return "\n".join(lines)
 

@@ -9,8 +9,8 @@ from bench.findings.claims import Results, judge
 from bench.findings.selection import regions, sensitivity
 from bench.findings.selection.measured import measured
 from bench.findings.selection.needs import EVERYWHERE, UNHELD, has_all
-from bench.findings.selection.regions import Rule, decide_all, facts_of, find_bounds, find_regions, is_drawn, read_map
-from bench.findings.selection.robots import ROBOTS, word_of
+from bench.findings.selection.regions import decide_all, facts_of, find_bounds, find_regions, is_drawn, read_map
+from bench.findings.selection.robots import list_elsewhere
 from bench.findings.selection.words import describe_bounds, together
 from report.figures.kit import families
 from report.figures.kit.page import Run
@@ -26,7 +26,7 @@ TUNED = Table(
 HELD_OUT = Table(
     "Held-out situations | Same law [%]:.0f | Nothing beats it [%]:.0f | Later, median [%]:.1f | Later, 95 % [%]:.1f"
 )
-ROBOTS_TABLE = Table("If your robot takes | use | Tied with | Of laws | Measured")
+ROBOTS_TABLE = Table("If | use | Tied with | Of laws | Measured")
 
 
 def facts(run: Run) -> dict[str, Any]:
@@ -105,7 +105,16 @@ def tables(run: Run) -> dict[str, Any]:
             (_link(one.law), one.at_one, one.zeta, one.time, one.peak_zeta, one.peak_time) for one in sensitivity.tune()
         ),
         "held_out": HELD_OUT([(held["of"], *(100 * held[name] for name in ("same", "unbeaten", "half", "most")))]),
-        "robots": ROBOTS_TABLE(_robot_lines(run)),
+        "robots": ROBOTS_TABLE(
+            (
+                one.words,
+                _link(one.law),
+                together([families.word(law) for law in one.tied]) if one.tied else "",
+                str(one.compared or ""),
+                f'<a href="{one.page}.html">rows</a>',
+            )
+            for one in list_elsewhere(run.folder)
+        ),
     }
 
 
@@ -116,23 +125,3 @@ def _region(one: regions.Region) -> tuple:
 def _link(law: str) -> str:
     ours = " (ours)" if facts_of(law).is_ours else ""
     return f"{families.link(law, families.word(law))}{ours}"
-
-
-def _robot_lines(run: Run) -> list[tuple]:
-    """Return a line for each robot: the law, with whom it ties, of how many, and the rows that say so."""
-    lines: list[tuple] = []
-    for robot in ROBOTS.values():
-        one = word_of(robot, run.folder)
-        if one is None or one.law is None:
-            lines.append((robot.takes, "not in this run", "", "", ""))
-            continue
-        tied = together([families.word(law) for law in one.tied]) if one.tied else ""
-        where = f'<a href="{robot.page}.html">{robot.rows}</a>'
-        lines.append((robot.takes, _link(one.law), tied, str(len(one.asked)), where))
-    forgets = find_regions(rule=Rule(forgetful=True))[0].law
-    smooth = find_regions(rule=Rule(continuous=True))[0].law
-    return [
-        *lines,
-        ("torques, and your controller keeps nothing from tick to tick", _link(forgets), "", "", "the map"),
-        ("torques, and the command must be continuous", _link(smooth), "", "", "the map"),
-    ]

@@ -7,8 +7,6 @@ import functools
 import numpy as np
 import pandas as pd
 
-import tasks
-from bench.experiments.tables.statistics import quantile
 from bench.findings.perturbed import went_well
 from report.figures.kit import families
 from report.figures.kit.page import Run
@@ -45,22 +43,3 @@ def gains(rows: pd.DataFrame) -> tuple[float, float]:
 def starts(rows: pd.DataFrame) -> int:
     """Return the starts of a law at a level."""
     return int(rows.groupby(["contender", "level"], observed=True).size().max())
-
-
-def nominal(name: str) -> float:
-    """Return the level without perturbation; of one that has none, its mildest: the largest bound."""
-    axis = tasks.axis(name)
-    return max(axis.levels) if axis.nominal is None else axis.nominal
-
-
-def worst(rows: pd.DataFrame, name: str) -> float:
-    """Return the level most levels away from the nominal one; of two such the greater."""
-    there = sorted(rows["level"].unique())
-    place = there.index(nominal(name))
-    return there[0] if place > len(there) - 1 - place else there[-1]
-
-
-def medians(rows: pd.DataFrame, column: str = "time_s") -> pd.DataFrame:
-    """Median of a column: a row a level, a column a law; negative controls left out."""
-    kept = rows[rows["contender"].isin(laws(rows, controls=False))].groupby(["level", "contender"], observed=True)
-    return kept[column].apply(lambda values: float(quantile(values.to_numpy(), 0.5))).unstack()
