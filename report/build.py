@@ -148,7 +148,7 @@ def environment(results: Path) -> dict[str, str]:
 
 
 def build(results: Path, cell_key: str) -> None:
-    """Run the cells, then jupyter-book on a clean output folder; raise CannotBuild with what was said if one fails.
+    """Run jupyter-book, and the cells that changed, on a clean output folder; raise CannotBuild with what was said.
 
     The pages are always read again (Sphinx repeats no warning for a page it skips); only cell outputs
     are kept.
@@ -160,20 +160,12 @@ def build(results: Path, cell_key: str) -> None:
         shutil.rmtree(stale, ignore_errors=True)
     CELL_KEY.write_text(cell_key, encoding="utf-8")
     strict = ["-W", "-n", "--keep-going", "-q"]
-    commands = ([sys.executable, "cells.py"], [sys.executable, "-c", JUPYTER_BOOK, "build", ".", *strict])
+    command = [sys.executable, "-c", JUPYTER_BOOK, "build", ".", *strict]
     log = BUILD / "build.log"
     with log.open("w", encoding="utf-8") as output, progress("pages", "building the pages"):
-        for command in commands:
-            done = subprocess.run(
-                command,
-                cwd=REPORT,
-                env=environment(results),
-                stdout=output,
-                stderr=subprocess.STDOUT,
-                check=False,
-            )
-            if done.returncode:
-                break
+        done = subprocess.run(
+            command, cwd=REPORT, env=environment(results), stdout=output, stderr=subprocess.STDOUT, check=False
+        )
     if done.returncode:
         said = "\n".join(complaints(log.read_text(encoding="utf-8")))
         raise CannotBuild(f"the pages do not build:\n{said}\nreport: all that was said is in {log}")

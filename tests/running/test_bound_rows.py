@@ -6,6 +6,7 @@ import os
 
 import pandas as pd
 import pytest
+from support import flipped
 from support.user_law import law_text, plan_of, spring_text
 
 from bench.base.errors import BadLaw, BadResults
@@ -18,7 +19,7 @@ from bench.law.contenders.described_law import described
 from bench.law.contenders.registry import find_contender
 from bench.running import run
 from bench.running.answers import check_rows
-from bench.studies.survival import flipped, hostile
+from bench.studies.survival import hostile
 
 PATHS = sorted((RESULTS / "reference").glob("*.parquet"))
 

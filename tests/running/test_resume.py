@@ -23,8 +23,8 @@ def python(*words, **options):
 
 @pytest.fixture(scope="module")
 def killed(tmp_path_factory):
-    """What `bench.studies.survival.killed` found."""
-    done = python("-W", "ignore", "-m", "bench.studies.survival.killed", tmp_path_factory.mktemp("killed"))
+    """What `support.killed` found."""
+    done = python("-W", "ignore", "-m", "support.killed", tmp_path_factory.mktemp("killed"))
     out, err = done.communicate(timeout=900)
     assert done.returncode == 0, err
     return json.loads(out)

@@ -1,1 +1,1 @@
-"""Runs that are killed, damaged or given laws that lie: programs that the tests start."""
+"""Runs of laws that lie: a program that the tests start."""

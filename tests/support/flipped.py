@@ -18,7 +18,7 @@ from bench.experiments.plan import Plan, digest_of
 from bench.experiments.tables.packed import pack, unpack
 from bench.running import run
 from bench.running.run_folder import SEAL, part
-from bench.studies.survival.killed import OTHER, SHORT, Undisturbed, files_of, undisturbed
+from support.killed import OTHER, SHORT, Undisturbed, files_of, undisturbed
 
 SEED = 20260119
 AGAIN, REFUSED, HARMLESS, SILENT = "run again", "refused", "harmless", "silent"
