@@ -7,6 +7,7 @@ import pandas as pd
 import pytest
 from scipy.stats import binom
 from support.command_line import bench, refused
+from support.map_rule import map_verdicts
 
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.situations import mapped_laws, order_interval, rows
@@ -20,20 +21,6 @@ RUN_AGAIN = [word for word in DRAWN if not read_situation(word).spin][:10]
 """Spinning bodies take ten times as many starts."""
 
 
-def decide_again(own):
-    """Return the advised law of a situation's rows by the rule, written on dictionaries."""
-    has = ("lost", "stuck", "unwound", "trapped")
-    asked = [row for row in own.to_dict("records") if not any(row[name] for name in has)]
-    asked = [row for row in asked if not facts_of(row["contender"]).is_ours]
-    unbeaten = [
-        row
-        for row in asked
-        if not any(o["time"] < 0.99 * row["time"] and o["time_high"] < row["time_low"] for o in asked)
-    ]
-    order = sorted((facts_of(row["contender"]).memory, row["operations"], row["contender"]) for row in unbeaten)
-    return order[0][2] if order else None
-
-
 @pytest.mark.parametrize("word", DRAWN)
 def test_advise_answers_a_situation_at_any_kp_as_its_rows_do(capsys, word):
     at, kp = read_situation(word), float(10 ** (1.0 + 2.0 * DRAWN.index(word) / len(DRAWN)))
@@ -43,7 +30,7 @@ def test_advise_answers_a_situation_at_any_kp_as_its_rows_do(capsys, word):
     words |= {"jump": at.jump / root}
     words |= {"bound": at.bound * kp} if math.isfinite(at.bound) else {}
     said = bench(capsys, "advise", *(f"--{name}={value!r}" for name, value in words.items())).out
-    law = decide_again(read_map()[read_map()["situation"] == word])
+    law, *_ = map_verdicts()[tuple(at)]
     assert "It is in the map." in said
     assert f"Use {law}." in said if law else "No published law" in said
 
@@ -58,7 +45,7 @@ def test_rows_of_the_map_are_those_of_episodes_run_again(word):
     assert made[counts].equals(kept[counts].astype(made[counts].dtypes))
     assert made["time"].to_numpy() == pytest.approx(kept["time"].to_numpy(), abs=0.02)
     assert made["overshoot"].to_numpy() == pytest.approx(kept["overshoot"].to_numpy(), abs=0.05)
-    assert decide_again(made.reset_index()) == decide(made.reset_index()).law
+    assert decide(made.reset_index()).law == map_verdicts()[tuple(read_situation(word))][0]
 
 
 def test_map_has_every_law_in_every_situation():

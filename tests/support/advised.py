@@ -10,18 +10,14 @@ import numpy as np
 import pandas as pd
 
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.selection import criteria, needs
+from bench.findings.selection import needs
 from bench.findings.start_sets import DIRECTED
 from bench.law.contenders.registry import find_contender
 from support.tables import table
 
 GENERAL = ("time", "worst", "effort", "peak", "variation", "tick")
-PERTURBED = {
-    "variation": ("delay", 0.0, "variation"),
-    "late": ("delay", 0.02, "settling_time_s"),
-}
-LEVELS = {"time": 0.99, "worst": 1.0, "peak": 1.0, "chatter": 1.0}
-MEANS, MORE_IS_BETTER = ("unsettled", "arms", "within"), ("held", "arms", "within")
+LEVELS = {"time": 0.99, "worst": 1.0, "peak": 1.0}
+MEANS, MORE_IS_BETTER = ("unsettled", "arms", "within"), ("arms", "within")
 DRAWS = 1000
 
 
@@ -96,7 +92,6 @@ class Asked:
         number = self.number
         return {
             needs.EVERYWHERE: lambda: (number("unsettled") + number("lost") == 0) & (number("detour") < 1.5),
-            needs.UNHELD: lambda: number("held") > 0.1,
             needs.NEARLY: lambda: number("unsettled") <= 0.1 + 1e-9,
             needs.TRIED: lambda: number("variation").notna(),
         }[fact]()
@@ -162,7 +157,6 @@ def timed(uniform, directed, peak):
         "peak": by_start(uniform, peak, np.inf),
         "tick": alone(shares_of_time().reindex(laws)),
         "memory": alone({law: len(find_contender(law).regulator.memory or ()) for law in laws}),
-        "jump": alone({law: criteria.jump(find_contender(law)) for law in laws}),
     }
 
 
@@ -191,8 +185,6 @@ def accelerations(folder="reference"):
     uniform, directed = common(free.query("start_set == 'uniform'")), common(free[free["start_set"].isin(DIRECTED)])
     perturbed = table("robustness", folder)
     at = dict(iter(perturbed.groupby(["axis", "level"])))
-    noise = perturbed.query("axis == 'half-turn-noise'")
-    holds = noise["level"].where(noise["outcome"] != "settled", np.inf).groupby(noise["law"]).min()
     arms = rows.query("task == 'arm-regulation' and start_set == 'uniform' and jacobian == 'geometric'")
     arms = standard(arms.query("variation == 'nominal' and engine == 'native'"))
     settled = arms["outcome"] == "settled"
@@ -203,11 +195,9 @@ def accelerations(folder="reference"):
         {
             **timed(uniform, directed, "peak_u"),
             "effort": by_start(uniform, "effort", np.inf),
-            "chatter": by_start(uniform, "rest_change", np.inf),
-            "held": alone(holds),
             "arms": by_start(arms, "settled"),
             "within": by_start(arms, "within"),
-            **{name: by_start(at[axis, level], column, np.inf) for name, (axis, level, column) in PERTURBED.items()},
+            "variation": by_start(at["delay", 0.0], "variation", np.inf),
         }
     )
 
