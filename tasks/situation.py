@@ -129,7 +129,7 @@ class Situation(NamedTuple):
 
 NOMINAL = Situation()
 UNCANCELLED = NOMINAL._replace(unevenness=0.3)
-"""Where no model cancels the inertia and nothing else is said: principal moments 0.7, 1 and 1.3 and their torques."""
+"""Holds where no model cancels the inertia and nothing else is known: principal moments of 0.7, 1 and 1.3."""
 
 
 def read_situation(word: str) -> Situation:

@@ -11,43 +11,43 @@ LINES = {
     "bench/__main__.py": 31,
     "bench/audit": 2_275,
     "bench/base": 550,
-    "bench/cli": 2_551,
+    "bench/cli": 2_543,
     "bench/engines": 6_400,
-    "bench/experiments": 5_344,
+    "bench/experiments": 5_283,
     "bench/export": 2_068,
-    "bench/findings": 6_636,
+    "bench/findings": 6_622,
     "bench/law": 6_730,
     "bench/regression": 1_295,
     "bench/running": 2_523,
-    "bench/studies": 2_697,
+    "bench/studies": 2_435,
     "tests/audit": 625,
     "tests/cli": 755,
     "tests/conftest.py": 73,
     "tests/contracts": 2_606,
     "tests/engines": 2_883,
-    "tests/experiments": 2_356,
+    "tests/experiments": 2_299,
     "tests/export": 314,
-    "tests/findings": 2_190,
+    "tests/findings": 2_143,
     "tests/law": 2_611,
     "tests/regression": 722,
-    "tests/report": 1_663,
+    "tests/report": 1_600,
     "tests/repository": 518,
-    "tests/running": 1_196,
-    "tests/studies": 617,
-    "tests/support": 2_957,
+    "tests/running": 1_197,
+    "tests/studies": 614,
+    "tests/support": 3_210,
     "tests/tasks": 1_893,
-    "report": 6_116,
-    "tasks": 5_231,
+    "report": 5_958,
+    "tasks": 5_218,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
-FILES = {"bench/audit": 42, "bench/experiments": 47, "bench/export": 19, "bench/law": 110, "tasks": 78}
+FILES = {"bench/audit": 42, "bench/experiments": 46, "bench/export": 19, "bench/law": 110, "tasks": 77}
 """Python files of the rooms in which one file adds one thing: with one more, a room may have as many lines more."""
 LONGEST_FILE = 250
 TOO_LONG: dict[str, int] = {}
 """Files that are still longer, with their lines."""
 
 
-DATA = {"bench": 3_094, "report": 1_473, "tasks": 474, "tests": 955}
+DATA = {"bench": 3_087, "report": 1_473, "tasks": 474, "tests": 955}
 """Lines of text in other files than Python: what moves into them counts too. One new file may come on top."""
 SUFFIXES = (".toml", ".text", ".xml", ".js", ".c", ".html", ".css")
 
