@@ -21,7 +21,7 @@ from bench.findings.selection.needs import CHATTER
 from bench.findings.theory.thresholds import near_goal
 from bench.law.contenders.registry import contenders
 
-FAILURES, SIDE, ENDS, ROBUSTNESS = "06-failure-map", "15-comparison", "30-method", "16-robustness"
+FAILURES, SIDE, ENDS, ROBUSTNESS = "05-euler-angles", "04-side-by-side", "appendix-method", "06-delay-noise-saturation"
 
 SENTENCES: dict[str, dict[str, dict[str, str]]]
 SENTENCES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))

@@ -57,7 +57,7 @@ def means(finished):
             if isinstance(faults, Exception):
                 raise faults
             is_head = laws[0].origin.endswith("user/law.py")
-            said = tuple(Said("It shakes.", "30-method", fault) for fault in (faults if is_head else base_faults))
+            said = tuple(Said("It shakes.", "appendix-method", fault) for fault in (faults if is_head else base_faults))
             return [Judgement("braking", said, (), False)]
 
         return gates.Means(lambda side, report: contextlib.nullcontext(finished), compare_times, judge)
@@ -120,7 +120,7 @@ def test_fault_that_base_has_not_is_a_regression(user, means, base, head, verdic
     said = gates.compare_revisions("HEAD", None, (user,), means=means(faults=head, base_faults=base))
     assert [one.verdict for one in said.findings] == verdicts
     assert states(said)["faults"] == state
-    assert ("- It shakes. (30-method)" in summary.write_markdown(said)) == bool(head)
+    assert ("- It shakes. (appendix-method)" in summary.write_markdown(said)) == bool(head)
 
 
 def test_law_that_cannot_be_judged_is_a_regression(user, means):

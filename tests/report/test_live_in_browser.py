@@ -10,7 +10,7 @@ from support import live
 
 import tasks
 
-PAGE = screenshots.SITE / "pages" / "26-live.html"
+PAGE = screenshots.SITE / "pages" / "03-try-it.html"
 PHONE, DESK = screenshots.View("light", 360), screenshots.View("dark", 1280)
 STARTS = 1000
 ARROW_DOWN, ARROW_RIGHT, HOME, END, ENTER = "\ue015", "\ue014", "\ue011", "\ue010", "\ue007"

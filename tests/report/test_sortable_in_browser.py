@@ -3,7 +3,7 @@
 import pytest
 import screenshots
 
-PAGE = screenshots.SITE / "pages" / "40-claims.html"
+PAGE = screenshots.SITE / "pages" / "09-murphy-1988.html"
 pytestmark = [
     pytest.mark.browser,
     pytest.mark.skipif(bool(screenshots.missing()), reason=screenshots.missing() or "ready"),

@@ -134,7 +134,7 @@ class Elsewhere(NamedTuple):
     law: str
     tied: tuple[str, ...] = ()
     compared: int = 0
-    page: str = "27-which-law"
+    page: str = "01-which-error"
 
 
 def list_elsewhere(folder: Path) -> list[Elsewhere]:

@@ -18,8 +18,8 @@ from bench.export.subject import find_subject
 from report.figures.kit import html
 from report.figures.kit.spelling import typeset
 
-CATALOGUE = Path(__file__).resolve().parents[2] / "pages" / "03-regulators.md"
-BACK = '<p class="hint"><a href="../pages/03-regulators.html">Catalogue of laws</a></p>' if CATALOGUE.is_file() else ""
+CATALOGUE = Path(__file__).resolve().parents[2] / "pages" / "appendix-laws.md"
+BACK = '<p class="hint"><a href="../pages/appendix-laws.html">Catalogue of laws</a></p>' if CATALOGUE.is_file() else ""
 PROPERTIES = {
     "local": "Stable near the goal, by linearization.",
     "almost global": "Stable from all starts but a set of measure zero. No continuous law without memory can do more "
