@@ -94,11 +94,11 @@ def browser() -> Iterator:
         driver.quit()
 
 
-def look(driver: Any, view: View) -> None:
-    """Set width and theme as a reader's device would, before or after a page is opened."""
+def look(driver: Any, view: View, media: str = "screen") -> None:
+    """Set width, theme and medium (screen or print) as a reader's device would, before or after a page is opened."""
     size = {"width": view.width, "height": HEIGHT, "deviceScaleFactor": 1, "mobile": view.width < 600}
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
-    scheme = {"features": [{"name": "prefers-color-scheme", "value": view.theme}]}
+    scheme = {"media": media, "features": [{"name": "prefers-color-scheme", "value": view.theme}]}
     driver.execute_cdp_cmd("Emulation.setEmulatedMedia", scheme)
 
 

@@ -18,6 +18,8 @@ SPACE = re.compile(
     r"(?<=[\d⁰¹²³⁴⁵⁶⁷⁸⁹ᵏ]) (?=(?:%|s|ms|µs|ns|m|cm|mm|kB|MB|rad|degrees|flops)(?!\w))"  # 5 ms
     r"|(?<=\bn) (?==)|(?<=\bn =) (?=\d)"  # n = 128
 )
+CODE = re.compile(r'<span class="pre">[^<]+</span>')
+JOINT = re.compile(r"(?<=[\w)][_./(,])(?=\w)")
 VERBATIM = (nodes.literal, nodes.math, nodes.raw)
 
 
@@ -60,6 +62,12 @@ def put_in_place(leaf: nodes.Text, text: str) -> None:
     leaf.parent[place] = nodes.Text(text)
 
 
+def let_names_break(app: Any, pagename: str, templatename: str, context: dict[str, Any], doctree: Any) -> None:
+    """Let a long name of code break after its underscores, dots and slashes, and nowhere else."""
+    if "body" in context:
+        context["body"] = CODE.sub(lambda name: JOINT.sub("<wbr>", name[0]), context["body"])
+
+
 def inline(self: Any, node: nodes.math) -> None:
     from report.figures.kit import mathml
 
@@ -78,4 +86,5 @@ def block(self: Any, node: nodes.math_block) -> None:
 def setup(app: Any) -> dict[str, bool]:
     app.add_html_math_renderer("mathml", (inline, None), (block, None))
     app.add_post_transform(CloseUp)
+    app.connect("html-page-context", let_names_break)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

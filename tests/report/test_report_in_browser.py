@@ -23,6 +23,27 @@ const copied = c => {
   return copy;
 };
 const inked = c => copied(c).getImageData(0, 0, c.width, c.height).data.some(byte => byte);
+const boxes = range => [...range.getClientRects()].filter(box => box.width > 0.5);
+const lines = range => new Set(boxes(range).map(box => Math.round(box.bottom / 6))).size;
+const spans = (node, from, to) => {
+  const range = document.createRange();
+  range.setStart(node, from);
+  range.setEnd(node, to);
+  return range;
+};
+const texts = root => {
+  const walker = document.createTreeWalker(root, NodeFilter.SHOW_TEXT), found = [];
+  while (walker.nextNode()) if (walker.currentNode.parentElement.checkVisibility()) found.push(walker.currentNode);
+  return found;
+};
+const cells = [...document.querySelectorAll("article table :is(td, th)")].flatMap(texts);
+const words = cells.flatMap(node => [...node.data.matchAll(/[\\p{L}\\d]{2,}/gu)].map(word => [node, word]));
+const torn = words.filter(([node, word]) => lines(spans(node, word.index, word.index + word[0].length)) > 1);
+const marks = [...document.querySelectorAll("article math:not([display=block])")].filter(math => {
+  const next = math.nextSibling;
+  if (!next || next.nodeType !== 3 || !/^[,.;:)]/.test(next.data) || !math.checkVisibility()) return false;
+  return spans(next, 0, 1).getBoundingClientRect().left < math.getBoundingClientRect().left;
+});
 const unset = one => (one.checkVisibility() && !one.getBoundingClientRect().width) || one.textContent.includes("\\\\");
 return {
   theme: root.dataset.theme,
@@ -34,6 +55,8 @@ return {
     .filter(table => table.parentElement.scrollWidth > table.parentElement.clientWidth + 1)
     .map(table => table.id || table.className),
   unset: formulas.filter(unset).length,
+  torn: torn.map(([node, word]) => word[0]),
+  marks: marks.map(math => math.parentElement.innerText.slice(0, 80)),
 };
 """
 
@@ -50,6 +73,15 @@ const frame = () => new Promise(requestAnimationFrame);
 frame().then(frame).then(() => axe.run(document, {resultTypes: ["violations"]})).then(found => done(found.violations
   .filter(one => ["serious", "critical"].includes(one.impact))
   .flatMap(one => one.nodes.map(node => `${one.id}: ${node.html.slice(0, 200)}`))));
+"""
+
+PAPER_PIXELS = 703
+"""The width of A4 between margins of 12 mm, at 96 pixels an inch."""
+CROPPED = """
+const right = document.documentElement.clientWidth + 1;
+const shown = [...document.querySelectorAll("article :is(table, svg, pre, math, p, figcaption)")];
+return shown.filter(one => one.checkVisibility() && one.getBoundingClientRect().right > right)
+  .map(one => `${one.tagName} ${one.id} ${one.textContent.slice(0, 60)}`);
 """
 
 
@@ -80,7 +112,11 @@ def seen(request, driver, axe):
     facts[second] = driver.execute_script(FACTS)
     told = screenshots.network_requests(driver), screenshots.console_errors(driver)
     driver.execute_script(axe)
-    return facts, *told, driver.execute_async_script(BARRIERS)
+    barriers = driver.execute_async_script(BARRIERS)
+    screenshots.look(driver, screenshots.View("light", PAPER_PIXELS), media="print")
+    cropped = driver.execute_script(CROPPED)
+    screenshots.look(driver, second)
+    return facts, *told, barriers, cropped
 
 
 def test_page_asks_nothing_of_the_network(seen):
@@ -106,6 +142,14 @@ def test_page_never_scrolls_sideways(seen):
 def test_no_table_is_cut_off_on_a_wide_screen(seen):
     cut = {table for view, facts in seen[0].items() if view.width > 1000 for table in facts["cut"]}
     assert cut - {EIGHTEEN_COLUMNS} == set()
+
+
+def test_print_crops_nothing(seen):
+    assert seen[4] == []
+
+
+def test_cells_break_no_word_and_no_line_begins_with_punctuation(seen):
+    assert [facts["torn"] + facts["marks"] for facts in seen[0].values()] == [[], []]
 
 
 def test_page_has_a_main_heading(seen):
