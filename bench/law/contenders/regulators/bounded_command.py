@@ -26,7 +26,7 @@ def law(R, omega, goal, gains):
 
 REGULATOR = Law(
     name="bounded-command",
-    title="Sine of the angle, bounded damping",
+    title="Bounded command, by the sine of the angle",
     source="after Su & Zheng 2011",
     formula=r"u = K_p\,e - K_v\,\omega / \sqrt{1 + (K_v |\omega| / K_p)^2}",
     law=law,

@@ -22,7 +22,7 @@ def law_in(representation):
 
 REGULATOR = Law(
     name="euler-gradient",
-    title="Coordinates pushed forward",
+    title="Euler gradient",
     source="Ablation of Murphy 1988, (2.15)",
     formula=r"u = K_p\, B\,(E_d - E) - K_v\,\omega",
     law_in=law_in,

@@ -25,7 +25,7 @@ def law(R, omega, goal, gains, memory):
 
 REGULATOR = Law(
     name="hybrid",
-    title="Hybrid, with one quaternion of memory",
+    title="Hybrid, with memory",
     source="Mayhew, Sanfelice, Teel 2011",
     formula=r"u = 2 K_p\, h\,\epsilon - K_v\,\omega, \quad h^+ = -h \text{ where } h\,\eta < -\delta",
     law=law,

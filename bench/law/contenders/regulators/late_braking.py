@@ -58,7 +58,7 @@ def law(R, omega, goal, gains, memory):
 
 REGULATOR = Law(
     name="late-braking",
-    title="Late braking, with a side kept in memory",
+    title="Late braking",
     source="this benchmark, 2026; after Luh, Walker, Paul 1980 and Mayhew, Sanfelice, Teel 2011",
     formula=r"u = \bigl(\tfrac{5+t}{4} K_p + \tfrac45 K_v \max(0,\, \epsilon\cdot\omega)\bigr)\,\epsilon - K_v\,\omega",
     law=law,

@@ -30,5 +30,5 @@ REGULATOR = Law(
     coordinates=("zyx-euler",),
     property="none",
     control=True,
-    display=Display("control: literal", Look("orange", "x", "dotted"), "Euler variants, controls"),
+    display=Display("Euler as printed", Look("orange", "x", "dotted"), "Euler variants, controls"),
 )

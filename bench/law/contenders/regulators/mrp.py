@@ -22,7 +22,7 @@ def law(R, omega, goal, gains):
 
 REGULATOR = Law(
     name="mrp",
-    title="Modified Rodrigues parameters",
+    title="Modified Rodrigues parameters (MRP)",
     source="Tsiotras 1996; Schaub & Junkins 2018",
     formula=r"u = 4 K_p\,\sigma - K_v\,\omega, \quad \sigma = \tan(\theta/4)\,k",
     law=law,

@@ -37,7 +37,7 @@ def law(R, omega, goal, gains, memory):
 
 REGULATOR = Law(
     name="mrp-linearized",
-    title="Linear in modified Rodrigues parameters",
+    title="MRP made linear",
     source="Schaub, Akella, Junkins 2001",
     formula=r"u = -K_v\,\omega + \bigl(4 K_p/(1+\sigma^2) - \omega^2/2\bigr)\,\sigma + \omega\,(\omega\cdot\sigma)",
     law=law,

@@ -22,12 +22,12 @@ def law(R, omega, goal, gains, memory):
 
 REGULATOR = Law(
     name="mrp-memory",
-    title="Modified Rodrigues parameters, with a sheet kept in memory",
+    title="MRP with memory",
     source="after Tsiotras 1996, Schaub & Junkins 2018 and Mayhew, Sanfelice, Teel 2011",
     formula=r"u = 4 K_p\,\sigma - K_v\,\omega, \quad |\sigma|^2 \le (1+\delta)/(1-\delta)",
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
     later=True,
-    display=Display("MRP, memory", Look("vermillion", "X", "dashed"), "With memory", QUARTER),
+    display=Display("MRP with memory", Look("vermillion", "X", "dashed"), "With memory", QUARTER),
 )

@@ -30,7 +30,7 @@ def law(R, omega, goal, gains):
 
 REGULATOR = Law(
     name="paielli-bach",
-    title="Linear in the quaternion",
+    title="Paielli–Bach, linear in the quaternion",
     source="Paielli & Bach 1993",
     formula=r"u = (2 K_p - \tfrac{1}{2}|\omega|^2)\, s/(1 + t) - K_v\,\omega",
     law=law,

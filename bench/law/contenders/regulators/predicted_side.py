@@ -41,7 +41,7 @@ def law(R, omega, goal, gains, memory):
 
 REGULATOR = Law(
     name="predicted-side",
-    title="Rotation vector, on the side of less predicted cost",
+    title="Predicted side of the rotation vector",
     source="after Goncalves, Bena, Matveev, Perez-Arancibia, arXiv:2403.07269 (abstract read)",
     formula=r"u = K_p\,\theta\,k - K_v\,\omega, \quad k^+ = -k \text{ where } \theta - \pi -"
     r" \frac{k \cdot \omega}{K_p/K_v + K_v/2} > \delta",

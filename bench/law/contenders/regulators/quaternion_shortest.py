@@ -17,7 +17,7 @@ def law(R, omega, goal, gains):
 
 REGULATOR = Law(
     name="quaternion-shortest",
-    title="Quaternion, the short way",
+    title="Shortest quaternion",
     source="Yuan 1988; Wie, Weiss, Arapostathis 1989",
     formula=r"u = 2 K_p\,\operatorname{sgn}(\eta)\,\epsilon - K_v\,\omega",
     law=law,

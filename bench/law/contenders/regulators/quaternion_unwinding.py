@@ -26,7 +26,7 @@ def law(R, omega, goal, gains, memory):
 
 REGULATOR = Law(
     name="quaternion-unwinding",
-    title="Quaternion without its sign",
+    title="Quaternion without sign",
     source="Wen & Kreutz-Delgado 1991; Bhat & Bernstein 2000",
     formula=r"u = 2 K_p\,\epsilon - K_v\,\omega",
     law=law,
@@ -35,6 +35,9 @@ REGULATOR = Law(
     later=True,
     control=True,
     display=Display(
-        "control: no sign", Look("yellow", "x", "dotted"), "Euler variants, controls", CHORD._replace(the_long_way=True)
+        "quaternion without sign",
+        Look("yellow", "x", "dotted"),
+        "Euler variants, controls",
+        CHORD._replace(the_long_way=True),
     ),
 )

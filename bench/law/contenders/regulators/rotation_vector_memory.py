@@ -22,12 +22,12 @@ def law(R, omega, goal, gains, memory):
 
 REGULATOR = Law(
     name="rotation-vector-memory",
-    title="Rotation vector, with a side kept in memory",
+    title="Rotation vector with memory",
     source="after Bullo & Murray 1995 and Mayhew, Sanfelice, Teel 2011",
     formula=r"u = K_p\,\theta\,k - K_v\,\omega, \quad \theta \le 2\arccos(-\delta)",
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
     later=True,
-    display=Display("rotation vector, memory", Look("sky", "P", "dashed"), "With memory", ANGLE),
+    display=Display("rotation vector with memory", Look("sky", "P", "dashed"), "With memory", ANGLE),
 )

@@ -31,7 +31,7 @@ def law(R, omega, goal, gains):
 
 REGULATOR = Law(
     name="slew-limited",
-    title="Quaternion cascade with a greatest rate",
+    title="Slew-limited quaternion cascade",
     source="Wie & Lu 1995 (not read; after later reports)",
     formula=r"u = K_v\Bigl(\operatorname{sat}_{\omega_{\max}}\bigl(2 \tfrac{K_p}{K_v}\,\epsilon\bigr) - \omega\Bigr)",
     law=law,

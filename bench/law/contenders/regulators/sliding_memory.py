@@ -22,7 +22,7 @@ def law(R, omega, goal, gains, memory):
 
 REGULATOR = Law(
     name="sliding-memory",
-    title="Sliding on the quaternion, with a side kept in memory",
+    title="Sliding on the quaternion, with memory",
     source="after Egeland & Godhavn 1994, Lo & Chen 1995 and Mayhew, Sanfelice, Teel 2011",
     formula=r"u = -\tfrac{\lambda}{2}(\eta\,\omega + \epsilon \times \omega) - K(\omega - \lambda\,\epsilon),"
     r"\quad \eta \ge -\delta",
@@ -30,5 +30,5 @@ REGULATOR = Law(
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
     later=True,
-    display=Display("sliding, memory", Look("orange", "d", "dashed"), "With memory", SLIDING),
+    display=Display("sliding with memory", Look("orange", "d", "dashed"), "With memory", SLIDING),
 )
