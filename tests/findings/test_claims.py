@@ -125,9 +125,9 @@ EVERY = [
 
 def test_both_tallies_agree_with_the_table_of_claims():
     tiles = re.findall(r"<b>(\d+)</b><span>([^(<]+) \(first criteria: (\d+)\)", page.tiles(EVERY))
-    lines = [[cell.strip() for cell in line.split("|")[4:6]] for line in page.table(EVERY).splitlines() if "C0" in line]
-    now = [next(word for word in sorted(Word, key=len, reverse=True) if f">{word}<" in cell) for cell, _ in lines]
-    first = [Word(was.partition("first: ")[2] or word) for word, (_, was) in zip(now, lines, strict=True)]
+    cells = [line.split("|")[3].strip() for line in page.table(EVERY).splitlines() if "C0" in line]
+    now = [next(word for word in sorted(Word, key=len, reverse=True) if f">{word}<" in cell) for cell in cells]
+    first = [Word(cell.partition("first: ")[2] or word) for word, cell in zip(now, cells, strict=True)]
     for word in Word:
         told = [(int(n), int(of)) for n, said, of in tiles if said == does(word, int(n))] or [(0, 0)]
         assert told == [(now.count(word), first.count(word))]

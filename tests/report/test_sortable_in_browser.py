@@ -12,7 +12,7 @@ COLUMN = """
 return [...document.querySelector("table.sortable").tBodies[0].rows]
   .filter(row => !row.hidden).map(row => row.cells[arguments[0]].innerText.trim());
 """
-IDS, VERDICTS = 0, 3
+IDS, VERDICTS = 0, 2
 
 
 @pytest.fixture(scope="module")
@@ -32,13 +32,13 @@ def head(driver, index):
 
 
 def test_a_head_sorts_and_the_third_press_restores(opened, column):
-    first = column(VERDICTS)
-    head(opened, VERDICTS).click()
-    assert column(VERDICTS) == sorted(first)
-    head(opened, VERDICTS).click()
-    assert column(VERDICTS) == sorted(first, reverse=True)
-    head(opened, VERDICTS).click()
-    assert column(VERDICTS) == first != sorted(first)
+    first = column(IDS)
+    head(opened, IDS).click()
+    assert column(IDS) == sorted(first)
+    head(opened, IDS).click()
+    assert column(IDS) == sorted(first, reverse=True)
+    head(opened, IDS).click()
+    assert column(IDS) == first != sorted(first)
 
 
 def test_a_head_says_how_it_sorts(opened, column):
@@ -51,5 +51,5 @@ def test_a_head_says_how_it_sorts(opened, column):
 def test_filter_leaves_rows_that_hold_the_words(opened, column):
     every, words = column(VERDICTS), "depends on the gains"
     opened.find_element("css selector", ".filter input").send_keys(words.upper())
-    assert set(column(VERDICTS)) == {words}
-    assert opened.find_element("css selector", ".filter output").text == f"{every.count(words)} of {len(every)}"
+    assert all(words in one for one in column(VERDICTS))
+    assert opened.find_element("css selector", ".filter output").text == f"{sum(words in one for one in every)} of {len(every)}"

@@ -13,6 +13,7 @@ from report.figures.kit import laws, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
 from report.figures.kit.rows import SHORT
+from report.figures.kit.spelling import power
 
 ANGLES = (
     ("alpha", r"$\alpha$", style.SOLID),
@@ -22,8 +23,8 @@ ANGLES = (
 SHOWN_S = 1.2
 """Two settling times of a small error: all there is to see."""
 
-FIGURES = {"response-matrix": ("m", "3"), "response-linearized": ("l", "4"), "response-feedback": ("f", "5")}
-"""Figure -> the letter of its law, and the last digit of the paper's figure and of the start."""
+FIGURES = {"3": "m", "4": "l", "5": "f"}
+"""Last digit of the paper's figure and of its start -> the letter of its law."""
 
 
 @functools.cache
@@ -42,11 +43,12 @@ def facts(run: Run) -> dict:
     """Return the start of each figure, and how far, how long and how straight its law goes from there."""
     traces, episodes = drawn(run)
     values: dict = gains(episodes)
-    for letter, end in FIGURES.values():
+    for end, letter in FIGURES.items():
         at = {"start_id": f"figure-2.{end}", "contender": SHORT[letter]}
         followed, row = find(traces, at), find(episodes, at).iloc[0]
-        values[f"start_{end}"] = ", ".join(f"{row[f'{angle}0']:.3g}" for angle, *_ in ANGLES)
-        values[f"bend_{end}"] = float(bend_deg(followed, **gains(episodes)).max())
+        values[f"start_{end}"] = ", ".join(f"{row[f'{angle}0']:.3g}" for angle, *_ in ANGLES).replace("-", "\u2212")
+        bend = float(bend_deg(followed, **gains(episodes)).max())
+        values[f"bend_{end}"] = f"{bend:.0f}" if bend > 1.0 else power(bend)
         values[f"time_{end}"], values[f"path_{end}"] = f"{row['settling_time_s']:.3f}", f"{row['path_ratio']:.2f}"
     angles = np.degrees(followed["angle_rad"])
     return values | {"first_5": f"{angles.iloc[0]:.0f}", "peak_5": f"{angles.max():.0f}"}
@@ -58,12 +60,9 @@ def find(rows: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:
 
 
 def figures(run: Run) -> dict:
-    """Return the paper's figures 2.3 to 2.5."""
+    """Return the paper's figures 2.3 to 2.5 as one."""
     traces, episodes = drawn(run)
-    return {
-        name: response(traces, SHORT[letter], f"figure-2.{end}", **gains(episodes))
-        for name, (letter, end) in FIGURES.items()
-    }
+    return {"figures": responses(traces, **gains(episodes))}
 
 
 def euler_deg(trace: pd.DataFrame) -> np.ndarray:
@@ -75,49 +74,49 @@ def euler_deg(trace: pd.DataFrame) -> np.ndarray:
 
 
 @responsive_picture
-def response(traces: pd.DataFrame, contender: str, start_id: str, kp: float, kv: float, narrow: bool) -> Drawing:
-    """One law from one start: its angles with the linear closed form, and the angle to the goal of all three laws.
+def responses(traces: pd.DataFrame, kp: float, kv: float, narrow: bool) -> Drawing:
+    """Each law from the start of its figure: its angles with the linear closed form; below, the angle to the goal.
 
     Args:
         traces: rows of one engine. kp, kv: gains of the closed form, dashed.
     """
-    episode = traces[(traces["start_id"] == start_id) & (traces["time_s"] <= SHOWN_S)]
-    own = episode[episode["contender"] == contender]
-    times, angles = own["time_s"].to_numpy(), euler_deg(own)
-    figure, (left, right) = style.beside(2, 3.0, 5.4, narrow, sharex=True)
-    fine = np.linspace(0.0, SHOWN_S, 200)
-    linear = closed_form.linear(fine, kp, kv)
-    colour = style.look(contender).colour
-    for i, (_, symbol, line) in enumerate(ANGLES):
-        left.plot(fine, angles[0, i] * linear, color=style.MUTED, linewidth=0.9, linestyle=style.DASHED)
-        left.plot(times, angles[:, i], color=colour, linestyle=line)
-        style.label_line(left, -0.02, angles[0, i], symbol, colour, ha="right", fontsize=11)
-    left.axhline(0.0, color=style.MUTED, linewidth=0.7)
-    left.set(ylabel="Z-Y-X Euler angle [deg]", xlim=(-0.1, SHOWN_S), title=laws.TITLES[contender])
-    ends = _angle_to_goal(right, episode)
-    first = np.degrees(own["angle_rad"].iloc[0])
-    right.plot(fine, first * linear, color=style.MUTED, linewidth=0.9, linestyle=style.DASHED)
-    right.set(ylabel="angle to the goal [deg]", ylim=(0, None), title="All three, from the same start")
-    for axes in (left, right) if not narrow else (right,):
+    size = {"height": 8.4, "narrow": True} if narrow else {"height": 4.6}
+    figure, grid = style.panels(*((3, 2) if narrow else (2, 3)), sharex=True, **size)
+    pairs = grid if narrow else grid.T
+    said = [
+        draw_response(pair, find(traces, {"start_id": f"figure-2.{end}", "contender": SHORT[letter]}), end, kp, kv)
+        for pair, (end, letter) in zip(pairs, FIGURES.items(), strict=True)
+    ]
+    for axes in grid[-1]:
         axes.set_xlabel("time [s]")
-    begins = ", ".join(f"{name} {value:.0f}" for (name, *_), value in zip(ANGLES, angles[0], strict=True))
-    bends = ", ".join(f"{name} {value:.2g}" for (name, *_), value in zip(ANGLES, bend_deg(own, kp, kv), strict=True))
-    return figure, (
-        f"{laws.TITLES[contender]} from {begins} degrees: the angles against time. Largest distance from the "
-        f"linear closed form, in degrees: {bends}. Beside it the angle to the goal for each law, from {first:.0f} "
-        f"degrees; at {SHOWN_S} s {ends}."
+    for upper, lower in pairs if narrow else pairs[:1]:
+        upper.set_ylabel("Euler angle [deg]")
+        lower.set_ylabel("angle to the goal [deg]")
+    return figure, " ".join(said)
+
+
+def draw_response(pair: Any, own: pd.DataFrame, end: str, kp: float, kv: float) -> str:
+    """Draw one law's Euler angles, and in the second panel its angle to the goal; return what they show."""
+    own, (upper, lower) = own[own["time_s"] <= SHOWN_S], pair
+    name = own["contender"].iloc[0]
+    times, angles, goal = own["time_s"].to_numpy(), euler_deg(own), np.degrees(own["angle_rad"].to_numpy())
+    fine, colour = np.linspace(0.0, SHOWN_S, 200), style.look(name).colour
+    linear = closed_form.linear(fine, kp, kv)
+    dashed = {"color": style.MUTED, "linewidth": 0.9, "linestyle": style.DASHED}
+    for i, (_, symbol, line) in enumerate(ANGLES):
+        upper.plot(fine, angles[0, i] * linear, **dashed)
+        upper.plot(times, angles[:, i], color=colour, linestyle=line)
+        style.label_line(upper, -0.03, angles[0, i], symbol, colour, ha="right", fontsize=10)
+    upper.set(xlim=(-0.2, SHOWN_S), title=f"2.{end}: {laws.TITLES[name]}")
+    lower.plot(fine, goal[0] * linear, **dashed)
+    lower.plot(times, goal, color=colour)
+    lower.set_ylim(0, None)
+    begins = ", ".join(f"{word} {value:.0f}" for (word, *_), value in zip(ANGLES, angles[0], strict=True))
+    bends = ", ".join(f"{word} {value:.2g}" for (word, *_), value in zip(ANGLES, bend_deg(own, kp, kv), strict=True))
+    return (
+        f"{laws.TITLES[name]} from {begins} degrees. Distance from the linear form, in degrees: {bends}. "
+        f"Its angle to the goal begins at {goal[0]:.0f}, peaks at {goal.max():.0f}, ends at {goal[-1]:.2g} degrees."
     )
-
-
-def _angle_to_goal(axes: Any, episode: pd.DataFrame) -> str:
-    said = []
-    for name, title, rows in laws.each(episode):
-        look = style.look(name)
-        angle = np.degrees(rows["angle_rad"])
-        axes.plot(rows["time_s"], angle, color=look.colour, linestyle=look.line, label=title)
-        said.append(f"{title} is at {angle.iloc[-1]:.2g} degrees")
-    axes.legend(loc="upper right")
-    return ", ".join(said)
 
 
 def bend_deg(trace: pd.DataFrame, kp: float, kv: float) -> np.ndarray:
