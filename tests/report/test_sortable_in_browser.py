@@ -52,4 +52,5 @@ def test_filter_leaves_rows_that_hold_the_words(opened, column):
     every, words = column(VERDICTS), "depends on the gains"
     opened.find_element("css selector", ".filter input").send_keys(words.upper())
     assert all(words in one for one in column(VERDICTS))
-    assert opened.find_element("css selector", ".filter output").text == f"{sum(words in one for one in every)} of {len(every)}"
+    told = f"{sum(words in one for one in every)} of {len(every)}"
+    assert opened.find_element("css selector", ".filter output").text == told
