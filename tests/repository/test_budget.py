@@ -30,7 +30,7 @@ LINES = {
     "tests/findings": 2_143,
     "tests/law": 2_611,
     "tests/regression": 722,
-    "tests/report": 1_644,
+    "tests/report": 1_645,
     "tests/repository": 519,
     "tests/running": 1_197,
     "tests/studies": 614,
