@@ -80,8 +80,8 @@ def responses(traces: pd.DataFrame, kp: float, kv: float, narrow: bool) -> Drawi
     Args:
         traces: rows of one engine. kp, kv: gains of the closed form, dashed.
     """
-    size = {"height": 8.4, "narrow": True} if narrow else {"height": 4.6}
-    figure, grid = style.panels(*((3, 2) if narrow else (2, 3)), sharex=True, **size)
+    shape = (3, 2) if narrow else (2, 3)
+    figure, grid = style.panels(*shape, height=8.4 if narrow else 4.6, narrow=narrow, sharex=True)
     pairs = grid if narrow else grid.T
     said = [
         draw_response(pair, find(traces, {"start_id": f"figure-2.{end}", "contender": SHORT[letter]}), end, kp, kv)
