@@ -35,13 +35,6 @@ QUICK = sorted(set(PAGES) - {"index", "claims.claims"})
 """Without those that judge all claims, which are tested by themselves."""
 
 
-@pytest.mark.parametrize("path", sorted(set(PAGES.values())), ids=lambda path: path.stem)
-def test_page_pastes_the_module_that_bears_its_name_first(path):
-    own, *others = modules_of(path.read_text(encoding="utf-8"))
-    assert own.rpartition(".")[2].replace("_", "-") == path.stem.lstrip("0123456789-")
-    assert own not in others
-
-
 @pytest.mark.parametrize("name", PAGES)
 def test_module_is_pasted_by_one_page_which_names_no_other_s_keys(name):
     text = text_of(name)

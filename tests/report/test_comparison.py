@@ -11,7 +11,6 @@ from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from report.figures.comparison import cells
 from report.figures.kit import families
-from report.figures.kit.page import Run
 
 
 @pytest.fixture(autouse=True)
@@ -42,13 +41,6 @@ def test_costs_of_starts_that_do_not_settle_are_infinite():
     assert table["gibbs"].tolist() == [math.inf, 5.0]
 
 
-def test_worst_start_is_the_nearest_that_fails_and_else_the_slowest():
-    made = [episode("gibbs", "a", time=2.0), episode("gibbs", "b", angle0_rad=0.5), episode("gibbs", "c")]
-    assert cells.worst(pd.DataFrame(made)) == "2.00 s from 57°"
-    failing = [episode("gibbs", "d", "stuck", angle0_rad=3.0), episode("gibbs", "e", "stuck", angle0_rad=2.0)]
-    assert cells.worst(pd.DataFrame(made + failing)) == "fails from 115°"
-
-
 def test_interval_is_left_away_where_it_is_the_number():
     write = "{:.3f}".format
     assert cells.spelled((0.5, 0.5, 0.5001), write) == "0.500"
@@ -64,10 +56,3 @@ def test_law_of_no_family_comes_last_under_its_own_name():
 def test_an_orientation_counts_once_whatever_the_sign_of_its_quaternion():
     turns = pd.DataFrame([(0.6, 0.8, 0.0, 0.0), (-0.6, -0.8, 0.0, 0.0)], columns=[f"quat_{one}" for one in "wxyz"])
     assert len(cells.orientation(turns).drop_duplicates()) == 1
-
-
-class Unperturbed(Run):
-    """A run without a row on perturbations."""
-
-    def any_rows(self, table, **words):
-        return super().any_rows(table, **words).iloc[: 0 if table == "robustness" else None]

@@ -111,13 +111,17 @@ def recompute_thresholds():
     known = {law for own in each.values() for law, held in own.items() if held}
     apart = [way for way, own in sorted(each.items()) if len({own[law] for law in known}) > 1]
     *most, last = (f"{tasks.axis(axis).title.lower()}{' (downwards)' * falls}" for axis, falls in apart)
+    return {"apart": f"{', '.join(most)} and {last}"}
+
+
+def recompute_noise():
+    """Return the worst noise that no memory of a known width fails at, and who leaves 180° under it."""
     noise = table("robustness").query(f"axis == 'half-turn-noise' and law not in {CONTROLS} and level > 0")
     left = (noise["outcome"] == "settled").groupby([noise["law"], noise["level"]]).mean().unstack()
     remembers = np.array([find_contender(law).regulator.memory is not None for law in left.index])
     sided = remembers & ~left.index.isin(["predicted-side", "synergistic"])  # those whose width theory knows
     middle = max(level for level in left if (left.loc[sided, level] == 1.0).all())
     return {
-        "apart": f"{', '.join(most)} and {last}",
         "half_turn_noise.middle": f"{middle:g}",
         "half_turn_noise.blind_middle": f"{100 * left.loc[~remembers, middle].max():.0f}",
         "half_turn_noise.memory_middle": f"{100 * left.loc[sided, middle].min():.0f}",
@@ -187,6 +191,7 @@ COMPUTED = {
     "appendix-arms": recompute_arms,
     "07-compliance-and-contact": recompute_compliance,
     "appendix-contact": recompute_contact,
+    "02-what-an-error-must-do": recompute_noise,
     "04-side-by-side": recompute_comparison,
     "06-delay-noise-saturation": recompute_thresholds,
     "appendix-velocity": recompute_velocities,

@@ -7,8 +7,6 @@ from typing import Any
 from bench.experiments.situations import FIRST, MOST, NOISE_RAD
 from bench.findings.claims import Results, judge
 from bench.findings.selection import regions, sensitivity
-from bench.findings.selection.measured import measured
-from bench.findings.selection.needs import EVERYWHERE, UNHELD, has_all
 from bench.findings.selection.regions import decide_all, facts_of, find_bounds, find_regions, is_drawn, read_map
 from bench.findings.selection.robots import list_elsewhere
 from bench.findings.selection.words import describe_bounds, together
@@ -31,10 +29,7 @@ ROBOTS_TABLE = Table("If | use | Tied with | Of laws | Measured")
 
 def facts(run: Run) -> dict[str, Any]:
     """Return the advice in a few sentences, and the numbers about it."""
-    found, verdicts = measured(run.folder), decide_all()
-    shown = [law for law in found.laws if law not in families.CONTROLS]
-    whole = [law for law in shown if EVERYWHERE.has(found, law)]
-    forgetful = [law for law in shown if not found.number("memory", law) and law in found.values["held"]]
+    verdicts = decide_all()
     beaten, left = sensitivity.correct()
     halves, of = sensitivity.count_halves()
     return {
@@ -50,12 +45,7 @@ def facts(run: Run) -> dict[str, Any]:
         "halves": halves,
         "of_halves": of,
         "slower": f"{100 * sensitivity.bound_slower(FIRST):.1f}",
-        "laws": len(shown),
-        "whole": len(whole),
-        "unheld": sum(UNHELD.has(found, law) for law in whole),
         "noise": f"{NOISE_RAD:g}",
-        "forgetful": len(forgetful),
-        "forgetful_both": sum(has_all(found, law, (EVERYWHERE, UNHELD)) for law in forgetful) or "none",
         "verdict": str(judge("C27", Results(run.folder)).word),
     }
 

@@ -8,9 +8,11 @@ import numpy as np
 import pandas as pd
 
 from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, NEAREST_RAD, Equation, settling
+from report.figures.comparison.comparison import uniform
 from report.figures.kit import families, style
 from report.figures.kit.dots import dots
 from report.figures.kit.inline import Drawing, responsive_picture
+from report.figures.kit.page import Run
 
 CURVE = 60
 DRAWN = 150
@@ -73,3 +75,8 @@ def left_at(angles: np.ndarray, times: np.ndarray) -> tuple[float, float] | None
     if not len(outside) or outside[0] == 0:
         return None
     return float(angles[outside[0]]) - ASIDE_DEG, TOP_S if times[outside[0]] > TOP_S else FOOT_S
+
+
+def figures(run: Run) -> dict:
+    """Draw settling times over the angle."""
+    return {"comparison-angle": curves(uniform(run))}

@@ -103,15 +103,6 @@ def with_interval(value: str, low: str, high: str) -> str:
     return f"{value} {html.together(f'({low} to {high})')}"
 
 
-def worst(own: pd.DataFrame) -> str:
-    """Return the nearest start that fails, or else the slowest, by its angle."""
-    failed = own[own["outcome"] != "settled"]
-    if len(failed):
-        return f"fails from {np.degrees(failed['angle0_rad'].min()):.0f}°"
-    start = own.loc[own["settling_time_s"].idxmax()]
-    return f"{start['settling_time_s']:.2f} s from {np.degrees(start['angle0_rad']):.0f}°"
-
-
 def directed_starts(episodes: pd.DataFrame) -> pd.DataFrame:
     """Directed starts at rest, each orientation once a law, though several sets have it; rows of one engine."""
     rows = episodes[episodes["start_set"].isin(AT_REST) & (episodes["arm"] == "")]

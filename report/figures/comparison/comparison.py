@@ -11,7 +11,6 @@ import pandas as pd
 from bench.experiments.tables import read
 from bench.findings.selection.measured import measured
 from report.figures.comparison import cells
-from report.figures.comparison.angle import curves
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
 
@@ -82,7 +81,7 @@ def tables(run: Run) -> dict:
 
 
 def all_laws(run: Run) -> html.Markdown | None:
-    """Return a row a law: what settles, how fast, effort, peak, operations, lost starts, what noise holds."""
+    """Return a row a law: what settles, how fast, effort, peak, lost starts, what noise holds."""
     rows, tried, counted = uniform(run), cells.directed_starts(ideal(run)), run.any_rows("costs", **read.FREE_BODY)
     held = in_run(lambda: measured(run.folder).values["held"]) or {}
     times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
@@ -93,17 +92,11 @@ def all_laws(run: Run) -> html.Markdown | None:
             "Settles [%]": cells.settles(own),
             "Median [s]": cells.seconds(times[name]),
             "99 % [s]": cells.seconds(times[name], 0.99),
-            "Worst start": cells.worst(own),
             "Effort": html.number(float(f"{cells.quantile(efforts[name].to_numpy(), 0.5):.3g}")),
             "Peak": cells.large(own["peak_u"].max()),
             "A tick": cells.tick(counted, name),
-            "Directed, lost": cells.count_lost(tried[tried["contender"] == name]),
+            "Lost": cells.count_lost(tried[tried["contender"] == name]),
             "Held": html.cell(float(held[name][0])) if name in held else html.MISSING,
         }
 
     return cells.by_law(times, line)
-
-
-def figures(run: Run) -> dict:
-    """Settling times over the angle."""
-    return {"comparison-angle": curves(uniform(run))}

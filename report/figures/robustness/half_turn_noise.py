@@ -15,7 +15,6 @@ from bench.experiments.tables import read
 from bench.findings.theory.thresholds import DELTAS, HALF_TURN, keeps, least
 from bench.law import DELTA
 from bench.law.contenders.registry import find_contender
-from bench.law.contenders.regulators import mrp_linearized
 from bench.law.kinds import Law
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
@@ -36,7 +35,7 @@ def strips(rows: pd.DataFrame, narrow: bool) -> Drawing:
     shares = leaving(rows)
     shares = shares[shares.index > 0]
     own = laws(rows, controls=False)
-    figure, axes = style.panels(height=0.25 * len(own) + 0.9, narrow=narrow)
+    figure, axes = style.panels(height=0.2 * len(own) + 0.9, narrow=narrow)
     words = []
     for place, law in enumerate(own):
         colour, begin = style.look(law).colour, least(law, *gains(rows))
@@ -50,7 +49,7 @@ def strips(rows: pd.DataFrame, narrow: bool) -> Drawing:
             f"{families.word(law)} {settled}" + ("" if math.isnan(begin) else f" (held from {begin:.2g} by theory)")
         )
     axes.set(xscale="log", xlim=(FOOT, TOP), ylim=(len(own) - 0.4, -0.6), xlabel="worst noise at 180° [rad]")
-    axes.set_yticks(range(len(own)), map(families.word, own), fontsize=9)
+    axes.set_yticks(range(len(own)), map(families.word, own), fontsize=8.5)
     # 0.3 and its like lie too close to their neighbours on a phone
     axes.set_xticks(list(shares.index), ["" if narrow and f"{x:g}"[-1] == "3" else f"{x:g}" for x in shares.index])
     axes.minorticks_off()
@@ -66,9 +65,9 @@ def strips(rows: pd.DataFrame, narrow: bool) -> Drawing:
 def _marks(axes: Axes, place: int, shares: pd.Series, colour: str) -> None:
     for level, share in shares.items():
         fill = colour if share == 0.0 else style.PAPER
-        axes.plot(level, place, "o", markersize=6, markerfacecolor=fill, markeredgecolor=colour, markeredgewidth=1.3)
+        axes.plot(level, place, "o", markersize=5, markerfacecolor=fill, markeredgecolor=colour, markeredgewidth=1.3)
         if 0.0 < share < 1.0:
-            axes.plot(level, place, "o", markersize=6, fillstyle="left", color=colour, markerfacecoloralt=style.PAPER)
+            axes.plot(level, place, "o", markersize=5, fillstyle="left", color=colour, markerfacecoloralt=style.PAPER)
 
 
 def regulator_of(law: str) -> Law:
@@ -96,12 +95,10 @@ def facts(run: Run) -> dict:
         "middle": f"{middle:g}",
         "blind_middle": f"{100 * float(noisy.loc[middle, without_memory].max()):.0f}",
         "memory_middle": f"{100 * float(noisy.loc[middle, on_a_side].min()):.0f}",
-        "stuck": int((shares.loc[0.0, own] < 1.0).sum()),
         "least": f"{min(jumping):.2g}",
         "most": f"{max(jumping):.2g}",
         **{law: f"{keeps(law):.3f}" for law in ("hybrid", "late-braking", "mrp-linearized")},
         "delta": f"{DELTA:g}",
-        "switch": f"{mrp_linearized.SWITCH:g}",
     }
 
 

@@ -1,0 +1,25 @@
+"""The chapter on what an error must do: how many laws settle from everywhere, and how many noise cannot hold."""
+
+from __future__ import annotations
+
+from bench.experiments.situations import NOISE_RAD
+from bench.findings.selection.measured import measured
+from bench.findings.selection.needs import EVERYWHERE, UNHELD, has_all
+from report.figures.kit import families
+from report.figures.kit.page import Run
+
+
+def facts(run: Run) -> dict[str, object]:
+    """Count laws by what they have: starts that all settle, no noise that holds them at 180°, no memory."""
+    found = measured(run.folder)
+    shown = [law for law in found.laws if law not in families.CONTROLS]
+    whole = [law for law in shown if EVERYWHERE.has(found, law)]
+    forgetful = [law for law in shown if not found.number("memory", law) and law in found.values["held"]]
+    return {
+        "laws": len(shown),
+        "whole": len(whole),
+        "unheld": sum(UNHELD.has(found, law) for law in whole),
+        "noise": f"{NOISE_RAD:g}",
+        "forgetful": len(forgetful),
+        "forgetful_both": sum(has_all(found, law, (EVERYWHERE, UNHELD)) for law in forgetful) or "none",
+    }
