@@ -16,7 +16,6 @@ from PIL import Image, ImageDraw, ImageFont
 
 MEDIA = Path(__file__).resolve().parent / "_static" / "media"
 FACE = MEDIA.parents[1] / "figures" / "kit" / "fonts" / "OrientationSans-Bold.ttf"
-INK, PAPER = (28, 36, 48), (255, 255, 255)
 HALF = (360, 340)  # pixels of a loop's each half
 LINE = 36  # of words above and below
 FRAMES_PER_S = 25
@@ -26,6 +25,17 @@ ENCODERS = {
 }
 PLAIN = ["-an", "-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1"]
 WHOLE = (0.0, 0.0, 1.0, 1.0)  # what is kept of a view: left, top, right, bottom, as shares of its sides
+
+
+class Theme(NamedTuple):
+    """How the names of a theme's files end, and the colours of its words and of what is behind an arm."""
+
+    suffix: str
+    ink: tuple[int, int, int]
+    paper: tuple[int, int, int]
+
+
+THEMES = Theme("", (28, 36, 48), (255, 255, 255)), Theme("-dark", (230, 234, 240), (20, 24, 30))
 
 
 class Motion(NamedTuple):
@@ -40,10 +50,13 @@ class Motion(NamedTuple):
             yield self.poses[min(round(number / per_s / self.dt_s), len(self.poses) - 1)]
 
 
-def make_view(puppet: Any, size: tuple[int, int], camera: Any, part: tuple = WHOLE) -> Callable[[Any], Image.Image]:
-    """Return what draws a puppet in a pose, at a size in pixels."""
+def make_view(
+    puppet: Any, size: tuple[int, int], theme: Theme, camera: Any, part: tuple = WHOLE
+) -> Callable[[Any], Image.Image]:
+    """Return what draws a puppet in a pose on the theme's paper, at a size in pixels."""
     import mujoco
 
+    puppet.model.tex_data[:] = np.resize(theme.paper, puppet.model.tex_data.size)  # the sky is the only texture
     width, height = round(size[0] / (part[2] - part[0])), round(size[1] / (part[3] - part[1]))
     renderer = mujoco.Renderer(puppet.model, height, width)
     left, top = round(part[0] * width), round(part[1] * height)
@@ -56,19 +69,21 @@ def make_view(puppet: Any, size: tuple[int, int], camera: Any, part: tuple = WHO
     return draw
 
 
-def write_on(image: Image.Image, place: tuple[int, int], text: str, size: int) -> None:
+def write_on(image: Image.Image, place: tuple[int, int], text: str, size: int, theme: Theme) -> None:
     """Write a line of text, centred above a place."""
     font = ImageFont.truetype(str(FACE), size)
-    ImageDraw.Draw(image).text(place, text, fill=INK, font=font, anchor="ms")
+    ImageDraw.Draw(image).text(place, text, fill=theme.ink, font=font, anchor="ms")
 
 
-def draw_row(pictures: list[Image.Image], titles: list[str], above: int, below: int, at: int, size: int) -> Image.Image:
+def draw_row(
+    pictures: list[Image.Image], titles: list[str], above: int, below: int, at: int, size: int, theme: Theme
+) -> Image.Image:
     """Return pictures in a row on paper, with room above and below them, each with its title at a height."""
     width, height = pictures[0].size
-    image = Image.new("RGB", (width * len(pictures), height + above + below), PAPER)
+    image = Image.new("RGB", (width * len(pictures), height + above + below), theme.paper)
     for place, (picture, title) in enumerate(zip(pictures, titles, strict=True)):
         image.paste(picture, (place * width, above))
-        write_on(image, (place * width + width // 2, at), title, size)
+        write_on(image, (place * width + width // 2, at), title, size, theme)
     return image
 
 
@@ -78,16 +93,23 @@ def save(image: Image.Image, name: str) -> None:
 
 
 def encode_loop(
-    name: str, shown: dict[str, Any], loop_s: float, slower: float, note: str = "", poster_s: float = math.inf
+    name: str,
+    shown: dict[str, Any],
+    theme: Theme,
+    loop_s: float,
+    slower: float,
+    note: str = "",
+    poster_s: float = math.inf,
 ) -> None:
     """Encode motions side by side at equal times, by title, in both codecs; a poster is the picture at a time."""
     import imageio_ffmpeg
 
+    name += theme.suffix
     per_s, images = FRAMES_PER_S * slower, []
     for number, poses in enumerate(zip(*(motion.frames(loop_s, per_s) for _, motion in shown.values()), strict=True)):
         pictures = [view(pose) for (view, _), pose in zip(shown.values(), poses, strict=True)]
-        image = draw_row(pictures, list(shown), LINE, LINE, LINE - 10, 24)
-        write_on(image, (image.width // 2, image.height - 10), f"{number / per_s:.2f} s{note}", 22)
+        image = draw_row(pictures, list(shown), LINE, LINE, LINE - 10, 24, theme)
+        write_on(image, (image.width // 2, image.height - 10), f"{number / per_s:.2f} s{note}", 22, theme)
         images.append(image)
     for kind, (codec, options) in ENCODERS.items():
         usual = {"fps": FRAMES_PER_S, "codec": codec, "macro_block_size": 2, "ffmpeg_log_level": "error"}

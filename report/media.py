@@ -19,7 +19,7 @@ if __name__ == "__main__":
     os.environ.setdefault("MUJOCO_GL", "egl")  # which MuJoCo reads when it is imported
 
 import numpy as np
-from drawing import HALF, LINE, MEDIA, Motion, draw_row, encode_loop, make_view, save
+from drawing import HALF, LINE, MEDIA, THEMES, Motion, Theme, draw_row, encode_loop, make_view, save
 
 import tasks
 from bench.base.provenance import describe
@@ -157,30 +157,41 @@ def describe_files(rows: dict[str, dict]) -> dict[str, Any]:
     }
 
 
-def main() -> None:
-    """Draw all files; leave them as they are where MuJoCo cannot draw."""
+def draw_arms(theme: Theme, motions: dict[str, Motion]) -> None:
+    """Draw the arms at home, and the loop of motions at the pole, by contender."""
     arms = {name: tasks.arm(name) for name in tasks.arm_names()}
-    try:
-        views = {name: make_view(Puppet(model_xml(arm, 1e-3)), STRIP, "view") for name, arm in arms.items()}
-    except Exception as reason:  # what a missing GL raises depends on the backend
-        sys.exit(f"media: nothing is drawn here ({reason}); the files stay (cure: apt-get install libegl1 libgl1)")
+    views = {name: make_view(Puppet(model_xml(arm, 1e-3)), STRIP, theme, "view") for name, arm in arms.items()}
     homes, titles = [views[name](arm.home) for name, arm in arms.items()], [arm.title for arm in arms.values()]
-    save(draw_row(homes, titles, 0, 0, STRIP[1] - 12, 28), "arms.png")
-    motions = simulate_at_pole()
-    large = make_view(Puppet(model_xml(arms[POLE["arm"]], 1e-3)), HALF, "view", CLOSE)
-    both = {CONTENDERS[word]: (large, motion) for word, (motion, _) in motions.items()}
-    encode_loop("pole-loop", both, **POLE_LOOP, note=f", played {POLE_LOOP['slower']} times slower", poster_s=POSTER_S)
+    save(draw_row(homes, titles, 0, LINE, STRIP[1] + LINE - 12, 28, theme), f"arms{theme.suffix}.png")
+    large = make_view(Puppet(model_xml(arms[POLE["arm"]], 1e-3)), HALF, theme, "view", CLOSE)
+    both, note = {CONTENDERS[word]: (large, motion) for word, motion in motions.items()}, POLE_LOOP["slower"]
+    encode_loop("pole-loop", both, theme, **POLE_LOOP, note=f", played {note} times slower", poster_s=POSTER_S)
+
+
+def draw_contact(theme: Theme) -> None:
+    """Draw a still of each task in contact, and the loop of two controllers at a plate."""
     scenes = [(*simulate_contact(task, trial, BY), distance) for task, (trial, distance) in STILLS.items()]
-    seen = [(make_view(one, HALF, one.camera(160.0, -14.0, distance)), motion) for one, motion, distance in scenes]
+    seen = [(make_view(one, HALF, theme, one.camera(160.0, -14.0, far)), motion) for one, motion, far in scenes]
     stills = [[view(pose) for pose in motion.frames(STILL_AT_S)][-1] for view, motion in seen]
     titles = [task.replace("-", " ") for task in STILLS]
-    save(draw_row(stills, titles, 0, LINE, HALF[1] + LINE - 12, 24), "contact-tasks.png")
+    save(draw_row(stills, titles, 0, LINE, HALF[1] + LINE - 12, 24, theme), f"contact-tasks{theme.suffix}.png")
     on_plate = {}
     for name, title in CONTROLLERS.items():
         puppet, motion = simulate_contact(**PLATE, name=name)
-        on_plate[title] = make_view(puppet, HALF, puppet.camera(172.0, -5.0, 0.5)), motion
-    encode_loop("plate-loop", on_plate, **PLATE_LOOP)
-    about = {"commit": describe()["commit"], **describe_files({word: row for word, (_, row) in motions.items()})}
+        on_plate[title] = make_view(puppet, HALF, theme, puppet.camera(172.0, -5.0, 0.5)), motion
+    encode_loop("plate-loop", on_plate, theme, **PLATE_LOOP)
+
+
+def main() -> None:
+    """Draw all files, on light and on dark paper; leave them as they are where MuJoCo cannot draw."""
+    found = simulate_at_pole()
+    try:
+        for theme in THEMES:
+            draw_arms(theme, {word: motion for word, (motion, _) in found.items()})
+            draw_contact(theme)
+    except Exception as reason:  # what a missing GL raises depends on the backend
+        sys.exit(f"media: not all is drawn here ({reason}; cure where GL is missing: apt-get install libegl1 libgl1)")
+    about = {"commit": describe()["commit"], **describe_files({word: row for word, (_, row) in found.items()})}
     (MEDIA / "media.json").write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8")
 
 

@@ -6,6 +6,7 @@ import pytest
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
 import media as rendering
+from drawing import THEMES
 
 import tasks
 from bench.engines.contact_episode import P, R
@@ -13,10 +14,12 @@ from report.figures.kit import media
 
 ABOUT = media.facts()
 LOOPS = ("pole-loop", "plate-loop")
-FILES = (
-    *("arms.png", "contact-tasks.png"),
-    *(f"{loop}.{kind}" for loop in LOOPS for kind in ("png", "webm", "mp4")),
-)
+FILES = [
+    f"{name}{one.suffix}.{kind}"
+    for one in THEMES
+    for name in ("arms", "contact-tasks", *LOOPS)
+    for kind in (("png", "webm", "mp4") if name in LOOPS else ("png",))
+]
 LARGEST, LARGEST_IN_ALL = 300_000, 1_500_000
 STARTS_OF = {"png": b"\x89PNG\r\n", "webm": b"\x1a\x45\xdf\xa3", "mp4": b"ftyp"}
 

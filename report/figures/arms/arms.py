@@ -10,12 +10,17 @@ import pandas as pd
 import tasks
 from bench.findings.selection.robots import ARM, word_of
 from report.figures.arms import arm_ranking, arm_rows
-from report.figures.kit import families
+from report.figures.kit import families, media
 from report.figures.kit.page import NotInRun, Run, in_run
 from report.figures.kit.spelling import prose
 
 HAMMERED = 10.0
 """Peak torque over that of the law on R from the same start, as in claim C20: beyond it something hammers the arm."""
+
+HOMES = (
+    "Renders of the four arms side by side, each in its home pose: Kinova Jaco, Franka Emika Panda, Unimation PUMA "
+    "560, Universal Robots UR5e. Axes mark the base and the tool."
+)
 
 
 @functools.cache
@@ -45,6 +50,11 @@ def tables(run: Run) -> dict:
         "sources": "\n".join(f"- `{name}`: {prose(tasks.arm(name).source)}" for name in tasks.arm_names()),
         "tab_ranked": in_run(lambda: arm_ranking.RANKED(arm_ranking.ranked(arm_rows.episodes(run)))),
     }
+
+
+def figures(_: Run) -> dict:
+    """Return the arms at home."""
+    return {"arms-at-home": media.still(HOMES, "arms")}
 
 
 def pass_pole(rows: pd.DataFrame) -> pd.DataFrame:

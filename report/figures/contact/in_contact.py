@@ -26,6 +26,11 @@ LOOP = (
     "with the Euler Jacobian it stays level, on one edge."
 )
 
+STILLS = (
+    "Four renders of a PUMA 560 with a blue tool. A square tool flat on a tilted plate; a square peg in a leaning "
+    "chamfered hole; a hand on a crank; a round tip on an inclined plane."
+)
+
 
 class Measure(NamedTuple):
     """A column of compliance.parquet: its words with the unit, the factor to it, and what a failed episode counts."""
@@ -163,5 +168,5 @@ def compare_tasks(rows: pd.DataFrame) -> Iterator[tuple]:
 
 
 def figures(_: Run) -> dict:
-    """Return the loop of two arms at a plate."""
-    return {"plate-loop": media.loop(LOOP, "plate-loop")}
+    """Return the tasks, and the loop of two arms at a plate."""
+    return {"contact-tasks": media.still(STILLS, "contact-tasks"), "plate-loop": media.loop(LOOP, "plate-loop")}

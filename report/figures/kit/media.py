@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import html as escape
 import json
+from collections.abc import Callable
 from pathlib import Path
 
 from bench.base.provenance import ROOT
@@ -25,9 +26,24 @@ def facts(folder: Path = FOLDER) -> dict:
 def loop(alt: str, name: str = "pole-loop") -> html.Html:
     """Return a loop with its poster; a reader starts it. Where no video plays, the poster stands for it."""
     words = escape.escape(alt, quote=True)
-    sources = "".join(f'<source src="{SOURCE}/{name}.{kind}" type="{mime}">' for kind, mime in TYPES.items())
-    poster = f"{SOURCE}/{name}.png"
-    return html.Html(
-        f'<video controls loop muted playsinline preload="none" poster="{poster}" width="720" height="412" '
-        f'aria-label="{words}">{sources}<img src="{poster}" alt="{words}"></video>'
+    return in_both_themes(
+        lambda file, shown: (
+            f'<video class="{shown}" controls loop muted playsinline preload="none" poster="{file}.png" width="720" '
+            f'height="412" aria-label="{words}">'
+            + "".join(f'<source src="{file}.{kind}" type="{mime}">' for kind, mime in TYPES.items())
+            + f'<img src="{file}.png" alt="{words}"></video>'
+        ),
+        name,
     )
+
+
+def still(alt: str, name: str) -> html.Html:
+    """Return a rendered picture."""
+    words = escape.escape(alt, quote=True)
+    return in_both_themes(lambda file, shown: f'<img class="{shown}" src="{file}.png" alt="{words}">', name)
+
+
+def in_both_themes(write: Callable[[str, str], str], name: str) -> html.Html:
+    """Return the files of light pages and of dark ones, each shown where its class says."""
+    shown = (("", "only-light"), ("-dark", "only-dark"))
+    return html.Html("".join(write(f"{SOURCE}/{name}{suffix}", where) for suffix, where in shown))
