@@ -11,11 +11,12 @@ IMAGE = re.compile(r'"data:[^"]*"')
 
 
 def assert_is_drawn(picture, constant=()):
-    """It says its numbers in words, uses colours of the palette only, and is drawn for a phone too.
+    """It says its numbers in words, no texts overlap, colours are the palette's, and it is drawn for a phone too.
 
     Args:
         constant: colours that may be the same on a light page and a dark one.
     """
+    assert picture.clashes == ()
     assert len(re.findall(r"\d", picture.alt)) > 1
     assert "nan" not in picture.alt
     assert picture.narrow not in ("", picture.wide)

@@ -19,7 +19,7 @@ DRAWN = 150
 FOOT_S, TOP_S = 0.3, 3.0
 """Limits of the panel, on a logarithmic axis: curves that go to infinity at 180° leave it."""
 
-APART = 0.042
+APART = 0.056
 """Least distance of two labels beside curves, in decades."""
 
 ASIDE_DEG = 7.0
@@ -35,6 +35,11 @@ def groups(rows: pd.DataFrame) -> dict[Equation, list[str]]:
     return found
 
 
+def looks(names: list[str]) -> list[str]:
+    """Return the colour of each law."""
+    return [style.look_among_all(name).colour for name in names]
+
+
 @responsive_picture
 def curves(rows: pd.DataFrame, narrow: bool) -> Drawing:
     """Curves of the equations, and dots of the starts, of the first law of each.
@@ -47,11 +52,14 @@ def curves(rows: pd.DataFrame, narrow: bool) -> Drawing:
     angles = np.linspace(LEAST_RAD, math.pi - NEAREST_RAD, CURVE)
     beside, words = [], []
     for equation, names in groups(rows).items():
-        colour = style.look(names[0]).colour
+        colour = next((one for one in looks(names) if one != style.REST), style.REST)
+        alpha = 0.5 if colour == style.REST else 1.0
         times = np.array([settling(equation, float(angle), kp, kv, tolerance) for angle in angles])
-        axes.plot(np.degrees(angles), times, color=colour, linewidth=1.1, zorder=2)
+        axes.plot(
+            np.degrees(angles), times, color=colour, linewidth=1.1, alpha=alpha, zorder=2 + (colour != style.REST)
+        )
         own = rows[rows["contender"] == names[0]].head(DRAWN)
-        dots(axes, np.degrees(own["angle0_rad"]), own["settling_time_s"], colour, 3.0, zorder=3)
+        dots(axes, np.degrees(own["angle0_rad"]), own["settling_time_s"], colour, 3.0, zorder=3, alpha=alpha)
         word = families.word(names[0]) + (f" +{len(names) - 1}" if len(names) > 1 else "")
         words.append(f"{', '.join(map(families.word, names))} from {times[0]:.2f} to {times[-1]:.2f} s")
         leaves = left_at(np.degrees(angles), times)

@@ -19,6 +19,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 from report.figures.kit import style
+from report.figures.kit.clashes import find_clashes
 
 USED_ID = re.compile(r"""(?:url\(#|href="#)([^)"]+)""")
 ID = re.compile(r'\s+id="([^"]*)"')
@@ -36,11 +37,12 @@ POINTS_PER_INCH = 72  # the unit of an SVG, in which text is measured
 
 
 class Picture(NamedTuple):
-    """Inline SVG for a page, with the words that stand for it where it cannot be seen."""
+    """Inline SVG for a page, the words that stand for it where it cannot be seen, and texts of it that overlap."""
 
     wide: str
     alt: str
     narrow: str = ""
+    clashes: tuple[str, ...] = ()
 
     def _repr_html_(self) -> str:
         if not self.narrow:
@@ -57,10 +59,11 @@ def responsive_picture(draw: Callable[..., Drawing]) -> Callable[..., Picture]:
         with style.paper_style():
             if "narrow" not in inspect.signature(draw).parameters:
                 figure, alt = draw(*args, **kwargs)
-                return Picture(svg(figure, alt, name), alt)
+                return Picture(svg(figure, alt, name), alt, clashes=tuple(find_clashes(figure)))
             figure, alt = draw(*args, narrow=False, **kwargs)
             phone, _ = draw(*args, narrow=True, **kwargs)
-            return Picture(svg(figure, alt, name), alt, svg(phone, alt, f"{name}-narrow"))
+            texts = svg(figure, alt, name), alt, svg(phone, alt, f"{name}-narrow")
+            return Picture(*texts, (*find_clashes(figure), *find_clashes(phone)))
 
     return drawn
 

@@ -51,6 +51,12 @@ TWINS = {
 }
 
 
+ARGUED = ("rotation-matrix", "linearized-euler", "feedback-linearized", "mrp-memory", "late-braking")
+"""The laws that have a colour among all others: the paper's three, the advised one, and ours."""
+REST = MUTED
+"""The colour of the others there."""
+
+
 class Look(NamedTuple):
     """How one regulator is drawn, in every figure."""
 
@@ -81,6 +87,12 @@ LINES: dict[str, str | tuple] = {"solid": SOLID, "dashed": DASHED, "dotted": DOT
 SPARE_COLOURS = ("#a39400", "#56b4e9", "#cc79a7")
 SPARE_MARKERS = ("P", "X", "h", "*", "<")
 SPARE_LINES: tuple[Any, ...] = (SOLID, DASHED, DASH_DOT)
+
+
+def look_among_all(name: str) -> Look:
+    """Return how a law is drawn where two dozen are: the laws of the argument in colour, and the rest in grey."""
+    own = look(name)
+    return own if name.partition("@")[0] in (*ARGUED, *laws.TITLES) else own._replace(colour=REST)
 
 
 def look(name: str) -> Look:
