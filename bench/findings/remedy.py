@@ -1,6 +1,6 @@
 """The smallest fix of a shipped controller's orientation error, and its greatest command before and after.
 
-Page 17 prints it, and page 25 refers to that page. A bound is not a fault: a fix keeps it, and at most bounds the
+A bound is not a fault: a fix keeps it, and at most bounds the
 length where each component is clipped. An error that is replaced keeps the greatest command that it had.
 """
 

@@ -31,7 +31,7 @@ PAGES = {
     for path in (REPORT / "index.md", *sorted(REPORT.glob("pages/*.md")))
     for name in modules_of(path.read_text(encoding="utf-8"))
 }
-QUICK = sorted(set(PAGES) - {"index", "claims.claims"})
+QUICK = sorted(set(PAGES) - {"index", "claims.claims", "claims.evidence"})
 """Without those that judge all claims, which are tested by themselves."""
 
 

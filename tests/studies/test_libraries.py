@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
-from support.pages import assert_is_whole
 
 from bench.experiments.tables.store import read
 from bench.studies.libraries import turns
@@ -208,7 +207,3 @@ def test_verdict_of_the_page_agrees_with_the_check_and_the_closed_loops():
         assert bool(one.objections) == is_wrong, (one.library, one.function)
         assert one.objections or not (one.dead or one.away or one.unsettled), (one.library, one.function)
     assert both.loc[both["precision"] == "single", "objections"].map(len).sum() == 0
-
-
-def test_page_is_whole():
-    assert_is_whole(libraries, None)

@@ -11,7 +11,7 @@ import pandas as pd
 
 from bench.base.files import read_json
 from bench.experiments.shipped import BENT_DEG, FELT_RAD
-from bench.findings.remedy import KEEP, fix_of, is_bent
+from bench.findings.remedy import KEEP, fix_of
 from bench.law.contenders.registry import contenders
 from bench.law.kinds import POSITION, TORQUE, VELOCITY, Law
 from bench.studies.restated.__main__ import STORED
@@ -29,7 +29,7 @@ MEASURED = Table(
     "Controller | K, D | Felt [%] | Damping ratio:.3g | Critical at [kg m²]:.2g | Rests at 180° | Unwinds "
     "| Bent [°]:.0f | Settles [s]"
 )
-FIXES = Table("Controller | Bound of the error | Smallest fix | Greatest K e")
+FIXES = Table("Controller | Felt [%]:.0f | Stuck at 180° | Smallest fix | Greatest K e")
 
 
 def shipped(run: Run) -> pd.DataFrame:
@@ -55,9 +55,7 @@ def is_weak(own: pd.DataFrame) -> pd.Series:
 
 FACTS: dict[str, Callable[[pd.DataFrame], object]] = {
     "controllers": len,
-    "weak": lambda own: int(is_weak(own).sum()),
     "weak_ratio": lambda own: f"{own.loc[is_weak(own), 'damping_ratio'].max():.3g}",
-    "dead": lambda own: int((own["dead"] > 0).sum()),
     "dead_names": lambda own: named(own[own["dead"] > 0]),
     "bent": lambda own: int((own["bent"] > 0.0).sum()),
     "bent_most": lambda own: f"{math.degrees(own['bent'].max()):.0f}",
@@ -94,16 +92,20 @@ def named(rows: pd.DataFrame) -> str:
 
 
 def tables(run: Run) -> dict:
-    """Return what is measured, equals in one line; and the smallest fix, with a link to the source."""
-    ordered = sorted(contenders("shipped").values(), key=lambda one: (LEVELS.index(one.level), one.name))
-    return {"measured": in_run(lambda: MEASURED(in_lines(shipped(run)))), "fixes": FIXES(fix(one) for one in ordered)}
+    """Return what is measured, equals in one line."""
+    return {"measured": in_run(lambda: MEASURED(in_lines(shipped(run))))}
+
+
+def list_fixes(run: Run) -> html.Markdown | None:
+    """Return a row a controller that a small fix helps."""
+    return FIXES(describe_fix(one) for one in shipped(run).itertuples() if fix_of(one.shipped).words != KEEP)
 
 
 def in_lines(rows: pd.DataFrame) -> list[tuple]:
     """Return a row for all controllers with the same cells."""
     lines: dict[tuple, list[str]] = {}
     for one in rows.itertuples():
-        lines.setdefault(measured(one), []).append(one.shipped)
+        lines.setdefault(measured(one), []).append(link(contenders("shipped")[one.shipped]))
     return [(", ".join(names), *cells) for cells, names in lines.items()]
 
 
@@ -115,7 +117,7 @@ def measured(one: Any) -> tuple:
         html.together(", ".join(f"{100.0 * getattr(one, name):.0f}" for name in FELT_RAD)),
         one.damping_ratio if has_body else None,
         None if math.isnan(one.critical) else one.critical,
-        "every" if one.dead == one.half_turns else f"{one.dead} of {one.half_turns}" if one.dead else "no",
+        stuck(one),
         (f"{one.away} of {one.starts}" if one.away else "no") if has_body else None,
         math.degrees(one.bent),
         times(one.settling_1_s, one.settling_90_s, one.settling_179_9_s) if has_body else None,
@@ -127,18 +129,27 @@ def times(*settling: float) -> str:
     return html.together(", ".join("never" if math.isnan(one) else f"{one:.2g}" for one in settling))
 
 
-def fix(one: Law) -> tuple:
-    """Return the cells of a controller's fix: its bound, what to change, the greatest command before and after."""
-    found = fix_of(one.name)
-    repository, _, number = one.shipped.thread.partition("#")
-    known = f" Thread: [{one.shipped.thread}]({HOST}/{repository}/issues/{number})." if one.shipped.thread else ""
-    unit = "rad/s²" if one.shipped.shapes_inertia else "N m"
+def stuck(row: Any) -> str:
+    """Return at how many 180° rotations a controller stays."""
+    return "every" if row.dead == row.half_turns else f"{row.dead} of {row.half_turns}" if row.dead else "no"
+
+
+def link(one: Law) -> str:
+    """Return a controller's name as a link to its source, at the revision that was restated."""
     source, _, revision = one.source.partition("@")
+    return f"[{one.name}]({HOST}/{source}/blob/{revision}/{one.shipped.path.partition(',')[0]})"
+
+
+def describe_fix(row: Any) -> tuple:
+    """Return the cells of a controller's fix: what is felt, what to change, the greatest command before and after."""
+    one, found = contenders("shipped")[row.shipped], fix_of(row.shipped)
+    repository, _, number = one.shipped.thread.partition("#")
+    known = f" Thread: [#{number}]({HOST}/{repository}/issues/{number})." if number else ""
+    unit = "rad/s²" if one.shipped.shapes_inertia else "N m"
     return (
-        f"[{one.name}]({HOST}/{source}/blob/{revision}/{one.shipped.path.partition(',')[0]})",
-        None
-        if math.isinf(one.shipped.bound)
-        else f"{one.shipped.bound:g}, {'each component' if is_bent(one.shipped.error) else 'length'}",
+        link(one),
+        100.0 * row.stiffness_50mrad,
+        stuck(row),
         found.words + known,
-        None if one.level == VELOCITY else html.together(f"{found.before:.3g} → {found.after:.3g} {unit}"),
+        html.together(f"{found.before:.3g} → {found.after:.3g} {unit}"),
     )

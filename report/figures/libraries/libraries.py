@@ -1,4 +1,4 @@
-"""The page on other libraries: which functions are right, which are not and where, idioms, and Euler angles."""
+"""The page on other libraries: which functions fail, with the smallest fix, shipped controllers, and what passed."""
 
 from __future__ import annotations
 
@@ -8,24 +8,21 @@ from typing import Any
 
 import pandas as pd
 
-from bench.findings.questions import QUESTIONS, Question
+from bench.findings.remedy import KEEP, fix_of
 from report.figures.kit import html
-from report.figures.kit.page import Run
-from report.figures.kit.spelling import power
+from report.figures.kit.page import Run, in_run
+from report.figures.kit.spelling import listed, power
 from report.figures.kit.tables import Table
-from report.figures.libraries import answers, loops
+from report.figures.libraries import answers, as_shipped, loops
 
 OURS = "orientation-bench"
 """Our own laws in results/libraries, asked like the libraries."""
 HOST = "https://github.com"
-WELD = "<weld>, by default"
 
-TO_USE = Table("Library | From a matrix | From a quaternion")
-FAULTS = Table("Function | Kind | Fault | In closed loop | Smallest fix | Reported")
-
-ASKED = Table("Question | Cause | Cure | Measured | Without the cure:.3g | With it:.3g")
-
-TAKES = ("matrix", "quaternion")
+PASSED = Table("Library | Functions")
+FAULTS = Table("Library | Function | Fault | Smallest fix | Thread")
+ORDER = (answers.ZERO, answers.SHEET, answers.LONG_WAY, answers.MISALIGNED, answers.DIGITS)
+"""Order of the faults, by what they do to a controller."""
 
 
 @functools.cache
@@ -49,13 +46,11 @@ def faulty(every: pd.DataFrame) -> pd.DataFrame:
     return every[every["objections"].map(len).gt(0)]
 
 
-def facts(_: Run) -> dict:
-    """Return every number and list of names that the text takes; ours are not counted among other libraries'."""
+def facts(run: Run) -> dict:
+    """Return every number that the text takes; ours are not counted among other libraries'."""
     rows, every = answers.table(), lines()
     others = every[every["library"] != OURS]
     functions, idioms = errors(others), errors(others, "idiom")
-    sines, angles = functions[functions["form"] == answers.SINE], every[every["form"] == answers.ANGLES]
-    small, near = (rows[rows[name] > 0.0] for name in ("angle_rad", "distance_rad"))
     good = right(functions)
     single = good["precision"] == "single"
     return {
@@ -65,78 +60,74 @@ def facts(_: Run) -> dict:
         "idioms": len(idioms),
         "idioms_wrong": len(faulty(idioms)),
         "count": power(answers.COUNT_RAD),
-        "single_count": power(answers.SINGLE_RAD),
-        "single_names": ", ".join(dict.fromkeys(good[single]["library"])),
-        "kinds": "; ".join(
-            f"{kind} {n}" for kind, n in functions["objections"].map(list).explode().value_counts().items()
-        ),
-        "sines": len(sines),
         "worst_right": power(good[~single]["turn"].max()),
+        "single_names": ", ".join(dict.fromkeys(good[single]["library"])),
         "worst_single": power(good[single]["turn"].max()),
-        "axes": int(near["turns"].max()),
-        "drawn": int(rows[rows["turn_set"] == "drawn"]["turns"].max()),
-        "smallest": power(small["angle_rad"].min()),
-        "nearest": power(near["distance_rad"].min()),
-        "angle_functions": len(angles),
-        "angles_exact": len(right(angles)),
+        "turns": int(rows.groupby(["library", "function"])["turns"].sum().max()),
         "known": int(faulty(functions)["thread"].ne("").sum()),
         **loop_facts(),
+        **(in_run(shipped_facts, run) or {}),
+    }
+
+
+def shipped_facts(run: Run) -> dict:
+    """Return what the text says of shipped controllers."""
+    own = as_shipped.shipped(run)
+    return {
+        "shipped": len(own),
+        "weak": int(as_shipped.is_weak(own).sum()),
+        "shipped_dead": int((own["dead"] > 0).sum()),
+        "kept": listed(f"`{name}`" for name in own["shipped"] if fix_of(name).words == KEEP),
     }
 
 
 def loop_facts() -> dict:
-    """Return what the text says of closed loops: how many are run, how many stay at 180° or turn away; the weld's."""
-    every = loops.responses()[loops.responses()["library"] != OURS]
-    functions, run = (every[every["kind"] == kind] for kind in ("function", "controller"))
-    (weld,) = run[run["function"] == WELD].itertuples()
+    """Return how many closed loops are run, how many stay at 180°, and how many turn away first."""
+    every = loops.responses().query("library != @OURS and kind == 'function'")
     return {
-        "loops": len(functions),
-        "controllers": len(run),
-        "loops_dead": int((functions["dead"] == functions["at_180"]).sum()),
-        "loops_away": int((functions["away"] > 0).sum()),
-        "axes_180": int(functions["at_180"].min()),
-        "fixed": int((loops.verdicts()["fixed"] != "").sum()),
-        "weld_loop": loops.in_words(weld),
+        "loops": len(every),
+        "loops_dead": int((every["dead"] == every["at_180"]).sum()),
+        "loops_away": int((every["away"] > 0).sum()),
+        "axes_180": int(every["at_180"].min()),
     }
 
 
-def tables(_: Run) -> dict:
-    """Return what to use, what fails and its fix, and questions of users."""
+def tables(run: Run) -> dict:
+    """Return what fails and its fix, shipped controllers and theirs, and what passed."""
     every = lines()
     return {
-        "tab_to_use": TO_USE(to_use(every)),
         "tab_faults": FAULTS(faults(every)),
-        "asked": ASKED(map(describe_question, QUESTIONS)),
+        "tab_shipped": in_run(as_shipped.list_fixes, run),
+        "tab_passed": PASSED(passed(every)),
     }
 
 
 def faults(every: pd.DataFrame) -> Iterator[tuple]:
-    """Return a row a function that fails: errors along an axis, idioms, and angles, which drive no loop."""
+    """Return a row for the functions of a library that fail alike and for which the same thread is known."""
+    own = with_fixes(errors(every[every["library"] != OURS]))
+    own = own.assign(
+        said=own.apply(said, axis=1), first=own["objections"].map(lambda found: min(map(ORDER.index, found)))
+    )
+    own = own.sort_values(["first", "library"], kind="stable")
+    for (library, fault, thread), alike in own.groupby(["library", "said", "thread"], sort=False):
+        names = ", ".join(f"`{name}`" for name in alike["function"])
+        fixes = " or ".join(dict.fromkeys(instead(one, every) for one in alike.itertuples()))
+        yield f"{library} {answers.origins()[library]['version']}", names, fault, fixes, reported(thread)
+
+
+def with_fixes(every: pd.DataFrame) -> pd.DataFrame:
+    """Return the functions that fail, with the study's replacement of each."""
     keys = ["library", "function"]
-    fixes = loops.verdicts()[[*keys, "replacement"]]
-    found = faulty(every).merge(fixes, on=keys, how="left").merge(loops.responses(), on=[*keys, "kind"], how="left")
-    for one in found.fillna({"replacement": ""}).sort_values("kind", kind="stable").itertuples():
-        is_angles = one.form == answers.ANGLES
-        kind = "angles" if is_angles else one.kind
-        driven = html.MISSING if is_angles else loops.in_words(one)
-        threads = html.MISSING if kind == "idiom" else reported(one.thread)
-        yield asked(one), kind, said(one), driven, instead(one, every), threads
+    found = faulty(every).merge(loops.verdicts()[[*keys, "replacement"]], on=keys, how="left")
+    return found.fillna({"replacement": ""})
 
 
-def to_use(every: pd.DataFrame) -> list[tuple]:
-    """Return a row a library: its functions that are right and give the rotation vector, by what they take."""
-    kept = right(errors(every))
-    kept = kept[kept["form"] == answers.VECTOR]
-    return [
-        (f"`{library}`", *(_named(kept[(kept["library"] == library) & (kept["takes"] == what)]) for what in TAKES))
-        for library in dict.fromkeys(kept["library"])
-        if library != OURS
-    ]
-
-
-def _named(own: pd.DataFrame) -> str:
-    """Return names as code, without what the column says already."""
-    return "<br>".join(f"`{name.partition(', of a ')[0]}`" for name in own["function"]) or html.MISSING
+def passed(every: pd.DataFrame) -> Iterator[tuple]:
+    """Return a row a library: its functions that are right and give the rotation vector."""
+    kept = right(errors(every[every["library"] != OURS]))
+    for library, own in kept[kept["form"] == answers.VECTOR].groupby("library", sort=False):
+        names = dict.fromkeys(name.partition(", of a ")[0] for name in own["function"])
+        yield f"{library} {answers.origins()[library]['version']}", ", ".join(f"`{name}`" for name in names)
 
 
 def instead(one: Any, every: pd.DataFrame) -> str:
@@ -156,16 +147,9 @@ def said(one: Any) -> str:
 def reported(thread: str, words: str = "") -> str:
     """Return a thread upstream, owner/repository#number, as a link; pull requests are found under it too."""
     repository, _, number = thread.partition("#")
-    return f"[{words or f'#{number}'}]({HOST}/{repository}/issues/{number})" if thread else "not found"
+    return f"[{words or f'#{number}'}]({HOST}/{repository}/issues/{number})" if thread else html.MISSING
 
 
 def asked(one: Any) -> str:
     """Return a line's library and function."""
     return f"{one.library} `{one.function}`"
-
-
-def describe_question(one: Question) -> tuple:
-    """Return a question's row; what is no more than rounding is 0."""
-    links = ", ".join(reported(thread, thread.partition("/")[2]) for thread in one.threads)
-    measured = (value if abs(value) > 1e-12 else 0.0 for value in one.measure())
-    return f"{one.title} ({links})", one.cause, one.cure, f"{one.quantity}; right: {one.right:g}", *measured
