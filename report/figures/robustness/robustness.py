@@ -20,6 +20,8 @@ from report.figures.kit.spelling import listed
 from report.figures.robustness.rows import along, gains, laws, starts
 
 AXES = tuple(tasks.axis_names())
+HALF_TURN = "half-turn-noise"
+"""Drawn in the chapter on what an error must do."""
 
 FAULT, FINE = "#d55e00", "#b9c3cf"
 
@@ -70,7 +72,7 @@ def named(way: Way) -> str:
 
 
 def facts(run: Run) -> dict:
-    """Return how laws differ under the without the negative controls."""
+    """Return how many laws and perturbations there are, how they differ, and limits of the linear loop."""
     each = found(run)
     apart, _ = differing(each)
     kp, kv = gains(along(run, "delay"))
@@ -94,29 +96,37 @@ def figures(run: Run) -> dict:
 
 @responsive_picture
 def threshold_map(each: Found, narrow: bool) -> Drawing:
-    """Return a cell a law and way: its threshold; pale where that is the last level tried."""
-    groups, (ways, _) = families.present(each), differing(each)
-    lines = len(each) + 0.4 * len(groups)
-    figure, axes = style.panels(height=0.215 * lines + 1.75, narrow=narrow)
-    place, names = 0.0, []
-    for family in groups:
-        place += 0.4
-        for law in family.laws:
-            names.append((place + 0.5, families.word(law)))
-            for column, way in enumerate(ways):
-                _cell(axes, column, place, each[law][way])
-            place += 1.0
+    """Return a cell for each threshold, pale where it is the last level tried; laws that are alike share a row."""
+    ways = [way for way in differing(each)[0] if way.axis != HALF_TURN]
+    rows = group_alike(each, ways)
+    figure, axes = style.panels(height=0.26 * len(rows) + 1.5, narrow=narrow)
+    for place, laws_alike in enumerate(rows):
+        for column, way in enumerate(ways):
+            _cell(axes, column, place, each[laws_alike[0]][way])
     titles = [f"{way.name} [{tasks.axis(way.axis).unit}]" for way in ways]
     stand = {"rotation": 90, "ha": "center"} if narrow else {"rotation": 40, "ha": "left", "rotation_mode": "anchor"}
-    axes.set(xlim=(0, max(1, len(ways))), ylim=(place + 0.1, 0.2))
+    axes.set(xlim=(0, max(1, len(ways))), ylim=(len(rows), 0))
     axes.set_xticks(np.arange(len(ways)) + 0.5, titles, fontsize=9, **stand)
     axes.xaxis.tick_top()
-    axes.set_yticks(*zip(*names, strict=True), fontsize=9)
+    axes.set_yticks(np.arange(len(rows)) + 0.5, map(name_alike, rows), fontsize=9)
     axes.tick_params(length=0, pad=2)
     axes.grid(visible=False)
     axes.spines[:].set_visible(False)
-    words = (f"{families.word(law)}: {', '.join(f'{w.name} {each[law][w]}' for w in ways)}" for law in each)
+    words = (f"{name_alike(one)}: {', '.join(f'{w.name} {each[one[0]][w]}' for w in ways)}" for one in rows)
     return figure, f"Thresholds of {len(each)} laws; + is the last level tried. {'; '.join(words)}."
+
+
+def group_alike(each: Found, ways: list[Way]) -> list[list[str]]:
+    """Return the compared laws in groups of equal thresholds, the largest group first."""
+    groups: dict[tuple[str, ...], list[str]] = {}
+    for law in compared(each):
+        groups.setdefault(tuple(str(each[law][way]) for way in ways), []).append(law)
+    return sorted(groups.values(), key=len, reverse=True)
+
+
+def name_alike(alike: list[str]) -> str:
+    """Return the names of two laws and fewer, or how many laws there are."""
+    return ", ".join(map(families.word, alike)) if len(alike) < 3 else f"{len(alike)} laws"
 
 
 def _cell(axes: Any, column: int, place: float, one: Threshold) -> None:
