@@ -16,7 +16,7 @@ from typing import Any
 
 import pandas as pd
 
-from report.figures.kit import mathml, style
+from report.figures.kit import mathml, spelling, style
 
 VERDICTS = {
     "holds": "holds",
@@ -124,6 +124,7 @@ def cell(value: Any, form: str | Callable[[Any], str] | None = None) -> str:
         text = str(value)
     else:
         text = number(value)
+    text = spelling.spell_powers(text)
     if LEADING_MINUS.match(text):
         text = "\u2212" + text[1:]
     return text.replace("|", "\\|").replace("\n", " ")

@@ -35,10 +35,15 @@ FRACTION = re.compile(r"\^\((\d+/\d+)\)")
 
 def typeset(text: str) -> str:
     """Plain text with the letters, numbers and signs it names."""
-    text = SCIENTIFIC.sub(lambda found: raised(found[1], int(found[2])), text)
+    text = spell_powers(text)
     for pattern, sign in SIGNS:
         text = re.sub(pattern, sign, text)
     return text
+
+
+def spell_powers(text: str) -> str:
+    """Return a text with its numbers in scientific notation as powers: 2.5e-07 becomes 2.5·10⁻⁷."""
+    return SCIENTIFIC.sub(lambda found: raised(found[1], int(found[2])), text)
 
 
 def power(value: float) -> str:
