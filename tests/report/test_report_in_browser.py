@@ -159,3 +159,18 @@ def test_page_has_a_main_heading(seen):
 def test_page_shows_every_image_ball_and_formula(seen):
     for facts in seen[0].values():
         assert (facts["broken"], facts["empty"], facts["unset"]) == ([], [], 0)
+
+
+def test_ten_chapters_stay_short(driver):
+    chapters = [page for page in PAGES if page.parent.name == "pages" and page.stem[:2].isdigit()]
+    count = "return [document.querySelector('main').scrollHeight, ...['table', 'figure'].map(x => "
+    count += "document.querySelectorAll(`article ${x}`).length)]"
+    sizes = []
+    for page in chapters:
+        screenshots.open_page(driver, page, screenshots.View("light", 1280))
+        sizes.append(driver.execute_script(count))
+    pixels, tables, figures = map(sum, zip(*sizes, strict=True))
+    assert len(chapters) == 10
+    assert pixels <= 40 * screenshots.HEIGHT
+    assert tables <= 20
+    assert figures <= 20
