@@ -1,111 +1,183 @@
-/* A ball of points that the reader turns: no library, follows light and dark, works with mouse, finger and keyboard.
-   Draws every <canvas class="ball"> from the <script type="application/json" data-for="its id"> beside it. */
-(function () {
-  "use strict";
-  const START = { yaw: 0.6, pitch: 0.35 }, STEP = 0.12, CIRCLE = 96;
+/* The ball of rotation vectors: direction is the axis of a rotation, distance from the centre its angle, and 180 degrees
+   are the surface. Mouse, finger and arrow keys turn it; it follows light and dark.
 
-  function ring(at) {
-    return Array.from({ length: CIRCLE + 1 }, (_, i) => at((2 * Math.PI * i) / CIRCLE));
-  }
+   ball.make(canvas, { onPick }) -> { draw({ dots, ways, cut, tip }), face(point) }
+     dots  [{ at, colour, radius }] in the unit ball; ways  [{ points, now, colour, dashes }]; cut  depth beyond which
+     dots are left out, 1 is towards the reader; onPick(i)  a dot was clicked
+   A <canvas class="ball"> beside a <script type="application/json" data-for="its id"> draws the groups in there. */
+(function (root) {
+  "use strict";
+  const START = { yaw: 0.6, pitch: 0.35 }, ASIDE = 0.5, STEP = 0.12, CIRCLE = 96, BEHIND = 0.45, RADIUS = 0.43, STILL = 5;
+  const dot = (p, q) => p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+  const ring = f => Array.from({ length: CIRCLE + 1 }, (_, i) => f((2 * Math.PI * i) / CIRCLE));
   const RINGS = [ring(t => [Math.cos(t), Math.sin(t), 0]), ring(t => [Math.cos(t), 0, Math.sin(t)]),
                  ring(t => [0, Math.cos(t), Math.sin(t)])];
-  const AXES = [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]];
+  const AXES = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
+  const isJump = (p, q) => Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) > 1;
 
-  function start(canvas) {
-    const source = document.querySelector(`script[data-for="${canvas.id}"]`);
-    if (!source) return;
-    const data = JSON.parse(source.textContent), pen = canvas.getContext("2d");
-    const groups = Object.entries(data.groups);
-    let { yaw, pitch } = START, held = null, size = 0;
+  function make(canvas, { onPick = () => {} } = {}) {
+    const pen = canvas.getContext("2d"), sprites = new Map();
+    let { yaw, pitch } = START, held = null, size = 0, ratio = 1, waiting = null, ink = "", paper = "";
+    let shown = { dots: [], ways: [], cut: 1, tip: name => name }, order = [], spots = [];
 
-    function isDark() { return document.documentElement.dataset.theme === "dark"; }
-    function project([x, y, z]) { // x right, z up, depth towards the reader
-      const a = Math.cos(yaw) * x - Math.sin(yaw) * y, b = Math.sin(yaw) * x + Math.cos(yaw) * y;
-      const r = size * 0.41;
-      return [size / 2 + r * a, size * 0.47 - r * (Math.cos(pitch) * z + Math.sin(pitch) * b),
-              Math.sin(pitch) * z - Math.cos(pitch) * b];
+    function eye() { // unit vectors that point right, up and to the reader
+      const [cy, sy, cp, sp] = [Math.cos(yaw), Math.sin(yaw), Math.cos(pitch), Math.sin(pitch)];
+      return { right: [cy, -sy, 0], up: [sp * sy, sp * cy, cp], near: [-cp * sy, -cp * cy, sp] };
     }
-    function draw() {
-      const ratio = window.devicePixelRatio || 1, dark = isDark();
-      size = canvas.clientWidth;
-      canvas.width = canvas.height = Math.round(size * ratio);
+    function projector() {
+      const { right, up, near } = eye();
+      return p => [size * (0.5 + RADIUS * dot(p, right)), size * (0.5 - RADIUS * dot(p, up)), dot(p, near)];
+    }
+    function spriteOf(colour, radius) { // a small ball, drawn once and copied
+      const key = `${colour} ${radius} ${ratio} ${paper}`;
+      if (!sprites.has(key)) {
+        const side = Math.ceil(2 * (radius + 1) * ratio), made = document.createElement("canvas");
+        made.width = made.height = side;
+        const own = made.getContext("2d");
+        own.scale(ratio, ratio);
+        own.arc(radius + 1, radius + 1, radius, 0, 7);
+        Object.assign(own, { fillStyle: colour, strokeStyle: `color-mix(in srgb, ${colour} 60%, ${paper})`, lineWidth: 0.8 });
+        own.fill();
+        own.stroke();
+        sprites.set(key, made);
+      }
+      return sprites.get(key);
+    }
+    function drawDots(project) {
+      const { dots, cut } = shown;
+      spots = dots.map(one => project(one.at));
+      order = dots.map((_, i) => i).filter(i => dots[i].colour && spots[i][2] <= cut);
+      order.sort((i, j) => spots[i][2] - spots[j][2]);
+      for (const i of order) {
+        const { colour, radius = 0.005 } = dots[i], pixels = Math.max(1.6, radius * size), half = pixels + 1;
+        pen.drawImage(spriteOf(colour, pixels), spots[i][0] - half, spots[i][1] - half, 2 * half, 2 * half);
+      }
+    }
+    function line(project, points, colour, width, dashes = []) {
+      const at = points.map(project);
+      Object.assign(pen, { strokeStyle: colour, lineWidth: width });
+      pen.setLineDash(dashes);
+      for (const isNear of [false, true]) { // what lies behind first, and paler
+        let isDown = false; // as long as it can be, so that dashes go on
+        pen.globalAlpha = isNear ? 1 : BEHIND;
+        pen.beginPath();
+        for (let i = 1; i < points.length; i++) {
+          const isDrawn = (at[i][2] >= 0) === isNear && !isJump(points[i - 1], points[i]);
+          if (isDrawn && !isDown) pen.moveTo(at[i - 1][0], at[i - 1][1]);
+          if (isDrawn) pen.lineTo(at[i][0], at[i][1]);
+          isDown = isDrawn;
+        }
+        pen.stroke();
+      }
+      pen.globalAlpha = 1;
+      pen.setLineDash([]);
+    }
+    function drawFrame(project, rule) {
+      Object.assign(pen, { strokeStyle: rule, lineWidth: 1 });
+      pen.beginPath();
+      pen.arc(size / 2, size / 2, RADIUS * size, 0, 7);
+      pen.stroke();
+      for (const points of RINGS) line(project, points, rule, 1);
+    }
+    function drawNames(project) {
+      Object.assign(pen, { fillStyle: ink, font: "600 14px 'Orientation Sans', sans-serif", textAlign: "center" });
+      for (const [name, tip] of Object.entries(AXES)) {
+        const [x, y, depth] = project(tip.map(value => 1.1 * value));
+        pen.globalAlpha = depth > -0.2 ? 1 : 0.45;
+        pen.fillText(shown.tip(name), x, y + 5);
+      }
+      pen.globalAlpha = 1;
+    }
+    function drawWay(project, { points, now, colour, dashes }, isRound) {
+      line(project, points, paper, 5);
+      line(project, points, colour, 2.4, dashes);
+      const [x, y] = project(now);
+      pen.beginPath();
+      if (isRound) pen.arc(x, y, 6, 0, 7);
+      else pen.rect(x - 5, y - 5, 10, 10);
+      Object.assign(pen, { fillStyle: colour, strokeStyle: paper, lineWidth: 1.5 });
+      pen.fill();
+      pen.stroke();
+    }
+    function paint() {
+      waiting = null;
+      const style = getComputedStyle(canvas), width = Math.round(canvas.clientWidth * (window.devicePixelRatio || 1));
+      [ink, paper, ratio, size] = [style.color, style.backgroundColor, window.devicePixelRatio || 1, canvas.clientWidth];
+      if (canvas.width !== width) canvas.width = canvas.height = width;
       pen.setTransform(ratio, 0, 0, ratio, 0, 0);
       pen.clearRect(0, 0, size, size);
-      const ink = dark ? "#e6eaf0" : "#1c2430", line = dark ? "#56616f" : "#b9c3cf";
-      pen.lineWidth = 1;
-      pen.strokeStyle = line;
-      pen.beginPath(); pen.arc(size / 2, size * 0.47, size * 0.41, 0, 7); pen.stroke();
-      for (const points of RINGS) {
-        for (let i = 0; i < CIRCLE; i++) {
-          const p = project(points[i]), q = project(points[i + 1]);
-          pen.globalAlpha = p[2] > 0 ? 0.9 : 0.3;
-          pen.beginPath(); pen.moveTo(p[0], p[1]); pen.lineTo(q[0], q[1]); pen.stroke();
-        }
-      }
-      const dots = [];
-      for (const [, group] of groups)
-        for (const xyz of group.xyz) dots.push([project(xyz), dark ? group.dark : group.colour]);
-      dots.sort((a, b) => a[0][2] - b[0][2]);
-      const radius = Math.max(1.6, size / 240);
-      for (const [[x, y, depth], colour] of dots) {
-        pen.globalAlpha = 0.45 + 0.5 * (depth + 1) / 2;
-        pen.fillStyle = colour;
-        pen.beginPath(); pen.arc(x, y, radius * (1 + 0.35 * depth), 0, 7); pen.fill();
-      }
-      pen.globalAlpha = 1;
-      pen.fillStyle = ink;
-      pen.font = "600 14px 'Orientation Sans', sans-serif";
-      pen.textAlign = "center";
-      for (const [name, tip] of AXES) {
-        const p = project(tip.map(v => 1.08 * v));
-        pen.globalAlpha = p[2] > -0.2 ? 1 : 0.45;
-        pen.fillText(`${name} = ${data.radius}`, p[0], p[1] + 5);
-      }
-      pen.globalAlpha = 1;
-      pen.textAlign = "left";
-      pen.font = "14px 'Orientation Sans', sans-serif";
-      const keys = groups.map(([name, group]) => ({ name, group, width: 32 + pen.measureText(name).width }));
-      const rows = [[]]; // as many keys in a row as fit
-      for (const key of keys) {
-        const used = rows[rows.length - 1].reduce((sum, other) => sum + other.width, 4);
-        if (used > 4 && used + key.width - 17 > size) rows.push([]);
-        rows[rows.length - 1].push(key);
-      }
-      rows.forEach((row, i) => {
-        let x = 4;
-        const y = size - 10 - 20 * (rows.length - 1 - i);
-        for (const { name, group, width } of row) {
-          pen.fillStyle = dark ? group.dark : group.colour;
-          pen.beginPath(); pen.arc(x + 5, y, 5, 0, 7); pen.fill();
-          pen.fillStyle = ink;
-          pen.fillText(name, x + 15, y + 5);
-          x += width;
-        }
-      });
+      const project = projector();
+      drawFrame(project, style.borderTopColor);
+      drawDots(project);
+      drawNames(project);
+      shown.ways.forEach((way, i) => drawWay(project, way, i === 0));
+    }
+    function draw(given = {}) { // once a frame, however often it is asked
+      Object.assign(shown, given);
+      if (waiting === null) waiting = requestAnimationFrame(paint);
+    }
+    function face(point) { // so that the way from the start to the goal is seen from the side
+      ({ pitch } = START);
+      yaw = Math.atan2(-point[1], point[0]) - ASIDE;
+      draw();
     }
     function turn(dx, dy) {
       yaw += dx;
       pitch = Math.max(-1.5, Math.min(1.5, pitch + dy));
       draw();
     }
-    canvas.addEventListener("pointerdown", e => { held = [e.clientX, e.clientY]; canvas.setPointerCapture(e.pointerId); });
-    canvas.addEventListener("pointermove", e => {
-      if (!held) return;
-      turn((e.clientX - held[0]) / 150, (e.clientY - held[1]) / 150);
-      held = [e.clientX, e.clientY];
+    function pick(event) { // the foremost dot under the pointer
+      const box = canvas.getBoundingClientRect(), x = event.clientX - box.left, y = event.clientY - box.top;
+      const near = i => Math.hypot(spots[i][0] - x, spots[i][1] - y) <= Math.max(8, shown.dots[i].radius * size);
+      const found = order.findLast(near);
+      if (found !== undefined) onPick(found);
+    }
+    canvas.addEventListener("pointerdown", event => {
+      held = { at: [event.clientX, event.clientY], moved: 0 };
+      canvas.setPointerCapture(event.pointerId);
     });
-    for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, () => { held = null; });
+    canvas.addEventListener("pointermove", event => {
+      if (!held) return;
+      const [dx, dy] = [event.clientX - held.at[0], event.clientY - held.at[1]];
+      turn(dx / 150, dy / 150);
+      held = { at: [event.clientX, event.clientY], moved: held.moved + Math.hypot(dx, dy) };
+    });
+    canvas.addEventListener("pointerup", event => { if (held && held.moved < STILL) pick(event); held = null; });
+    canvas.addEventListener("pointercancel", () => { held = null; });
     canvas.addEventListener("dblclick", () => { ({ yaw, pitch } = START); draw(); });
-    canvas.addEventListener("keydown", e => {
-      const way = { ArrowLeft: [-STEP, 0], ArrowRight: [STEP, 0], ArrowUp: [0, -STEP], ArrowDown: [0, STEP] }[e.key];
+    canvas.addEventListener("keydown", event => {
+      const way = { ArrowLeft: [-STEP, 0], ArrowRight: [STEP, 0], ArrowUp: [0, -STEP], ArrowDown: [0, STEP] }[event.key];
       if (!way) return;
-      e.preventDefault();
+      event.preventDefault();
       turn(...way);
     });
-    new ResizeObserver(draw).observe(canvas);
-    new MutationObserver(draw).observe(document.documentElement, { attributeFilter: ["data-theme"] });
-    document.fonts.ready.then(draw);
+    new ResizeObserver(() => draw()).observe(canvas);
+    document.fonts.ready.then(() => draw());
+    return { draw, face };
   }
-  function startAll() { document.querySelectorAll("canvas.ball").forEach(start); }
-  if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", startAll); else startAll();
-})();
+
+  function showGroups(canvas) { // points that the page brings with it
+    const source = document.querySelector(`script[data-for="${canvas.id}"]`);
+    if (!source) return;
+    const data = JSON.parse(source.textContent), ball = make(canvas), legend = document.createElement("p");
+    for (const [name, { colour, dark }] of Object.entries(data.groups)) {
+      const key = document.createElement("span");
+      key.className = "key";
+      key.style.setProperty("--key", `light-dark(${colour}, ${dark})`);
+      legend.append(key, `${name} `);
+    }
+    legend.className = "hint";
+    canvas.after(legend);
+    function show() {
+      const isDark = document.documentElement.dataset.theme === "dark";
+      const dots = Object.values(data.groups).flatMap(({ xyz, colour, dark }) =>
+        xyz.map(at => ({ at, colour: isDark ? dark : colour })));
+      ball.draw({ dots, tip: name => `${name} = ${data.radius}` });
+    }
+    new MutationObserver(show).observe(document.documentElement, { attributeFilter: ["data-theme"] });
+    show();
+  }
+  root.ball = { make };
+  const showAll = () => document.querySelectorAll("canvas.ball").forEach(showGroups);
+  if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", showAll); else showAll();
+})(window);

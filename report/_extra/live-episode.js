@@ -4,14 +4,24 @@
    begin(law, start, settings, rules) -> { advance(steps), isDone, ... }
      law       one of live.laws
      start     { R, omega, R_d, band }: matrices by columns; band: haversine within which the law has settled
-     settings  { kp, kv, period_s, delay_s, attitude_noise, rate_noise, draw, bound, inertia, horizon_s }; draw(): six
-               numbers of unit standard deviation, asked once a period if there is noise
+     settings  { kp, kv, period_s, delay_s, attitude_noise, rate_noise, worst_attitude_error, bound, inertia, horizon_s }
      rules     those of tasks/rules.py */
-(function (root) {
+(function define(root) {
   "use strict";
-  const STEP_S = 1e-3, SAMPLE_S = 5e-3, GOING = -1, AT_REST = [0, 0, 0];
+  const STEP_S = 1e-3, SAMPLE_S = 5e-3, LEAD = 2, GOING = -1, AT_REST = [0, 0, 0];
 
   const dot = (p, q) => p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+
+  function normals(seed) { // Box and Muller's, of a small generator that restarts with every episode
+    let state = seed;
+    const uniform = () => {
+      state = (state + 0x6d2b79f5) | 0;
+      let t = Math.imul(state ^ (state >>> 15), 1 | state);
+      t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
+      return (((t ^ (t >>> 14)) >>> 0) + 0.5) / 4294967296;
+    };
+    return () => Array.from({ length: 6 }, () => Math.sqrt(-2 * Math.log(uniform())) * Math.cos(2 * Math.PI * uniform()));
+  }
 
   function begin(law, start, settings, rules) {
     const { plant, judge } = root.live, { R_d, band } = start;
@@ -19,6 +29,7 @@
     const late = Math.round(settings.delay_s / h), ticks = Math.max(1, Math.round(settings.horizon_s / h));
     const restTicks = Math.max(1, Math.round(rules.hold_s / h)), slots = Math.floor(late / steps) + 2;
     const isNoisy = settings.attitude_noise > 0 || settings.rate_noise > 0;
+    const worst = settings.worst_attitude_error || 0, ahead = LEAD * (steps * h), draw = normals(1);
     const holdTicks = isNoisy ? ticks + 1 : restTicks, every = Math.max(1, Math.round(SAMPLE_S / h));
     const gains = [settings.kp, settings.kv], goal = [R_d, AT_REST, AT_REST], sent = [];
     const slow = rules.slow_squared, { inertia, bound } = settings, isPrompt = late === 0 && steps === 1;
@@ -27,12 +38,19 @@
     let { R, omega } = start, memory = law.memory, u = AT_REST, applied = AT_REST, tick = 0, period = 0, peak = 0;
     let failure = GOING, watch = judge.first_watch(plant.haversine(R, R_d), band, dot(omega, omega), slow);
 
-    function seen() { // orientation and rate as they are measured
+    function noisy() { // orientation and rate with random errors
       if (!isNoisy) return [R, omega];
-      const noise = settings.draw(), a = settings.attitude_noise, b = settings.rate_noise;
+      const noise = draw(), a = settings.attitude_noise, b = settings.rate_noise;
       const about = a > 0 ? plant.turned(R, [a * noise[0], a * noise[1], a * noise[2]]) : R;
       const rate = b > 0 ? omega.map((value, i) => value + b * noise[3 + i]) : omega;
       return [about, rate];
+    }
+    function seen() { // and, near 180 degrees, with the worst error: away from the goal as it will be LEAD periods on
+      const [about, rate] = noisy();
+      if (!(worst > 0 && plant.angle_between(about, R_d) + worst > Math.PI)) return [about, rate];
+      const [, v] = plant.turn_quaternion(plant.turned(about, rate.map(value => ahead * value)), R_d);
+      const away = -worst / Math.sqrt(dot(v, v));
+      return [plant.turned(about, v.map(value => away * value)), rate];
     }
     function ask() {
       const [about, rate] = seen();
@@ -89,5 +107,5 @@
     const half = angle0 < rules.at_goal_rad ? rules.floor_rad : rules.tolerance * angle0;
     return Math.sin(half / 2) ** 2;
   }
-  root.liveEpisode = { begin, bandOf };
+  root.liveEpisode = { begin, bandOf, source: String(define) };
 })(typeof globalThis === "object" ? globalThis : this);

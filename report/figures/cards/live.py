@@ -29,17 +29,15 @@ from tasks.truth import angle
 
 CONTROLS = Path(__file__).with_name("live.html")
 
-OPENING = {"a": "rotation-matrix", "b": "late-braking", "start": "half-turn-random0-k02"}
-"""What the page shows first: the paper's first law beside half a turn, and one that leaves it at once."""
-
 OFFERED = tomllib.loads(Path(__file__).with_name("live.toml").read_text(encoding="utf-8"))
-PRESETS = OFFERED["presets"]
+OPENING, PRESETS = OFFERED["opening"], OFFERED["presets"]
+"""What the page shows first: the paper's first law near 180°, and the law that is advised."""
 
 
 def starts() -> list[tuple[str, str, Start]]:
     """(group, title, start) of each."""
     found = []
-    for name, group, start_id, title in OFFERED["starts"]:
+    for name, group, start_id, title in OFFERED["starts"]["every"]:
         [one] = [start for start in tasks.start_set(name) if start.id == start_id]
         numbers = {
             "angle": degrees(angle(one.quat_wxyz, one.goal_wxyz)),
@@ -57,18 +55,23 @@ def page(contenders: list[Contender], costs: Any) -> html.Html:
     """
     names, every = [one.on_free_body for one in contenders], starts()
     inside = json.dumps(data(names, every, costs), separators=(",", ":")).replace("<", "\\u003c")
-    presets = "\n".join(
-        f'<button type="button" data-view="{markup.escape(f"a={a}&b={b}&{rest}")}">{title}</button>'
-        for title, a, b, rest in PRESETS
-        if {a, b} <= set(names)
+    presets = {word: one for word, one in PRESETS.items() if {one["a"], one["b"]} <= set(names)}
+    anchors = "".join(f'<span id="{word}"></span>' for word in presets)
+    buttons = "\n".join(
+        f'<li><button type="button" data-preset="{word}">{one["title"]}</button> {one["watch"]}</li>'
+        for word, one in presets.items()
     )
     options = {side: _law_options(names, OPENING[side]) for side in "ab"}
     controls = CONTROLS.read_text(encoding="utf-8").format(
-        starts=_start_options(every), presets=presets, band=f"{RULES.tolerance:.0%}", **options
+        anchors=anchors,
+        starts=_start_options(every),
+        presets=buttons,
+        band=f"{RULES.tolerance:.0%}",
+        **options,
     )
     return html.Html(
         f'{controls}<script type="application/json" id="live-data">{inside}</script>'
-        f"<script>\n{browser.script(contenders)}</script>"
+        f'<script id="live-laws">\n{browser.script(contenders)}</script>'
         "<noscript><p>This page runs the laws in the browser, which needs JavaScript.</p></noscript>"
     )
 
@@ -77,6 +80,11 @@ def data(names: list[str], every: list[tuple[str, str, Start]], costs: Any) -> d
     """All that the script reads."""
     return {
         "opening": OPENING,
+        "presets": {
+            word: {"watch": one["watch"], "address": f"a={one['a']}&b={one['b']}&{one['rest']}"}
+            for word, one in PRESETS.items()
+            if {one["a"], one["b"]} <= set(names)
+        },
         "rules": {**RULES._asdict(), "slow_squared": RULES.slow_squared},
         "laws": {name: law(name, costs) for name in families.in_order(names)},
         "starts": [{"id": one.id, "q": one.quat_wxyz, "omega": one.omega, "goal": one.goal_wxyz} for *_, one in every],
