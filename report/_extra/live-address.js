@@ -11,8 +11,12 @@
       const { q, omega, goal } = data.starts.find(one => one.id === id);
       return { start: id, q, omega, goal };
     }
+    function expand(text) {
+      const { a, b, rest } = data.presets[text] || {};
+      return rest ? `a=${a}&b=${b}&${rest}` : text;
+    }
     function parse(text) { // of what is wrong, the usual
-      const given = new URLSearchParams(text in data.presets ? data.presets[text].address : text), view = {};
+      const given = new URLSearchParams(expand(text)), view = {};
       const number = word => (word === "none" ? Infinity : Number(word));
       const numbers = name => (given.get(name) || "").split(",").map(Number);
       for (const side of SIDES) view[side] = given.get(side) in root.live.laws ? given.get(side) : data.opening[side];

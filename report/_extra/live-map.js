@@ -18,7 +18,8 @@
         found.push({ axis: [across * Math.cos(turn), across * Math.sin(turn), z], angle: (Math.PI * shell) / SHELLS });
       }
     }
-    return found;
+    const later = i => (i * GOLDEN) % 1; // the whole ball at once, and then finer
+    return found.map((one, i) => [later(i), one]).sort(([p], [q]) => p - q).map(([, one]) => one);
   }
   function colourOf(time_s, never) {
     if (time_s === undefined) return null;

@@ -19,6 +19,7 @@ PERTURBED = {
     "late": Condition(delay_s=0.03),
     "slow": Condition(period_s=0.02, delay_s=0.007),
     "weak": Condition(bound=30.0),
+    "wrong-at-180": Condition(worst_attitude_error=0.1),
     "uneven": Condition(inertia=(0.5, 1.0, 2.0), period_s=0.005),
 }
 

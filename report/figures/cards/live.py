@@ -55,19 +55,15 @@ def page(contenders: list[Contender], costs: Any) -> html.Html:
     """
     names, every = [one.on_free_body for one in contenders], starts()
     inside = json.dumps(data(names, every, costs), separators=(",", ":")).replace("<", "\\u003c")
-    presets = {word: one for word, one in PRESETS.items() if {one["a"], one["b"]} <= set(names)}
-    anchors = "".join(f'<span id="{word}"></span>' for word in presets)
-    buttons = "\n".join(
-        f'<li><button type="button" data-preset="{word}">{one["title"]}</button> {one["watch"]}</li>'
+    presets = presets_of(names)
+    buttons = "".join(
+        f'<li><button type="button" data-preset="{word}">{one["title"]}</button> {one["watch"]}</li>\n'
         for word, one in presets.items()
     )
+    texts = {"anchors": "".join(f'<span id="{word}"></span>' for word in presets), "presets": buttons}
     options = {side: _law_options(names, OPENING[side]) for side in "ab"}
     controls = CONTROLS.read_text(encoding="utf-8").format(
-        anchors=anchors,
-        starts=_start_options(every),
-        presets=buttons,
-        band=f"{RULES.tolerance:.0%}",
-        **options,
+        starts=_start_options(every), band=f"{RULES.tolerance:.0%}", **texts, **options
     )
     return html.Html(
         f'{controls}<script type="application/json" id="live-data">{inside}</script>'
@@ -80,15 +76,16 @@ def data(names: list[str], every: list[tuple[str, str, Start]], costs: Any) -> d
     """All that the script reads."""
     return {
         "opening": OPENING,
-        "presets": {
-            word: {"watch": one["watch"], "address": f"a={one['a']}&b={one['b']}&{one['rest']}"}
-            for word, one in PRESETS.items()
-            if {one["a"], one["b"]} <= set(names)
-        },
+        "presets": presets_of(names),
         "rules": {**RULES._asdict(), "slow_squared": RULES.slow_squared},
         "laws": {name: law(name, costs) for name in families.in_order(names)},
         "starts": [{"id": one.id, "q": one.quat_wxyz, "omega": one.omega, "goal": one.goal_wxyz} for *_, one in every],
     }
+
+
+def presets_of(names: list[str]) -> dict[str, dict[str, str]]:
+    """Return the presets of these laws, by the names that are their addresses."""
+    return {word: one for word, one in PRESETS.items() if {one["a"], one["b"]} <= set(names)}
 
 
 def law(name: str, costs: Any) -> dict:
