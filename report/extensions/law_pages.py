@@ -17,12 +17,18 @@ def collected(app: Any) -> Iterator[tuple[str, dict, str]]:
 
     run = run_in(read.folder())
     live = LIVE if LIVE in app.env.found_docs else ""
-    for made in (regulators.page(one, run, live) for one in regulators.every_law()):
+    every = [regulators.page(one, run, live) for one in regulators.every_law()]
+    links = [{"link": f"{made.name}.html", "title": made.title} for made in every]
+    for made, before, after in zip(every, [None, *links], [*links[1:], None], strict=False):
         for name, text in made.files.items():
             target = Path(app.outdir) / CODE / name
             target.parent.mkdir(parents=True, exist_ok=True)
             target.write_text(text, encoding="utf-8")
-        yield f"{FOLDER}/{made.name}", {"title": made.title, "body": made.body}, "page.html"
+        yield (
+            f"{FOLDER}/{made.name}",
+            {"title": made.title, "body": made.body, "prev": before, "next": after},
+            "page.html",
+        )
 
 
 def setup(app: Any) -> dict:

@@ -16,10 +16,14 @@ from pygments.lexers import PythonLexer
 from bench.export.language import find_language, language_words
 from bench.export.subject import find_subject
 from report.figures.kit import html
-from report.figures.kit.spelling import typeset
+from report.figures.kit.spelling import LETTERS, marked_up
 
 CATALOGUE = Path(__file__).resolve().parents[2] / "pages" / "appendix-laws.md"
-BACK = '<p class="hint"><a href="../pages/appendix-laws.html">Catalogue of laws</a></p>' if CATALOGUE.is_file() else ""
+BACK = (
+    '<nav class="crumbs"><a href="../pages/appendix-laws.html">Catalogue of laws</a> ›</nav>'
+    if CATALOGUE.is_file()
+    else ""
+)
 PROPERTIES = {
     "local": "Stable near the goal, by linearization.",
     "almost global": "Stable from all starts but a set of measure zero. No continuous law without memory can do more "
@@ -29,6 +33,14 @@ PROPERTIES = {
     "": "",
 }
 LIMITATIONS = re.compile(r"\bLimitations:\s*(.*)", re.DOTALL)
+GREEK = {**LETTERS, "eps": "ε", "eta": "η", "lambda": "λ"}
+DOTTED = re.compile(rf"\b({'|'.join(GREEK)}|[A-Za-z])(d?)dot\b")
+SIGNS: tuple[tuple[str, Any], ...] = (
+    (r"\b(eps|eta|lambda)(?=\b|_)", lambda found: GREEK[found[1]]),
+    (r"\bsqrt(?=\()", "√"),
+    (r"(?<=\w) \. (?=\w)", " · "),
+)
+CODE, GAIN = re.compile(r"`([^`]+)`"), re.compile(r"\b[Kk]([pvd])\b")
 
 
 class LawPage(NamedTuple):
@@ -57,19 +69,19 @@ def make_page(name: str, title: str, card: str, source: Source, word: str = "", 
     languages = map(find_language, language_words() if word else ())
     files = {each.title: each.law(subject) for each in languages if subject}
     take = take_files(word, files, live) if files else ""
-    body = f"<section>{BACK}<h1>{html.foreign(title)}</h1>{card}{take}{fold(source)}</section>"
+    body = f"<section>{BACK}<h1>{html.foreign(title)}</h1>{card}{take}{show_code(source)}{fold(source)}</section>"
     return LawPage(name, title, body, dict(files.values()))
 
 
-def make_card(record: Any, title: str, said: tuple[list[str], Mapping[str, str]], look: str, costs: str = "") -> str:
+def make_card(record: Any, title: str, said: tuple[str, Mapping[str, str]], look: str, costs: str = "") -> str:
     """Return the card of a law.
 
     Args:
-        record: its source and formula. said: paragraphs, and fields by their heads. look: its colour as CSS.
+        record: its source and formula. said: the docstring's text, and fields by their heads. look: its colour as CSS.
     """
     formula = f'<div class="card-formula">{html.formula(record.formula)}</div>' if record.formula else ""
-    lines = [f"<p>{html.foreign(text)}</p>" for text in said[0]]
-    lines += [f'<p class="card-fact"><b>{head}.</b> {html.foreign(text)}</p>' for head, text in said[1].items() if text]
+    lines = [set_paragraph(text) for text in said[0].split("\n\n") if text.strip()]
+    lines += [f'<p class="card-fact"><b>{head}.</b> {as_html(text)}</p>' for head, text in said[1].items() if text]
     return (
         f'<section class="law-card" style="--law: {look}"'
         f' aria-label="{markup.escape(title, quote=True)}">'
@@ -83,23 +95,65 @@ def say_property(name: str) -> str:
     return PROPERTIES.get(name, f"{name[:1].upper()}{name[1:]}.")
 
 
-def docstring(file: Path) -> tuple[list[str], str]:
-    """Return a contender's file in words: paragraphs on what it is, and where it fails."""
+def docstring(file: Path) -> tuple[str, str]:
+    """Return what a contender's file says of it, and what it says of its limitations."""
     text = ast.get_docstring(ast.parse(file.read_bytes())) or ""
-    found = LIMITATIONS.search(text)
-    fails = typeset(" ".join(found[1].split())) if found else ""
-    about = text[: found.start()] if found else text
-    paragraphs = [typeset(" ".join(one.split())) for one in about.split("\n\n") if one.strip()]
-    return paragraphs, fails[:1].upper() + fails[1:]
+    about, _, fails = text.partition("Limitations:")
+    return about, " ".join(fails.split())[:1].upper() + " ".join(fails.split())[1:]
+
+
+def set_paragraph(text: str) -> str:
+    """Return a paragraph as HTML: an indented one is equations, a line each; a dash begins an item of a list."""
+    if text.startswith("    "):
+        equations = map(set_words, re.split(r" {3,}|,? *\n", text.strip()))
+        return f'<p class="card-equations">{"<br>".join(equations)}</p>'
+    head, *items = re.split(r"(?:^|\n)- ", text)
+    each = "".join(f"<li>{set_words(item)}</li>" for item in items)
+    return f"<p>{set_words(head)}</p>" + (f"<ul>{each}</ul>" if each else "")
+
+
+def as_html(text: str) -> str:
+    """Return a text as HTML, in which only ours is markup."""
+    return text if isinstance(text, html.Html) else html.foreign(text)
+
+
+def set_words(text: str) -> html.Html:
+    """Return text in the spelling of sources as HTML: letters, derivatives, roots, gains, and names in backticks."""
+    text = DOTTED.sub(lambda found: f"{GREEK.get(found[1], found[1])}{chr(0x308 if found[2] else 0x307)}", text)
+    for pattern, sign in SIGNS:
+        text = re.sub(pattern, sign, text)
+    text = marked_up(" ".join(text.split()))
+    return html.Html(GAIN.sub(r"<i>K</i><sub>\1</sub>", CODE.sub(r"<code>\1</code>", text)))
+
+
+def show_code(source: Source) -> str:
+    """Return the function that is the law, without its docstring; nothing of a file that has none or is no Python."""
+    text = source.file.read_text(encoding="utf-8", errors="replace")
+    try:
+        found = [one for one in ast.parse(text).body if isinstance(one, ast.FunctionDef) and one.name.startswith("law")]
+    except (SyntaxError, ValueError):
+        return ""
+    lines, codes = text.splitlines(), []
+    for one in found:
+        first = one.body[0]
+        end = first.end_lineno if ast.get_docstring(one) is not None else first.lineno - 1
+        codes.append("\n".join([*lines[one.lineno - 1 : first.lineno - 1], *lines[end : one.end_lineno]]))
+    code = "\n\n".join(codes)
+    return f"<h2>Its code</h2>{colour(code)}" if codes else ""
+
+
+def colour(code: str) -> str:
+    """Return Python in the colours of its words."""
+    coloured = highlight(code, PythonLexer(), HtmlFormatter(nowrap=True))
+    return f'<div class="highlight"><pre tabindex="0">{coloured}</pre></div>'
 
 
 def fold(source: Source) -> str:
     """Return a file's text behind its name."""
     text = source.file.read_text(encoding="utf-8", errors="replace")
     return (
-        f'<details class="law-source"><summary>Its file, <code>{markup.escape(source.where)}</code></summary>'
-        f'<div class="highlight"><pre tabindex="0">{highlight(text, PythonLexer(), HtmlFormatter(nowrap=True))}</pre>'
-        "</div></details>"
+        f'<details class="law-source"><summary>Its whole file, <code>{markup.escape(source.where)}</code></summary>'
+        f"{colour(text)}</details>"
     )
 
 

@@ -16,7 +16,7 @@ from bench.law.contender import Contender
 from bench.law.contenders import regulators
 from bench.law.contenders.registry import contenders, contenders_of, papers_laws
 from bench.law.kinds import Law
-from report.figures.cards.card import LawPage, Source, docstring, make_card, make_page, say_property
+from report.figures.cards.card import LawPage, Source, docstring, make_card, make_page, say_property, set_words
 from report.figures.kit import families, html, laws, style
 from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
@@ -55,9 +55,9 @@ def source(regulator: Law) -> Source:
     return Source(Path(regulators.__path__[0]) / name, f"bench/law/contenders/regulators/{name}")
 
 
-def text_of(regulator: Law) -> tuple[list[str], str]:
-    """Return its docstring's paragraphs on what the law is and where it fails; none of a law that may not run."""
-    return docstring(source(regulator).file) if regulator.law or regulator.law_in else ([UNTRUSTED], "")
+def text_of(regulator: Law) -> tuple[str, str]:
+    """Return its docstring on what the law is and where it fails; neither of a law that may not run."""
+    return docstring(source(regulator).file) if regulator.law or regulator.law_in else (UNTRUSTED, "")
 
 
 def page(one: Contender, run: Run, live: str = "") -> LawPage:
@@ -77,12 +77,12 @@ def card(one: Contender, run: Run) -> str:
     what, fails = text_of(one.regulator)
     acts = one.representation.title if one.representation else "the rotation matrix"
     fields = {
-        "Limitations": fails,
+        "Limitations": set_words(fails),
         "Memory": f"{RESET} {SIDE}" if one.regulator.memory else "",
         "Acts on": f"{acts[:1].upper()}{acts[1:]}.",
         "Proved": say_property(one.regulator.property),
         "Measured": measured(episodes, one.regulator),
-        "Its command": found_of(one, run),
+        "Its command": set_words(found_of(one, run)),
         "Advised": advised(one.name),
     }
     look, costs = html.both(style.look(one.name).colour), html.plain_table(costs_of(one, run))
@@ -93,7 +93,7 @@ def costs_of(one: Contender, run: Run) -> pd.DataFrame:
     """Operations of the typical branch: a row a stage, the stages that do nothing left out."""
     rows = run.any_rows("costs", contender=one.name, branch="typical").set_index("stage")
     numbers = rows[[name for name in COUNTED if name == "flops" or rows[name].any()]]
-    return numbers[(numbers > 0).any(axis=1)].rename(columns={"compare": "<"}).reset_index()
+    return numbers[(numbers > 0).any(axis=1)].rename(columns={"compare": "comparisons"}).reset_index()
 
 
 def engine_of(regulator: Law) -> str:
