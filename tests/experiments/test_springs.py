@@ -4,10 +4,9 @@ import functools
 
 import numpy as np
 import pytest
-from scipy.linalg import expm, logm
 from scipy.spatial.transform import Rotation
 
-from bench.experiments import pose_springs, springs
+from bench.experiments import springs
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.law.contenders.registry import contenders
 
@@ -15,7 +14,6 @@ SPRINGS = contenders("springs")
 AXES = Rotation.from_rotvec([0.3, -0.5, 0.7]).as_matrix()
 K, KR = AXES @ np.diag([30.0, 10.0, 3.0]) @ AXES.T, 7.0
 rotational = pytest.mark.parametrize("spring", springs.ROTATIONAL, ids=lambda one: one.name)
-of_pose = pytest.mark.parametrize("spring", pose_springs.SPRINGS, ids=lambda one: one.name)
 DRAWN = np.random.default_rng(3)
 POSES = [(one, DRAWN.normal(size=3)) for one in Rotation.random(100, rng=DRAWN) if one.magnitude() < 3.0]
 
@@ -25,21 +23,10 @@ def rows():
     return rows_of(Settings("quick"), Unit("springs", count=1, total=1)).set_index(["spring", "frame"])
 
 
-@functools.cache
-def rows_of_poses():
-    return rows_of(Settings("quick"), Unit("pose-springs", count=1, total=1)).set_index("spring")
-
-
 def asked(spring, turn, p):
     """The arguments of a spring's functions."""
     q, by_rows = tuple(turn.as_quat(canonical=True, scalar_first=True).tolist()), tuple(map(tuple, K.tolist()))
     return q, tuple(p.tolist()), by_rows, by_rows if spring.is_rotational else KR
-
-
-def matrix(turn, p):
-    X = np.eye(4)
-    X[:3, :3], X[:3, 3] = turn.as_matrix(), p
-    return X
 
 
 @pytest.mark.parametrize("name", [name for name, spring in SPRINGS.items() if spring.potential])
@@ -86,14 +73,6 @@ def test_logarithms_are_scipys():
         assert energy.potential(*asked(energy, turn, p)) == pytest.approx(0.5 * phi @ K @ phi, rel=1e-12)
 
 
-def test_logarithm_of_the_pose_is_that_of_the_matrix():
-    for turn, p in POSES[:50]:
-        f, m = pose_springs.wrench(SPRINGS["log-pose"], turn, p, np.eye(3), 1.0)
-        xi = logm(matrix(turn, p)).real
-        np.testing.assert_allclose(-f, xi[:3, 3], atol=1e-9)
-        np.testing.assert_allclose(-m, (xi[2, 1], xi[0, 2], xi[1, 0]), atol=1e-9)
-
-
 def test_rate_of_a_path_is_scipys():
     phi, rate, h = np.array([0.9, -1.2, 0.4]), np.array([0.3, 0.5, -0.7]), 1e-6
     turned = Rotation.from_rotvec(phi - h * rate).inv() * Rotation.from_rotvec(phi + h * rate)
@@ -118,16 +97,6 @@ def test_work_is_zero_for_a_potential_or_equal_stiffness_and_no_one_else(spring)
     assert (found["work_share_isotropic"] < 1e-14).all()
 
 
-@of_pose
-def test_work_over_paths_of_a_pose_is_zero_for_what_has_a_potential_and_no_one_else(spring):
-    assert (rows_of_poses().loc[spring.name, "work_share"] < 1e-13) == bool(spring.potential)
-
-
-def test_logarithm_of_the_pose_is_no_spring_even_where_stiffness_is_the_same_about_all_axes():
-    assert rows_of_poses().loc["log-pose", "work_share_isotropic"] > 1e-3
-    assert (rows_of_poses().drop("log-pose")["work_share_isotropic"] < 1e-13).all()
-
-
 def test_twice_as_many_points_change_no_work():
     spring, paths = SPRINGS["logarithm"], np.random.default_rng(1).uniform(-0.7, 0.7, (2, 3, 3))
     moment = springs.in_tool(spring, "tool", K)
@@ -137,27 +106,3 @@ def test_twice_as_many_points_change_no_work():
 
 def test_energy_balance_of_every_rotational_spring_closes():
     assert (rows()["balance_share"] < 1e-10).all()
-
-
-def test_motion_of_the_logarithm_is_one_screw():
-    """X(t) = exp(e^-t xi), by the matrix exponential; the origin's path is |rho| long."""
-    turn, p = POSES[0]
-    xi = logm(matrix(turn, p)).real
-    turns, places = pose_springs.motion(SPRINGS["log-pose"], turn, p)
-    for step in (1, 20, pose_springs.STEPS):
-        X = expm(np.exp(-step * pose_springs.STEP) * xi)
-        np.testing.assert_allclose(turns[step].as_matrix(), X[:3, :3], atol=1e-5)
-        np.testing.assert_allclose(places[step], X[:3, 3], atol=1e-5)
-    done = 1.0 - np.exp(-pose_springs.STEP * pose_springs.STEPS)
-    assert pose_springs.length(places) == pytest.approx(done * np.linalg.norm(xi[:3, 3]), rel=5e-3)  # chords
-
-
-@pytest.mark.parametrize("name", ["split", "split-tool", "geometric"])
-def test_split_position_goes_straight(name):
-    done = 1.0 - np.exp(-pose_springs.STEP * pose_springs.STEPS)
-    assert rows_of_poses().loc[name, ["way_median", "way_most"]].tolist() == pytest.approx([done, done], rel=1e-6)
-
-
-def test_only_the_logarithm_of_the_pose_does_not_see_where_the_origin_is():
-    assert rows_of_poses().loc["log-pose", "apart_m"] < 1e-5
-    assert (rows_of_poses().drop("log-pose")["apart_m"] > 0.1).all()

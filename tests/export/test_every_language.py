@@ -91,7 +91,6 @@ IN_CPP = (
     "late-braking",
     "feedback-linearized/zyx-euler",
     "representation-quaternion",
-    "spring-log-pose",
 )
 """With memory, calling libm, with four coordinates and matrices returned, a number and nine numbers among arguments."""
 

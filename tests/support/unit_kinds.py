@@ -36,7 +36,6 @@ def plan_of_all_kinds(folder: Path) -> plan.Plan:
         Unit("velocity", "rotation-matrix@geometric+solve", "arm-regulation", "ur5e", count=1, horizon_s=0.05),
         Unit("velocity-limits", "mine", "free-body"),
         Unit("shipped", selector="crisp", count=1, total=1, horizon_s=1.0),
-        Unit("pose-springs", count=1, total=1),
         Unit("springs", count=1, total=1),
         Unit("goal-streams", count=1, total=1, horizon_s=2.0),
         Unit("impedance", task="arm-regulation", arm="ur5e", selector="diagonal", count=1, horizon_s=0.05),
