@@ -91,6 +91,7 @@ IN_CPP = (
     "late-braking",
     "feedback-linearized/zyx-euler",
     "representation-quaternion",
+    "spring-tool-energy",
 )
 """With memory, calling libm, with four coordinates and matrices returned, a number and nine numbers among arguments."""
 
