@@ -13,10 +13,10 @@ LINES = {
     "bench/base": 550,
     "bench/cli": 2_543,
     "bench/engines": 6_400,
-    "bench/experiments": 5_283,
+    "bench/experiments": 5_144,
     "bench/export": 2_068,
     "bench/findings": 6_622,
-    "bench/law": 6_733,
+    "bench/law": 6_685,
     "bench/regression": 1_295,
     "bench/running": 2_523,
     "bench/studies": 2_435,
@@ -25,7 +25,7 @@ LINES = {
     "tests/conftest.py": 73,
     "tests/contracts": 2_599,
     "tests/engines": 2_883,
-    "tests/experiments": 2_299,
+    "tests/experiments": 2_244,
     "tests/export": 315,
     "tests/findings": 2_143,
     "tests/law": 2_611,
@@ -34,20 +34,20 @@ LINES = {
     "tests/repository": 519,
     "tests/running": 1_197,
     "tests/studies": 609,
-    "tests/support": 3_217,
+    "tests/support": 3_216,
     "tests/tasks": 1_893,
     "report": 6_264,
     "tasks": 5_218,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
-FILES = {"bench/audit": 42, "bench/experiments": 46, "bench/export": 19, "bench/law": 110, "tasks": 77}
+FILES = {"bench/audit": 42, "bench/experiments": 45, "bench/export": 19, "bench/law": 108, "tasks": 77}
 """Python files of the rooms in which one file adds one thing: with one more, a room may have as many lines more."""
 LONGEST_FILE = 250
 TOO_LONG: dict[str, int] = {}
 """Files that are still longer, with their lines."""
 
 
-DATA = {"bench": 3_087, "report": 1_751, "tasks": 474, "tests": 955}
+DATA = {"bench": 3_072, "report": 1_751, "tasks": 474, "tests": 955}
 """Lines of text in other files than Python: what moves into them counts too. One new file may come on top."""
 SUFFIXES = (".toml", ".text", ".xml", ".js", ".c", ".html", ".css")
 
