@@ -1,13 +1,14 @@
 /* The ball of rotation vectors: direction is the axis of a rotation, distance from the centre its angle, and 180 degrees
    are the surface. Mouse, finger and arrow keys turn it; it follows light and dark.
 
-   ball.make(canvas, { onPick }) -> { draw({ dots, ways, cut, tip }), face(point) }
+   ball.make(canvas, { onPick }) -> { draw({ dots, ways, cut, isSolid, tip }), face(point) }
      dots  [{ at, colour, radius }] in the unit ball; ways  [{ points, now, colour, dashes }]; cut  depth beyond which
-     dots are left out, 1 is towards the reader; onPick(i)  a dot was clicked
+     dots are left out, 1 is towards the reader; isSolid  dots hide what is inside; onPick(i)  a dot was clicked
    A <canvas class="ball"> beside a <script type="application/json" data-for="its id"> draws the groups in there. */
 (function (root) {
   "use strict";
   const START = { yaw: 0.6, pitch: 0.35 }, ASIDE = 0.5, STEP = 0.12, CIRCLE = 96, BEHIND = 0.45, RADIUS = 0.43, STILL = 5;
+  const LAYER = 0.25, SHELL = 0.78;
   const dot = (p, q) => p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
   const ring = f => Array.from({ length: CIRCLE + 1 }, (_, i) => f((2 * Math.PI * i) / CIRCLE));
   const RINGS = [ring(t => [Math.cos(t), Math.sin(t), 0]), ring(t => [Math.cos(t), 0, Math.sin(t)]),
@@ -44,9 +45,10 @@
       return sprites.get(key);
     }
     function drawDots(project) {
-      const { dots, cut } = shown;
+      const { dots, cut, isSolid } = shown;
       spots = dots.map(one => project(one.at));
-      order = dots.map((_, i) => i).filter(i => dots[i].colour && spots[i][2] <= cut);
+      const isBared = i => spots[i][2] > cut - LAYER || (spots[i][2] > -LAYER && dot(dots[i].at, dots[i].at) > SHELL ** 2);
+      order = dots.map((_, i) => i).filter(i => dots[i].colour && spots[i][2] <= cut && (!isSolid || isBared(i)));
       order.sort((i, j) => spots[i][2] - spots[j][2]);
       for (const i of order) {
         const { colour, radius = 0.005 } = dots[i], pixels = Math.max(1.6, radius * size), half = pixels + 1;
@@ -107,7 +109,7 @@
       pen.setTransform(ratio, 0, 0, ratio, 0, 0);
       pen.clearRect(0, 0, size, size);
       const project = projector();
-      drawFrame(project, style.borderTopColor);
+      drawFrame(project, `color-mix(in srgb, ${ink} 38%, transparent)`);
       drawDots(project);
       drawNames(project);
       shown.ways.forEach((way, i) => drawWay(project, way, i === 0));

@@ -22,7 +22,8 @@
     function redraw() { // once a frame, as times come in
       frame = null;
       const never = getComputedStyle(byId("ball")).color;
-      ball.draw({ dots: spots.map(({ i, at }) => ({ at, radius: DOT, colour: colourOf(times[i], never) })) });
+      const dots = spots.map(({ i, at }) => ({ at, radius: DOT, colour: colourOf(times[i], never) }));
+      ball.draw({ dots, isSolid: true });
       const done = Object.keys(times).length, lost = Object.values(times).filter(time => !Number.isFinite(time)).length;
       byId("counted").textContent = done === 0 ? "" : `${lost} of ${done} starts drawn do not settle`;
     }
