@@ -102,15 +102,19 @@ def encode_loop(
     poster_s: float = math.inf,
 ) -> None:
     """Encode motions side by side at equal times, by title, in both codecs; a poster is the picture at a time."""
-    import imageio_ffmpeg
-
-    name += theme.suffix
     per_s, images = FRAMES_PER_S * slower, []
     for number, poses in enumerate(zip(*(motion.frames(loop_s, per_s) for _, motion in shown.values()), strict=True)):
         pictures = [view(pose) for (view, _), pose in zip(shown.values(), poses, strict=True)]
         image = draw_row(pictures, list(shown), LINE, LINE, LINE - 10, 24, theme)
         write_on(image, (image.width // 2, image.height - 10), f"{number / per_s:.2f} s{note}", 22, theme)
         images.append(image)
+    encode(f"{name}{theme.suffix}", images, images[min(round(min(poster_s, loop_s) * per_s), len(images) - 1)])
+
+
+def encode(name: str, images: list[Image.Image], poster: Image.Image) -> None:
+    """Encode pictures as a loop in both codecs, and save its poster."""
+    import imageio_ffmpeg
+
     for kind, (codec, options) in ENCODERS.items():
         usual = {"fps": FRAMES_PER_S, "codec": codec, "macro_block_size": 2, "ffmpeg_log_level": "error"}
         file = str(MEDIA / f"{name}.{kind}")
@@ -119,4 +123,4 @@ def encode_loop(
         for image in images:
             writer.send(np.ascontiguousarray(image))
         writer.close()
-    save(images[min(round(min(poster_s, loop_s) * per_s), len(images) - 1)], f"{name}.png")
+    save(poster, f"{name}.png")

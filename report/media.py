@@ -19,6 +19,7 @@ if __name__ == "__main__":
     os.environ.setdefault("MUJOCO_GL", "egl")  # which MuJoCo reads when it is imported
 
 import numpy as np
+import three_fates
 from drawing import HALF, LINE, MEDIA, THEMES, Motion, Theme, draw_row, encode_loop, make_view, save
 
 import tasks
@@ -142,7 +143,7 @@ def simulate_contact(task: str, trial: str, name: str) -> tuple[ContactPuppet, M
     return ContactPuppet(task, one), Motion(USUAL.dt_s, ended.record)
 
 
-def describe_files(rows: dict[str, dict]) -> dict[str, Any]:
+def describe_files(rows: dict[str, dict], fates: dict[str, Any]) -> dict[str, Any]:
     """Return what the files show and where they come from."""
     numbers = ("settling_time_s", "failure_time_s", "path_ratio", "peak_torque_ratio", "position_error_m")
     episodes = [
@@ -153,7 +154,8 @@ def describe_files(rows: dict[str, dict]) -> dict[str, Any]:
     plate = {**PLATE, "controllers": list(CONTROLLERS), **PLATE_LOOP}
     stills = {task: trial for task, (trial, _) in STILLS.items()}
     return {**POLE, "episodes": episodes, **POLE_LOOP} | {
-        "contact": {"arm": CONTACT_ARM, "stills": stills, "by": BY, "plate": plate}
+        "contact": {"arm": CONTACT_ARM, "stills": stills, "by": BY, "plate": plate},
+        "fates": fates,
     }
 
 
@@ -184,14 +186,16 @@ def draw_contact(theme: Theme) -> None:
 
 def main() -> None:
     """Draw all files, on light and on dark paper; leave them as they are where MuJoCo cannot draw."""
-    found = simulate_at_pole()
+    found, fates = simulate_at_pole(), three_fates.simulate_fates()
     try:
         for theme in THEMES:
             draw_arms(theme, {word: motion for word, (motion, _) in found.items()})
             draw_contact(theme)
+            three_fates.draw(theme, fates)
     except Exception as reason:  # what a missing GL raises depends on the backend
         sys.exit(f"media: not all is drawn here ({reason}; cure where GL is missing: apt-get install libegl1 libgl1)")
-    about = {"commit": describe()["commit"], **describe_files({word: row for word, (_, row) in found.items()})}
+    rows = {word: row for word, (_, row) in found.items()}
+    about = {"commit": describe()["commit"], **describe_files(rows, three_fates.describe(fates))}
     (MEDIA / "media.json").write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8")
 
 

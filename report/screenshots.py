@@ -1,25 +1,20 @@
 """The built report in headless Chromium: what a reader's browser sees.
 
-    python report/screenshots.py       the front page's figure, into report/_static/overview.png for the README
-
-The browser tests drive the same browser. Needs selenium (the dev extra) and Debian's chromium and chromium-driver;
+The browser tests drive it. Needs selenium (the dev extra) and Debian's chromium and chromium-driver;
 nothing is downloaded.
 """
 
 from __future__ import annotations
 
-import base64
 import contextlib
 import importlib.util
 import json
 import shutil
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
 SITE = Path(__file__).resolve().parent / "_build" / "html"
-README_PICTURE = Path(__file__).resolve().parent / "_static" / "overview.png"
 THEMES = ("light", "dark")
 WIDTHS = (1280, 390)
 HEIGHT = 900
@@ -128,25 +123,3 @@ def network_requests(driver: Any) -> list[str]:
 def console_errors(driver: Any) -> list[str]:
     """Return what the console complained of since the last call."""
     return [entry["message"] for entry in driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
-
-
-def first_figure(driver: Any) -> bytes:
-    """Return the page's first figure without its caption, as PNG at twice the size."""
-    box = driver.find_element("css selector", "figure svg").rect
-    shot = {"format": "png", "captureBeyondViewport": True, "clip": {**box, "scale": 2}}
-    return base64.b64decode(driver.execute_cdp_cmd("Page.captureScreenshot", shot)["data"])
-
-
-def main() -> int:
-    """Save the picture of the README."""
-    if missing():
-        print(f"screenshots: {missing()}", file=sys.stderr)
-        return 2
-    with browser() as driver:
-        open_page(driver, SITE / "index.html", VIEWS[0])
-        README_PICTURE.write_bytes(first_figure(driver))
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

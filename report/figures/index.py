@@ -1,34 +1,48 @@
-"""What the front page shows: the answer, all verdicts, the hero of the paper's three laws, and forces."""
+"""What the front page shows: three fates of one start, the default, and what leads to another law."""
 
-from bench.findings import claims
-from report.figures.answer import answer_box, which_law
-from report.figures.claims import claims as judged
-from report.figures.contact import compliance, in_contact
-from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER
+from __future__ import annotations
+
+from typing import Any
+
+from bench.findings.selection.regions import find_default
+from bench.findings.selection.robots import list_elsewhere
+from report.figures.answer import which_law
+from report.figures.kit import families, html, media
 from report.figures.kit.page import Run
-from report.figures.responses import hero
+from report.figures.kit.spelling import listed
+
+PLAY = """<script>
+if (matchMedia("(prefers-reduced-motion: no-preference)").matches)
+  for (const film of document.querySelectorAll(".first video")) if (film.checkVisibility()) film.play().catch(() => {});
+</script>"""
 
 
-def facts(run: Run) -> dict:
-    """Return the answer, the laws, how many criteria were revised."""
-    on_claims = judged.facts(run)
+def facts(run: Run) -> dict[str, Any]:
+    """Return the default and what it does, what leads to another law, and how ours compares."""
     return {
-        **{name: on_claims[name] for name in ("decided", "changed", "turned")},
-        "which_law": which_law.front_page(run),
-        "pegs": in_contact.stuck(in_contact.all_rows(run), PAPERS, PAPERS_EULER),
-        "pegs_by_accelerations": in_contact.stuck(in_contact.all_rows(run), CARTESIAN, EULER),
-        "off": compliance.facts(run).get("off"),
+        "default": families.word(find_default()),
+        "does": which_law.describe_default(),
+        "needs": list_needs(run),
+        "ours": which_law.describe_ours(),
     }
 
 
-def tables(run: Run) -> dict:
-    """Return the answer, and how many verdicts there are of each kind."""
-    return {
-        "answer": answer_box.answer(run),
-        "tiles": judged.tiles(claims.judge_all()),
-    }
+def tables(_: Run) -> dict[str, Any]:
+    """Return the loop of three fates."""
+    return {"fates": show_fates(media.facts()["fates"]["episodes"])}
 
 
-def figures(run: Run) -> dict:
-    """Return the paper's three laws from every angle."""
-    return {"hero": hero.hero(run.rows("episodes", engine="ideal-rk4"))}
+def list_needs(run: Run) -> str:
+    """Say for each law that is not the default what leads to it."""
+    needs: dict[str, list[str]] = {}
+    for one in list_elsewhere(run.folder):
+        if one.law != find_default():
+            needs.setdefault(one.law, []).append(one.words)
+    links = {law: families.link(law, families.word(law)).replace('href="../', 'href="', 1) for law in needs}
+    return f"{listed([links[law] + ' if ' + ', or if '.join(words) for law, words in needs.items()])}."
+
+
+def show_fates(episodes: list[dict[str, Any]]) -> html.Html:
+    """Return the loop, which plays at once unless the reader wants less motion, with its words."""
+    said = "; ".join(f"from {one['start']} {families.word(one['contender'])} {one['says']}" for one in episodes)
+    return html.Html(media.loop(f"A gripper under three laws: {said}.", "fates-loop", "_static/media", 300) + PLAY)

@@ -5,20 +5,13 @@ import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
-from support.pages import assert_is_drawn
-
 from bench.experiments.tables.schema import RESULTS
-from report.figures import index
 from report.figures.failures import failure_map
 from report.figures.kit.page import run_in
 from report.figures.kit.rows import FEEDBACK
 from report.figures.responses import responses
 
 RUN = run_in(RESULTS / "reference")
-
-
-def test_figure_of_the_front_page_says_its_numbers_keeps_to_the_palette_and_fits_a_phone():
-    assert_is_drawn(index.figures(RUN)["hero"])
 
 
 def test_ball_shows_half_turns_at_both_ends_of_their_axis():

@@ -17,17 +17,16 @@ from bench.experiments.tables.schema import RESULTS
 from report.figures.kit.page import REPORT, kinds_of, modules_of, pasted, run_in, word_of
 
 LEAD = re.compile(r"^(:{3,})\{div\} (?:lead|answer)\n(.*?)^\1$", re.DOTALL | re.MULTILINE)
-FORCES = re.compile(r"^- \*\*Forces\.\*\*.*?(?=^-|^##)", re.DOTALL | re.MULTILINE)
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (REPORT / "index.md", *REPORT.glob("pages/*.md"))}
-NO_NUMBER = {"answer"}
-"""The formula and the code of a law."""
+NO_NUMBER = {"needs"}
+"""Names of laws, which test_front_page has."""
 UNITS = re.compile(r"1/s²?|rad²?/s[²³]")
 SIGNS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789 ", "\u202f")
 
 
 def paste_lead(text):
-    """Return the keys that the lead of a page pastes; of the front page's text the answer and forces."""
-    parts = [one[1] for one in LEAD.findall(text)] + FORCES.findall(text)
+    """Return the keys that the lead of a page pastes; of the front page the answer."""
+    parts = [one[1] for one in LEAD.findall(text)]
     return set(pasted("".join(parts))) - NO_NUMBER
 
 

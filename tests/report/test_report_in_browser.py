@@ -161,6 +161,17 @@ def test_page_shows_every_image_ball_and_formula(seen):
         assert (facts["broken"], facts["empty"], facts["unset"]) == ([], [], 0)
 
 
+FOOT = "return document.querySelector(arguments[0]).getBoundingClientRect().bottom"
+
+
+@pytest.mark.parametrize(
+    ("width", "height", "last"), [(1280, 900, ".answer .next"), (390, 844, ".answer pre span")], ids=["wide", "phone"]
+)
+def test_front_page_answers_on_its_first_screen(driver, width, height, last):
+    screenshots.open_page(driver, screenshots.SITE / "index.html", screenshots.View("light", width))
+    assert 0 < driver.execute_script(FOOT, last) <= height
+
+
 def test_ten_chapters_stay_short(driver):
     chapters = [page for page in PAGES if page.parent.name == "pages" and page.stem[:2].isdigit()]
     count = "return [document.querySelector('main').scrollHeight, ...['table', 'figure'].map(x => "

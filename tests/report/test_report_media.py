@@ -6,21 +6,23 @@ import pytest
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
 import media as rendering
+import three_fates
 from drawing import THEMES
+from support.tables import table
 
 import tasks
 from bench.engines.contact_episode import P, R
 from report.figures.kit import media
 
 ABOUT = media.facts()
-LOOPS = ("pole-loop", "plate-loop")
+LOOPS = ("pole-loop", "plate-loop", "fates-loop")
 FILES = [
     f"{name}{one.suffix}.{kind}"
     for one in THEMES
-    for name in ("arms", "contact-tasks", *LOOPS)
+    for name in ("arms", "contact-tasks", "fates", *LOOPS)
     for kind in (("png", "webm", "mp4") if name in LOOPS else ("png",))
 ]
-LARGEST, LARGEST_IN_ALL = 300_000, 1_500_000
+LARGEST, LARGEST_IN_ALL = 200_000, 1_500_000
 STARTS_OF = {"png": b"\x89PNG\r\n", "webm": b"\x1a\x45\xdf\xa3", "mp4": b"ftyp"}
 
 
@@ -32,15 +34,28 @@ def test_folder_holds_these_files_alone_each_what_its_name_says_and_small():
     assert sum(map(len, contents.values())) <= LARGEST_IN_ALL
 
 
-@pytest.mark.parametrize("about", [ABOUT, ABOUT["contact"]["plate"]], ids=LOOPS)
-def test_loop_is_no_longer_than_three_seconds(about):
+@pytest.mark.parametrize("about", [ABOUT, ABOUT["contact"]["plate"], ABOUT["fates"]], ids=LOOPS)
+def test_motion_is_no_longer_than_three_seconds(about):
     assert about["loop_s"] * about["slower"] <= 3.0
 
 
 def test_files_are_of_what_the_program_would_draw_now():
     rows = {one["contender"]: one | {"outcome": "settled", "failure_time_s": np.nan} for one in ABOUT["episodes"]}
     assert list(rows) == list(rendering.CONTENDERS)
-    assert rendering.describe_files(rows) == {key: value for key, value in ABOUT.items() if key != "commit"}
+    assert rendering.describe_files(rows, ABOUT["fates"]) == {
+        key: value for key, value in ABOUT.items() if key != "commit"
+    }
+
+
+def test_three_fates_are_those_of_the_published_episodes():
+    found = three_fates.simulate_fates()
+    assert three_fates.describe(found) == ABOUT["fates"]
+    rows = table("episodes").query("engine == 'ideal-rk4' and start_set == 'half-turn'").set_index(["start_id", "law"])
+    for one in ABOUT["fates"]["episodes"]:
+        row, [*_, last] = rows.loc[one["start"], one["contender"]], found[one["start"]][one["contender"]].motion.poses
+        assert (one["outcome"], one["path_ratio"]) == (row["outcome"], pytest.approx(row["path_ratio"], rel=1e-5))
+        assert one["settling_time_s"] == (pytest.approx(row["settling_time_s"]) if one["settling_time_s"] else None)
+        assert np.allclose(last, np.eye(3), atol=0.05) == (one["outcome"] == "settled")
 
 
 def test_a_still_shows_every_task_in_contact():

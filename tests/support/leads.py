@@ -4,7 +4,6 @@ A value is the text that a key shows, or a list: every number of that text, and 
 """
 
 import collections
-import itertools
 
 import numpy as np
 import pandas as pd
@@ -30,13 +29,11 @@ from support.leads_of_arms import (
     recompute_impedance,
     recompute_libraries,
     recompute_new_law,
-    recompute_pegs,
     recompute_times,
 )
-from support.map_rule import drawn_verdicts, map_verdicts, widest
+from support.map_rule import drawn_verdicts, widest
 from support.tables import table
 from tasks.condition import condition_at
-from tasks.situation import COORDINATES
 
 
 def name_together(laws):
@@ -135,21 +132,8 @@ def recompute_velocities():
     return {"log_limit": f"{rows['k_dt'].iloc[0]:.3g}", "lead": said}
 
 
-def list_bounds(law):
-    """Return the ends of the ranges, one number away from the nominal situation, in which nothing beats a law."""
-    verdicts, found, nominal = map_verdicts(), [], tuple(one.nominal for one in COORDINATES.values())
-    for i, (name, one) in enumerate(COORDINATES.items()):
-        line = sorted(at for at in verdicts if at[:i] + at[i + 1 :] == nominal[:i] + nominal[i + 1 :])
-        has = {at[i]: law in verdicts[at][1] for at in line if name != "jump" or at[i]}
-        for is_unbeaten, some in itertools.groupby(has, has.get):
-            low, *_, high = [*(ends := [*some]), ends[-1]]
-            if is_unbeaten and not all(has.values()):
-                found += [high] if low in (high, min(one.levels)) else [low] if high == max(one.levels) else [low, high]
-    return [f"{value:g}" for value in found]
-
-
 def recompute_advice():
-    """Return what is said of the law of the widest region, of ours, and of the other regions."""
+    """Return what is said of the law of the widest region, of the other regions, and of ours."""
     (law, _, unbeaten), *others = widest()
     rows, drawn = table("situations", "situations"), drawn_verdicts()
     nominal = rows[(rows["zeta"] == 1.0) & (rows["law"] == law) & (rows["period"] == 0.01)]
@@ -157,11 +141,10 @@ def recompute_advice():
         np.isinf(nominal["bound"]) & (nominal[["delay", "unevenness", "spin", "jump"]] == 0.0).all(axis=1)
     ]
     [time] = nominal.loc[nominal["inertia"] == 1.0, "time"]
-    said = [word(law), 0.1, 180, f"{unbeaten:.0%}", *list_bounds(law), 100, 99, f"{time / 10:.2f} s", word(LATE), 2026]
-    for place in (2, 3):
-        said.append(f"{sum(LATE in one[place] for one in drawn) / len(drawn):.0%}")
-    front = list(said)
-    return {"lead": [*said, *list_together([f"{word(one)} ({share:.0%})" for one, share, _ in others])]}, front
+    does = [0.1, 180, f"{100 * unbeaten:.0f} %", 100, 99, f"{time / 10:.2f} s"]
+    ours = [word(LATE), 2026, *(f"{100 * sum(LATE in one[i] for one in drawn) / len(drawn):.0f} %" for i in (2, 3))]
+    elsewhere = list_together([f"{word(one)} ({100 * share:.0f} %)" for one, share, _ in others])
+    return {"default": word(law), "does": does, "ours": ours}, {"lead": [word(law), *does, *elsewhere, *ours]}
 
 
 def recompute_verdicts():
@@ -180,12 +163,7 @@ def recompute_verdicts():
 
 
 COMPUTED = {
-    "index": lambda: {
-        "off": recompute_compliance()["off"],
-        "pegs": recompute_pegs("transpose"),
-        "pegs_by_accelerations": recompute_pegs("inverse"),
-        "which_law": recompute_advice()[1],
-    },
+    "index": lambda: recompute_advice()[0],
     "05-euler-angles": recompute_failure_map,
     "appendix-cost": recompute_times,
     "appendix-arms": recompute_arms,
@@ -197,7 +175,7 @@ COMPUTED = {
     "appendix-velocity": recompute_velocities,
     "appendix-impedance": recompute_impedance,
     "08-libraries": recompute_libraries,
-    "01-which-error": lambda: recompute_advice()[0],
+    "01-which-error": lambda: recompute_advice()[1],
     "10-late-braking": recompute_new_law,
     "09-murphy-1988": recompute_verdicts,
 }

@@ -141,7 +141,9 @@ def list_elsewhere(folder: Path) -> list[Elsewhere]:
     """Return the law for robots and controllers that are not those of the default, by the map and by a run."""
     uneven = answer(UNCANCELLED).verdict
     found = [
-        Elsewhere("your robot takes torques, no inertia cancelled", uneven.law or "none", uneven.tied, uneven.asked),
+        Elsewhere(
+            "your robot takes torques and no inertia is cancelled", uneven.law or "none", uneven.tied, uneven.asked
+        ),
         Elsewhere("your controller keeps nothing from tick to tick", find_default(rule=Rule(forgetful=True))),
         Elsewhere("the command must be continuous", find_default(rule=Rule(continuous=True))),
     ]

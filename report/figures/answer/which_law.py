@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 from bench.experiments.situations import FIRST, MOST, NOISE_RAD
-from bench.findings.claims import Results, judge
 from bench.findings.selection import regions, sensitivity
 from bench.findings.selection.regions import decide_all, facts_of, find_bounds, find_regions, is_drawn, read_map
 from bench.findings.selection.robots import list_elsewhere
@@ -33,7 +32,7 @@ def facts(run: Run) -> dict[str, Any]:
     beaten, left = sensitivity.correct()
     halves, of = sensitivity.count_halves()
     return {
-        "lead": lead(run),
+        "lead": lead(),
         "situations": len(verdicts),
         "drawn": sum(map(is_drawn, verdicts)),
         "episodes": f"{read_map()['starts'].sum() / 1e6:.1f}",
@@ -46,40 +45,39 @@ def facts(run: Run) -> dict[str, Any]:
         "of_halves": of,
         "slower": f"{100 * sensitivity.bound_slower(FIRST):.1f}",
         "noise": f"{NOISE_RAD:g}",
-        "verdict": str(judge("C27", Results(run.folder)).word),
     }
 
 
-def front_page(run: Run) -> str:
-    """Return the advice in a few words."""
-    one = find_regions()[0]
-    word, rows = families.word(one.law), read_map()
+def describe_default() -> str:
+    """Return what the law of the widest region does."""
+    one, rows = find_regions()[0], read_map()
     [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == one.law)].to_dict("records")
     return (
-        f"{word[0].upper()}{word[1:]}, a published law, in simulation only: it settles from every start tried, noise "
-        f"of orientation up to {NOISE_RAD:g} rad cannot trap it at 180°, and nothing published is faster in "
-        f"{one.unbeaten:.0%} of the situations that were drawn at random. One number at a time that holds for "
-        f"{describe_bounds(find_bounds(one.law))}. At kp = {KP:g} 1/s² and critical damping 99 % of the starts settle "
-        f"in {row['time'] / KP**0.5:.2f} s. {_ours()}"
+        f"It settles from every start tried, and orientation noise up to {NOISE_RAD:g} rad cannot trap it at 180°. "
+        f"Nothing published is faster in {100 * one.unbeaten:.0f} % of the situations drawn at random. "
+        f"With kp = {KP:g} 1/s² and critical damping, 99 % of the starts settle in {row['time'] / KP**0.5:.2f} s."
     )
 
 
-def _ours() -> str:
+def describe_ours() -> str:
     """Return how our own laws compare with what is advised."""
     said = []
     for law in regions.list_ours():
         ties, beats = regions.compare_ours(law)
         said.append(
-            f"Our own law, {families.word(law)} (2026, not reviewed), is not advised: nothing published beats it in "
-            f"{ties:.0%} of the situations, and it beats what is advised in {beats:.0%}."
+            f"Our own law, {families.word(law)} (2026, simulation only, not reviewed), is not advised: nothing "
+            f"published beats it in {100 * ties:.0f} % of the situations, and it beats the advised law in "
+            f"{100 * beats:.0f} %."
         )
     return " ".join(said)
 
 
-def lead(run: Run) -> str:
-    """Return the front page's answer, and the laws of the other regions."""
-    others = [f"{families.word(one.law)} ({one.advised:.0%})" for one in find_regions()[1:]]
-    return f"{front_page(run)} Elsewhere: {together(others)}." if others else front_page(run)
+def lead() -> str:
+    """Return the default, and the laws of the other regions."""
+    first, *others = find_regions()
+    said = together([f"{families.word(one.law)} ({100 * one.advised:.0f} %)" for one in others])
+    elsewhere = f" In the other situations other laws are advised: {said}." if others else ""
+    return f"Use **{families.word(first.law)}**, a published law. {describe_default()}{elsewhere} {describe_ours()}"
 
 
 def tables(run: Run) -> dict[str, Any]:

@@ -23,17 +23,18 @@ def facts(folder: Path = FOLDER) -> dict:
     return json.loads((folder / "media.json").read_text(encoding="utf-8"))
 
 
-def loop(alt: str, name: str = "pole-loop") -> html.Html:
+def loop(alt: str, name: str = "pole-loop", source: str = SOURCE, height: int = 412) -> html.Html:
     """Return a loop with its poster; a reader starts it. Where no video plays, the poster stands for it."""
     words = escape.escape(alt, quote=True)
     return in_both_themes(
         lambda file, shown: (
             f'<video class="{shown}" controls loop muted playsinline preload="none" poster="{file}.png" width="720" '
-            f'height="412" aria-label="{words}">'
+            f'height="{height}" aria-label="{words}">'
             + "".join(f'<source src="{file}.{kind}" type="{mime}">' for kind, mime in TYPES.items())
             + f'<img src="{file}.png" alt="{words}"></video>'
         ),
         name,
+        source,
     )
 
 
@@ -43,7 +44,7 @@ def still(alt: str, name: str) -> html.Html:
     return in_both_themes(lambda file, shown: f'<img class="{shown}" src="{file}.png" alt="{words}">', name)
 
 
-def in_both_themes(write: Callable[[str, str], str], name: str) -> html.Html:
+def in_both_themes(write: Callable[[str, str], str], name: str, source: str = SOURCE) -> html.Html:
     """Return the files of light pages and of dark ones, each shown where its class says."""
     shown = (("", "only-light"), ("-dark", "only-dark"))
-    return html.Html("".join(write(f"{SOURCE}/{name}{suffix}", where) for suffix, where in shown))
+    return html.Html("".join(write(f"{source}/{name}{suffix}", where) for suffix, where in shown))
