@@ -26,7 +26,7 @@ LAWS = {
 STARTS = ("half-turn-x-exact", "half-turn-x-k00")
 """At 180° the cross product vanishes; from the smaller rotation the quaternion without sign turns the longer way."""
 LOOP = {"loop_s": 1.0, "slower": 3}  # each start is played in 3 s
-SIZE, HEAD, LINE = (240, 222), 30, 24  # pixels of a gripper, of the heading and of a line of words
+SIZE, HEAD, LINE = (216, 204), 30, 24  # pixels of a gripper, of the heading and of a line of words
 FATE = {"": ((176, 42, 34), (140, 90, 0), (10, 112, 73)), "-dark": ((255, 143, 133), (242, 191, 78), (79, 216, 160))}
 """The colours of stuck, unwinding and home, on light paper and on dark."""
 POSTER_S = 0.2

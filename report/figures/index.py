@@ -45,4 +45,4 @@ def list_needs(run: Run) -> str:
 def show_fates(episodes: list[dict[str, Any]]) -> html.Html:
     """Return the loop, which plays at once unless the reader wants less motion, with its words."""
     said = "; ".join(f"from {one['start']} {families.word(one['contender'])} {one['says']}" for one in episodes)
-    return html.Html(media.loop(f"A gripper under three laws: {said}.", "fates-loop", "_static/media", 300) + PLAY)
+    return html.Html(media.loop(f"A gripper under three laws: {said}.", "fates-loop", "_static/media", 313) + PLAY)
