@@ -21,6 +21,11 @@ STYLE = Path("styles") / "pydata-sphinx-theme.css"
 ICON = re.compile(r'(?:"([\w-]+)"|\b(\w+)):\[\d+,\d+,\[([^\]]*)\],"[0-9a-f]+",(?:"[^"]*"|\[[^\]]*\])\],?')
 # .fa-name:before,.fa-alias:before{content:"..."}
 RULE = re.compile(r'(?:\.fa-[\w-]+:before,?)+\{content:"[^"]*"\}')
+SEARCH = Path("searchtools.js")
+PATCHES = (
+    (re.compile(r"\s*\|\|\s*queryTerm\.match\(/\^\\d\+\$/\)"), ""),  # a number is a word: 180
+    (re.compile(r"(?=fetch\(requestUrl\))"), 'if (location.protocol !== "file:") '),  # no excerpts without a server
+)
 FACE = re.compile(r"@font-face\{[^}]*Font Awesome[^}]*\}")
 USED = re.compile(r"\bfa-([\w-]+)")
 
@@ -54,6 +59,12 @@ def finish(app: Any, exception: Exception | None) -> None:
     if not kept:
         raise ValueError(f"{script.name} has none of the icons {sorted(used)}: the theme's script has another form")
     script.write_text(drawn, encoding="utf-8")
+    search = (static / SEARCH).read_text(encoding="utf-8")
+    for old, new in PATCHES:
+        search, count = old.subn(new, search)
+        if count != 1:
+            raise ValueError(f"{SEARCH} has {count} places like {old.pattern}: the theme's script has another form")
+    (static / SEARCH).write_text(search, encoding="utf-8")
     rules = FACE.sub("", style.read_text(encoding="utf-8"))
     rules = RULE.sub(lambda rule: rule[0] if used.intersection(USED.findall(rule[0])) else "", rules)
     style.write_text(rules, encoding="utf-8")

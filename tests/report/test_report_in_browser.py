@@ -185,3 +185,13 @@ def test_ten_chapters_stay_short(driver):
     assert pixels <= 40 * screenshots.HEIGHT
     assert tables <= 20
     assert figures <= 20
+
+
+@pytest.mark.parametrize("words", ["180", "gimbal lock", "install"])
+def test_search_from_a_file_finds_pages_without_an_error(words):
+    from selenium.webdriver.support.wait import WebDriverWait
+
+    with screenshots.browser() as driver:
+        driver.get(f"{(screenshots.SITE / 'search.html').as_uri()}?q={words}")
+        WebDriverWait(driver, 20).until(lambda _: driver.find_elements("css selector", "#search-results li a"))
+        assert not [line for line in driver.get_log("browser") if "rror" in line["message"]]

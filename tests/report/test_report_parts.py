@@ -10,12 +10,14 @@ from bench.base.provenance import ROOT
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.export.language import language_words
-from bench.law.contenders.registry import contenders, papers_laws
+from bench.law.contenders.registry import FOLDERS, contenders, papers_laws
 from report.figures.cards import regulators
 from report.figures.cost import cost
 from report.figures.kit import families, spelling
 from report.figures.kit.page import Run, run_in
 from report.figures.method import method
+
+BIBLIOGRAPHY = (ROOT / "report" / "references.bib").read_text(encoding="utf-8")
 
 
 @pytest.fixture(autouse=True)
@@ -98,3 +100,13 @@ def test_every_page_is_in_one_part_of_the_contents():
     globs = re.findall(r"glob: (\S+)", (ROOT / "report" / "_toc.yml").read_text())
     for page in (ROOT / "report" / "pages").glob("*.md"):
         assert sum(fnmatch.fnmatchcase(f"pages/{page.stem}", one) for one in globs) == 1, page
+
+
+def test_every_work_that_a_law_cites_is_in_the_bibliography():
+    works = re.findall(r"author\s*=\s*\{([^,]+?)[, ].*?year\s*=\s*\{(\d+)\}", BIBLIOGRAPHY, re.DOTALL)
+    for folder in sorted(set(FOLDERS) - {"shipped"}):
+        for name, one in contenders(folder).items():
+            cited = re.sub(r"arXiv:[\d.]+|this benchmark, 2026", "", one.source)
+            for year in re.findall(r"\b(?:1[89]|20)\d\d\b", cited):
+                assert [author for author, of in works if of == year and author.strip("{}") in cited], (name, year)
+            assert all(f"{{{number}}}" in BIBLIOGRAPHY for number in re.findall(r"arXiv:[\d.]+", one.source)), name
