@@ -20,9 +20,8 @@ TUNED = Table(
     "Law | kv = 2√kp [1/√kp]:.2f | best zeta:.2f | its time [1/√kp]:.2f | best zeta at equal peak:.2f | "
     "its time [1/√peak]:.2f"
 )
-HELD_OUT = Table(
-    "Held-out situations | Same law [%]:.0f | Nothing beats it [%]:.0f | Later, median [%]:.1f | Later, 95 % [%]:.1f"
-)
+LEAST = 0.01
+"""The share of situations from which on a law has a row of its own."""
 ROBOTS_TABLE = Table("If | use | Tied with | Of laws | Measured")
 
 
@@ -31,6 +30,7 @@ def facts(run: Run) -> dict[str, Any]:
     verdicts = decide_all()
     beaten, left = sensitivity.correct()
     halves, of = sensitivity.count_halves()
+    held = sensitivity.count_agreeing()
     return {
         "lead": lead(),
         "situations": len(verdicts),
@@ -45,6 +45,11 @@ def facts(run: Run) -> dict[str, Any]:
         "of_halves": of,
         "slower": f"{100 * sensitivity.bound_slower(FIRST):.1f}",
         "noise": f"{NOISE_RAD:g}",
+        "held": held["of"],
+        "same": f"{100 * held['same']:.0f}",
+        "unbeaten": f"{100 * held['unbeaten']:.0f}",
+        "later": f"{100 * held['half']:.1f}",
+        "most_later": f"{100 * held['most']:.0f}",
     }
 
 
@@ -81,18 +86,14 @@ def lead() -> str:
 
 
 def tables(run: Run) -> dict[str, Any]:
-    """Return regions, rules, tuned laws, the held-out set, and other robots."""
-    held = sensitivity.count_agreeing()
+    """Return regions, rules, tuned laws, and other robots."""
     return {
-        "regions": REGIONS(_region(one) for one in find_regions()),
+        "regions": REGIONS(_region(one) for one in find_regions() if one.advised >= LEAST),
         "rules": RULES(
             (one.words, _link(one.law), 100 * one.advised, 100 * one.unbeaten, 100 * one.changed)
             for one in sensitivity.vary()
         ),
-        "tuned": TUNED(
-            (_link(one.law), one.at_one, one.zeta, one.time, one.peak_zeta, one.peak_time) for one in sensitivity.tune()
-        ),
-        "held_out": HELD_OUT([(held["of"], *(100 * held[name] for name in ("same", "unbeaten", "half", "most")))]),
+        "tuned": TUNED((", ".join(map(_link, laws)), *numbers) for numbers, laws in _tuned().items()),
         "robots": ROBOTS_TABLE(
             (
                 one.words,
@@ -104,6 +105,15 @@ def tables(run: Run) -> dict[str, Any]:
             for one in list_elsewhere(run.folder)
         ),
     }
+
+
+def _tuned() -> dict[tuple, list[str]]:
+    """Return the laws that have the same numbers, as the table rounds them."""
+    found: dict[tuple, list[str]] = {}
+    for one in sensitivity.tune():
+        numbers = one.at_one, one.zeta, one.time, one.peak_zeta, one.peak_time
+        found.setdefault(tuple(round(float(number), 2) for number in numbers), []).append(one.law)
+    return found
 
 
 def _region(one: regions.Region) -> tuple:
