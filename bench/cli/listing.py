@@ -111,7 +111,7 @@ KINDS = {
     "impedances": Kind("Impedances", "impedances"),
     "shipped": Kind("Controllers as they are shipped", "shipped", "level title source"),
     "baselines": Kind("Baselines of arms, which are no laws", "baselines"),
-    "springs": Kind("Springs of a pose", "springs", "is_rotational title source"),
+    "springs": Kind("Springs of an orientation", "springs", "title source"),
     "compensators": Kind("Laws with a state", "compensators", "state.measures_rate property title source"),
     "metrics": Kind("Metrics", known_metrics, "unit arm_only title"),
     "contact-metrics": Kind("Metrics of contact", known_contact_metrics, "unit title"),

@@ -36,14 +36,12 @@ VANISHED = 1e-9
 Moment = Callable[[np.ndarray], np.ndarray]
 """moment(q) of the remaining rotation -> in the tool's axes [N m]."""
 
-ROTATIONAL = tuple(spring for spring in contenders("springs").values() if spring.is_rotational)
-ORIGIN, NO_STIFFNESS = (0.0, 0.0, 0.0), ((0.0, 0.0, 0.0),) * 3
-"""Place and stiffness of position, which a rotational spring ignores."""
+SPRINGS = tuple(contenders("springs").values())
 
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """Return one unit."""
-    return (Unit(NAME, count=len(ROTATIONAL), total=len(ROTATIONAL), horizon_s=2.0),)
+    return (Unit(NAME, count=len(SPRINGS), total=len(SPRINGS), horizon_s=2.0),)
 
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
@@ -52,7 +50,7 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
     K, axes = draw_stiffness(rng)
     paths = rng.uniform(-WIDTH, WIDTH, (LOOPS, 3, 3)) / math.sqrt(3.0)
     found = []
-    for spring in ROTATIONAL:
+    for spring in SPRINGS:
         for frame in spring.frames:
             moment, alike = in_tool(spring, frame, K), in_tool(spring, frame, STIFFNESSES[1] * np.eye(3))
             least, most = compute_felt_stiffness(moment, K)
@@ -84,7 +82,7 @@ def in_tool(spring: Spring, name: str, K: np.ndarray) -> Moment:
     by_rows = tuple(map(tuple, K.tolist()))
 
     def moment(q: np.ndarray) -> np.ndarray:
-        given = np.array(spring.wrench(tuple(q.tolist()), ORIGIN, NO_STIFFNESS, by_rows)[1])
+        given = np.array(spring.moment(tuple(q.tolist()), by_rows))
         return given if name == "tool" else np.array(columns_of(tuple(q.tolist()))) @ given
 
     return moment
@@ -150,7 +148,7 @@ def compute_energy_error(spring: Spring, moment: Moment, K: np.ndarray) -> float
     by_rows = tuple(map(tuple, K.tolist()))
 
     def stored(q: np.ndarray) -> float:
-        return float(spring.potential(tuple(q.tolist()), ORIGIN, NO_STIFFNESS, by_rows)) if spring.potential else 0.0
+        return float(spring.potential(tuple(q.tolist()), by_rows)) if spring.potential else 0.0
 
     def rate(_: float, state: np.ndarray) -> np.ndarray:
         q, W = state[:4], state[4:7]

@@ -91,7 +91,7 @@ def _facts(subject: Subject) -> list[str]:
 
 def _function(record: Any) -> Callable:
     """Return the function of a record whose module says where it fails."""
-    found = (getattr(record, name, None) for name in ("law", "law_in", "chart", "wrench"))
+    found = (getattr(record, name, None) for name in ("law", "law_in", "chart", "moment"))
     return next(one for one in found if one is not None)
 
 

@@ -3,17 +3,13 @@
 from collections.abc import Callable
 
 from bench.export.entries import COMMAND, GAINS, MOMENT, OMEGA, R_D, Entry, Frame, Parameter, R, U, in_both_frames
-from bench.law import AT_REST, Goal, kernel, minus, quaternion_direction, relative, rotate_back, sqrt
+from bench.law import AT_REST, Goal, kernel, quaternion_direction, relative, sqrt
 
 STATE, NEXT = (Parameter(name, "tuple", 4) for name in ("state", "state_next"))
 PERIOD = Parameter("period", "number")
 BEGIN = "the state to begin with"
 NEXT_STATE = "the state one period [s] on: the state, and the period times its rate"
-STIFFNESS, TURNING = Parameter("stiffness", "rows", 9), Parameter("turning_stiffness", "number")
-P, P_D = Parameter("p", "tuple", 3), Parameter("p_d", "tuple", 3)
-FORCE = Parameter("force", "vector", 3)
-ON_HAND = "force on the hand [N] of the stiffness K [N/m], symmetric, row-major; p, p_d: its place, the goal's [m]"
-TURN = "moment on the hand about its origin [N m]; turning_stiffness [N m/rad]"
+STIFFNESS = Parameter("stiffness", "rows", 9)
 ON_BODY = (
     "moment on the body [N m] of the stiffness K at the goal [N m/rad], symmetric, row-major, in the axes of the tool"
 )
@@ -51,43 +47,19 @@ def of_compensator(law: Callable, begin: Callable) -> list[Entry]:
     return [*both, Entry("begin", first, (R,), STATE, BEGIN)]
 
 
-def of_spring(law: Callable, is_rotational: bool) -> list[Entry]:
-    """Return the force and the moment of a spring on the hand; of a rotational spring, the moment on the body alone."""
-
-    def make_rotational(frame: Frame) -> tuple[Callable, ...]:
-        from_body = frame.from_body
-
-        @kernel
-        def moment(R, R_d, stiffness):
-            _f, m = law(turn_left(R, R_d), AT_REST, AT_REST, by_rows(stiffness))
-            return from_body(R, m)
-
-        return (moment,)
+def of_spring(law: Callable) -> list[Entry]:
+    """Return the moment of a spring on the body."""
 
     def make(frame: Frame) -> tuple[Callable, ...]:
         from_body = frame.from_body
 
         @kernel
-        def wrench(R, p, R_d, p_d, stiffness, turning_stiffness):
-            left = rotate_back(R_d, minus(p, p_d))
-            return law(turn_left(R, R_d), left, by_rows(stiffness), turning_stiffness)
+        def moment(R, R_d, stiffness):
+            return from_body(R, law(turn_left(R, R_d), by_rows(stiffness)))
 
-        @kernel
-        def force(R, p, R_d, p_d, stiffness, turning_stiffness):
-            f, _m = wrench(R, p, R_d, p_d, stiffness, turning_stiffness)
-            return from_body(R, f)
+        return (moment,)
 
-        @kernel
-        def moment(R, p, R_d, p_d, stiffness, turning_stiffness):
-            _f, m = wrench(R, p, R_d, p_d, stiffness, turning_stiffness)
-            return from_body(R, m)
-
-        return force, moment
-
-    if is_rotational:
-        return in_both_frames(make_rotational, ((R, R_D, STIFFNESS), MOMENT, ON_BODY))
-    given = (R, P, R_D, P_D, STIFFNESS, TURNING)
-    return in_both_frames(make, (given, FORCE, ON_HAND), (given, MOMENT, TURN))
+    return in_both_frames(make, ((R, R_D, STIFFNESS), MOMENT, ON_BODY))
 
 
 @kernel

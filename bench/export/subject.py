@@ -25,7 +25,7 @@ IMPEDANCE, COMPENSATOR, SPRING = "impedance-", "compensator-", "spring-"
 ALONE: dict[str, tuple[str, Callable[[Any], list[Entry]]]] = {
     "representation-": ("representations", of_representation),
     COMPENSATOR: ("compensators", lambda one: of_compensator(one.law, one.state.begin)),
-    SPRING: ("springs", lambda one: of_spring(one.wrench, one.is_rotational)),
+    SPRING: ("springs", lambda one: of_spring(one.moment)),
 }
 """Kinds by what their words begin with: the folder of each, and the entries of a record."""
 

@@ -227,24 +227,19 @@ class Impedance(NamedTuple):
 
 
 class Spring(NamedTuple):
-    """wrench(q, p, K, Kr) -> (f, m): force [N] and moment [N m] on the hand about its origin, in the hand's axes.
+    """moment(q, K) -> m: the moment [N m] on the hand in the hand's axes.
 
-    q, p: X = T_d^-1 T, the pose of the hand seen from the goal: the unit quaternion (w, x, y, z), w >= 0, and the place
-    of its origin [m] in the goal's axes. K: the stiffness of position, symmetric, by rows [N/m]. Kr: the stiffness of
-    orientation [N m/rad], the same number about every axis. potential(q, p, K, Kr) -> [J]; None if there is none for
-    every K. formula: of force and moment, in TeX.
-
-    is_rotational: the spring ignores p and K, its force is zero, and its Kr is a symmetric matrix by rows, for any of
-    which its potential holds. frames: the axes in which its moment may be taken, "tool" or "goal"; base axes are the
-    goal's, turned by a constant. stiffness: the share of Kr that is felt at the goal.
+    q: the unit quaternion (w, x, y, z), w >= 0, of R_d^T R. K: the stiffness [N m/rad], a symmetric matrix by rows.
+    potential(q, K) -> [J]; None if there is none for every K. formula: of the moment, in TeX. frames: the axes in which
+    the moment may be taken, "tool" or "goal"; base axes are the goal's, turned by a constant. stiffness: the share of K
+    that is felt at the goal.
     """
 
     name: str
     title: str
     source: str
     formula: str
-    wrench: Callable
+    moment: Callable
     potential: Callable | None = None
-    is_rotational: bool = False
     frames: tuple[str, ...] = ("tool",)
     stiffness: float = 1.0

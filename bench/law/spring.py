@@ -1,4 +1,4 @@
-"""Kernels that springs of a pose share."""
+"""Kernels that springs of an orientation share."""
 
 from bench.law.scalar import atan2, kernel, sqrt
 from bench.law.so3 import cross, dot

@@ -91,9 +91,9 @@ IN_CPP = (
     "late-braking",
     "feedback-linearized/zyx-euler",
     "representation-quaternion",
-    "spring-tool-energy",
+    "spring-logarithm-energy",
 )
-"""With memory, calling libm, with four coordinates and matrices returned, a number and nine numbers among arguments."""
+"""With memory, calling libm, with four coordinates and matrices returned, nine numbers among arguments."""
 
 
 @pytest.mark.parametrize("step", [8, pytest.param(1, marks=pytest.mark.weekly)])

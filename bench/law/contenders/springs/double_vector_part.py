@@ -1,16 +1,16 @@
-"""Kr times twice the quaternion's vector part: the stiffness that is set, and no spring unless Kr = k I.
+"""K times twice the quaternion's vector part: the stiffness that is set, and no spring unless K = k I.
 
-Limitations: where Kr has different eigenvalues its work over a closed path is not zero.
+Limitations: where K has different eigenvalues its work over a closed path is not zero.
 """
 
-from bench.law import AT_REST, Spring, kernel, times
+from bench.law import Spring, kernel, times
 
 
 @kernel
-def wrench(q, p, K, Kr):
-    """Return (0, -2 Kr eps)."""
-    e = times(Kr, (q[1], q[2], q[3]))
-    return AT_REST, (-2.0 * e[0], -2.0 * e[1], -2.0 * e[2])
+def moment(q, K):
+    """Return -2 K eps."""
+    e = times(K, (q[1], q[2], q[3]))
+    return (-2.0 * e[0], -2.0 * e[1], -2.0 * e[2])
 
 
 SPRING = Spring(
@@ -18,7 +18,6 @@ SPRING = Spring(
     "K times twice the vector part",
     "",
     r"-2K\epsilon",
-    wrench,
-    is_rotational=True,
+    moment,
     frames=("tool", "goal"),
 )

@@ -1,18 +1,16 @@
-"""Kr times the logarithm: linear in the angle about every eigenvector of Kr, and no spring unless Kr = k I.
+"""K times the logarithm: linear in the angle about every eigenvector of K, and no spring unless K = k I.
 
-Limitations: where Kr has different eigenvalues its work over a closed path is not zero; jumps at 180 degrees.
+Limitations: where K has different eigenvalues its work over a closed path is not zero; jumps at 180 degrees.
 """
 
-from bench.law import AT_REST, Spring, kernel, rotation_vector, times
+from bench.law import Spring, kernel, rotation_vector, times
 
 
 @kernel
-def wrench(q, p, K, Kr):
-    """Return (0, -Kr phi)."""
-    e = times(Kr, rotation_vector(q))
-    return AT_REST, (-e[0], -e[1], -e[2])
+def moment(q, K):
+    """Return -K phi."""
+    e = times(K, rotation_vector(q))
+    return (-e[0], -e[1], -e[2])
 
 
-SPRING = Spring(
-    "logarithm", "K times the logarithm", "", r"-K\phi", wrench, is_rotational=True, frames=("tool", "goal")
-)
+SPRING = Spring("logarithm", "K times the logarithm", "", r"-K\phi", moment, frames=("tool", "goal"))

@@ -1,19 +1,19 @@
-"""Kr times the quaternion's vector part: half of the stiffness that is set, and no spring unless Kr = k I.
+"""K times the quaternion's vector part: half of the stiffness that is set, and no spring unless K = k I.
 
-Franka's example, deoxys and others run it with a diagonal Kr. In the goal's axes and in the tool's the same three
+Franka's example, deoxys and others run it with a diagonal K. In the goal's axes and in the tool's the same three
 numbers are two springs.
 
-Limitations: where Kr has different eigenvalues its work over a closed path is not zero.
+Limitations: where K has different eigenvalues its work over a closed path is not zero.
 """
 
-from bench.law import AT_REST, Spring, kernel, times
+from bench.law import Spring, kernel, times
 
 
 @kernel
-def wrench(q, p, K, Kr):
-    """Return (0, -Kr eps)."""
-    e = times(Kr, (q[1], q[2], q[3]))
-    return AT_REST, (-e[0], -e[1], -e[2])
+def moment(q, K):
+    """Return -K eps."""
+    e = times(K, (q[1], q[2], q[3]))
+    return (-e[0], -e[1], -e[2])
 
 
 SPRING = Spring(
@@ -21,8 +21,7 @@ SPRING = Spring(
     "K times the vector part",
     "libfranka, impedance example",
     r"-K\epsilon",
-    wrench,
-    is_rotational=True,
+    moment,
     frames=("tool", "goal"),
     stiffness=0.5,
 )
