@@ -13,19 +13,19 @@ LINES = {
     "bench/base": 550,
     "bench/cli": 2_543,
     "bench/engines": 6_400,
-    "bench/experiments": 5_144,
-    "bench/export": 2_068,
+    "bench/experiments": 5_142,
+    "bench/export": 2_040,
     "bench/findings": 6_624,
-    "bench/law": 6_685,
+    "bench/law": 6_568,
     "bench/regression": 1_295,
     "bench/running": 2_523,
     "bench/studies": 2_435,
     "tests/audit": 625,
     "tests/cli": 755,
     "tests/conftest.py": 73,
-    "tests/contracts": 2_592,
+    "tests/contracts": 2_529,
     "tests/engines": 2_883,
-    "tests/experiments": 2_244,
+    "tests/experiments": 2_228,
     "tests/export": 315,
     "tests/findings": 2_143,
     "tests/law": 2_611,
@@ -40,7 +40,7 @@ LINES = {
     "tasks": 5_218,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
-FILES = {"bench/audit": 42, "bench/experiments": 45, "bench/export": 19, "bench/law": 108, "tasks": 77}
+FILES = {"bench/audit": 42, "bench/experiments": 45, "bench/export": 19, "bench/law": 105, "tasks": 77}
 """Python files of the rooms in which one file adds one thing: with one more, a room may have as many lines more."""
 LONGEST_FILE = 250
 TOO_LONG: dict[str, int] = {}
