@@ -18,18 +18,16 @@ from report.figures.kit.families import word
 from support.advised import velocities
 from support.leads_of_arms import (
     CONTROLS,
-    FEEDBACK,
     LATE,
     LINEARIZED,
-    MATRIX,
     read_json,
     recompute_arms,
     recompute_compliance,
-    recompute_contact,
     recompute_impedance,
     recompute_libraries,
     recompute_new_law,
     recompute_times,
+    recompute_torque_at_pole,
 )
 from support.map_rule import drawn_verdicts, widest
 from support.tables import table
@@ -53,20 +51,14 @@ def uniform():
 
 
 def recompute_failure_map():
-    cells = table("map", "maps").query("row == 'cell' and law == @LINEARIZED and most_speed == 0")
+    cells = table("map", "maps").query(f"row == 'cell' and law == '{LINEARIZED}' and most_speed == 0")
     n, *fine = cells[["starts", "settled", "unconverged"]].sum().astype(int)
     bad = n - sum(fine)
     low, high = binomtest(bad, n).proportion_ci(0.95)
-    rows = uniform()
-    lost = {law: own[own["outcome"] != "settled"] for law, own in rows.groupby("law")}
-    others = [len(lost[law]) for law in (MATRIX, FEEDBACK)]
     return {
-        "n": (rows["law"] == LINEARIZED).sum(),
-        "failed_others": " and ".join(map(str, others)) if any(others) else "none",
         "mapped_l": f"{100 * bad / n:.2f} % ({100 * low:.2f} to {100 * high:.2f})",
         "mapped": n,
-        "failed_l": len(lost[LINEARIZED]),
-        "least": f"{np.floor(np.degrees(lost[LINEARIZED]['alpha0'].abs().min())):.0f}",
+        "jacobians.harder": recompute_torque_at_pole(),
     }
 
 
@@ -168,7 +160,6 @@ COMPUTED = {
     "appendix-cost": recompute_times,
     "appendix-arms": recompute_arms,
     "07-compliance-and-contact": recompute_compliance,
-    "appendix-contact": recompute_contact,
     "02-what-an-error-must-do": recompute_noise,
     "04-side-by-side": recompute_comparison,
     "06-delay-noise-saturation": recompute_thresholds,

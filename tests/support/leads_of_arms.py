@@ -34,23 +34,13 @@ def contact(task):
 def recompute_compliance():
     rows = contact("wrench-probe").query("complies == 'about x and y' and alpha == 0 and gamma == 0")
     drawn = rows.query("form == 'transpose' and arm == 'ur5e'").set_index("tilt_deg")
-    euler, plain = (drawn[drawn["who"] == who] for who in (EULER, CARTESIAN))
-    full, betas = plain["c_xx"].median(), [30.0, 60.0, 85.0]
+    euler = drawn[drawn["who"] == EULER]
+    betas = [30.0, 60.0, 85.0]
     entries = [f"c_{i}{j}" for i in "xyz" for j in "xyz"]
     C = {beta: euler.loc[beta, entries].to_numpy(float).reshape(3, 3) for beta in betas}
     off = {beta: np.degrees(np.arctan2(np.hypot(*C[beta][1:, 0]), abs(C[beta][0, 0]))) for beta in betas}
-    held = {beta: 100 * np.linalg.norm(C[beta][:, 2]) / full for beta in betas}
-    plain_held = 100 * np.linalg.norm(plain.loc[60.0, ["c_xz", "c_yz", "c_zz"]].to_numpy(float)) / full
-    by = rows[(rows["form"] == "inverse") & (rows["who"] == EULER) & (rows["outcome"] == "done")]
-    worst = np.abs(np.degrees(by["misalignment_rad"]) - by["tilt_deg"].abs()).max()
-    exponent = int(np.floor(np.log10(worst)))
-    return {
-        "off": ", ".join(f"{value:.0f}° at β = {beta:.0f}°" for beta, value in off.items()),
-        "off_word": "less than β" if all(value < beta for beta, value in off.items()) else "not always less than β",
-        "held": ", ".join(f"{value:.0f} % at β = {beta:.0f}°" for beta, value in held.items()),
-        "held_cartesian": f"{plain_held:.0f} %",
-        "off_by_accelerations": [round(worst / 10.0**exponent), 10, -exponent],
-    }
+    said = ", ".join(f"{value:.0f}° at β = {beta:.0f}°" for beta, value in off.items())
+    return {"off": said, "in_contact.flat": recompute_flat()}
 
 
 def recompute_pegs(form):
@@ -61,18 +51,15 @@ def recompute_pegs(form):
         leans, out = own["tilt_deg"] != 0, ~(own["jam"] == 0.0)
         tallies.append((out.sum(), len(own), (out & leans).sum(), leans.sum()))
     p = fisher_exact([(bad, n - bad) for *_, bad, n in tallies]).pvalue
-    return [*tallies[0], *tallies[1], "differ significantly" if p < 0.05 else "not differ", float(f"{p:.2g}")]
+    mantissa, exponent = f"{p:.1e}".split("e")
+    said = [f"{p:.2g}"] if p >= 1e-3 else [mantissa, 10, int(exponent)]
+    return [*tallies[0], *tallies[1], "differ significantly" if p < 0.05 else "not differ", *said]
 
 
-def recompute_contact():
-    rows, said = contact("surface-alignment").query("form == 'transpose'"), []
-    for who in (CARTESIAN, EULER):
-        own = rows[rows["who"] == who]
-        flat, leans = own["time_to_align_s"].notna(), own["tilt_deg"] != 0
-        turned = float(f"{np.degrees(own['held_turn_rad'].max()):.1f}")
-        said += [flat.sum(), len(own), (flat & leans).sum(), leans.sum(), turned]
-    stuck, other = map(recompute_pegs, ("transpose", "inverse"))
-    return {"flat": said, "stuck": stuck, "other_stuck": other}
+def recompute_flat():
+    rows = contact("surface-alignment").query("form == 'transpose'")
+    flat = {who: rows.loc[rows["who"] == who, "time_to_align_s"].notna() for who in (EULER, CARTESIAN)}
+    return [count for own in flat.values() for count in (own.sum(), len(own))]
 
 
 def recompute_impedance():
@@ -120,6 +107,16 @@ def recompute_arms():
     able = within[within.groupby("arm").transform("any").any(axis=1)]
     said += [*share(able[min(within, key=lambda name: (-within[name].mean(), name))]), *lead_on_arms(settled)]
     return {"advised": word(accelerations().decide(ARM.need).law), "lead": said}
+
+
+def recompute_torque_at_pole():
+    """Return how many times the torque of (2.2) on the rotation matrix (3.7) needs past the pole, in the median."""
+    rows = table("episodes").query("task == 'arm-regulation' and start_set == 'pole' and variation == 'nominal'")
+    by = rows["law"] + "@" + rows["jacobian"]
+    usual = rows["inverse"] == np.where(rows["arm"] == "panda", "pseudo-inverse", "solve")
+    rows = rows.assign(by=by)[usual & by.isin((f"{FEEDBACK}@analytic", f"{MATRIX}@geometric"))]
+    torque = rows.pivot(index=["arm", "start_id"], columns="by", values="peak_torque_ratio")
+    return [float(f"{(torque[f'{FEEDBACK}@analytic'] / torque[f'{MATRIX}@geometric']).median():.2g}")]
 
 
 def is_right(own):

@@ -1,11 +1,8 @@
-"""The page on arms: which controllers settle within an arm's limits, the pole, and what a wrong model leaves."""
+"""The page on arms: which controllers settle within an arm's limits, and what a wrong model leaves."""
 
 from __future__ import annotations
 
-import functools
-
 import numpy as np
-import pandas as pd
 
 import tasks
 from bench.findings.selection.robots import ARM, word_of
@@ -14,32 +11,17 @@ from report.figures.kit import families, media
 from report.figures.kit.page import NotInRun, Run, in_run
 from report.figures.kit.spelling import prose
 
-HAMMERED = 10.0
-"""Peak torque over that of the law on R from the same start, as in claim C20: beyond it something hammers the arm."""
-
 HOMES = (
     "Renders of the four arms side by side, each in its home pose: Kinova Jaco, Franka Emika Panda, Unimation PUMA "
     "560, Universal Robots UR5e. Axes mark the base and the tool."
 )
 
 
-@functools.cache
-def standard(run: Run) -> pd.DataFrame:
-    """Episodes by the paper's two Jacobians and the standard inverse."""
-    return arm_rows.with_standard(arm_rows.episodes(run))
-
-
 def facts(run: Run) -> dict:
-    """Return which law to take, what the pole does, and what a wrong model leaves."""
-    both = pass_pole(standard(run))
+    """Return which law to take, and what a wrong model leaves."""
     return {
         "lead": in_run(lambda: arm_ranking.lead(arm_ranking.of_laws(arm_rows.episodes(run), "uniform"))),
         "advised": advised(run),
-        "pole_n": len(both),
-        "pole_fails": int(both["fails"].sum()),
-        "pole_fails_m": int(both["fails_matrix"].sum()),
-        "hammer": f"{HAMMERED:g}",
-        "hammered": int((both["fails"] | (both["harder"] > HAMMERED)).sum()),
         "model_errors": in_run(lambda: describe_model_errors(run)),
     }
 
@@ -55,19 +37,6 @@ def tables(run: Run) -> dict:
 def figures(_: Run) -> dict:
     """Return the arms at home."""
     return {"arms-at-home": media.still(HOMES, "arms")}
-
-
-def pass_pole(rows: pd.DataFrame) -> pd.DataFrame:
-    """Join starts whose turn passes the pole of Z-Y-X angles: a row a start by (3.7), with (2.2) on R beside it."""
-    starts = rows[rows["start_set"] == "pole"]
-    columns = ["arm", "start_id", "outcome", "peak_torque_ratio"]
-    own, other = (starts.loc[starts["controller"] == name, columns] for name in reversed(arm_rows.PAPERS_TWO))
-    both = own.merge(other, on=["arm", "start_id"], suffixes=("", "_matrix"))
-    return both.assign(
-        fails=both["outcome"] != "settled",
-        fails_matrix=both["outcome_matrix"] != "settled",
-        harder=both["peak_torque_ratio"] / both["peak_torque_ratio_matrix"],
-    )
 
 
 def advised(run: Run) -> str:

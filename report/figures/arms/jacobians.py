@@ -1,23 +1,29 @@
-"""What the page on arms says of Jacobians: how well J and the Euler Jacobian are conditioned, and the film (3.1)."""
+"""What the page on Euler angles says of arms: how J and the Euler Jacobian are conditioned, and the pole in motion."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 import pandas as pd
 
 from bench.findings.claims.euler_jacobian import WELL_CONDITIONED
 from bench.law.contenders.registry import papers_coordinates
+from report.figures.arms import arm_rows
 from report.figures.arms.arm_rows import name_arm
 from report.figures.kit import html, media
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
+from report.figures.kit.tables import Table
 
 PAPERS = papers_coordinates().name
 LOST = 1e12
 """A condition number beyond which the rest is rounding: what a double holds, less four digits."""
 BAD = 100.0
 """Condition number (metres, radians) from which on a Jacobian is called bad: twice what the claims allow."""
+HAMMERED = 10.0
+"""Peak torque over that of the law on R from the same start, as in claim C20: beyond it something hammers the arm."""
+POLE = Table("Arm | Starts | Geometric, settled | Geometric, torque | Euler, settled | Euler, torque")
 FIRST_EXAMPLE = {"pose_set": "named", "arm": "puma560", "pose_id": "qn"}
 FILM = (
     "The same two motions side by side: the Euler Jacobian throws the arm about, the geometric one turns the tool in "
@@ -36,7 +42,49 @@ def facts(run: Run) -> dict:
         "first": lambda: describe_first(papers(run, **FIRST_EXAMPLE)),
         "spoilt": lambda: count_spoilt(papers(run, pose_set="random")),
     }
-    return describe_film() | {key: in_run(say) for key, say in of_poses.items()}
+    found = {key: in_run(say) for key, say in of_poses.items()}
+    return describe_film() | found | (in_run(lambda: count_at_pole(pass_pole(run))) or {})
+
+
+def tables(run: Run) -> dict:
+    """Return what the pole does to each arm."""
+    return {"pole": POLE(compare_at_pole(pass_pole(run)))}
+
+
+def pass_pole(run: Run) -> pd.DataFrame:
+    """Join starts whose turn passes the pole of Z-Y-X angles: a row a start by (3.7), with (2.2) on R beside it."""
+    rows = arm_rows.with_standard(arm_rows.episodes(run))
+    starts = rows[rows["start_set"] == "pole"]
+    columns = ["arm", "start_id", "outcome", "peak_torque_ratio"]
+    own, other = (starts.loc[starts["controller"] == name, columns] for name in reversed(arm_rows.PAPERS_TWO))
+    both = own.merge(other, on=["arm", "start_id"], suffixes=("", "_matrix"))
+    return both.assign(
+        fails=both["outcome"] != "settled",
+        fails_matrix=both["outcome_matrix"] != "settled",
+        harder=both["peak_torque_ratio"] / both["peak_torque_ratio_matrix"],
+    )
+
+
+def count_at_pole(both: pd.DataFrame) -> dict:
+    """Return how many starts fail, and how much more torque the Euler Jacobian needs."""
+    return {
+        "pole_n": len(both),
+        "pole_fails": int(both["fails"].sum()),
+        "pole_fails_m": int(both["fails_matrix"].sum()),
+        "hammer": f"{HAMMERED:g}",
+        "hammered": int((both["fails"] | (both["harder"] > HAMMERED)).sum()),
+        "harder": html.number(float(f"{both['harder'].median():.2g}")),
+    }
+
+
+def compare_at_pole(both: pd.DataFrame) -> Iterator[tuple]:
+    """Return a row an arm."""
+    for arm, own in both.groupby("arm"):
+        cells = []
+        for end in ("_matrix", ""):
+            torque = float(f"{own[f'peak_torque_ratio{end}'].median():.2g}")
+            cells += [f"{(~own[f'fails{end}']).sum()} of {len(own)}", torque]
+        yield name_arm(arm), len(own), *cells
 
 
 def figures(_: Run) -> dict:
@@ -61,7 +109,7 @@ def count_spoilt(rows: pd.DataFrame) -> str:
     by = 100.0 * (fine["condition_analytic"] > BAD).groupby(fine["arm"].astype(str)).mean()
     return (
         f"Of the poses where J is in good condition (at most {WELL_CONDITIONED:g}), Z-Y-X angles spoil {by.min():.1f} "
-        f"to {by.max():.1f} % (a condition number of J_E beyond {BAD:g})"
+        f"to {by.max():.1f} % (a condition number of J_E beyond {BAD:g})."
     )
 
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from report.figures.arms.arm_rows import name_arm
+from report.figures.contact import as_arms_run
 from report.figures.contact import rows as controllers
 from report.figures.contact.hand_axes import ORDER, axes_of_turning, measured, shown_arm, turns
 from report.figures.contact.rows import level, of
-from report.figures.kit.page import Run
+from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
 
 PROBE = "wrench-probe"
@@ -18,11 +20,17 @@ def facts(run: Run) -> dict:
     """Return the numbers of the probe."""
     rows = controllers.of_task(run, PROBE)
     return {
-        "axes_arm": shown_arm(rows),
+        "axes_arm": name_arm(shown_arm(rows)),
         **measured(turns(rows)),
         "off_by_accelerations": off_by_accelerations(rows),
-        "kf": f"{of(rows, controllers.PAPERS_EULER)['kf'].iloc[0]:g}",
+        **(in_run(lambda: damping(run)) or {}),
     }
+
+
+def damping(run: Run) -> dict:
+    """Return the damping that two designs give an impedance without inertia shaping."""
+    found = as_arms_run.facts(run)
+    return {name: found[name] for name in ("felt_least", "felt_most", "double")}
 
 
 def off_by_accelerations(rows: pd.DataFrame) -> str:

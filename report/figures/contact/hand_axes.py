@@ -79,7 +79,6 @@ def measured(found: list[dict]) -> dict[str, str]:
     plain = [100.0 * one["share"] for one in found if one["contender"] == PAPERS and one["pushed"] == "z"]
     return {
         "off": ", ".join(f"{value:.0f}° at β = {beta:.0f}°" for beta, value in off.items()),
-        "off_word": "less than β" if all(value < beta for beta, value in off.items()) else "not always less than β",
         "held": ", ".join(f"{value:.0f} % at β = {beta:.0f}°" for beta, value in held.items()),
         "held_cartesian": f"{max(plain):.0f} %",
     }

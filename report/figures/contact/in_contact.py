@@ -13,9 +13,9 @@ from scipy.stats import fisher_exact
 import tasks
 from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER, of, of_task
 from report.figures.kit import html, media
-from report.figures.kit.page import ABSENT, NotInRun, Run, in_run
+from report.figures.kit.page import ABSENT, NotInRun, Run
+from report.figures.kit.spelling import power
 from report.figures.kit.tables import Table
-from tasks.contact_rest import HORIZON_S, REST
 
 P_VALUE = 0.05
 """P-value of Fisher's exact test, both sides: below it two shares of pegs differ significantly."""
@@ -24,11 +24,6 @@ DEGREES = 180.0 / np.pi
 LOOP = (
     "Two arms press a square tool onto a tilted plate. With Cartesian compliance the tool turns until it lies flat; "
     "with the Euler Jacobian it stays level, on one edge."
-)
-
-STILLS = (
-    "Four renders of a PUMA 560 with a blue tool. A square tool flat on a tilted plate; a square peg in a leaning "
-    "chamfered hole; a hand on a crank; a round tip on an inclined plane."
 )
 
 
@@ -44,20 +39,20 @@ class Measure(NamedTuple):
         """Return the median of the rows, of a share the mean; a dash where at least half of the episodes failed."""
         values = (rows[self.column] * self.factor).fillna(self.failed)
         value = values.mean() if "%" in self.title else values.median()
-        return f"{value:.3g}" if np.isfinite(value) else html.MISSING
+        return f"{value:.2g}" if np.isfinite(value) else html.MISSING
 
 
 MEASURES = {
-    "surface-alignment": Measure("alignment_error_rad", "tool to plate at the end [deg]", DEGREES),
-    "peg-in-hole": Measure("jam", "not in at the end [%]", 100.0, 100.0),
+    "surface-alignment": Measure("alignment_error_rad", "tool to plate [deg]", DEGREES),
+    "peg-in-hole": Measure("jam", "not inserted [%]", 100.0, 100.0),
     "crank": Measure("crank_angle_rad", "turned by [deg]", DEGREES, -np.inf),
-    "force-on-plane": Measure("normal_force_error_n", "normal force, rms error [N]"),
+    "force-on-plane": Measure("normal_force_error_n", "force error, rms [N]"),
 }
-"""Task -> the number that says how it went, the tasks whose orders free turns first."""
+"""Task -> the number that says how it went, the tasks that free rotations first."""
 
 OUTCOMES = Table(
-    "Task | Measured | Episodes | Cartesian | Euler Jacobian, level | Euler Jacobian, leaning most | Springs",
-    words=("Cartesian", "Euler Jacobian, level", "Euler Jacobian, leaning most", "Springs"),
+    "Task | Measured at the end | Episodes | Cartesian | Euler, β = 0 | Euler, largest β | Springs",
+    words=("Cartesian", "Euler, β = 0", "Euler, largest β", "Springs"),
 )
 
 
@@ -71,22 +66,8 @@ def all_rows(run: Run) -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """Return how episodes end, and what they are."""
-    return describe_tasks() | (in_run(lambda: of_run(all_rows(run))) or {})
-
-
-def describe_tasks() -> dict[str, str]:
-    """Return what each task is, what its order lets comply, and when it ends."""
-    arm = tasks.arm(media.facts()["contact"]["arm"])
-    parts = [
-        f"{task.title} (complies: {task.trials(arm)[0].specification.name})"
-        for task in map(tasks.contact_task, MEASURES)
-    ]
-    return {
-        "orders": f"{'. '.join(parts)}.",
-        "rest_rule": f"{1e3 * REST.speed:g} mm/s and {REST.rate:g} rad/s for {REST.hold_s:g} s",
-        "rest_horizon": f"{HORIZON_S:g}",
-    }
+    """Return how episodes end."""
+    return of_run(all_rows(run))
 
 
 def of_run(rows: pd.DataFrame) -> dict[str, str]:
@@ -124,33 +105,28 @@ def stuck(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
     out = own.assign(out=own["jam"] != 0.0).groupby(["contender", own["beta_deg"] != 0.0])["out"]
     lost, n = out.sum().unstack(fill_value=0), out.size().unstack(fill_value=0)
     counts = [
-        f"{who} {lost.loc[name].sum()} of {n.loc[name].sum()} ({lost.loc[name, True]} of {n.loc[name, True]} where the "
-        "hand's frame leans)"
-        for name, who in ((cartesian, "with Cartesian compliance"), (euler, "on the Euler Jacobian"))
+        f"{lost.loc[name].sum()} of {n.loc[name].sum()} {who} ({lost.loc[name, True]} of {n.loc[name, True]} where the "
+        "frame of the hand is tilted)"
+        for name, who in ((cartesian, "with Cartesian compliance"), (euler, "with the Euler Jacobian"))
     ]
     p_value = fisher_exact([[lost.loc[name, True], (n - lost).loc[name, True]] for name in (cartesian, euler)]).pvalue
     differ = "differ significantly" if p_value < P_VALUE else "do not differ significantly"
     return (
-        f"Pegs that are not in at the end: {' and '.join(counts)}; the two shares of leaning frames {differ} (Fisher's "
-        f"exact test, p = {p_value:.2g})."
+        f"Pegs were not inserted in {' and in '.join(counts)}. The two shares of tilted frames {differ} "
+        f"(Fisher's exact test, p = {power(p_value, 2)})."
     )
 
 
 def flat(rows: pd.DataFrame) -> str:
-    """How many tools come to lie flat on the plate by the paper's force control, and how far those turn that do not."""
+    """Return how many tools come to lie flat on the plate by the paper's force control."""
     own = rows[rows["task"] == "surface-alignment"]
     if own.empty:
-        return f"how tools end on the plate is {ABSENT}"
-    parts = []
-    for contender, who in ((PAPERS, "with Cartesian compliance"), (PAPERS_EULER, "on the Euler Jacobian")):
-        mine = of(own, contender)
-        is_flat, leans = mine["time_to_align_s"].notna(), mine["beta_deg"] != 0.0
-        parts.append(
-            f"{who} {is_flat.sum()} of {len(mine)} tools come to lie flat ({(is_flat & leans).sum()} of {leans.sum()} "
-            f"where the hand's frame leans) and turn by up to {np.degrees(mine['held_turn_rad'].max()):.1f}° about the "
-            "axis that is to be held"
-        )
-    return "; ".join(parts)
+        return f"how tools end is {ABSENT}."
+    euler, plain = (of(own, name)["time_to_align_s"].notna() for name in (PAPERS_EULER, PAPERS))
+    return (
+        f"{euler.sum()} of {len(euler)} tools came to lie flat with the Euler Jacobian, and {plain.sum()} of "
+        f"{len(plain)} with Cartesian compliance."
+    )
 
 
 def tables(run: Run) -> dict:
@@ -168,5 +144,5 @@ def compare_tasks(rows: pd.DataFrame) -> Iterator[tuple]:
 
 
 def figures(_: Run) -> dict:
-    """Return the tasks, and the loop of two arms at a plate."""
-    return {"contact-tasks": media.still(STILLS, "contact-tasks"), "plate-loop": media.loop(LOOP, "plate-loop")}
+    """Return the loop of two arms at a plate."""
+    return {"plate-loop": media.loop(LOOP, "plate-loop")}

@@ -1,22 +1,18 @@
-"""What the page on failures shows: which starts each of the paper's laws loses, in numbers and in a ball."""
+"""What the page on failures shows: which starts each of the paper's laws loses, in numbers and against the angle."""
 
 import functools
 import math
 
 import numpy as np
 import pandas as pd
-from scipy.spatial.transform import Rotation
 
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.maps import counted, lost_share
-from bench.findings.start_sets import AT_REST
-from report.figures.kit import html, laws, style
+from report.figures.kit import html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.rows import LINEARIZED, SHORT, lost, of
-
-ON_SURFACE = 1e-9
-"""rad from pi: closer than any place on a screen."""
+from report.figures.responses import hero
 
 
 @functools.cache
@@ -57,24 +53,5 @@ def on_the_map(episodes: pd.DataFrame) -> dict:
 
 
 def figures(run: Run) -> dict:
-    """Return the ball."""
-    return {"ball": ball(continuous(run))}
-
-
-def ball(episodes: pd.DataFrame) -> html.Html:
-    """Return the ball of one engine's failing starts at rest, a colour for each law, whatever its outcome."""
-    groups, said = {}, []
-    for contender, title, rows in laws.each(episodes[episodes["start_set"].isin(("uniform", *AT_REST))]):
-        look, failed = style.look(contender), lost(rows)
-        groups[title] = {"colour": look.colour, "dark": look.dark, "xyz": unit_ball(failed)}
-        said.append(f"{title} {html.number(len(failed))} of {html.number(len(rows))}")
-    alt = f"The ball of all orientations with the starts that fail to settle: {'; '.join(said)}."
-    return html.ball("failures", alt, groups)
-
-
-def unit_ball(rows: pd.DataFrame) -> list[list[float]]:
-    """Rotation vectors over pi of the starts, each orientation once, 180° rotations at both ends of their axis."""
-    turns = Rotation.from_quat(rows[["quat_w", "quat_x", "quat_y", "quat_z"]].to_numpy(), scalar_first=True)
-    points = turns.as_rotvec() / math.pi
-    surface = points[np.linalg.norm(points, axis=1) > 1.0 - ON_SURFACE]
-    return (np.unique(np.vstack((points, -surface)).round(3), axis=0) + 0.0).tolist()
+    """Return the paper's three laws from every angle."""
+    return {"hero": hero.hero(run.rows("episodes", engine="ideal-rk4"))}

@@ -1,0 +1,34 @@
+"""The page on the equations and tasks in contact: what each task is, when it ends, and how it looks."""
+
+import tasks
+from report.figures.contact.compliance import PROBE
+from report.figures.contact.in_contact import MEASURES
+from report.figures.contact.rows import PAPERS_EULER, of, of_task
+from report.figures.kit import media
+from report.figures.kit.page import Run, in_run
+from tasks.contact_rest import HORIZON_S, REST
+
+STILLS = (
+    "Four renders of a PUMA 560 with a blue tool. A square tool flat on a tilted plate; a square peg in a leaning "
+    "chamfered hole; a hand on a crank; a round tip on an inclined plane."
+)
+
+
+def facts(run: Run) -> dict:
+    """Return what each task is and lets comply, when it ends, and the gain of the force."""
+    arm = tasks.arm(media.facts()["contact"]["arm"])
+    parts = [
+        f"{task.title} (complies: {task.trials(arm)[0].specification.name})"
+        for task in map(tasks.contact_task, MEASURES)
+    ]
+    return {
+        "orders": f"{'. '.join(parts)}.",
+        "rest_rule": f"{1e3 * REST.speed:g} mm/s and {REST.rate:g} rad/s for {REST.hold_s:g} s",
+        "rest_horizon": f"{HORIZON_S:g}",
+        "kf": in_run(lambda: f"{of(of_task(run, PROBE), PAPERS_EULER)['kf'].iloc[0]:g}"),
+    }
+
+
+def figures(_: Run) -> dict:
+    """Return the tasks."""
+    return {"contact-tasks": media.still(STILLS, "contact-tasks")}
