@@ -7,15 +7,15 @@ from collections.abc import Iterator
 import pandas as pd
 
 from bench.findings.claims.tables import Share, share
-from bench.findings.on_arms import MEASURES, best, passed
+from bench.findings.on_arms import best, passed
 from report.figures.arms import arm_rows
 from report.figures.kit import html
 from report.figures.kit.spelling import listed
 from report.figures.kit.tables import Table
 
-RANKED = Table("Controller | Settled [%] | Within torque | and range | Reach, settled | within torque and range")
+RANKED = Table("Controller | Settled [%] | Within limits | Reach, settled | Reach, within limits")
 SETS = ("uniform", "reach")
-COLUMNS = (*(("uniform", measure) for measure in MEASURES), ("reach", "settled"), ("reach", "range"))
+COLUMNS = tuple((name, measure) for name in SETS for measure in ("settled", "range"))
 FEW = 4
 """Names up to this number are said, more are counted; the table has them."""
 
@@ -55,7 +55,7 @@ def in_short(found: Share) -> str:
     return f"{100 * found.value:.0f} ({100 * found.low:.0f} to {100 * found.high:.0f})"
 
 
-def told(rows: pd.DataFrame, controller: str, measure: str) -> str:
+def describe_share(rows: pd.DataFrame, controller: str, measure: str) -> str:
     """Share of a controller's episodes that pass, with its interval and n, in words."""
     own = passed(rows[rows["controller"] == controller])[measure]
     found = share(own)
@@ -73,13 +73,13 @@ def lead(uniform: pd.DataFrame) -> str:
     never = [arm_rows.name_arm(arm) for arm in passes.index[~passes]]
     others = uniform[uniform["arm"].map(passes)]
     is_split = bool(never) and len(others) > 0
-    first = told(others, best(uniform, "range", "controller")[0], "range") if is_split else ""
-    on_others = f"; on the others the best passes {first}" if is_split else ""
+    first = describe_share(others, best(uniform, "range", "controller")[0], "range") if is_split else ""
+    on_others = f"; on the others the best law passes {first}" if is_split else ""
     return (
-        f"No torque or joint limit is simulated: of {len(uniform)} episodes of the laws from evenly spread starts "
-        f"{100 * over.mean():.0f} % exceed a rated torque. With no motor above its rated torque and no joint out of "
-        f"its range, {leading(uniform, 'range')}; the paper's Euler controller (3.7) settles "
-        f"{told(uniform, arm_rows.ON_ANGLES, 'range')}. Arms on which no law passes: {', '.join(never) or 'none'}"
+        f"Limits of torques and joints are not simulated: of {len(uniform)} episodes of the laws from evenly spread "
+        f"starts, {100 * over.mean():.0f} % exceed a rated torque. Counting only episodes within rated torque and "
+        f"joint range, {leading(uniform, 'range')}. The paper's Euler controller (3.7) settles "
+        f"{describe_share(uniform, arm_rows.ON_ANGLES, 'range')}. Arms on which no law passes: {', '.join(never) or 'none'}"
         f"{on_others}. Counting settling alone, {leading(uniform, 'settled')}."
     )
 
@@ -87,7 +87,7 @@ def lead(uniform: pd.DataFrame) -> str:
 def leading(rows: pd.DataFrame, measure: str) -> str:
     """Which law passes most, or which are not distinguished from it, in words."""
     names = best(rows, measure, "controller")
-    share_of_first = told(rows, names[0], measure)
+    share_of_first = describe_share(rows, names[0], measure)
     if len(names) == 1:
         return f"of the laws {arm_rows.title(names[0])} settles most: {share_of_first}"
     words = listed(map(arm_rows.title, names)) if len(names) <= FEW else f"{len(names)} laws"

@@ -8,6 +8,7 @@ import pandas as pd
 from bench.findings.theory import closed_form
 from report.figures.kit.page import Run
 from report.figures.kit.rows import MATRIX, of
+from report.figures.kit.spelling import power
 
 DECADE = re.compile(r"-k(\d+)$")
 FITTED = (3, 10)
@@ -27,7 +28,7 @@ def facts(run: Run) -> dict:
     return {
         "slope": f"{slope(near):.4f}",
         "theory": f"{closed_form.decade_slope(*rows[['kp', 'kv']].iloc[0]):.4f}",
-        "closest": f"{10.0 ** -near['k'].max():.0e}",
+        "closest": power(10.0 ** -near["k"].max()),
         "longest": f"{near['settling_time_s'].max():.2f}",
         "exact": len(exact),
         "stuck": int((exact["outcome"] == "stuck").sum()),
