@@ -51,8 +51,9 @@ def ranked(rows: pd.DataFrame) -> Iterator[tuple]:
 
 
 def in_short(found: Share) -> str:
-    """55 (46 to 63)."""
-    return f"{100 * found.value:.0f} ({100 * found.low:.0f} to {100 * found.high:.0f})"
+    """Return the percentage with its interval, 55 (46 to 63), on one line."""
+    text = f"{100 * found.value:.0f} ({100 * found.low:.0f} to {100 * found.high:.0f})"
+    return text.replace(" ", "\N{NO-BREAK SPACE}")
 
 
 def describe_share(rows: pd.DataFrame, controller: str, measure: str) -> str:
@@ -79,8 +80,8 @@ def lead(uniform: pd.DataFrame) -> str:
         f"Limits of torques and joints are not simulated: of {len(uniform)} episodes of the laws from evenly spread "
         f"starts, {100 * over.mean():.0f} % exceed a rated torque. Counting only episodes within rated torque and "
         f"joint range, {leading(uniform, 'range')}. The paper's Euler controller (3.7) settles "
-        f"{describe_share(uniform, arm_rows.ON_ANGLES, 'range')}. Arms on which no law passes: {', '.join(never) or 'none'}"
-        f"{on_others}. Counting settling alone, {leading(uniform, 'settled')}."
+        f"{describe_share(uniform, arm_rows.ON_ANGLES, 'range')}. Arms on which no law passes: "
+        f"{', '.join(never) or 'none'}{on_others}. Counting settling alone, {leading(uniform, 'settled')}."
     )
 
 

@@ -108,8 +108,8 @@ def count_spoilt(rows: pd.DataFrame) -> str:
     fine = rows[rows["condition"] <= WELL_CONDITIONED]
     by = 100.0 * (fine["condition_analytic"] > BAD).groupby(fine["arm"].astype(str)).mean()
     return (
-        f"Of the poses whose geometric Jacobian is in good condition (at most {WELL_CONDITIONED:g}), Z-Y-X angles spoil "
-        f"{by.min():.1f} to {by.max():.1f} %: the condition number of their Euler Jacobian exceeds {BAD:g}."
+        f"Of the poses whose geometric Jacobian is in good condition (at most {WELL_CONDITIONED:g}), Z-Y-X angles "
+        f"spoil {by.min():.1f} to {by.max():.1f} %: the condition number of their Euler Jacobian exceeds {BAD:g}."
     )
 
 

@@ -14,7 +14,7 @@ import tasks
 from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER, of, of_task
 from report.figures.kit import html, media
 from report.figures.kit.page import ABSENT, NotInRun, Run
-from report.figures.kit.spelling import power
+from report.figures.kit.spelling import spell_powers
 from report.figures.kit.tables import Table
 
 P_VALUE = 0.05
@@ -113,7 +113,7 @@ def stuck(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
     differ = "differ significantly" if p_value < P_VALUE else "do not differ significantly"
     return (
         f"Pegs were not inserted in {' and in '.join(counts)}. The two shares of tilted frames {differ} "
-        f"(Fisher's exact test, p = {power(p_value, 2)})."
+        f"(Fisher's exact test, p = {spell_powers(f'{p_value:.2g}')})."
     )
 
 
