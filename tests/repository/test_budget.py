@@ -34,9 +34,9 @@ LINES = {
     "tests/repository": 519,
     "tests/running": 1_197,
     "tests/studies": 609,
-    "tests/support": 3_194,
+    "tests/support": 3_182,
     "tests/tasks": 1_893,
-    "report": 6_436,
+    "report": 6_410,
     "tasks": 5_218,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
