@@ -9,10 +9,10 @@ import pandas as pd
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.maps import counted, lost_share
+from report.figures.failures import hero
 from report.figures.kit import html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.rows import LINEARIZED, SHORT, lost, of
-from report.figures.responses import hero
 
 
 @functools.cache
