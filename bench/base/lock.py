@@ -46,11 +46,8 @@ def _lock(folder: Path, handle: int, waits: bool, flock: Callable) -> None:
     try:
         flock(handle, fcntl.LOCK_EX if waits else fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
-        holder = _holder(handle)
-        by = f" (process {holder})" if holder else ""
         raise BadResults(
-            f"{folder}: another run{by} is writing into it; wait for its end, stop it, or choose another folder with "
-            "--out"
+            f"{folder}: another run is writing into it; wait for its end, stop it, or choose another folder with --out"
         ) from None
     except OSError as error:
         _warn(folder, error.strerror or str(error))
@@ -61,17 +58,3 @@ def _warn(folder: Path, reason: str) -> None:
         f"{folder}: cannot be locked ({reason}), so that nothing keeps a second run out of it; start none there",
         file=sys.stderr,
     )
-
-
-def _holder(handle: int) -> int | None:
-    """Return the process that holds the lock, where the kernel lists locks and shows that process."""
-    table = Path("/proc/locks")
-    if not table.is_file():
-        return None
-    inode = str(os.fstat(handle).st_ino)
-    for line in table.read_text(encoding="ascii").splitlines():
-        # 7: FLOCK  ADVISORY  WRITE 4711 fe:00:396321 0 EOF
-        words = line.split()
-        if words[1] == "FLOCK" and words[5].rpartition(":")[2] == inode and words[4].isdigit():
-            return int(words[4]) or None
-    return None

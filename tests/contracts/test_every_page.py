@@ -12,7 +12,6 @@ pytest.importorskip("matplotlib", reason="the report extra is not installed (cur
 
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
-from report.figures.kit import html
 from report.figures.kit.page import (
     ABSENT,
     REPORT,
@@ -96,11 +95,3 @@ def test_table_writes_its_columns_in_their_order_with_their_formats():
     assert rows(pd.DataFrame([{"k": 1, "Error": 5, "Settled [%]": 12.34, "Law": "one"}])) == rows(
         [("one", 12.34, 5, 1)]
     )
-
-
-def test_table_without_rows_is_none():
-    assert Table("Law | n")([]) is None
-
-
-def test_sentence_is_pasted_as_markdown():
-    assert isinstance(as_pasted("a *sentence*", "sentence", "why"), html.Markdown)

@@ -48,10 +48,6 @@ def test_look_of_every_law_and_of_all_coordinates_can_be_drawn():
     assert list(style.LINES) == list(LINES)
 
 
-def test_contender_looks_like_its_regulator():
-    assert style.look("linearized-euler/zyx-euler") == style.look("linearized-euler")
-
-
 def test_unknown_law_has_a_look_of_its_own_that_stays():
     assert style.look("my-law") == style.look("my-law/quaternion")
     assert style.look("my-law").colour in style.TWINS

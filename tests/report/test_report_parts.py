@@ -10,7 +10,7 @@ from bench.base.provenance import ROOT
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.export.language import language_words
-from bench.law.contenders.registry import FOLDERS, contenders, papers_laws
+from bench.law.contenders.registry import FOLDERS, contenders
 from report.figures.cards import regulators
 from report.figures.cost import cost
 from report.figures.kit import families, spelling
@@ -81,13 +81,6 @@ def test_spelling_in_html_sets_indices_and_fractions_and_escapes_the_rest():
 @pytest.mark.parametrize(("value", "text"), [(2.3e-7, "2·10⁻⁷"), (1e6, "10⁶"), (0.034, "0.03"), (0.0, "0")])
 def test_powers_are_spelled_as_powers(value, text):
     assert spelling.power(value) == text
-
-
-def test_cards_begin_with_the_papers_laws_and_end_with_later_ones():
-    order = [one.name for one in regulators.in_order()]
-    assert order[:3] == [one.regulator.name for one in papers_laws()]
-    assert {one.later for one in contenders("regulators").values() if one.name == order[-1]} == {True}
-    assert len(order) == len(set(order)) >= len(contenders("regulators"))
 
 
 def test_card_says_of_a_law_without_rows_whether_it_is_costed_only():

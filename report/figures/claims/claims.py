@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from bench.findings import claims
-from bench.findings.claims import Verdict, Word, tally
-from bench.findings.claims.verdict import does
+from bench.findings.claims import Verdict, Word
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import prose
@@ -31,26 +30,8 @@ def facts(_: Run) -> dict:
 
 
 def tables(_: Run) -> dict:
-    """Return how many verdicts there are of each kind, and a row a claim."""
-    every = claims.judge_all()
-    return {"tiles": tiles(every), "verdicts": table(every)}
-
-
-def tiles(every: list[Verdict]) -> html.Html:
-    """Count the statements that were decided, and each verdict by the present criteria and by the first ones."""
-    now, first = (tally(words) for words in ([one.word for one in every], [one.first for one in every]))
-    entries = [("plain", len(every), "statements of the paper decided")]
-    entries += [
-        (
-            html.VERDICTS[word],
-            now.get(word, 0),
-            f"{does(word, now.get(word, 0))} (first criteria: {first.get(word, 0)})",
-        )
-        for word in Word
-        if word in now or word in first
-    ]
-    tile = '<div class="tile {}"><b>{}</b><span>{}</span></div>'
-    return html.Html(f'<div class="tiles">{"".join(tile.format(*entry) for entry in entries)}</div>')
+    """Return a row a claim."""
+    return {"verdicts": table(claims.judge_all())}
 
 
 def table(every: list[Verdict]) -> html.Markdown | None:

@@ -148,8 +148,3 @@ def reported(thread: str, words: str = "") -> str:
     """Return a thread upstream, owner/repository#number, as a link; pull requests are found under it too."""
     repository, _, number = thread.partition("#")
     return f"[{words or f'#{number}'}]({HOST}/{repository}/issues/{number})" if thread else html.MISSING
-
-
-def asked(one: Any) -> str:
-    """Return a line's library and function."""
-    return f"{one.library} `{one.function}`"

@@ -6,7 +6,6 @@ Read from results/libraries, which is committed: it does not change with the run
 from __future__ import annotations
 
 import functools
-from typing import Any
 
 import pandas as pd
 
@@ -60,19 +59,3 @@ def responses() -> pd.DataFrame:
 
 def _words(table: pd.DataFrame) -> pd.DataFrame:
     return table.astype(dict.fromkeys(table.select_dtypes("category"), str))
-
-
-def in_words(one: Any) -> str:
-    """Return what a body does that a line's function or controller drives: stuck, turning away, settling times."""
-    words = []
-    if one.dead:
-        words.append(
-            f"stuck at {'every' if one.dead == one.at_180 else f'{one.dead:.0f} of {one.at_180:.0f}'} 180° rotation"
-        )
-    if one.away:
-        words.append(f"turns away first from {one.away:.0f} of {one.starts:.0f}")
-    if one.unsettled:
-        words.append(f"never settles from {one.unsettled:.0f} of {one.starts:.0f}")
-    if not pd.isna(one.fastest):
-        words.append(f"settles in {' to '.join(dict.fromkeys((f'{one.fastest:.3g}', f'{one.slowest:.3g}')))} s")
-    return ", ".join(words)
