@@ -10,7 +10,7 @@ LINES = {
     "bench/__init__.py": 29,
     "bench/__main__.py": 31,
     "bench/audit": 2_275,
-    "bench/base": 550,
+    "bench/base": 533,
     "bench/cli": 2_543,
     "bench/engines": 6_400,
     "bench/experiments": 5_142,
@@ -23,20 +23,20 @@ LINES = {
     "tests/audit": 625,
     "tests/cli": 755,
     "tests/conftest.py": 73,
-    "tests/contracts": 2_529,
+    "tests/contracts": 2_520,
     "tests/engines": 2_883,
     "tests/experiments": 2_228,
     "tests/export": 315,
-    "tests/findings": 2_143,
+    "tests/findings": 2_137,
     "tests/law": 2_611,
     "tests/regression": 722,
-    "tests/report": 1_740,
+    "tests/report": 1_729,
     "tests/repository": 519,
     "tests/running": 1_197,
     "tests/studies": 609,
     "tests/support": 3_182,
     "tests/tasks": 1_893,
-    "report": 6_410,
+    "report": 6_340,
     "tasks": 5_218,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
@@ -47,7 +47,7 @@ TOO_LONG: dict[str, int] = {}
 """Files that are still longer, with their lines."""
 
 
-DATA = {"bench": 3_072, "report": 1_764, "tasks": 474, "tests": 955}
+DATA = {"bench": 3_072, "report": 1_758, "tasks": 474, "tests": 955}
 """Lines of text in other files than Python: what moves into them counts too. One new file may come on top."""
 SUFFIXES = (".toml", ".text", ".xml", ".js", ".c", ".html", ".css")
 
