@@ -1,22 +1,15 @@
 """What figures of the published run hold: points and bends; `test_every_page` draws them all."""
 
-import pandas as pd
 import pytest
 
 pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
 from bench.experiments.tables.schema import RESULTS
-from report.figures.failures import failure_map
 from report.figures.kit.page import run_in
 from report.figures.kit.rows import FEEDBACK
 from report.figures.responses import responses
 
 RUN = run_in(RESULTS / "reference")
-
-
-def test_ball_shows_half_turns_at_both_ends_of_their_axis():
-    points = failure_map.unit_ball(pd.DataFrame([(0.0, 1.0, 0.0, 0.0)], columns=[f"quat_{one}" for one in "wxyz"]))
-    assert points == [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
 
 
 def test_response_bends_are_nothing_under_feedback_linearization():
