@@ -5,7 +5,7 @@ kit.page    pastes a page's facts(run), tables(run) and figures(run); says what 
 kit.tables  plain tables, declared
 kit.style   colours, markers and lines of every regulator and outcome; the paper style of matplotlib
 kit.inline  a drawn figure becomes inline SVG that follows the page's light and dark, with words for it
-kit.html    what is not a drawing: verdict badges, tables, the card of a law, the canvas of a ball
+kit.html    what is not a drawing: verdict badges, tables, the card of a law
 ==========  ============================================================================================
 
 The page pages/08-libraries.md has the module libraries/libraries.py. A substantial drawing is a module of

@@ -6,8 +6,6 @@ cells are checked when the report is built; the rest is HTML.
 
 from __future__ import annotations
 
-import html
-import json
 import math
 import numbers
 import re
@@ -154,21 +152,3 @@ def formula(tex: str) -> str:
 def plain_table(frame: pd.DataFrame) -> str:
     """Return a small HTML table for inside a card; the first column is words."""
     return frame.to_html(index=False, classes="plain", border=0, formatters=[cell] * len(frame.columns))
-
-
-def ball(name: str, alt: str, points: Mapping[str, Any], radius_label: str = "π") -> Html:
-    """Return a ball of rotation vectors that the reader turns; the page loads `_extra/ball.js` to draw it.
-
-    Args:
-        name: unique on its page; the canvas's id is `ball-` and this.
-        alt: what it shows, in words.
-        points: label -> {"colour": light, "dark": dark, "xyz": [[x, y, z], ...]} with xyz in the unit ball.
-        radius_label: what the surface of the ball stands for.
-    """
-    data = json.dumps({"groups": points, "radius": radius_label}, separators=(",", ":")).replace("<", "\\u003c")
-    words = html.escape(alt, quote=True)
-    return Html(
-        f'<canvas class="ball" id="ball-{name}" tabindex="0" role="img" aria-label="{words}"></canvas>'
-        f'<script type="application/json" data-for="ball-{name}">{data}</script>'
-        '<p class="hint">Drag, or use the arrow keys, to turn. Double click to start over.</p>'
-    )
