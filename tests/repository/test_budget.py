@@ -23,9 +23,9 @@ LINES = {
     "tests/audit": 625,
     "tests/cli": 755,
     "tests/conftest.py": 73,
-    "tests/contracts": 2_520,
+    "tests/contracts": 2_513,
     "tests/engines": 2_883,
-    "tests/experiments": 2_228,
+    "tests/experiments": 2_218,
     "tests/export": 315,
     "tests/findings": 2_137,
     "tests/law": 2_611,
@@ -36,7 +36,7 @@ LINES = {
     "tests/studies": 609,
     "tests/support": 3_182,
     "tests/tasks": 1_893,
-    "report": 6_340,
+    "report": 6_320,
     "tasks": 5_218,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
