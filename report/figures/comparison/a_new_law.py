@@ -14,6 +14,8 @@ from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, settling
 from bench.law.display import Equation
 from bench.law.inputs import PAPERS_GAINS
 from report.figures.cost.operations import CALLS
+from report.figures.kit import families, style
+from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
 from tasks.rules import RULES
 
@@ -22,6 +24,7 @@ RATIOS = 0.5, 0.7, 1.0, 1.5
 """Damping ratios at which it is compared with a linear system."""
 
 LATE = EQUATIONS[NEW]
+SHOWN = ("rotation-matrix", "mrp-memory", NEW)
 
 
 def facts(run: Run) -> dict:
@@ -70,3 +73,22 @@ def longest(equation: Equation, kp: float, kv: float) -> float:
 def greatest_pull(equation: Equation) -> float:
     """max f: the greatest command from rest, over Kp."""
     return max(map(equation.spring, np.linspace(0.0, math.pi, 1801)))
+
+
+@responsive_picture
+def draw_springs(narrow: bool) -> Drawing:
+    """Draw the command from rest of this law, of the advised one and of the paper's first, over Kp."""
+    figure, axes = style.panels(height=2.6, narrow=narrow)
+    angles = np.linspace(0.0, math.pi, 181)
+    for law in SHOWN:
+        f = [EQUATIONS[law].spring(angle) for angle in angles]
+        axes.plot(np.degrees(angles), f, color=style.look(law).colour)
+        style.label_line(axes, 182.0, f[-1], families.word(law), style.look(law).colour)
+    axes.set(xlim=(0, 180), ylim=(0, None), xticks=range(0, 181, 30))
+    axes.set(xlabel="angle to the goal [deg]", ylabel="command from rest / kp")
+    return figure, f"At 180 degrees: {', '.join(f'{law} {EQUATIONS[law].spring(math.pi):.1f}' for law in SHOWN)}."
+
+
+def figures(_: Run) -> dict:
+    """Draw three springs."""
+    return {"springs": draw_springs()}
