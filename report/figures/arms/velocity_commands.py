@@ -47,7 +47,7 @@ def facts(run: Run) -> dict:
 
 def named(laws: Iterable[str]) -> str:
     """Laws by their short words."""
-    return "; ".join(families.word(name) for name in families.in_order(laws)) or "none"
+    return ", ".join(families.word(name) for name in families.in_order(laws)) or "none"
 
 
 def lead(one: Decision) -> str:
