@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from bench.findings.selection.regions import find_default
+from bench.findings.selection.regions import find_bounds, find_default
 from bench.findings.selection.robots import list_elsewhere
+from bench.findings.selection.words import describe_bounds
 from report.figures.answer import which_law
 from report.figures.kit import families, html, media
 from report.figures.kit.page import Run
@@ -22,6 +23,7 @@ def facts(run: Run) -> dict[str, Any]:
     return {
         "default": families.word(find_default()),
         "does": which_law.describe_default(),
+        "bounds": describe_bounds(find_bounds(find_default())),
         "needs": list_needs(run),
         "ours": which_law.describe_ours(),
     }
