@@ -22,7 +22,7 @@ FILE_NAME = re.compile(r"_images.*|\S+\.(svg|png|jpe?g|webp|gif)$|$", re.IGNOREC
 DIRECTIVE = re.compile(r"`{3,}\{[a-z:]+\}")
 FONT = re.compile(r"""url\(\s*['"]?([^'")?#:]+\.woff2)""")
 CSS_URL = re.compile(r"""(?:url\(\s*['"]?|@import\s+['"])((?:https?:)?//[^)'"\s]+)""")
-DRAWINGS = ".//canvas | .//video | .//svg[@role='img'][not(@aria-hidden)]"
+DRAWINGS = ".//canvas | .//iframe | .//video | .//svg[@role='img'][not(@aria-hidden)]"
 
 
 def read_page(path: Path) -> html.HtmlElement:

@@ -40,14 +40,14 @@ class View(NamedTuple):
 VIEWS = [View(theme, width) for theme in THEMES for width in WIDTHS]
 
 
-def missing() -> str:
-    """Why no page can be opened here, in one line with the cure; empty where it can."""
+def missing(page: Path = SITE / "index.html") -> str:
+    """Return why the page cannot be opened here, in one line with the cure; empty where it can."""
     if importlib.util.find_spec("selenium") is None:
         return f"selenium is not installed (cure: {CURE})"
     for program, found in (("chromium", chromium()), ("chromedriver", shutil.which("chromedriver"))):
         if not found:
             return f"{program} is not on this machine (cure: {CURE})"
-    if not (SITE / "index.html").is_file():
+    if not page.is_file():
         return "the report is not built (cure: make report)"
     return ""
 

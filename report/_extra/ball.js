@@ -3,8 +3,7 @@
 
    ball.make(canvas, { onPick }) -> { draw({ dots, ways, cut, isSolid, tip }), face(point) }
      dots  [{ at, colour, radius }] in the unit ball; ways  [{ points, now, colour, dashes }]; cut  depth beyond which
-     dots are left out, 1 is towards the reader; isSolid  dots hide what is inside; onPick(i)  a dot was clicked
-   A <canvas class="ball"> beside a <script type="application/json" data-for="its id"> draws the groups in there. */
+     dots are left out, 1 is towards the reader; isSolid  dots hide what is inside; onPick(i)  a dot was clicked */
 (function (root) {
   "use strict";
   const START = { yaw: 0.6, pitch: 0.35 }, ASIDE = 0.5, STEP = 0.12, CIRCLE = 96, BEHIND = 0.45, RADIUS = 0.43, STILL = 5;
@@ -158,28 +157,5 @@
     return { draw, face };
   }
 
-  function showGroups(canvas) { // points that the page brings with it
-    const source = document.querySelector(`script[data-for="${canvas.id}"]`);
-    if (!source) return;
-    const data = JSON.parse(source.textContent), ball = make(canvas), legend = document.createElement("p");
-    for (const [name, { colour, dark }] of Object.entries(data.groups)) {
-      const key = document.createElement("span");
-      key.className = "key";
-      key.style.setProperty("--key", `light-dark(${colour}, ${dark})`);
-      legend.append(key, `${name} `);
-    }
-    legend.className = "hint";
-    canvas.after(legend);
-    function show() {
-      const isDark = document.documentElement.dataset.theme === "dark";
-      const dots = Object.values(data.groups).flatMap(({ xyz, colour, dark }) =>
-        xyz.map(at => ({ at, colour: isDark ? dark : colour })));
-      ball.draw({ dots, tip: name => `${name} = ${data.radius}` });
-    }
-    new MutationObserver(show).observe(document.documentElement, { attributeFilter: ["data-theme"] });
-    show();
-  }
   root.ball = { make };
-  const showAll = () => document.querySelectorAll("canvas.ball").forEach(showGroups);
-  if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", showAll); else showAll();
 })(window);

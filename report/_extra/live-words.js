@@ -13,7 +13,7 @@
     return {
       settled: `settles in ${(settling_s || 0).toFixed(2)}${NBSP}s`,
       stuck: `is stuck ${away} from the goal`,
-      creeping: `creeps, ${away} from the goal at the end`,
+      creeping: `still moves slowly at the end, ${away} from the goal`,
       oscillating: `oscillates, ${away} from the goal at the end`,
       "timed-out": `does not settle and ends ${away} from the goal`,
       diverged: `diverges ${when}`,

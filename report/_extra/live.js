@@ -231,6 +231,7 @@
     new ResizeObserver(showAll).observe(byId("page"));
   }
   function start() {
+    document.documentElement.classList.toggle("live-embedded", location.search === "?ball"); // the ball in a chapter
     data = JSON.parse(byId("data").textContent);
     byId("page").hidden = false;
     window.liveSliders.add(moved);

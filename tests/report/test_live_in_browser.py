@@ -12,15 +12,8 @@ PHONE, DESK = screenshots.View("light", 360), screenshots.View("dark", 1280)
 ARROW_RIGHT, HOME, END, ENTER = "\ue014", "\ue011", "\ue010", "\ue007"
 
 
-MISSING = screenshots.missing() or ("" if PAGE.is_file() else "the report is not built (cure: make report)")
+MISSING = screenshots.missing(PAGE)
 pytestmark = [pytest.mark.browser, pytest.mark.skipif(bool(MISSING), reason=MISSING or "ready")]
-
-
-@pytest.fixture(scope="module")
-def opened():
-    with screenshots.browser() as driver:
-        driver.set_script_timeout(300)
-        yield driver
 
 
 @pytest.fixture
@@ -72,6 +65,18 @@ def test_a_dot_of_the_ball_is_a_start_that_plays(driver):
     changed(driver, ActionChains(driver).move_to_element_with_offset(part(driver, "ball"), 30, 40).click().perform)
     assert part(driver, "start").get_attribute("value") == "own"
     assert wait(driver, lambda: part(driver, "play").text == "Pause")
+
+
+def test_chapter_shows_the_ball_of_its_scene(driver):
+    chapter = PAGE.with_name("02-what-an-error-must-do.html")
+    screenshots.open_page(driver, chapter, DESK)
+    driver.execute_script("document.querySelector('.ball-view').scrollIntoView()")
+    driver.switch_to.frame(driver.find_element("css selector", ".ball-view iframe"))
+    wait(driver, lambda: "settle" in driver.find_element("id", "live-counted").text)
+    assert (part(driver, "a").get_attribute("value"), part(driver, "off").get_attribute("value")) == ("mrp", "0.1")
+    shown = {name: part(driver, name).is_displayed() for name in ("ball", "off", "play", "gripper", "angle-plot")}
+    assert shown == {"ball": True, "off": True, "play": True, "gripper": False, "angle-plot": False}
+    driver.switch_to.default_content()
 
 
 def test_link_that_is_copied_is_the_short_one_of_the_preset(driver):

@@ -25,16 +25,14 @@ liveMap.compute(word, rows, { ...settings, bound: Infinity }, rules, (i, time) =
 });
 """
 
-missing = screenshots.missing() or ("" if PAGE.is_file() else "the report is not built (cure: make report)")
+missing = screenshots.missing(PAGE)
 pytestmark = [pytest.mark.browser, pytest.mark.skipif(bool(missing), reason=missing or "ready")]
 
 
 @pytest.fixture(scope="module")
-def driver():
-    with screenshots.browser() as opened:
-        opened.set_script_timeout(300)
-        screenshots.open_page(opened, PAGE, screenshots.VIEWS[0])
-        yield opened
+def driver(opened):
+    screenshots.open_page(opened, PAGE, screenshots.VIEWS[0])
+    return opened
 
 
 def test_a_thousand_episodes_of_every_law_are_the_recorded_ones(driver):

@@ -6,19 +6,13 @@ import screenshots
 PAGE = screenshots.SITE / "pages" / "09-murphy-1988.html"
 pytestmark = [
     pytest.mark.browser,
-    pytest.mark.skipif(bool(screenshots.missing()), reason=screenshots.missing() or "ready"),
+    pytest.mark.skipif(bool(screenshots.missing(PAGE)), reason=screenshots.missing(PAGE) or "ready"),
 ]
 COLUMN = """
 return [...document.querySelector("table.sortable").tBodies[0].rows]
   .filter(row => !row.hidden).map(row => row.cells[arguments[0]].innerText.trim());
 """
 IDS, VERDICTS = 0, 2
-
-
-@pytest.fixture(scope="module")
-def opened():
-    with screenshots.browser() as driver:
-        yield driver
 
 
 @pytest.fixture

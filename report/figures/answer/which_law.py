@@ -81,7 +81,7 @@ def lead() -> str:
     """Return the default, and the laws of the other regions."""
     first, *others = find_regions()
     said = together([f"{families.word(one.law)} ({100 * one.advised:.0f} %)" for one in others])
-    elsewhere = f" In the other situations other laws are advised: {said}." if others else ""
+    elsewhere = f" In the remaining situations we advise other laws: {said}." if others else ""
     return f"Use **{families.word(first.law)}**, a published law. {describe_default()}{elsewhere} {describe_ours()}"
 
 

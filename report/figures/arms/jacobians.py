@@ -98,8 +98,8 @@ def describe_first(rows: pd.DataFrame) -> str:
     of_angles = float(at["condition_analytic"])
     number = html.MISSING if math.isnan(of_angles) else power(of_angles) if of_angles > LOST else f"{of_angles:.1f}"
     return (
-        f"has a Jacobian with condition number {at['condition']:.1f}; in Z-Y-X angles it is {number}, for its tool "
-        f"stands at β = {math.degrees(at['beta']):.0f}°, on the pole"
+        f"the geometric Jacobian has condition number {at['condition']:.1f} and the Euler Jacobian {number}, because "
+        f"the tool is at β = {math.degrees(at['beta']):.0f}°"
     )
 
 
@@ -108,8 +108,8 @@ def count_spoilt(rows: pd.DataFrame) -> str:
     fine = rows[rows["condition"] <= WELL_CONDITIONED]
     by = 100.0 * (fine["condition_analytic"] > BAD).groupby(fine["arm"].astype(str)).mean()
     return (
-        f"Of the poses whose geometric Jacobian is in good condition (at most {WELL_CONDITIONED:g}), Z-Y-X angles "
-        f"spoil {by.min():.1f} to {by.max():.1f} %: the condition number of their Euler Jacobian exceeds {BAD:g}."
+        f"Of the poses in which the condition number of the geometric Jacobian is at most {WELL_CONDITIONED:g}, that "
+        f"of the Euler Jacobian exceeds {BAD:g} in {by.min():.1f} to {by.max():.1f} %, depending on the arm."
     )
 
 

@@ -105,14 +105,14 @@ def stuck(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
     out = own.assign(out=own["jam"] != 0.0).groupby(["contender", own["beta_deg"] != 0.0])["out"]
     lost, n = out.sum().unstack(fill_value=0), out.size().unstack(fill_value=0)
     counts = [
-        f"{lost.loc[name].sum()} of {n.loc[name].sum()} {who} ({lost.loc[name, True]} of {n.loc[name, True]} where the "
-        "frame of the hand is tilted)"
+        f"{lost.loc[name].sum()} of {n.loc[name].sum()} {who} ({lost.loc[name, True]} of {n.loc[name, True]} with a "
+        "tilted frame)"
         for name, who in ((cartesian, "with Cartesian compliance"), (euler, "with the Euler Jacobian"))
     ]
     p_value = fisher_exact([[lost.loc[name, True], (n - lost).loc[name, True]] for name in (cartesian, euler)]).pvalue
     differ = "differ significantly" if p_value < P_VALUE else "do not differ significantly"
     return (
-        f"Pegs were not inserted in {' and in '.join(counts)}. The two shares of tilted frames {differ} "
+        f"The peg was not inserted in {' and in '.join(counts)}. The two shares with tilted frames {differ} "
         f"(Fisher's exact test, p = {spell_powers(f'{p_value:.2g}')})."
     )
 

@@ -7,10 +7,10 @@ import math
 import pandas as pd
 
 from bench.findings.perturbed import DETOUR, FAR_RAD
+from bench.findings.selection.regions import find_default
 from report.figures.kit import families
 from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
-from report.figures.robustness.half_turn_noise import regulator_of
 from report.figures.robustness.robustness import counted
 from report.figures.robustness.rows import along, laws
 
@@ -50,14 +50,13 @@ def tables(run: Run) -> dict:
 
 
 def facts(run: Run) -> dict:
-    """Return how many starts jump, when, which ratio counts, and the longest path of a law with memory [deg]."""
+    """Return how many starts jump, when, which ratio counts, and the share of long paths of the default [%]."""
     kept, reset = soon(run, KEPT), soon(run, RESET)
-    remembers = [law for law in laws(along(run, KEPT), controls=False) if regulator_of(law).memory]
-    longest = [measure(rows[rows["contender"].isin(remembers)])[1] for rows in (kept, reset)]
+    long = [measure(rows[rows["contender"] == find_default()])[0] for rows in (kept, reset)]
     return {
         "n": int(kept["starts"].max()),
         "times": " or ".join(f"{1000.0 * level:g}" for level in sorted(kept["level"].unique())),
         "detour": f"{DETOUR:g}",
         "near": f"{FAR_RAD:g}",
-        **dict(zip(("kept", "reset"), (f"{angle:.0f}" for angle in longest), strict=True)),
+        **dict(zip(("kept", "reset"), (f"{share:.1f}" for share in long), strict=True)),
     }
