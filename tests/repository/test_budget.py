@@ -36,7 +36,7 @@ LINES = {
     "tests/studies": 609,
     "tests/support": 3_182,
     "tests/tasks": 1_893,
-    "report": 6_343,
+    "report": 6_344,
     "tasks": 5_218,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
@@ -47,7 +47,7 @@ TOO_LONG: dict[str, int] = {}
 """Files that are still longer, with their lines."""
 
 
-DATA = {"bench": 3_072, "report": 1_752, "tasks": 474, "tests": 955}
+DATA = {"bench": 3_072, "report": 1_751, "tasks": 474, "tests": 955}
 """Lines of text in other files than Python: what moves into them counts too. One new file may come on top."""
 SUFFIXES = (".toml", ".text", ".xml", ".js", ".c", ".html", ".css")
 

@@ -7,8 +7,9 @@ from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
 from report.figures.kit.tables import Table
 from report.figures.libraries import answers
-from report.figures.libraries.libraries import reported
+from report.figures.libraries.libraries import lines, passed, reported
 
+PASSED = Table("Library | Functions")
 ASKED = Table("Question | Cause | Cure | Measured | Without the cure:.3g | With it:.3g")
 
 
@@ -27,8 +28,8 @@ def facts(_: Run) -> dict:
 
 
 def tables(_: Run) -> dict:
-    """Return questions of users."""
-    return {"asked": ASKED(map(describe_question, QUESTIONS))}
+    """Return the functions that passed, and questions of users."""
+    return {"passed": PASSED(passed(lines())), "asked": ASKED(map(describe_question, QUESTIONS))}
 
 
 def describe_question(one: Question) -> tuple:

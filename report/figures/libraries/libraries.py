@@ -1,4 +1,4 @@
-"""The page on other libraries: which functions fail, with the smallest fix, shipped controllers, and what passed."""
+"""The page on other libraries: which functions fail, with the smallest fix, and shipped controllers."""
 
 from __future__ import annotations
 
@@ -19,7 +19,6 @@ OURS = "orientation-bench"
 """Our own laws in results/libraries, asked like the libraries."""
 HOST = "https://github.com"
 
-PASSED = Table("Library | Functions")
 FAULTS = Table("Library | Function | Fault | Smallest fix | Thread")
 ORDER = (answers.ZERO, answers.SHEET, answers.LONG_WAY, answers.MISALIGNED, answers.DIGITS)
 """Order of the faults, by what they do to a controller."""
@@ -61,6 +60,7 @@ def facts(run: Run) -> dict:
         "idioms_wrong": len(faulty(idioms)),
         "count": power(answers.COUNT_RAD),
         "worst_right": power(good[~single]["turn"].max()),
+        "passed_names": listed(name for name, _ in passed(every)),
         "single_names": ", ".join(dict.fromkeys(good[single]["library"])),
         "worst_single": power(good[single]["turn"].max()),
         "turns": int(rows.groupby(["library", "function"])["turns"].sum().max()),
@@ -93,12 +93,11 @@ def loop_facts() -> dict:
 
 
 def tables(run: Run) -> dict:
-    """Return what fails and its fix, shipped controllers and theirs, and what passed."""
+    """Return what fails and its fix, and shipped controllers and theirs."""
     every = lines()
     return {
         "tab_faults": FAULTS(faults(every)),
         "tab_shipped": in_run(as_shipped.list_fixes, run),
-        "tab_passed": PASSED(passed(every)),
     }
 
 

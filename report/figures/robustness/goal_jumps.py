@@ -11,6 +11,7 @@ from bench.findings.selection.regions import find_default
 from report.figures.kit import families
 from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
+from report.figures.robustness.half_turn_noise import regulator_of
 from report.figures.robustness.robustness import counted
 from report.figures.robustness.rows import along, laws
 
@@ -33,19 +34,19 @@ def measure(rows: pd.DataFrame) -> tuple[float, float]:
 
 
 def compare_paths(run: Run) -> list[tuple]:
-    """Return each law that always settles: its measures, those of memory kept and reset side by side."""
+    """Return each law with memory that always settles: its measures, those of memory kept and reset side by side."""
     kept, reset = soon(run, KEPT), soon(run, RESET)
     found = []
     for law in laws(along(run, KEPT), controls=False):
         own = [rows[rows["contender"] == law] for rows in (kept, reset)]
-        if all((rows["good"] == rows["starts"]).all() for rows in own):
+        if regulator_of(law).memory and all((rows["good"] == rows["starts"]).all() for rows in own):
             pairs = zip(*map(measure, own), strict=True)
             found.append((families.word(law), *(number for pair in pairs for number in pair)))
     return found
 
 
 def tables(run: Run) -> dict:
-    """Return the paths of each law that always settles."""
+    """Return the paths of each law with memory that always settles."""
     return {"paths": PATHS(compare_paths(run))}
 
 
