@@ -48,8 +48,8 @@ def compare_at_equal_peak() -> str:
     others = [time for law, time in times.items() if law != NEW]
     fewer = sum(time <= times[NEW] for time in others)
     return (
-        f"If all laws have the same peak command and each has its best damping ratio, 99 % of its starts settle in "
-        f"{times[NEW]:.2f}/√peak. {fewer} of {len(others)} published laws that settle from every start are as fast."
+        f"If all laws have the same peak command, and each its best damping ratio, it settles from 99 % of the starts "
+        f"in {times[NEW]:.2f}/√peak. {fewer} of {len(others)} published laws that settle from every start are as fast."
     )
 
 

@@ -105,8 +105,8 @@ def stuck(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
     out = own.assign(out=own["jam"] != 0.0).groupby(["contender", own["beta_deg"] != 0.0])["out"]
     lost, n = out.sum().unstack(fill_value=0), out.size().unstack(fill_value=0)
     counts = [
-        f"{lost.loc[name].sum()} of {n.loc[name].sum()} {who} ({lost.loc[name, True]} of {n.loc[name, True]} with a "
-        "tilted frame)"
+        f"{lost.loc[name].sum()} of {n.loc[name].sum()} simulations {who} ({lost.loc[name, True]} of "
+        f"{n.loc[name, True]} with a tilted frame)"
         for name, who in ((cartesian, "with Cartesian compliance"), (euler, "with the Euler Jacobian"))
     ]
     p_value = fisher_exact([[lost.loc[name, True], (n - lost).loc[name, True]] for name in (cartesian, euler)]).pvalue
@@ -124,8 +124,8 @@ def flat(rows: pd.DataFrame) -> str:
         return f"how tools end is {ABSENT}."
     euler, plain = (of(own, name)["time_to_align_s"].notna() for name in (PAPERS_EULER, PAPERS))
     return (
-        f"{euler.sum()} of {len(euler)} tools came to lie flat with the Euler Jacobian, and {plain.sum()} of "
-        f"{len(plain)} with Cartesian compliance."
+        f"it came to lie flat in {euler.sum()} of {len(euler)} simulations with the Euler Jacobian, and in "
+        f"{plain.sum()} of {len(plain)} with Cartesian compliance."
     )
 
 

@@ -16,7 +16,6 @@ from bench.findings.theory import robustness_theory
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import NotInRun, Run, in_run
-from report.figures.kit.spelling import listed
 from report.figures.robustness.rows import along, gains, laws, starts
 
 AXES = tuple(tasks.axis_names())
@@ -85,7 +84,7 @@ def facts(run: Run) -> dict:
         "held_deg": f"{np.degrees(FOLLOWED_RAD):g}",
         "starts": int(counted(run, "delay")["starts"].max()),
         "run_starts": starts(along(run, "delay")),
-        "apart": listed(named(way) for way in apart) if apart else "none",
+        "apart": "; ".join(map(named, apart)) or "none",
     }
 
 
