@@ -59,7 +59,6 @@ def of_all(rows: pd.DataFrame, tried: pd.DataFrame) -> dict:
         "dearer": f"{spent.max() / spent.min():.0f}",
         **near(rows[rows["contender"].isin(laws)]),
         "left": len(left),
-        "left_laws": ", ".join(map(families.word, left)),
         "directed": int(tried.groupby("contender", observed=True).size().max()),
     }
 

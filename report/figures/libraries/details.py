@@ -34,6 +34,6 @@ def tables(_: Run) -> dict:
 
 def describe_question(one: Question) -> tuple:
     """Return a question's row; what is no more than rounding is 0."""
-    links = ", ".join(reported(thread, thread.partition("/")[2]) for thread in one.threads)
+    links = ", ".join(reported(thread, f"`{thread.partition('/')[2]}`") for thread in one.threads)
     measured = (value if abs(value) > 1e-12 else 0.0 for value in one.measure())
     return f"{one.title} ({links})", one.cause, one.cure, f"{one.quantity}; right: {one.right:g}", *measured
