@@ -81,7 +81,7 @@ def generalized(at, moment):
 
 
 def derivatives_of(elements):
-    """(differentiate, differentiate_twice) of the angles, element by element (Murphy 1988, 3.5).
+    """Return the fields `differentiate` and `differentiate_twice` of angles, element by element (Murphy 1988, 3.5).
 
     elements(R) -> (x, y, z, X, Y): alpha = atan2(y, x), beta = asin(z) up to a constant, gamma = atan2(Y, X). A row and
     a column of R stay unit vectors, so that both pairs have the length level, and level^2 = 1 - z^2.
@@ -116,4 +116,4 @@ def derivatives_of(elements):
             (X * ddY - Y * ddX - growth * gammadot) * inverse_square,
         )
 
-    return differentiate, differentiate_twice
+    return {"differentiate": differentiate, "differentiate_twice": differentiate_twice}

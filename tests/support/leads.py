@@ -125,7 +125,7 @@ def recompute_velocities():
 
 def recompute_advice():
     """Return what is said of the law of the widest region, of the other regions, and of ours."""
-    (law, _, unbeaten), *others = widest()
+    (law, advised, unbeaten), *others = widest()
     rows, drawn = table("situations", "situations"), drawn_verdicts()
     nominal = rows[(rows["zeta"] == 1.0) & (rows["law"] == law) & (rows["period"] == 0.01)]
     nominal = nominal[
@@ -133,9 +133,11 @@ def recompute_advice():
     ]
     [time] = nominal.loc[nominal["inertia"] == 1.0, "time"]
     does = [0.1, 180, f"{100 * unbeaten:.0f} %", 100, 99, f"{time / 10:.2f} s"]
-    ours = [word(LATE), 2026, *(f"{100 * sum(LATE in one[i] for one in drawn) / len(drawn):.0f} %" for i in (2, 3))]
+    free, beating = (sum(LATE in one[i] for one in drawn) / len(drawn) for i in (2, 3))
+    ours = [word(LATE), 2026, f"{100 * (1 - free):.0f} %", f"{100 * beating:.0f} %"]
     elsewhere = list_together([f"{word(one)} ({100 * share:.0f} %)" for one, share, _ in others])
-    return {"default": word(law), "does": does, "ours": ours}, {"lead": [word(law), *does, *elsewhere, *ours]}
+    lead = [word(law), *does, f"{100 * advised:.0f} %", *elsewhere, *ours]
+    return {"default": word(law), "does": does, "ours": ours}, {"lead": lead}
 
 
 def recompute_verdicts():

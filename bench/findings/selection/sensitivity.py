@@ -22,7 +22,7 @@ from bench.findings.selection.regions import (
     is_drawn,
     read_map,
 )
-from tasks.situation import NOMINAL, read_situation
+from tasks.situation import NOMINAL, Situation, read_situation
 
 RULES = {
     "the rule": RULE,
@@ -163,25 +163,37 @@ def count_agreeing(folder: Path = STUDY) -> dict[str, float]:
     """Compare the answers of the map with the held-out situations, which were run once.
 
     Returns:
-        of: how many; same: share whose nearest row advises the law that their own rows do; unbeaten: share in which
-        nothing beats the advised law; half, most: median and 95 % of the time that the advised law takes longer than
-        the fastest published law that meets the requirements.
+        of: how many; same: share whose nearest row advises the law that their own rows do; of the map's answers, and
+        after "always_" of the default in every situation, what `rate` returns.
     """
     from bench.findings.selection.regions import answer
 
-    rows, verdicts, later = read_map(folder / "held-out"), decide_all(folder / "held-out"), []
-    same = unbeaten = 0
-    for word, own in rows.groupby("situation", observed=True):
-        truth, given = verdicts[read_situation(str(word))], answer(read_situation(str(word)), RULE, folder).verdict
-        same += given.law == truth.law
-        unbeaten += given.law in truth.unbeaten or given.law is truth.law
-        times = own.set_index("contender")["time"]
-        best = min((times[law] for law in truth.unbeaten if not facts_of(law).is_ours), default=math.nan)
-        later.append(times.get(given.law, math.inf) / best - 1.0 if truth.law else math.nan)
-    some = np.array([one for one in later if one == one])
+    verdicts = decide_all(folder / "held-out")
+    given = {at: answer(at, RULE, folder).verdict.law for at in verdicts}
+    always = rate(dict.fromkeys(verdicts, find_default(folder)), folder)
     return {
         "of": len(verdicts),
-        "same": same / len(verdicts),
+        "same": sum(given[at] == truth.law for at, truth in verdicts.items()) / len(verdicts),
+        **rate(given, folder),
+        **{f"always_{key}": value for key, value in always.items()},
+    }
+
+
+def rate(given: dict[Situation, str | None], folder: Path) -> dict[str, float]:
+    """Return how good an advice is in the held-out situations.
+
+    Returns:
+        unbeaten: share in which nothing beats the advised law; half, most: median and 95 % of the time that the advised
+        law takes longer than the fastest published law that meets the requirements.
+    """
+    rows, verdicts, later = read_map(folder / "held-out"), decide_all(folder / "held-out"), []
+    for at, truth in verdicts.items():
+        times = rows[rows["situation"] == at.word].set_index("contender")["time"]
+        best = min((times[law] for law in truth.unbeaten if not facts_of(law).is_ours), default=math.nan)
+        later.append(times.get(given[at], math.inf) / best - 1.0 if truth.law else math.nan)
+    some = np.array([one for one in later if one == one])
+    unbeaten = sum(given[at] in truth.unbeaten or given[at] is truth.law for at, truth in verdicts.items())
+    return {
         "unbeaten": unbeaten / len(verdicts),
         "half": float(np.quantile(some, 0.5)),
         "most": float(np.quantile(some, 0.95, method="inverted_cdf")),

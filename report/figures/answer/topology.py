@@ -8,11 +8,14 @@ from bench.findings.selection.needs import EVERYWHERE, UNHELD, has_all
 from report.figures.kit import families
 from report.figures.kit.page import Run
 
+MUJOCOS = "in-engine"
+"""MuJoCo's actuator, which is the rotation vector's law."""
+
 
 def facts(run: Run) -> dict[str, object]:
     """Count laws by what they have: starts that all settle, no noise that holds them at 180°, no memory."""
     found = measured(run.folder)
-    shown = [law for law in found.laws if law not in families.CONTROLS]
+    shown = [law for law in found.laws if law not in (*families.CONTROLS, MUJOCOS)]
     whole = [law for law in shown if EVERYWHERE.has(found, law)]
     forgetful = [law for law in shown if not found.number("memory", law) and law in found.values["held"]]
     return {

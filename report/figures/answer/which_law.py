@@ -38,7 +38,7 @@ def facts(run: Run) -> dict[str, Any]:
         "episodes": f"{read_map()['starts'].sum() / 1e6:.1f}",
         "mapped": read_map()["contender"].nunique(),
         "first": FIRST,
-        "most": MOST,
+        "most_starts": MOST,
         "beaten": beaten,
         "left": left,
         "halves": halves,
@@ -49,7 +49,7 @@ def facts(run: Run) -> dict[str, Any]:
         "same": f"{100 * held['same']:.0f}",
         "unbeaten": f"{100 * held['unbeaten']:.0f}",
         "later": f"{100 * held['half']:.1f}",
-        "most_later": f"{100 * held['most']:.0f}",
+        **{name: f"{100 * held[name]:.0f}" for name in ("most", "always_unbeaten", "always_most")},
     }
 
 
@@ -59,8 +59,8 @@ def describe_default() -> str:
     [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == one.law)].to_dict("records")
     return (
         f"It settles from every start tried, and orientation noise up to {NOISE_RAD:g} rad cannot trap it at 180°. "
-        f"Nothing published is faster in {100 * one.unbeaten:.0f} % of the situations drawn at random. "
-        f"With kp = {KP:g} 1/s² and critical damping, 99 % of the starts settle in {row['time'] / KP**0.5:.2f} s."
+        f"In {100 * one.unbeaten:.0f} % of the situations drawn at random, no published law is faster. "
+        f"With kp = {KP:g} 1/s² and critical damping, 99 % of the starts settle within {row['time'] / KP**0.5:.2f} s."
     )
 
 
@@ -70,9 +70,9 @@ def describe_ours() -> str:
     for law in regions.list_ours():
         ties, beats = regions.compare_ours(law)
         said.append(
-            f"Our own law, {families.word(law)} (2026, simulation only, not reviewed), is not advised: nothing "
-            f"published beats it in {100 * ties:.0f} % of the situations, and it beats the advised law in "
-            f"{100 * beats:.0f} %."
+            f"We do not advise our own law, {families.word(law)} (2026, simulation only, not reviewed): in "
+            f"{100 * (1 - ties):.0f} % of the situations a published law beats it, and in {100 * beats:.0f} % it beats "
+            "the advised law."
         )
     return " ".join(said)
 
@@ -81,8 +81,8 @@ def lead() -> str:
     """Return the default, and the laws of the other regions."""
     first, *others = find_regions()
     said = together([f"{families.word(one.law)} ({100 * one.advised:.0f} %)" for one in others])
-    elsewhere = f" In the remaining situations we advise other laws: {said}." if others else ""
-    return f"Use **{families.word(first.law)}**, a published law. {describe_default()}{elsewhere} {describe_ours()}"
+    where = f" We advise it in {100 * first.advised:.0f} % of the situations, and otherwise: {said}." if others else ""
+    return f"Use **{families.word(first.law)}**, a published law. {describe_default()}{where} {describe_ours()}"
 
 
 def tables(run: Run) -> dict[str, Any]:

@@ -108,8 +108,8 @@ def count_spoilt(rows: pd.DataFrame) -> str:
     fine = rows[rows["condition"] <= WELL_CONDITIONED]
     by = 100.0 * (fine["condition_analytic"] > BAD).groupby(fine["arm"].astype(str)).mean()
     return (
-        f"Of the poses in which the condition number of the geometric Jacobian is at most {WELL_CONDITIONED:g}, that "
-        f"of the Euler Jacobian exceeds {BAD:g} in {by.min():.1f} to {by.max():.1f} %, depending on the arm."
+        f"Where the condition number of the geometric Jacobian is at most {WELL_CONDITIONED:g}, that of the Euler "
+        f"Jacobian exceeds {BAD:g} in {by.min():.1f} to {by.max():.1f} % of the poses, depending on the arm."
     )
 
 

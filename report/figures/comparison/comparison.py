@@ -33,9 +33,7 @@ def uniform(run: Run) -> pd.DataFrame:
 
 def facts(run: Run) -> dict:
     """Return the numbers in the sentences of the page."""
-    return {
-        **of_all(uniform(run), cells.directed_starts(ideal(run))),
-    }
+    return of_all(uniform(run), cells.directed_starts(ideal(run)))
 
 
 def of_all(rows: pd.DataFrame, tried: pd.DataFrame) -> dict:

@@ -94,8 +94,6 @@ def elements(R):
     return (R.a[2], -R.a[1], R.a[0], R.n[0], -R.o[0])
 
 
-differentiate, differentiate_twice = derivatives_of(elements)
-
 REPRESENTATION = Coordinates(
     name="xyz-euler",
     title="X-Y-Z Euler angles",
@@ -110,7 +108,6 @@ REPRESENTATION = Coordinates(
     angular_velocity=angular_velocity,
     generalized=generalized,
     margin=margin,
-    differentiate=differentiate,
-    differentiate_twice=differentiate_twice,
+    **derivatives_of(elements),
     display=Display("X-Y-Z angles", Look("orange", "v", "dashed")),
 )

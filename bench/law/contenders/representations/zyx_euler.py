@@ -50,8 +50,6 @@ def elements(R):
     return (R.n[0], R.n[1], -R.n[2], R.a[2], R.o[2])
 
 
-differentiate, differentiate_twice = derivatives_of(elements)
-
 REPRESENTATION = Coordinates(
     name="zyx-euler",
     title="Z-Y-X Euler angles",
@@ -67,8 +65,7 @@ REPRESENTATION = Coordinates(
     generalized=generalized,
     margin=margin,
     about=(2, 1, 0),
-    differentiate=differentiate,
-    differentiate_twice=differentiate_twice,
+    **derivatives_of(elements),
     papers=True,
     display=Display("Z-Y-X angles", Look("vermillion", "s", "solid")),
 )

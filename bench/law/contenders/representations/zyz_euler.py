@@ -50,8 +50,6 @@ def elements(R):
     return (R.a[0], R.a[1], -R.a[2], -R.n[2], R.o[2])
 
 
-differentiate, differentiate_twice = derivatives_of(elements)
-
 REPRESENTATION = Coordinates(
     name="zyz-euler",
     title="Z-Y-Z Euler angles",
@@ -67,7 +65,6 @@ REPRESENTATION = Coordinates(
     generalized=generalized,
     margin=margin,
     about=(2, 1, 0),
-    differentiate=differentiate,
-    differentiate_twice=differentiate_twice,
+    **derivatives_of(elements),
     display=Display("Z-Y-Z angles", Look("green", "^", "dash-dot")),
 )
