@@ -69,8 +69,8 @@ const done = arguments[arguments.length - 1];
 const still = document.createElement("style");
 still.textContent = "* { transition: none !important; animation: none !important }";
 document.head.append(still);
-const frame = () => new Promise(requestAnimationFrame);
-frame().then(frame).then(() => axe.run(document, {resultTypes: ["violations"], iframes: false})).then(found => done(found.violations
+const frame = () => new Promise(requestAnimationFrame), asked = {resultTypes: ["violations"], iframes: false};
+frame().then(frame).then(() => axe.run(document, asked)).then(found => done(found.violations
   .filter(one => ["serious", "critical"].includes(one.impact))
   .flatMap(one => one.nodes.map(node => `${one.id}: ${node.html.slice(0, 200)}`))));
 """
