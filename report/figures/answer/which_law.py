@@ -81,7 +81,7 @@ def lead() -> str:
     """Return the default, and the laws of the other regions."""
     first, *others = find_regions()
     said = together([f"{families.word(one.law)} ({100 * one.advised:.0f} %)" for one in others])
-    where = f" We advise it in {100 * first.advised:.0f} % of the situations, and otherwise: {said}." if others else ""
+    where = f" The rule advises it in {100 * first.advised:.0f} %, and in most others: {said}." if others else ""
     return f"Use **{families.word(first.law)}**, a published law. {describe_default()}{where} {describe_ours()}"
 
 

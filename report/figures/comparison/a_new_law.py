@@ -48,8 +48,8 @@ def compare_at_equal_peak() -> str:
     others = [time for law, time in times.items() if law != NEW]
     fewer = sum(time <= times[NEW] for time in others)
     return (
-        f"If all laws have the same peak command, and each its best damping ratio, it settles from 99 % of the starts "
-        f"in {times[NEW]:.2f}/√peak. {fewer} of {len(others)} published laws that settle from every start are as fast."
+        f"With its best damping ratio, and gains that give all laws the same peak command p [rad/s²], it settles from "
+        f"99 % of the starts within {times[NEW]:.2f}/√p seconds. {fewer} of {len(others)} published laws are as fast."
     )
 
 
