@@ -40,7 +40,7 @@ from tasks.condition import known_axes
 from tasks.contact import ContactTask
 from tasks.discovery import constants, pick
 from tasks.errors import BadValue, UnknownName
-from tasks.variations import VARIATIONS, Variation
+from tasks.variations import MOTORS, VARIATIONS, Variation
 
 if TYPE_CHECKING:
     import mujoco
@@ -214,7 +214,7 @@ def variation_names() -> list[str]:
 
 def variation(name: str) -> Variation:
     """Return the variation of this name; UnknownName lists the known ones."""
-    return pick("variation", name, VARIATIONS, "tasks/variations.py")
+    return pick("variation", name, VARIATIONS | MOTORS, "tasks/variations.py")
 
 
 def contact_names() -> list[str]:

@@ -3,6 +3,7 @@
     mass-s        D -> s D, and gravity and Coriolis torques with it, s in 0.70, 0.85, 1.15, 1.30
     links-k       D of links whose inertial parameters are s_i times the model's, s_i in [0.7, 1.3], drawn with seed k
     friction-p    dry friction in every joint, p per cent of its rated torque
+    motors-a      a kg m^2 of motor inertia in every joint, and the hand of the arm's file (run for impedances alone)
 
 A factor multiplies the mass and inertia of a link and the reflected motor inertia of its joint; centres of mass and
 viscous damping stay. The controller is given the model as it was.
@@ -77,6 +78,23 @@ def _rub(percent: float, model: mujoco.MjModel, rated: Sequence[float]) -> None:
         model.dof_solimp[i, :2] = IMPEDANCE
 
 
+def _drive(armature: float, model: mujoco.MjModel, rated: Sequence[float]) -> None:
+    """Give joints motor inertia, and the body "tool" the file's <numeric name="hand" data="m x y z Ixx Iyy Izz"/>."""
+    import mujoco
+
+    body, hand = model.body("tool").id, model.numeric("hand").data
+    model.dof_armature[:] += armature
+    model.body_mass[body], model.body_ipos[body], model.body_inertia[body] = hand[0], hand[1:4], hand[4:]
+    model.body_iquat[body], model.body_sameframe[body] = (1.0, 0.0, 0.0, 0.0), 0  # axes of the body, not its origin
+    mujoco.mj_setConst(model, mujoco.MjData(model))
+
+
+MOTORS = {
+    (name := f"motors-{one:g}"): Variation(name, f"With hand, and motors of {one:g} kg m^2", partial(_drive, one))
+    for one in (0.02, 0.1, 0.2)
+}
+"""Franka publishes no motor inertia. MuJoCo Menagerie has 0.1 for the Panda (1b428b08), and 0.195 and 0.074 for its
+successor, the FR3 (0059d433); the range goes from a fifth of 0.1 to twice it."""
 VARIATIONS = {
     variation.name: variation
     for variation in (

@@ -36,9 +36,6 @@ from bench.law.contender import Contender
 CONTINUOUS = "ideal-rk4"
 """The paper's continuous plant."""
 
-FORCE_SHORTEST_STEP = -1.0
-"""A squared tolerance that no step keeps."""
-
 WORTH_LANES = 100_000
 """Episodes of a law from which on lanes save more than the 3 to 8 s that they take to compile: 50 ns of each of some
 1,000 ticks."""
@@ -178,18 +175,6 @@ def _once(
         return by_law(engine, contender, begun, numbers(settings), rows, metrics, curves)
     loop_in_lanes(engine, contender, metrics)(memory_of(contender), begun, numbers(settings), rows)
     return rows
-
-
-def by_equal_steps(contender: Contender, begun: np.ndarray, settings: Settings, divisions: int) -> np.ndarray:
-    """Rows on the continuous plant by Runge-Kutta steps of a control period over `divisions`, an even number or 1.
-
-    The judge sees the body once a control period, whatever the step.
-    """
-    if divisions == 1:
-        return on_ideal(CONTINUOUS, contender, begun, settings, converge=False)
-    limits = at_level(numbers(settings), Level(0.0, divisions))
-    limits = limits._replace(tolerance_squared=FORCE_SHORTEST_STEP, most_steps=divisions * settings.ticks)
-    return by_law(REFINED, contender, begun, limits, blank(len(begun), ()))
 
 
 def is_in_lanes(total: int) -> bool:

@@ -145,17 +145,18 @@ def prepare_velocity(contender: Contender, limits: Iterable[Callable]) -> None:
 
 
 def run_impedance(
-    law: Contender, damping: Impedance, springs: Springs, starts: Starts, settings: Settings, arm: str
-) -> tuple[np.ndarray, np.ndarray]:
+    law: Contender, damping: Impedance, springs: Springs, starts: Starts, settings: Settings, arm: str,
+    variation: str = NOMINAL,
+) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
     """Rows of `plants.impedance`, and q and qdot at the end, one per start.
 
     Args:
         law: its command at omega = 0 over kp is the error of orientation.
         starts: tasks.Start with joint angles and rates, in order.
-        settings: `torque_limit` is what torques over rated ones may come to.
+        settings: `torque_limit` is what torques over rated ones may come to. variation: of plant and model alike.
     """
     limits, one = numbers(settings._replace(command_limit=settings.torque_limit)), tasks.arm(arm)
-    kept = [_simulation(ARM_TASK, one, settings.dt_s) for _ in range(2)]
+    kept = [_simulation(ARM_TASK, one, settings.dt_s, variation=variation) for _ in range(2)]
     plant, still = (compiled_view(*sim) for sim in kept)
     world = impedance.world(plant, still, states(starts, one.joints), springs, one.rated)
     rows, laws = blank(len(starts), more=impedance.COLUMNS), (evaluation(law), part(damping.design, DESIGN))

@@ -9,21 +9,29 @@ map of the hand is [[I - dt^2 P, dt (I - dt Q)], [-dt P, I - dt Q]], MuJoCo's ra
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 
 import tasks
+from bench.base.bisection import bisect
 from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.impedance import LAW, STIFFNESSES, ZETA, Stiffness, prepare, setting_columns, units_on_arms
+from bench.experiments.suites import NOMINAL
 from bench.law.contenders.registry import find_contender
 from bench.law.control.unshaped import DAMPINGS
+from tasks.variations import MOTORS
 
 NAME = "impedance-modes"
 
 STEP = 1e-4
 """Steps of the differences [rad, rad/s]: they err by its square, 1e-8, and by rounding over it and the tick, 1e-9."""
 
-DESIGN_S = 0.01
+FRANKAPYS = Stiffness(600.0, 50.0)
+"""frankapy's default on Pandas, with D = 2 sqrt(K)."""
+
+DESIGN_S = 0.02
 """CPU seconds a design of damping on an arm."""
 
 
@@ -32,19 +40,24 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     return units_on_arms(asked, NAME)
 
 
+def list_plants(arm: str) -> tuple[str, ...]:
+    """Return the arm as its file has it, and with a hand and motors if its file has a hand."""
+    return NOMINAL, *(MOTORS if '<numeric name="hand"' in tasks.arm(arm).xml else ())
+
+
 def rows(settings: Settings, unit: Unit) -> list[dict]:
     """Return one row a mode."""
     found = []
-    for stiffness in STIFFNESSES:
-        P, Q = hand_matrices(settings, unit, stiffness)
-        radius = float(np.abs(np.linalg.eigvals(compute_tick_map(P, Q, settings.dt_s))).max())
-        loop = {"dt_s": settings.dt_s, "decay": -np.log(radius) / settings.dt_s, "radius": radius}
+    for plant, stiffness in itertools.product(list_plants(unit.arm), (*STIFFNESSES, FRANKAPYS)):
+        P, Q = hand_matrices(settings, unit, stiffness, plant)
+        radius = compute_tick_radius(P, Q, settings.dt_s)
+        loop = {"variation": plant, "dt_s": settings.dt_s, "longest_dt_s": find_longest_tick(P, Q), "radius": radius}
         for mode, (omega, ratio) in enumerate(zip(*compute_modes(P, Q), strict=True), start=1):
             found.append({**setting_columns(unit, stiffness), **loop, "mode": mode, "omega": omega, "ratio": ratio})
     return found
 
 
-def hand_matrices(settings: Settings, unit: Unit, stiffness: Stiffness) -> tuple[np.ndarray, np.ndarray]:
+def hand_matrices(settings: Settings, unit: Unit, stiffness: Stiffness, plant: str) -> tuple[np.ndarray, np.ndarray]:
     """Compute P [1/s^2] and Q [1/s], 6 x 6, at the arm's home."""
     from bench.engines.plants.impedance import Springs
     from bench.engines.simulate_arms import run_impedance as run
@@ -57,7 +70,8 @@ def hand_matrices(settings: Settings, unit: Unit, stiffness: Stiffness) -> tuple
     states = np.hstack((arm.home, np.zeros(n))) + offsets
     begun = [judge.start("", one[:n], quat, one[n:], goal_p=tuple(p.tolist())) for one in states]
     limits = settings.limits(dt)._replace(ticks=1)
-    _, ends = run(find_contender(LAW), DAMPINGS[unit.selector], Springs(*stiffness, ZETA, 0), begun, limits, unit.arm)
+    law, damping, springs = find_contender(LAW), DAMPINGS[unit.selector], Springs(*stiffness, ZETA, 0)
+    _, ends = run(law, damping, springs, begun, limits, unit.arm, plant)
     tick = (ends[: 2 * n] - ends[2 * n :]).T / (2.0 * STEP)
     J = judge.jacobian(arm.home)
     J_inverse = np.linalg.pinv(J)
@@ -74,10 +88,16 @@ def compute_modes(P: np.ndarray, Q: np.ndarray) -> tuple[np.ndarray, np.ndarray]
     return omega, np.diag(psi @ Q @ phi) / (2.0 * omega)
 
 
-def compute_tick_map(P: np.ndarray, Q: np.ndarray, dt: float) -> np.ndarray:
-    """Compute the map of the hand's place and rate over one tick, 12 x 12."""
+def find_longest_tick(P: np.ndarray, Q: np.ndarray) -> float:
+    """Return the control period [s] above which some error grows, to a nanosecond."""
+    return bisect(lambda dt: compute_tick_radius(P, Q, dt) < 1.0, 0.0, 1.0, halvings=30)[0]
+
+
+def compute_tick_radius(P: np.ndarray, Q: np.ndarray, dt: float) -> float:
+    """Compute the greatest |eigenvalue| of the map, 12 x 12, of the hand's place and rate over one tick."""
     after = np.eye(6) - dt * Q
-    return np.block([[np.eye(6) - dt * dt * P, dt * after], [-dt * P, after]])
+    tick = np.block([[np.eye(6) - dt * dt * P, dt * after], [-dt * P, after]])
+    return float(np.abs(np.linalg.eigvals(tick)).max())
 
 
 EXPERIMENT = Experiment(

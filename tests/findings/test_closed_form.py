@@ -60,14 +60,6 @@ def test_settling_grows_by_the_slope_each_decade_near_the_half_turn():
     assert times[1] - times[0] == pytest.approx(closed_form.decade_slope(*PAPER), rel=1e-6)
 
 
-@pytest.mark.parametrize("short", [1e-12, 3.3e-7, 0.02, 0.7, 1.9, 3.0, 3.14])
-def test_settling_curve_is_within_a_thousandth_of_a_tick(short):
-    curve = closed_form.settling_curve(*PAPER, TOLERANCE)
-    assert float(curve(np.array(short))) == pytest.approx(
-        closed_form.settling(0.0, *PAPER, TOLERANCE, short=short), abs=1e-6
-    )
-
-
 SCIPYS = {
     "zyx-euler": lambda E: Turn.from_euler("ZYX", E),
     "xyz-euler": lambda E: Turn.from_euler("XYZ", E),

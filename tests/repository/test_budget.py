@@ -12,10 +12,10 @@ LINES = {
     "bench/audit": 2_275,
     "bench/base": 533,
     "bench/cli": 2_543,
-    "bench/engines": 6_400,
-    "bench/experiments": 5_142,
+    "bench/engines": 6_386,
+    "bench/experiments": 5_162,
     "bench/export": 2_040,
-    "bench/findings": 6_636,
+    "bench/findings": 6_613,
     "bench/law": 6_559,
     "bench/regression": 1_295,
     "bench/running": 2_523,
@@ -24,7 +24,7 @@ LINES = {
     "tests/cli": 755,
     "tests/conftest.py": 73,
     "tests/contracts": 2_513,
-    "tests/engines": 2_883,
+    "tests/engines": 2_873,
     "tests/experiments": 2_218,
     "tests/export": 315,
     "tests/findings": 2_138,
@@ -34,10 +34,10 @@ LINES = {
     "tests/repository": 519,
     "tests/running": 1_197,
     "tests/studies": 609,
-    "tests/support": 3_183,
+    "tests/support": 3_184,
     "tests/tasks": 1_893,
-    "report": 6_343,
-    "tasks": 5_218,
+    "report": 6_340,
+    "tasks": 5_236,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
 FILES = {"bench/audit": 42, "bench/experiments": 45, "bench/export": 19, "bench/law": 105, "tasks": 77}
@@ -47,7 +47,7 @@ TOO_LONG: dict[str, int] = {}
 """Files that are still longer, with their lines."""
 
 
-DATA = {"bench": 3_072, "report": 1_751, "tasks": 474, "tests": 955}
+DATA = {"bench": 3_073, "report": 1_751, "tasks": 477, "tests": 955}
 """Lines of text in other files than Python: what moves into them counts too. One new file may come on top."""
 SUFFIXES = (".toml", ".text", ".xml", ".js", ".c", ".html", ".css")
 

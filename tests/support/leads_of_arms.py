@@ -64,15 +64,16 @@ def recompute_flat():
 
 def recompute_impedance():
     rows = table("impedance-modes")
+    driven = rows["variation"] != "nominal"
+    franka = rows[driven & (rows["damping"] == "diagonal") & (rows["stiffness_n_m"] == 600)]["longest_dt_s"] * 1000
+    rows = rows[driven | (rows["arm"] != "panda")]
     felt = {name: own["ratio"] for name, own in rows.groupby("damping")}
     double = felt["double-diagonalization"]
-    lost = rows[rows["radius"] >= 1.0].groupby(["arm", "stiffness_n_m", "stiffness_nm_rad"]).size().index
     return {
         "felt_least": f"{felt['diagonal'].min():.2g}",
         "felt_most": f"{felt['diagonal'].max():.2g}",
         "double": f"{double.min():.3f} to {double.max():.3f}",
-        "tick": f"{1000 * table('impedance')['dt_s'].iloc[0]:g}",
-        "unstable": [part for arm, *pair in lost for part in (tasks.arm(arm).title, *pair)],
+        "practice_tick": f"{franka.min():.2g} to {franka.max():.2g}",
     }
 
 

@@ -9,9 +9,7 @@ Close to 180° phi = pi - theta grows as exp(r t) with r = sqrt(Kp + Kd^2/4) - K
 phi costs ln 10 / r.
 """
 
-import functools
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -20,9 +18,6 @@ from tasks.rules import RULES
 
 TIGHT = {"method": "DOP853", "rtol": 1e-11, "atol": 1e-15}
 """Errors of 1e-11 are far below a tick; atol is below the smallest start, pi - theta = 1e-12 rad."""
-
-CLOSEST, LINEAR_TO, FURTHEST = 1e-13, 1e-3, 1e-3
-"""rad of pi - angle (the last: of angle) between which the curve is computed; up to LINEAR_TO it is straight."""
 
 
 def linear(times: float | np.ndarray, kp: float, kv: float) -> np.ndarray:
@@ -70,22 +65,6 @@ def settling(angle: float, kp: float, kv: float, tolerance: float, short: float 
         lambda _, x: [x[1], kp * math.sin(x[0]) - kv * x[1]], (0.0, end), [short, 0.0], events=edge, **TIGHT
     )
     return float(leaving.t_events[0][-1])
-
-
-@functools.cache
-def settling_curve(kp: float, kv: float, tolerance: float) -> Callable[[np.ndarray], np.ndarray]:
-    """Return settling times as a function of many pi - angle [rad] at once, a cubic spline.
-
-    Its variable, log(tan((pi - angle)/4)), is the logarithm near 180° and linear in the angle near zero.
-    Within 1e-6 s of `settling`, a thousandth of a tick (tests/findings/test_closed_form.py).
-    """
-    from scipy.interpolate import CubicSpline
-
-    low, middle, high = (math.log(math.tan(short / 4.0)) for short in (CLOSEST, LINEAR_TO, math.pi - FURTHEST))
-    nodes = np.concatenate((np.linspace(low, middle, 40)[:-1], np.linspace(middle, high, 120)))
-    shorts = 4.0 * np.arctan(np.exp(nodes))
-    spline = CubicSpline(nodes, [settling(0.0, kp, kv, tolerance, short=one) for one in shorts])
-    return lambda short: spline(np.log(np.tan(short / 4.0)))
 
 
 def decade_slope(kp: float, kv: float) -> float:

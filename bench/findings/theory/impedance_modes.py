@@ -21,10 +21,7 @@ import tasks
 from bench.base.bisection import bisect
 from bench.engines.arm_episode import buffers
 from bench.law.control.unshaped import DAMPINGS
-from tasks.kinematics import kinematics
-
-HALVINGS = 30
-"""Halvings of a second: to a nanosecond."""
+from tasks.kinematics import Kinematics
 
 Stiffness = tuple[float, float]
 """Stiffness of translation [N/m] and of rotation [N m/rad]."""
@@ -37,10 +34,11 @@ class Hand(NamedTuple):
     friction: np.ndarray
 
 
-def hand_of(name: str) -> Hand:
+def hand_of(name: str, variation: str = "nominal") -> Hand:
     """Return the hand of an arm at its home."""
     arm = tasks.arm(name)
-    judge = kinematics(arm)
+    judge = Kinematics(arm)
+    tasks.variation(variation).apply(judge.model, arm.rated)
     J, friction = judge.jacobian(arm.home), np.diag(judge.model.dof_damping)
     by_joints = np.linalg.inv(judge.inertia_matrix(arm.home))
     return Hand(J @ by_joints @ J.T, J @ by_joints @ friction @ np.linalg.pinv(J))
@@ -51,17 +49,16 @@ def diagonal(stiffness: Stiffness) -> np.ndarray:
     return np.repeat(stiffness, 3)
 
 
-def hand_matrices(arm: str, damping: str, stiffness: Stiffness, zeta: float) -> tuple[np.ndarray, np.ndarray]:
+def hand_matrices(hand: Hand, damping: str, stiffness: Stiffness, zeta: float) -> tuple[np.ndarray, np.ndarray]:
     """Compute P = Lambda^-1 K [1/s^2] and Q = Lambda^-1 D and friction's [1/s], D of a design."""
-    hand, D = hand_of(arm), np.zeros((6, 6))
+    D = np.zeros((6, 6))
     DAMPINGS[damping].design(diagonal(stiffness), np.linalg.inv(hand.mobility), zeta, D, buffers(7).scratch)
     return hand.mobility * diagonal(stiffness), hand.mobility @ D + hand.friction
 
 
-def longest_tick(arm: str, damping: str, stiffness: Stiffness, zeta: float) -> float:
-    """Return the control period [s] above which the loop is unstable: 2/(D/Lambda) of the fastest pole or less."""
-    P, Q = hand_matrices(arm, damping, stiffness, zeta)
-    return bisect(lambda dt: compute_radius(P, Q, dt) < 1.0, 0.0, 1.0, HALVINGS)[0]
+def longest_tick(P: np.ndarray, Q: np.ndarray) -> float:
+    """Return the control period [s] above which the loop is unstable, to a nanosecond: 2/(D/Lambda) or less."""
+    return bisect(lambda dt: compute_radius(P, Q, dt) < 1.0, 0.0, 1.0, halvings=30)[0]
 
 
 def compute_modes(P: np.ndarray, Q: np.ndarray, mobility: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -83,13 +80,14 @@ def compute_radius(P: np.ndarray, Q: np.ndarray, dt: float) -> float:
 
 
 def with_theory(rows: pd.DataFrame) -> pd.DataFrame:
-    """Rows of impedance-modes.parquet with `omega_theory`, `ratio_theory` and `radius_theory`."""
-    keys, found = ["arm", "damping", "stiffness_n_m", "stiffness_nm_rad", "zeta", "dt_s"], []
+    """Rows of impedance-modes.parquet with theory's omega, ratio, radius and longest_dt_s: `omega_theory`, ..."""
+    keys, found = ["arm", "variation", "damping", "stiffness_n_m", "stiffness_nm_rad", "zeta", "dt_s"], []
     for key, group in rows.groupby(keys, observed=True, sort=False):
-        arm, damping, translation, rotation, zeta, dt = key
-        P, Q = hand_matrices(str(arm), str(damping), (translation, rotation), zeta)
-        omega, ratio = compute_modes(P, Q, hand_of(str(arm)).mobility)
-        radius = compute_radius(P, Q, dt)
-        places = group["mode"].to_numpy() - 1
-        found.append(group.assign(omega_theory=omega[places], ratio_theory=ratio[places], radius_theory=radius))
+        arm, variation, damping, translation, rotation, zeta, dt = key
+        hand = hand_of(str(arm), str(variation))
+        P, Q = hand_matrices(hand, str(damping), (translation, rotation), zeta)
+        omega, ratio = compute_modes(P, Q, hand.mobility)
+        places, more = group["mode"].to_numpy() - 1, {"longest_dt_s_theory": longest_tick(P, Q)}
+        more["radius_theory"] = compute_radius(P, Q, dt)
+        found.append(group.assign(omega_theory=omega[places], ratio_theory=ratio[places], **more))
     return pd.concat(found) if found else rows
