@@ -208,7 +208,7 @@ def axis(name: str) -> Axis:
 
 
 def variation_names() -> list[str]:
-    """Names of all variations of an arm's plant, `nominal` first."""
+    """Names of the variations that suites run, `nominal` first; MOTORS are for impedances alone."""
     return list(VARIATIONS)
 
 

@@ -3,7 +3,7 @@
     mass-s        D -> s D, and gravity and Coriolis torques with it, s in 0.70, 0.85, 1.15, 1.30
     links-k       D of links whose inertial parameters are s_i times the model's, s_i in [0.7, 1.3], drawn with seed k
     friction-p    dry friction in every joint, p per cent of its rated torque
-    motors-a      a kg m^2 of motor inertia in every joint, and the hand of the arm's file (run for impedances alone)
+    motors-a      a kg m^2 of motor inertia in every joint, and the hand of the arm's file; the controller knows both
 
 A factor multiplies the mass and inertia of a link and the reflected motor inertia of its joint; centres of mass and
 viscous damping stay. The controller is given the model as it was.

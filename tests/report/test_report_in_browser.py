@@ -90,14 +90,8 @@ def axe():
     return importlib.resources.files("axe_core_python").joinpath("axe.min.js").read_text(encoding="utf-8")
 
 
-@pytest.fixture(scope="module")
-def driver():
-    with screenshots.browser() as opened:
-        yield opened
-
-
 @pytest.fixture(scope="module", params=PAGES, ids=lambda page: page.stem)
-def seen(request, driver, axe):
+def seen(request, opened, axe):
     """What one page shows in two views, with all that it asked of the network and told the console, and its barriers.
 
     Each page is opened in one view, and then looked at in the other theme and width, as when a reader turns a phone
@@ -105,17 +99,17 @@ def seen(request, driver, axe):
     """
     turn = PAGES.index(request.param) % len(screenshots.VIEWS)
     first, second = screenshots.VIEWS[turn], screenshots.VIEWS[-1 - turn]
-    screenshots.open_page(driver, request.param, first)
-    facts = {first: driver.execute_script(FACTS)}
-    screenshots.look(driver, second)
-    screenshots.settle(driver)
-    facts[second] = driver.execute_script(FACTS)
-    told = screenshots.network_requests(driver), screenshots.console_errors(driver)
-    driver.execute_script(axe)
-    barriers = driver.execute_async_script(BARRIERS)
-    screenshots.look(driver, screenshots.View("light", PAPER_PIXELS), media="print")
-    cropped = driver.execute_script(CROPPED)
-    screenshots.look(driver, second)
+    screenshots.open_page(opened, request.param, first)
+    facts = {first: opened.execute_script(FACTS)}
+    screenshots.look(opened, second)
+    screenshots.settle(opened)
+    facts[second] = opened.execute_script(FACTS)
+    told = screenshots.network_requests(opened), screenshots.console_errors(opened)
+    opened.execute_script(axe)
+    barriers = opened.execute_async_script(BARRIERS)
+    screenshots.look(opened, screenshots.View("light", PAPER_PIXELS), media="print")
+    cropped = opened.execute_script(CROPPED)
+    screenshots.look(opened, second)
     return facts, *told, barriers, cropped
 
 
@@ -167,19 +161,19 @@ FOOT = "return document.querySelector(arguments[0]).getBoundingClientRect().bott
 @pytest.mark.parametrize(
     ("width", "height", "last"), [(1280, 900, ".answer .next"), (390, 844, ".answer pre span")], ids=["wide", "phone"]
 )
-def test_front_page_answers_on_its_first_screen(driver, width, height, last):
-    screenshots.open_page(driver, screenshots.SITE / "index.html", screenshots.View("light", width))
-    assert 0 < driver.execute_script(FOOT, last) <= height
+def test_front_page_answers_on_its_first_screen(opened, width, height, last):
+    screenshots.open_page(opened, screenshots.SITE / "index.html", screenshots.View("light", width))
+    assert 0 < opened.execute_script(FOOT, last) <= height
 
 
-def test_ten_chapters_stay_short(driver):
+def test_ten_chapters_stay_short(opened):
     chapters = [page for page in PAGES if page.parent.name == "pages" and page.stem[:2].isdigit()]
     count = "return [document.querySelector('main').scrollHeight, ...['table', 'figure'].map(x => "
     count += "document.querySelectorAll(`article ${x}`).length)]"
     sizes = []
     for page in chapters:
-        screenshots.open_page(driver, page, screenshots.View("light", 1280))
-        sizes.append(driver.execute_script(count))
+        screenshots.open_page(opened, page, screenshots.View("light", 1280))
+        sizes.append(opened.execute_script(count))
     pixels, tables, figures = map(sum, zip(*sizes, strict=True))
     assert len(chapters) == 10
     assert pixels <= 40 * screenshots.HEIGHT
@@ -188,10 +182,10 @@ def test_ten_chapters_stay_short(driver):
 
 
 @pytest.mark.parametrize("words", ["180", "gimbal lock", "install"])
-def test_search_from_a_file_finds_pages_without_an_error(words):
+def test_search_from_a_file_finds_pages_without_an_error(opened, words):
     from selenium.webdriver.support.wait import WebDriverWait
 
-    with screenshots.browser() as driver:
-        driver.get(f"{(screenshots.SITE / 'search.html').as_uri()}?q={words}")
-        WebDriverWait(driver, 20).until(lambda _: driver.find_elements("css selector", "#search-results li a"))
-        assert not [line for line in driver.get_log("browser") if "rror" in line["message"]]
+    screenshots.console_errors(opened)
+    opened.get(f"{(screenshots.SITE / 'search.html').as_uri()}?q={words}")
+    WebDriverWait(opened, 20).until(lambda _: opened.find_elements("css selector", "#search-results li a"))
+    assert not [line for line in opened.get_log("browser") if "rror" in line["message"]]
