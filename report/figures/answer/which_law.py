@@ -72,7 +72,7 @@ def describe_ours() -> str:
         said.append(
             f"We do not advise our own law, {families.word(law)} (2026, simulation only, not reviewed): in "
             f"{100 * (1 - ties):.0f} % of the situations a published law beats it, and in {100 * beats:.0f} % it beats "
-            "the advised law."
+            "the law advised there."
         )
     return " ".join(said)
 
