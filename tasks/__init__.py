@@ -40,7 +40,7 @@ from tasks.condition import known_axes
 from tasks.contact import ContactTask
 from tasks.discovery import constants, pick
 from tasks.errors import BadValue, UnknownName
-from tasks.variations import MOTORS, VARIATIONS, Variation
+from tasks.variations import VARIATIONS, Variation
 
 if TYPE_CHECKING:
     import mujoco
@@ -207,14 +207,15 @@ def axis(name: str) -> Axis:
     return pick("axis", name, known_axes(), "tasks/conditions")
 
 
-def variation_names() -> list[str]:
-    """Names of the variations that suites run, `nominal` first; MOTORS are for impedances alone."""
-    return list(VARIATIONS)
+def variation_names(arm: str = "") -> list[str]:
+    """Names of all variations, `nominal` first; of an arm those that it has: not every one states a range of motors."""
+    has_range = not arm or bool(_find_arm(arm).motors)
+    return [name for name in VARIATIONS if has_range or not name.startswith("motors-")]
 
 
 def variation(name: str) -> Variation:
     """Return the variation of this name; UnknownName lists the known ones."""
-    return pick("variation", name, VARIATIONS | MOTORS, "tasks/variations.py")
+    return pick("variation", name, VARIATIONS, "tasks/variations.py")
 
 
 def contact_names() -> list[str]:

@@ -17,6 +17,7 @@ import numpy as np
 
 from tasks.arm_model import Arm, model_xml
 from tasks.errors import BadArm
+from tasks.variations import numbers_of
 
 FEWEST, MOST = 6, 7  # fewer joints cannot hold a position and turn freely; the inverses' buffers end at seven
 
@@ -49,7 +50,10 @@ def checked(name: str, xml: str) -> Arm:
         upper=tuple(map(float, np.where(limited, model.jnt_range[:, 1], math.inf))),
         rated=tuple(map(float, model.actuator_ctrlrange[:, 1])),
         poses=poses,
+        motors=_numbers(name, model, "motors", 3),
+        gains=_numbers(name, model, "gains", 2),
     )
+    _numbers(name, model, "hand", 7)
     for i, (low, angle, high) in enumerate(zip(arm.lower, arm.home, arm.upper, strict=True)):
         if not low <= angle <= high:
             joint = model.joint(i).name
@@ -81,6 +85,17 @@ def _text(name: str, root: ElementTree.Element, key: str) -> str:
     if not text:
         _refuse(name, f"it does not say its {key}", f'add <custom><text name="{key}" data="..."/></custom>')
     return text
+
+
+def _numbers(name: str, model: mujoco.MjModel, key: str, count: int) -> tuple[float, ...]:
+    """Return the numbers of a <numeric>, none if it is not there; those of "motors" grow."""
+    data = numbers_of(model, key)
+    if data is None:
+        return ()
+    found = tuple(map(float, data))
+    if len(found) != count or found[0] <= 0.0 or (key == "motors" and list(found) != sorted(found)):
+        _refuse(name, f"its {key} are {found}", f"give {count} numbers, the first above 0; motors in ascending order")
+    return found
 
 
 def _check_chain(name: str, model: mujoco.MjModel) -> None:

@@ -23,8 +23,10 @@ class Arm(NamedTuple):
     home: tuple[float, ...]  # the keyframe "home"
     lower: tuple[float, ...]  # ends of the joint ranges, -inf and inf where there are none
     upper: tuple[float, ...]
-    rated: tuple[float, ...]  # rated torque [N m]: a rule's business, the plant never clips
+    rated: tuple[float, ...]  # rated torque [N m], at which motors are cut but in the variation ideal-motors
     poses: tuple[tuple[str, tuple[float, ...]], ...] = ()  # every keyframe: (name, joint angles)
+    motors: tuple[float, ...] = ()  # least, usual and greatest motor inertia [kg m^2]; none: it is known, and in xml
+    gains: tuple[float, ...] = ()  # kp [1/s^2] and damping ratio of a controller that is shipped for it; none: unknown
 
     @property
     def joints(self) -> int:

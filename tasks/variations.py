@@ -1,12 +1,16 @@
-"""Variations: how the plant differs from the arm that its controller computes with.
+"""Variations: how the plant differs from the ideal arm, and from the arm that its controller computes with.
 
+    nominal       the arm as it is: motors cut at the rated torque, stops at the ends of joint ranges, the hand of the
+                  arm's file (<numeric name="hand" data="m x y z Ixx Iyy Izz"/>) and its usual motor inertia
+    ideal-motors  the paper's assumption: no torque is too large; no stops, no hand, motor inertia as in the file
+    motors-low, motors-high  the nominal arm with the least and the greatest motor inertia that its file states
     mass-s        D -> s D, and gravity and Coriolis torques with it, s in 0.70, 0.85, 1.15, 1.30
     links-k       D of links whose inertial parameters are s_i times the model's, s_i in [0.7, 1.3], drawn with seed k
     friction-p    dry friction in every joint, p per cent of its rated torque
-    motors-a      a kg m^2 of motor inertia in every joint, and the hand of the arm's file; the controller knows both
 
+The controller knows hand and motors. In the last three it computes with the nominal arm, of which they differ.
 A factor multiplies the mass and inertia of a link and the reflected motor inertia of its joint; centres of mass and
-viscous damping stay. The controller is given the model as it was.
+viscous damping stay.
 
 Dry friction is MuJoCo's frictionloss: up to that torque a joint resists motion. Its solver softens the constraint: a
 joint of inertia m that should stay where it is creeps under a torque F at
@@ -26,6 +30,8 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 if TYPE_CHECKING:
     import mujoco
 
@@ -41,6 +47,16 @@ class Variation(NamedTuple):
     apply: Callable[[mujoco.MjModel, Sequence[float]], None]
     """apply(model, rated): changes a compiled model of an arm in place; rated torques [N m]. For a fresh model, once,
     before its data are made."""
+    believed: str = ""
+    """The variation that the controller's model is; empty: this one."""
+
+
+def numbers_of(model: mujoco.MjModel, name: str) -> np.ndarray | None:
+    """Return the data of a <numeric> of this name, None if the model has none."""
+    import mujoco
+
+    found = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_NUMERIC, name)
+    return None if found < 0 else np.array(model.numeric(found).data)
 
 
 def _nothing(model: mujoco.MjModel, rated: Sequence[float]) -> None:
@@ -78,36 +94,51 @@ def _rub(percent: float, model: mujoco.MjModel, rated: Sequence[float]) -> None:
         model.dof_solimp[i, :2] = IMPEDANCE
 
 
-def _drive(armature: float, model: mujoco.MjModel, rated: Sequence[float]) -> None:
-    """Give joints motor inertia, and the body "tool" the file's <numeric name="hand" data="m x y z Ixx Iyy Izz"/>."""
+def _build(motors: int, model: mujoco.MjModel, rated: Sequence[float]) -> None:
+    """Cut motors at their rating, stop joints at their ends, and mount the hand; motors: which of the file's three."""
     import mujoco
 
-    body, hand = model.body("tool").id, model.numeric("hand").data
-    model.dof_armature[:] += armature
-    model.body_mass[body], model.body_ipos[body], model.body_inertia[body] = hand[0], hand[1:4], hand[4:]
-    model.body_iquat[body], model.body_sameframe[body] = (1.0, 0.0, 0.0, 0.0), 0  # axes of the body, not its origin
+    model.actuator_ctrllimited[:] = 1
+    model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_LIMIT)
+    armature, hand = numbers_of(model, "motors"), numbers_of(model, "hand")
+    if armature is not None:
+        model.dof_armature[:] = armature[motors]
+    if hand is not None:
+        body = model.body("tool").id
+        model.body_mass[body], model.body_ipos[body], model.body_inertia[body] = hand[0], hand[1:4], hand[4:]
+        model.body_iquat[body], model.body_sameframe[body] = (1.0, 0.0, 0.0, 0.0), 0  # the body's axes, not its origin
     mujoco.mj_setConst(model, mujoco.MjData(model))
 
 
-MOTORS = {
-    (name := f"motors-{one:g}"): Variation(name, f"With hand, and motors of {one:g} kg m^2", partial(_drive, one))
-    for one in (0.02, 0.1, 0.2)
-}
-"""Franka publishes no motor inertia. MuJoCo Menagerie has 0.1 for the Panda (1b428b08), and 0.195 and 0.074 for its
-successor, the FR3 (0059d433); the range goes from a fifth of 0.1 to twice it."""
+LOW, USUAL, HIGH = range(3)
+
+
+def _differing(name: str, title: str, change: Callable[[mujoco.MjModel, Sequence[float]], None]) -> Variation:
+    """Return the nominal arm, changed; its controller believes the nominal one."""
+
+    def apply(model: mujoco.MjModel, rated: Sequence[float]) -> None:
+        _build(USUAL, model, rated)
+        change(model, rated)
+
+    return Variation(name, title, apply, "nominal")
+
+
 VARIATIONS = {
     variation.name: variation
     for variation in (
-        Variation("nominal", "The controller's model is exact", _nothing),
-        Variation("mass-0.70", "Links and rotors 30 % lighter than the model", partial(_scale_all, 0.70)),
-        Variation("mass-0.85", "Links and rotors 15 % lighter than the model", partial(_scale_all, 0.85)),
-        Variation("mass-1.15", "Links and rotors 15 % heavier than the model", partial(_scale_all, 1.15)),
-        Variation("mass-1.30", "Links and rotors 30 % heavier than the model", partial(_scale_all, 1.30)),
-        Variation("links-1", "Each link up to 30 % lighter or heavier, first draw", partial(_scale_links, 1)),
-        Variation("links-2", "Each link up to 30 % lighter or heavier, second draw", partial(_scale_links, 2)),
-        Variation("links-3", "Each link up to 30 % lighter or heavier, third draw", partial(_scale_links, 3)),
-        Variation("friction-2", "Dry friction, 2 % of each rated torque", partial(_rub, 2.0)),
-        Variation("friction-5", "Dry friction, 5 % of each rated torque", partial(_rub, 5.0)),
-        Variation("friction-10", "Dry friction, 10 % of each rated torque", partial(_rub, 10.0)),
+        Variation("nominal", "Motors cut at their rating, joints with stops; exact model", partial(_build, USUAL)),
+        Variation("ideal-motors", "No torque is too large, no joint ends: the paper's assumption", _nothing),
+        Variation("motors-low", "The least motor inertia of the arm's file", partial(_build, LOW)),
+        Variation("motors-high", "The greatest motor inertia of the arm's file", partial(_build, HIGH)),
+        _differing("mass-0.70", "Links and rotors 30 % lighter than the model", partial(_scale_all, 0.70)),
+        _differing("mass-0.85", "Links and rotors 15 % lighter than the model", partial(_scale_all, 0.85)),
+        _differing("mass-1.15", "Links and rotors 15 % heavier than the model", partial(_scale_all, 1.15)),
+        _differing("mass-1.30", "Links and rotors 30 % heavier than the model", partial(_scale_all, 1.30)),
+        _differing("links-1", "Each link up to 30 % lighter or heavier, first draw", partial(_scale_links, 1)),
+        _differing("links-2", "Each link up to 30 % lighter or heavier, second draw", partial(_scale_links, 2)),
+        _differing("links-3", "Each link up to 30 % lighter or heavier, third draw", partial(_scale_links, 3)),
+        _differing("friction-2", "Dry friction, 2 % of each rated torque", partial(_rub, 2.0)),
+        _differing("friction-5", "Dry friction, 5 % of each rated torque", partial(_rub, 5.0)),
+        _differing("friction-10", "Dry friction, 10 % of each rated torque", partial(_rub, 10.0)),
     )
 }

@@ -8,7 +8,7 @@ from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
 from bench.cli.screen import console, counted, shown_path
 from bench.experiments.experiment import Unit
 from bench.experiments.plan import Plan
-from bench.experiments.suites import NOMINAL
+from bench.experiments.suites import IDEAL_MOTORS, NOMINAL
 from bench.running.schedulers import THREADS
 
 LAW, CONTROLLER, ARM = ("", "contender", "law"), ("", "contender", "controller"), (" on ", "arm", "arm")
@@ -24,6 +24,8 @@ PARTS = {
 Of other experiments the name is said.
 """
 
+USUAL = ("", NOMINAL, IDEAL_MOTORS)
+"""Variations that are not named."""
 FEW = 3
 """Names up to this number are printed, more are counted."""
 
@@ -49,8 +51,8 @@ def _sizes(plan: Plan) -> list[Paragraph]:
     for name, (head, word, counts) in PARTS.items():
         units = plan.of(name)
         what = "".join(f"{before}{_few(units, field, one)}" for before, field, one in counts)
-        varied = [unit for unit in units if unit.variation not in ("", NOMINAL)]
-        what += f", {_few(varied, 'variation', 'model error')}" if varied else ""
+        varied = [unit for unit in units if unit.variation not in USUAL]
+        what += f", {_few(varied, 'variation', 'other plant')}" if varied else ""
         if units:
             found.append(Paragraph(head, (f"{counted(sum(unit.episodes for unit in units), word)}: {what}",)))
     others = dict.fromkeys(unit.experiment for unit in plan.units if unit.experiment not in PARTS)
@@ -83,7 +85,7 @@ def print_all(plan: Plan) -> None:
     for unit in plan.of(*PARTS):
         what = unit.task if unit.experiment == "contact" else unit.selector
         place = ", ".join(filter(None, (unit.experiment, unit.engine, unit.arm)))
-        varied = "" if unit.variation in ("", NOMINAL) else " with model errors"
+        varied = "" if unit.variation in USUAL else " of other plants"
         sizes.setdefault(place, {}).setdefault(what + varied, Counter())[unit.contender] += unit.episodes
     for place, sets in sizes.items():
         each = counted(len(set().union(*sets.values())), "contender")

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+import tasks
 from bench.engines.arrays import Seven
 from bench.engines.episode import Metrics, Starts, blank
 from bench.law.chain import Scratch
@@ -66,13 +67,14 @@ class Controls(NamedTuple):
 
     rows of the Jacobian; gives_torque by the inverse (`resolved_acceleration.BY_JOINT`); has_own_model: 0 if the
     controller's model is the plant, 1 if it is another in the plant's state, STANDING if its joints stand still there,
-    so that its torques are gravity's alone.
+    so that its torques are gravity's alone. is_cut: 1 if the plant's motors give no more than their rated torque.
     """
 
     rows: int
     gives_torque: int
     has_own_model: int
     torque_limit_squared: float
+    is_cut: int
 
 
 class Joints(NamedTuple):
@@ -87,10 +89,11 @@ class Joints(NamedTuple):
     inertia: Seven
 
 
-def controls(contender: Contender, has_own_model: bool, torque_limit: float) -> Controls:
-    """Return the numbers of a contender on an arm."""
+def controls(contender: Contender, has_own_model: bool, torque_limit: float, plant: Any) -> Controls:
+    """Return the numbers of a contender on an arm; plant: MuJoCo's model of it."""
     gives = GIVES[contender.inverse.gives] if contender.inverse else 0
-    return Controls(contender.rows, gives, STANDING if gives == BY_JOINT else int(has_own_model), torque_limit**2)
+    own = STANDING if gives == BY_JOINT else int(has_own_model)
+    return Controls(contender.rows, gives, own, torque_limit**2, int(plant.actuator_ctrllimited.any()))
 
 
 def states(starts: Starts, n: int) -> np.ndarray:
@@ -100,16 +103,17 @@ def states(starts: Starts, n: int) -> np.ndarray:
     return np.array(rows, dtype=float).reshape(len(rows), 3 * n + 3)
 
 
-def joints(arm: Arm) -> Joints:
-    """Return the numbers of an arm's joints."""
-    from tasks.kinematics import kinematics  # MuJoCo takes a moment to import; the ideal plant needs none
+def joints(arm: Arm, variation: str) -> Joints:
+    """Return the numbers of an arm's joints; variation: the controller's model."""
+    from tasks.kinematics import Kinematics  # MuJoCo takes a moment to import; the ideal plant needs none
 
-    missing = MOST - arm.joints
+    judge, missing = Kinematics(arm), MOST - arm.joints
+    tasks.variation(variation).apply(judge.model, arm.rated)
     return Joints(
         (*map(float, arm.lower), *[-math.inf] * missing),
         (*map(float, arm.upper), *[math.inf] * missing),
         (*map(float, arm.rated), *[1.0] * missing),
-        (*kinematics(arm).inertia_matrix(arm.home).diagonal().tolist(), *[0.0] * missing),
+        (*judge.inertia_matrix(arm.home).diagonal().tolist(), *[0.0] * missing),
     )
 
 
@@ -123,6 +127,16 @@ def buffers(n: int, dtype: Any = float) -> Buffers:
 def blank_arm(count: int, metrics: Metrics) -> np.ndarray:
     """Rows to be filled: metrics at their start values, and no pose yet."""
     return blank(count, metrics, (math.inf, *[math.nan] * MOST))
+
+
+@kernel
+def cut(tau, rated, n):
+    """Cut torques to what motors are rated for; one that is not a number stays."""
+    for i in range(n):
+        if tau[i] > rated[i]:
+            tau[i] = rated[i]
+        elif tau[i] < -rated[i]:
+            tau[i] = -rated[i]
 
 
 @kernel

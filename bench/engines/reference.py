@@ -57,17 +57,23 @@ def run_arm(
     """Return rows of an arm, one a start; see `arm_episode` for the columns."""
     rows, begun, limits, of_arm = blank_arm(len(starts), metrics), start_rows(starts), numbers(settings), tasks.arm(arm)
     laws = assembly(parts_for(contender)), contender.inverse.resolve, margin_of(contender)
-    is_varied, loop = variation != "nominal", on_arm.loop_of(observer(metrics))
-    own = is_varied or contender.inverse.gives == "joint-torque"
-    vary = (lambda model: tasks.variation(variation).apply(model, of_arm.rated)) if is_varied else None
+    loop, one = on_arm.loop_of(observer(metrics)), tasks.variation(variation)
+    believes = one.believed or variation
+
+    def vary(model: Any) -> None:
+        one.apply(model, of_arm.rated)
+
     with np.errstate(all="ignore"):
         for start, line, row in zip(starts, begun, rows, strict=True):
             sim = plain_view(_reset(task, start, limits, integrator, arm=arm, vary=vary))
-            model = mujoco.MjModel.from_xml_string(tasks.task(task, arm).xml(limits.dt)) if own else None
-            believed = model_view(model, mujoco.MjData(model)) if model else sim
-            shape = controls(contender, own, settings.torque_limit)
-            states = states_of([start], of_arm.joints)
-            world = on_arm.World(sim, states, believed, on_arm.work(of_arm.joints), shape, joints(of_arm))
+            shape = controls(contender, bool(one.believed), settings.torque_limit, sim.model)
+            believed = sim
+            if shape.has_own_model:
+                model = mujoco.MjModel.from_xml_string(tasks.task(task, arm).xml(limits.dt))
+                tasks.variation(believes).apply(model, of_arm.rated)
+                believed = model_view(model, mujoco.MjData(model))
+            states, hinges = states_of([start], of_arm.joints), joints(of_arm, believes)
+            world = on_arm.World(sim, states, believed, on_arm.work(of_arm.joints), shape, hinges)
             _run(loop, laws, world, contender, line, limits, row)
     return rows
 

@@ -9,7 +9,7 @@ import numpy as np
 
 import tasks
 from bench.engines import reference
-from bench.engines.arm_episode import STANDING, blank_arm, controls, joints, states
+from bench.engines.arm_episode import blank_arm, controls, joints, states
 from bench.engines.binding import margin_of, memory_of, parts_for
 from bench.engines.compiled import (
     ASSEMBLE,
@@ -36,15 +36,15 @@ from bench.law.kinds import Impedance
 from tasks.arm_model import Arm
 from tasks.velocity import servo
 
-NOMINAL = "nominal"
-"""The variation in which the controller's model is the plant."""
+IDEAL_MOTORS = "ideal-motors"
+"""The variation of the plant that the paper assumes."""
 ARM_TASK = "arm-regulation"
 ENGINES = ("native", "reference")
 
 
 def run_arm(
     engine: str, contender: Contender, task: str, arm: str, starts: Starts, settings: Settings, metrics: Metrics,
-    integrator: str = "euler", variation: str = NOMINAL, curves: Curves | None = None,
+    integrator: str = "euler", variation: str = IDEAL_MOTORS, curves: Curves | None = None,
 ) -> np.ndarray:  # fmt: skip
     """Rows of `engines.arm_episode`, one per start.
 
@@ -63,19 +63,25 @@ def run_arm(
 
 def arm_world(
     contender: Contender, task: str, arm: str, starts: Starts, settings: Settings, integrator: str,
-    variation: str = NOMINAL,
+    variation: str = IDEAL_MOTORS,
 ) -> tuple[list, on_arm.World]:  # fmt: skip
     """Return the models of one arm, the plant and the controller's if it is another one, and the world of the loop."""
-    one = tasks.arm(arm)
-    has_own = variation != NOMINAL or controls(contender, False, 1.0).has_own_model == STANDING
-    sims = [_simulation(task, one, settings.dt_s, integrator, name) for name in (variation, NOMINAL)[: 1 + has_own]]
-    kept, views = [sim[:2] for sim in sims], [compiled_view(*sim) for sim in sims]
-    shape = controls(contender, has_own, settings.torque_limit)
-    world = on_arm.World(views[0], states(starts, one.joints), views[-1], on_arm.work(one.joints), shape, joints(one))
-    return kept, world
+    one, believed = tasks.arm(arm), tasks.variation(variation).believed
+    plant = _simulation(task, one, settings.dt_s, integrator, variation)
+    shape = controls(contender, bool(believed), settings.torque_limit, plant[0])
+    own = _simulation(task, one, settings.dt_s, integrator, believed or variation) if shape.has_own_model else plant
+    world = on_arm.World(
+        compiled_view(*plant),
+        states(starts, one.joints),
+        compiled_view(*own),
+        on_arm.work(one.joints),
+        shape,
+        joints(one, believed or variation),
+    )
+    return [plant, own], world
 
 
-def _simulation(task: str, arm: Arm, dt_s: float, integrator: str = "euler", variation: str = NOMINAL) -> tuple:
+def _simulation(task: str, arm: Arm, dt_s: float, integrator: str = "euler", variation: str = IDEAL_MOTORS) -> tuple:
     model = _model(task, arm, dt_s, integrator, variation)
     return model, mujoco.MjData(model)
 
@@ -84,8 +90,7 @@ def _simulation(task: str, arm: Arm, dt_s: float, integrator: str = "euler", var
 def _model(task: str, arm: Arm, dt_s: float, integrator: str, variation: str) -> mujoco.MjModel:
     """Return a model that many simulations may share: stepping does not change it."""
     model = model_of(tasks.task(task, arm.name).xml(dt_s), integrator)
-    if variation != NOMINAL:
-        tasks.variation(variation).apply(model, arm.rated)
+    tasks.variation(variation).apply(model, arm.rated)
     return skip_constraints(model)
 
 
@@ -146,7 +151,7 @@ def prepare_velocity(contender: Contender, limits: Iterable[Callable]) -> None:
 
 def run_impedance(
     law: Contender, damping: Impedance, springs: Springs, starts: Starts, settings: Settings, arm: str,
-    variation: str = NOMINAL,
+    variation: str = IDEAL_MOTORS,
 ) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
     """Rows of `plants.impedance`, and q and qdot at the end, one per start.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from collections.abc import Iterable, Iterator
 
 import tasks
@@ -13,9 +14,10 @@ from bench.experiments.choice import Choice
 from bench.experiments.episode_rows import TABLE
 from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit
 from bench.experiments.rounding import judged_beside
-from bench.experiments.suites import AT_INVERSES, BY_WORD_ALONE, NOMINAL, OnArms
+from bench.experiments.suites import AT_INVERSES, BY_WORD_ALONE, IDEAL_MOTORS, NOMINAL, SLOW, OnArms
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
+from tasks.arm_model import Arm
 
 MOST = {"native": 100, "reference": 2}
 """Episodes a unit at most, as on the free body."""
@@ -38,26 +40,27 @@ def units(asked: Asked) -> tuple[Unit, ...]:
         fitting = tasks.described(task).start_sets
         is_meant = any(part.start_set in fitting for part in slices)
         for arm in (asked.choice.arms or tasks.arm_names()) if is_meant else ():  # one is read by MuJoCo
-            for part, one, variation in _on_arm(asked.suite.on_arms, asked.laws, tasks.arm(arm).joints, asked.choice):
+            for part, one, *way in _on_arm(asked.suite.on_arms, asked.laws, tasks.arm(arm), asked.choice):
                 if (
                     part.start_set in fitting
                     and episodes.runs_on(part.engine, task, one)
                     and _knows(one, part.start_set)
                 ):
-                    places.append(episodes.Place(part, one, task, arm, variation))
+                    places.append(episodes.Place(part, one, task, arm, *way))
     if every_task and not places and asked.choice.is_about_arms:
         _check_combinations(asked)
     return tuple(episodes.cut("arm", places, asked, MOST))
 
 
-def _on_arm(on_arms: OnArms, laws: Iterable[Contender], joints: int, choice: Choice) -> Iterator[tuple]:
-    """(slice, contender, variation) of everything on one arm."""
-    by_name = {one.name: one for one in laws}
+def _on_arm(on_arms: OnArms, laws: Iterable[Contender], arm: Arm, choice: Choice) -> Iterator[tuple]:
+    """(slice, contender, variation, gains if not the settings') of everything on one arm."""
+    by_name, joints = {one.name: one for one in laws}, arm.joints
     slices = episodes.narrowed(on_arms.slices, choice)
-    variations = choice.variations or (NOMINAL,)
     is_by_suite = not (choice.variations or choice.jacobians or choice.inverses)
+    is_whole = is_by_suite and not choice.narrows
+    variations = choice.variations or (IDEAL_MOTORS if is_whole else NOMINAL,)
     few: set[Contender] = set()
-    if is_by_suite and not choice.narrows:
+    if is_whole:
         usual = tuple(word for word in on_arms.words if word not in on_arms.few)  # on seven joints some are the same
         few = {*combinations.on(on_arms.few, by_name, joints)} - {*combinations.on(usual, by_name, joints)}
     every = combinations.chosen(on_arms.words, by_name, joints, choice.jacobians, choice.inverses, BY_WORD_ALONE)
@@ -67,12 +70,27 @@ def _on_arm(on_arms: OnArms, laws: Iterable[Contender], joints: int, choice: Cho
         for part in slices:
             for variation in variations if one not in few or part.start_set in AT_INVERSES else ():
                 yield part, one, variation
-    if on_arms.varied and is_by_suite and not choice.narrows:
+    if is_whole:
+        yield from _as_it_is(on_arms, by_name, arm, choice)
         for one in combinations.on(on_arms.varied, by_name, joints):
             for part in on_arms.varied_slices:
-                for variation in tasks.variation_names():
-                    if variation != NOMINAL:
+                for variation in tasks.variation_names(arm.name):
+                    if tasks.variation(variation).believed:
                         yield part, one, variation
+
+
+def _as_it_is(on_arms: OnArms, by_name: dict[str, Contender], arm: Arm, choice: Choice) -> Iterator[tuple]:
+    """(slice, contender, variation, gains) of the compared laws, the user's and the baselines, on the arm as it is."""
+    own = tuple(f"{name}@geometric+standard" for name, one in by_name.items() if one.regulator.origin)
+    levels = [(kp, 2.0 * zeta * math.sqrt(kp)) for kp, zeta in (SLOW, arm.gains)[: 1 + bool(arm.gains)]]
+    motors = [name for name in tasks.variation_names(arm.name) if name.startswith("motors-")]
+    laws = combinations.on((*on_arms.compared, *own), by_name, arm.joints)
+    for one in (*laws, *(combinations.baselines(arm.joints) if not choice.is_of_some_laws else ())):
+        for part in on_arms.compared_slices:
+            yield part, one, NOMINAL
+        for part in on_arms.other_slices:
+            yield from ((part, one, NOMINAL, gains) for gains in levels)
+            yield from ((part, one, name) for name in motors)
 
 
 def _knows(one: Contender, start_set: str) -> bool:

@@ -18,7 +18,7 @@ from bench.experiments import starts
 from bench.experiments.choice import Choice
 from bench.experiments.episode_rows import frame, lost_frame
 from bench.experiments.experiment import Asked, Settings, Unit
-from bench.experiments.suites import HORIZON, NOMINAL, ON_ARM, SHORT, Slice
+from bench.experiments.suites import HORIZON, IDEAL_MOTORS, NOMINAL, ON_ARM, SHORT, Slice
 from bench.law.contender import Contender
 from tasks.base import Start
 
@@ -34,6 +34,7 @@ class Place(NamedTuple):
     task: str
     arm: str = ""
     variation: str = NOMINAL
+    gains: tuple[float, float] = (0.0, 0.0)
 
 
 def tasks_of(asked: Asked) -> tuple[str, ...]:
@@ -68,7 +69,7 @@ def narrowed(slices: tuple[Slice, ...], choice: Choice) -> tuple[Slice, ...]:
 def cut(experiment: str, places: list[Place], asked: Asked, most: dict[str, int]) -> Iterator[Unit]:
     """Return the units of places, of at most so many episodes each by engine."""
     number = functools.cache(lambda word, size, arm: starts.count_of(word, size, asked.seed, arm))
-    for part, one, task, arm, variation in places:
+    for part, one, task, arm, variation, gains in places:
         total, step = number(part.start_set, asked.count or part.size, arm), most[part.engine]
         for first in range(0, total, step):
             count = min(step, total - first)
@@ -85,6 +86,7 @@ def cut(experiment: str, places: list[Place], asked: Asked, most: dict[str, int]
                 total,
                 count,
                 asked.horizon_s or part.horizon_s,
+                *gains,
             )
 
 
@@ -124,7 +126,7 @@ def simulate(settings: Settings, unit: Unit, some: list[Start], horizon_s: float
     if unit.arm:
         from bench.engines.simulate_arms import run_arm
 
-        given = (some, limits, metrics, settings.integrator, unit.variation or NOMINAL, curves)
+        given = (some, limits, metrics, settings.integrator, unit.variation or IDEAL_MOTORS, curves)
         return run_arm(unit.engine, one, unit.task, unit.arm, *given)
     from bench.engines.simulate import run
 

@@ -63,7 +63,7 @@ class Unit:
 
     selector: which starts: a start set, a perturbation, or "dense" of a task in contact. first, count: the stretch of
     them that is meant, in starts, poses or axes; total: of so many. episodes: how many are run, of those that progress
-    is counted in.
+    is counted in. kp, kv: gains of its own; 0: those of the settings.
     """
 
     experiment: str
@@ -78,13 +78,16 @@ class Unit:
     total: int = 0
     episodes: int = 0
     horizon_s: float = 0.0
+    kp: float = 0.0
+    kv: float = 0.0
 
     @property
     def key(self) -> str:
         """Return a name for a file."""
         law = self.contender.replace("/", "~")
         words = (self.experiment, self.engine, law, self.task, self.arm, self.variation, self.selector)
-        return "_".join((*filter(None, words), f"{self.first:06d}"))
+        gains = f"kp{self.kp:g}-{self.kv:g}" if self.kp else ""
+        return "_".join((*filter(None, (*words, gains)), f"{self.first:06d}"))
 
     @property
     def law(self) -> str:
@@ -211,7 +214,8 @@ def experiment_of(unit: Unit) -> Experiment:
 
 def rows_of(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return the rows of a unit."""
-    return pd.DataFrame(experiment_of(unit).rows(settings, unit))
+    gains = Gains(unit.kp, unit.kv) if unit.kp else settings.gains
+    return pd.DataFrame(experiment_of(unit).rows(settings._replace(gains=gains), unit))
 
 
 def own_last(units: list[Unit], own: tuple[Law, ...]) -> tuple[Unit, ...]:

@@ -18,10 +18,8 @@ from bench.base.bisection import bisect
 from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.impedance import LAW, STIFFNESSES, ZETA, Stiffness, prepare, setting_columns, units_on_arms
-from bench.experiments.suites import NOMINAL
 from bench.law.contenders.registry import find_contender
 from bench.law.control.unshaped import DAMPINGS
-from tasks.variations import MOTORS
 
 NAME = "impedance-modes"
 
@@ -40,15 +38,11 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     return units_on_arms(asked, NAME)
 
 
-def list_plants(arm: str) -> tuple[str, ...]:
-    """Return the arm as its file has it, and with a hand and motors if its file has a hand."""
-    return NOMINAL, *(MOTORS if '<numeric name="hand"' in tasks.arm(arm).xml else ())
-
-
 def rows(settings: Settings, unit: Unit) -> list[dict]:
     """Return one row a mode."""
+    plants = [name for name in tasks.variation_names(unit.arm) if not tasks.variation(name).believed]
     found = []
-    for plant, stiffness in itertools.product(list_plants(unit.arm), (*STIFFNESSES, FRANKAPYS)):
+    for plant, stiffness in itertools.product(plants, (*STIFFNESSES, FRANKAPYS)):
         P, Q = hand_matrices(settings, unit, stiffness, plant)
         radius = compute_tick_radius(P, Q, settings.dt_s)
         loop = {"variation": plant, "dt_s": settings.dt_s, "longest_dt_s": find_longest_tick(P, Q), "radius": radius}

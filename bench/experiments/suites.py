@@ -16,8 +16,10 @@ grows there by a decade every 0.56 s, so that what has not left after 10 s of it
 ON_ARM = 5.0
 """Horizon on arms [s]: eight settling times of a small error. What has not settled by then is called timed-out."""
 
-NOMINAL = "nominal"
-"""The variation in which the plant is the controller's model."""
+NOMINAL, IDEAL_MOTORS = "nominal", "ideal-motors"
+"""Variations of an arm: as it is, and as the paper assumes. The free body has the first alone."""
+SLOW = (25.0, 1.0)
+"""kp [1/s^2] and damping ratio: half the natural frequency of the paper's gains."""
 
 
 class Slice(NamedTuple):
@@ -32,9 +34,10 @@ class Slice(NamedTuple):
 class OnArms(NamedTuple):
     """The part of a suite that runs on every arm.
 
-    words: contenders as `combinations` writes them; none at all: every compatible combination. few: those of them that
-    run from AT_INVERSES alone. varied: the contenders of the study of model errors, which runs over all variations of
-    the plant. poses: how many an arm's Jacobians are looked at, beside the directed ones.
+    words: contenders as `combinations` writes them, with ideal motors; none at all: every compatible combination. few:
+    those of them that run from AT_INVERSES alone. compared: the laws that run on the arm as it is, a user's among them;
+    from other_slices also with other gains and motors. varied: the contenders of the study of model errors, which runs
+    over all variations of the plant. poses: how many an arm's Jacobians are looked at, beside the directed ones.
     """
 
     words: tuple[str, ...]
@@ -42,6 +45,9 @@ class OnArms(NamedTuple):
     varied: tuple[str, ...] = ()
     varied_slices: tuple[Slice, ...] = ()
     few: tuple[str, ...] = ()
+    compared: tuple[str, ...] = ()
+    compared_slices: tuple[Slice, ...] = ()
+    other_slices: tuple[Slice, ...] = ()
     poses: int = 0
 
 
@@ -146,14 +152,18 @@ def read_slices(declared: list[list]) -> tuple[Slice, ...]:
     return tuple(found)
 
 
-def read_on_arms(sizes: dict, varied_size: int | str, varied_s: float, poses: int, **words: Any) -> OnArms:
+def read_on_arms(varied_size: int | str, varied_s: float, poses: int, **said: Any) -> OnArms:
     """Return the part of a suite on arms."""
-    return OnArms(
-        slices=tuple(Slice("native", name, number_of(size), ON_ARM) for name, size in sizes.items()),
-        varied_slices=(Slice("native", "clear", number_of(varied_size), varied_s),),
-        poses=poses,
-        **{name: expanded(those) for name, those in words.items()},
-    )
+    sizes = {name: said.pop(name) for name in list(said) if name.endswith("sizes")}
+    slices: dict[str, Any] = {
+        name.replace("sizes", "slices"): tuple(
+            Slice("native", start_set, number_of(size), ON_ARM) for start_set, size in each.items()
+        )
+        for name, each in sizes.items()
+    }
+    varied = (Slice("native", "clear", number_of(varied_size), varied_s),)
+    words: dict[str, Any] = {name: expanded(those) for name, those in said.items()}
+    return OnArms(varied_slices=varied, poses=poses, **slices, **words)
 
 
 def read_suite(name: str, declared: dict[str, Any]) -> Suite:

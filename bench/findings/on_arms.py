@@ -3,10 +3,10 @@
 Three measures of an episode, each with those before it:
 
     settled    by the judge; where the start commands a motion too, the tool is also within IN_PLACE_M of its goal
-    torque     and no joint torque was ever above the rated one
-    range      and no joint ever left its range
+    torque     and no motor was ever at its rated torque
+    range      and no joint ever at the end of its range
 
-The plant enforces neither torques nor ranges: an episode that passes all three is one that the arm could have done.
+The arm as it is cuts torques and stops joints; the ideal one does neither, and records both.
 
 Two controllers are compared on the starts that both ran. They are distinguished if so many of the starts at which one
 alone passes are one's that a fair coin gives as many with less than P_VALUE, both sides (McNemar's test, exact). The
@@ -21,7 +21,7 @@ IN_PLACE_M = 1e-3
 """[m]: a hundredth of the shortest way that a start commands, as 2 % of the turn is the judge's band."""
 
 MEASURES = ("settled", "torque", "range")
-START = ["arm", "start_set", "start_id"]
+START = ["arm", "kp", "start_set", "start_id"]
 
 
 def passed(rows: pd.DataFrame) -> pd.DataFrame:
@@ -29,7 +29,7 @@ def passed(rows: pd.DataFrame) -> pd.DataFrame:
     settled = rows["outcome"].astype(str) == "settled"
     if "position_left_m" in rows:
         settled &= (rows["start_set"].astype(str) != "reach") | (rows["position_left_m"] <= IN_PLACE_M)
-    torque = settled & (rows["peak_torque_ratio"] <= 1.0)
+    torque = settled & (rows["peak_torque_ratio"] < 1.0)
     return pd.DataFrame({"settled": settled, "torque": torque, "range": torque & (rows["range_excess_rad"] <= 0.0)})
 
 

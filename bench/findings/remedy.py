@@ -44,7 +44,7 @@ def smallest_fix(one: Law) -> Fix:
         else:
             bound = largest(free, None)
             steps.append(
-                f"for goals beyond 90°, return axis times angle, its length bounded at {bound:.3g} as it is now"
+                f"for goals beyond 90°, return axis times angle, and limit its length to {bound:.3g}, as it does now"
             )
             fixed = logarithm
     if HALF[0] < size(free, DIRECTIONS[0], NEAR_RAD) / NEAR_RAD < HALF[1]:

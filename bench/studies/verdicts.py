@@ -20,7 +20,7 @@ from bench.base.provenance import ROOT, describe, source_digest
 from bench.experiments import plan as planning
 from bench.experiments.experiment import Settings, Unit, known_experiments, rows_of
 from bench.experiments.plan import Plan
-from bench.experiments.suites import NOMINAL
+from bench.experiments.suites import IDEAL_MOTORS
 from bench.experiments.tables import read
 from bench.findings import claims
 from bench.findings.claims.adequacy import NOISE
@@ -61,7 +61,7 @@ STEPPED = {
 
 def _is_judged(unit: Unit) -> bool:
     """Whether C20 looks at the episodes of a unit on an arm."""
-    is_there = unit.selector in ("clear", "pole") and unit.variation == NOMINAL
+    is_there = unit.selector in ("clear", "pole") and unit.variation == IDEAL_MOTORS
     return is_there and unit.contender.partition("+")[0] in (BY_EULER, BY_COMMON, ON_MATRIX)
 
 

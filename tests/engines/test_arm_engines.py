@@ -59,7 +59,7 @@ def straight(arm: str):
     return model.start("straight", [0.0] * len(model.arm.home), model.pose(model.arm.home)[1])
 
 
-def both(arm, one, starts, chosen, integrator="euler", variation="nominal"):
+def both(arm, one, starts, chosen, integrator="euler", variation="ideal-motors"):
     """Rows of the compiled loop and of dm_control's."""
     return [
         run(engine, one, TASK, arm, starts, chosen, METRICS, integrator, variation)

@@ -120,7 +120,7 @@ def test_keeps_every_geom_that_can_touch(name):
     assert lean.ngeom < whole.ngeom
 
 
-@pytest.mark.parametrize(("variation", "skips"), [("mass-0.85", True), ("friction-5", False)])
+@pytest.mark.parametrize(("variation", "skips"), [("ideal-motors", True), ("nominal", False), ("friction-5", False)])
 def test_constraints_are_skipped_only_where_a_model_has_none(variation, skips):
     arm = tasks.arm("ur5e")
     model = model_of(tasks.task("arm-regulation", "ur5e").xml(1e-3), "euler")

@@ -12,7 +12,7 @@ import tasks
 from bench.base.errors import Incompatible
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
-from bench.experiments.suites import BY_WORD_ALONE, NOMINAL, SUITES
+from bench.experiments.suites import BY_WORD_ALONE, IDEAL_MOTORS, NOMINAL, SLOW, SUITES
 from bench.law.contender import refusal
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import contenders, find_contender
@@ -60,24 +60,38 @@ def test_arm_alone_is_the_suite_on_that_arm():
     laws = list(LAWS.values())
     plan = planning.make("default", laws, Choice(arms=("puma560",)))
     assert {unit.arm for unit in plan.units if unit.arm} == {"puma560"}
-    nominal = {unit.contender for unit in plan.of("arm") if unit.variation == NOMINAL}
+    ideal = {unit.contender for unit in plan.of("arm") if unit.variation == IDEAL_MOTORS}
     by_words = combinations.chosen(SUITES["default"].on_arms.words, LAWS, 6, by_word_alone=BY_WORD_ALONE)
-    assert nominal == {one.name for one in (*by_words, *combinations.baselines(6))}
-    assert {unit.selector for unit in plan.of("arm") if unit.variation == NOMINAL} == set(
+    assert ideal == {one.name for one in (*by_words, *combinations.baselines(6))}
+    assert {unit.selector for unit in plan.of("arm") if unit.variation == IDEAL_MOTORS} == set(
         tasks.task("arm-regulation", "puma560").start_sets
     )
 
 
 def test_default_suite_varies_the_model_on_every_arm():
     plan = planning.make("default", list(LAWS.values()))
-    varied = {(unit.arm, unit.variation) for unit in plan.of("arm") if unit.variation != NOMINAL}
-    assert varied == {(arm, word) for arm in ARMS for word in tasks.variation_names() if word != NOMINAL}
+    varied = {(unit.arm, unit.variation) for unit in plan.of("arm")}
+    assert varied == {(arm, word) for arm in ARMS for word in tasks.variation_names(arm)}
+
+
+@pytest.mark.parametrize("suite", ["quick", "default"])
+def test_compared_laws_run_on_every_arm_as_it_is_with_three_levels_of_gains(suite):
+    plan = planning.make(suite, list(LAWS.values()))
+    for arm in map(tasks.arm, ARMS):
+        units = [unit for unit in plan.of("arm") if unit.arm == arm.name and unit.variation == NOMINAL]
+        by_gains = {}
+        for unit in units:
+            by_gains.setdefault((unit.kp, unit.kv), set()).add(unit.law)
+        own = {(arm.gains[0], 2.0 * arm.gains[0] ** 0.5)} if arm.gains else set()
+        assert set(by_gains) == {(0.0, 0.0), (SLOW[0], 10.0), *own}
+        for laws in by_gains.values():
+            assert {"late-braking", "mrp-memory", "bounded-command", "square-root", "rotation-matrix"} <= laws
 
 
 def test_full_suite_runs_every_compatible_combination():
     plan = planning.make("full", list(LAWS.values()), Choice(arms=ON_BOTH), count=1)
     for arm in ON_BOTH:
-        planned = {unit.contender for unit in plan.of("arm") if unit.arm == arm and unit.variation == NOMINAL}
+        planned = {unit.contender for unit in plan.of("arm") if unit.arm == arm and unit.variation == IDEAL_MOTORS}
         beside = combinations.baselines(tasks.arm(arm).joints)
         assert planned == {one.name for one in (*combinations.every(LAWS, tasks.arm(arm).joints), *beside)}
 
@@ -103,11 +117,11 @@ def test_inverses_and_twins_are_run_where_they_differ_and_all_else_from_every_se
     few = {one.name for one in combinations.on(part.few, LAWS, joints)} - usual
     for sets, expected in (((), {"wrist", "uniform"}), (("clear",), {"clear"})):
         plan = planning.make("default", list(LAWS.values()), Choice(arms=(arm,), start_sets=sets))
-        nominal = [unit for unit in plan.of("arm") if unit.variation == NOMINAL]
+        usually = [unit for unit in plan.of("arm") if unit.variation == (NOMINAL if sets else IDEAL_MOTORS)]
         for name in few:
-            assert {unit.selector for unit in nominal if unit.contender == name} == expected
+            assert {unit.selector for unit in usually if unit.contender == name} == expected
         for name in usual:
-            assert {unit.selector for unit in nominal if unit.contender == name} == set(sets or known_sets())
+            assert {unit.selector for unit in usually if unit.contender == name} == set(sets or known_sets())
 
 
 def known_sets() -> list[str]:

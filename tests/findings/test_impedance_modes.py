@@ -29,8 +29,9 @@ def measured(arm: str, damping: str, dt: float = 1e-3) -> pd.DataFrame:
 @pytest.mark.parametrize("arm", ["jaco", *ARMS])
 def test_modes_of_the_loop_are_those_of_the_arms_matrices(arm, damping):
     rows = measured(arm, damping)
-    # differences err by the square of 1e-4 rad times what K J changes by over it
-    np.testing.assert_allclose(rows["omega"], rows["omega_theory"], rtol=1e-5)
+    # Differences err by the square of 1e-4 rad times what K J changes by over it. MuJoCo integrates the damping of
+    # joints implicitly, as if they had dt B more inertia: with the Jaco's least motors 1e-4 of it.
+    np.testing.assert_allclose(rows["omega"], rows["omega_theory"], rtol=1e-4)
     np.testing.assert_allclose(rows["ratio"], rows["ratio_theory"], rtol=1e-4)
     np.testing.assert_allclose(rows["radius"], rows["radius_theory"], rtol=1e-5)
     np.testing.assert_allclose(rows["longest_dt_s"], rows["longest_dt_s_theory"], rtol=1e-4)
@@ -53,7 +54,7 @@ def test_hand_and_motors_are_those_of_a_model_with_a_body_more():
     more = ElementTree.SubElement(root.find(".//body[@name='tool']"), "body")
     ElementTree.SubElement(more, "inertial", mass=".73", pos="-.01 0 .03", diaginertia=".001 .0025 .0017")
     wanted, found = Kinematics(arm._replace(xml=ElementTree.tostring(root, encoding="unicode"))), Kinematics(arm)
-    tasks.variation("motors-0.1").apply(found.model, arm.rated)
+    tasks.variation("nominal").apply(found.model, arm.rated)
     for q in (arm.home, [0.3, -0.5, 0.2, -2.0, 0.4, 1.1, -0.7]):
         D = wanted.inertia_matrix(q) + 0.1 * np.eye(7)
         np.testing.assert_allclose(found.inertia_matrix(q), D, atol=1e-12)
@@ -61,7 +62,12 @@ def test_hand_and_motors_are_those_of_a_model_with_a_body_more():
 
 def test_shipped_rule_is_unstable_at_1_khz_only_without_hand_and_motors():
     radius = measured("panda", "diagonal").query("stiffness_n_m == 2000").groupby("variation")["radius"].max()
-    assert (radius > 1.0).to_dict() == {"nominal": True, "motors-0.02": False, "motors-0.1": False, "motors-0.2": False}
+    assert (radius > 1.0).to_dict() == {
+        "ideal-motors": True,
+        "motors-high": False,
+        "motors-low": False,
+        "nominal": False,
+    }
 
 
 @pytest.mark.parametrize("arm", ARMS)
@@ -71,5 +77,5 @@ def test_longest_tick_is_where_the_loop_that_runs_becomes_unstable(arm, damping)
         dt = theory.longest_tick(*theory.hand_matrices(theory.hand_of(arm), damping, stiffness, ZETA))
         for share, holds in ((0.99, True), (1.01, False)):
             rows = measured(arm, damping, share * dt)
-            rows = rows.query(f"stiffness_n_m == {stiffness.translation} and variation == 'nominal'")
+            rows = rows.query(f"stiffness_n_m == {stiffness.translation} and variation == 'ideal-motors'")
             assert (rows["radius"].max() < 1.0) == holds

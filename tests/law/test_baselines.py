@@ -39,14 +39,15 @@ def rated(arm):
 def test_baselines_are_found_by_their_names(arm):
     assert [one.regulator.name for one in on(arm)] == list(baselines_of_arms())
     assert [find_contender(one.name) for one in on(arm)] == on(arm)
-    assert controls(find_contender(JOINT_PD), False, 1.0).gives_torque == BY_JOINT
+    plant = kinematics(tasks.arm(arm)).model
+    assert controls(find_contender(JOINT_PD), False, 1.0, plant).gives_torque == BY_JOINT
 
 
 @over_arms
 def test_native_rows_are_the_reference_rows_bit_for_bit(arm):
     starts = [tasks.start_set(name, 3, arm=arm)[2] for name in ("reach", "uniform")]
     for one in on(arm):
-        for integrator, variation in (("euler", "nominal"), ("rk4", "nominal"), ("euler", "mass-1.30")):
+        for integrator, variation in (("euler", "nominal"), ("rk4", "ideal-motors"), ("euler", "mass-1.30")):
             fast, slow = (
                 run(engine, one, "arm-regulation", arm, starts, SHORT, METRICS, integrator, variation)
                 for engine in ("native", "reference")

@@ -6,7 +6,7 @@ import os
 
 import pandas as pd
 import pytest
-from support import flipped
+from support import flipped, lying_laws
 from support.user_law import law_text, plan_of, spring_text
 
 from bench.base.errors import BadLaw, BadResults
@@ -19,7 +19,6 @@ from bench.law.contenders.described_law import described
 from bench.law.contenders.registry import find_contender
 from bench.running import run
 from bench.running.answers import check_rows
-from bench.studies.survival import hostile
 
 PATHS = sorted((RESULTS / "reference").glob("*.parquet"))
 
@@ -77,13 +76,13 @@ def test_flipped_bits_and_edits_of_parts_and_plan_are_noticed(tmp_path):
     assert {*found["edits"].values()} == {flipped.AGAIN, flipped.REFUSED}
 
 
-SLOW = [pytest.param(way, [*hostile.LAWS][at::12], marks=pytest.mark.slow) for at, way in enumerate(hostile.WAYS)]
-ALL = [pytest.param(way, [*hostile.LAWS], marks=pytest.mark.weekly) for way in hostile.WAYS]
+SLOW = [pytest.param(way, [*lying_laws.LAWS][at::12], marks=pytest.mark.slow) for at, way in enumerate(lying_laws.WAYS)]
+ALL = [pytest.param(way, [*lying_laws.LAWS], marks=pytest.mark.weekly) for way in lying_laws.WAYS]
 
 
 @pytest.mark.parametrize(("way", "laws"), [("run", ["half-another-law", "edits-itself"]), *SLOW, *ALL])
 def test_law_that_lies_loses_its_own_rows_alone(way, laws):
-    assert hostile.is_well(found := hostile.main([way], laws)[way]), found
+    assert lying_laws.is_well(found := lying_laws.main([way], laws)[way]), found
 
 
 def killed_while(folder, condition: str):

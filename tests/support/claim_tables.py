@@ -145,7 +145,7 @@ def controllers() -> Frames:
         for (controller, (flops, law, calls)), joints in itertools.product(COSTS.items(), INVERSES)
         for stage, own, called in (("total", flops, 2 * calls), ("goal", 0, calls), ("regulate", law, 0))
     ]
-    usual = {"task": "arm-regulation", "variation": "nominal", "engine": "native", "kp": 100.0, "kv": 20.0}
+    usual = {"task": "arm-regulation", "variation": "ideal-motors", "engine": "native", "kp": 100.0, "kv": 20.0}
     episodes = [
         {**words(controller, joints), **usual, "arm": arm, "start_set": name, "start_id": f"{name}-{i}", "dt_s": 1e-3}
         | {"outcome": "saturated" if (name, i) == ("pole", 0) and controller != ON_MATRIX else "settled"}

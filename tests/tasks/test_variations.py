@@ -22,10 +22,16 @@ def compiled(arm: str, variation: str = "nominal") -> mujoco.MjModel:
 
 
 def compiled_anew(arm: str, factors) -> mujoco.MjModel:
-    """MuJoCo's own compiler on inertial parameters that were scaled before it saw them."""
-    spec = mujoco.MjSpec.from_string(model_xml(tasks.arm(arm), DT))
+    """MuJoCo's own compiler on the nominal arm, whose inertial parameters were scaled before it saw them."""
+    found = tasks.arm(arm)
+    spec = mujoco.MjSpec.from_string(model_xml(found, DT))
+    for hand in (list(one.data) for one in spec.numerics if one.name == "hand"):
+        tool = spec.body("tool")
+        tool.explicitinertial, tool.mass, tool.ipos, tool.inertia = True, hand[0], hand[1:4], hand[4:]
+        tool.mass, tool.inertia = factors[-1] * tool.mass, factors[-1] * tool.inertia
     for joint, factor in zip(spec.joints, factors, strict=True):
-        joint.armature *= factor
+        joint.armature = factor * (found.motors[1] if found.motors else joint.armature)
+
         body = joint.parent
         body.mass, body.inertia = factor * body.mass, factor * body.inertia
         body.fullinertia = factor * body.fullinertia
@@ -52,12 +58,31 @@ def at(model: mujoco.MjModel, q, qdot) -> mujoco.MjData:
     return data
 
 
-def test_nominal_is_first_and_changes_nothing():
-    assert tasks.variation_names() == ["nominal", *FACTORS, *LINKS, *FRICTIONS]
-    plain, varied = (mujoco.MjModel.from_xml_string(model_xml(tasks.arm("ur5e"), DT)) for _ in range(2))
-    tasks.variation("nominal").apply(varied, tasks.arm("ur5e").rated)
-    for name in ("body_mass", "body_inertia", "dof_armature", "dof_frictionloss", "dof_solref", "dof_solimp"):
+def test_nominal_is_first_and_ideal_motors_change_nothing():
+    assert tasks.variation_names()[:2] == ["nominal", "ideal-motors"]
+    assert tasks.variation_names("puma560")[2:] == [*FACTORS, *LINKS, *FRICTIONS]
+    plain, varied = (mujoco.MjModel.from_xml_string(model_xml(tasks.arm("panda"), DT)) for _ in range(2))
+    tasks.variation("ideal-motors").apply(varied, tasks.arm("panda").rated)
+    for name in ("body_mass", "body_inertia", "dof_armature", "dof_frictionloss", "actuator_ctrllimited"):
         assert np.array_equal(getattr(plain, name), getattr(varied, name))
+
+
+@pytest.mark.parametrize("name", ["nominal", "motors-low", "motors-high", "mass-1.30", "friction-5"])
+@pytest.mark.parametrize("arm", tasks.arm_names())
+def test_motors_give_no_more_than_their_rating_and_joints_stop(arm, name):
+    found = tasks.arm(arm)
+    if name not in tasks.variation_names(arm):
+        pytest.skip("its motor inertia is known")
+    model = compiled(arm, name)
+    data = at(model, found.home, np.zeros(model.nv))
+    data.ctrl[:] = 10.0 * np.array(found.rated)
+    mujoco.mj_forward(model, data)
+    np.testing.assert_array_equal(data.qfrc_actuator, found.rated)
+    for joint, upper in enumerate(found.upper):
+        if np.isfinite(upper):
+            q = np.array(found.home)
+            q[joint] = upper + 0.05
+            assert at(model, q, np.zeros(model.nv)).qfrc_constraint[joint] < 0.0
 
 
 DERIVED = ("body_subtreemass", "body_invweight0", "dof_invweight0", "dof_M0", "body_mass", "body_inertia")

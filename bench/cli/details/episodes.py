@@ -6,7 +6,7 @@ import pandas as pd
 import rich_click as click
 from scipy.stats import binomtest
 
-from bench.experiments.suites import NOMINAL
+from bench.experiments.suites import IDEAL_MOTORS, NOMINAL
 from bench.experiments.tables import read as results
 from tasks.cause import CAUSES
 from tasks.verdict import CRASHED, OUTCOMES
@@ -57,11 +57,14 @@ def tables_of_free_body(episodes: pd.DataFrame) -> Rows:
 
 def tables_of_arms(episodes: pd.DataFrame) -> Rows:
     """Yield a table for each arm, then one for each whose plant is not the controller's model."""
-    is_nominal = episodes["variation"] == NOMINAL
-    for place, part in places(episodes[is_nominal]):
-        yield f"{place} ({OF_STARTS})", summarize_controllers(part)
-    for place, part in places(episodes[~is_nominal]):
-        title = f"{place}, model errors ({OF_STARTS}; then the median final angle [mrad])"
+    plant = episodes["variation"].astype(str)
+    is_usual = plant.isin((NOMINAL, IDEAL_MOTORS))
+    usual = episodes[is_usual].assign(plant=plant)
+    for (variation, kp), rows in usual.groupby(["plant", "kp"], sort=False):
+        for place, part in places(rows):
+            yield f"{place}, {variation}, kp {kp:g} ({OF_STARTS})", summarize_controllers(part)
+    for place, part in places(episodes[~is_usual]):
+        title = f"{place}, other motors or model errors ({OF_STARTS}; then the median final angle [mrad])"
         yield title, summarize_variations(part)
 
 

@@ -8,7 +8,7 @@ import pandas as pd
 
 from bench.cli.paragraphs import Paragraph, listed
 from bench.cli.screen import counted
-from bench.experiments.suites import NOMINAL
+from bench.experiments.suites import IDEAL_MOTORS, NOMINAL
 from bench.findings.claims import Results
 
 WORST = 2
@@ -23,11 +23,13 @@ ENDS = {"Contact": ("done", "poses")}
 def paragraph(results: Results) -> Paragraph:
     """Return a line or two for each part that the run has."""
     episodes, contact, robustness = (results.table(name) for name in ("episodes", "compliance", "robustness"))
-    on_arm, is_nominal = episodes["arm"] != "", episodes["variation"] == NOMINAL
+    on_arm, plant = episodes["arm"] != "", episodes["variation"].astype(str)
+    is_other = ~plant.isin((NOMINAL, IDEAL_MOTORS))
     parts = {
         "Free body": (episodes[~on_arm], "law"),
-        "Arms": (episodes[on_arm & is_nominal], "controller"),
-        "Arms with model errors": (episodes[on_arm & ~is_nominal], "controller"),
+        "Arms": (episodes[on_arm & (plant == NOMINAL)], "controller"),
+        "Arms with ideal motors": (episodes[on_arm & (plant == IDEAL_MOTORS)], "controller"),
+        "Arms with other motors or model errors": (episodes[on_arm & is_other], "controller"),
         "Contact": (contact, "controller"),
         "Robustness": (robustness, "law"),
     }

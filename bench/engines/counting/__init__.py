@@ -9,7 +9,6 @@ takes the same branches and returns the same bits, and they tally every operatio
     costs.py     cost(contender), rows(contenders)
     on_arms.py   the same of a whole controller on an arm
     in_contact.py  and of one in contact, its rows apart from its torques
-    dialect.py   what a law file may contain, checked in its text
 """
 # ruff: noqa: F401  the face of the folder
 

@@ -16,6 +16,7 @@ from bench.engines.arm_episode import (
     Controls,
     Joints,
     buffers,
+    cut,
     face_joints,
     load,
     probe,
@@ -138,6 +139,8 @@ def command(laws, body, sensed, now, gains, memory, numbers):
         laws.law, laws.second, controls.gives_torque, controls.rows,
         sensed.more.chain, work.D, work.fg, sensed.goal, sensed.more.p_d, gains, memory, work.buffers,
     )  # fmt: skip
+    if controls.is_cut > 0:
+        cut(work.buffers.tau, body.joints.rated, n)
     total = load(seven(work.buffers.tau, n), body.joints.rated)
     failure = check_command(total, controls.torque_limit_squared)
     return Act(u, u, dot(u, u), laws.third(sensed.R, sensed.goal.R), failure, ()), memory

@@ -67,7 +67,7 @@ class Bend(NamedTuple):
 def c20(results: Results) -> tuple[Word, Evidence]:
     """Curves at two steps; outcomes at the poles against the law on R; stages and totals."""
     found = some(
-        results.table("episodes", task=probes.TASK, engine="native", variation="nominal"),
+        results.table("episodes", task=probes.TASK, engine="native", variation="ideal-motors"),
         "nominal episode of an arm",
     )
     arms = sorted(set(found["arm"].astype(str)))

@@ -201,7 +201,7 @@ def beside_poles(word: str, arm: str, poses: pd.DataFrame, gains: Gains) -> pd.D
     """
     from bench.experiments.episodes import rows_from
     from bench.experiments.experiment import Settings, Unit
-    from bench.experiments.suites import NOMINAL, ON_ARM
+    from bench.experiments.suites import IDEAL_MOTORS, ON_ARM
     from tasks.kinematics import kinematics
 
     judge = kinematics(tasks.arm(arm))
@@ -216,7 +216,7 @@ def beside_poles(word: str, arm: str, poses: pd.DataFrame, gains: Gains) -> pd.D
     ]
     some(starts, f"pose of {arm} beside a pole")
     name = controller(word).name
-    unit = Unit("arm", name, TASK, arm, "native", "pole", NOMINAL, count=len(starts), horizon_s=ON_ARM)
+    unit = Unit("arm", name, TASK, arm, "native", "pole", IDEAL_MOTORS, count=len(starts), horizon_s=ON_ARM)
     return rows_from(Settings(gains=gains), unit, starts)
 
 

@@ -142,7 +142,10 @@ def list_elsewhere(folder: Path) -> list[Elsewhere]:
     uneven = answer(UNCANCELLED).verdict
     found = [
         Elsewhere(
-            "your robot takes torques and no inertia is cancelled", uneven.law or "none", uneven.tied, uneven.asked
+            "you command torques, and cancel no inertia",
+            uneven.law or "none",
+            uneven.tied,
+            uneven.asked,
         ),
         Elsewhere("your controller keeps nothing from tick to tick", find_default(rule=Rule(forgetful=True))),
         Elsewhere("the command must be continuous", find_default(rule=Rule(continuous=True))),

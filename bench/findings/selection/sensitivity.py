@@ -35,7 +35,7 @@ RULES = {
     "the 99.9 % time decides": Rule(by="latest"),
     "times tie within 5 %": Rule(tie=0.05),
     "times tie within 10 %": Rule(tie=0.1),
-    "of ties the least peak command is advised": Rule(least_peak=True),
+    "among laws that tie, the one with the least peak command is advised": Rule(least_peak=True),
     "the least effort decides": Rule(by="effort"),
 }
 """The rule, and rules that a critic would choose."""

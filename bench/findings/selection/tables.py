@@ -27,7 +27,7 @@ SAMPLED = "native"
 
 
 class Tables(NamedTuple):
-    """uniform, directed: starts that every law ran; arms: episodes on arms by the geometric Jacobian, nominal plant.
+    """uniform, directed: starts that every law ran; arms: episodes on arms as they are, by the geometric Jacobian.
 
     ticks: law -> its time over a whole controller's tick [%], of the laws that were timed. contenders: the laws
     compared, by name, the simplest first.
@@ -103,10 +103,10 @@ def by_law(rows: pd.DataFrame, column: str, failed: float | None = None) -> dict
 
 
 def _on_arms(every: pd.DataFrame) -> pd.DataFrame:
-    """Uniform starts on arms; `contender` is the law alone."""
+    """Uniform starts on arms as they are, with all gains that were run; `contender` is the law alone."""
     is_wanted = (every["task"] == "arm-regulation") & (every["start_set"] == "uniform")
     is_wanted &= (every["jacobian"] == "geometric") & (every["variation"] == "nominal") & (every["engine"] == SAMPLED)
-    rows = every[is_wanted]
+    rows = every[is_wanted].sort_values("kp", kind="stable")
     law = rows["contender"].astype(str).str.split("@").str[0]
     return by_standard_inverse(rows.assign(contender=law, lost=~settled(rows)))
 

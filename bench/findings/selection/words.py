@@ -89,9 +89,9 @@ NAMES = {
     "delay": "delay",
     "period": "period",
     "inertia": "inertia",
-    "unevenness": "unevenness",
+    "unevenness": "unevenness of the inertia",
     "spin": "spin",
-    "jump": "time of a jump of the goal",
+    "jump": "time at which the goal jumps",
 }
 """What the numbers of a situation are called in a sentence."""
 

@@ -34,7 +34,7 @@ class Hand(NamedTuple):
     friction: np.ndarray
 
 
-def hand_of(name: str, variation: str = "nominal") -> Hand:
+def hand_of(name: str, variation: str = "ideal-motors") -> Hand:
     """Return the hand of an arm at its home."""
     arm = tasks.arm(name)
     judge = Kinematics(arm)

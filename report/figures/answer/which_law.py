@@ -71,8 +71,8 @@ def describe_ours() -> str:
         ties, beats = regions.compare_ours(law)
         said.append(
             f"We do not advise our own law, {families.word(law)} (2026, simulation only, not reviewed): in "
-            f"{100 * (1 - ties):.0f} % of the situations a published law beats it, and in {100 * beats:.0f} % it beats "
-            "the law advised there."
+            f"{100 * (1 - ties):.0f} % of the situations a published law is faster, and in {100 * beats:.0f} % it is "
+            "faster than the law advised there."
         )
     return " ".join(said)
 
@@ -81,7 +81,11 @@ def lead() -> str:
     """Return the default, and the laws of the other regions."""
     first, *others = find_regions()
     said = together([f"{families.word(one.law)} ({100 * one.advised:.0f} %)" for one in others])
-    where = f" The rule advises it in {100 * first.advised:.0f} %, and in most others: {said}." if others else ""
+    where = (
+        f" Our rule (below) advises it in {100 * first.advised:.0f} % of the situations; in others it advises {said}."
+        if others
+        else ""
+    )
     return f"Use **{families.word(first.law)}**, a published law. {describe_default()}{where} {describe_ours()}"
 
 

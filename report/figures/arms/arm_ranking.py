@@ -1,4 +1,4 @@
-"""Which controllers settle within rated torque and joint range, from evenly spread starts and from `reach`."""
+"""Which controllers settle on arms as they are, and what limits them: motors, stops, gains."""
 
 from __future__ import annotations
 
@@ -13,8 +13,12 @@ from report.figures.kit import html
 from report.figures.kit.spelling import listed
 from report.figures.kit.tables import Table
 
-RANKED = Table("Controller | Settled [%] | Within limits | Reach, settled | Reach, within limits")
+RANKED = Table("Law | Settled [%] | No limit touched | Reach, settled | Reach, no limit touched")
+LIMITED = Table(
+    "Arm | Motors | kp, kv | Settled [%] | With motors at their rating [%] | Stopped by a joint | Not settled otherwise"
+)
 SETS = ("uniform", "reach")
+MOTORS = {"nominal": "usual", "motors-low": "least", "motors-high": "greatest"}
 COLUMNS = tuple((name, measure) for name in SETS for measure in ("settled", "range"))
 FEW = 4
 """Names up to this number are said, more are counted; the table has them."""
@@ -26,7 +30,7 @@ def of_laws(rows: pd.DataFrame, start_set: str) -> pd.DataFrame:
 
 
 def ranked(rows: pd.DataFrame) -> Iterator[tuple]:
-    """Return a row a controller, best within torque and range first; bold: shares that no other controller beats.
+    """Return a row a controller, best first; bold: shares that no other controller beats.
 
     Args:
         rows: of `arm_rows.episodes`.
@@ -40,20 +44,38 @@ def ranked(rows: pd.DataFrame) -> Iterator[tuple]:
         else []
         for name, measure in COLUMNS
     }
-    means = own[own["start_set"] == SETS[0]].groupby("controller")["range"].mean()
+    means = own[own["start_set"] == SETS[0]].groupby("controller")["settled"].mean()
     for controller in means.sort_values(ascending=False, kind="stable").index:
         cells = []
         for name, measure in COLUMNS:
             mine = own.loc[(own["controller"] == controller) & (own["start_set"] == name), measure]
             text = in_short(share(mine)) if len(mine) else html.MISSING
             cells.append(f"**{text}**" if controller in top[name, measure] else text)
-        yield arm_rows.title(controller), *cells
+        yield arm_rows.title(controller).removeprefix("(2.2) "), *cells
 
 
 def in_short(found: Share) -> str:
     """Return the percentage with its interval, 55 (46 to 63), on one line."""
     text = f"{100 * found.value:.0f} ({100 * found.low:.0f} to {100 * found.high:.0f})"
     return text.replace(" ", "\N{NO-BREAK SPACE}")
+
+
+def limited(rows: pd.DataFrame) -> Iterator[tuple]:
+    """Return a row for each arm, motor inertia and gains: what settles, and what stops the others; over all laws.
+
+    Args:
+        rows: of `arm_rows.every`, uniform starts of the compared laws.
+    """
+    for (arm, motors, kp, kv), own in rows.groupby(["arm", "variation", "kp", "kv"], sort=True):
+        is_cut, stops = own["peak_torque_ratio"] >= 1.0, count_stopped(own)
+        ends = arm_rows.settled(own).mean(), is_cut.mean(), stops / len(own)
+        numbers = [f"{100 * abs(one):.0f}" for one in (*ends, 1.0 - ends[0] - ends[2])]
+        yield arm_rows.name_arm(arm), MOTORS[motors], f"{kp:g}, {kv:.0f}", *numbers
+
+
+def count_stopped(rows: pd.DataFrame) -> int:
+    """Return how many episodes did not settle and had a joint at the end of its range."""
+    return int((~arm_rows.settled(rows) & (rows["range_excess_rad"] > 0.0)).sum())
 
 
 def describe_share(rows: pd.DataFrame, controller: str, measure: str) -> str:
@@ -64,24 +86,19 @@ def describe_share(rows: pd.DataFrame, controller: str, measure: str) -> str:
 
 
 def lead(uniform: pd.DataFrame) -> str:
-    """Who is best within torque and range, what the Euler controller does, who settles most, and the torques.
+    """State who settles most on arms as they are, what gains do, and what stops the others.
 
     Args:
-        uniform: of `of_laws`, evenly spread starts.
+        uniform: of `of_laws`, evenly spread starts, with all gains.
     """
-    over = uniform["peak_torque_ratio"] > 1.0
-    passes = passed(uniform)["range"].groupby(uniform["arm"]).any()
-    never = [arm_rows.name_arm(arm) for arm in passes.index[~passes]]
-    others = uniform[uniform["arm"].map(passes)]
-    is_split = bool(never) and len(others) > 0
-    first = describe_share(others, best(uniform, "range", "controller")[0], "range") if is_split else ""
-    on_others = f"; on the others the best law passes {first}" if is_split else ""
+    settled, by_arm = arm_rows.settled(uniform), arm_rows.settled(uniform).groupby(uniform["arm"]).mean()
+    levels = [f"{100 * own.mean():.0f} % at kp = {kp:g} 1/s²" for kp, own in settled.groupby(uniform["kp"])]
+    ends = [f"{arm_rows.name_arm(arm)} ({100 * by_arm[arm]:.0f} %)" for arm in (by_arm.idxmin(), by_arm.idxmax())]
     return (
-        f"Limits of torques and joints are not simulated: of {len(uniform)} episodes of the laws from evenly spread "
-        f"starts, {100 * over.mean():.0f} % exceed a rated torque. Counting only episodes within rated torque and "
-        f"joint range, {leading(uniform, 'range')}. The paper's Euler controller (3.7) settles "
-        f"{describe_share(uniform, arm_rows.ON_ANGLES, 'range')}. Arms on which no law passes: "
-        f"{', '.join(never) or 'none'}{on_others}. Counting settling alone, {leading(uniform, 'settled')}."
+        "Motors are cut at their rated torque, and joints stop at the ends of their ranges. From evenly spread starts, "
+        f"{leading(uniform, 'settled')}. All laws together settle {', '.join(levels)}. Of the episodes that do not "
+        f"settle, {100 * count_stopped(uniform) / max(1, (~settled).sum()):.0f} % had a joint at the end of its range. "
+        f"The least settle on the {ends[0]}, the most on the {ends[1]}."
     )
 
 

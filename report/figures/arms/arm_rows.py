@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from bench.experiments.suites import NOMINAL
+from bench.experiments.suites import IDEAL_MOTORS, NOMINAL
 from bench.experiments.tables import read
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
@@ -42,13 +42,19 @@ def every(run: Run) -> pd.DataFrame:
 
 
 def episodes(run: Run) -> pd.DataFrame:
-    """Return the episodes with a perfect model."""
+    """Return the episodes of arms as they are."""
     return every(run)[every(run)["variation"] == NOMINAL]
+
+
+def with_ideal_motors(run: Run) -> pd.DataFrame:
+    """Return the episodes under the paper's assumption that motors have no limit."""
+    return every(run)[every(run)["variation"] == IDEAL_MOTORS]
 
 
 def varied(run: Run) -> pd.DataFrame:
     """Return the episodes whose plant differs from the controller's model."""
-    return every(run)[every(run)["variation"] != NOMINAL]
+    names = [name for name in tasks.variation_names() if tasks.variation(name).believed]
+    return every(run)[every(run)["variation"].isin(names)]
 
 
 def named(frame: pd.DataFrame) -> pd.DataFrame:

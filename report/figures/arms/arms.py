@@ -1,8 +1,9 @@
-"""The page on arms: which controllers settle within an arm's limits, and what a wrong model leaves."""
+"""The page on arms: which laws settle on arms as they are, what limits them, and what a wrong model leaves."""
 
 from __future__ import annotations
 
 import numpy as np
+import pandas as pd
 
 import tasks
 from bench.findings.selection.robots import ARM, word_of
@@ -27,11 +28,18 @@ def facts(run: Run) -> dict:
 
 
 def tables(run: Run) -> dict:
-    """Return where the arms are from, and which controllers settle within an arm's limits."""
+    """Return where the arms are from, which laws settle on them, and what limits them."""
     return {
         "sources": "\n".join(f"- `{name}`: {prose(tasks.arm(name).source)}" for name in tasks.arm_names()),
         "tab_ranked": in_run(lambda: arm_ranking.RANKED(arm_ranking.ranked(arm_rows.episodes(run)))),
+        "tab_limited": in_run(lambda: arm_ranking.LIMITED(arm_ranking.limited(as_they_are(run)))),
     }
+
+
+def as_they_are(run: Run) -> pd.DataFrame:
+    """Return the episodes of compared laws from uniform starts, with all motors and gains."""
+    rows = arm_ranking.of_laws(arm_rows.every(run), "uniform")
+    return rows[rows["variation"].isin(arm_ranking.MOTORS)]
 
 
 def figures(_: Run) -> dict:

@@ -53,7 +53,7 @@ def tables(run: Run) -> dict:
 
 def pass_pole(run: Run) -> pd.DataFrame:
     """Join starts whose turn passes the pole of Z-Y-X angles: a row a start by (3.7), with (2.2) on R beside it."""
-    rows = arm_rows.with_standard(arm_rows.episodes(run))
+    rows = arm_rows.with_standard(arm_rows.with_ideal_motors(run))
     starts = rows[rows["start_set"] == "pole"]
     columns = ["arm", "start_id", "outcome", "peak_torque_ratio"]
     own, other = (starts.loc[starts["controller"] == name, columns] for name in reversed(arm_rows.PAPERS_TWO))

@@ -7,7 +7,7 @@ import functools
 import pandas as pd
 
 from bench.experiments.impedance_modes import FRANKAPYS
-from bench.experiments.suites import NOMINAL
+from bench.experiments.suites import IDEAL_MOTORS
 from bench.findings.theory.impedance_modes import with_theory
 from bench.law.control.unshaped import DAMPINGS
 from report.figures.kit.page import Run
@@ -22,9 +22,9 @@ def modes(run: Run) -> pd.DataFrame:
 def facts(run: Run) -> dict:
     """Return the damping felt by each design, and the longest stable control periods of frankapy's gains."""
     every = modes(run)
-    driven = every["variation"].astype(str) != NOMINAL
-    found = every[driven | ~every["arm"].isin(every.loc[driven, "arm"])]  # with hand and motors where they are known
-    franka = every[(every["damping"] == "diagonal") & (every["stiffness_n_m"] == FRANKAPYS.translation)]
+    driven = every["variation"].astype(str) != IDEAL_MOTORS
+    found, panda = every[driven], every["arm"] == "panda"
+    franka = every[panda & (every["damping"] == "diagonal") & (every["stiffness_n_m"] == FRANKAPYS.translation)]
     stable = 1000.0 * franka.loc[driven, "longest_dt_s"]
     felt = {name: found.loc[found["damping"] == name, "ratio"] for name in DAMPINGS}
     double, axes = felt["double-diagonalization"], felt["per-axis"]
@@ -40,7 +40,7 @@ def facts(run: Run) -> dict:
         "tick": f"{1000 * float(run.rows('impedance')['dt_s'].iloc[0]):g}",
         "practice": f"{FRANKAPYS.translation:g} N/m, {FRANKAPYS.rotation:g} N m/rad",
         "practice_tick": f"{stable.min():.2g} to {stable.max():.2g}",
-        "bare_tick": f"{1000.0 * franka.loc[franka['arm'] == 'panda', 'longest_dt_s'].min():.2g}",
+        "bare_tick": f"{1000.0 * franka['longest_dt_s'].min():.2g}",
     }
 
 

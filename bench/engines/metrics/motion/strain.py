@@ -43,7 +43,7 @@ def last_distance(value, sample):
 
 @kernel
 def largest_excess(value, sample):
-    """max over joints of q - upper or lower - q [rad], if positive; the plant enforces no range."""
+    """max over joints of q - upper or lower - q [rad], if positive; stops are soft."""
     for i in range(7):
         above, below = sample.q[i] - sample.upper[i], sample.lower[i] - sample.q[i]
         if above > value:
@@ -55,7 +55,7 @@ def largest_excess(value, sample):
 
 METRICS = (
     Metric("peak_tau_nm", "N m", "largest torque of any joint", 0.0, largest_torque, root, True),
-    # above 1, a real arm could not have done it
+    # with ideal motors above 1: a real arm could not have done it
     Metric("peak_torque_ratio", "1", "largest torque over the motor's rated one", 0.0, largest_ratio, root, True),
     Metric("position_error_m", "m", "largest distance of the tool from its place", 0.0, farthest, root, True),
     Metric("position_left_m", "m", "distance of the tool from its place at the end", 0.0, last_distance, root, True),

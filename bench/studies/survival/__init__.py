@@ -1,1 +1,0 @@
-"""Runs of laws that lie: a program that the tests start."""
