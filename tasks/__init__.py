@@ -210,7 +210,7 @@ def axis(name: str) -> Axis:
 def variation_names(arm: str = "") -> list[str]:
     """Names of all variations, `nominal` first; of an arm those that it has: not every one states a range of motors."""
     has_range = not arm or bool(_find_arm(arm).motors)
-    return [name for name in VARIATIONS if has_range or not name.startswith("motors-")]
+    return [name for name, one in VARIATIONS.items() if has_range or not one.needs_range]
 
 
 def variation(name: str) -> Variation:

@@ -4,6 +4,7 @@
                   arm's file (<numeric name="hand" data="m x y z Ixx Iyy Izz"/>) and its usual motor inertia
     ideal-motors  the paper's assumption: no torque is too large; no stops, no hand, motor inertia as in the file
     motors-low, motors-high  the nominal arm with the least and the greatest motor inertia that its file states
+    motors-slow, motors-late  the nominal arm, its torques with a first-order lag of 5 ms (32 Hz), or 5 ms late
     mass-s        D -> s D, and gravity and Coriolis torques with it, s in 0.70, 0.85, 1.15, 1.30
     links-k       D of links whose inertial parameters are s_i times the model's, s_i in [0.7, 1.3], drawn with seed k
     friction-p    dry friction in every joint, p per cent of its rated torque
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
 
 SPREAD = (0.7, 1.3)  # of the factors of single links: the +-30 % of the uniform ones
 IMPEDANCE = 0.9999  # mjMAXIMP
+LOW, USUAL, HIGH = range(3)  # of the numbers of an arm's "motors"
 
 
 class Variation(NamedTuple):
@@ -47,8 +49,14 @@ class Variation(NamedTuple):
     apply: Callable[[mujoco.MjModel, Sequence[float]], None]
     """apply(model, rated): changes a compiled model of an arm in place; rated torques [N m]. For a fresh model, once,
     before its data are made."""
-    believed: str = ""
-    """The variation that the controller's model is; empty: this one."""
+    believed: str = ""  # the variation that the controller's model is; empty: this one
+    lag_s: float = 0.0  # time constant of the motors' torque [s]
+    delay_s: float = 0.0  # how late a torque is [s]
+    needs_range: bool = False  # whether only arms have it whose file states a range of motor inertia
+
+    def late_ticks(self, dt: float) -> int:
+        """Return the delay in control periods; -1 where motors are neither late nor slow."""
+        return round(self.delay_s / dt) if self.delay_s or self.lag_s else -1
 
 
 def numbers_of(model: mujoco.MjModel, name: str) -> np.ndarray | None:
@@ -110,17 +118,14 @@ def _build(motors: int, model: mujoco.MjModel, rated: Sequence[float]) -> None:
     mujoco.mj_setConst(model, mujoco.MjData(model))
 
 
-LOW, USUAL, HIGH = range(3)
+def _change(change: Callable, model: mujoco.MjModel, rated: Sequence[float]) -> None:
+    """Change the nominal arm, in which the controller goes on believing."""
+    _build(USUAL, model, rated)
+    change(model, rated)
 
 
 def _differing(name: str, title: str, change: Callable[[mujoco.MjModel, Sequence[float]], None]) -> Variation:
-    """Return the nominal arm, changed; its controller believes the nominal one."""
-
-    def apply(model: mujoco.MjModel, rated: Sequence[float]) -> None:
-        _build(USUAL, model, rated)
-        change(model, rated)
-
-    return Variation(name, title, apply, "nominal")
+    return Variation(name, title, partial(_change, change), "nominal")
 
 
 VARIATIONS = {
@@ -128,8 +133,12 @@ VARIATIONS = {
     for variation in (
         Variation("nominal", "Motors cut at their rating, joints with stops; exact model", partial(_build, USUAL)),
         Variation("ideal-motors", "No torque is too large, no joint ends: the paper's assumption", _nothing),
-        Variation("motors-low", "The least motor inertia of the arm's file", partial(_build, LOW)),
-        Variation("motors-high", "The greatest motor inertia of the arm's file", partial(_build, HIGH)),
+        Variation("motors-low", "The least motor inertia of the arm's file", partial(_build, LOW), needs_range=True),
+        Variation(
+            "motors-high", "The greatest motor inertia of the arm's file", partial(_build, HIGH), needs_range=True
+        ),
+        Variation("motors-slow", "Torque follows with a time constant of 5 ms", partial(_build, USUAL), lag_s=5e-3),
+        Variation("motors-late", "Torque comes 5 ms late", partial(_build, USUAL), delay_s=5e-3),
         _differing("mass-0.70", "Links and rotors 30 % lighter than the model", partial(_scale_all, 0.70)),
         _differing("mass-0.85", "Links and rotors 15 % lighter than the model", partial(_scale_all, 0.85)),
         _differing("mass-1.15", "Links and rotors 15 % heavier than the model", partial(_scale_all, 1.15)),

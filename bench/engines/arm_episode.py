@@ -68,6 +68,7 @@ class Controls(NamedTuple):
     rows of the Jacobian; gives_torque by the inverse (`resolved_acceleration.BY_JOINT`); has_own_model: 0 if the
     controller's model is the plant, 1 if it is another in the plant's state, STANDING if its joints stand still there,
     so that its torques are gravity's alone. is_cut: 1 if the plant's motors give no more than their rated torque.
+    share: what motors make up in a tick of their difference from the torque that is sent.
     """
 
     rows: int
@@ -75,6 +76,7 @@ class Controls(NamedTuple):
     has_own_model: int
     torque_limit_squared: float
     is_cut: int
+    share: float
 
 
 class Joints(NamedTuple):
@@ -89,11 +91,14 @@ class Joints(NamedTuple):
     inertia: Seven
 
 
-def controls(contender: Contender, has_own_model: bool, torque_limit: float, plant: Any) -> Controls:
-    """Return the numbers of a contender on an arm; plant: MuJoCo's model of it."""
+def controls(
+    contender: Contender, has_own_model: bool, torque_limit: float, plant: Any, lag_s: float = 0.0
+) -> Controls:
+    """Return the numbers of a contender on an arm; plant: MuJoCo's model of it; lag_s: its motors' time constant."""
     gives = GIVES[contender.inverse.gives] if contender.inverse else 0
     own = STANDING if gives == BY_JOINT else int(has_own_model)
-    return Controls(contender.rows, gives, own, torque_limit**2, int(plant.actuator_ctrllimited.any()))
+    share = -math.expm1(-plant.opt.timestep / lag_s) if lag_s else 1.0
+    return Controls(contender.rows, gives, own, torque_limit**2, int(plant.actuator_ctrllimited.any()), share)
 
 
 def states(starts: Starts, n: int) -> np.ndarray:
@@ -137,6 +142,22 @@ def cut(tau, rated, n):
             tau[i] = rated[i]
         elif tau[i] < -rated[i]:
             tau[i] = -rated[i]
+
+
+@kernel
+def drive(tau, sent, share, tick, fg, n):
+    """Replace the torques that are sent by those that slow or late motors give; at first these hold the arm.
+
+    sent: a row for each tick of delay and the present one, then what motors give.
+    """
+    slots = sent.shape[0] - 1
+    for i in range(n):
+        if tick == 0:
+            for j in range(sent.shape[0]):
+                sent[j, i] = fg[i]
+        sent[tick % slots, i] = tau[i]
+        sent[slots, i] += share * (sent[(tick + 1) % slots, i] - sent[slots, i])
+        tau[i] = sent[slots, i]
 
 
 @kernel

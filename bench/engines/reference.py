@@ -59,21 +59,20 @@ def run_arm(
     laws = assembly(parts_for(contender)), contender.inverse.resolve, margin_of(contender)
     loop, one = on_arm.loop_of(observer(metrics)), tasks.variation(variation)
     believes = one.believed or variation
-
-    def vary(model: Any) -> None:
-        one.apply(model, of_arm.rated)
-
     with np.errstate(all="ignore"):
         for start, line, row in zip(starts, begun, rows, strict=True):
-            sim = plain_view(_reset(task, start, limits, integrator, arm=arm, vary=vary))
-            shape = controls(contender, bool(one.believed), settings.torque_limit, sim.model)
+            sim = plain_view(
+                _reset(task, start, limits, integrator, arm=arm, vary=lambda model: one.apply(model, of_arm.rated))
+            )
+            shape = controls(contender, bool(one.believed), settings.torque_limit, sim.model, one.lag_s)
             believed = sim
             if shape.has_own_model:
                 model = mujoco.MjModel.from_xml_string(tasks.task(task, arm).xml(limits.dt))
                 tasks.variation(believes).apply(model, of_arm.rated)
                 believed = model_view(model, mujoco.MjData(model))
             states, hinges = states_of([start], of_arm.joints), joints(of_arm, believes)
-            world = on_arm.World(sim, states, believed, on_arm.work(of_arm.joints), shape, hinges)
+            work = on_arm.work(of_arm.joints, one.late_ticks(limits.dt))
+            world = on_arm.World(sim, states, believed, work, shape, hinges)
             _run(loop, laws, world, contender, line, limits, row)
     return rows
 

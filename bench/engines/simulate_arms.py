@@ -66,19 +66,14 @@ def arm_world(
     variation: str = IDEAL_MOTORS,
 ) -> tuple[list, on_arm.World]:  # fmt: skip
     """Return the models of one arm, the plant and the controller's if it is another one, and the world of the loop."""
-    one, believed = tasks.arm(arm), tasks.variation(variation).believed
+    one, plant_of = tasks.arm(arm), tasks.variation(variation)
+    believed = plant_of.believed
     plant = _simulation(task, one, settings.dt_s, integrator, variation)
-    shape = controls(contender, bool(believed), settings.torque_limit, plant[0])
+    shape = controls(contender, bool(believed), settings.torque_limit, plant[0], plant_of.lag_s)
     own = _simulation(task, one, settings.dt_s, integrator, believed or variation) if shape.has_own_model else plant
-    world = on_arm.World(
-        compiled_view(*plant),
-        states(starts, one.joints),
-        compiled_view(*own),
-        on_arm.work(one.joints),
-        shape,
-        joints(one, believed or variation),
-    )
-    return [plant, own], world
+    work, hinges = on_arm.work(one.joints, plant_of.late_ticks(settings.dt_s)), joints(one, believed or variation)
+    views = compiled_view(*plant), states(starts, one.joints), compiled_view(*own)
+    return [plant, own], on_arm.World(*views, work, shape, hinges)
 
 
 def _simulation(task: str, arm: Arm, dt_s: float, integrator: str = "euler", variation: str = IDEAL_MOTORS) -> tuple:

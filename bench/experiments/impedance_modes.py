@@ -40,7 +40,8 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
     """Return one row a mode."""
-    plants = [name for name in tasks.variation_names(unit.arm) if not tasks.variation(name).believed]
+    every = map(tasks.variation, tasks.variation_names(unit.arm))
+    plants = [one.name for one in every if not one.believed and one.late_ticks(settings.dt_s) < 0]
     found = []
     for plant, stiffness in itertools.product(plants, (*STIFFNESSES, FRANKAPYS)):
         P, Q = hand_matrices(settings, unit, stiffness, plant)

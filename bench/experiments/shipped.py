@@ -21,7 +21,7 @@ from bench.engines.metrics.registry import metrics_of
 from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.field import ENGINE, ZERO, Field, about, size
-from bench.experiments.suites import BEST_LAWS, LONG
+from bench.experiments.suites import BEST, LONG
 from bench.law.contender import Contender
 from bench.law.contenders.registry import contenders, find_contender
 from bench.law.kinds import VELOCITY, Law
@@ -62,8 +62,8 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
-    """Return the row of the controller, then that of each of BEST_LAWS at its gains."""
-    laws = [law for law in BEST_LAWS if law.partition("/")[0] in contenders("regulators")]
+    """Return the row of the controller, then that of each of BEST at its gains."""
+    laws = [law for law in BEST if law.partition("/")[0] in contenders("regulators")]
     return compare(contenders("shipped")[unit.selector], laws, settings, unit.horizon_s)
 
 

@@ -125,9 +125,9 @@ HORIZON = {"half-turn": LONG, "poles": LONG, "wraps": LONG}
 
 DECLARED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 LISTS: dict[str, tuple[str, ...]] = {name: tuple(words) for name, words in DECLARED.pop("lists").items()}
-LAWS, BEST, BY_WORD_ALONE, AT_INVERSES = (LISTS[name] for name in ("LAWS", "BEST", "BY_WORD_ALONE", "AT_INVERSES"))
-BEST_LAWS = tuple(word.partition("@")[0] for word in BEST)
-STREAMED = ("rotation-matrix", *BEST_LAWS)
+LAWS, BEST, LATER, AT_INVERSES = (LISTS[name] for name in ("LAWS", "BEST", "LATER", "AT_INVERSES"))
+BY_WORD_ALONE = (*LATER, *LISTS["BY_WORD_ALONE"])
+STREAMED = ("rotation-matrix", *BEST)
 """What follows goals that arrive as a stream: the paper's first law, and the best of later ones."""
 
 
@@ -136,9 +136,9 @@ def expanded(words: Iterable[str]) -> tuple[str, ...]:
     return tuple(one for word in words for one in LISTS.get(word, (word,)))
 
 
-def number_of(size: int | str) -> int | None:
-    """Return a number of starts; None for "all"."""
-    return size if isinstance(size, int) else None
+def read_on_arm(start_set: str, size: int | str, horizon_s: float = ON_ARM) -> Slice:
+    """Return a slice of an arm; "all" is a set's own number."""
+    return Slice("native", start_set, size if isinstance(size, int) else None, horizon_s)
 
 
 def read_slices(declared: list[list]) -> tuple[Slice, ...]:
@@ -154,14 +154,11 @@ def read_slices(declared: list[list]) -> tuple[Slice, ...]:
 
 def read_on_arms(varied_size: int | str, varied_s: float, poses: int, **said: Any) -> OnArms:
     """Return the part of a suite on arms."""
-    sizes = {name: said.pop(name) for name in list(said) if name.endswith("sizes")}
     slices: dict[str, Any] = {
-        name.replace("sizes", "slices"): tuple(
-            Slice("native", start_set, number_of(size), ON_ARM) for start_set, size in each.items()
-        )
-        for name, each in sizes.items()
+        f"{part}slices": tuple(read_on_arm(*one) for one in said.pop(f"{part}sizes").items())
+        for part in ("", "compared_", "other_")
     }
-    varied = (Slice("native", "clear", number_of(varied_size), varied_s),)
+    varied = (read_on_arm("clear", varied_size, varied_s),)
     words: dict[str, Any] = {name: expanded(those) for name, those in said.items()}
     return OnArms(varied_slices=varied, poses=poses, **slices, **words)
 

@@ -5,15 +5,17 @@ sets take turns: the loop calls laws and inverses by pointer, whichever they are
 """
 
 import functools
+import math
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 from support.bits import different_rows
 from support.driving import settings
 from support.on_arms import ARMS, LAWS, named
 
 import tasks
-from bench.engines.arm_episode import POSE
+from bench.engines.arm_episode import POSE, drive
 from bench.engines.episode import OUTCOME
 from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate_arms import run_arm as run
@@ -26,7 +28,7 @@ from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR, STUC
 TASK = "arm-regulation"
 METRICS = metrics_of(on_arm=True)
 SETS = tasks.task(TASK, ARMS[0]).start_sets
-VARIED = ("mass-1.30", "links-1", "friction-10", "mass-0.70")
+VARIED = ("mass-1.30", "motors-late", "friction-10", "motors-slow")
 over_arms = pytest.mark.parametrize("arm", ARMS)
 
 
@@ -141,6 +143,17 @@ def test_native_rows_are_the_reference_rows_when_the_plant_is_not_the_model(arm,
     assert [starts[i].id for i in different_rows(fast, slow)] == []
     exact = run("native", one, TASK, arm, starts, chosen, METRICS, integrator)
     assert different_rows(fast, exact) != []  # it does make a difference
+
+
+@pytest.mark.parametrize(("lag_s", "late"), [(5e-3, 0), (0.0, 5), (2e-3, 3)])
+def test_torques_of_slow_and_late_motors_are_those_of_scipys_filter(lag_s, late):
+    asked, fg = np.random.default_rng(5).standard_normal((60, 6)), np.arange(6.0)
+    share, sent, given = -math.expm1(-1e-3 / lag_s) if lag_s else 1.0, np.zeros((late + 2, 6)), asked.copy()
+    for tick, tau in enumerate(given):
+        drive(tau, sent, share, tick, fg, 6)
+    arrived = np.vstack((np.tile(fg, (late, 1)), asked))[:60]
+    expected, _ = lfilter([share], [1.0, share - 1.0], arrived, axis=0, zi=(1.0 - share) * fg[None])
+    np.testing.assert_allclose(given, expected, atol=1e-12)
 
 
 @over_arms

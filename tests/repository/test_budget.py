@@ -47,7 +47,7 @@ TOO_LONG: dict[str, int] = {}
 """Files that are still longer, with their lines."""
 
 
-DATA = {"bench": 3_073, "report": 6_375, "tasks": 5_285, "tests": 955}
+DATA = {"bench": 3_073, "report": 1_751, "tasks": 477, "tests": 955}
 """Lines of text in other files than Python: what moves into them counts too. One new file may come on top."""
 SUFFIXES = (".toml", ".text", ".xml", ".js", ".c", ".html", ".css")
 

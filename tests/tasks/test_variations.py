@@ -60,7 +60,7 @@ def at(model: mujoco.MjModel, q, qdot) -> mujoco.MjData:
 
 def test_nominal_is_first_and_ideal_motors_change_nothing():
     assert tasks.variation_names()[:2] == ["nominal", "ideal-motors"]
-    assert tasks.variation_names("puma560")[2:] == [*FACTORS, *LINKS, *FRICTIONS]
+    assert tasks.variation_names("puma560")[2:] == ["motors-slow", "motors-late", *FACTORS, *LINKS, *FRICTIONS]
     plain, varied = (mujoco.MjModel.from_xml_string(model_xml(tasks.arm("panda"), DT)) for _ in range(2))
     tasks.variation("ideal-motors").apply(varied, tasks.arm("panda").rated)
     for name in ("body_mass", "body_inertia", "dof_armature", "dof_frictionloss", "actuator_ctrllimited"):

@@ -17,6 +17,7 @@ from bench.engines.arm_episode import (
     Joints,
     buffers,
     cut,
+    drive,
     face_joints,
     load,
     probe,
@@ -37,12 +38,13 @@ from tasks.verdict import GOING, check_command
 
 
 class Work(NamedTuple):
-    """What a controller writes into: its buffers, D, fg, and a Jacobian for the judge's look."""
+    """What a controller writes into: its buffers, D, fg, a Jacobian for the judge's look, and torques that are sent."""
 
     buffers: Buffers
     D: Matrix
     fg: Vector
     G: Matrix
+    sent: Matrix
 
 
 class World(NamedTuple):
@@ -73,9 +75,11 @@ class Tool(NamedTuple):
     chain: Chain
 
 
-def work(n: int) -> Work:
-    """Return fresh buffers for n joints."""
-    return Work(buffers(n), np.zeros((n, n)), np.zeros(n), np.zeros((MOST, MOST)))
+def work(n: int, late: int = -1) -> Work:
+    """Return fresh buffers for n joints, whose motors give torques so many ticks late; -1: torques are not kept."""
+    return Work(
+        buffers(n), np.zeros((n, n)), np.zeros(n), np.zeros((MOST, MOST)), np.zeros((2 + late if late >= 0 else 0, n))
+    )
 
 
 @kernel
@@ -141,6 +145,8 @@ def command(laws, body, sensed, now, gains, memory, numbers):
     )  # fmt: skip
     if controls.is_cut > 0:
         cut(work.buffers.tau, body.joints.rated, n)
+    if work.sent.shape[0] > 0:
+        drive(work.buffers.tau, work.sent, controls.share, now.tick, work.fg, n)
     total = load(seven(work.buffers.tau, n), body.joints.rated)
     failure = check_command(total, controls.torque_limit_squared)
     return Act(u, u, dot(u, u), laws.third(sensed.R, sensed.goal.R), failure, ()), memory

@@ -18,7 +18,10 @@ LIMITED = Table(
     "Arm | Motors | kp, kv | Settled [%] | With motors at their rating [%] | Stopped by a joint | Not settled otherwise"
 )
 SETS = ("uniform", "reach")
-MOTORS = {"nominal": "usual", "motors-low": "least", "motors-high": "greatest"}
+MOTORS = {
+    **{"nominal": "usual", "motors-low": "least inertia", "motors-high": "greatest inertia"},
+    **{"motors-slow": "5 ms slow", "motors-late": "5 ms late"},
+}
 COLUMNS = tuple((name, measure) for name in SETS for measure in ("settled", "range"))
 FEW = 4
 """Names up to this number are said, more are counted; the table has them."""
@@ -64,8 +67,10 @@ def limited(rows: pd.DataFrame) -> Iterator[tuple]:
     """Return a row for each arm, motor inertia and gains: what settles, and what stops the others; over all laws.
 
     Args:
-        rows: of `arm_rows.every`, uniform starts of the compared laws.
+        rows: of `arm_rows.every`.
     """
+    rows = of_laws(rows, SETS[0])
+    rows = rows[rows["variation"].isin(MOTORS)]
     for (arm, motors, kp, kv), own in rows.groupby(["arm", "variation", "kp", "kv"], sort=True):
         is_cut, stops = own["peak_torque_ratio"] >= 1.0, count_stopped(own)
         ends = arm_rows.settled(own).mean(), is_cut.mean(), stops / len(own)
@@ -89,7 +94,7 @@ def lead(uniform: pd.DataFrame) -> str:
     """State who settles most on arms as they are, what gains do, and what stops the others.
 
     Args:
-        uniform: of `of_laws`, evenly spread starts, with all gains.
+        uniform: of `of_laws`, with all gains.
     """
     settled, by_arm = arm_rows.settled(uniform), arm_rows.settled(uniform).groupby(uniform["arm"]).mean()
     levels = [f"{100 * own.mean():.0f} % at kp = {kp:g} 1/s²" for kp, own in settled.groupby(uniform["kp"])]

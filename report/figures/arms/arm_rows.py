@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from bench.experiments.suites import IDEAL_MOTORS, NOMINAL
+from bench.experiments.suites import NOMINAL
 from bench.experiments.tables import read
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
@@ -41,14 +41,9 @@ def every(run: Run) -> pd.DataFrame:
     return named(run.rows("episodes", task="arm-regulation", engine="native"))
 
 
-def episodes(run: Run) -> pd.DataFrame:
-    """Return the episodes of arms as they are."""
-    return every(run)[every(run)["variation"] == NOMINAL]
-
-
-def with_ideal_motors(run: Run) -> pd.DataFrame:
-    """Return the episodes under the paper's assumption that motors have no limit."""
-    return every(run)[every(run)["variation"] == IDEAL_MOTORS]
+def episodes(run: Run, variation: str = NOMINAL) -> pd.DataFrame:
+    """Return the episodes of arms as they are, or of a variation."""
+    return every(run)[every(run)["variation"] == variation]
 
 
 def varied(run: Run) -> pd.DataFrame:

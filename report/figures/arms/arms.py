@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pandas as pd
 
 import tasks
 from bench.findings.selection.robots import ARM, word_of
@@ -32,14 +31,8 @@ def tables(run: Run) -> dict:
     return {
         "sources": "\n".join(f"- `{name}`: {prose(tasks.arm(name).source)}" for name in tasks.arm_names()),
         "tab_ranked": in_run(lambda: arm_ranking.RANKED(arm_ranking.ranked(arm_rows.episodes(run)))),
-        "tab_limited": in_run(lambda: arm_ranking.LIMITED(arm_ranking.limited(as_they_are(run)))),
+        "tab_limited": in_run(lambda: arm_ranking.LIMITED(arm_ranking.limited(arm_rows.every(run)))),
     }
-
-
-def as_they_are(run: Run) -> pd.DataFrame:
-    """Return the episodes of compared laws from uniform starts, with all motors and gains."""
-    rows = arm_ranking.of_laws(arm_rows.every(run), "uniform")
-    return rows[rows["variation"].isin(arm_ranking.MOTORS)]
 
 
 def figures(_: Run) -> dict:

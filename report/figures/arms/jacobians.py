@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import pandas as pd
 
+from bench.experiments.suites import IDEAL_MOTORS
 from bench.findings.claims.euler_jacobian import WELL_CONDITIONED
 from bench.law.contenders.registry import papers_coordinates
 from report.figures.arms import arm_rows
@@ -53,7 +54,7 @@ def tables(run: Run) -> dict:
 
 def pass_pole(run: Run) -> pd.DataFrame:
     """Join starts whose turn passes the pole of Z-Y-X angles: a row a start by (3.7), with (2.2) on R beside it."""
-    rows = arm_rows.with_standard(arm_rows.with_ideal_motors(run))
+    rows = arm_rows.with_standard(arm_rows.episodes(run, IDEAL_MOTORS))
     starts = rows[rows["start_set"] == "pole"]
     columns = ["arm", "start_id", "outcome", "peak_torque_ratio"]
     own, other = (starts.loc[starts["controller"] == name, columns] for name in reversed(arm_rows.PAPERS_TWO))
