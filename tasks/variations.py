@@ -118,14 +118,14 @@ def _build(motors: int, model: mujoco.MjModel, rated: Sequence[float]) -> None:
     mujoco.mj_setConst(model, mujoco.MjData(model))
 
 
-def _change(change: Callable, model: mujoco.MjModel, rated: Sequence[float]) -> None:
-    """Change the nominal arm, in which the controller goes on believing."""
-    _build(USUAL, model, rated)
-    change(model, rated)
-
-
 def _differing(name: str, title: str, change: Callable[[mujoco.MjModel, Sequence[float]], None]) -> Variation:
-    return Variation(name, title, partial(_change, change), "nominal")
+    """Return the nominal arm with a change that its controller does not know."""
+
+    def apply(model: mujoco.MjModel, rated: Sequence[float]) -> None:
+        _build(USUAL, model, rated)
+        change(model, rated)
+
+    return Variation(name, title, apply, "nominal")
 
 
 VARIATIONS = {

@@ -25,7 +25,6 @@ Of other experiments the name is said.
 """
 
 USUAL = ("", NOMINAL, IDEAL_MOTORS)
-"""Variations that are not named."""
 FEW = 3
 """Names up to this number are printed, more are counted."""
 

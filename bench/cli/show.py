@@ -46,17 +46,17 @@ def _meant(folder: str | None, part: str | None) -> tuple[Path, str | None]:
     Errors:
         UsageError: the second word is no part. BadResults: the first is neither a part nor a folder.
     """
-    from bench.cli.details import parts
+    from bench.cli.details import PARTS
     from bench.experiments.tables import read as results
 
-    if part is None and folder in parts():
+    if part is None and folder in PARTS:
         return results.folder(), folder
-    if part is not None and part not in parts():
-        raise click.UsageError(f"'{part}' is no part of a run; parts: {', '.join(parts())} (try: show {folder} arms)")
+    if part is not None and part not in PARTS:
+        raise click.UsageError(f"'{part}' is no part of a run; parts: {', '.join(PARTS)} (try: show {folder} arms)")
     path = Path(folder) if folder else results.folder()
     if folder and not path.exists():
         raise BadResults(
-            f"{folder}: there is no such folder, nor such a part; parts: {', '.join(parts())}; `make bench` makes "
+            f"{folder}: there is no such folder, nor such a part; parts: {', '.join(PARTS)}; `make bench` makes "
             "results/latest (try: bench show)"
         )
     return path, part
@@ -66,7 +66,6 @@ def _tables(folder: Path, part: str | None, outcomes: bool, regulators: options.
     """Titles and tables of a part, or of all."""
     from bench.cli.details import contact, robustness
     from bench.cli.details.episodes import of_laws, outcome_table, places, tables_of_arms, tables_of_free_body
-    from bench.experiments.experiment import known_experiments
     from bench.experiments.tables.store import read
 
     episodes = read(folder, "episodes")
@@ -85,8 +84,4 @@ def _tables(folder: Path, part: str | None, outcomes: bool, regulators: options.
     if part == "robustness" or not (part or regulators):
         rows = read(folder, "robustness")
         found += robustness.tables(rows) if len(rows) else ()
-    for one in known_experiments().values():
-        if one.summary and (part == one.name or not (part or regulators)):
-            frame = one.summary(read(folder, one.table))
-            found += [(one.title, frame)] if len(frame) else []
     return found

@@ -85,8 +85,8 @@ def _as_it_is(on_arms: OnArms, by_name: dict[str, Contender], arm: Arm, choice: 
     words = tuple(f"{name}@geometric+standard" for name in (*on_arms.compared, *own))
     levels = [(kp, 2.0 * zeta * math.sqrt(kp)) for kp, zeta in (SLOW, arm.gains)[: 1 + bool(arm.gains)]]
     motors = [name for name in tasks.variation_names(arm.name) if name.startswith("motors-")]
-    laws = combinations.on(words, by_name, arm.joints)
-    for one in (*laws, *(combinations.baselines(arm.joints) if not choice.is_of_some_laws else ())):
+    baselines = [] if choice.is_of_some_laws else combinations.baselines(arm.joints)
+    for one in (*combinations.on(words, by_name, arm.joints), *baselines):
         for part in on_arms.compared_slices:
             yield part, one, NOMINAL
         for part in on_arms.other_slices:

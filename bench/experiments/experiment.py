@@ -158,7 +158,7 @@ class Experiment(NamedTuple):
     whether rows of a user's law can be all of the unit's, by their number and place. ticks(settings, unit) -> control
     periods that it takes at most, which a user's law has its time by. is_divisible: whether `Unit.part` of it is a unit
     too. is_tried_first: whether a user's law goes through it before a run begins, so that a mistake leaves no folder.
-    compiles: whether its contender is compiled. summary(frame) -> what `show` prints of the table.
+    compiles: whether its contender is compiled.
     takes: the kinds of words, fields of Choice, that narrow its units. Where a word of another kind is named, the
     experiment is not run.
     fold(before, after) -> the rows of two units as those of both, where the table is not all of them one after the
@@ -180,7 +180,6 @@ class Experiment(NamedTuple):
     is_divisible: bool = False
     is_tried_first: bool = False
     compiles: bool = True
-    summary: Callable[[pd.DataFrame], pd.DataFrame] | None = None
     fold: Callable[[pd.DataFrame, pd.DataFrame], pd.DataFrame] | None = None
     in_suites: bool = True
     rank: int = 9

@@ -11,7 +11,7 @@ from rich.console import Console
 from support.command_line import bench, refused
 
 from bench.base.provenance import ROOT
-from bench.cli.details import parts, robustness
+from bench.cli.details import PARTS, robustness
 from bench.cli.details.episodes import tables_of_arms
 from bench.cli.options import REFERENCE
 from bench.cli.screen import frame_table
@@ -144,7 +144,7 @@ def test_part_that_a_run_lacks_is_said(capsys, finished):
 @pytest.mark.parametrize("words", [("arm",), ("results/reference", "arm")])
 def test_unknown_part_is_refused_with_the_parts(capsys, words):
     line = refused(capsys, "show", *words)
-    assert ", ".join(parts()) in line
+    assert ", ".join(PARTS) in line
     assert "try: " in line
 
 

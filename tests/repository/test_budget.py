@@ -11,11 +11,11 @@ LINES = {
     "bench/__main__.py": 31,
     "bench/audit": 2_275,
     "bench/base": 533,
-    "bench/cli": 2_550,
-    "bench/engines": 6_330,
-    "bench/experiments": 5_190,
+    "bench/cli": 2_539,
+    "bench/engines": 6_351,
+    "bench/experiments": 5_188,
     "bench/export": 2_040,
-    "bench/findings": 6_616,
+    "bench/findings": 6_617,
     "bench/law": 6_559,
     "bench/regression": 1_295,
     "bench/running": 2_523,
@@ -24,20 +24,20 @@ LINES = {
     "tests/cli": 755,
     "tests/conftest.py": 73,
     "tests/contracts": 2_506,
-    "tests/engines": 2_768,
+    "tests/engines": 2_781,
     "tests/experiments": 2_232,
     "tests/export": 315,
     "tests/findings": 2_144,
     "tests/law": 2_612,
     "tests/regression": 722,
-    "tests/report": 1_733,
+    "tests/report": 1_731,
     "tests/repository": 519,
     "tests/running": 1_196,
     "tests/studies": 609,
-    "tests/support": 3_268,
+    "tests/support": 3_261,
     "tests/tasks": 1_918,
-    "report": 6_375,
-    "tasks": 5_285,
+    "report": 6_376,
+    "tasks": 5_294,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
 FILES = {"bench/audit": 2_275, "bench/experiments": 5_190, "bench/export": 2_040, "bench/law": 6_559, "tasks": 5_285}
@@ -47,7 +47,7 @@ TOO_LONG: dict[str, int] = {}
 """Files that are still longer, with their lines."""
 
 
-DATA = {"bench": 3_073, "report": 1_751, "tasks": 477, "tests": 955}
+DATA = {"bench": 2_991, "report": 1_751, "tasks": 488, "tests": 1_035}
 """Lines of text in other files than Python: what moves into them counts too. One new file may come on top."""
 SUFFIXES = (".toml", ".text", ".xml", ".js", ".c", ".html", ".css")
 

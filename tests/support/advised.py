@@ -127,7 +127,7 @@ def operations(law):
 def by_start(rows, column, failed=None):
     """Return a row a start and a column a law; `failed` where a law does not settle."""
     values = rows[column] if failed is None else rows[column].where(rows["outcome"] == "settled", failed)
-    keys = [name for name in ("arm", "start_set", "start_id") if name in rows]
+    keys = [name for name in ("arm", "kp", "start_set", "start_id") if name in rows]
     wide = rows.assign(value=values.astype(float)).pivot(index=keys, columns="law", values="value")
     return wide.dropna(how="all").dropna(axis=1, how="all")
 
@@ -188,7 +188,7 @@ def accelerations(folder="reference"):
     arms = rows.query("task == 'arm-regulation' and start_set == 'uniform' and jacobian == 'geometric'")
     arms = standard(arms.query("variation == 'nominal' and engine == 'native'"))
     settled = arms["outcome"] == "settled"
-    within = settled & (arms["peak_torque_ratio"] <= 1.0) & (arms["range_excess_rad"] <= 0.0)
+    within = settled & (arms["peak_torque_ratio"] <= 0.99) & (arms["range_excess_rad"] <= 0.0)
     known = uniform["law"].unique()
     arms = arms.assign(settled=100.0 * settled, within=100.0 * within)[arms["law"].isin(known)]
     return Asked(

@@ -64,9 +64,8 @@ def recompute_flat():
 
 def recompute_impedance():
     rows = table("impedance-modes")
-    driven = rows["variation"] != "nominal"
-    franka = rows[driven & (rows["damping"] == "diagonal") & (rows["stiffness_n_m"] == 600)]["longest_dt_s"] * 1000
-    rows = rows[driven | (rows["arm"] != "panda")]
+    rows = rows[rows["variation"] != "ideal-motors"]
+    franka = rows.query("arm == 'panda' and damping == 'diagonal' and stiffness_n_m == 600")["longest_dt_s"] * 1000
     felt = {name: own["ratio"] for name, own in rows.groupby("damping")}
     double = felt["double-diagonalization"]
     return {
@@ -94,25 +93,24 @@ def lead_on_arms(passes):
 
 def recompute_arms():
     rows = table("episodes").query("task == 'arm-regulation' and start_set == 'uniform' and variation == 'nominal'")
-    seven, tall = rows["arm"] == "panda", rows["law"] == "feedback-linearized/quaternion"  # J_E of four rows for three
-    usual = np.select([seven & tall, seven | tall], ["truncated-svd", "pseudo-inverse"], "solve")
-    rows = rows[(rows["inverse"] == usual) & rows["jacobian"].isin(("geometric", "analytic"))]
     rows = rows[~rows["regulator"].isin(("joint-pd", "resolved-rate"))]
-    settled = rows["outcome"] == "settled"
-    within = settled & (rows["peak_torque_ratio"] <= 1) & (rows["range_excess_rad"] <= 0)
-    rows = rows.assign(settled=settled, within=within, by=rows["law"] + "@" + rows["jacobian"])
-    settled, within = (rows.pivot(index=["arm", "start_id"], columns="by", values=one) for one in ("settled", "within"))
-    never = [tasks.arm(arm).title for arm, own in within.groupby("arm") if not own.to_numpy().any()]
-    said = [len(rows), round(100 * (rows["peak_torque_ratio"] > 1).mean()), *lead_on_arms(within), 3.7]
-    said += [*share(within["feedback-linearized/zyx-euler@analytic"]), *(never or ["none"])]
-    able = within[within.groupby("arm").transform("any").any(axis=1)]
-    said += [*share(able[min(within, key=lambda name: (-within[name].mean(), name))]), *lead_on_arms(settled)]
+    rows = rows.assign(settled=rows["outcome"] == "settled", by=rows["law"] + "@" + rows["jacobian"])
+    said = lead_on_arms(rows.pivot(index=["arm", "kp", "start_id"], columns="by", values="settled"))
+    wide = rows.assign(kind=rows["kp"].map({25.0: "kp = 25", 100.0: "paper"}).fillna("shipped"))
+    wide = wide.pivot(index=["arm", "start_id", "by"], columns="kind", values="settled").dropna().astype(float)
+    said += ["three"]
+    for kind in ("kp = 25", "shipped", "paper"):
+        said += [round(100 * wide[kind].mean()), kind]
+    said.append(round(100 * (rows.loc[~rows["settled"], "range_excess_rad"] > 0).mean()))
+    by_arm = rows.groupby("arm")["settled"].mean().sort_values()
+    for arm in (by_arm.index[0], by_arm.index[-1]):
+        said += [tasks.arm(arm).title, round(100 * by_arm[arm])]
     return {"advised": word(accelerations().decide(ARM.need).law), "lead": said}
 
 
 def recompute_torque_at_pole():
     """Return how many times the torque of (2.2) on the rotation matrix (3.7) needs past the pole, in the median."""
-    rows = table("episodes").query("task == 'arm-regulation' and start_set == 'pole' and variation == 'nominal'")
+    rows = table("episodes").query("task == 'arm-regulation' and start_set == 'pole' and variation == 'ideal-motors'")
     by = rows["law"] + "@" + rows["jacobian"]
     usual = rows["inverse"] == np.where(rows["arm"] == "panda", "pseudo-inverse", "solve")
     rows = rows.assign(by=by)[usual & by.isin((f"{FEEDBACK}@analytic", f"{MATRIX}@geometric"))]

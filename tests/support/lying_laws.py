@@ -5,7 +5,6 @@ without it, and do the same when the command is given again.
 """
 
 import subprocess
-import sys
 import tempfile
 import tomllib
 from collections.abc import Callable, Sequence
@@ -74,11 +73,7 @@ def is_well(found: dict[str, dict]) -> bool:
     return all(one["code"] in (1, 2) and not one["traceback"] and one.get("same", True) for one in found.values())
 
 
-def main(ways: Sequence[str], names: Sequence[str]) -> dict:
-    """Go these ways with these laws, and return what became of them."""
-    every = {}
-    for way in ways:
-        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as here:
-            every[way] = WAYS[way](Path(here), names)
-        print(f"{way}: {'well' if is_well(every[way]) else 'NOT WELL'}, {len(names)} laws", file=sys.stderr, flush=True)
-    return every
+def go(way: str, names: Sequence[str]) -> dict:
+    """Go a way with these laws, and return what became of them."""
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as here:
+        return WAYS[way](Path(here), names)

@@ -5,13 +5,12 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from bench.cli.details import parts
+from bench.cli.details import PARTS
 from bench.cli.options import REFERENCE
 from bench.cli.paragraphs import Paragraph, listed, origin, print_paragraphs
 from bench.cli.progress import progress
 from bench.cli.screen import counted, shown_path
 from bench.cli.summary import answer, failures
-from bench.experiments.experiment import known_experiments
 from bench.experiments.tables import read as results
 from bench.findings.claims import Results, judge_possible, told
 from bench.findings.claims.verdict import NoEvidence, Word
@@ -86,16 +85,16 @@ def count_verdicts(results: Results) -> Paragraph:
 def parts_in(results: Results) -> list[str]:
     """Return the parts of a run, as `show` names them, that have rows."""
     episodes = results.table("episodes")
-    tables = {"contact": "compliance"} | {name: one.table.name for name, one in known_experiments().items()}
     has = {"free-body": (episodes["arm"] == "").any(), "arms": (episodes["arm"] != "").any()}
-    return [part for part in parts() if (has[part] if part in has else len(results.table(tables[part])))]
+    has |= {"contact": len(results.table("compliance")), "robustness": len(results.table("robustness"))}
+    return [part for part in PARTS if has[part]]
 
 
 def list_absent(results: Results) -> list[Paragraph]:
     """Return the parts and the laws that are not in the run; nothing if all are."""
     episodes = results.table("episodes")
     present = parts_in(results)
-    absent = [part.replace("-", " ") for part in parts() if part not in present]
+    absent = [part.replace("-", " ") for part in PARTS if part not in present]
     ran = {str(name).partition("@")[0] for name in episodes["contender"].unique()}
     laws = [one.name for one in all_contenders() if not one.regulator.costing_only]
     missing = [law for law in laws if law not in ran]

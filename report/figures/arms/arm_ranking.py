@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 
 import pandas as pd
 
+from bench.experiments.suites import SLOW
 from bench.findings.claims.tables import Share, share
-from bench.findings.on_arms import best, passed
+from bench.findings.on_arms import FULL, best, passed
+from bench.law.contenders.registry import baselines_of_arms
+from bench.law.inputs import PAPERS_GAINS
 from report.figures.arms import arm_rows
 from report.figures.kit import html
 from report.figures.kit.spelling import listed
@@ -15,7 +19,7 @@ from report.figures.kit.tables import Table
 
 RANKED = Table("Law | Settled [%] | No limit touched | Reach, settled | Reach, no limit touched")
 LIMITED = Table(
-    "Arm | Motors | kp, kv | Settled [%] | With motors at their rating [%] | Stopped by a joint | Not settled otherwise"
+    "Arm | Motors | kp, kv | Settled [%] | A motor at its rating [%] | Stopped by a joint | Not settled otherwise"
 )
 SETS = ("uniform", "reach")
 MOTORS = {
@@ -23,8 +27,7 @@ MOTORS = {
     **{"motors-slow": "5 ms slow", "motors-late": "5 ms late"},
 }
 COLUMNS = tuple((name, measure) for name in SETS for measure in ("settled", "range"))
-FEW = 4
-"""Names up to this number are said, more are counted; the table has them."""
+FEW = 4  # names up to this number are said, more are counted; the table has them
 
 
 def of_laws(rows: pd.DataFrame, start_set: str) -> pd.DataFrame:
@@ -33,22 +36,18 @@ def of_laws(rows: pd.DataFrame, start_set: str) -> pd.DataFrame:
 
 
 def ranked(rows: pd.DataFrame) -> Iterator[tuple]:
-    """Return a row a controller, best first; bold: shares that no other controller beats.
+    """Return a row a law, best first, then the baselines; bold: shares that no other law beats.
 
     Args:
         rows: of `arm_rows.episodes`.
     """
-    own = pd.concat([arm_rows.with_standard(rows), arm_rows.of_baselines(rows)])
+    laws = arm_rows.with_standard(rows)
+    top = {(name, one): best(laws[laws["start_set"] == name], one, "controller") for name, one in COLUMNS}
+    own = pd.concat([laws, arm_rows.of_baselines(rows)])
     own = own[own["start_set"].isin(SETS)]
-    own = own.assign(**passed(own))
-    top = {
-        (name, measure): best(own[own["start_set"] == name], measure, "controller")
-        if name in set(own["start_set"])
-        else []
-        for name, measure in COLUMNS
-    }
-    means = own[own["start_set"] == SETS[0]].groupby("controller")["settled"].mean()
-    for controller in means.sort_values(ascending=False, kind="stable").index:
+    own = own.assign(**passed(own), after=own["regulator"].isin(baselines_of_arms()))
+    means = own[own["start_set"] == SETS[0]].groupby("controller")[["after", "settled"]].mean()
+    for controller in means.sort_values(["after", "settled"], ascending=[True, False], kind="stable").index:
         cells = []
         for name, measure in COLUMNS:
             mine = own.loc[(own["controller"] == controller) & (own["start_set"] == name), measure]
@@ -64,18 +63,25 @@ def in_short(found: Share) -> str:
 
 
 def limited(rows: pd.DataFrame) -> Iterator[tuple]:
-    """Return a row for each arm, motor inertia and gains: what settles, and what stops the others; over all laws.
+    """Return a row for each arm, motors and gains: what settles, and what stops the others; over all laws.
 
     Args:
         rows: of `arm_rows.every`.
     """
     rows = of_laws(rows, SETS[0])
-    rows = rows[rows["variation"].isin(MOTORS)]
-    for (arm, motors, kp, kv), own in rows.groupby(["arm", "variation", "kp", "kv"], sort=True):
-        is_cut, stops = own["peak_torque_ratio"] >= 1.0, count_stopped(own)
-        ends = arm_rows.settled(own).mean(), is_cut.mean(), stops / len(own)
-        numbers = [f"{100 * abs(one):.0f}" for one in (*ends, 1.0 - ends[0] - ends[2])]
-        yield arm_rows.name_arm(arm), MOTORS[motors], f"{kp:g}, {kv:.0f}", *numbers
+    rows = compare_settings(rows[rows["variation"].isin(MOTORS)], ["variation", "kp"])
+    for arm, motors in itertools.product(rows["arm"].unique(), MOTORS):
+        every = rows[(rows["arm"] == arm) & (rows["variation"] == motors)]
+        for (kp, kv), own in every.groupby(["kp", "kv"]):
+            counts = arm_rows.settled(own).sum(), (own["peak_torque_ratio"] > FULL).sum(), count_stopped(own)
+            shares = (f"{100 * one / len(own):.0f}" for one in (*counts, len(own) - counts[0] - counts[2]))
+            yield arm_rows.name_arm(arm), MOTORS[motors], f"{kp:g}, {kv:.0f}", *shares
+
+
+def compare_settings(rows: pd.DataFrame, settings: list[str]) -> pd.DataFrame:
+    """Return the rows of the starts of an arm that ran under all its settings."""
+    ran = rows.groupby(["arm", "start_id"])[settings].transform("nunique").sum(axis=1)
+    return rows[ran == ran.groupby(rows["arm"]).transform("max")]
 
 
 def count_stopped(rows: pd.DataFrame) -> int:
@@ -91,19 +97,18 @@ def describe_share(rows: pd.DataFrame, controller: str, measure: str) -> str:
 
 
 def lead(uniform: pd.DataFrame) -> str:
-    """State who settles most on arms as they are, what gains do, and what stops the others.
-
-    Args:
-        uniform: of `of_laws`, with all gains.
-    """
+    """State who settles most on arms as they are, what gains do, and what stops the others; uniform: of `of_laws`."""
     settled, by_arm = arm_rows.settled(uniform), arm_rows.settled(uniform).groupby(uniform["arm"]).mean()
-    levels = [f"{100 * own.mean():.0f} % at kp = {kp:g} 1/s²" for kp, own in settled.groupby(uniform["kp"])]
+    kinds = uniform["kp"].map({SLOW[0]: "kp = 25 1/s²", PAPERS_GAINS.kp: "the paper's gains"}).fillna("shipped gains")
+    both = compare_settings(uniform[uniform.groupby("arm")["kp"].transform("nunique") > 2], ["kp"])
+    levels = [f"{100 * own.mean():.0f} % at {kind}" for kind, own in settled[both.index].groupby(kinds[both.index])]
     ends = [f"{arm_rows.name_arm(arm)} ({100 * by_arm[arm]:.0f} %)" for arm in (by_arm.idxmin(), by_arm.idxmax())]
+    stopped = count_stopped(uniform) / max(1, (~settled).sum())
     return (
         "Motors are cut at their rated torque, and joints stop at the ends of their ranges. From evenly spread starts, "
-        f"{leading(uniform, 'settled')}. All laws together settle {', '.join(levels)}. Of the episodes that do not "
-        f"settle, {100 * count_stopped(uniform) / max(1, (~settled).sum()):.0f} % had a joint at the end of its range. "
-        f"The least settle on the {ends[0]}, the most on the {ends[1]}."
+        f"{leading(uniform, 'settled').replace('(2.2) ', '')}. On the arms that run with three pairs of gains, all "
+        f"laws together settle {', '.join(levels)}. Of the episodes that do not settle, {100 * stopped:.0f} % had a "
+        f"joint at the end of its range. The least settle on the {ends[0]}, the most on the {ends[1]}."
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pandas as pd
 
 import tasks
 from bench.findings.selection.robots import ARM, word_of
@@ -19,11 +20,18 @@ HOMES = (
 
 def facts(run: Run) -> dict:
     """Return which law to take, and what a wrong model leaves."""
+    one = word_of(ARM, run.folder)
     return {
         "lead": in_run(lambda: arm_ranking.lead(arm_ranking.of_laws(arm_rows.episodes(run), "uniform"))),
-        "advised": advised(run),
+        "advised": families.word(one.law) if one and one.law else "none, for this run does not tell",
+        "joint_pd": in_run(lambda: joint_pd(arm_rows.episodes(run))),
         "model_errors": in_run(lambda: describe_model_errors(run)),
     }
+
+
+def joint_pd(rows: pd.DataFrame) -> str:
+    """Return what joint PD settles from evenly spread starts."""
+    return arm_ranking.describe_share(rows[rows["start_set"] == "uniform"], "joint-pd@joints", "settled")
 
 
 def tables(run: Run) -> dict:
@@ -38,12 +46,6 @@ def tables(run: Run) -> dict:
 def figures(_: Run) -> dict:
     """Return the arms at home."""
     return {"arms-at-home": media.still(HOMES, "arms")}
-
-
-def advised(run: Run) -> str:
-    """Return the law that is advised for an arm (`selection.robots`)."""
-    one = word_of(ARM, run.folder)
-    return families.word(one.law) if one and one.law else "none, for this run does not tell"
 
 
 def describe_model_errors(run: Run) -> str:
