@@ -81,12 +81,11 @@ def _on_arm(on_arms: OnArms, laws: Iterable[Contender], arm: Arm, choice: Choice
 
 def _as_it_is(on_arms: OnArms, by_name: dict[str, Contender], arm: Arm, choice: Choice) -> Iterator[tuple]:
     """(slice, contender, variation, gains) of the compared laws, the user's and the baselines, on the arm as it is."""
-    own = (name for name, one in by_name.items() if one.regulator.origin)
-    words = tuple(f"{name}@geometric+standard" for name in (*on_arms.compared, *own))
+    own = tuple(f"{name}@geometric+standard" for name, one in by_name.items() if one.regulator.origin)
     levels = [(kp, 2.0 * zeta * math.sqrt(kp)) for kp, zeta in (SLOW, arm.gains)[: 1 + bool(arm.gains)]]
     motors = [name for name in tasks.variation_names(arm.name) if name.startswith("motors-")]
     baselines = [] if choice.is_of_some_laws else combinations.baselines(arm.joints)
-    for one in (*combinations.on(words, by_name, arm.joints), *baselines):
+    for one in (*combinations.on((*on_arms.compared, *own), by_name, arm.joints), *baselines):
         for part in on_arms.compared_slices:
             yield part, one, NOMINAL
         for part in on_arms.other_slices:

@@ -160,6 +160,7 @@ def read_on_arms(varied_size: int | str, varied_s: float, poses: int, **said: An
     }
     varied = (read_on_arm("clear", varied_size, varied_s),)
     words: dict[str, Any] = {name: expanded(those) for name, those in said.items()}
+    words["compared"] = tuple(f"{name}@geometric+standard" for name in words["compared"])
     return OnArms(varied_slices=varied, poses=poses, **slices, **words)
 
 

@@ -95,7 +95,7 @@ def rows(controller, outcomes, **columns):
     n = len(outcomes)
     usual = {"peak_torque_ratio": 0.5, "range_excess_rad": 0.0, "position_left_m": 0.0, "start_set": "uniform"}
     return pd.DataFrame(
-        {"controller": controller, "arm": "a", "start_id": range(n), "outcome": outcomes, **usual}
+        {"controller": controller, "arm": "a", "kp": 100.0, "start_id": range(n), "outcome": outcomes, **usual}
     ).assign(**columns)
 
 
@@ -106,8 +106,8 @@ SETTLED, LOST = "settled", "timed-out"
     ("columns", "expected"),
     [
         ({}, (True, True, True)),
-        ({"peak_torque_ratio": 1.0}, (True, True, True)),
-        ({"peak_torque_ratio": 1.01}, (True, False, False)),
+        ({"peak_torque_ratio": 0.99}, (True, True, True)),
+        ({"peak_torque_ratio": 1.0}, (True, False, False)),
         ({"range_excess_rad": 0.01}, (True, True, False)),
         ({"peak_torque_ratio": float("nan")}, (True, False, False)),
         ({"position_left_m": 0.1}, (True, True, True)),

@@ -40,14 +40,14 @@ LINES = {
     "tasks": 5_294,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
-FILES = {"bench/audit": 2_275, "bench/experiments": 5_190, "bench/export": 2_040, "bench/law": 6_559, "tasks": 5_285}
+FILES = {"bench/audit": 42, "bench/experiments": 45, "bench/export": 19, "bench/law": 105, "tasks": 77}
 """Python files of the rooms in which one file adds one thing: with one more, a room may have as many lines more."""
 LONGEST_FILE = 250
 TOO_LONG: dict[str, int] = {}
 """Files that are still longer, with their lines."""
 
 
-DATA = {"bench": 2_991, "report": 1_751, "tasks": 488, "tests": 1_035}
+DATA = {"bench": 2_975, "report": 1_751, "tasks": 488, "tests": 1_035}
 """Lines of text in other files than Python: what moves into them counts too. One new file may come on top."""
 SUFFIXES = (".toml", ".text", ".xml", ".js", ".c", ".html", ".css")
 

@@ -29,9 +29,9 @@ FEWEST_TICKS = 4000
 
 def controllers(laws: list[Contender], arm: str) -> list[Contender]:
     """Return the default suite's controllers that use these laws; a user's law by the geometric Jacobian."""
-    by_name = {one.name: one for one in laws}
+    by_name, part = {one.name: one for one in laws}, suite("default").on_arms
     own = tuple(f"{one.name}@geometric+standard" for one in laws if one.regulator.origin)
-    return combinations.on((*suite("default").on_arms.words, *own), by_name, tasks.arm(arm).joints)
+    return combinations.on((*part.words, *part.compared, *own), by_name, tasks.arm(arm).joints)
 
 
 def of_arm(arm: str, laws: list[Contender]) -> list[Benchmark]:
