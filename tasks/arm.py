@@ -8,8 +8,10 @@ is the rated torque, and texts "title" and "source". Nothing else may act on it 
 
     D qddot = tau - fg,   fg = qfrc_bias - qfrc_passive
 
-is exact: the controller's model is perfect. `arm_check.py` holds a file to this. A folder is read at the time of the
-call, and what was made of a text is kept by the text, not by the name.
+is exact: the controller's model is perfect. `arm_check.py` holds a file to this. `variations.py` makes of it the arm as
+it is, by numbers where they are known: <numeric> "hand" (m x y z Ixx Iyy Izz, of a massless body "tool"), "motors"
+(least, usual and greatest inertia [kg m^2], if none is published) and "gains" (kp and damping ratio). A folder is read
+at the time of the call, and what was made of a text is kept by the text, not by the name.
 """
 
 from __future__ import annotations

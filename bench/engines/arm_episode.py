@@ -138,10 +138,7 @@ def blank_arm(count: int, metrics: Metrics) -> np.ndarray:
 def cut(tau, rated, n):
     """Cut torques to what motors are rated for; one that is not a number stays."""
     for i in range(n):
-        if tau[i] > rated[i]:
-            tau[i] = rated[i]
-        elif tau[i] < -rated[i]:
-            tau[i] = -rated[i]
+        tau[i] = max(min(tau[i], rated[i]), -rated[i])
 
 
 @kernel

@@ -19,7 +19,7 @@ from report.figures.kit.tables import Table
 
 RANKED = Table("Law | Settled [%] | No limit touched | Reach, settled | Reach, no limit touched")
 LIMITED = Table(
-    "Arm | Motors | kp, kv | Settled [%] | A motor at its rating [%] | Stopped by a joint | Not settled otherwise"
+    "Arm | Motors | kp [1/s²] | Settled [%] | A motor at its rating [%] | Stopped by a joint [%] | Lost otherwise [%]"
 )
 SETS = ("uniform", "reach")
 MOTORS = {
@@ -72,10 +72,10 @@ def limited(rows: pd.DataFrame) -> Iterator[tuple]:
     rows = compare_settings(rows[rows["variation"].isin(MOTORS)], ["variation", "kp"])
     for arm, motors in itertools.product(rows["arm"].unique(), MOTORS):
         every = rows[(rows["arm"] == arm) & (rows["variation"] == motors)]
-        for (kp, kv), own in every.groupby(["kp", "kv"]):
+        for kp, own in every.groupby("kp"):
             counts = arm_rows.settled(own).sum(), (own["peak_torque_ratio"] > FULL).sum(), count_stopped(own)
             shares = (f"{100 * one / len(own):.0f}" for one in (*counts, len(own) - counts[0] - counts[2]))
-            yield arm_rows.name_arm(arm), MOTORS[motors], f"{kp:g}, {kv:.0f}", *shares
+            yield arm, MOTORS[motors], f"{kp:g}", *shares
 
 
 def compare_settings(rows: pd.DataFrame, settings: list[str]) -> pd.DataFrame:
