@@ -56,8 +56,8 @@ def test_baselines_are_compared_with_the_laws():
     law = {"regulator": "mrp", "jacobian": "geometric", "way": "mrp@geometric+standard"}
     rows = pd.concat([rows_of({"resolved-rate": 20}, **baseline), rows_of({"mrp": 5}, **law)])
     found = {cells[0]: cells[2] for cells in arm_ranking.ranked(rows)}
-    assert found["Resolved rate"].startswith("**100\N{NO-BREAK SPACE}(")
-    assert found["MRP"].split() == ["25", "(11", "to", "47)"]
+    assert found["Resolved rate"].startswith("100\N{NO-BREAK SPACE}(")
+    assert found["MRP"].split() == ["**25", "(11", "to", "47)**"]
 
 
 def test_stock_pose_is_well_conditioned_and_on_the_pole():

@@ -12,7 +12,7 @@ LINES = {
     "bench/audit": 2_275,
     "bench/base": 533,
     "bench/cli": 2_539,
-    "bench/engines": 6_351,
+    "bench/engines": 6_348,
     "bench/experiments": 5_188,
     "bench/export": 2_040,
     "bench/findings": 6_617,
@@ -23,7 +23,7 @@ LINES = {
     "tests/audit": 625,
     "tests/cli": 755,
     "tests/conftest.py": 73,
-    "tests/contracts": 2_506,
+    "tests/contracts": 2_503,
     "tests/engines": 2_781,
     "tests/experiments": 2_232,
     "tests/export": 315,
@@ -34,10 +34,10 @@ LINES = {
     "tests/repository": 519,
     "tests/running": 1_196,
     "tests/studies": 609,
-    "tests/support": 3_261,
+    "tests/support": 3_260,
     "tests/tasks": 1_918,
     "report": 6_376,
-    "tasks": 5_294,
+    "tasks": 5_296,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
 FILES = {"bench/audit": 42, "bench/experiments": 45, "bench/export": 19, "bench/law": 105, "tasks": 77}

@@ -87,8 +87,7 @@ def lead_on_arms(passes):
     first = min(passes, key=lambda name: (-passes[name].mean(), name))
     alone = [((passes[first] & ~own).sum(), (own & ~passes[first]).sum()) for _, own in passes.items()]
     tied = [a + b == 0 or binomtest(a, a + b).pvalue >= 0.05 for a, b in alone]
-    law, equation = first.partition("@")[0], 2.2 if first.endswith("geometric") else 3.7
-    return [*([sum(tied)] if sum(tied) > 1 else []), equation, word(law), *share(passes[first])]
+    return [*([sum(tied)] if sum(tied) > 1 else []), word(first.partition("@")[0]), *share(passes[first])]
 
 
 def recompute_arms():
