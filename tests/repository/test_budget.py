@@ -47,7 +47,7 @@ TOO_LONG: dict[str, int] = {}
 """Files that are still longer, with their lines."""
 
 
-DATA = {"bench": 2_975, "report": 1_751, "tasks": 488, "tests": 1_035}
+DATA = {"bench": 2_976, "report": 1_750, "tasks": 488, "tests": 1_034}
 """Lines of text in other files than Python: what moves into them counts too. One new file may come on top."""
 SUFFIXES = (".toml", ".text", ".xml", ".js", ".c", ".html", ".css")
 

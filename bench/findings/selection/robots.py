@@ -147,7 +147,7 @@ def list_elsewhere(folder: Path) -> list[Elsewhere]:
             uneven.tied,
             uneven.asked,
         ),
-        Elsewhere("your controller keeps nothing from tick to tick", find_default(rule=Rule(forgetful=True))),
+        Elsewhere("your controller stores nothing between control periods", find_default(rule=Rule(forgetful=True))),
         Elsewhere("the command must be continuous", find_default(rule=Rule(continuous=True))),
     ]
     for robot in ROBOTS.values():

@@ -26,16 +26,16 @@ from tasks.situation import NOMINAL, Situation, read_situation
 
 RULES = {
     "the rule": RULE,
-    "starts that are lost are allowed": Rule(everywhere=False),
+    "a law may fail from some starts": Rule(everywhere=False),
     "unwinding is allowed": Rule(direct=False),
-    "no adversary is assumed": Rule(adversary=False),
+    "noise is left out": Rule(adversary=False),
     "no memory": Rule(forgetful=True),
     "a continuous command": Rule(continuous=True),
     "the median time decides": Rule(by="median"),
     "the 99.9 % time decides": Rule(by="latest"),
-    "times tie within 5 %": Rule(tie=0.05),
-    "times tie within 10 %": Rule(tie=0.1),
-    "among laws that tie, the one with the least peak command is advised": Rule(least_peak=True),
+    "times within 5 % are equal": Rule(tie=0.05),
+    "times within 10 % are equal": Rule(tie=0.1),
+    "of equally fast laws, the one with the least peak command is advised": Rule(least_peak=True),
     "the least effort decides": Rule(by="effort"),
 }
 """The rule, and rules that a critic would choose."""

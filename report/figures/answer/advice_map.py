@@ -13,7 +13,7 @@ from report.figures.kit import families, html, style
 from report.figures.kit.page import Run
 from tasks.situation import COORDINATES, NOMINAL, Situation
 
-SHOWN = ("the rule", "no adversary is assumed", "no memory", "a continuous command", "times tie within 10 %")
+SHOWN = ("the rule", "noise is left out", "no memory", "a continuous command", "times within 10 % are equal")
 """Rules that the reader may choose from."""
 
 

@@ -14,15 +14,15 @@ from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
 from tasks.situation import KP, NOMINAL
 
-REGIONS = Table("Law | Advised [%]:.0f | Nothing beats it [%]:.0f | One number at a time, nothing beats it")
-RULES = Table("Rule | Law of the widest region | Advised [%]:.0f | Nothing beats it [%]:.0f | Advice changes [%]:.0f")
+REGIONS = Table("Law | Advised [%]:.0f | No law is faster [%]:.0f | No law is faster, if one number changes, at")
+RULES = Table("Rule | Law advised most | Advised [%]:.0f | No law is faster [%]:.0f | Advice changes [%]:.0f")
 TUNED = Table(
     "Law | kv = 2√kp [1/√kp]:.2f | best zeta:.2f | its time [1/√kp]:.2f | best zeta at equal peak:.2f | "
     "its time [1/√peak]:.2f"
 )
 LEAST = 0.01
 """The share of situations from which on a law has a row of its own."""
-ROBOTS_TABLE = Table("If | use | Tied with | Of laws | Measured")
+ROBOTS_TABLE = Table("If | use | Tied with | Laws compared | Rows")
 
 
 def facts(run: Run) -> dict[str, Any]:
@@ -58,8 +58,8 @@ def describe_default() -> str:
     one, rows = find_regions()[0], read_map()
     [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == one.law)].to_dict("records")
     return (
-        f"It settles from every start tried, and orientation noise up to {NOISE_RAD:g} rad cannot trap it at 180°. "
-        f"In {100 * one.unbeaten:.0f} % of the situations drawn at random, no published law is faster. "
+        f"The body settles from every start that we tried, and noise up to {NOISE_RAD:g} rad cannot keep it at 180°. "
+        f"We drew situations (gains, bounds, delays, ...) at random: in {100 * one.unbeaten:.0f} % no law is faster. "
         f"With kp = {KP:g} 1/s² and critical damping, 99 % of the starts settle within {row['time'] / KP**0.5:.2f} s."
     )
 
@@ -71,8 +71,8 @@ def describe_ours() -> str:
         ties, beats = regions.compare_ours(law)
         said.append(
             f"We do not advise our own law, {families.word(law)} (2026, simulation only, not reviewed): in "
-            f"{100 * (1 - ties):.0f} % of the situations a published law is faster, and in {100 * beats:.0f} % it is "
-            "faster than the law advised there."
+            f"{100 * (1 - ties):.0f} % of the situations a published law is faster. In {100 * beats:.0f} % our law is "
+            "faster than the advised law."
         )
     return " ".join(said)
 
@@ -82,7 +82,7 @@ def lead() -> str:
     first, *others = find_regions()
     said = together([f"{families.word(one.law)} ({100 * one.advised:.0f} %)" for one in others])
     where = (
-        f" Our rule (below) advises it in {100 * first.advised:.0f} % of the situations; in others it advises {said}."
+        f" Our rule (below) advises it in {100 * first.advised:.0f} % of them. In most others the rule advises {said}."
         if others
         else ""
     )

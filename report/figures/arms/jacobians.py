@@ -109,8 +109,8 @@ def count_spoilt(rows: pd.DataFrame) -> str:
     fine = rows[rows["condition"] <= WELL_CONDITIONED]
     by = 100.0 * (fine["condition_analytic"] > BAD).groupby(fine["arm"].astype(str)).mean()
     return (
-        f"Where the condition number of the geometric Jacobian is at most {WELL_CONDITIONED:g}, that of the Euler "
-        f"Jacobian exceeds {BAD:g} in {by.min():.1f} to {by.max():.1f} % of the poses, depending on the arm."
+        f"We took poses where the geometric Jacobian has a condition number of at most {WELL_CONDITIONED:g}. That of "
+        f"the Euler Jacobian exceeds {BAD:g} in {by.min():.1f} to {by.max():.1f} % of them, depending on the arm."
     )
 
 
