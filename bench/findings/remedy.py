@@ -44,7 +44,7 @@ def smallest_fix(one: Law) -> Fix:
         else:
             bound = largest(free, None)
             steps.append(
-                f"for goals beyond 90°, return axis times angle, and limit its length to {bound:.3g}, as it does now"
+                f"for goals beyond 90°, return the vector axis times angle, of a length of at most {bound:.3g}"
             )
             fixed = logarithm
     if HALF[0] < size(free, DIRECTIONS[0], NEAR_RAD) / NEAR_RAD < HALF[1]:
