@@ -14,8 +14,8 @@ from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
 from tasks.situation import KP, NOMINAL
 
-REGIONS = Table("Law | Advised [%]:.0f | No law is faster [%]:.0f | No law is faster, if one number changes, at")
-RULES = Table("Rule | Law advised most | Advised [%]:.0f | No law is faster [%]:.0f | Advice changes [%]:.0f")
+REGIONS = Table("Law | Advised [%]:.0f | Unbeaten [%]:.0f | Unbeaten, if one number changes, at")
+RULES = Table("Rule | Law advised most | Advised [%]:.0f | Unbeaten [%]:.0f | Advice changes [%]:.0f")
 TUNED = Table(
     "Law | kv = 2√kp [1/√kp]:.2f | best zeta:.2f | its time [1/√kp]:.2f | best zeta at equal peak:.2f | "
     "its time [1/√peak]:.2f"
@@ -59,7 +59,7 @@ def describe_default() -> str:
     [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == one.law)].to_dict("records")
     return (
         f"The body settles from every start that we tried, and noise up to {NOISE_RAD:g} rad cannot keep it at 180°. "
-        f"We drew situations (gains, bounds, delays, ...) at random: in {100 * one.unbeaten:.0f} % no law is faster. "
+        f"Of situations (gains, delays) drawn at random, no published law is faster in {100 * one.unbeaten:.0f} %. "
         f"With kp = {KP:g} 1/s² and critical damping, 99 % of the starts settle within {row['time'] / KP**0.5:.2f} s."
     )
 

@@ -124,7 +124,7 @@ def flat(rows: pd.DataFrame) -> str:
         return f"how tools end is {ABSENT}."
     euler, plain = (of(own, name)["time_to_align_s"].notna() for name in (PAPERS_EULER, PAPERS))
     return (
-        f"it came to lie flat in {euler.sum()} of {len(euler)} simulations with the Euler Jacobian, and in "
+        f"at the end it lay flat in {euler.sum()} of {len(euler)} simulations with the Euler Jacobian, and in "
         f"{plain.sum()} of {len(plain)} with Cartesian compliance."
     )
 
