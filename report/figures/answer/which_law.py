@@ -82,7 +82,7 @@ def lead() -> str:
     first, *others = find_regions()
     said = together([f"{families.word(one.law)} ({100 * one.advised:.0f} %)" for one in others])
     where = (
-        f" Our rule (below) advises it in {100 * first.advised:.0f} % of them. In most others the rule advises {said}."
+        f" Our rule (below) advises this law in {100 * first.advised:.0f} % of the situations; in others, {said}."
         if others
         else ""
     )
