@@ -17,7 +17,7 @@ LINES = {
     "bench/export": 2_040,
     "bench/findings": 6_617,
     "bench/law": 6_559,
-    "bench/regression": 1_295,
+    "bench/regression": 1_296,
     "bench/running": 2_523,
     "bench/studies": 2_350,
     "tests/audit": 625,

@@ -56,10 +56,11 @@ def have_same_outcome(old: pd.DataFrame, new: pd.DataFrame) -> np.ndarray:
 
 
 def share_outcome(old: pd.DataFrame, new: pd.DataFrame) -> np.ndarray:
-    """Return whether an outcome of base, on either side of a row's start, is one of head's."""
+    """Return whether an outcome of base, beside its start too, is one of head's, or rounding changes half a number."""
     sides = ("outcome", "outcome_beside")
     pairs = [(old[a].astype(str).to_numpy(), new[b].astype(str).to_numpy()) for a in sides for b in sides]
-    return np.any([(was == now) & (was != "") for was, now in pairs], axis=0)
+    same = [(was == now) & (was != "") for was, now in pairs]
+    return np.any([*same, np.fmax(old["rounding_change"], new["rounding_change"]).to_numpy() >= 0.5], axis=0)
 
 
 def compare_episodes(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
