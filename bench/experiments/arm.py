@@ -84,8 +84,8 @@ def _as_it_is(on_arms: OnArms, by_name: dict[str, Contender], arm: Arm, choice: 
     own = tuple(f"{name}@geometric+standard" for name, one in by_name.items() if one.regulator.origin)
     levels = [(kp, 2.0 * zeta * math.sqrt(kp)) for kp, zeta in (SLOW, arm.gains)[: 1 + bool(arm.gains)]]
     motors = [name for name in tasks.variation_names(arm.name) if name.startswith("motors-")]
-    baselines = [] if choice.is_of_some_laws else combinations.baselines(arm.joints)
-    for one in (*combinations.on((*on_arms.compared, *own), by_name, arm.joints), *baselines):
+    laws = combinations.on((*on_arms.compared, *own), by_name, arm.joints)
+    for one in (*laws, *(combinations.baselines(arm.joints) if laws and not choice.is_of_some_laws else ())):
         for part in on_arms.compared_slices:
             yield part, one, NOMINAL
         for part in on_arms.other_slices:
