@@ -53,7 +53,9 @@ def checked(name: str, xml: str) -> Arm:
         motors=_numbers(name, model, "motors", 3),
         gains=_numbers(name, model, "gains", 2),
     )
-    _numbers(name, model, "hand", 7)
+    bodies = [model.body(i).name for i in range(model.nbody) if model.body_mass[i] == 0.0]
+    if _numbers(name, model, "hand", 7) and "tool" not in bodies:
+        _refuse(name, 'it has a hand and no massless body "tool"', "put the site into such a body")
     for i, (low, angle, high) in enumerate(zip(arm.lower, arm.home, arm.upper, strict=True)):
         if not low <= angle <= high:
             joint = model.joint(i).name

@@ -3,6 +3,7 @@
 A row of numbers is that of `episode` with eight columns more at its end: where the arm was worst conditioned.
 """
 
+import functools
 import math
 from typing import Any, NamedTuple
 
@@ -108,6 +109,7 @@ def states(starts: Starts, n: int) -> np.ndarray:
     return np.array(rows, dtype=float).reshape(len(rows), 3 * n + 3)
 
 
+@functools.lru_cache(maxsize=64)
 def joints(arm: Arm, variation: str) -> Joints:
     """Return the numbers of an arm's joints; variation: the controller's model."""
     from tasks.kinematics import Kinematics  # MuJoCo takes a moment to import; the ideal plant needs none

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 import tasks
 from bench.base.errors import Incompatible
 from bench.base.on_first_use import pd
 from bench.experiments import episodes
-from bench.experiments.choice import Choice
 from bench.experiments.episode_rows import TABLE
 from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit
 from bench.experiments.rounding import judged_beside
-from bench.experiments.suites import AT_INVERSES, BY_WORD_ALONE, IDEAL_MOTORS, NOMINAL, SLOW, OnArms
+from bench.experiments.suites import AT_INVERSES, BY_WORD_ALONE, IDEAL_MOTORS, NOMINAL, SLOW
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
 from tasks.arm_model import Arm
@@ -40,7 +39,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
         fitting = tasks.described(task).start_sets
         is_meant = any(part.start_set in fitting for part in slices)
         for arm in (asked.choice.arms or tasks.arm_names()) if is_meant else ():  # one is read by MuJoCo
-            for part, one, *way in _on_arm(asked.suite.on_arms, asked.laws, tasks.arm(arm), asked.choice):
+            for part, one, *way in _on_arm(asked, tasks.arm(arm)):
                 if (
                     part.start_set in fitting
                     and episodes.runs_on(part.engine, task, one)
@@ -52,9 +51,10 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     return tuple(episodes.cut("arm", places, asked, MOST))
 
 
-def _on_arm(on_arms: OnArms, laws: Iterable[Contender], arm: Arm, choice: Choice) -> Iterator[tuple]:
+def _on_arm(asked: Asked, arm: Arm) -> Iterator[tuple]:
     """(slice, contender, variation, gains if not the settings') of everything on one arm."""
-    by_name, joints = {one.name: one for one in laws}, arm.joints
+    on_arms, choice, joints = asked.suite.on_arms, asked.choice, arm.joints
+    by_name = {one.name: one for one in asked.laws}
     slices = episodes.narrowed(on_arms.slices, choice)
     is_by_suite = not (choice.variations or choice.jacobians or choice.inverses)
     is_whole = is_by_suite and not choice.narrows
@@ -71,7 +71,7 @@ def _on_arm(on_arms: OnArms, laws: Iterable[Contender], arm: Arm, choice: Choice
             for variation in variations if one not in few or part.start_set in AT_INVERSES else ():
                 yield part, one, variation
     if is_whole:
-        yield from _as_it_is(on_arms, by_name, arm, choice)
+        yield from _as_it_is(asked, by_name, arm)
         for one in combinations.on(on_arms.varied, by_name, joints):
             for part in on_arms.varied_slices:
                 for variation in tasks.variation_names(arm.name):
@@ -79,13 +79,14 @@ def _on_arm(on_arms: OnArms, laws: Iterable[Contender], arm: Arm, choice: Choice
                         yield part, one, variation
 
 
-def _as_it_is(on_arms: OnArms, by_name: dict[str, Contender], arm: Arm, choice: Choice) -> Iterator[tuple]:
+def _as_it_is(asked: Asked, by_name: dict[str, Contender], arm: Arm) -> Iterator[tuple]:
     """(slice, contender, variation, gains) of the compared laws, the user's and the baselines, on the arm as it is."""
     own = tuple(f"{name}@geometric+standard" for name, one in by_name.items() if one.regulator.origin)
-    levels = [(kp, 2.0 * zeta * math.sqrt(kp)) for kp, zeta in (SLOW, arm.gains)[: 1 + bool(arm.gains)]]
-    motors = [name for name in tasks.variation_names(arm.name) if name.startswith("motors-")]
+    levels = [(kp, 2.0 * zeta * math.sqrt(kp)) for kp, zeta in filter(None, (SLOW, arm.gains)) if kp != asked.gains.kp]
+    known = [name for name in tasks.variation_names(arm.name) if not tasks.variation(name).believed]
+    motors, on_arms = [name for name in known if name not in (NOMINAL, IDEAL_MOTORS)], asked.suite.on_arms
     laws = combinations.on((*on_arms.compared, *own), by_name, arm.joints)
-    for one in (*laws, *(combinations.baselines(arm.joints) if laws and not choice.is_of_some_laws else ())):
+    for one in (*laws, *(combinations.baselines(arm.joints) if laws and not asked.choice.is_of_some_laws else ())):
         for part in on_arms.compared_slices:
             yield part, one, NOMINAL
         for part in on_arms.other_slices:

@@ -119,6 +119,7 @@ class Asked:
     count: int | None = None
     horizon_s: float | None = None
     seed: int = 0
+    gains: Gains = PAPERS_GAINS
 
     @property
     def own(self) -> tuple[Law, ...]:

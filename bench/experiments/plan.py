@@ -148,7 +148,7 @@ def make(
         check_word("integrator", integrator, list(INTEGRATORS))
     for word in choice.experiments:
         check_word("experiment", word, list(known_experiments()))
-    asked = Asked(suite(suite_word), tuple(laws), choice.checked(), count, horizon_s, seed)
+    asked = Asked(suite(suite_word), tuple(laws), choice.checked(), count, horizon_s, seed, gains)
     units = tuple(unit for one in chosen(asked.choice) for unit in one.units(asked))
     if not units:
         raise Incompatible("nothing to run: no unit of the experiments is left (name fewer words, or other ones)")

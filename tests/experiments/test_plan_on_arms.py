@@ -16,6 +16,7 @@ from bench.experiments.suites import BY_WORD_ALONE, IDEAL_MOTORS, NOMINAL, SLOW,
 from bench.law.contender import refusal
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import contenders, find_contender
+from bench.law.inputs import Gains
 
 ON_BOTH = ("ur5e", "panda")  # six joints and seven: nothing else of an arm decides what goes together
 SHORT = ("run", "--dry-run", "--suite", "quick", "--task", "arm-regulation", "--starts", "clear", "--count", "2")
@@ -86,6 +87,13 @@ def test_compared_laws_run_on_every_arm_as_it_is_with_three_levels_of_gains(suit
         assert set(by_gains) == {(0.0, 0.0), (SLOW[0], 10.0), *own}
         for laws in by_gains.values():
             assert {"late-braking", "mrp-memory", "bounded-command", "square-root", "rotation-matrix"} <= laws
+
+
+@pytest.mark.parametrize("kp", [25.0, 100.0, 150.0])
+def test_no_episode_is_planned_twice_whatever_the_gains(kp):
+    units = planning.make("quick", [LAWS["mrp"]], Choice(arms=("ur5e",)), gains=Gains(kp, 20.0)).of("arm")
+    keys = [(one.contender, one.selector, one.variation, one.kp or kp, one.first) for one in units]
+    assert len(set(keys)) == len(keys)
 
 
 def test_full_suite_runs_every_compatible_combination():

@@ -62,12 +62,7 @@ def test_hand_and_motors_are_those_of_a_model_with_a_body_more():
 
 def test_shipped_rule_is_unstable_at_1_khz_only_without_hand_and_motors():
     radius = measured("panda", "diagonal").query("stiffness_n_m == 2000").groupby("variation")["radius"].max()
-    assert (radius > 1.0).to_dict() == {
-        "ideal-motors": True,
-        "motors-high": False,
-        "motors-low": False,
-        "nominal": False,
-    }
+    assert (list(radius.index[radius > 1.0]), len(radius)) == (["ideal-motors"], 4)
 
 
 @pytest.mark.parametrize("arm", ARMS)

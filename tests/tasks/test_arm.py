@@ -89,6 +89,7 @@ def test_model_overrides_the_options_of_the_file(own):
 
 SEVENTH, EIGHTH = ("7", "0 1 0"), ("8", "0 0 1")
 WITHOUT_TOOL = xml().replace('<site name="tool" pos="0 0 .2"/>', "")
+NUMERIC = xml().replace("<custom>", '<custom><numeric name="{}" data="{}"/>')
 AFTER = ("<worldbody>", '<joint name="joint 5" axis="0 1 0" range="-3 3"/>')
 """On the ground, or on the last link but one."""
 
@@ -106,6 +107,8 @@ BROKEN = {
         )
         for after in AFTER
     },
+    "hand": ("xml", NUMERIC.format("hand", "1 1 1 1 1 1 1"), "massless"),
+    "motors": ("xml", NUMERIC.format("motors", "3 1 2"), "ascending"),
     "no text": ("xml", b"\xff\xfe\x00", r"own\.xml cannot be read"),
     "no Python": ("py", "def xml(: pass", r"xml\(\) of own\.py does not work \(SyntaxError"),
     "no module": ("py", "import no_such_module", r"own\.py does not work \(ModuleNotFoundError: .*no_such_module"),

@@ -71,8 +71,6 @@ def test_nominal_is_first_and_ideal_motors_change_nothing():
 @pytest.mark.parametrize("arm", tasks.arm_names())
 def test_motors_give_no_more_than_their_rating_and_joints_stop(arm, name):
     found = tasks.arm(arm)
-    if name not in tasks.variation_names(arm):
-        pytest.skip("its motor inertia is known")
     model = compiled(arm, name)
     data = at(model, found.home, np.zeros(model.nv))
     data.ctrl[:] = 10.0 * np.array(found.rated)

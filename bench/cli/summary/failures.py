@@ -24,14 +24,12 @@ def paragraph(results: Results) -> Paragraph:
     """Return a line or two for each part that the run has."""
     episodes, contact, robustness = (results.table(name) for name in ("episodes", "compliance", "robustness"))
     on_arm, plant = episodes["arm"] != "", episodes["variation"].astype(str)
+    is_other = ~plant.isin((NOMINAL, IDEAL_MOTORS))
     parts = {
         "Free body": (episodes[~on_arm], "law"),
         "Arms": (episodes[on_arm & (plant == NOMINAL)], "controller"),
         "Arms with ideal motors": (episodes[on_arm & (plant == IDEAL_MOTORS)], "controller"),
-        "Arms with other motors or model errors": (
-            episodes[on_arm & ~plant.isin((NOMINAL, IDEAL_MOTORS))],
-            "controller",
-        ),
+        "Arms with other motors or model errors": (episodes[on_arm & is_other], "controller"),
         "Contact": (contact, "controller"),
         "Robustness": (robustness, "law"),
     }

@@ -141,12 +141,7 @@ def list_elsewhere(folder: Path) -> list[Elsewhere]:
     """Return the law for robots and controllers that are not those of the default, by the map and by a run."""
     uneven = answer(UNCANCELLED).verdict
     found = [
-        Elsewhere(
-            "you command torques, and cancel no inertia",
-            uneven.law or "none",
-            uneven.tied,
-            uneven.asked,
-        ),
+        Elsewhere("you command torques, and cancel no inertia", uneven.law or "none", uneven.tied, uneven.asked),
         Elsewhere("your controller stores nothing between control periods", find_default(rule=Rule(forgetful=True))),
         Elsewhere("the command must be continuous", find_default(rule=Rule(continuous=True))),
     ]

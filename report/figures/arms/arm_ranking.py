@@ -7,11 +7,10 @@ from collections.abc import Iterator
 
 import pandas as pd
 
-from bench.experiments.suites import SLOW
+import tasks
 from bench.findings.claims.tables import Share, share
 from bench.findings.on_arms import FULL, best, passed
 from bench.law.contenders.registry import baselines_of_arms
-from bench.law.inputs import PAPERS_GAINS
 from report.figures.arms import arm_rows
 from report.figures.kit import html
 from report.figures.kit.spelling import listed
@@ -99,9 +98,11 @@ def describe_share(rows: pd.DataFrame, controller: str, measure: str) -> str:
 def lead(uniform: pd.DataFrame) -> str:
     """State who settles most on arms as they are, what gains do, and what stops the others; uniform: of `of_laws`."""
     settled, by_arm = arm_rows.settled(uniform), arm_rows.settled(uniform).groupby(uniform["arm"]).mean()
-    kinds = uniform["kp"].map({SLOW[0]: "kp = 25 1/s²", PAPERS_GAINS.kp: "the paper's gains"}).fillna("shipped gains")
-    both = compare_settings(uniform[uniform.groupby("arm")["kp"].transform("nunique") > 2], ["kp"])
-    levels = [f"{100 * own.mean():.0f} % at {kind}" for kind, own in settled[both.index].groupby(kinds[both.index])]
+    is_shipped = uniform["kp"] == uniform["arm"].map(lambda arm: (*tasks.arm(arm).gains, 0.0)[0])
+    kinds = uniform["kp"].map("kp = {:g} 1/s²".format).mask(is_shipped, "shipped gains")
+    both = uniform.assign(kind=kinds, settled=settled)
+    both = compare_settings(both[both.groupby("arm")["kp"].transform("nunique") > 2], ["kp"])
+    levels = [f"{100 * own['settled'].mean():.0f} % at {kind}" for kind, own in both.groupby("kind")]
     ends = [f"{arm_rows.name_arm(arm)} ({100 * by_arm[arm]:.0f} %)" for arm in (by_arm.idxmin(), by_arm.idxmax())]
     stopped = count_stopped(uniform) / max(1, (~settled).sum())
     return (
