@@ -35,8 +35,9 @@ class OnArms(NamedTuple):
     """The part of a suite that runs on every arm.
 
     words: contenders as `combinations` writes them, with ideal motors; none at all: every compatible combination. few:
-    those of them that run from AT_INVERSES alone. compared: the laws that run on the arm as it is, a user's among them;
-    from other_slices also with other gains and motors. varied: the contenders of the study of model errors, which runs
+    those of them that run from AT_INVERSES alone. operational: contenders that run from SINGULAR alone, with ideal
+    motors and as the arm is. compared: the laws that run on the arm as it is, a user's among them; from other_slices
+    also with other gains and motors. varied: the contenders of the study of model errors, which runs
     over all variations of the plant. poses: how many an arm's Jacobians are looked at, beside the directed ones.
     """
 
@@ -45,6 +46,7 @@ class OnArms(NamedTuple):
     varied: tuple[str, ...] = ()
     varied_slices: tuple[Slice, ...] = ()
     few: tuple[str, ...] = ()
+    operational: tuple[str, ...] = ()
     compared: tuple[str, ...] = ()
     compared_slices: tuple[Slice, ...] = ()
     other_slices: tuple[Slice, ...] = ()
@@ -125,7 +127,9 @@ HORIZON = {"half-turn": LONG, "poles": LONG, "wraps": LONG}
 
 DECLARED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 LISTS: dict[str, tuple[str, ...]] = {name: tuple(words) for name, words in DECLARED.pop("lists").items()}
-LAWS, BEST, LATER, AT_INVERSES = (LISTS[name] for name in ("LAWS", "BEST", "LATER", "AT_INVERSES"))
+LAWS, BEST, LATER, AT_INVERSES, SINGULAR = (
+    LISTS[name] for name in ("LAWS", "BEST", "LATER", "AT_INVERSES", "SINGULAR")
+)
 BY_WORD_ALONE = (*LATER, *LISTS["BY_WORD_ALONE"])
 STREAMED = ("rotation-matrix", *BEST)
 """What follows goals that arrive as a stream: the paper's first law, and the best of later ones."""

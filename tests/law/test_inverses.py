@@ -38,9 +38,27 @@ def truncated(J):
     return V[kept].T @ ((U.T @ a_W)[kept] / sigma[kept])
 
 
-def operational(J):
-    D = inertia(J.shape[1])
-    return J.T @ np.linalg.solve(J @ np.linalg.solve(D, J.T), A[: len(J)])
+def operational(J, inverted=lambda squares: 1.0 / squares):
+    squares, U = np.linalg.eigh(J @ np.linalg.solve(inertia(J.shape[1]), J.T))
+    return J.T @ U @ (inverted(np.maximum(squares, 0.0)) * (U.T @ A[: len(J)]))
+
+
+def left_out(squares):
+    kept = (np.prod(squares) >= 1e-2) | (squares > 1e-2 * squares[-1])
+    return np.where(kept, 1.0 / np.where(kept, squares, 1.0), 0.0)
+
+
+def smoothly_damped(squares):
+    weight = np.interp(squares / squares[-1], [1e-5, 1e-4], [0.0, 1.0])
+    return 1.0 / (squares + 1e-5 * squares[-1] * (1.0 - 3.0 * weight**2 + 2.0 * weight**3))
+
+
+OPERATIONAL = {
+    "dynamically-consistent": operational,
+    "operational-pseudo-inverse": lambda J: operational(J, left_out),
+    "operational-clamped": lambda J: operational(J, lambda squares: 1.0 / np.maximum(squares, 1e-4 * squares[-1])),
+    "operational-damped": lambda J: operational(J, smoothly_damped),
+}
 
 
 FORMULAS = {
@@ -50,7 +68,7 @@ FORMULAS = {
     "damped-least-squares-variable": lambda J: np.linalg.pinv(J) @ A[: len(J)],  # sigma > epsilon here: none
     "truncated-svd": truncated,
     "transpose": lambda J: J.T @ A[: len(J)],
-    "dynamically-consistent": operational,
+    **OPERATIONAL,
 }
 
 
@@ -63,7 +81,7 @@ def test_answer_is_the_formulas_away_from_singularities(word):
             found, _ = resolved(one, J, A[:rows], inertia(n))
             sigma = np.linalg.svd(weighed(J)[0], compute_uv=False)
             # normal equations square the condition, 2 of it from the weights and what D adds for Lambda
-            condition = (2.0 * sigma[0] / sigma[5]) ** 2 * (np.linalg.cond(inertia(n)) if "dyn" in word else 1.0)
+            condition = (2.0 * sigma[0] / sigma[5]) ** 2 * (np.linalg.cond(inertia(n)) if word in OPERATIONAL else 1.0)
             assert np.linalg.norm(found - expected) <= FACTORED * condition * np.linalg.norm(expected)
 
 
@@ -123,6 +141,20 @@ def test_variable_damping_has_the_bits_of_the_estimate_wherever_none_is_made(row
         damp(S, V, y, x, size)
         solve_gram(J_W, a_W, S, x, rows, n)
         assert same_bits(resolved(one, J, A[:rows], inertia(n))[0], x[:n])
+
+
+@pytest.mark.parametrize("word", [word for word in OPERATIONAL if word != "dynamically-consistent"])
+def test_operational_torque_is_the_rules_beside_singularities(word):
+    one, draw = inverse(word), np.random.default_rng(15)
+    for least in (0.3, 0.1, 1e-2, 1e-3, 1e-6):
+        for _ in range(10):
+            J = with_least(least, 6, 6, draw)
+            expected = OPERATIONAL[word](J)
+            # rounding of Lambda^-1 in the formula over the least eigenvalue that an inverse divides by
+            allowed = 1e-15 / max(least**2, 1e-5) * 1e4
+            assert np.linalg.norm(resolved(one, J, A[:6], inertia(6))[0] - expected) <= allowed * np.linalg.norm(
+                expected
+            )
 
 
 def test_damping_constants_give_the_greatest_gain_and_no_more():

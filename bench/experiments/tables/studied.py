@@ -1,5 +1,6 @@
-"""Tables that no experiment makes: times, shares of a study of perturbations, and what other libraries answer."""
+"""Tables that no experiment makes: times, the studies of perturbations and of a real loop, other libraries' answers."""
 
 from bench.experiments.columns import read_table
 
-STUDIED = tuple(read_table(__file__, name) for name in ("perturbed", "timings", "libraries", "closed_loop", "verdicts"))
+NAMES = ("perturbed", "timings", "libraries", "closed_loop", "verdicts", "real_loop")
+STUDIED = tuple(read_table(__file__, name) for name in NAMES)

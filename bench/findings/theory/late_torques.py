@@ -1,0 +1,46 @@
+"""The greatest gains of a second-order law whose torques are late, near the goal.
+
+    e' = omega,  omega' = u,  u = -(Kp e + Kv omega) of the tick that the torque answers,  Kp = (Kv/2)^2
+
+Every axis of a loop that cancels its arm's dynamics is this one. The delays are recorded ones, tick by tick; with none
+the limit is Kv T = 2 (Jury), T the control period.
+"""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+
+from bench.base.bisection import bisect
+
+GREATEST = 2.2
+"""Kv T above which no loop is stable: without delay the limit is 2, and with steps of the plant of T/8 it is 2 too."""
+HALVINGS = 12
+LAST = 0.1
+"""Part of an episode, its last, in which a loop that is not stable is farther from the goal than at its start."""
+
+
+def find_greatest_kv(answered: np.ndarray, steps: int, period_s: float) -> float:
+    """Return the Kv [1/s] above which the error grows.
+
+    Args:
+        answered: of each step of the plant the tick, counted from 1, that its torque answers; 0 before the first.
+        steps: of the plant in a control period.
+    """
+    is_stable = functools.partial(is_shrinking, answered.tolist(), steps, period_s)
+    return bisect(is_stable, 0.0, GREATEST / period_s, HALVINGS)[0]
+
+
+def is_shrinking(answered: list[int], steps: int, period_s: float, kv: float) -> bool:
+    """Tell whether |e| is in the last part of the episode never greater than at its start."""
+    kp, h, first = 0.25 * kv * kv, period_s / steps, (1.0 - LAST) * len(answered)
+    e, omega, commands = 1.0, 0.0, [0.0]
+    for step, tick in enumerate(answered):
+        if step % steps == 0:
+            if abs(e) > 1.0 and step >= first:
+                return False
+            commands.append(-kp * e - kv * omega)
+        omega += h * commands[tick]
+        e += h * omega
+    return abs(e) <= 1.0

@@ -1,0 +1,55 @@
+"""Operational-space torques from the eigenvalues of Lambda^-1 = J D^-1 J^T, for inverses that change the small ones.
+
+With D = L L^T the singular values of Y^T = J L^-T are the roots sigma of these eigenvalues. The torque of Khatib,
+tau = J^T Lambda a, is L Y^T+ a: the sum of (u_i . a) / sigma_i^2 times L sigma_i v_i. An inverse puts another factor in
+the place of 1 / sigma_i^2. Eigenvalues mix metres and radians, as in the libraries whose rules these are.
+"""
+
+from bench.law.linalg import factor, multiply, multiply_transposed, orthogonalize, solve_lower, solve_upper
+from bench.law.scalar import kernel
+
+
+@kernel
+def decompose(J, a, D, rows, n, scratch):
+    """Write L, the rows sigma_i v_i^T and the numbers u_i . a into scratch B, V and s."""
+    L, Y_transposed, force, column = scratch.B, scratch.V, scratch.s, scratch.t
+    for i in range(n):
+        for j in range(i + 1):
+            L[i, j] = D[i, j]
+    factor(L, n)
+    for i in range(rows):
+        force[i] = a[i]
+        for j in range(n):
+            column[j] = J[i, j]
+        solve_lower(L, column, n)
+        for j in range(n):
+            Y_transposed[i, j] = column[j]
+    orthogonalize(Y_transposed, force, rows, n)
+
+
+@kernel
+def eigenvalue(i, n, scratch):
+    """Return sigma_i^2, an eigenvalue of J D^-1 J^T."""
+    row = scratch.V
+    square = row[i, 0] * row[i, 0]
+    for j in range(1, n):
+        square = square + row[i, j] * row[i, j]
+    return square
+
+
+@kernel
+def greatest_eigenvalue(rows, n, scratch):
+    """Return the greatest sigma_i^2."""
+    greatest = eigenvalue(0, n, scratch)
+    for i in range(1, rows):
+        greatest = max(greatest, eigenvalue(i, n, scratch))
+    return greatest
+
+
+@kernel
+def compose(D, x, rows, n, scratch):
+    """x = D L^-T (sum of s_i times row i), which is L times the sum: the torques."""
+    column = scratch.t
+    multiply_transposed(scratch.V, scratch.s, column, rows, n)
+    solve_upper(scratch.B, column, n)
+    multiply(D, column, x, n, n)

@@ -1,0 +1,57 @@
+"""Laws as exported C++ in real time, against the simulated loop and theory; read from results/real-loop."""
+
+from __future__ import annotations
+
+import functools
+
+import pandas as pd
+
+from bench.base.files import read_json
+from bench.experiments.tables.schema import RESULTS
+from bench.experiments.tables.store import read
+from report.figures.arms import arm_rows
+from report.figures.kit import families
+from report.figures.kit.page import Run
+from report.figures.kit.tables import Table
+
+STUDY = RESULTS / "real-loop"
+LOOPS = Table(
+    "Arm | Law | Settled: real, simulated, same end | Delay: median, 99 %, greatest [ms] | Kv limit: measured [1/s]:.0f"
+    " | predicted [1/s]:.0f"
+)
+
+
+@functools.cache
+def rows() -> pd.DataFrame:
+    """Return a row an arm and law."""
+    return read(STUDY, "real_loop").astype({"arm": str, "regulator": str})
+
+
+def facts(_: Run) -> dict:
+    """Return what it was measured on, and how far the simulated loop and theory are off."""
+    about, found = read_json(STUDY / "provenance.json"), rows()
+    gaps = (found["kv_predicted"] / found["kv_measured"] - 1.0).abs()
+    return {
+        "machine": f"{about['cpu']}, {about['cores']} cores",
+        "agreeing": f"{found['agreeing'].sum()} of {found['starts'].sum()}",
+        "apart_ms": f"{1e3 * found['time_difference_s'].max():.0f}",
+        "gap": f"{100 * gaps.max():.1g}",
+    }
+
+
+def tables(_: Run) -> dict:
+    """Return what the loops did."""
+    return {"loops": LOOPS(describe(one) for one in rows().itertuples())}
+
+
+def describe(one: tuple) -> tuple:
+    """Return the cells of a row."""
+    late = (f"{1e3 * each:.3g}" for each in (one.delay_median_s, one.delay_p99_s, one.delay_max_s))
+    return (
+        arm_rows.name_arm(one.arm),
+        families.word(one.regulator),
+        f"{one.settled}, {one.simulated}, {one.agreeing} of {one.starts}",
+        ", ".join(late),
+        one.kv_measured,
+        one.kv_predicted,
+    )
