@@ -38,8 +38,8 @@ scene [m], angle of the scene's joint [rad], largest torque over its rated one. 
 class Numbers(NamedTuple):
     """What a loop needs of an episode besides the models; see `Specification`, `ContactParameters`.
 
-    rated: seven numbers, filled up with ones on fewer joints. moves_s: until when the place moves [s]. legs: pushes.
-    rest: when it is over.
+    rated: seven numbers, filled up with ones on fewer joints; is_cut: 1 if motors give no more. moves_s: until when the
+    place moves [s]. legs: pushes. rest: when it is over. sensor_ticks: between two readings of the wrench.
     """
 
     dt: float
@@ -56,6 +56,8 @@ class Numbers(NamedTuple):
     legs: int
     moves_s: float
     rest: RestNumbers
+    is_cut: int
+    sensor_ticks: int
 
 
 class Ended(NamedTuple):
@@ -70,13 +72,32 @@ class Ended(NamedTuple):
     rested: bool = False
 
 
+class Sensor(NamedTuple):
+    """Hold what a force sensor does: how long a reading lasts [s], and the noise of each reading.
+
+    force [N], moment [N m]: standard deviations of normal noise, independent along and about the axes of the base.
+    """
+
+    period_s: float = 0.0
+    force: float = 0.0
+    moment: float = 0.0
+
+    def draw_noise(self, duration_s: float, dt_s: float) -> np.ndarray:
+        """Return the noise of each reading of an episode, n x 6, the same for all episodes of one sensor."""
+        readings = 1 + int(duration_s / max(self.period_s, dt_s))
+        noise = np.random.default_rng(0).normal(size=(readings if self.force or self.moment else 1, 6))
+        return noise * np.repeat((self.force, self.moment), 3)
+
+
 class Conditions(NamedTuple):
-    """What is common to the episodes of a run."""
+    """What is common to the episodes of a run; is_cut: whether motors give no more than their rated torque."""
 
     gains: Gains = PAPERS_GAINS
     touch: ContactParameters = TOUCH
     dt_s: float = 1e-3
     integrator: str = "implicitfast"
+    is_cut: bool = False
+    sensor: Sensor = Sensor()
 
 
 USUAL = Conditions()
@@ -104,6 +125,8 @@ def numbers(
         len(trial.pushes),
         float(specification.moves_s),
         rest_numbers(task.rests, min(specification.moves_s, task.horizon_s), conditions.dt_s),
+        int(conditions.is_cut),
+        ticks(conditions.sensor.period_s, conditions.dt_s),
     )
 
 

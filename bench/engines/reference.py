@@ -103,7 +103,8 @@ def run_contact(
         work = contact.work(arm.joints, sim.n)
         touch = type(conditions.touch)(*map(np.float64, conditions.touch))
         asked, push = np.zeros(3, np.int64), np.zeros(6)
-        world = contact.World(sim, arm.joints, push, gap, turned, 0, 0, asked, work, shape, touch, record)
+        noise = conditions.sensor.draw_noise(task.horizon_s, conditions.dt_s)
+        world = contact.World(sim, arm.joints, push, gap, turned, 0, 0, asked, work, shape, touch, record, noise)
         limits = contact.limits(shape, conditions.gains)
         _run(contact.loop(), (controller.assemble,), world, None, np.zeros(12), limits, row)
     return row, said(), data

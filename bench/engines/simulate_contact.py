@@ -97,7 +97,8 @@ def _episode(
         prepare(scene.model, data, trial)
         scene.world["work"].legs[: len(trial.pushes)] = trial.pushes
         touch, start = conditions.touch, np.zeros((1, START_WIDTH))
-        world = in_contact.World(**scene.world, shape=shape, touch=touch, record=record)
+        noise = conditions.sensor.draw_noise(task.horizon_s, conditions.dt_s)
+        world = in_contact.World(**scene.world, shape=shape, touch=touch, record=record, noise=noise)
         limits = in_contact.limits(shape, conditions.gains)
         simulate(_loop(), (pointer(controller),), world, NO_MEMORY, start, limits, row[None])
     failure = GOING if row[FAILURE_TICK] == NEVER else int(row[OUTCOME])

@@ -39,8 +39,9 @@ def test_limit_of_a_constant_delay_is_that_of_the_eigenvalues(steps):
     assert greatest_modulus(0.995 * found, steps) < 1.0 < greatest_modulus(1.005 * found, steps)
 
 
-def test_without_delay_the_limit_is_two_over_the_period():
-    assert find_greatest_kv(late_by(0), SUBSTEPS, PERIOD_S) == pytest.approx(2.0 / PERIOD_S, rel=0.01)
+def test_without_delay_the_limit_is_jurys():
+    limit = 4.0 * SUBSTEPS * (np.sqrt(1.0 + 1.0 / SUBSTEPS) - 1.0) / PERIOD_S
+    assert find_greatest_kv(late_by(0), SUBSTEPS, PERIOD_S) == pytest.approx(limit, rel=1e-3)
 
 
 def expected_torque(loop, start):

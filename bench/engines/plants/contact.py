@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.engines import contact_episode
-from bench.engines.arm_episode import MOST
+from bench.engines.arm_episode import MOST, cut
 from bench.engines.arrays import Integers, Matrix, Vector
 from bench.engines.contact_episode import BROKEN, RESTED, Numbers, overload, setpoint, wrench, write_record
 from bench.engines.episode import Numbers as Limits
@@ -45,7 +45,8 @@ class World(NamedTuple):
     """A scene: the simulation with the arm's n joints first, and all that an episode needs.
 
     push: the wrench applied to the hand. gap, turned: places among the sensor values, -1 if there is none. batch,
-    callback, asked: what steps MuJoCo, see `trapped`. record: to be filled.
+    callback, asked: what steps MuJoCo, see `trapped`. record: to be filled. noise: of each reading of the wrench, or of
+    all.
     """
 
     sim: Simulated
@@ -60,6 +61,7 @@ class World(NamedTuple):
     shape: Numbers
     touch: ContactParameters
     record: Matrix
+    noise: Matrix
 
 
 def work(n: int, nv: int) -> Work:
@@ -70,16 +72,18 @@ def work(n: int, nv: int) -> Work:
 
 
 class State(NamedTuple):
-    """What is wanted at first; the tick, and why MuJoCo ends the episode, or GOING."""
+    """What is wanted at first; the tick, why MuJoCo ends the episode, or GOING, and the last reading of the wrench."""
 
     R_d: Rotation
     p_0: tuple
     tick: int
     fate: int
+    f: tuple
+    m: tuple
 
 
 class Hand(NamedTuple):
-    """The hand's place [m], force [N], moment [N m] and chain, and its place at first."""
+    """The hand's place [m], force [N] and moment [N m] as they are read, its chain, and its place at first."""
 
     p: tuple
     f: tuple
@@ -103,7 +107,21 @@ def reset(body, k, start):
     fate = BROKEN if advance_trapped(body) > 0 else GOING
     body.asked[2] = RUNGE_KUTTA if body.sim.is_runge_kutta else STEP
     s, R_d = body.sim.sensordata, from_quaternion(body.shape.quat_d)
-    return State(R_d, (s[16], s[17], s[18]), 0, fate)
+    return State(R_d, (s[16], s[17], s[18]), 0, fate, AT_REST, AT_REST)
+
+
+@kernel
+def read_wrench(body, state, R):
+    """Return the force and moment as the controller gets them: read afresh, or the last reading."""
+    s, ticks = body.sim.sensordata, body.shape.sensor_ticks
+    if state.tick % ticks > 0:
+        return state.f, state.m
+    f, m = wrench(R, s)
+    noise = body.noise[(state.tick // ticks) % body.noise.shape[0]]
+    return (
+        (f[0] + noise[0], f[1] + noise[1], f[2] + noise[2]),
+        (m[0] + noise[3], m[1] + noise[4], m[2] + noise[5]),
+    )
 
 
 @kernel
@@ -111,7 +129,7 @@ def sense(body, state, tick, numbers):
     """Read the sensors; no angle counts."""
     sim, s, speed = body.sim, body.sim.sensordata, 0.0
     R, omega = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8])), (s[9], s[10], s[11])
-    p, (f, m) = (s[16], s[17], s[18]), wrench(R, s)
+    p, (f, m) = (s[16], s[17], s[18]), read_wrench(body, state, R)
     for i in range(sim.n):
         speed = speed + sim.qvel[i] * sim.qvel[i]
     hand = Hand(p, f, m, Chain(body.n, sim.xaxis, sim.xanchor, sim.qvel, p, R), state.p_0)
@@ -136,6 +154,8 @@ def command(laws, body, sensed_now, now, gains, memory, numbers):
     comply(
         shape.form, shape.held, hand.chain, work.D, work.fg, work.J, work.rows, gains, body.touch, work.room, work.tau
     )
+    if shape.is_cut > 0:
+        cut(work.tau, shape.rated, n)
     total, largest = overload(work.tau, shape.rated, n)
     failure = check_command(total, shape.torque_limit_squared)
     if has_left(shape.rest, now.tick, hand.p, sensed_now.R, memory.place, memory.frame):
@@ -149,24 +169,27 @@ def command(laws, body, sensed_now, now, gains, memory, numbers):
 def see(row, curves, now, body, sensed_now, act, before, numbers):
     """Write the tick's line of the record."""
     s, hand = body.sim.sensordata, sensed_now.more
+    f, m = wrench(sensed_now.R, s)
     gap = s[body.gap] if body.gap >= 0 else 0.0
     turned = s[body.turned] if body.turned >= 0 else 0.0
     write_record(
-        body.record[now.tick], now.tick * numbers.dt, sensed_now.R, sensed_now.omega, hand.p, hand.f, hand.m,
+        body.record[now.tick], now.tick * numbers.dt, sensed_now.R, sensed_now.omega, hand.p, f, m,
         gap, turned, sqrt(act.squared),
     )  # fmt: skip
 
 
 @kernel
 def advance(laws, body, state, act, gains, memory, numbers):
-    """Apply the torques and the trial's push, and let MuJoCo step."""
+    """Apply the torques and the trial's push, keep the reading of the wrench, and let MuJoCo step."""
+    s = body.sim.sensordata
+    f, m = read_wrench(body, state, Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8])))
     for i in range(body.n):
         body.sim.ctrl[i] = body.work.tau[i]
     now = leg(body.shape.legs, state.tick, numbers.ticks)
     for i in range(6):
         body.push[i] = body.work.legs[now, i]
     fate = BROKEN if advance_trapped(body) > 0 else GOING
-    return State(state.R_d, state.p_0, state.tick + 1, fate), memory
+    return State(state.R_d, state.p_0, state.tick + 1, fate, f, m), memory
 
 
 @kernel

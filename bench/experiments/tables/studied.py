@@ -1,6 +1,6 @@
-"""Tables that no experiment makes: times, the studies of perturbations and of a real loop, other libraries' answers."""
+"""Tables that no experiment makes: times, results of studies, and other libraries' answers."""
 
 from bench.experiments.columns import read_table
 
-NAMES = ("perturbed", "timings", "libraries", "closed_loop", "verdicts", "real_loop")
+NAMES = ("perturbed", "timings", "libraries", "closed_loop", "verdicts", "real_loop", "contact_limits")
 STUDIED = tuple(read_table(__file__, name) for name in NAMES)

@@ -2,8 +2,8 @@
 
     e' = omega,  omega' = u,  u = -(Kp e + Kv omega) of the tick that the torque answers,  Kp = (Kv/2)^2
 
-Every axis of a loop that cancels its arm's dynamics is this one. The delays are recorded ones, tick by tick; with none
-the limit is Kv T = 2 (Jury), T the control period.
+Every axis of a loop that cancels its arm's dynamics is this one. The delays are recorded ones, tick by tick. With none
+the limit is Kv T = 4 N (sqrt(1 + 1/N) - 1), T the control period, for a plant that MuJoCo moves in N steps (Jury).
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from bench.base.bisection import bisect
 
 GREATEST = 2.2
-"""Kv T above which no loop is stable: without delay the limit is 2, and with steps of the plant of T/8 it is 2 too."""
+"""Kv T up to which a limit is looked for."""
 HALVINGS = 12
 LAST = 0.1
 """Part of an episode, its last, in which a loop that is not stable is farther from the goal than at its start."""

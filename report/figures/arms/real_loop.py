@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import functools
 
+import numpy as np
 import pandas as pd
 
 from bench.base.files import read_json
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
+from bench.findings.theory.late_torques import find_greatest_kv
 from report.figures.arms import arm_rows
 from report.figures.kit import families
 from report.figures.kit.page import Run
@@ -36,6 +38,7 @@ def facts(_: Run) -> dict:
         "agreeing": f"{found['agreeing'].sum()} of {found['starts'].sum()}",
         "apart_ms": f"{1e3 * found['time_difference_s'].max():.0f}",
         "gap": f"{100 * gaps.max():.1g}",
+        "undelayed": f"{find_greatest_kv(np.repeat(np.arange(1, 2001), 8), 8, 1e-3):.0f}",
     }
 
 
