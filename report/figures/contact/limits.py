@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Iterator
 
-import pandas as pd
-
-from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.read import table
 from bench.experiments.tables.schema import RESULTS
-from bench.experiments.tables.store import read
 from report.figures.contact.in_contact import MEASURES, SPRINGS
 from report.figures.contact.rows import PAPERS, PAPERS_EULER
 from report.figures.kit.page import Run
@@ -22,18 +18,12 @@ LIMITS = Table(
 )
 
 
-@functools.cache
-def rows() -> pd.DataFrame:
-    """Return a row a pose, setting and controller."""
-    found = with_contender(read(RESULTS / "contact", "contact_limits"))
-    return found.assign(contender=found["contender"].astype(str), task=found["task"].astype(str))
-
-
 def compare_settings() -> Iterator[tuple]:
     """Return a row a task and controller, with what is measured in each setting."""
+    rows = table(RESULTS / "contact", "contact_limits")
     for task, measure in MEASURES.items():
         for controller, name in NAMES.items():
-            own = rows()[(rows()["task"] == task) & (rows()["contender"] == controller)]
+            own = rows[(rows["task"] == task) & (rows["contender"] == controller)]
             by_setting = [own[own["setting"] == setting] for setting in SETTINGS]
             yield task.replace("-", " "), measure.title, name, len(by_setting[0]), *map(measure.of, by_setting)
 
