@@ -3,6 +3,7 @@
 import tasks
 from report.figures.contact.compliance import PROBE
 from report.figures.contact.in_contact import MEASURES
+from report.figures.contact.limits import LIMITS, compare_settings
 from report.figures.contact.rows import PAPERS_EULER, of, of_task
 from report.figures.kit import media
 from report.figures.kit.page import Run, in_run
@@ -27,6 +28,11 @@ def facts(run: Run) -> dict:
         "rest_horizon": f"{HORIZON_S:g}",
         "kf": in_run(lambda: f"{of(of_task(run, PROBE), PAPERS_EULER)['kf'].iloc[0]:g}"),
     }
+
+
+def tables(_: Run) -> dict:
+    """Return the tasks with real motors and sensors."""
+    return {"settings": LIMITS(compare_settings())}
 
 
 def figures(_: Run) -> dict:

@@ -35,10 +35,14 @@ class Measure(NamedTuple):
     factor: float = 1.0
     failed: float = np.inf
 
-    def of(self, rows: pd.DataFrame) -> str:
-        """Return the median of the rows, of a share the mean; a dash where at least half of the episodes failed."""
+    def compute(self, rows: pd.DataFrame) -> float:
+        """Return the median of the rows, of a share the mean; infinite where at least half of the episodes failed."""
         values = (rows[self.column] * self.factor).fillna(self.failed)
-        value = values.mean() if "%" in self.title else values.median()
+        return float(values.mean() if "%" in self.title else values.median())
+
+    def of(self, rows: pd.DataFrame) -> str:
+        """Return the number in short; a dash if it is infinite."""
+        value = self.compute(rows)
         return f"{value:.2g}" if np.isfinite(value) else html.MISSING
 
 

@@ -13,9 +13,7 @@ from report.figures.kit.tables import Table
 
 SETTINGS = {"ideal": "Ideal motors", "motors": "Motors cut", "sensor": "Motors cut, sensor of 100 Hz"}
 NAMES = {PAPERS: "Cartesian", PAPERS_EULER: "Euler, all β", SPRINGS: "springs"}
-LIMITS = Table(
-    f"Task | Measured at the end | Control | Episodes | {' | '.join(SETTINGS.values())}", words=SETTINGS.values()
-)
+LIMITS = Table(f"Task | Measured at the end | Control | Episodes | {':.2g | '.join(SETTINGS.values())}:.2g")
 
 
 def compare_settings() -> Iterator[tuple]:
@@ -25,9 +23,10 @@ def compare_settings() -> Iterator[tuple]:
         for controller, name in NAMES.items():
             own = rows[(rows["task"] == task) & (rows["contender"] == controller)]
             by_setting = [own[own["setting"] == setting] for setting in SETTINGS]
-            yield task.replace("-", " "), measure.title, name, len(by_setting[0]), *map(measure.of, by_setting)
+            yield task.replace("-", " "), measure.title, name, len(by_setting[0]), *map(measure.compute, by_setting)
 
 
-def tables(_: Run) -> dict:
-    """Return the settings beside each other."""
-    return {"settings": LIMITS(compare_settings())}
+def facts(_: Run) -> dict:
+    """Return by how much real motors and sensors change a number at most."""
+    changes = [abs(one / ideal - 1.0) for *_, ideal, cut, sensor in compare_settings() for one in (cut, sensor)]
+    return {"change": f"{100.0 * max(changes):.0f}"}
