@@ -26,8 +26,15 @@ NAME = "impedance-modes"
 STEP = 1e-4
 """Steps of the differences [rad, rad/s]: they err by its square, 1e-8, and by rounding over it and the tick, 1e-9."""
 
-FRANKAPYS = Stiffness(600.0, 50.0)
-"""frankapy's default on Pandas, with D = 2 sqrt(K)."""
+SHIPPED = {
+    "libfranka, example": Stiffness(150.0, 10.0),
+    "franka_ros, example": Stiffness(200.0, 10.0),
+    "crisp_controllers": Stiffness(500.0, 30.0),
+    "frankapy": Stiffness(600.0, 50.0),
+}
+"""Defaults for Pandas with D = 2 sqrt(K), from the sources that bench/law/contenders/shipped names."""
+ANGLES = np.geomspace(1e-4, np.pi, 400)
+"""Angles of z on the unit circle at which a delayed loop is looked at."""
 
 DESIGN_S = 0.02
 """CPU seconds a design of damping on an arm."""
@@ -43,10 +50,13 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
     every = map(tasks.variation, tasks.variation_names(unit.arm))
     plants = [one.name for one in every if not one.believed and one.late_ticks(settings.dt_s) < 0]
     found = []
-    for plant, stiffness in itertools.product(plants, (*STIFFNESSES, FRANKAPYS)):
+    every = dict.fromkeys((*STIFFNESSES, *(SHIPPED.values() if unit.arm == "panda" else ())))
+    for plant, stiffness in itertools.product(plants, every):
         P, Q = hand_matrices(settings, unit, stiffness, plant)
         radius = compute_tick_radius(P, Q, settings.dt_s)
-        loop = {"variation": plant, "dt_s": settings.dt_s, "longest_dt_s": find_longest_tick(P, Q), "radius": radius}
+        delay = find_longest_delay(P, Q, settings.dt_s) if radius < 1.0 else np.nan
+        loop = {"variation": plant, "dt_s": settings.dt_s, "longest_dt_s": find_longest_tick(P, Q)}
+        loop |= {"longest_delay_s": delay, "radius": radius}
         for mode, (omega, ratio) in enumerate(zip(*compute_modes(P, Q), strict=True), start=1):
             found.append({**setting_columns(unit, stiffness), **loop, "mode": mode, "omega": omega, "ratio": ratio})
     return found
@@ -86,6 +96,22 @@ def compute_modes(P: np.ndarray, Q: np.ndarray) -> tuple[np.ndarray, np.ndarray]
 def find_longest_tick(P: np.ndarray, Q: np.ndarray) -> float:
     """Return the control period [s] above which some error grows, to a nanosecond."""
     return bisect(lambda dt: compute_tick_radius(P, Q, dt) < 1.0, 0.0, 1.0, halvings=30)[0]
+
+
+def find_longest_delay(P: np.ndarray, Q: np.ndarray, dt: float) -> float:
+    """Return the delay of the command [s] above which some error grows; with none the loop is stable.
+
+    At the limit det((z - 1)^2 z^d + dt (Q (z - 1) + dt z P)) = 0 for a z = exp(i phi): an eigenvalue mu of
+    -dt (Q (z - 1) + dt z P)/(z - 1)^2 has |mu| = 1, and d = arg(mu)/phi.
+    """
+    z = np.exp(1j * ANGLES)[:, None, None]
+    mu = np.linalg.eigvals(-dt * (Q * (z - 1.0) + dt * z * P) / (z - 1.0) ** 2)
+    falls = np.sort(np.abs(mu), axis=1)
+    crossing = (falls[:-1] >= 1.0) & (falls[1:] < 1.0)
+    ticks = np.take_along_axis(np.angle(mu) % (2.0 * np.pi), np.argsort(np.abs(mu), axis=1), axis=1) / ANGLES[:, None]
+    share = np.log(falls[:-1]) / np.log(falls[:-1] / falls[1:])
+    at = ticks[:-1] + share * (ticks[1:] - ticks[:-1])
+    return dt * float(at[crossing].min(initial=np.inf))
 
 
 def compute_tick_radius(P: np.ndarray, Q: np.ndarray, dt: float) -> float:

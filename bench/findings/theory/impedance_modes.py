@@ -27,6 +27,10 @@ Stiffness = tuple[float, float]
 """Stiffness of translation [N/m] and of rotation [N m/rad]."""
 
 
+FREQUENCIES = 4_000
+"""At which a delayed loop is looked at: they are 0.2 % apart."""
+
+
 class Hand(NamedTuple):
     """Lambda^-1 of an arm at its home, 6 x 6, and what the joints' friction does to the hand, J M^-1 B J^+ [1/s]."""
 
@@ -61,6 +65,19 @@ def longest_tick(P: np.ndarray, Q: np.ndarray) -> float:
     return bisect(lambda dt: compute_radius(P, Q, dt) < 1.0, 0.0, 1.0, halvings=30)[0]
 
 
+def longest_delay(P: np.ndarray, Q: np.ndarray, dt: float) -> float:
+    """Return the delay [s] above which det(s^2 + e^(-s tau) (P + s e^(-s dt/2) Q)) has a zero with Re s > 0.
+
+    The rates of a tick are on average half a tick old. At the limit s = i omega, where an eigenvalue of
+    -(P + s e^(-s dt/2) Q)/s^2 is e^(s tau).
+    """
+    omega = np.geomspace(1.0, np.pi / dt, FREQUENCIES)
+    s = 1j * omega[:, None, None]
+    values = np.linalg.eigvals(-(P + s * np.exp(-0.5 * dt * s) * Q) / s**2)
+    late = (np.angle(values) % (2.0 * np.pi)) / omega[:, None]
+    return float(late[np.abs(np.log(np.abs(values))) < 3.0 / FREQUENCIES * np.log(omega[-1])].min(initial=np.inf))
+
+
 def compute_modes(P: np.ndarray, Q: np.ndarray, mobility: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Compute natural frequencies [1/s] in ascending order, and their damping ratios, with P = mobility K."""
     Lambda = np.linalg.inv(mobility)
@@ -80,7 +97,7 @@ def compute_radius(P: np.ndarray, Q: np.ndarray, dt: float) -> float:
 
 
 def with_theory(rows: pd.DataFrame) -> pd.DataFrame:
-    """Rows of impedance-modes.parquet with theory's omega, ratio, radius and longest_dt_s: `omega_theory`, ..."""
+    """Return rows of impedance-modes.parquet with theory's omega, ratio, radius and limits: `omega_theory`, ..."""
     keys, found = ["arm", "variation", "damping", "stiffness_n_m", "stiffness_nm_rad", "zeta", "dt_s"], []
     for key, group in rows.groupby(keys, observed=True, sort=False):
         arm, variation, damping, translation, rotation, zeta, dt = key
@@ -88,6 +105,6 @@ def with_theory(rows: pd.DataFrame) -> pd.DataFrame:
         P, Q = hand_matrices(hand, str(damping), (translation, rotation), zeta)
         omega, ratio = compute_modes(P, Q, hand.mobility)
         places, more = group["mode"].to_numpy() - 1, {"longest_dt_s_theory": longest_tick(P, Q)}
-        more["radius_theory"] = compute_radius(P, Q, dt)
+        more |= {"radius_theory": compute_radius(P, Q, dt), "longest_delay_s_theory": longest_delay(P, Q, dt)}
         found.append(group.assign(omega_theory=omega[places], ratio_theory=ratio[places], **more))
     return pd.concat(found) if found else rows

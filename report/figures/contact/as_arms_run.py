@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Iterator
 
 import pandas as pd
 
-from bench.experiments.impedance_modes import FRANKAPYS
+from bench.experiments.impedance import Stiffness
+from bench.experiments.impedance_modes import SHIPPED
 from bench.experiments.suites import IDEAL_MOTORS
 from bench.findings.theory.impedance_modes import with_theory
 from bench.law.control.unshaped import DAMPINGS
 from report.figures.kit.page import Run
+from report.figures.kit.tables import Table
+
+PANDA = Table("Gains of | Stiffness [N/m; N m/rad] | Control period [ms] | Delay at 1 kHz [ms]")
 
 
 @functools.cache
@@ -21,11 +26,8 @@ def modes(run: Run) -> pd.DataFrame:
 
 def facts(run: Run) -> dict:
     """Return the damping felt by each design, and the longest stable control periods of frankapy's gains."""
-    every = modes(run)
-    driven = every["variation"].astype(str) != IDEAL_MOTORS
-    found, panda = every[driven], every["arm"] == "panda"
-    franka = every[panda & (every["damping"] == "diagonal") & (every["stiffness_n_m"] == FRANKAPYS.translation)]
-    stable = 1000.0 * franka.loc[driven, "longest_dt_s"]
+    every, frankapys = modes(run), SHIPPED["frankapy"]
+    found, franka = driven(every), on_panda(every, frankapys)
     felt = {name: found.loc[found["damping"] == name, "ratio"] for name in DAMPINGS}
     double, axes = felt["double-diagonalization"], felt["per-axis"]
     return {
@@ -38,10 +40,47 @@ def facts(run: Run) -> dict:
         "modes": len(every),
         "slower": f"{slower(run.rows('impedance')):.2g}",
         "tick": f"{1000 * float(run.rows('impedance')['dt_s'].iloc[0]):g}",
-        "practice": f"{FRANKAPYS.translation:g} N/m, {FRANKAPYS.rotation:g} N m/rad",
-        "practice_tick": f"{stable.min():.2g} to {stable.max():.2g}",
+        "worst_limit": f"{100 * compute_worst_gap(every):.1g}",
+        "practice": f"{frankapys.translation:g} N/m, {frankapys.rotation:g} N m/rad",
+        "practice_tick": in_ms(driven(franka)["longest_dt_s"]),
         "bare_tick": f"{1000.0 * franka['longest_dt_s'].min():.2g}",
     }
+
+
+def tables(run: Run) -> dict:
+    """Return the limits of the gains that are shipped for Pandas."""
+    return {"panda": PANDA(limits_of_shipped(modes(run)))}
+
+
+def limits_of_shipped(every: pd.DataFrame) -> Iterator[tuple]:
+    """Return a row a controller: its limits with the least and the greatest motor inertia."""
+    for name, stiffness in SHIPPED.items():
+        own = driven(on_panda(every, stiffness))
+        limits = (in_ms(own[column]) for column in ("longest_dt_s", "longest_delay_s"))
+        yield name, f"{stiffness.translation:g}; {stiffness.rotation:g}", *limits
+
+
+def on_panda(every: pd.DataFrame, stiffness: Stiffness) -> pd.DataFrame:
+    """Return the rows of a Panda with D = 2 sqrt(K)."""
+    rows = every[(every["arm"] == "panda") & (every["damping"] == "diagonal")]
+    return rows[(rows["stiffness_n_m"] == stiffness.translation) & (rows["stiffness_nm_rad"] == stiffness.rotation)]
+
+
+def driven(rows: pd.DataFrame) -> pd.DataFrame:
+    """Return the rows of arms as they are."""
+    return rows[rows["variation"].astype(str) != IDEAL_MOTORS]
+
+
+def in_ms(seconds: pd.Series) -> str:
+    """Return the range in milliseconds."""
+    return f"{1000.0 * seconds.min():.2g} to {1000.0 * seconds.max():.2g}"
+
+
+def compute_worst_gap(every: pd.DataFrame) -> float:
+    """Compute by how much a limit of arms as they are differs from theory's, at most."""
+    rows = driven(every)
+    gaps = [(rows[f"{one}_theory"] / rows[one] - 1.0).abs().max() for one in ("longest_dt_s", "longest_delay_s")]
+    return float(max(gaps))
 
 
 def slower(rows: pd.DataFrame) -> float:
