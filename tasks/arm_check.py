@@ -51,6 +51,7 @@ def checked(name: str, xml: str) -> Arm:
         rated=tuple(map(float, model.actuator_ctrlrange[:, 1])),
         poses=poses,
         motors=_numbers(name, model, "motors", 3),
+        torque_rate=_numbers(name, model, "torque-rate", 1),
         gains=_numbers(name, model, "gains", 2),
     )
     bodies = [model.body(i).name for i in range(model.nbody) if model.body_mass[i] == 0.0]

@@ -26,6 +26,7 @@ class Arm(NamedTuple):
     rated: tuple[float, ...]  # rated torque [N m], at which motors are cut but in the variation ideal-motors
     poses: tuple[tuple[str, tuple[float, ...]], ...] = ()  # every keyframe: (name, joint angles)
     motors: tuple[float, ...] = ()  # least, usual and greatest motor inertia [kg m^2]; none: it is known, and in xml
+    torque_rate: tuple[float, ...] = ()  # greatest change of a torque [N m/s]; none: its maker states none
     gains: tuple[float, ...] = ()  # kp [1/s^2] and damping ratio of a controller that is shipped for it; none: unknown
 
     @property

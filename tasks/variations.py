@@ -1,7 +1,8 @@
 """Variations: how the plant differs from the ideal arm, and from the arm that its controller computes with.
 
-    nominal       the arm as it is: motors cut at the rated torque, stops at the ends of joint ranges, the hand of the
-                  arm's file (<numeric name="hand" data="m x y z Ixx Iyy Izz"/>) and its usual motor inertia
+    nominal       the arm as it is: motors cut at the rated torque, and at the rate of change that its file may state;
+                  stops at the ends of joint ranges, the hand of the file (<numeric name="hand" data="m x y z Ixx Iyy
+                  Izz"/>) and its usual motor inertia
     ideal-motors  the paper's assumption: no torque is too large; no stops, no hand, motor inertia as in the file
     motors-low, motors-high  the nominal arm with the least and the greatest motor inertia that its file states
     motors-slow, motors-late  the nominal arm, its torques with a first-order lag of 5 ms (32 Hz), or 5 ms late

@@ -69,7 +69,8 @@ class Controls(NamedTuple):
     rows of the Jacobian; gives_torque by the inverse (`resolved_acceleration.BY_JOINT`); has_own_model: 0 if the
     controller's model is the plant, 1 if it is another in the plant's state, STANDING if its joints stand still there,
     so that its torques are gravity's alone. is_cut: 1 if the plant's motors give no more than their rated torque.
-    share: what motors make up in a tick of their difference from the torque that is sent.
+    share: what motors make up in a tick of their difference from the torque that is sent; change: by how much a torque
+    changes in a tick at most [N m].
     """
 
     rows: int
@@ -78,6 +79,7 @@ class Controls(NamedTuple):
     torque_limit_squared: float
     is_cut: int
     share: float
+    change: float
 
 
 class Joints(NamedTuple):
@@ -93,13 +95,20 @@ class Joints(NamedTuple):
 
 
 def controls(
-    contender: Contender, has_own_model: bool, torque_limit: float, plant: Any, lag_s: float = 0.0
-) -> Controls:
-    """Return the numbers of a contender on an arm; plant: MuJoCo's model of it; lag_s: its motors' time constant."""
+    contender: Contender, has_own_model: bool, torque_limit: float, plant: Any, lag_s: float = 0.0,
+    torque_rate: tuple[float, ...] = (),
+) -> Controls:  # fmt: skip
+    """Return the numbers of a contender on an arm; plant: MuJoCo's model of it.
+
+    Args:
+        lag_s: time constant of its motors. torque_rate: of motors that are cut, how fast a torque changes at most.
+    """
     gives = GIVES[contender.inverse.gives] if contender.inverse else 0
     own = STANDING if gives == BY_JOINT else int(has_own_model)
     share = -math.expm1(-plant.opt.timestep / lag_s) if lag_s else 1.0
-    return Controls(contender.rows, gives, own, torque_limit**2, int(plant.actuator_ctrllimited.any()), share)
+    is_cut = bool(plant.actuator_ctrllimited.any())
+    change = torque_rate[0] * plant.opt.timestep if torque_rate and is_cut else math.inf
+    return Controls(contender.rows, gives, own, torque_limit**2, int(is_cut), share, change)
 
 
 def states(starts: Starts, n: int) -> np.ndarray:
@@ -144,7 +153,7 @@ def cut(tau, rated, n):
 
 
 @kernel
-def drive(tau, sent, share, tick, fg, n):
+def drive(tau, sent, share, change, tick, fg, n):
     """Replace the torques that are sent by those that slow or late motors give; at first these hold the arm.
 
     sent: a row for each tick of delay and the present one, then what motors give.
@@ -155,7 +164,8 @@ def drive(tau, sent, share, tick, fg, n):
             for j in range(sent.shape[0]):
                 sent[j, i] = fg[i]
         sent[tick % slots, i] = tau[i]
-        sent[slots, i] += share * (sent[(tick + 1) % slots, i] - sent[slots, i])
+        more = share * (sent[(tick + 1) % slots, i] - sent[slots, i])
+        sent[slots, i] += max(min(more, change), -change)
         tau[i] = sent[slots, i]
 
 

@@ -64,14 +64,15 @@ def run_arm(
             sim = plain_view(
                 _reset(task, start, limits, integrator, arm=arm, vary=lambda model: one.apply(model, of_arm.rated))
             )
-            shape = controls(contender, bool(one.believed), settings.torque_limit, sim.model, one.lag_s)
+            motors = one.lag_s, of_arm.torque_rate
+            shape = controls(contender, bool(one.believed), settings.torque_limit, sim.model, *motors)
             believed = sim
             if shape.has_own_model:
                 model = mujoco.MjModel.from_xml_string(tasks.task(task, arm).xml(limits.dt))
                 tasks.variation(believes).apply(model, of_arm.rated)
                 believed = model_view(model, mujoco.MjData(model))
             states, hinges = states_of([start], of_arm.joints), joints(of_arm, believes)
-            work = on_arm.work(of_arm.joints, one.late_ticks(limits.dt))
+            work = on_arm.work(of_arm.joints, one.late_ticks(limits.dt), shape.change)
             world = on_arm.World(sim, states, believed, work, shape, hinges)
             _run(loop, laws, world, contender, line, limits, row)
     return rows

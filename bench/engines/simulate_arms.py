@@ -69,9 +69,10 @@ def arm_world(
     one, plant_of = tasks.arm(arm), tasks.variation(variation)
     believed = plant_of.believed
     plant = _simulation(task, one, settings.dt_s, integrator, variation)
-    shape = controls(contender, bool(believed), settings.torque_limit, plant[0], plant_of.lag_s)
+    shape = controls(contender, bool(believed), settings.torque_limit, plant[0], plant_of.lag_s, one.torque_rate)
     own = _simulation(task, one, settings.dt_s, integrator, believed or variation) if shape.has_own_model else plant
-    work, hinges = on_arm.work(one.joints, plant_of.late_ticks(settings.dt_s)), joints(one, believed or variation)
+    work = on_arm.work(one.joints, plant_of.late_ticks(settings.dt_s), shape.change)
+    hinges = joints(one, believed or variation)
     views = compiled_view(*plant), states(starts, one.joints), compiled_view(*own)
     return [plant, own], on_arm.World(*views, work, shape, hinges)
 

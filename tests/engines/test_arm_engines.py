@@ -150,10 +150,18 @@ def test_torques_of_slow_and_late_motors_are_those_of_scipys_filter(lag_s, late)
     asked, fg = np.random.default_rng(5).standard_normal((60, 6)), np.arange(6.0)
     share, sent, given = -math.expm1(-1e-3 / lag_s) if lag_s else 1.0, np.zeros((late + 2, 6)), asked.copy()
     for tick, tau in enumerate(given):
-        drive(tau, sent, share, tick, fg, 6)
+        drive(tau, sent, share, np.inf, tick, fg, 6)
     arrived = np.vstack((np.tile(fg, (late, 1)), asked))[:60]
     expected, _ = lfilter([share], [1.0, share - 1.0], arrived, axis=0, zi=(1.0 - share) * fg[None])
     np.testing.assert_allclose(given, expected, atol=1e-12)
+
+
+def test_torque_of_a_motor_with_a_bounded_rate_walks_to_what_is_sent():
+    sent, fg = np.zeros((2, 6)), np.zeros(6)
+    steps = [(tick, np.full(6, 3.5)) for tick in range(6)]
+    for tick, tau in steps:
+        drive(tau, sent, 1.0, 1.0, tick, fg, 6)
+    assert [tau[0] for _, tau in steps] == [1.0, 2.0, 3.0, 3.5, 3.5, 3.5]
 
 
 @over_arms

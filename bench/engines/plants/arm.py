@@ -4,6 +4,7 @@ The loop is compiled once, for all arms and contenders. The controller's model i
 the same arm that is put into the plant's state at every tick (a study of model errors).
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -75,8 +76,13 @@ class Tool(NamedTuple):
     chain: Chain
 
 
-def work(n: int, late: int = -1) -> Work:
-    """Return fresh buffers for n joints, whose motors give torques so many ticks late; -1: torques are not kept."""
+def work(n: int, late: int = -1, change: float = math.inf) -> Work:
+    """Return fresh buffers for n joints, whose motors give torques so many ticks late; -1: torques are not kept.
+
+    Args:
+        change: by how much a torque changes in a tick at most [N m]; if it is finite, torques are kept.
+    """
+    late = max(late, 0) if change < math.inf else late
     return Work(
         buffers(n), np.zeros((n, n)), np.zeros(n), np.zeros((MOST, MOST)), np.zeros((2 + late if late >= 0 else 0, n))
     )
@@ -146,7 +152,7 @@ def command(laws, body, sensed, now, gains, memory, numbers):
     if controls.is_cut > 0:
         cut(work.buffers.tau, body.joints.rated, n)
     if work.sent.shape[0] > 0:
-        drive(work.buffers.tau, work.sent, controls.share, now.tick, work.fg, n)
+        drive(work.buffers.tau, work.sent, controls.share, controls.change, now.tick, work.fg, n)
     total = load(seven(work.buffers.tau, n), body.joints.rated)
     failure = check_command(total, controls.torque_limit_squared)
     return Act(u, u, dot(u, u), laws.third(sensed.R, sensed.goal.R), failure, ()), memory

@@ -2,8 +2,8 @@
 
 The arm is in this process, the controller in another; both share the machine with all else that runs on it, so let it
 be idle. From STARTS starts an episode takes as long on the clock as it says. The limit of the gains is found by
-bisection from EDGE_RAD beside the goal at home, where no motor is at its rating. It is held against theory with the
-delays of the other episodes. C++ needs g++ and Eigen.
+bisection from EDGE_RAD beside the goal at home, where neither torques nor their changes are at their bounds. It is held
+against theory with the delays of the other episodes. C++ needs g++ and Eigen.
 """
 
 import functools
@@ -38,7 +38,7 @@ from tasks.verdict import first_watch, watched
 STORED = RESULTS / "real-loop" / "real_loop.parquet"
 LAWS = ("rotation-matrix", "late-braking")
 STARTS, HORIZON_S = 12, 2.5
-EDGE_RAD, EDGE_S, HALVINGS, REPEATS = 1e-5, 2.0, 8, 3
+EDGE_RAD, EDGE_S, HALVINGS, REPEATS = 1e-7, 2.0, 8, 3
 
 
 def settling_time(course: Course, start: Start) -> float:

@@ -78,6 +78,8 @@ class Loop:
         self.model = mujoco.MjModel.from_xml_string(self.task.xml(STEP_S))
         tasks.variation(variation).apply(self.model, one.rated)
         self.data = mujoco.MjData(self.model)
+        is_cut = bool(self.model.actuator_ctrllimited.any())
+        self.change = one.torque_rate[0] * STEP_S if one.torque_rate and is_cut else np.inf
         model, shared = folder / f"{arm}.mjb", folder / f"{arm}.shared"
         mujoco.mj_saveModel(self.model, str(model), None)
         shared.write_bytes(bytes(SHARED.itemsize))
@@ -130,7 +132,8 @@ class Loop:
                 self.tell(tick + 1)
             answered = int(shared["answered"])
             if answered:
-                data.ctrl[:] = shared["tau"][answered & 1, :n]
+                more = shared["tau"][answered & 1, :n] - data.ctrl
+                data.ctrl[:] += np.clip(more, -self.change, self.change)
             course.answered[step] = answered
             mujoco.mj_step2(self.model, data)
             mujoco.mj_step1(self.model, data)
