@@ -10,6 +10,7 @@ import pytest
 import tasks
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.experiments.impedance import STIFFNESSES, ZETA
+from bench.experiments.impedance_modes import find_longest_delay
 from bench.findings.theory import impedance_modes as theory
 from bench.law.control.unshaped import DAMPINGS
 from tasks.kinematics import Kinematics
@@ -74,3 +75,30 @@ def test_longest_tick_is_where_the_loop_that_runs_becomes_unstable(arm, damping)
             rows = measured(arm, damping, share * dt)
             rows = rows.query(f"stiffness_n_m == {stiffness.translation} and variation == 'ideal-motors'")
             assert (rows["radius"].max() < 1.0) == holds
+
+
+def greatest_modulus(P, Q, dt, ticks):
+    """Return the greatest |eigenvalue| of places, rates and the commands that wait, each so many ticks late."""
+    one, size = np.eye(6), 12 + 6 * ticks
+    tick, last = np.eye(size, k=-6), slice(size - 6, size)
+    tick[:18] = 0.0
+    tick[:6, :6] = tick[6:12, 6:12] = one
+    tick[:6, 6:12] = dt * one
+    tick[:6, last], tick[6:12, last] = -dt * dt * one, -dt * one
+    tick[12:18, :12] = np.hstack((P, Q))
+    return np.abs(np.linalg.eigvals(tick)).max()
+
+
+@pytest.mark.parametrize("damping", DESIGNS)
+def test_longest_delay_lies_between_two_whole_numbers_of_ticks(damping):
+    dt, hand = 1e-3, theory.hand_of("panda", "nominal")
+    P, Q = theory.hand_matrices(hand, damping, (600.0, 50.0), ZETA)
+    ticks = int(find_longest_delay(P, Q, dt) / dt)
+    assert greatest_modulus(P, Q, dt, ticks) < 1.0 < greatest_modulus(P, Q, dt, ticks + 1)
+
+
+@pytest.mark.parametrize("arm", ARMS)
+def test_longest_delay_is_that_of_continuous_theory(arm):
+    rows = measured(arm, "diagonal")
+    rows = rows[rows["variation"] != "ideal-motors"]
+    np.testing.assert_allclose(rows["longest_delay_s"], rows["longest_delay_s_theory"], rtol=0.02)
