@@ -1,9 +1,5 @@
 """What figures of the published run hold: points and bends; `test_every_page` draws them all."""
 
-import pytest
-
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-
 from bench.experiments.tables.schema import RESULTS
 from report.figures.kit.page import run_in
 from report.figures.kit.rows import FEEDBACK

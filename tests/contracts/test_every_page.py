@@ -8,8 +8,6 @@ import pandas as pd
 import pytest
 from support.pages import assert_is_whole
 
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from report.figures.kit.page import (

@@ -3,9 +3,6 @@
 import re
 
 import pandas as pd
-import pytest
-
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
 
 from bench.experiments.tables.schema import RESULTS
 from report.figures.arms import arm_ranking, arm_rows, jacobians

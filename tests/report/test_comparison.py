@@ -5,8 +5,6 @@ import math
 import pandas as pd
 import pytest
 
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from report.figures.comparison import cells

@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-
 import tasks
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.side_by_side import predicted

@@ -5,9 +5,6 @@ import re
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-
 from support.states import as_rotation, vector
 
 from bench.experiments.tables.schema import RESULTS

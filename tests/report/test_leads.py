@@ -7,9 +7,6 @@ import importlib
 import re
 
 import pytest
-
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-
 from support.leads import COMPUTED
 
 from bench.experiments.tables import read

@@ -9,10 +9,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
+import yaml
 
 from bench.base.provenance import ROOT
-
-yaml = pytest.importorskip("yaml", reason="the report extra is not installed (cure: make report)")
 
 FILES = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
 TARGETS = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))

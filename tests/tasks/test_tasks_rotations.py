@@ -4,6 +4,7 @@ import math
 from fractions import Fraction
 
 import mujoco
+import numba
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -151,7 +152,6 @@ def test_haversine_is_the_rational_value():
 
 
 def test_truth_compiles_unchanged():
-    numba = pytest.importorskip("numba")
     for function in (angle, haversine):
         compiled = numba.njit(error_model="numpy")(function)
         for quat, goal in zip(random_quats(100), random_quats(100, SEED + 1), strict=True):
