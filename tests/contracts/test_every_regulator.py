@@ -213,9 +213,6 @@ def test_early_stop_changes_no_settling_tick(contender):
     assert (stopped[:, TICKS] <= to_the_end[:, TICKS]).all()
 
 
-CONTENDERS = all_contenders()
-
-
 def test_every_function_of_a_representation_has_a_stage():
     representation = contenders("representations")["zyx-euler"]
     functions = {name for name, value in representation._asdict().items() if callable(value)}

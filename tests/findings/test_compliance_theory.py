@@ -34,8 +34,6 @@ AT_ITS_POLE = impedance_controller(coordinates_relative.IMPEDANCE, ZYZ)
 # Of a hand sampled at 1 kHz against the closed form in time, at 0.5 s: 4e-5 of what is free, 8e-4 of what is sprung and
 # has almost come to rest. Within a degree of the pole the hand's own 1.6 mrad move it by a tenth of the distance.
 FREE, SPRUNG, AT_89 = 1e-4, 1e-3, 1e-3
-# Of what is held, rad per rad: what is dragged along moves it by 2e-8, its own square by less.
-HELD = 1e-7
 POSES = [(0, 0, 0), (0, 30, 0), (35, 45, -20), (0, 75, 0), (0, 85, 0), (0, 89, 0)]
 
 

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 from support.bits import EPS, same_bits
-from support.states import matrix
+from support.states import matrix, vector
 
 import tasks
 from bench.engines.compiled import compile_function, float64
@@ -122,8 +122,4 @@ def test_rotation_of_a_quaternion_is_mujocos_bit_for_bit():
     for start in STARTS:
         theirs = np.empty(9)
         mujoco.mju_quat2Mat(theirs, np.array(start.quat_wxyz))
-        assert same_bits(matrix(from_quaternion(vector4(start.quat_wxyz))), theirs.reshape(3, 3)), start.id
-
-
-def vector4(quat_wxyz) -> tuple:
-    return tuple(np.float64(x) for x in quat_wxyz)
+        assert same_bits(matrix(from_quaternion(vector(start.quat_wxyz))), theirs.reshape(3, 3)), start.id

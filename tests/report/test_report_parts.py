@@ -25,10 +25,6 @@ def reference(monkeypatch):
     monkeypatch.setenv(read.VARIABLE, str(RESULTS / "reference"))
 
 
-def shown():
-    return run_in(RESULTS / "reference")
-
-
 def test_every_law_has_a_page_with_its_source_and_its_files():
     every = [regulators.page(one, run_in(read.folder())) for one in regulators.every_law()]
     pages = {made.name: made for made in every}

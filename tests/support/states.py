@@ -28,7 +28,7 @@ def of_scipy(turn) -> Rotation:
 
 
 def vector(numbers) -> tuple:
-    """Three numpy.float64."""
+    """Numbers, mostly three, as numpy.float64."""
     return tuple(np.float64(x) for x in numbers)
 
 
