@@ -78,7 +78,7 @@ def test_every_contender_is_listed(capsys):
 SIZES = (1e-9, 1e-3, 0.2, 1.0, 2.5, 3.1, math.pi)
 
 
-on_shipped = pytest.mark.parametrize("one", registry.contenders("shipped").values(), ids=lambda one: one.name)
+on_shipped = pytest.mark.parametrize("one", registry.contenders("shipped").values())
 
 
 def turns(count: int = 40):

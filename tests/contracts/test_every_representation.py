@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from support.bits import EPS
 from support.buffers import different_calls
+from support.each import each
 from support.exact import EXACT, exact_B, motion, rows_of
 from support.states import axis_permuting, matrix, near_identity, rotations, vector
 
@@ -25,10 +26,7 @@ PRODUCT_TOLERANCE = 10 * EPS
 # |det B| of a B computed from coordinates that are pi/2 to rounding, where the true one is 0.
 VANISHING = 4 * EPS
 
-
-@pytest.fixture(params=contenders("representations").values(), ids=lambda representation: representation.name)
-def representation(request):
-    return request.param
+representation = each(contenders("representations").values())
 
 
 @pytest.fixture

@@ -178,7 +178,7 @@ def test_conversion_of_moments_costs_two_products_with_B_transposed(representati
         assert converted[name] - left[name] == 2 * once[name], name
 
 
-@pytest.mark.parametrize("one", [*HYBRIDS, *IMPEDANCES], ids=lambda one: one.name)
+@pytest.mark.parametrize("one", [*HYBRIDS, *IMPEDANCES])
 def test_every_controller_can_be_counted_and_costs_the_same_at_least_in_the_worst_branch(one):
     found = cost_in_contact(one)
     typical, worst = (sum(counts.of(TOTAL)[name] for name in OPERATIONS) for counts in (found.typical, found.worst))

@@ -75,7 +75,7 @@ def library(tmp_path_factory):
 
 
 @needs("gcc")
-@pytest.mark.parametrize("contender", all_contenders(), ids=lambda one: one.name)
+@pytest.mark.parametrize("contender", all_contenders())
 def test_law_in_c_gives_our_bits_at_every_state(library, contender):
     subject = find_subject(contender.name)
     answers = np.zeros((STATES, ANSWERS))
@@ -199,7 +199,7 @@ def loaded(subject) -> ModuleType:
     return module
 
 
-@pytest.mark.parametrize("contender", all_contenders(), ids=lambda one: one.name)
+@pytest.mark.parametrize("contender", all_contenders())
 def test_law_in_python_gives_our_bits_where_the_command_is_finite(contender):
     subject = find_subject(contender.name)
     law, rows = loaded(subject), states()[::EVERY].tolist()

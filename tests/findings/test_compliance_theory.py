@@ -100,7 +100,6 @@ def test_compliance_is_as_predicted(case):
 @pytest.mark.parametrize(
     "controller",
     [hybrid("hybrid", "projected", EULER), hybrid("hybrid", PAPERS_FORM, EULER), SPRINGS_OF_EULER],
-    ids=lambda one: one.name,
 )
 def test_every_arm_complies_alike(controller, arm):
     compare(controller, probed(controller, "about x and y", 35, 45, -20, arm=arm), SPRUNG)
@@ -119,7 +118,7 @@ def compare(controller, pose, tolerance):
 
 @pytest.mark.parametrize("arm", ARMS)
 @pytest.mark.parametrize("beta", [0, 45, 75])
-@pytest.mark.parametrize("controller", [BY_TRANSPOSE[0], BY_TRANSPOSE[3]], ids=lambda one: one.name)
+@pytest.mark.parametrize("controller", [BY_TRANSPOSE[0], BY_TRANSPOSE[3]])
 def test_by_the_jacobian_transpose_two_axes_leak_as_predicted_and_comply_alike_at_any_beta(controller, beta, arm):
     A, angle = theory.mobility(tasks.arm(arm)), math.radians(beta) if controller.representation else 0.0
     C = compliance(probed(controller, beta=beta, arm=arm))

@@ -95,7 +95,7 @@ def test_margin_is_the_sine_of_the_distance_from_the_pole(one, axes, poles):
 DIFFERENTIATED = [one for one in contenders("representations").values() if one.differentiate is not None]
 
 
-on_differentiated = pytest.mark.parametrize("one", DIFFERENTIATED, ids=lambda one: one.name)
+on_differentiated = pytest.mark.parametrize("one", DIFFERENTIATED)
 
 
 def turning(omega, R) -> Rotation:

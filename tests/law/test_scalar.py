@@ -8,6 +8,7 @@ import mujoco
 import numpy as np
 import pytest
 from support.bits import EPS, same_bits
+from support.each import each
 from support.states import matrix, vector
 
 import tasks
@@ -33,9 +34,7 @@ def plain(function) -> np.ndarray:
         return np.array([function(*given) for given in arguments(function)])
 
 
-@pytest.fixture(params=PRIMITIVES, ids=lambda function: function.__name__)
-def primitive(request):
-    return request.param
+primitive = each(PRIMITIVES)
 
 
 def test_primitive_compiles_to_the_plain_call_bit_for_bit(primitive):
@@ -71,7 +70,6 @@ def test_primitive_keeps_the_type_it_is_given(primitive, kind):
         (acos, mpmath.acos, [(sin(x),) for x in DRAWN]),
         (atan2, mpmath.atan2, list(itertools.pairwise(DRAWN))),
     ],
-    ids=lambda value: getattr(value, "__name__", ""),
 )
 def test_primitive_is_within_one_last_place_of_the_true_value(function, true, given):
     for numbers in given:
