@@ -10,7 +10,7 @@ import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.command_line import bench
 from support.in_contact import IMPEDANCES
-from support.states import of_scipy
+from support.states import directions, of_scipy
 
 from bench.law.contenders import registry
 from bench.law.control import impedance
@@ -83,8 +83,7 @@ on_shipped = pytest.mark.parametrize("one", registry.contenders("shipped").value
 
 def turns(count: int = 40):
     """Quaternions of turns about drawn axes."""
-    drawn = np.random.default_rng(19).normal(size=(count, 3))
-    for k in drawn / np.linalg.norm(drawn, axis=1)[:, None]:
+    for k in directions(count, 19):
         for theta in SIZES:
             yield (math.cos(theta / 2.0), *(math.sin(theta / 2.0) * k).tolist())
 

@@ -12,7 +12,7 @@ import pytest
 from support.bits import EPS
 from support.buffers import different_calls
 from support.each import each
-from support.exact import EXACT, exact_B, motion, rows_of
+from support.exact import EXACT, exact_B, motion
 from support.states import axis_permuting, matrix, near_identity, rotations, vector
 
 from bench.law.contenders.registry import contenders
@@ -86,7 +86,7 @@ def times(A, v) -> list:
 
 def norm_of(A) -> float:
     """The largest sum of a row's sizes: how much A can magnify the largest of the numbers it is given."""
-    return float(max(sum(abs(x) for x in row) for row in rows_of(A)))
+    return float(EXACT.mnorm(A, EXACT.inf))
 
 
 def inverse_of(B):

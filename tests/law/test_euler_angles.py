@@ -6,8 +6,8 @@ import math
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
+from support import exact
 from support.bits import EPS
-from support.exact import EXACT, STEP, exact_matrix
 from support.states import as_rotation, matrix, rotations, vector
 
 import tasks
@@ -109,15 +109,9 @@ def bending(omegadot, omega, R) -> Rotation:
 
 @functools.cache
 def path(one, E, Edot, Eddot):
-    """R, Rdot and Rddot of E + Edot t + Eddot t^2/2 at t = 0: to_matrix differentiated with 80 digits, rounded."""
-
-    def at(t):
-        terms = zip(E, Edot, Eddot, strict=True)
-        return exact_matrix(one.to_matrix, [EXACT.mpf(e) + t * d + t * t * a / 2 for e, d, a in terms])
-
-    behind, here, ahead = at(-STEP), at(EXACT.mpf(0)), at(STEP)
-    found = here, (ahead - behind) / (2 * STEP), (ahead - 2 * here + behind) / STEP**2
-    return [as_rotation([[float(A[i, j]) for i in range(3)] for j in range(3)]) for A in found]
+    """R, Rdot and Rddot of E + Edot t + Eddot t^2/2 at t = 0, rounded."""
+    found = exact.path(one.to_matrix, E, Edot, Eddot)
+    return [as_rotation(np.array(A.T.tolist(), dtype=float)) for A in found]
 
 
 @on_differentiated

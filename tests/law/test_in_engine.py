@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
-from support.states import of_scipy, vector
+from support.states import directions, of_scipy, vector
 
 import tasks
 from bench.base.errors import Incompatible
@@ -36,9 +36,8 @@ def torque(R, R_d, omega_body):
 
 def axes(count, seed):
     """Unit vectors: those of the base both ways, diagonals, and drawn ones."""
-    drawn = np.random.default_rng(seed).normal(size=(count, 3))
     directed = [*np.eye(3), *-np.eye(3), (0.6, 0.8, 0.0), (0.0, 0.6, 0.8), (1 / 3, 2 / 3, 2 / 3)]
-    return [*map(np.array, directed), *(drawn / np.linalg.norm(drawn, axis=1, keepdims=True))]
+    return [*map(np.array, directed), *directions(count, seed)]
 
 
 # From a ten-thousand-millionth of a radian to as much below a half turn; 3.14159 and on are decades of what is left.
