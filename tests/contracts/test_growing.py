@@ -3,16 +3,13 @@ metric, task, arm, start set, perturbation, experiment, claim, or page; a metric
 arms."""
 
 import json
-import os
 import shutil
 import signal
-import subprocess
-import sys
 from pathlib import Path
 
 import pyarrow.parquet as pq
 import pytest
-from support.command_line import digest
+from support.command_line import digest, python
 from support.dropped_files import ASKED_OF_AXIS, DROPPED, DROPPED_EXPERIMENT, EXPERIMENT, PLANTED, PLANTED_AXIS
 
 from bench.base.provenance import ROOT
@@ -73,17 +70,8 @@ def said(tree: Path, *commands: tuple[str, ...]) -> list[str]:
 
 def ran(tree: Path, *words: str, code: int = 0, **variables: str) -> str:
     """What Python prints there, with these variables of the environment."""
-    ours = {
-        **os.environ,
-        **variables,
-        "PYTHONPATH": str(tree),
-        "XDG_CACHE_HOME": str(tree / "cache"),
-    }
-    ours.pop("NUMBA_CACHE_DIR", None)
-    ours.pop("ORIENTATION_BENCH_RESULTS", None)
-    done = subprocess.run([sys.executable, *words], cwd=tree, env=ours, capture_output=True, text=True, check=False)
-    assert done.returncode == code, done.stdout + done.stderr
-    return done.stdout
+    caches = {"XDG_CACHE_HOME": str(tree / "cache"), "NUMBA_CACHE_DIR": None, "ORIENTATION_BENCH_RESULTS": None}
+    return python(*words, cwd=tree, code=code, PYTHONPATH=str(tree), **caches, **variables)
 
 
 def sources(tree: Path) -> dict[str, str]:
