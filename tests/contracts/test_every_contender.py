@@ -33,14 +33,13 @@ MADE_HERE = {"springs"}
 on_every = pytest.mark.parametrize(("kind", "one"), EVERY)
 
 
-def module_of(kind, one):
-    return import_module(f"bench.law.contenders.{kind}.{one.name.replace('-', '_')}")
-
-
 def read_comment(kind, one):
     """What its file says of it first."""
-    declared = Path(registry.__file__).parent / kind / f"{one.name.replace('-', '_')}.toml"
-    return declared.read_text().partition("\n\n")[0] if declared.exists() else inspect.getdoc(module_of(kind, one))
+    word = one.name.replace("-", "_")
+    declared = Path(registry.__file__).parent / kind / f"{word}.toml"
+    if declared.exists():
+        return declared.read_text().partition("\n\n")[0]
+    return inspect.getdoc(import_module(f"bench.law.contenders.{kind}.{word}"))
 
 
 @on_every

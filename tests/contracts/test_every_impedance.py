@@ -55,10 +55,6 @@ def spring_of(one, goal):
     return slope(lambda h: command(one, ScipyRotation.from_rotvec(h) * goal, STILL, STILL, goal))
 
 
-def mobility_of(one, goal):
-    return slope(lambda m: command(one, goal, STILL, m, goal))
-
-
 @pytest.mark.parametrize("one", SPRINGS)
 def test_spring_at_the_goal_is_kp_damper_kv_and_stiffness_kp_times_the_inertia_in_coordinates_by_B(one):
     """Moment per angle at rest is measured: (du/dm)^-1 du/dphi; in coordinates it is kp m_o B^-T B^-1."""
@@ -68,7 +64,8 @@ def test_spring_at_the_goal_is_kp_damper_kv_and_stiffness_kp_times_the_inertia_i
         damping = slope(lambda omega, goal=goal: command(one, goal, omega, STILL, goal))
         np.testing.assert_allclose(spring_of(one, goal), -GAINS.kp * np.eye(3), rtol=0.0, atol=SLOPE * GAINS.kp)
         np.testing.assert_allclose(damping, -GAINS.kv * np.eye(3), rtol=0.0, atol=SLOPE * GAINS.kv)
-        measured = -np.linalg.solve(mobility_of(one, goal), spring_of(one, goal))
+        mobility = slope(lambda m, goal=goal: command(one, goal, STILL, m, goal))
+        measured = -np.linalg.solve(mobility, spring_of(one, goal))
         back = np.linalg.inv(B_at(one, goal, goal))
         wanted = GAINS.kp * TOUCH.m_o * back.T @ back
         np.testing.assert_allclose(measured, wanted, rtol=0.0, atol=10 * SLOPE * np.linalg.norm(wanted, 2))

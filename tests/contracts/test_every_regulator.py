@@ -47,12 +47,8 @@ def is_regular(contender, R, R_d) -> bool:
     return margin_of(contender)(R, R_d) != 0.0  # NaN, for a law on R, is regular
 
 
-def has_linear_goal(contender) -> bool:
-    """Whether the law claims the small-angle gains, and its coordinates exist at the goal they are tested at."""
-    return contender.regulator.property != "none" and is_regular(contender, IDENTITY, IDENTITY)
-
-
-LINEAR = [one for one in all_contenders() if has_linear_goal(one)]
+# the law claims the small-angle gains, and its coordinates exist at the goal they are tested at
+LINEAR = [one for one in all_contenders() if one.regulator.property != "none" and is_regular(one, IDENTITY, IDENTITY)]
 # a law on R, or on R_d^T R, can tell base frames apart only by mistake; angles of R are measured in one
 FRAMELESS = [one for one in all_contenders() if one.regulator.relative or one.representation is None]
 

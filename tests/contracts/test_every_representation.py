@@ -74,11 +74,6 @@ def size(numbers) -> float:
     return float(max(abs(x) for x in numbers))
 
 
-def errors(given, exact) -> float:
-    """Largest difference of doubles from numbers of 80 digits."""
-    return size(EXACT.mpf(g) - e for g, e in zip(given, exact, strict=True))
-
-
 def times(A, v) -> list:
     """A v to 80 digits."""
     return list(A * EXACT.matrix([EXACT.mpf(x) for x in v]))
@@ -127,7 +122,8 @@ def test_kernels_are_the_derivatives_of_to_matrix_its_inverse_and_its_transpose(
                 rates = representation.rates(again, omega)
                 found.append((rates, times(inverse, omega), norm_of(inverse) * size(omega)))
             for given, expected, scale in found:
-                assert errors(given, expected) <= PRODUCT_TOLERANCE * scale, R
+                off = size(EXACT.mpf(x) - y for x, y in zip(given, expected, strict=True))
+                assert off <= PRODUCT_TOLERANCE * scale, R
 
 
 def test_margin_is_a_share_and_zero_exactly_where_B_is_singular(representation):

@@ -61,10 +61,6 @@ def probed(controller, complies="about x and y", alpha=0, beta=30, gamma=0, arm=
     return Pose(TASK, on, controller, tuple(response(*each) for each in zip(chosen, ended, strict=True)))
 
 
-def turned(seed: int) -> list[Turn]:
-    return list(Turn.random(20, rng=np.random.default_rng(seed)))
-
-
 COMPLIES = ("about x", "about x and y", "about y and z")
 BY_TRANSPOSE = [
     *(hybrid(law, PAPERS_FORM) for law in ("hybrid-base", "hybrid-rate", "hybrid-hand")),
@@ -197,7 +193,10 @@ def test_springs_along_euler_angles_are_conditioned_as_predicted(beta):
     ("controller", "goal"),
     [
         (hybrid("hybrid-unconverted", "inverse", EULER), IDENTITY),  # for moments that are not converted
-        (AT_ITS_POLE, of_scipy(turned(4)[0])),  # of Z-Y-Z angles seen from the goal, which is their pole
+        (
+            AT_ITS_POLE,
+            of_scipy(Turn.random(rng=np.random.default_rng(4))),
+        ),  # of Z-Y-Z angles seen from the goal, which is their pole
         (SPRINGS_OF_EULER, from_quaternion(on_pole(1, 0.7))),  # where the coordinates have no rates
     ],
     ids=["unconverted", "Z-Y-Z seen from the goal", "on the pole"],

@@ -70,15 +70,11 @@ def test_stock_pose_is_well_conditioned_and_on_the_pole():
 # ---------------------------------------------------------------------------- compliance
 
 
-def level_rows(contender, order=""):
-    """Return the probe's rows of one controller whose goal has no alpha and no gamma."""
-    return of(level(of_task(RUN, compliance.PROBE)), contender, order)
-
-
 @pytest.mark.parametrize("beta", [30, 60])
 def test_hand_is_drawn_turning_as_the_closed_form_of_the_papers_force_control_has_it(beta):
     """About the axis, and as far, to the percent that the hand's own way costs where it turns by ten milliradians."""
-    rows, plain = (level_rows(name, hand_axes.ORDER).query("arm == 'ur5e'") for name in (PAPERS_EULER, PAPERS))
+    probed = level(of_task(RUN, compliance.PROBE)).query("arm == 'ur5e'")  # goals without alpha and gamma
+    rows, plain = (of(probed, name, hand_axes.ORDER) for name in (PAPERS_EULER, PAPERS))
     [C] = predicted(rows[rows["beta_deg"] == beta], "zyx-euler")
     full = float(plain["c_xx"].median())
     turns = hand_axes.turns(of_task(RUN, compliance.PROBE))

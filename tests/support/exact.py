@@ -12,14 +12,10 @@ EXACT.dps = 80
 STEP = EXACT.mpf(10) ** -20
 
 
-def as_method(name: str):
-    """Return a function of mpmath as a method of its numbers, which is how the law dialect calls it."""
-    return lambda *numbers: getattr(EXACT, name)(*numbers)
-
-
+# functions of mpmath as methods of its numbers, which is how the law dialect calls them
 EXACT.mpf.tally = None
 for _name in ("sqrt", "sin", "cos", "acos", "atan2"):
-    setattr(EXACT.mpf, _name, as_method(_name))
+    setattr(EXACT.mpf, _name, lambda *numbers, name=_name: getattr(EXACT, name)(*numbers))
 EXACT.mpf.ratan2 = lambda x, y: EXACT.atan2(y, x)
 EXACT.mpf.copysign = lambda x, sign: -abs(x) if sign < 0 else abs(x)
 EXACT.mpf.rcopysign = lambda sign, x: EXACT.mpf(x).copysign(sign)
