@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from support import live
-from support.exported import needs
+from support.exported import NODE, needs
 
 import tasks
 from bench.base.provenance import ROOT
@@ -15,7 +15,6 @@ from bench.export import browser
 from bench.law.contenders.registry import all_contenders
 from tasks.condition import Condition
 
-NODE = str(Path(shutil.which("node") or "/usr/bin/node").parent)
 PERTURBED = {
     "late": Condition(delay_s=0.03),
     "slow": Condition(period_s=0.02, delay_s=0.007),

@@ -2,7 +2,6 @@
 
 import ctypes
 import json
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -10,14 +9,13 @@ from types import ModuleType
 
 import numpy as np
 import pytest
-from support.exported import ANSWERS, KP, KV, STATES, WIDTH, needs, our_answers, states, written
+from support.exported import ANSWERS, KP, KV, NODE, STATES, WIDTH, needs, our_answers, states, written
 
 from bench.export.language import find_language
 from bench.export.subject import find_subject, subject_words, translated
 from bench.law.contenders.registry import all_contenders
 
 EIGEN = Path("/usr/include/eigen3")
-NODE = str(Path(shutil.which("node") or "/usr/bin/node").parent)
 INTO = "-O0 -ffp-contract=off -o test"
 COMMANDS = {
     "c": (f"gcc -std=c99 {INTO} test_NAME.c -lm", "./test"),
@@ -61,9 +59,8 @@ def batch(subject) -> str:
 def library(tmp_path_factory):
     """All laws in one program of C, which shows that their headers can be included together."""
     folder = tmp_path_factory.mktemp("library")
-    found = [find_subject(one.name) for one in all_contenders()]
     lines = []
-    for one in found:
+    for one in (find_subject(one.name) for one in all_contenders()):
         here = written(one, "c", folder, is_tested=False)
         lines += [f'#include "{here / one.identifier}.h"', batch(one)]
     (folder / "all.c").write_text("\n".join(lines))

@@ -17,6 +17,7 @@ from bench.law.so3 import Rotation, from_quaternion
 
 STATES = 100_000
 KP, KV = PAPERS_GAINS
+NODE = str(Path(shutil.which("node") or "/usr/bin/node").parent)
 WIDTH, ANSWERS = 25, 7
 """Numbers of a state: R, omega, R_d (matrices by rows) and a memory; of an answer: u, and the memory."""
 
