@@ -1,13 +1,14 @@
-"""A finished run that tests copy and spoil; which files are begun first; a process a file; less search for garbage."""
+"""A finished run to copy; names of cases; which files are begun first; a process a file; less search for garbage."""
 
 import gc
 import shutil
 from pathlib import Path
 
 import pytest
+from support.command_line import TINY
 from support.forked import run_in_child
 
-from bench.experiments import plan as planning
+from bench.cli import main
 
 SLOW = Path(__file__).with_name("slow.txt").read_text(encoding="utf-8").split()
 """Files that are slow as a whole, the slowest first: they compile, or start processes."""
@@ -17,6 +18,11 @@ SLOW = Path(__file__).with_name("slow.txt").read_text(encoding="utf-8").split()
 def pytest_runtest_protocol(item, nextitem):
     """Run each file in a child of the process that has collected, where there are several."""
     return run_in_child(item, nextitem) if hasattr(item.config, "workerinput") else None
+
+
+def pytest_make_parametrize_id(val):
+    """Call a value by its own name, column or id."""
+    return next((word for at in ("name", "column", "id") if isinstance(word := getattr(val, at, None), str)), None)
 
 
 def pytest_ignore_collect(collection_path, config):
@@ -53,18 +59,8 @@ def pytest_collection_finish():
 @pytest.fixture(scope="module")
 def run_once(tmp_path_factory):
     """A finished run that tests copy."""
-    from bench.experiments.choice import Choice
-    from bench.law.contenders.registry import find_contender
-    from bench.running import run as running
-
     folder = tmp_path_factory.mktemp("run") / "finished"
-    plan = planning.make(
-        "quick",
-        [find_contender("rotation-matrix")],
-        Choice(start_sets=("paper",), engines=("reference",), experiments=("free-body",)),
-        horizon_s=0.1,
-    )
-    running.run(plan, folder, workers=1)
+    assert main(["run", *TINY, "--engine", "reference", "--workers", "1", "--out", str(folder)]) == 0
     return folder
 
 

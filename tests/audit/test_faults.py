@@ -12,7 +12,7 @@ from bench.audit.pairs import AT_180, NEAR_180, NEAR_IDENTITY, every_pair
 from bench.law.contenders.registry import contenders
 
 FAULTS = every_fault()
-EACH = pytest.mark.parametrize("fault", FAULTS, ids=lambda one: one.name)
+EACH = pytest.mark.parametrize("fault", FAULTS)
 
 
 @EACH

@@ -84,10 +84,6 @@ def arc_cosine_unclipped(q, q_d):
     return 2.0 * np.arccos(abs(q @ q_d)) * e / np.linalg.norm(e) if e.any() else e
 
 
-def deadband_of_a_vector_part(q, q_d):
-    return 0.5 * deadband_of_components(q, q_d)
-
-
 def constant_in_the_denominator(R, R_d):
     """Zero below a thousandth, and a millionth too small elsewhere: digits of single precision, which it is not."""
     X = R_d @ R.T
@@ -124,10 +120,6 @@ def saturated(R, R_d):
 RNG = np.random.default_rng(3)
 
 
-def noisy(R, R_d):
-    return scipy_in_base(R, R_d) * (1.0 + 1e-3 * RNG.random())
-
-
 def filtered():
     """A first-order filter of the error."""
     kept = np.zeros(3)
@@ -145,52 +137,39 @@ def refuses(R, R_d):
     return scipy_in_base(R, R_d)
 
 
-def weighted(R, R_d):
-    return np.array((1.0, 2.0, 3.0)) * scipy_in_base(R, R_d)
-
-
 def tangent(R, R_d):
     e = scipy_in_base(R, R_d)
     theta = np.linalg.norm(e)
     return 2.0 * np.tan(0.5 * theta) * e / theta if theta else e
 
 
-def rounded(R, R_d):
-    """To tenths: its slope at the goal is 0."""
-    return np.round(scipy_in_base(R, R_d), 1)
+OTHERS: dict = {
+    "wrong-axis": (wrong_axis, {"axis-at-180"}),
+    "raises-at-identity": (raises_at_identity, {"raises"}),
+    "four-numbers-far-away": (four_numbers_far_away, {"raises"}),
+    "weighted": (lambda R, R_d: np.array((1.0, 2.0, 3.0)) * scipy_in_base(R, R_d), {"misaligned"}),
+    "deadband-of-a-vector-part": (lambda q, q_d: 0.5 * deadband_of_components(q, q_d), {"deadband", "stiffness"}),
+    "constant-in-the-denominator": (constant_in_the_denominator, {"dead-at-180", "deadband"}),
+    "whole-turn-too-much": (whole_turn_too_much, {"long-way"}),
+    "unit-vector": (unit_vector, {"stiffness"}),
+    "stiffer-with-the-angle": (stiffer_with_the_angle, {"stiffness"}),
+    "saturated": (saturated, set()),
+    "rounded": (lambda R, R_d: np.round(scipy_in_base(R, R_d), 1), {"deadband"}),  # its slope at the goal is 0
+    "noisy": (lambda R, R_d: scipy_in_base(R, R_d) * (1.0 + 1e-3 * RNG.random()), {"memory"}),
+    "filtered": (filtered(), {"memory"}),
+}
 
 
-@pytest.mark.parametrize(
-    ("function", "names"),
-    [
-        (wrong_axis, {"axis-at-180"}),
-        (raises_at_identity, {"raises"}),
-        (four_numbers_far_away, {"raises"}),
-        (weighted, {"misaligned"}),
-        (deadband_of_a_vector_part, {"deadband", "stiffness"}),
-        (constant_in_the_denominator, {"dead-at-180", "deadband"}),
-        (whole_turn_too_much, {"long-way"}),
-        (unit_vector, {"stiffness"}),
-        (stiffer_with_the_angle, {"stiffness"}),
-        (saturated, set()),
-        (rounded, {"deadband"}),
-        (noisy, {"memory"}),
-        (filtered(), {"memory"}),
-    ],
-)
+@pytest.mark.parametrize(("function", "names"), OTHERS.values(), ids=OTHERS)
 def test_other_fault_is_named_and_no_other(function, names):
     assert {one.fault.name for one in audited(function).findings} == names
 
 
 def test_degrees_are_told_from_another_slope():
-    in_degrees = paragraphs(lambda R, R_d: np.degrees(scipy_in_base(R, R_d)))
+    in_degrees = audit(lambda R, R_d: np.degrees(scipy_in_base(R, R_d))).text()
     assert "in degrees: the slope is 57.2958 = 180/pi" in in_degrees
     assert "57.3 times as stiff as set, and damped 0.13 times as much" in in_degrees
-    assert "0.5 times as stiff as set, and damped 1.4 times as much" in paragraphs(half_stiff)
-
-
-def paragraphs(function):
-    return audit(function).text()
+    assert "0.5 times as stiff as set, and damped 1.4 times as much" in audit(half_stiff).text()
 
 
 def test_numbers_that_overflow_print_no_warning(recwarn):

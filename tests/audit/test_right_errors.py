@@ -2,17 +2,12 @@
 
 import numpy as np
 import pytest
-from support.planted import audited
+from support.pages import assert_is_whole
+from support.planted import PLANTED, audited
 from support.right_errors import RIGHT, scipy_in_base
 
 from bench.audit import audit
 from bench.audit.fault import NOTE
-
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-
-from support.pages import assert_is_whole
-from support.planted import PLANTED
-
 from bench.audit.report import file
 from bench.base.provenance import ROOT
 from report.figures.answer import take_it_home

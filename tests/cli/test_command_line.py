@@ -1,14 +1,11 @@
 """The command line where nothing is wrong: what each command prints of a small run, and what its help explains."""
 
 import inspect
-import os
 import re
-import subprocess
-import sys
 
 import pytest
 import rich_click as click
-from support.command_line import TINY, bench
+from support.command_line import TINY, bench, python
 
 from bench.base import files
 from bench.base.provenance import ROOT
@@ -233,6 +230,4 @@ def test_doctor_says_what_it_checked(capsys):
 
 
 def test_sign_that_the_encoding_lacks_is_no_error():
-    words, environment = (sys.executable, "-m", "bench", "audit", "--help"), {**os.environ, "PYTHONIOENCODING": "ascii"}
-    said = subprocess.run(words, cwd=ROOT, env=environment, capture_output=True, text=True)
-    assert (said.returncode, "180?" in said.stdout) == (0, True)
+    assert "180?" in python("-m", "bench", "audit", "--help", PYTHONIOENCODING="ascii")

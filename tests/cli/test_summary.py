@@ -1,16 +1,13 @@
 """What `show` says of a run in at most 40 lines, whatever is in the run, and the parts it prints in full."""
 
 import re
-import subprocess
-import sys
 from collections import Counter
 
 import pandas as pd
 import pytest
 from rich.console import Console
-from support.command_line import bench, refused
+from support.command_line import bench, python, refused
 
-from bench.base.provenance import ROOT
 from bench.cli.details import PARTS, robustness
 from bench.cli.details.episodes import tables_of_arms
 from bench.cli.options import REFERENCE
@@ -51,9 +48,7 @@ def text(*found) -> str:
 @pytest.mark.weekly
 def test_summary_of_the_reference_fits_the_screen_and_begins_with_the_law(reference):
     """In a process of its own: it judges every claim, which takes memory."""
-    said = subprocess.run([sys.executable, "-m", "bench", "show", REFERENCE], capture_output=True, text=True, cwd=ROOT)
-    lines = said.stdout.splitlines()
-    assert said.returncode == 0
+    lines = python("-m", "bench", "show", REFERENCE).splitlines()
     assert (len(lines) <= LINES, max(map(len, lines)) <= COLUMNS) == (True, True)
     assert lines[0].startswith("Which law ")
     assert f"Use the law {find_default()} (published" in lines[0]

@@ -6,6 +6,7 @@ import xml.etree.ElementTree as ElementTree
 import mujoco
 import numpy as np
 import pytest
+from support.buffers import inertia_of, jacobian_of, state_of
 
 import tasks
 from tasks.arm import WORD
@@ -72,38 +73,25 @@ def test_home_is_far_from_the_pole_of_zyx_angles(arm):
 
 
 def test_motors_hold_the_arm_at_home_with_half_their_torque(arm, model):
-    data = mujoco.MjData(model)
-    data.qpos[:] = arm.home
-    mujoco.mj_forward(model, data)
-    assert np.all(np.abs(data.qfrc_bias) <= 0.5 * np.array(arm.rated))
+    assert np.all(np.abs(state_of(model, arm.home).qfrc_bias) <= 0.5 * np.array(arm.rated))
 
 
 def test_sensors_are_those_of_the_judge_in_order(arm, model):
     names = [model.sensor(i).name for i in range(model.nsensor)]
     assert names == [*(name for name, _, _ in SENSORS), "p"]
-    data = mujoco.MjData(model)
-    data.qpos[:] = arm.home
-    data.qvel[:] = 0.3
-    mujoco.mj_forward(model, data)
-    site = model.site("tool").id
-    R = data.site_xmat[site].reshape(3, 3)
-    J = np.zeros((3, model.nv))
-    mujoco.mj_jacSite(model, data, None, J, site)
+    data = state_of(model, arm.home, 0.3)
+    R = data.site("tool").xmat.reshape(3, 3)
     assert np.array_equal(data.sensordata[0:9], R.T.ravel())
-    assert data.sensordata[9:12] == pytest.approx(J @ data.qvel, abs=1e-14)
+    assert data.sensordata[9:12] == pytest.approx((jacobian_of(model, data, "tool") @ data.qvel)[3:], abs=1e-14)
     turned = np.zeros(9)
     mujoco.mju_quat2Mat(turned, data.sensordata[12:16])
     assert turned.reshape(3, 3) == pytest.approx(R, abs=1e-14)
-    assert np.array_equal(data.sensordata[16:19], data.site_xpos[site])
+    assert np.array_equal(data.sensordata[16:19], data.site("tool").xpos)
 
 
 def test_inertia_matrix_is_positive_definite_everywhere(arm, model):
-    data = mujoco.MjData(model)
-    D = np.zeros((model.nv, model.nv))
     for q in poses(arm):
-        data.qpos[:] = q
-        mujoco.mj_forward(model, data)
-        mujoco.mj_fullM(model, data, D)
+        D = inertia_of(model, state_of(model, q))
         assert np.array_equal(D, D.T)
         spectrum = np.linalg.eigvalsh(D)
         assert spectrum[0] > 1e-8 * spectrum[-1]
@@ -120,14 +108,12 @@ def test_every_links_inertia_is_one_a_body_can_have(arm, model):
 
 def test_nothing_else_acts_on_the_arm(arm, model):
     """Accelerations are those of D qddot = tau - fg, fast and far from home, and what is passive damps alone."""
-    data = mujoco.MjData(model)
-    D = np.zeros((model.nv, model.nv))
     rng = np.random.default_rng(4)
     for q in poses(arm, 20):
-        data.qpos[:], data.qvel[:] = q, rng.uniform(-3, 3, arm.joints)
+        data = state_of(model, q, rng.uniform(-3, 3, arm.joints))
         data.ctrl[:] = rng.uniform(-2, 2, arm.joints) * arm.rated  # beyond the rated torque: nothing clips
         mujoco.mj_forward(model, data)
-        mujoco.mj_fullM(model, data, D)
+        D = inertia_of(model, data)
         np.testing.assert_allclose(data.qfrc_passive, -model.dof_damping * data.qvel, rtol=1e-14)
         residual = D @ data.qacc - (data.ctrl - data.qfrc_bias + data.qfrc_passive)
         assert np.abs(residual).max() <= 1e-12 * (np.abs(D) @ np.abs(data.qacc)).max()

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from support.each import each
 
 import tasks
 from bench.base.errors import Incompatible
@@ -19,10 +20,7 @@ from tasks.errors import BadValue
 
 AXES = [tasks.axis(name) for name in tasks.axis_names()]
 
-
-@pytest.fixture(params=AXES, ids=lambda axis: axis.name)
-def axis(request):
-    return request.param
+axis = each(AXES)
 
 
 def test_it_is_named_as_its_file_and_says_what_it_is(axis):
@@ -131,7 +129,7 @@ def test_every_word_of_a_choice_is_tried_here():
     assert {*NAMED, "experiments"} == {*vars(Choice())}
 
 
-@pytest.mark.parametrize("one", known_experiments().values(), ids=lambda one: one.name)
+@pytest.mark.parametrize("one", known_experiments().values())
 def test_word_that_a_named_experiment_does_not_take_is_refused(one):
     for kind in NAMED.keys() - {*one.takes}:
         with pytest.raises(Incompatible, match=f"'{NAMED[kind]}' cannot narrow the experiment '{one.name}'"):

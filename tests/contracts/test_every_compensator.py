@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bodies import REST, commanded, left, motion
+from support.each import each
 from support.states import of_scipy, rotations
 
 from bench.law.contenders.registry import contenders
@@ -13,10 +14,7 @@ GAINS = Gains(37.0, 11.0)  # not the defaults: a law that has those built in is 
 GOAL = ScipyRotation.from_rotvec((0.4, -0.7, 0.2))
 SMALL = 1e-4
 
-
-@pytest.fixture(params=contenders("compensators").values(), ids=lambda one: one.name)
-def one(request):
-    return request.param
+one = each(contenders("compensators").values())
 
 
 def test_nothing_moves_at_the_goal_at_rest(one):
@@ -62,7 +60,7 @@ def test_small_angles_die_out_for_all_gains(one):
 BOUNDED = [one for one in contenders("compensators").values() if one.state.bound]
 
 
-@pytest.mark.parametrize("one", BOUNDED, ids=lambda one: one.name)
+@pytest.mark.parametrize("one", BOUNDED)
 def test_bound_is_never_exceeded(one):
     draw, limit = np.random.default_rng(8), one.state.bound(*GAINS)
     greatest = 0.0

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from support.bits import EPS
-from support.buffers import jacobian_of
+from support.buffers import inertia_of, jacobian_of, state_of
 from support.in_contact import ARMS
 
 import tasks
@@ -47,7 +47,6 @@ def made(word: str, name: str):
         model=model,
         data=mujoco.MjData(model),
         alone=alone,
-        data_alone=mujoco.MjData(alone),
     )
 
 
@@ -120,18 +119,15 @@ def test_hand_has_no_mass_and_its_frame_is_at_its_tip_however_it_is_drawn(case):
 
 def test_dynamics_of_the_arm_are_the_arms_alone(case):
     """The controller's D and fg are exact, and no joint of the scene's is coupled to them but by contact."""
-    n, nv = case.arm.joints, case.model.nv
-    D, alone = np.zeros((nv, nv)), np.zeros((n, n))
+    n = case.arm.joints
     for trial in case.trials[:3]:
         shaken(case, trial, 5)
-        case.data_alone.qpos[:], case.data_alone.qvel[:] = trial.q, case.data.qvel[:n]
-        mujoco.mj_forward(case.alone, case.data_alone)
-        mujoco.mj_fullM(case.model, case.data, D)
-        mujoco.mj_fullM(case.alone, case.data_alone, alone)
+        data_alone = state_of(case.alone, trial.q, case.data.qvel[:n])
+        D, alone = inertia_of(case.model, case.data), inertia_of(case.alone, data_alone)
         assert np.abs(D[:n, :n] - alone).max() <= ROUNDING * np.abs(alone).max()
         assert (D[:n, n:] == 0.0).all()
         for field in ("qfrc_bias", "qfrc_passive"):
-            here, there = (getattr(data, field)[:n] for data in (case.data, case.data_alone))
+            here, there = (getattr(data, field)[:n] for data in (case.data, data_alone))
             assert np.abs(here - there).max() <= ROUNDING * max(1.0, np.abs(there).max())
 
 

@@ -10,7 +10,7 @@ import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.command_line import bench
 from support.in_contact import IMPEDANCES
-from support.states import of_scipy
+from support.states import directions, of_scipy
 
 from bench.law.contenders import registry
 from bench.law.control import impedance
@@ -33,14 +33,13 @@ MADE_HERE = {"springs"}
 on_every = pytest.mark.parametrize(("kind", "one"), EVERY)
 
 
-def module_of(kind, one):
-    return import_module(f"bench.law.contenders.{kind}.{one.name.replace('-', '_')}")
-
-
 def read_comment(kind, one):
     """What its file says of it first."""
-    declared = Path(registry.__file__).parent / kind / f"{one.name.replace('-', '_')}.toml"
-    return declared.read_text().partition("\n\n")[0] if declared.exists() else inspect.getdoc(module_of(kind, one))
+    word = one.name.replace("-", "_")
+    declared = Path(registry.__file__).parent / kind / f"{word}.toml"
+    if declared.exists():
+        return declared.read_text().partition("\n\n")[0]
+    return inspect.getdoc(import_module(f"bench.law.contenders.{kind}.{word}"))
 
 
 @on_every
@@ -78,13 +77,12 @@ def test_every_contender_is_listed(capsys):
 SIZES = (1e-9, 1e-3, 0.2, 1.0, 2.5, 3.1, math.pi)
 
 
-on_shipped = pytest.mark.parametrize("one", registry.contenders("shipped").values(), ids=lambda one: one.name)
+on_shipped = pytest.mark.parametrize("one", registry.contenders("shipped").values())
 
 
 def turns(count: int = 40):
     """Quaternions of turns about drawn axes."""
-    drawn = np.random.default_rng(19).normal(size=(count, 3))
-    for k in drawn / np.linalg.norm(drawn, axis=1)[:, None]:
+    for k in directions(count, 19):
         for theta in SIZES:
             yield (math.cos(theta / 2.0), *(math.sin(theta / 2.0) * k).tolist())
 

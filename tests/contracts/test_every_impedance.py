@@ -34,11 +34,7 @@ SPRINGS = [one for one in IMPEDANCES if goals(one)]
 FRAMELESS = [one for one in IMPEDANCES if one.representation is None or one.impedance.relative]
 
 
-def over(controllers):
-    return pytest.mark.parametrize("one", controllers, ids=lambda one: one.name)
-
-
-@pytest.mark.parametrize("impedance", contenders("impedances").values(), ids=lambda one: one.name)
+@pytest.mark.parametrize("impedance", contenders("impedances").values())
 def test_impedance_has_a_law_or_one_in_coordinates(impedance):
     assert (impedance.law is None) != (impedance.law_in is None)
     assert impedance.law_in is not None or not impedance.relative
@@ -59,11 +55,7 @@ def spring_of(one, goal):
     return slope(lambda h: command(one, ScipyRotation.from_rotvec(h) * goal, STILL, STILL, goal))
 
 
-def mobility_of(one, goal):
-    return slope(lambda m: command(one, goal, STILL, m, goal))
-
-
-@over(SPRINGS)
+@pytest.mark.parametrize("one", SPRINGS)
 def test_spring_at_the_goal_is_kp_damper_kv_and_stiffness_kp_times_the_inertia_in_coordinates_by_B(one):
     """Moment per angle at rest is measured: (du/dm)^-1 du/dphi; in coordinates it is kp m_o B^-T B^-1."""
     for goal in goals(one):
@@ -72,7 +64,8 @@ def test_spring_at_the_goal_is_kp_damper_kv_and_stiffness_kp_times_the_inertia_i
         damping = slope(lambda omega, goal=goal: command(one, goal, omega, STILL, goal))
         np.testing.assert_allclose(spring_of(one, goal), -GAINS.kp * np.eye(3), rtol=0.0, atol=SLOPE * GAINS.kp)
         np.testing.assert_allclose(damping, -GAINS.kv * np.eye(3), rtol=0.0, atol=SLOPE * GAINS.kv)
-        measured = -np.linalg.solve(mobility_of(one, goal), spring_of(one, goal))
+        mobility = slope(lambda m, goal=goal: command(one, goal, STILL, m, goal))
+        measured = -np.linalg.solve(mobility, spring_of(one, goal))
         back = np.linalg.inv(B_at(one, goal, goal))
         wanted = GAINS.kp * TOUCH.m_o * back.T @ back
         np.testing.assert_allclose(measured, wanted, rtol=0.0, atol=10 * SLOPE * np.linalg.norm(wanted, 2))
@@ -95,7 +88,7 @@ def size(turn, omega, m) -> float:
     return (linear + 16.0 * np.linalg.norm(m) / TOUCH.m_o) / REGULAR**2
 
 
-@over(IMPEDANCES)
+@pytest.mark.parametrize("one", IMPEDANCES)
 def test_moment_turns_the_hand_linearly_and_with_positive_power(one):
     """u(m) - u(0) = M m with M symmetric and positive definite, B B^T/m_o: no moment turns the hand against it."""
     for turn, omega, m, goal in anywhere(one):
@@ -107,7 +100,7 @@ def test_moment_turns_the_hand_linearly_and_with_positive_power(one):
         assert np.linalg.eigvalsh(M).min() > 0.0
 
 
-@over(FRAMELESS)
+@pytest.mark.parametrize("one", FRAMELESS)
 def test_command_is_the_same_in_every_base_frame_unless_the_coordinates_are_the_base_frames(one):
     """u(QR, Q omega, Q m, QR_d) = Q u(R, omega, m, R_d)."""
     for Q, (turn, omega, m, goal) in zip(GOALS * 5, anywhere(one), strict=True):
@@ -147,7 +140,7 @@ def squared_rate(one, turn, omega, goal) -> float:
     return float(np.dot(E_dot, E_dot))
 
 
-@over(SPRINGS)
+@pytest.mark.parametrize("one", SPRINGS)
 def test_energy_balance_closes(one):
     """What surroundings have done is stored or damped at all times: no push takes work out of a hand at its goal.
 
@@ -185,7 +178,7 @@ def calls() -> list[tuple]:
     ]
 
 
-@over(IMPEDANCES)
+@pytest.mark.parametrize("one", IMPEDANCES)
 def test_counted_and_compiled_commands_are_the_plain_one_bit_for_bit(one):
     law = law_of(one.impedance, one.representation)
     assert different_calls(law, calls()) == []

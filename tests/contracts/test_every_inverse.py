@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from support.bits import same_bits
 from support.buffers import as_counted, buffer, scratch
+from support.each import each
 from support.filling import FACTORED, SHAPES, A, accepted, anything, inertia, resolved, well_conditioned
 
 from bench.engines.compiled import JIT, register_kernels
@@ -13,10 +14,7 @@ from bench.law.contenders.registry import contenders
 EVERY = contenders("inverses").values()
 ACCELERATIONS, TORQUES = ([one for one in EVERY if one.gives == what] for what in ("acceleration", "torque"))
 
-
-@pytest.fixture(params=EVERY, ids=lambda inverse: inverse.name)
-def inverse(request):
-    return request.param
+inverse = each(EVERY)
 
 
 def test_it_accepts_some_shape_and_refusals_name_a_cure(inverse):
@@ -56,7 +54,7 @@ def test_linear_in_the_command(inverse):
             assert same_bits(twice, 2.0 * once)
 
 
-@pytest.mark.parametrize("one", ACCELERATIONS, ids=lambda one: one.name)
+@pytest.mark.parametrize("one", ACCELERATIONS)
 def test_acceleration_of_the_tool_is_the_one_asked_for(one):
     """J x = a for all of a that the rank allows; none may lose more than a twentieth of it at sigma > 0.1."""
     for rows, n in accepted(one):
@@ -67,7 +65,7 @@ def test_acceleration_of_the_tool_is_the_one_asked_for(one):
             assert np.linalg.norm(J @ x - reachable) <= 0.05 * 2.0 * np.linalg.norm(A[:rows])
 
 
-@pytest.mark.parametrize("one", TORQUES, ids=lambda one: one.name)
+@pytest.mark.parametrize("one", TORQUES)
 def test_torque_moves_nothing_that_the_tool_does_not_see(one):
     """It is J^T of some force."""
     for rows, n in accepted(one):

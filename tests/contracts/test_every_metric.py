@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from support.bits import different_rows, same_bits
 from support.driving import NO_EARLY_STOP, settings, spread
+from support.each import each
 from support.on_arms import named
 from support.states import vector
 
@@ -36,16 +37,8 @@ METRICS, ON_ARM = metrics_of(on_arm=False), metrics_of(on_arm=True)
 GOOD_ENDINGS = [Ending(angle0=1.0, final_angle=1e-4, band=0.02, outcome=word) for word in OUTCOMES]
 AT_GOAL = Ending(angle0=0.0, final_angle=0.0, band=0.02, outcome="settled")
 
-
-@pytest.fixture(params=METRICS, ids=lambda metric: metric.column)
-def metric(request):
-    return request.param
-
-
-@pytest.fixture(params=ON_ARM, ids=lambda metric: metric.column)
-def any_metric(request):
-    return request.param
-
+metric = each(METRICS)
+any_metric = each(ON_ARM)
 
 NAN, INF = (math.nan,) * 7, (math.inf,) * 7
 SPOILED = [
@@ -155,10 +148,7 @@ CONTROLLERS = [
 SUFFIXES = {"1": "", "rad": "_rad", "m": "_m", "s": "_s", "N": "_n", "N m": "_nm", "rad/(N m)": "_rad_per_nm"}
 SUFFIXES |= {"J": "_j", "m/s": "_m_per_s", "rad/s": "_rad_per_s"}
 
-
-@pytest.fixture(params=IN_CONTACT, ids=lambda one: one.column)
-def touch(request):
-    return request.param
+touch = each(IN_CONTACT)
 
 
 def first_trials(task):

@@ -6,12 +6,9 @@ from types import ModuleType
 
 import pandas as pd
 import pytest
-from support.pages import assert_is_whole
-
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
+from support.pages import RUN, assert_is_whole
 
 from bench.experiments.tables import read
-from bench.experiments.tables.schema import RESULTS
 from report.figures.kit.page import (
     ABSENT,
     REPORT,
@@ -23,7 +20,9 @@ from report.figures.kit.page import (
     run_in,
     text_of,
 )
+from report.figures.kit.rows import FEEDBACK
 from report.figures.kit.tables import Table
+from report.figures.responses import responses
 
 PAGES = {
     name: path
@@ -44,8 +43,8 @@ def test_module_is_pasted_by_one_page_which_names_no_other_s_keys(name):
 
 @pytest.mark.parametrize("name", QUICK)
 def test_module_gives_and_draws_what_its_page_pastes_of_the_published_run(name, monkeypatch):
-    monkeypatch.setenv(read.VARIABLE, str(RESULTS / "reference"))
-    assert_is_whole(importlib.import_module(f"report.figures.{name}"), run_in(RESULTS / "reference"))
+    monkeypatch.setenv(read.VARIABLE, str(RUN.folder))
+    assert_is_whole(importlib.import_module(f"report.figures.{name}"), RUN)
 
 
 @pytest.mark.parametrize("name", QUICK)
@@ -95,3 +94,9 @@ def test_table_writes_its_columns_in_their_order_with_their_formats():
     assert rows(pd.DataFrame([{"k": 1, "Error": 5, "Settled [%]": 12.34, "Law": "one"}])) == rows(
         [("one", 12.34, 5, 1)]
     )
+
+
+def test_response_bends_are_nothing_under_feedback_linearization():
+    traces, _ = responses.drawn(RUN)
+    own = responses.find(traces, {"start_id": "figure-2.5", "contender": FEEDBACK})
+    assert responses.bend_deg(own, 100.0, 20.0).max() < 1e-6

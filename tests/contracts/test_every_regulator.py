@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS, different_rows
 from support.buffers import numbers_of
 from support.driving import settings, spread
+from support.each import each
 from support.states import as_rotation, of_scipy, rotations, vector
 
 import tasks
@@ -31,10 +32,7 @@ METRICS = metrics_of(on_arm=False)
 BODIES = [name for name in tasks.names() if not tasks.is_for_arms(name)]  # arms have contracts of their own
 GAINS = Gains(kp=37.0, kv=9.0)  # not the defaults: a law that has those built in is found out
 
-
-@pytest.fixture(params=all_contenders(), ids=lambda contender: contender.name)
-def contender(request):
-    return request.param
+contender = each(all_contenders())
 
 
 def call(contender, R, omega, R_d=IDENTITY, gains=GAINS) -> np.ndarray:
@@ -49,18 +47,10 @@ def is_regular(contender, R, R_d) -> bool:
     return margin_of(contender)(R, R_d) != 0.0  # NaN, for a law on R, is regular
 
 
-def has_linear_goal(contender) -> bool:
-    """Whether the law claims the small-angle gains, and its coordinates exist at the goal they are tested at."""
-    return contender.regulator.property != "none" and is_regular(contender, IDENTITY, IDENTITY)
-
-
-LINEAR = [one for one in all_contenders() if has_linear_goal(one)]
+# the law claims the small-angle gains, and its coordinates exist at the goal they are tested at
+LINEAR = [one for one in all_contenders() if one.regulator.property != "none" and is_regular(one, IDENTITY, IDENTITY)]
 # a law on R, or on R_d^T R, can tell base frames apart only by mistake; angles of R are measured in one
 FRAMELESS = [one for one in all_contenders() if one.regulator.relative or one.representation is None]
-
-
-def over(contenders):
-    return pytest.mark.parametrize("contender", contenders, ids=lambda contender: contender.name)
 
 
 # ---------------------------------------------------------------------------- one tick
@@ -114,7 +104,7 @@ STEP = 1e-4
 GAIN_TOLERANCE = 1e-8
 
 
-@over(LINEAR)
+@pytest.mark.parametrize("contender", LINEAR)
 def test_small_angle_gain_is_kp_and_rate_gain_is_kv(contender):
     for i, axis in enumerate(np.eye(3)):
         turned = [call(contender, of_scipy(ScipyRotation.from_rotvec(h * axis)), AT_REST) for h in (STEP, -STEP)]
@@ -131,7 +121,7 @@ def test_command_at_the_goal_at_rest_is_zero(contender):
             assert np.abs(call(contender, R, vector(AT_REST), R)).max() <= 8 * EPS * GAINS.kp, R
 
 
-@over(FRAMELESS)
+@pytest.mark.parametrize("contender", FRAMELESS)
 def test_command_is_the_same_in_every_base_frame_where_the_law_has_none_of_its_own(contender):
     """u(QR, Q omega, QR_d) = Q u(R, omega, R_d): the error of such a law depends on R_d^T R alone."""
     draw = np.random.default_rng(10)
@@ -211,9 +201,6 @@ def test_early_stop_changes_no_settling_tick(contender):
     )
     assert different_rows(to_the_end[:, :3], stopped[:, :3]) == []
     assert (stopped[:, TICKS] <= to_the_end[:, TICKS]).all()
-
-
-CONTENDERS = all_contenders()
 
 
 def test_every_function_of_a_representation_has_a_stage():

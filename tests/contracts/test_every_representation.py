@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from support.bits import EPS
 from support.buffers import different_calls
-from support.exact import EXACT, exact_B, motion, rows_of
+from support.each import each
+from support.exact import EXACT, exact_B, motion
 from support.states import axis_permuting, matrix, near_identity, rotations, vector
 
 from bench.law.contenders.registry import contenders
@@ -25,10 +26,7 @@ PRODUCT_TOLERANCE = 10 * EPS
 # |det B| of a B computed from coordinates that are pi/2 to rounding, where the true one is 0.
 VANISHING = 4 * EPS
 
-
-@pytest.fixture(params=contenders("representations").values(), ids=lambda representation: representation.name)
-def representation(request):
-    return request.param
+representation = each(contenders("representations").values())
 
 
 @pytest.fixture
@@ -76,11 +74,6 @@ def size(numbers) -> float:
     return float(max(abs(x) for x in numbers))
 
 
-def errors(given, exact) -> float:
-    """Largest difference of doubles from numbers of 80 digits."""
-    return size(EXACT.mpf(g) - e for g, e in zip(given, exact, strict=True))
-
-
 def times(A, v) -> list:
     """A v to 80 digits."""
     return list(A * EXACT.matrix([EXACT.mpf(x) for x in v]))
@@ -88,7 +81,7 @@ def times(A, v) -> list:
 
 def norm_of(A) -> float:
     """The largest sum of a row's sizes: how much A can magnify the largest of the numbers it is given."""
-    return float(max(sum(abs(x) for x in row) for row in rows_of(A)))
+    return float(EXACT.mnorm(A, EXACT.inf))
 
 
 def inverse_of(B):
@@ -129,7 +122,8 @@ def test_kernels_are_the_derivatives_of_to_matrix_its_inverse_and_its_transpose(
                 rates = representation.rates(again, omega)
                 found.append((rates, times(inverse, omega), norm_of(inverse) * size(omega)))
             for given, expected, scale in found:
-                assert errors(given, expected) <= PRODUCT_TOLERANCE * scale, R
+                off = size(EXACT.mpf(x) - y for x, y in zip(given, expected, strict=True))
+                assert off <= PRODUCT_TOLERANCE * scale, R
 
 
 def test_margin_is_a_share_and_zero_exactly_where_B_is_singular(representation):

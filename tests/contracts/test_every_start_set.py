@@ -3,10 +3,7 @@
 import itertools
 import json
 import math
-import os
 import re
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -22,6 +19,7 @@ from support.arm_paths import (
     straight,
     walked,
 )
+from support.command_line import python
 
 import tasks
 from tasks.base import AT_REST
@@ -94,11 +92,7 @@ print(json.dumps(found))
 
 def starts(**variables):
     """What a process of its own finds, in hexadecimal."""
-    ran = subprocess.run(
-        [sys.executable, "-W", "ignore", "-c", STARTS], env=os.environ | variables, capture_output=True, text=True
-    )
-    assert ran.returncode == 0, ran.stderr
-    return json.loads(ran.stdout)
+    return json.loads(python("-W", "ignore", "-c", STARTS, **variables))
 
 
 @pytest.fixture(scope="module")
@@ -113,8 +107,7 @@ def test_starts_are_the_same_bit_for_bit(here, setting):
     assert [name for name in here if here[name] != there[name]] == []
 
 
-SETS = tasks.start_set_names(arm=True)
-every_set_on_every_arm = pytest.mark.parametrize(("arm", "name"), list(itertools.product(ARMS, SETS)))
+every_set_on_every_arm = pytest.mark.parametrize(("arm", "name"), list(itertools.product(ARMS, ON_ARM)))
 on_every_arm = pytest.mark.parametrize("arm", ARMS)
 
 
@@ -128,9 +121,8 @@ for arm in ("ur5e", "panda"):
 
 def test_fresh_process_gives_the_same_starts():
     """Made in the opposite order, so that nothing hangs on what was made before."""
-    done = subprocess.run([sys.executable, "-c", FRESH], capture_output=True, text=True, check=True)
-    expected = [str(tasks.start_set(name, 3, arm=arm)) for arm in ("ur5e", "panda") for name in reversed(SETS)]
-    assert done.stdout.splitlines() == expected
+    expected = [str(tasks.start_set(name, 3, arm=arm)) for arm in ("ur5e", "panda") for name in reversed(ON_ARM)]
+    assert python("-c", FRESH).splitlines() == expected
 
 
 @every_set_on_every_arm

@@ -6,8 +6,8 @@ import math
 import numpy as np
 import pytest
 from mujoco import mjtDisableBit
-from scipy.spatial.transform import Rotation
 from support.in_contact import ARMS
+from support.states import rotation
 
 import tasks
 from tasks.base import Start, Task
@@ -58,7 +58,7 @@ def test_first_observation_is_the_start_and_the_ground_truth(task):
         environment = tasks.load(task, start)
         first = environment.reset()
         for quat in (start.quat_wxyz, environment.physics.quat_wxyz()):
-            R = Rotation.from_quat(quat, scalar_first=True).as_matrix()
+            R = rotation(quat).as_matrix()
             np.testing.assert_allclose(first.observation["R"].reshape(3, 3).T, R, rtol=0, atol=1e-14)
         np.testing.assert_allclose(first.observation["omega"], start.omega, rtol=0, atol=1e-13)
         assert tuple(first.observation["goal_quat"]) == start.goal_wxyz
@@ -78,9 +78,7 @@ def test_reward_is_minus_the_angle_to_the_goal(task):
         environment = tasks.load(task, start)
         environment.reset()
         reward = environment.step(np.zeros(environment.action_spec().shape)).reward
-        quat, goal = (
-            Rotation.from_quat(q, scalar_first=True) for q in (environment.physics.quat_wxyz(), start.goal_wxyz)
-        )
+        quat, goal = map(rotation, (environment.physics.quat_wxyz(), start.goal_wxyz))
         assert reward == pytest.approx(-(goal.inv() * quat).magnitude(), abs=1e-14)
 
 

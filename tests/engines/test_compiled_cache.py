@@ -12,6 +12,7 @@ import mujoco
 import pytest
 from numba.core.bytecode import FunctionIdentity
 from support.bits import different_rows
+from support.command_line import python
 from support.driving import settings, spread
 
 import tasks
@@ -73,9 +74,7 @@ print(json.dumps(said))
 
 def angles(cache, *laws):
     """Final angles of laws, in a process of their own."""
-    environment = {**os.environ, "NUMBA_CACHE_DIR": str(cache)}
-    command = [sys.executable, "-c", ANGLES, *laws]
-    return json.loads(subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout)
+    return json.loads(python("-c", ANGLES, *laws, NUMBA_CACHE_DIR=str(cache)))
 
 
 def test_laws_compiled_by_two_processes_at_once_do_not_mix_in_a_third(tmp_path):

@@ -1,7 +1,5 @@
 """The continuous plant by ever shorter steps: against integrators and a closed form that are not ours."""
 
-import functools
-
 import numpy as np
 import pytest
 from support.bodies import regulated
@@ -50,18 +48,12 @@ def test_response_through_the_pole_has_the_limit_that_an_adaptive_integrator_fin
 BESIDE = ("pole-plus-k03-a0.1-g0.2", "pole-minus-k04-a1.0-g-0.5", "pole-plus-k05-a-2.0-g1.0")
 
 
-@functools.cache
-def beside_the_pole():
-    starts = starts_of("poles", *BESIDE)
-    chosen = settings(horizon_s=3.0, hold_ticks=HOLD)
-    return starts, *(
-        engines.on_ideal("ideal-rk4", LINEARIZED, start_rows(starts), chosen, converge=one) for one in (0, 1)
-    )
-
-
 def test_stiff_start_beside_the_pole_settles_when_an_implicit_integrator_says_so():
     """BDF of scipy, whose step no stiffness bounds."""
-    starts, coarse, fine = beside_the_pole()
+    starts, chosen = starts_of("poles", *BESIDE), settings(horizon_s=3.0, hold_ticks=HOLD)
+    coarse, fine = (
+        engines.on_ideal("ideal-rk4", LINEARIZED, start_rows(starts), chosen, converge=one) for one in (0, 1)
+    )
     assert len(starts) == len(BESIDE)
     assert (coarse[:, OUTCOME] != SETTLED).any()
     assert (fine[:, OUTCOME] == SETTLED).all()

@@ -26,11 +26,6 @@ ITERATES = ("truncated-svd", "damped-least-squares-variable")
 cost_on_arm = functools.cache(on_arms.cost_on_arm)
 
 
-def standing(arm: str, word: str):
-    """What the contender of a word costs on an arm."""
-    return cost_on_arm(named(arm, word), arm)
-
-
 def by_hand(n: int) -> dict[str, tuple[int, int]]:
     """(mul, add) of each stage of rotation-matrix@geometric+transpose but the law's own, counted on paper.
 
@@ -53,7 +48,7 @@ def by_hand(n: int) -> dict[str, tuple[int, int]]:
 
 @pytest.mark.parametrize(("arm", "n"), [("ur5e", 6), ("panda", 7)])
 def test_controller_costs_what_a_count_by_hand_says(arm, n):
-    counts = standing(arm, "rotation-matrix@geometric+transpose").typical
+    counts = cost_on_arm(named(arm, "rotation-matrix@geometric+transpose"), arm).typical
     law = cost(LAWS["rotation-matrix"]).typical
     for stage, (mul, add) in by_hand(n).items():
         own = law.of(stage)
@@ -178,7 +173,7 @@ def test_conversion_of_moments_costs_two_products_with_B_transposed(representati
         assert converted[name] - left[name] == 2 * once[name], name
 
 
-@pytest.mark.parametrize("one", [*HYBRIDS, *IMPEDANCES], ids=lambda one: one.name)
+@pytest.mark.parametrize("one", [*HYBRIDS, *IMPEDANCES])
 def test_every_controller_can_be_counted_and_costs_the_same_at_least_in_the_worst_branch(one):
     found = cost_in_contact(one)
     typical, worst = (sum(counts.of(TOTAL)[name] for name in OPERATIONS) for counts in (found.typical, found.worst))

@@ -12,11 +12,12 @@ import casadi
 import numpy as np
 import pytest
 from casadi import SX, atan2, sqrt
+from scipy.spatial.transform import Rotation as ScipyRotation
+from support.states import of_scipy
 
 from bench.engines.counting import OPERATIONS, TOTAL, cost
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import Gains, Goal
-from bench.law.so3 import Rotation, from_quaternion
 
 COLUMN = {
     casadi.OP_ADD: "add",
@@ -40,17 +41,9 @@ def expressions_as_written():
 
 
 # -------------------------------------------------------------------------------------- the paper, typed anew
-def symbols():
-    return [SX.sym(name, 3) for name in ("n", "o", "a", "w", "nd", "od", "ad")] + [SX.sym("kp"), SX.sym("kv")]
-
-
-def parts(vector):
-    return vector[0], vector[1], vector[2]
-
-
 def angles(n, o, a):
     """Z-Y-X angles by atan2 (2.2): alpha from n, gamma from o and a turned back by alpha; what B needs."""
-    nx, ny, nz = parts(n)
+    nx, ny, nz = casadi.vertsplit(n)
     cb = sqrt(nx * nx + ny * ny)
     ca, sa = nx / cb, ny / cb
     gamma = atan2(sa * a[0] - ca * a[1], ca * o[1] - sa * o[0])
@@ -60,7 +53,7 @@ def angles(n, o, a):
 def rates(trig, w):
     """(2.9) with its last row named: the first is sin(beta) times it, plus omega_z."""
     sa, ca, sb, cb = trig
-    wx, wy, wz = parts(w)
+    wx, wy, wz = casadi.vertsplit(w)
     dgamma = (ca * wx + sa * wy) / cb
     return sb * dgamma + wz, ca * wy - sa * wx, dgamma
 
@@ -77,11 +70,7 @@ def permuted(u):
 
 def crosses(n, o, a, nd, od, ad):
     """n x n_d + o x o_d + a x a_d (2.12)."""
-    total = None
-    for p, q in ((n, nd), (o, od), (a, ad)):
-        term = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
-        total = term if total is None else [x + y for x, y in zip(total, term, strict=True)]
-    return total
+    return casadi.cross(n, nd) + casadi.cross(o, od) + casadi.cross(a, ad)
 
 
 def rotation_matrix(n, o, a, w, nd, od, ad, kp, kv):
@@ -117,7 +106,7 @@ def feedback_linearized(n, o, a, w, nd, od, ad, kp, kv):
 
 # -------------------------------------------------------------------------------------- against ours
 def function_of(expression):
-    given = symbols()
+    given = [SX.sym(name, 3) for name in ("n", "o", "a", "w", "nd", "od", "ad")] + [SX.sym("kp"), SX.sym("kv")]
     return casadi.Function("u", given, [casadi.vertcat(*expression(*given))])
 
 
@@ -160,15 +149,10 @@ def test_casadi_counts_the_same_operations_for_the_angles():
 def test_expression_is_the_law_that_is_counted(expression, word):
     rng = np.random.default_rng(1988)
     function, law, gains = function_of(expression), find_contender(word).law, Gains()
-    for _ in range(20):
-        R, R_d = (random_rotation(rng) for _ in range(2))
+    turns = [of_scipy(turn) for turn in ScipyRotation.random(60, rng=rng)]
+    regular = [R for R in turns if math.hypot(R.n[0], R.n[1]) > 0.01]
+    for R, R_d in zip(regular[:20], regular[20:40], strict=True):
         omega = tuple(rng.normal(scale=3.0, size=3).tolist())
         theirs = function(*R, omega, *R_d, *gains).full().ravel()
         # eps / cos^2(beta) times commands up to 1e4: 1e-9 holds for cos(beta) > 0.01
         np.testing.assert_allclose(law(R, omega, Goal(R_d), gains), theirs, rtol=1e-9, atol=1e-9)
-
-
-def random_rotation(rng) -> Rotation:
-    quat = rng.normal(size=4)
-    R = from_quaternion(tuple((quat / np.linalg.norm(quat)).tolist()))
-    return R if math.hypot(R.n[0], R.n[1]) > 0.01 else random_rotation(rng)

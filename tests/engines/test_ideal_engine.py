@@ -28,13 +28,6 @@ HORIZON = 3.0
 PATH = [NUMBERS.index(name) for name in (*(f"{v}_{x}" for v in ("omega", "n", "o", "a") for x in "xyz"),)]
 
 
-def recorded(engine, word, starts, chosen):
-    """Paths (starts, ticks, 12), omega, n, o, a, and the judge's columns."""
-    curves = blank_curves(len(starts), chosen.ticks)
-    rows = run(engine, find_contender(word), "free-body", starts, chosen, METRICS, curves=curves)
-    return curves.samples[:, :, PATH], rows[:, :FIRST_METRIC]
-
-
 def drawn_in_angles(reach, goal_reach, speed, seed):
     """Starts and goals with |E| under `reach` and `goal_reach`, so that no angle wraps and the poles are far."""
     draw = np.random.default_rng(seed)
@@ -84,8 +77,11 @@ def by_scipy(word):
 
 @functools.cache
 def ours(word, dt_s):
-    """Our paths from these starts, and the judge's columns."""
-    return recorded("ideal-rk4", word, STARTS_OF[word](), settings(dt_s=dt_s, horizon_s=HORIZON))
+    """Our paths from these starts (starts, ticks, 12), omega, n, o, a, and the judge's columns."""
+    starts, chosen = STARTS_OF[word](), settings(dt_s=dt_s, horizon_s=HORIZON)
+    curves = blank_curves(len(starts), chosen.ticks)
+    rows = run("ideal-rk4", find_contender(word), "free-body", starts, chosen, METRICS, curves=curves)
+    return curves.samples[:, :, PATH], rows[:, :FIRST_METRIC]
 
 
 @pytest.mark.parametrize("word", PAPERS_LAWS)

@@ -8,6 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
 from support.driving import recorder, settings
+from support.each import each
 from support.on_arms import named
 
 import tasks
@@ -55,14 +56,8 @@ def episode(word, start):
     return kept, finished, ending
 
 
-@pytest.fixture(params=LAWS)
-def word(request):
-    return request.param
-
-
-@pytest.fixture(params=STARTS, ids=lambda start: start.id)
-def start(request):
-    return request.param
+word = each(LAWS)
+start = each(STARTS)
 
 
 def test_samples_are_the_ticks_of_the_episode(word, start):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.linalg import sqrtm
 from scipy.spatial.transform import Rotation
+from support.buffers import inertia_of, jacobian_of, state_of
 
 import tasks
 from bench.engines.episode import FINAL_ANGLE, OUTCOME, SETTLING_TICK, TICKS, Settings
@@ -28,6 +29,11 @@ NONE, K, DT = pass_all, 10.0, 1e-3
 
 def settings(ticks=2500, hold_ticks=250, dt=DT):
     return Settings(Gains(), dt, ticks, hold_ticks)
+
+
+def rotation_of(data):
+    """Return the tool's rotation."""
+    return Rotation.from_matrix(data.site("tool").xmat.reshape(3, 3))
 
 
 def turned_by(rad, axis=(1.0, 2.0, 3.0)):
@@ -84,22 +90,14 @@ def test_arm_goes_where_a_loop_of_mujoco_and_numpy_takes_it(arm):
     one = find_contender("rotation-vector@geometric+pseudo-inverse")
     [row] = run_velocity(one, NONE, K, [start], settings(ticks, ticks + 1), arm)
     model = mujoco.MjModel.from_xml_string(tasks.task("arm-regulation", arm).xml(DT))
-    data, site = mujoco.MjData(model), model.site("tool").id
-    data.qpos[:] = start.q
-    mujoco.mj_kinematics(model, data)
-    p_d, goal = data.site_xpos[site].copy(), Rotation.from_quat(start.goal_wxyz, scalar_first=True)
-    J, rate = np.zeros((6, model.nv)), 0.0
+    data, goal, rate = state_of(model, start.q), Rotation.from_quat(start.goal_wxyz, scalar_first=True), 0.0
+    p_d = data.site("tool").xpos.copy()
     for _ in range(ticks):
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)
-        mujoco.mj_jacSite(model, data, J[:3], J[3:], site)
-        R = Rotation.from_matrix(data.site_xmat[site].reshape(3, 3))
-        error = np.concatenate((p_d - data.site_xpos[site], (goal * R.inv()).as_rotvec()))
-        qdot = np.linalg.pinv(J) @ (K * error)
+        error = np.concatenate((p_d - data.site("tool").xpos, (goal * rotation_of(data).inv()).as_rotvec()))
+        qdot = np.linalg.pinv(jacobian_of(model, data, "tool")) @ (K * error)
         rate = max(rate, np.linalg.norm(qdot))
-        data.qpos[:] += DT * qdot
-    mujoco.mj_kinematics(model, data)
-    quat = Rotation.from_matrix(data.site_xmat[site].reshape(3, 3)).as_quat(scalar_first=True)
+        data = state_of(model, data.qpos + DT * qdot)
+    quat = rotation_of(data).as_quat(scalar_first=True)
     assert row[TICKS] == ticks
     assert row[FINAL_ANGLE] == pytest.approx(angle(tuple(quat), start.goal_wxyz), rel=1e-6)
     assert row[RATE] == pytest.approx(rate, rel=1e-6)
@@ -141,20 +139,14 @@ def test_arm_goes_where_a_loop_of_mujoco_numpy_and_scipy_takes_it(arm, whole):
         LAW, DAMPINGS["double-diagonalization"], Springs(*STIFF, zeta, whole), [start], judged(0.15), arm
     )
     model = mujoco.MjModel.from_xml_string(tasks.task("arm-regulation", arm).xml(dt))
-    data, still, site, n = mujoco.MjData(model), mujoco.MjData(model), model.site("tool").id, model.nv
-    data.qpos[:], K = start.q, np.repeat(STIFF, 3)
-    goal, J, M = Rotation.from_quat(start.goal_wxyz, scalar_first=True), np.zeros((6, n)), np.zeros((n, n))
-    mujoco.mj_forward(model, data)
-    p_d = np.array(start.goal_p) if start.goal_p else data.site_xpos[site].copy()
+    data, n, K = state_of(model, start.q), model.nv, np.repeat(STIFF, 3)
+    goal, tool = Rotation.from_quat(start.goal_wxyz, scalar_first=True), data.site("tool")
+    p_d = np.array(start.goal_p) if start.goal_p else tool.xpos.copy()
     for _ in range(ticks):
-        mujoco.mj_jacSite(model, data, J[:3], J[3:], site)
-        mujoco.mj_fullM(model, data, M)
-        still.qpos[:] = data.qpos
-        mujoco.mj_forward(model, still)
+        J, M, still = jacobian_of(model, data, "tool"), inertia_of(model, data), state_of(model, data.qpos)
         Lambda, k = np.linalg.inv(J @ np.linalg.solve(M, J.T)), np.diag(np.sqrt(K))
         D = 2.0 * zeta * k @ np.real(sqrtm(np.diag(1.0 / np.sqrt(K)) @ Lambda @ np.diag(1.0 / np.sqrt(K)))) @ k
-        R = Rotation.from_matrix(data.site_xmat[site].reshape(3, 3))
-        e, v = np.concatenate((p_d - data.site_xpos[site], (goal * R.inv()).as_rotvec())), J @ data.qvel
+        e, v = np.concatenate((p_d - tool.xpos, (goal * rotation_of(data).inv()).as_rotvec())), J @ data.qvel
         tau = J.T @ (K * e - D @ v) + still.qfrc_bias
         if whole:
             tau += data.qfrc_bias - data.qfrc_passive - still.qfrc_bias
@@ -165,8 +157,7 @@ def test_arm_goes_where_a_loop_of_mujoco_numpy_and_scipy_takes_it(arm, whole):
         mujoco.mj_forward(model, data)
     np.testing.assert_allclose(end[:n], data.qpos, atol=1e-7)
     np.testing.assert_allclose(end[n:], data.qvel, atol=1e-5)
-    R = Rotation.from_matrix(data.site_xmat[site].reshape(3, 3))
-    assert row[FINAL_ANGLE] == pytest.approx((goal * R.inv()).magnitude(), rel=1e-6)
+    assert row[FINAL_ANGLE] == pytest.approx((goal * rotation_of(data).inv()).magnitude(), rel=1e-6)
 
 
 @pytest.mark.parametrize("whole", [0, 1])

@@ -3,12 +3,9 @@
 import html as markup
 import json
 
+import pandas as pd
 import pytest
 from bs4 import BeautifulSoup
-
-pytest.importorskip("myst_parser", reason="the report extra is not installed (cure: make report)")
-
-import pandas as pd
 from docutils.core import publish_string
 from myst_parser.parsers.docutils_ import Parser
 

@@ -129,12 +129,9 @@ def test_inverses_and_twins_are_run_where_they_differ_and_all_else_from_every_se
         for name in few:
             assert {unit.selector for unit in usually if unit.contender == name} == expected
         for name in usual:
-            assert {unit.selector for unit in usually if unit.contender == name} == set(sets or known_sets())
-
-
-def known_sets() -> list[str]:
-    """Return the names of the start sets of arms."""
-    return tasks.start_set_names(arm=True)
+            assert {unit.selector for unit in usually if unit.contender == name} == set(
+                sets or tasks.start_set_names(arm=True)
+            )
 
 
 def test_units_cover_each_start_once_and_have_keys_of_their_own():

@@ -13,7 +13,7 @@ from bench.law.contenders.registry import contenders
 SPRINGS = contenders("springs")
 AXES = Rotation.from_rotvec([0.3, -0.5, 0.7]).as_matrix()
 K = AXES @ np.diag([30.0, 10.0, 3.0]) @ AXES.T
-rotational = pytest.mark.parametrize("spring", springs.SPRINGS, ids=lambda one: one.name)
+rotational = pytest.mark.parametrize("spring", springs.SPRINGS)
 DRAWN = np.random.default_rng(3)
 TURNS = [one for one in Rotation.random(100, rng=DRAWN) if one.magnitude() < 3.0]
 

@@ -7,14 +7,14 @@ from pathlib import Path
 
 import pytest
 from support import live
-from support.exported import laws, needs
+from support.exported import NODE, needs
 
 import tasks
 from bench.base.provenance import ROOT
 from bench.export import browser
+from bench.law.contenders.registry import all_contenders
 from tasks.condition import Condition
 
-NODE = str(Path(shutil.which("node") or "/usr/bin/node").parent)
 PERTURBED = {
     "late": Condition(delay_s=0.03),
     "slow": Condition(period_s=0.02, delay_s=0.007),
@@ -27,7 +27,7 @@ PERTURBED = {
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     made = tmp_path_factory.mktemp("live")
-    (made / "laws.js").write_text(browser.script(laws()))
+    (made / "laws.js").write_text(browser.script(all_contenders()))
     shutil.copy(ROOT / "report" / "_extra" / "live-episode.js", made)
     (made / "play.js").write_text(
         "require('./laws.js'); require('./live-episode.js');\n"
@@ -61,7 +61,7 @@ def beyond(wanted, found):
 
 @needs("node")
 def test_every_law_does_what_the_sampled_plant_has_recorded(folder, starts):
-    words = [one.on_free_body for one in laws()]
+    words = [one.on_free_body for one in all_contenders()]
     found = played(folder, words, starts)
     wanted = {word: live.by_the_sampled_plant(word, starts) for word in words}
     assert beyond(wanted, found) == {}
@@ -83,9 +83,9 @@ def test_what_a_reader_copies_of_a_law_runs_alone(folder):
     """The functions that the page names, and nothing else, make the law's command."""
     shutil.copy(Path(__file__).with_name("copied.js"), folder)
     ended = subprocess.run(["node", "copied.js"], cwd=folder, env={"PATH": NODE}, capture_output=True, text=True)
-    assert (ended.stderr, json.loads(ended.stdout)) == ("", [len(laws()), []])
+    assert (ended.stderr, json.loads(ended.stdout)) == ("", [len(all_contenders()), []])
 
 
 def test_functions_are_there_once():
-    heads = [line for line in browser.script(laws()).splitlines() if line.startswith("function ")]
+    heads = [line for line in browser.script(all_contenders()).splitlines() if line.startswith("function ")]
     assert len(heads) == len({line.partition("(")[0] for line in heads})

@@ -2,7 +2,6 @@
 
 import ctypes
 import json
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -10,13 +9,13 @@ from types import ModuleType
 
 import numpy as np
 import pytest
-from support.exported import ANSWERS, KP, KV, STATES, WIDTH, laws, needs, our_answers, states, subjects, written
+from support.exported import ANSWERS, KP, KV, NODE, STATES, WIDTH, needs, our_answers, states, written
 
 from bench.export.language import find_language
 from bench.export.subject import find_subject, subject_words, translated
+from bench.law.contenders.registry import all_contenders
 
 EIGEN = Path("/usr/include/eigen3")
-NODE = str(Path(shutil.which("node") or "/usr/bin/node").parent)
 INTO = "-O0 -ffp-contract=off -o test"
 COMMANDS = {
     "c": (f"gcc -std=c99 {INTO} test_NAME.c -lm", "./test"),
@@ -60,9 +59,8 @@ def batch(subject) -> str:
 def library(tmp_path_factory):
     """All laws in one program of C, which shows that their headers can be included together."""
     folder = tmp_path_factory.mktemp("library")
-    found = [find_subject(one.name) for one in laws()]
     lines = []
-    for one in found:
+    for one in (find_subject(one.name) for one in all_contenders()):
         here = written(one, "c", folder, is_tested=False)
         lines += [f'#include "{here / one.identifier}.h"', batch(one)]
     (folder / "all.c").write_text("\n".join(lines))
@@ -74,7 +72,7 @@ def library(tmp_path_factory):
 
 
 @needs("gcc")
-@pytest.mark.parametrize("contender", laws(), ids=lambda one: one.name)
+@pytest.mark.parametrize("contender", all_contenders())
 def test_law_in_c_gives_our_bits_at_every_state(library, contender):
     subject = find_subject(contender.name)
     answers = np.zeros((STATES, ANSWERS))
@@ -135,7 +133,8 @@ def test_wrong_answer_is_counted(tmp_path, language, word, right, wrong):
 @HAS_EIGEN
 @pytest.mark.parametrize("step", [4, pytest.param(1, marks=pytest.mark.weekly)])
 def test_every_header_in_cpp_compiles_beside_all_others(tmp_path, step):
-    headers = [written(one, "cpp", tmp_path, is_tested=False) / f"{one.identifier}.hpp" for one in subjects()[::step]]
+    found = map(find_subject, subject_words()[::step])
+    headers = [written(one, "cpp", tmp_path, is_tested=False) / f"{one.identifier}.hpp" for one in found]
     (tmp_path / "all.cpp").write_text("\n".join(f'#include "{one}"' for one in headers))
     words = ["g++", "-std=c++17", "-Wall", "-Wextra", "-Werror", f"-isystem{EIGEN}", "-fsyntax-only", "all.cpp"]
     subprocess.run(words, cwd=tmp_path, check=True)
@@ -146,7 +145,7 @@ SOME = 20_000
 
 @needs("node")
 def test_algebraic_laws_give_our_bits_in_node(tmp_path):
-    found = [(one, find_subject(one.name)) for one in laws()]
+    found = [(one, find_subject(one.name)) for one in all_contenders()]
     algebraic = [(one, subject) for one, subject in found if translated(subject).program.is_algebraic]
     assert len(algebraic) >= 12
     names = [subject.identifier for _, subject in algebraic]
@@ -197,7 +196,7 @@ def loaded(subject) -> ModuleType:
     return module
 
 
-@pytest.mark.parametrize("contender", laws(), ids=lambda one: one.name)
+@pytest.mark.parametrize("contender", all_contenders())
 def test_law_in_python_gives_our_bits_where_the_command_is_finite(contender):
     subject = find_subject(contender.name)
     law, rows = loaded(subject), states()[::EVERY].tolist()

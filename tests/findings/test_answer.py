@@ -169,7 +169,7 @@ def test_every_robot_has_a_word_of_the_reference():
     assert all(one is not None and one.law for one in words)
 
 
-@pytest.mark.parametrize("robot", ROBOTS.values(), ids=lambda robot: robot.name)
+@pytest.mark.parametrize("robot", ROBOTS.values())
 def test_robot_names_a_page_of_the_book(robot):
     assert (RESULTS.parent / "report" / "pages" / f"{robot.page}.md").is_file()
 

@@ -2,7 +2,7 @@
 
 import pytest
 from support import advised, map_rule
-from support.pages import assert_is_whole
+from support.pages import RUN, assert_is_whole
 
 from bench.experiments import suites
 from bench.experiments.tables.read import with_contender
@@ -22,10 +22,8 @@ from report.figures.answer import which_law
 from report.figures.arms import arm_ranking, arm_rows
 from report.figures.cards import regulators
 from report.figures.kit import families
-from report.figures.kit.page import run_in
 
-FOLDER = RESULTS / "reference"
-RUN = run_in(FOLDER)
+FOLDER = RUN.folder
 
 
 @pytest.fixture(scope="module")

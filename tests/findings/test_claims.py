@@ -39,7 +39,7 @@ def test_every_claim_is_there_once():
     assert set(read_texts(HISTORY)) <= {one.id for one in claims.all_claims()}
 
 
-@pytest.mark.parametrize("one", claims.all_claims(), ids=lambda one: one.id)
+@pytest.mark.parametrize("one", claims.all_claims())
 def test_claim_has_its_texts_and_its_judge(one):
     assert all((one.section, one.sentence, one.judge, one.quote, one.value))
     assert "does not hold" in one.criterion or "answered since" in one.criterion
@@ -51,7 +51,7 @@ def test_criterion_has_the_numbers_of_its_module():
     assert "at most 0.1% of the uniform ones" in claims.all_claims()[0].criterion
 
 
-@pytest.mark.parametrize("one", claims.all_claims(), ids=lambda one: one.id)
+@pytest.mark.parametrize("one", claims.all_claims())
 def test_criterion_and_those_before_it_name_a_commit_of_their_date(one):
     dates = [when.split() for when in (*(old.written for old in one.earlier), one.written)]
     assert [date for date, _ in dates] == sorted(date for date, _ in dates)
@@ -78,7 +78,7 @@ def test_share_of_no_rows_is_an_error():
         share(pd.Series([], dtype=bool))
 
 
-@pytest.mark.parametrize("one", [one for one in ERRATA if one.check], ids=lambda one: one.id)
+@pytest.mark.parametrize("one", [one for one in ERRATA if one.check])
 def test_erratum_is_confirmed(one):
     assert one.check()
 

@@ -70,15 +70,11 @@ SCIPYS = {
 STEP = EPS ** (1 / 3)
 
 
-def turned(seed: int) -> list[Turn]:
-    return list(Turn.random(20, rng=np.random.default_rng(seed)))
-
-
 @pytest.mark.parametrize("word", COORDINATES)
 def test_columns_of_B_are_what_scipys_rotation_turns_about_along_each_coordinate(word):
     """Central differences: truncation and rounding are about STEP^2 = 4e-11, times third derivatives near poles."""
     of = SCIPYS[word]
-    for turn in turned(1):
+    for turn in Turn.random(20, rng=np.random.default_rng(1)):
         E = np.array(COORDINATES[word].chart(of_scipy(turn)).E)
         steps = STEP * np.eye(3)
         differenced = [(of(E + h) * of(E - h).inv()).as_rotvec() / (2.0 * STEP) for h in steps]
@@ -86,35 +82,34 @@ def test_columns_of_B_are_what_scipys_rotation_turns_about_along_each_coordinate
         np.testing.assert_allclose(found, np.transpose(differenced), atol=1e-8)
 
 
+def push(kp, kv) -> float:
+    """Integrate where a unit moment takes a spring with a damper in 0.3 s."""
+
+    def rates(_, state):
+        return state[1], 1.0 / TOUCH.m_o - kv * state[1] - kp * state[0]
+
+    return solve_ivp(rates, (0.0, 0.3), (0.0, 0.0), rtol=1e-11, atol=1e-14).y[0, -1]
+
+
 @pytest.mark.parametrize("gains", [PAPERS_GAINS, Gains(100.0, 10.0), Gains(100.0, 40.0)], ids=str)
 def test_springs_are_those_of_an_integrated_oscillator(gains):
-    def rates(_, state):
-        return state[1], 1.0 / TOUCH.m_o - gains.kv * state[1] - gains.kp * state[0]
-
-    path = solve_ivp(rates, (0.0, 0.3), (0.0, 0.0), rtol=1e-11, atol=1e-14)
-    assert compliance_theory.sprung(0.3, gains) == pytest.approx(path.y[0, -1], rel=1e-8)
+    assert compliance_theory.sprung(0.3, gains) == pytest.approx(push(*gains), rel=1e-8)
 
 
 def test_what_is_free_is_an_integrated_damper():
-    path = solve_ivp(
-        lambda _, s: (s[1], 1.0 / TOUCH.m_o - TOUCH.kc * s[1]), (0.0, 0.3), (0.0, 0.0), rtol=1e-11, atol=1e-14
-    )
-    assert compliance_theory.free(0.3) == pytest.approx(path.y[0, -1], rel=1e-8)
+    assert compliance_theory.free(0.3) == pytest.approx(push(0.0, TOUCH.kc), rel=1e-8)
 
 
 GAINS = (100.0, 20.0, 0.02)
 
 
-def test_sine_settles_as_the_closed_form_of_the_rotation_matrix():
-    for angle in (0.5, 2.0, 3.1):
-        expected = closed_form.settling(angle, *GAINS)
-        assert isotropic.settling(SINE, angle, *GAINS) == pytest.approx(expected, abs=1e-6)
-
-
-def test_straight_spring_settles_as_the_linear_system_from_every_angle():
-    for angle in (0.1, 3.0):
-        expected = closed_form.linear_settling(*GAINS)
-        assert isotropic.settling(ANGLE, angle, *GAINS) == pytest.approx(expected, abs=1e-6)
+@pytest.mark.parametrize("angle", [0.1, 0.5, 2.0, 3.1])
+def test_sine_settles_as_its_closed_form_and_a_straight_spring_as_the_linear_system(angle):
+    for equation, expected in (
+        (SINE, closed_form.settling(angle, *GAINS)),
+        (ANGLE, closed_form.linear_settling(*GAINS)),
+    ):
+        assert isotropic.settling(equation, angle, *GAINS) == pytest.approx(expected, abs=1e-6)
 
 
 @pytest.mark.parametrize(("equation", "part"), [(LINEAR_MRP, 4.0), (isotropic.EQUATIONS["paielli-bach"], 2.0)])

@@ -1,7 +1,6 @@
 """Closed forms of loops, against what they solve: held goals, delay, noise, a slow clock, a bound, the largest K dt."""
 
 import cmath
-import functools
 import math
 
 import numpy as np
@@ -152,15 +151,10 @@ def test_memory_ends_where_its_hysteresis_does():
 EXACT = ("solve", "pseudo-inverse", "dynamically-consistent", "truncated-svd", "damped-least-squares-variable")
 
 
-@functools.cache
-def measured() -> pd.DataFrame:
+def test_limit_of_every_velocity_law_is_within_one_percent_of_its_closed_form():
     laws = [one for one in all_contenders() if not one.regulator.costing_only]
     made = plan.make("quick", laws, Choice(experiments=("velocity-limits",)))
-    return with_theory(with_contender(pd.concat([rows_of(made.settings, unit) for unit in made.units])))
-
-
-def test_limit_of_every_velocity_law_is_within_one_percent_of_its_closed_form():
-    rows = measured()
+    rows = with_theory(with_contender(pd.concat([rows_of(made.settings, unit) for unit in made.units])))
     has_theory = rows["k_dt_theory"].notna()
     off = (rows["k_dt"] - rows["k_dt_theory"]).abs() - 0.01 * rows["k_dt_theory"]
     assert rows[has_theory & (off > 0.0)].to_dict("records") == []

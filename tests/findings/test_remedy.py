@@ -34,7 +34,7 @@ def test_fix_and_greatest_command_are_those_of_the_formula(name, says, before, a
     assert (fix.before, fix.after) == pytest.approx((before, after), rel=1e-6)
 
 
-@pytest.mark.parametrize("one", COMMANDED, ids=lambda one: one.name)
+@pytest.mark.parametrize("one", COMMANDED)
 def test_fix_exceeds_no_bound_and_raises_a_command_by_its_factor_alone(one):
     fix = remedy.smallest_fix(one)
     assert fix.after <= one.gains.kp * one.shipped.bound

@@ -6,7 +6,7 @@ import pytest
 from scipy.spatial.transform import Rotation as Turn
 from support.tables import decided, judged
 
-from bench.findings.claims import linearization, representations
+from bench.findings.claims import all_claims, linearization, representations
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import Word
 
@@ -80,15 +80,9 @@ def test_smallest_singular_value_of_two_forms_is_that_of_a_closed_form():
 @pytest.mark.parametrize("seed", [0, 7])
 def test_claim_without_tables_gets_the_same_word_from_any_draw(id, word, seed, tmp_path):
     (tmp_path / "plan.json").write_text(f'{{"seed": {seed}, "dt_s": 0.001}}')
-    claim = next(one for one in linearization_and_representations() if one.id == id)
+    claim = next(one for one in all_claims() if one.id == id)
     found, why = claim.judge(Results(tmp_path))
     assert (found, why.rows > 0) == (word, True)
-
-
-def linearization_and_representations():
-    return [
-        one for module in (linearization, representations) for one in vars(module).values() if hasattr(one, "judge")
-    ]
 
 
 def test_torques_of_the_arms_own_model_give_the_acceleration_and_those_of_another_do_not():

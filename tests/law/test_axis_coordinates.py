@@ -15,6 +15,7 @@ from support.bits import EPS
 from support.states import as_rotation, of_scipy, rotations, vector
 
 import tasks
+from bench.findings.theory.compliance_theory import matrix_B
 from bench.law.contenders.registry import find_contender, representation
 from bench.law.contenders.representations.rotation_vector import FLAT, NEAR, coefficients, slopes
 from bench.law.inputs import Gains, Goal
@@ -45,12 +46,6 @@ each = pytest.mark.parametrize(("one", "axial"), [(representation(word), AXIAL[w
 
 def skew(v):
     return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
-
-
-def B_of(one, R):
-    """B, column by column."""
-    at = one.chart(R)
-    return np.array([one.angular_velocity(at, vector(unit)) for unit in np.eye(len(at.E))]).T
 
 
 @each
@@ -87,7 +82,7 @@ def test_exact_half_turn_has_its_own_element_positive(one, axial):
 @each
 def test_margin_is_the_least_singular_value_of_B_over_that_at_the_identity(one, axial):
     def least(R):
-        return np.linalg.svd(B_of(one, R), compute_uv=False)[-1]
+        return np.linalg.svd(matrix_B(one, R), compute_uv=False)[-1]
 
     for R in rotations():
         assert one.margin(R) == pytest.approx(least(R) / least(as_rotation(np.eye(3))), abs=TOLERANCE)

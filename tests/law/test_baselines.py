@@ -30,11 +30,6 @@ def on(arm):
     return combinations.baselines(tasks.arm(arm).joints)
 
 
-def rated(arm):
-    """Resolved rate."""
-    return next(one for one in on(arm) if one.regulator.name == "resolved-rate")
-
-
 @over_arms
 def test_baselines_are_found_by_their_names(arm):
     assert [one.regulator.name for one in on(arm)] == list(baselines_of_arms())
@@ -91,7 +86,8 @@ def test_joint_pd_spends_its_energy_on_its_dampers_alone(arm):
 @over_arms
 def test_resolved_rate_is_a_servo_on_the_rates_that_the_inverse_gives(arm):
     """tau = D Kv (qdot_d - qdot) + fg, qdot_d = J^+ v by numpy; seven joints damp unseen motion by Kv/2."""
-    goal, place, one = (0.5, 0.5, -0.5, 0.5), np.array((0.3, 0.2, 0.4)), rated(arm)
+    goal, place = (0.5, 0.5, -0.5, 0.5), np.array((0.3, 0.2, 0.4))
+    [one] = [one for one in on(arm) if one.regulator.name == "resolved-rate"]
     for start in tasks.start_set("tumbling", 6, arm=arm):
         at = here(arm, start.q, start.qdot)
         R_d, R = (Rotation.from_quat(quat, scalar_first=True) for quat in (goal, start.quat_wxyz))

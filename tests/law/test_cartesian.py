@@ -42,11 +42,6 @@ def states(arm: str) -> tuple:
     return tuple(found)
 
 
-def inverted(one, at) -> np.ndarray:
-    """The Jacobian that a contender inverts: the rows its file fills."""
-    return filled((one.jacobian, one.representation if on_coordinates(one) else None), at.chain)[: one.rows, : at.n]
-
-
 def singular_values(J, weights=1.0) -> np.ndarray:
     """The six that a rigid body's motion has; a seventh, of four coordinates on seven joints, is zero."""
     return np.linalg.svd(np.broadcast_to(weights, len(J))[:, None] * J, compute_uv=False)[:6]
@@ -93,7 +88,8 @@ def test_perfect_model_gives_the_tool_the_commanded_acceleration(arm):
             continue
         for q, qdot, goal, p_d in states(arm)[:2]:
             at = here(arm, q, qdot)
-            J = inverted(one, at)
+            pair = one.jacobian, one.representation if on_coordinates(one) else None
+            J = filled(pair, at.chain)[: one.rows, : at.n]
             if not is_exact(one, J):
                 continue
             tried.add(one.inverse.name)

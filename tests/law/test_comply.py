@@ -60,11 +60,6 @@ def inverse(at: Given) -> np.ndarray:
     return weighed @ np.linalg.inv(at.J @ weighed)
 
 
-def rounding(at: Given) -> float:
-    """Relative error of y: normal equations with J and with D."""
-    return backward(at.J) * np.linalg.cond(at.D)
-
-
 def size(form: str, at: Given) -> float:
     """No y is longer [rad/s^2]."""
     into = at.rows
@@ -99,8 +94,7 @@ def by_formula(form: str, held, at: Given) -> np.ndarray:
 def test_torques_are_the_formula_for_every_selection(n, form):
     for at, held in itertools.product(given(n), SELECTIONS):
         wanted, w = by_formula(form, held, at), exerted(form, held, at.rows)
-        allowed = rounding(at) * (
-            np.linalg.norm(at.D, 2) * size(form, at) + np.linalg.norm(at.J, 2) * np.linalg.norm(w)
-        )
+        sizes = np.linalg.norm(at.D, 2) * size(form, at) + np.linalg.norm(at.J, 2) * np.linalg.norm(w)
+        allowed = backward(at.J) * np.linalg.cond(at.D) * sizes  # normal equations with J and with D
         tau = complied(form, held, at)
         np.testing.assert_allclose(tau, at.D @ wanted + at.fg + at.J.T @ w, rtol=0.0, atol=allowed, err_msg=held)

@@ -6,8 +6,8 @@ import math
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
+from support import exact
 from support.bits import EPS
-from support.exact import EXACT, STEP, exact_matrix
 from support.states import as_rotation, matrix, rotations, vector
 
 import tasks
@@ -95,29 +95,18 @@ def test_margin_is_the_sine_of_the_distance_from_the_pole(one, axes, poles):
 DIFFERENTIATED = [one for one in contenders("representations").values() if one.differentiate is not None]
 
 
-on_differentiated = pytest.mark.parametrize("one", DIFFERENTIATED, ids=lambda one: one.name)
+on_differentiated = pytest.mark.parametrize("one", DIFFERENTIATED)
 
 
 def turning(omega, R) -> Rotation:
     return Rotation(*(cross(omega, column) for column in R))
 
 
-def bending(omegadot, omega, R) -> Rotation:
-    first, second = turning(omegadot, R), turning(omega, turning(omega, R))
-    return as_rotation(np.array(first) + np.array(second))
-
-
 @functools.cache
 def path(one, E, Edot, Eddot):
-    """R, Rdot and Rddot of E + Edot t + Eddot t^2/2 at t = 0: to_matrix differentiated with 80 digits, rounded."""
-
-    def at(t):
-        terms = zip(E, Edot, Eddot, strict=True)
-        return exact_matrix(one.to_matrix, [EXACT.mpf(e) + t * d + t * t * a / 2 for e, d, a in terms])
-
-    behind, here, ahead = at(-STEP), at(EXACT.mpf(0)), at(STEP)
-    found = here, (ahead - behind) / (2 * STEP), (ahead - 2 * here + behind) / STEP**2
-    return [as_rotation([[float(A[i, j]) for i in range(3)] for j in range(3)]) for A in found]
+    """R, Rdot and Rddot of E + Edot t + Eddot t^2/2 at t = 0, rounded."""
+    found = exact.path(one.to_matrix, E, Edot, Eddot)
+    return [as_rotation(np.array(A.T.tolist(), dtype=float)) for A in found]
 
 
 @on_differentiated
@@ -142,7 +131,8 @@ def test_derivatives_are_not_finite_on_the_poles(one):
     poles = [R for R in rotations() if one.margin(R) == 0.0]
     assert poles
     for R in poles:
-        Rdot, Rddot = turning(omega, R), bending(omega, omega, R)
+        Rdot = turning(omega, R)
+        Rddot = as_rotation(np.add(Rdot, turning(omega, Rdot)))
         with np.errstate(all="ignore"):
             assert not np.isfinite(one.differentiate(R, Rdot)).all()
             assert not np.isfinite(one.differentiate_twice(R, Rdot, Rddot)).all()

@@ -36,10 +36,6 @@ UNCONVERTED = [one for one in HYBRIDS if not one.converts]
 ROUNDING = 200 * EPS
 
 
-def named(one) -> str:
-    return one.name
-
-
 over_arms = pytest.mark.parametrize("arm", ARMS)
 
 
@@ -91,10 +87,6 @@ def mobility(at, M) -> np.ndarray:
     return M @ at.J @ np.linalg.solve(at.D, (M @ at.J).T)
 
 
-def regular(one, at) -> bool:
-    return one.representation is None or one.representation.margin(at.chain.R) > 0.2
-
-
 def some_selections():
     draw = np.random.default_rng(32)
     return [SELECTIONS[0], SELECTIONS[-1], *(SELECTIONS[i] for i in draw.integers(64, size=4))]
@@ -119,13 +111,13 @@ def test_wrench_that_is_felt_is_the_one_applied_moved_to_the_hands_frame(arm):
 
 
 @over_arms
-@pytest.mark.parametrize("one", [one for one in HYBRIDS if one.converts], ids=named)
+@pytest.mark.parametrize("one", [one for one in HYBRIDS if one.converts])
 def test_perfect_model_gives_the_hand_the_commanded_acceleration(arm, one):
     """MuJoCo's J qacc + Jdot qdot under the wrench in the controller's frame: all rows; of `projected` what is held."""
     compared = 0
     for state, setpoint in drawn(arm):
         at = hand(*state)
-        if not regular(one, at):
+        if one.representation is not None and one.representation.margin(at.chain.R) <= 0.2:
             continue
         M, bent = frame(one, at, setpoint)
         for held in some_selections():
@@ -141,7 +133,7 @@ def test_perfect_model_gives_the_hand_the_commanded_acceleration(arm, one):
 
 
 @over_arms
-@pytest.mark.parametrize("one", IMPEDANCES, ids=named)
+@pytest.mark.parametrize("one", IMPEDANCES)
 def test_perfect_model_gives_the_hand_the_acceleration_of_the_impedance(arm, one):
     """p as a mass, damper and spring; the turn as the law says."""
     compared = 0
@@ -164,7 +156,7 @@ def test_perfect_model_gives_the_hand_the_acceleration_of_the_impedance(arm, one
 # ---------------------------------------------------------------------------- work (Murphy 1988, 3.10-3.12)
 
 
-@pytest.mark.parametrize("one", UNCONVERTED, ids=named)
+@pytest.mark.parametrize("one", UNCONVERTED)
 def test_unconverted_moments_are_their_components_about_the_axes_that_the_coordinates_stand_for(one):
     for state, setpoint in drawn(ARMS[0]):
         at = hand(*state)
@@ -183,7 +175,7 @@ def test_apparent_inertias_are_above_half_of_the_hands_own_at_home(arm):
     assert 0.5 / np.linalg.eigvalsh(mobility[3:, 3:]).min() < TOUCHING.m_o
 
 
-@pytest.mark.parametrize("one", HYBRIDS, ids=named)
+@pytest.mark.parametrize("one", HYBRIDS)
 def test_each_axis_of_an_order_selects_the_row_that_moves_along_it(one):
     """Near the origin of its coordinates a row's motion is along or about that axis, more than any other row's."""
     near = (0.01, 0.02, 0.03)
@@ -197,6 +189,6 @@ def test_each_axis_of_an_order_selects_the_row_that_moves_along_it(one):
         assert abs(M[axis, row]) == pytest.approx(np.abs(M[axis]).max(), rel=1e-3)
 
 
-@pytest.mark.parametrize("one", IMPEDANCES, ids=named)
+@pytest.mark.parametrize("one", IMPEDANCES)
 def test_impedance_holds_every_row_whatever_the_order(one):
     assert one.selection(Specification("", (0,) * 6)) == (1.0,) * 6

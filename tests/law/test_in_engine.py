@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
-from support.states import of_scipy, vector
+from support.states import directions, of_scipy, vector
 
 import tasks
 from bench.base.errors import Incompatible
@@ -20,37 +20,24 @@ from tasks.errors import BadValue
 
 GAINS = Gains(kp=100.0, kv=20.0)
 ONE = find_contender("in-engine")
-DT = 1e-3
 
 
-def simulation(xml):
-    """A model of MuJoCo and its data."""
-    model = mujoco.MjModel.from_xml_string(xml)
-    return model, mujoco.MjData(model)
+SERVO = mujoco.MjModel.from_xml_string(tasks.task("free-body").with_servo(*GAINS).xml(1e-3))
 
 
-SERVO = simulation(tasks.task("free-body").with_servo(*GAINS).xml(DT))
-
-
-def torque(quat, goal, omega_body=(0.0, 0.0, 0.0), sim=SERVO):
-    """The actuator's torque in the body frame, from qpos, ctrl and qvel as they are given."""
-    model, data = sim
-    mujoco.mj_resetData(model, data)
-    data.qpos[:], data.ctrl[:], data.qvel[:] = quat, goal, omega_body
-    mujoco.mj_forward(model, data)
-    return data.qfrc_actuator.copy()
-
-
-def quat_of(R):
-    """A scipy rotation as MuJoCo's quaternion."""
-    return R.as_quat(scalar_first=True)
+def torque(R, R_d, omega_body):
+    """The actuator's torque in the body frame, of scipy's rotations."""
+    data = mujoco.MjData(SERVO)
+    data.qpos[:], data.ctrl[:] = (turn.as_quat(scalar_first=True) for turn in (R, R_d))
+    data.qvel[:] = omega_body
+    mujoco.mj_forward(SERVO, data)
+    return data.qfrc_actuator
 
 
 def axes(count, seed):
     """Unit vectors: those of the base both ways, diagonals, and drawn ones."""
-    drawn = np.random.default_rng(seed).normal(size=(count, 3))
     directed = [*np.eye(3), *-np.eye(3), (0.6, 0.8, 0.0), (0.0, 0.6, 0.8), (1 / 3, 2 / 3, 2 / 3)]
-    return [*map(np.array, directed), *(drawn / np.linalg.norm(drawn, axis=1, keepdims=True))]
+    return [*map(np.array, directed), *directions(count, seed)]
 
 
 # From a ten-thousand-millionth of a radian to as much below a half turn; 3.14159 and on are decades of what is left.
@@ -65,7 +52,7 @@ def test_torque_is_kp_times_the_rotation_vector_and_minus_kv_times_the_rate(angl
         R_d = ScipyRotation.random(rng=draw)
         R = ScipyRotation.from_rotvec(-angle * k) * R_d
         omega = draw.normal(scale=3.0, size=3)
-        found = R.apply(torque(quat_of(R), quat_of(R_d), R.inv().apply(omega)))
+        found = R.apply(torque(R, R_d, R.inv().apply(omega)))
         expected = GAINS.kp * (R_d * R.inv()).as_rotvec() - GAINS.kv * omega
         ours = ONE.law(of_scipy(R), vector(omega), Goal(of_scipy(R_d)), GAINS)
         scale = GAINS.kp * math.pi + GAINS.kv * np.linalg.norm(omega)

@@ -4,6 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 from support.bits import EPS, same_bits
+from support.buffers import jacobian_of, state_of
 from support.filling import FACTORED, A, accepted, anything, inertia, resolved, well_conditioned
 
 import tasks
@@ -189,14 +190,11 @@ def test_variable_damping_follows_its_formula_where_one_singular_value_is_small(
 def test_estimated_least_singular_value_is_never_too_small_and_rarely_too_large(arm_name):
     arm = tasks.arm(arm_name)
     model = mujoco.MjModel.from_xml_string(arm.xml)
-    data, site, draw = mujoco.MjData(model), model.site("tool").id, np.random.default_rng(11)
+    draw = np.random.default_rng(11)
     lower, upper = (np.where(np.isfinite(x), x, s * np.pi) for x, s in ((arm.lower, -1.0), (arm.upper, 1.0)))
     excess = []
     for _ in range(1500):
-        data.qpos[:] = draw.uniform(lower, upper)
-        mujoco.mj_forward(model, data)
-        J = np.zeros((6, arm.joints))
-        mujoco.mj_jacSite(model, data, J[:3], J[3:], site)
+        J = jacobian_of(model, state_of(model, draw.uniform(lower, upper)), "tool")
         J[:3] /= LENGTH
         least = np.linalg.svd(J, compute_uv=False)[5]
         L = J @ J.T + MAX_DAMPING_SQUARED * np.eye(6)

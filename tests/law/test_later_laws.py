@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support import bodies
 from support.bits import EPS
-from support.states import of_scipy, vector
+from support.states import directions, of_scipy, vector
 
 from bench.law.contenders.registry import all_contenders, find_contender
 from bench.law.inputs import AT_REST, Gains, Goal
@@ -33,17 +33,11 @@ def command(word, R, omega=AT_REST, R_d=None, memory=None):
     return np.array(u), after
 
 
-def axes(count, seed):
-    """Unit vectors, drawn."""
-    drawn = np.random.default_rng(seed).normal(size=(count, 3))
-    return drawn / np.linalg.norm(drawn, axis=1, keepdims=True)
-
-
 def test_weighted_columns_rests_at_three_half_turns_and_no_others():
     for k in np.eye(3):
         u, _ = command("weighted-columns", ScipyRotation.from_matrix(2.0 * np.outer(k, k) - np.eye(3)))
         assert (u == 0.0).all()
-    for k in axes(50, 4):
+    for k in directions(50, 4):
         u, _ = command("weighted-columns", ScipyRotation.from_rotvec(math.pi * k))
         assert np.linalg.norm(u) > 1e-3 * GAINS.kp
 
@@ -58,7 +52,7 @@ def test_response_from_rest_is_that_of_one_scalar_equation(word):
         return rate, -GAINS.kp * equation.spring(theta) - GAINS.kv * rate + equation.added(theta, rate, *GAINS)
 
     times = np.linspace(0.0, 1.0, 21)
-    for theta, k in zip((0.1, 1.0, 2.0, 3.0), axes(4, 5), strict=True):
+    for theta, k in zip((0.1, 1.0, 2.0, 3.0), directions(4, 5), strict=True):
         found = path(word, theta * k, AT_REST, times)[0].magnitude()
         expected = solve_ivp(scalar, (0.0, 1.0), (theta, 0.0), "DOP853", times, rtol=1e-11, atol=1e-13).y[0]
         np.testing.assert_allclose(found, abs(expected), rtol=0.0, atol=1e-8)  # beyond the goal theta is negative
@@ -129,7 +123,9 @@ def test_laws_with_memory_keep_their_side_beyond_a_half_turn_and_change_it_later
 def test_bounded_command_is_the_sine_and_a_damper_bounded_by_kp_at_any_spin():
     """Far above w = Kp/Kv the damper is Kp against the motion, so that |u| <= 2 Kp, which it comes near to."""
     draw = np.random.default_rng(6)
-    for R, size, k in zip(ScipyRotation.random(400, rng=draw), np.geomspace(1e-3, 1e6, 400), axes(400, 7), strict=True):
+    for R, size, k in zip(
+        ScipyRotation.random(400, rng=draw), np.geomspace(1e-3, 1e6, 400), directions(400, 7), strict=True
+    ):
         u, phi = command("bounded-command", R, size * k)[0], R.as_rotvec()
         damper = GAINS.kv * size / math.hypot(1.0, size * GAINS.kv / GAINS.kp)
         expected = -GAINS.kp * np.sinc(np.linalg.norm(phi) / math.pi) * phi - damper * k

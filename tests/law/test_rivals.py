@@ -7,22 +7,16 @@ import pytest
 from scipy.linalg import solve_continuous_lyapunov
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation as ScipyRotation
-from support.states import of_scipy, vector
+from support.bodies import commanded
+from support.states import directions, of_scipy, vector
 
 from bench.law.contenders.registry import regulator
 from bench.law.inputs import AT_REST, Gains, Goal
 
-GAINS = Gains(kp=37.0, kv=9.0)
+GAINS, HOME = Gains(kp=37.0, kv=9.0), ScipyRotation.identity()
 WEIGHTS, KAPPA, GAP = np.array((0.8, 1.0, 1.2)), 0.3, 0.08
 AXIS = np.sqrt(1.0 - 2.0 / np.sum(1.0 / WEIGHTS) / WEIGHTS)
 """The body axis for which a_i = k_i (1 - u_i^2) are equal, and u of length 1."""
-
-
-def command(word, R, omega, memory, R_d=None):
-    """u and the memory after it, of scipy rotations."""
-    goal = Goal(of_scipy(R_d or ScipyRotation.identity()))
-    u, after = regulator(word).law(of_scipy(R), vector(omega), goal, GAINS, memory)
-    return np.array(u), after
 
 
 def potential(X):
@@ -45,7 +39,7 @@ def test_synergistic_command_at_rest_is_the_gradient_of_the_potential_in_force(q
     """Compare with central differences of 1e-5 rad: the third derivative is under 1000, so that they err by 2e-8."""
     draw, h = np.random.default_rng(3), 1e-5
     for X, R_d in zip(ScipyRotation.random(40, rng=draw), ScipyRotation.random(40, rng=draw), strict=True):
-        u, after = command("synergistic", R_d * X, AT_REST, (q, 0.0, 0.0, 0.0), R_d)
+        u, after = commanded(regulator("synergistic"), R_d * X, AT_REST, R_d, GAINS, (q, 0.0, 0.0, 0.0))
         ends = [[shaped(X * ScipyRotation.from_rotvec(s * e), after[0]) for s in (h, -h)] for e in np.eye(3)]
         gradient = np.array([(there - back) / (2.0 * h) for there, back in ends])
         np.testing.assert_allclose(u, -GAINS.kp * (R_d * X).apply(gradient), rtol=0.0, atol=1e-7 * GAINS.kp)
@@ -64,7 +58,7 @@ def test_synergistic_law_changes_potential_where_one_is_at_rest_away_from_the_go
     Y = unwarp(brentq(lambda angle: angle - KAPPA * potential(unwarp(angle)), 0.0, 2.2 * KAPPA))
     assert warp(Y, q).approx_equal(half_turn, atol=1e-9)
     assert potential(half_turn) - potential(warp(Y, -q)) > 2.0 * GAP
-    u, after = command("synergistic", Y, AT_REST, (q, 0.0, 0.0, 0.0))
+    u, after = commanded(regulator("synergistic"), Y, AT_REST, HOME, GAINS, (q, 0.0, 0.0, 0.0))
     assert after[0] == -q
     assert np.linalg.norm(u) > 0.1 * GAINS.kp
 
@@ -73,24 +67,20 @@ def test_predicted_side_is_that_of_less_cost_by_more_than_its_margin():
     """Cost of the straight spring about the axis of the spin: x'Px, P by scipy from Lyapunov's equation."""
     A, feedback = np.array(((0.0, 1.0), (-GAINS.kp, -GAINS.kv))), np.array((GAINS.kp, GAINS.kv)) / GAINS.kp
     P = solve_continuous_lyapunov(A.T, -np.diag((1.0, 0.0)) - np.outer(feedback, feedback))
-    draw, changes = np.random.default_rng(4), 0
+    draw, changes, predicted = np.random.default_rng(4), 0, regulator("predicted-side")
     margin = 4.0 * math.pi * 0.8 * (1.0 / GAINS.kv + 0.5 * GAINS.kv / GAINS.kp)
-    for theta, rate, k in zip(draw.uniform(0.1, 6.1, 400), draw.normal(scale=20.0, size=400), axes(400), strict=True):
+    for theta, rate, k in zip(
+        draw.uniform(0.1, 6.1, 400), draw.normal(scale=20.0, size=400), directions(400, 5), strict=True
+    ):
         kept, other = np.array((theta, -rate)), np.array((2.0 * math.pi - theta, rate))
         is_kept = kept @ P @ kept - other @ P @ other <= margin
         side = (math.cos(theta / 2.0), *(math.sin(theta / 2.0) * k))
-        u, after = command("predicted-side", ScipyRotation.from_rotvec(-theta * k), rate * k, side)
+        u, after = commanded(predicted, ScipyRotation.from_rotvec(-theta * k), rate * k, HOME, GAINS, side)
         to_go = theta * k if is_kept else -(2.0 * math.pi - theta) * k
         np.testing.assert_allclose(u, GAINS.kp * to_go - GAINS.kv * rate * k, rtol=0.0, atol=1e-9 * GAINS.kp)
         assert np.dot(after, side) * (1.0 if is_kept else -1.0) > 0.0
         changes += not is_kept
     assert 100 < changes < 300
-
-
-def axes(count):
-    """Unit vectors, drawn."""
-    drawn = np.random.default_rng(5).normal(size=(count, 3))
-    return drawn / np.linalg.norm(drawn, axis=1, keepdims=True)
 
 
 def harden(eta, eps):
@@ -105,7 +95,7 @@ def limit(eta, eps):
 
 @pytest.mark.parametrize(("word", "formula"), [("joshi-kelkar-wen", harden), ("slew-limited", limit)])
 def test_error_is_the_formula_on_scipys_quaternion(word, formula):
-    for k, R_d in zip(axes(60), ScipyRotation.random(60, rng=7), strict=True):
+    for k, R_d in zip(directions(60, 5), ScipyRotation.random(60, rng=7), strict=True):
         for theta in (1e-6, 0.3, 1.0, 1.1, 2.5, math.pi - 1e-6):
             E = ScipyRotation.from_rotvec(theta * k)
             eta, *eps = E.as_quat(canonical=True, scalar_first=True)
@@ -116,6 +106,6 @@ def test_error_is_the_formula_on_scipys_quaternion(word, formula):
 def test_slew_limited_law_lets_no_rate_grow_beyond_its_limit():
     """At |omega| = Kp/Kv the power is not positive, whatever the orientation."""
     limit = GAINS.kp / GAINS.kv
-    for R, k in zip(ScipyRotation.random(200, rng=6), axes(200), strict=True):
+    for R, k in zip(ScipyRotation.random(200, rng=6), directions(200, 5), strict=True):
         u = regulator("slew-limited").law(of_scipy(R), vector(limit * k), Goal(of_scipy(R * R.inv())), GAINS)
         assert np.dot(u, k) <= 1e-12 * GAINS.kp

@@ -8,7 +8,8 @@ import mujoco
 import numpy as np
 import pytest
 from support.bits import EPS, same_bits
-from support.states import matrix
+from support.each import each
+from support.states import matrix, vector
 
 import tasks
 from bench.engines.compiled import compile_function, float64
@@ -28,14 +29,7 @@ def arguments(function) -> list[tuple]:
     return [*itertools.product(SIGNED, repeat=2), *itertools.pairwise(DRAWN)]
 
 
-def plain(function) -> np.ndarray:
-    with np.errstate(all="ignore"):
-        return np.array([function(*given) for given in arguments(function)])
-
-
-@pytest.fixture(params=PRIMITIVES, ids=lambda function: function.__name__)
-def primitive(request):
-    return request.param
+primitive = each(PRIMITIVES)
 
 
 def test_primitive_compiles_to_the_plain_call_bit_for_bit(primitive):
@@ -53,7 +47,8 @@ def test_primitive_compiles_to_the_plain_call_bit_for_bit(primitive):
 
     out = np.empty(len(given))
     compile_function(over, (float64[:, ::1], float64[::1]), cache=False)(given, out)
-    assert same_bits(out, plain(primitive))
+    with np.errstate(all="ignore"):
+        assert same_bits(out, [primitive(*numbers) for numbers in arguments(primitive)])
 
 
 @pytest.mark.parametrize("kind", [float, np.float64])
@@ -71,7 +66,6 @@ def test_primitive_keeps_the_type_it_is_given(primitive, kind):
         (acos, mpmath.acos, [(sin(x),) for x in DRAWN]),
         (atan2, mpmath.atan2, list(itertools.pairwise(DRAWN))),
     ],
-    ids=lambda value: getattr(value, "__name__", ""),
 )
 def test_primitive_is_within_one_last_place_of_the_true_value(function, true, given):
     for numbers in given:
@@ -122,8 +116,4 @@ def test_rotation_of_a_quaternion_is_mujocos_bit_for_bit():
     for start in STARTS:
         theirs = np.empty(9)
         mujoco.mju_quat2Mat(theirs, np.array(start.quat_wxyz))
-        assert same_bits(matrix(from_quaternion(vector4(start.quat_wxyz))), theirs.reshape(3, 3)), start.id
-
-
-def vector4(quat_wxyz) -> tuple:
-    return tuple(np.float64(x) for x in quat_wxyz)
+        assert same_bits(matrix(from_quaternion(vector(start.quat_wxyz))), theirs.reshape(3, 3)), start.id

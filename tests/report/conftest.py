@@ -1,6 +1,9 @@
-"""One browser for the tests of a module."""
+"""One browser for the tests of a module, and the published run for those whose pages read what is named."""
 
 import pytest
+
+from bench.experiments.tables import read
+from bench.experiments.tables.schema import RESULTS
 
 
 @pytest.fixture(scope="module")
@@ -11,3 +14,8 @@ def opened():
     with screenshots.browser() as driver:
         driver.set_script_timeout(300)
         yield driver
+
+
+@pytest.fixture
+def reference(monkeypatch):
+    monkeypatch.setenv(read.VARIABLE, str(RESULTS / "reference"))

@@ -1,18 +1,19 @@
-"""What the page on arms says of made-up rows and of the published poses: names, inverses, ranking, singularities."""
+"""What the pages on arms and compliance say and draw of made-up rows and of the published run."""
 
 import re
 
+import numpy as np
 import pandas as pd
 import pytest
+from support.pages import RUN
 
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-
-from bench.experiments.tables.schema import RESULTS
+import tasks
+from bench.findings.claims.side_by_side import predicted
 from report.figures.arms import arm_ranking, arm_rows, jacobians
-from report.figures.kit.page import run_in
+from report.figures.contact import compliance, hand_axes, in_contact
+from report.figures.contact.rows import PAPERS, PAPERS_EULER, level, of, of_task
 
 ARM = "puma560"
-RUN = run_in(RESULTS / "reference")
 
 
 def test_standard_inverse_goes_by_the_number_of_joints_and_rows():
@@ -64,3 +65,28 @@ def test_stock_pose_is_well_conditioned_and_on_the_pole():
     said = jacobians.describe_first(jacobians.papers(RUN, **jacobians.FIRST_EXAMPLE))
     # how large that of the angles is, rounding decides, up to a one with nothing before its power of ten
     assert re.search(r"number 7\.9 .* Jacobian ([2-9]·)?10[⁰¹²³⁴⁵⁶⁷⁸⁹]{2}, .* β = 90°", said)
+
+
+# ---------------------------------------------------------------------------- compliance
+
+
+@pytest.mark.parametrize("beta", [30, 60])
+def test_hand_is_drawn_turning_as_the_closed_form_of_the_papers_force_control_has_it(beta):
+    """About the axis, and as far, to the percent that the hand's own way costs where it turns by ten milliradians."""
+    probed = level(of_task(RUN, compliance.PROBE)).query("arm == 'ur5e'")  # goals without alpha and gamma
+    rows, plain = (of(probed, name, hand_axes.ORDER) for name in (PAPERS_EULER, PAPERS))
+    [C] = predicted(rows[rows["beta_deg"] == beta], "zyx-euler")
+    full = float(plain["c_xx"].median())
+    turns = hand_axes.turns(of_task(RUN, compliance.PROBE))
+    drawn = [one for one in turns if one["beta"] == beta and one["contender"] == PAPERS_EULER]
+    assert len(drawn) == 2
+    for one in drawn:
+        k = "xyz".index(one["pushed"])
+        across = np.linalg.norm(np.delete(C[:, k], k))
+        assert one["off"] == pytest.approx(np.degrees(np.arctan2(across, abs(C[k, k]))), abs=1.0)
+        assert one["share"] == pytest.approx(np.linalg.norm(C[:, k]) / full, rel=0.02)
+
+
+def test_every_task_in_contact_is_shown():
+    free = {"wrench-probe", "compliance-loop"}
+    assert set(in_contact.MEASURES) == set(tasks.contact_names()) - free

@@ -4,8 +4,6 @@ import numpy as np
 import pandas as pd
 import pytest
 
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.perturbed import Threshold, Way
 from bench.findings.selection import needs

@@ -5,17 +5,10 @@ import math
 import pandas as pd
 import pytest
 
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-
-from bench.experiments.tables import read
-from bench.experiments.tables.schema import RESULTS
 from report.figures.comparison import cells
 from report.figures.kit import families
 
-
-@pytest.fixture(autouse=True)
-def reference(monkeypatch):
-    monkeypatch.setenv(read.VARIABLE, str(RESULTS / "reference"))
+pytestmark = pytest.mark.usefixtures("reference")
 
 
 def episode(contender, start, outcome="settled", time=1.0, **more):

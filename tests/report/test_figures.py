@@ -6,8 +6,6 @@ from collections import Counter
 import pandas as pd
 import pytest
 
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-
 from bench.law.contenders.registry import contenders
 from bench.law.display import COLOURS, LINES
 from report.figures.kit import html, style

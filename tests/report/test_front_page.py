@@ -5,20 +5,16 @@ import re
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-
+from support.pages import RUN
 from support.states import as_rotation, vector
 
-from bench.experiments.tables.schema import RESULTS
 from bench.findings.selection.regions import find_default
 from bench.findings.selection.robots import ROBOTS, list_elsewhere
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import Gains, Goal
 from report.figures import index
-from report.figures.kit.page import REPORT, run_in, text_of
+from report.figures.kit.page import REPORT, text_of
 
-REFERENCE = RESULTS / "reference"
 [CODE] = re.findall(r"```python\n(.*?)```", text_of("index"), re.DOTALL)
 
 
@@ -37,7 +33,7 @@ def test_code_to_paste_is_the_advised_law_over_random_states():
 
 
 def test_front_page_names_every_need_with_its_law():
-    found, said = list_elsewhere(REFERENCE), index.list_needs(run_in(REFERENCE))
+    found, said = list_elsewhere(RUN.folder), index.list_needs(RUN)
     assert {robot.takes in " ".join(one.words for one in found) for robot in ROBOTS.values()} == {True}
     for one in found:
         named = re.findall(r"laws/([\w-]+)\.html", said.partition(one.words)[0]) if one.words in said else [""]

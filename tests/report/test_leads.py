@@ -7,14 +7,10 @@ import importlib
 import re
 
 import pytest
-
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-
 from support.leads import COMPUTED
+from support.pages import RUN
 
-from bench.experiments.tables import read
-from bench.experiments.tables.schema import RESULTS
-from report.figures.kit.page import REPORT, kinds_of, modules_of, pasted, run_in, word_of
+from report.figures.kit.page import REPORT, kinds_of, modules_of, pasted, word_of
 
 LEAD = re.compile(r"^(:{3,})\{div\} (?:lead|answer)\n(.*?)^\1$", re.DOTALL | re.MULTILINE)
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (REPORT / "index.md", *REPORT.glob("pages/*.md"))}
@@ -36,13 +32,12 @@ def list_numbers(text):
 
 
 @pytest.mark.parametrize("page", sorted({page for page, text in PAGES.items() if paste_lead(text)} | set(COMPUTED)))
-def test_lead_says_what_the_tables_say(page, monkeypatch):
-    monkeypatch.setenv(read.VARIABLE, str(RESULTS / "reference"))
+def test_lead_says_what_the_tables_say(page, reference):
     text, said, computed = PAGES[page], {}, COMPUTED[page]()
     for name in modules_of(text):
         module = importlib.import_module(f"report.figures.{name}")
         if kinds_of(module, text) and hasattr(module, "facts"):
-            facts = module.facts(run_in(RESULTS / "reference"))
+            facts = module.facts(RUN)
             said |= {f"{word_of(module, text)}{key}": str(value) for key, value in facts.items()}
     assert paste_lead(text) <= set(computed)
     for key, wanted in computed.items():

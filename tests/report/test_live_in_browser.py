@@ -1,8 +1,6 @@
 """The live page in a browser: episodes as recorded, keyboard, drag, address, copies, phone, and without a script."""
 
 import pytest
-
-pytest.importorskip("selenium", reason="the dev extra is not installed (cure: make setup)")
 import screenshots
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.support.ui import WebDriverWait

@@ -9,8 +9,6 @@ import pandas as pd
 import pytest
 from bs4 import BeautifulSoup
 
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-
 from bench.engines import counting
 from bench.experiments.tables import read
 from bench.law.contenders.registry import find_contender

@@ -1,9 +1,7 @@
 """The live page in a browser: its episodes are the recorded ones, and so are the colours of its ball."""
 
-import pytest
-
-pytest.importorskip("selenium", reason="the dev extra is not installed (cure: make setup)")
 import numpy as np
+import pytest
 import screenshots
 from support import live
 

@@ -4,6 +4,8 @@ import build
 import check_site
 import offline
 import pytest
+import typesetting
+from docutils import nodes
 
 
 def finished(folder):
@@ -163,9 +165,6 @@ def test_page_check_says_the_cure_when_nothing_is_built(tmp_path):
 
 
 def test_number_and_unit_stay_on_one_line_wherever_the_text_is_cut():
-    nodes = pytest.importorskip("docutils.nodes", reason="the report extra is not installed (cure: make setup)")
-    import typesetting
-
     pasted = nodes.inline("", "", nodes.Text("12"))
     block = nodes.paragraph("", "", pasted, nodes.Text(" % (n = 3) of starts in 5 ms, "), nodes.literal("", "2 s"))
     typesetting.close_up(block)
@@ -173,9 +172,6 @@ def test_number_and_unit_stay_on_one_line_wherever_the_text_is_cut():
 
 
 def test_punctuation_joins_its_own_formula_where_the_same_stands_elsewhere():
-    nodes = pytest.importorskip("docutils.nodes", reason="the report extra is not installed (cure: make setup)")
-    import typesetting
-
     word, formula = nodes.strong("", "a"), nodes.math("", "x")
     nodes.paragraph("", "", word, nodes.Text(", "), formula, nodes.Text(", "))
     typesetting.keep_punctuation(formula)

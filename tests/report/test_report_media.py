@@ -1,11 +1,8 @@
 """The rendered files of the report: there, small, of a start and contenders that exist and still do what is said."""
 
+import media as rendering
 import numpy as np
 import pytest
-
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-
-import media as rendering
 import three_fates
 from drawing import THEMES
 from support.tables import table

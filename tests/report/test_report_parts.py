@@ -20,13 +20,7 @@ from report.figures.method import method
 BIBLIOGRAPHY = (ROOT / "report" / "references.bib").read_text(encoding="utf-8")
 
 
-@pytest.fixture(autouse=True)
-def reference(monkeypatch):
-    monkeypatch.setenv(read.VARIABLE, str(RESULTS / "reference"))
-
-
-def shown():
-    return run_in(RESULTS / "reference")
+pytestmark = pytest.mark.usefixtures("reference")
 
 
 def test_every_law_has_a_page_with_its_source_and_its_files():

@@ -4,8 +4,6 @@ import math
 
 import pytest
 
-pytest.importorskip("matplotlib", reason="the report extra is not installed (cure: make setup)")
-
 from bench.cli.details import robustness as details
 from bench.experiments import plan
 from bench.experiments.choice import Choice

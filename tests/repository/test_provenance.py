@@ -8,7 +8,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from support.command_line import TINY
+from support.command_line import TINY, python
 
 from bench.base.provenance import DECIDING, ROOT, kept_in
 
@@ -33,8 +33,7 @@ def test_what_decides_rows_is_there(name):
 
 
 def test_digest_is_over_every_module_that_makes_rows():
-    told = subprocess.run([sys.executable, "-c", MODULES], cwd=ROOT, capture_output=True, text=True, check=True).stdout
-    files = {Path(line).relative_to(ROOT) for line in told.splitlines()}
+    files = {Path(line).relative_to(ROOT) for line in python("-c", MODULES).splitlines()}
     left = {one.as_posix() for one in files if not any(one.is_relative_to(name) for name in DECIDING)}
     assert left <= READ_ONLY
 

@@ -9,10 +9,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
+import yaml
 
 from bench.base.provenance import ROOT
-
-yaml = pytest.importorskip("yaml", reason="the report extra is not installed (cure: make report)")
 
 FILES = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
 TARGETS = set(re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
@@ -24,7 +23,7 @@ def steps(path: Path) -> list[dict]:
     return [step for job in content["jobs"].values() for step in job["steps"]]
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", FILES)
 def test_what_a_workflow_runs_is_a_target_or_a_script_of_ours(path):
     for step in steps(path):
         for line in step.get("run", "").splitlines():
@@ -33,13 +32,13 @@ def test_what_a_workflow_runs_is_a_target_or_a_script_of_ours(path):
             assert is_ours or line.strip().startswith(SYSTEM), line
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", FILES)
 def test_workflow_puts_no_text_of_others_into_a_shell(path):
     assert [step["run"] for step in steps(path) if "${{" in step.get("run", "")] == []
     assert "pull_request_target" not in yaml.safe_load(path.read_text()).get(True, {})
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", FILES)
 def test_workflow_names_its_permissions_keeps_no_credentials_and_pins_its_actions_by_digest(path):
     content = yaml.safe_load(path.read_text())
     assert all("permissions" in content or "permissions" in job for job in content["jobs"].values())

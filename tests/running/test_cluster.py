@@ -62,10 +62,6 @@ def tables(out: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in out.glob("*.parquet")}
 
 
-def address(client) -> str:
-    return client.scheduler.address
-
-
 def test_run_goes_on_with_another_scheduler(few, client, by_threads, tmp_path):
     told = []
 
@@ -100,7 +96,7 @@ def test_cluster_makes_the_bytes_that_threads_make_though_a_worker_is_killed(few
             os.kill(next(iter(pids.values())), signal.SIGKILL)
         told.append(unit)
 
-    run.run(few, tmp_path, scheduler=address(client), report=kill_one)
+    run.run(few, tmp_path, scheduler=client.scheduler.address, report=kill_one)
     assert by_threads.keys() == {f"{name}.parquet" for name in few.tables}
     assert tables(tmp_path) == by_threads
     assert sorted(unit.key for unit in told) == sorted(unit.key for unit in few.units)

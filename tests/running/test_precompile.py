@@ -11,6 +11,7 @@ from pathlib import Path
 
 import psutil
 import pytest
+from support.command_line import python
 
 from bench.base.processes import module_command
 from bench.base.provenance import ROOT
@@ -122,8 +123,7 @@ libc.fflush(None)
 
 def heaps(way: str) -> int:
     """How many heaps four threads have used, by the C library's own account."""
-    made = subprocess.run([sys.executable, "-c", ASKED, way], capture_output=True, text=True, check=True)
-    return len(re.findall("<heap nr=", made.stdout))
+    return len(re.findall("<heap nr=", python("-c", ASKED, way)))
 
 
 @pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="another C library has no arenas")

@@ -55,16 +55,13 @@ MANY = (*RUN, "--regulator", "rotation-matrix", "--count", "60", "--horizon", "1
 """Fifteen units of four episodes, each about a tenth of a second: time to be stopped in, on a busy machine too."""
 
 
-def heed_interrupts():
-    """For a child: a shell that starts the tests in the background has them, and theirs, ignore SIGINT."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-
-
 @pytest.fixture(scope="module")
 def interrupted(tmp_path_factory):
     """A run stopped by SIGINT after its first part: the finished process, what it printed, its folder."""
     out = tmp_path_factory.mktemp("interrupted") / "run"
-    process = python("-m", "bench", *MANY, "--out", out, start_new_session=True, preexec_fn=heed_interrupts)
+    # a shell that starts the tests in the background has them, and theirs, ignore SIGINT
+    heed = {"start_new_session": True, "preexec_fn": lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)}
+    process = python("-m", "bench", *MANY, "--out", out, **heed)
     while not list((out / "parts").glob("*.rows")) and process.poll() is None:
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)

@@ -147,7 +147,7 @@ def test_negative_quaternion_is_compared_with_the_positive():
 # --------------------------------------------------------------------------- the committed answers
 
 
-@pytest.mark.parametrize("library", [one for one in find().libraries if not one.is_restated], ids=lambda one: one.name)
+@pytest.mark.parametrize("library", [one for one in find().libraries if not one.is_restated])
 def test_committed_answers_are_what_the_library_says_here(library):
     """One version fails on the same numbers of rotations in three sets, in the same way."""
     table = read(FOLDER, "libraries")

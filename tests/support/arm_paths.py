@@ -6,15 +6,12 @@ import numpy as np
 from scipy.spatial.transform import Rotation, Slerp
 
 import tasks
+from support.states import rotation
 from tasks.kinematics import kinematics
 
 ARMS = tasks.arm_names()
 BETWEEN = 1.05
 """A bound was looked at every five degrees; between these points a condition number can be a little larger."""
-
-
-def rotation(quat):
-    return Rotation.from_quat(quat, scalar_first=True)
 
 
 def quats(rotations):

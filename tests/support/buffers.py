@@ -79,6 +79,14 @@ def symmetric(rows: int) -> dict:
         return {word: A @ A.T + 1e-3 * np.eye(rows) for word, A in matrices(rows, rows).items()}
 
 
+def state_of(model, q, qdot=0.0) -> mujoco.MjData:
+    """Return what MuJoCo makes of a model at these joint angles and rates."""
+    data = mujoco.MjData(model)
+    data.qpos[:], data.qvel[:] = q, qdot
+    mujoco.mj_forward(model, data)
+    return data
+
+
 def jacobian_of(model, data, site: str) -> np.ndarray:
     """MuJoCo's 6 x n of a site, linear rows first."""
     J = np.zeros((6, model.nv))

@@ -1,9 +1,13 @@
 """The command line as the tests call it: in this process, with its exit code and its two streams."""
 
 import hashlib
+import os
+import subprocess
+import sys
 from pathlib import Path
 from typing import NamedTuple
 
+from bench.base.provenance import ROOT
 from bench.cli import main
 
 ALONE = ("--experiment", "free-body")
@@ -11,6 +15,15 @@ ALONE = ("--experiment", "free-body")
 
 TINY = ("--suite", "quick", "--starts", "paper", "--regulator", "rotation-matrix", "--horizon", "0.1", *ALONE)
 """Three episodes of a hundred ticks on every engine that is named."""
+
+
+def python(*words, cwd=ROOT, code: int = 0, **variables: str | None) -> str:
+    """What Python prints in a process of its own, with these variables of the environment and without those of None."""
+    environment = {name: value for name, value in {**os.environ, **variables}.items() if value is not None}
+    command = [sys.executable, *map(str, words)]
+    done = subprocess.run(command, cwd=cwd, env=environment, capture_output=True, text=True)
+    assert done.returncode == code, done.stdout + done.stderr
+    return done.stdout
 
 
 class Said(NamedTuple):

@@ -12,14 +12,10 @@ EXACT.dps = 80
 STEP = EXACT.mpf(10) ** -20
 
 
-def as_method(name: str):
-    """Return a function of mpmath as a method of its numbers, which is how the law dialect calls it."""
-    return lambda *numbers: getattr(EXACT, name)(*numbers)
-
-
+# functions of mpmath as methods of its numbers, which is how the law dialect calls them
 EXACT.mpf.tally = None
 for _name in ("sqrt", "sin", "cos", "acos", "atan2"):
-    setattr(EXACT.mpf, _name, as_method(_name))
+    setattr(EXACT.mpf, _name, lambda *numbers, name=_name: getattr(EXACT, name)(*numbers))
 EXACT.mpf.ratan2 = lambda x, y: EXACT.atan2(y, x)
 EXACT.mpf.copysign = lambda x, sign: -abs(x) if sign < 0 else abs(x)
 EXACT.mpf.rcopysign = lambda sign, x: EXACT.mpf(x).copysign(sign)
@@ -31,23 +27,26 @@ def exact_matrix(to_matrix, E):
     return EXACT.matrix([[columns[j][i] for j in range(3)] for i in range(3)])
 
 
+def path(to_matrix, E, Edot, Eddot):
+    """Return R, Rdot and Rddot of the path E + Edot t + Eddot t^2/2 at t = 0."""
+
+    def at(t):
+        terms = zip(E, Edot, Eddot, strict=False)
+        return exact_matrix(
+            to_matrix, [EXACT.mpf(e) + t * EXACT.mpf(d) + t * t * EXACT.mpf(a) / 2 for e, d, a in terms]
+        )
+
+    behind, here, ahead = at(-STEP), at(0), at(STEP)
+    return here, (ahead - behind) / (2 * STEP), (ahead - 2 * here + behind) / STEP**2
+
+
 def motion(to_matrix, E, Edot, Eddot=(0.0, 0.0, 0.0, 0.0)):
-    """(omega, omegadot), base frame, of the path E + Edot t + Eddot t^2/2 at t = 0.
+    """(omega, omegadot), base frame, of that path at t = 0.
 
     [omega]x = Rdot R^T (Murphy 1988, 2.7), and [omegadot]x is the skew part of Rddot R^T.
     """
-
-    def at(t):
-        return exact_matrix(to_matrix, [_taylor(t, *terms) for terms in zip(E, Edot, Eddot, strict=False)])
-
-    behind, here, ahead = at(-STEP), at(0), at(STEP)
-    first = (ahead - behind) / (2 * STEP)
-    second = (ahead - 2 * here + behind) / STEP**2
-    return _axial(first * here.T), _axial(second * here.T)
-
-
-def _taylor(t, e, edot, eddot):
-    return EXACT.mpf(e) + t * EXACT.mpf(edot) + t * t * EXACT.mpf(eddot) / 2
+    R, first, second = path(to_matrix, E, Edot, Eddot)
+    return _axial(first * R.T), _axial(second * R.T)
 
 
 def _axial(A) -> list:
@@ -61,8 +60,3 @@ def exact_B(to_matrix, E):
     units = [[int(i == j) for i in range(count)] for j in range(count)]
     images = [motion(to_matrix, E, unit)[0] for unit in units]
     return EXACT.matrix([[images[j][i] for j in range(count)] for i in range(3)])
-
-
-def rows_of(A) -> list[list]:
-    """A matrix as lists of its rows."""
-    return [[A[i, j] for j in range(A.cols)] for i in range(A.rows)]

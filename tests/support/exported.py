@@ -10,14 +10,14 @@ import pytest
 from bench.engines.compiled import EVALUATE, GAINS, MATRIX, compile_function, types
 from bench.engines.simulate import evaluation
 from bench.export.language import find_language
-from bench.export.subject import Subject, find_subject, subject_words
+from bench.export.subject import Subject
 from bench.law.contender import Contender
-from bench.law.contenders.registry import all_contenders
 from bench.law.inputs import AT_REST, PAPERS_GAINS, Gains, Goal
 from bench.law.so3 import Rotation, from_quaternion
 
 STATES = 100_000
 KP, KV = PAPERS_GAINS
+NODE = str(Path(shutil.which("node") or "/usr/bin/node").parent)
 WIDTH, ANSWERS = 25, 7
 """Numbers of a state: R, omega, R_d (matrices by rows) and a memory; of an answer: u, and the memory."""
 
@@ -26,12 +26,6 @@ def needs(*tools: str):
     """Skip where a tool is missing, with its cure."""
     absent = [tool for tool in tools if shutil.which(tool) is None]
     return pytest.mark.skipif(bool(absent), reason=f"no {', '.join(absent)} here (Debian: apt install gcc g++ nodejs)")
-
-
-@functools.cache
-def subjects() -> tuple[Subject, ...]:
-    """Everything that is exported."""
-    return tuple(find_subject(word) for word in subject_words())
 
 
 def written(subject: Subject, language: str, folder: Path, is_tested: bool = True) -> Path:
@@ -43,11 +37,6 @@ def written(subject: Subject, language: str, folder: Path, is_tested: bool = Tru
     for name, text in chosen.files(subject).items() if is_tested else laws_alone:
         (here / name).write_text(text, encoding="utf-8")
     return here
-
-
-def laws() -> list[Contender]:
-    """Every law, in every representation."""
-    return all_contenders()
 
 
 @functools.cache

@@ -8,7 +8,7 @@ import psutil
 from bench.law.contenders.law_process import TOKEN
 from support.user_law import law_text, spring_text
 
-WAITS, LOOPS, MISREAD = "it did not return", "it did not return within 1 s", "its process did not say what it is"
+WAITS, LOOPS = "it did not return", "it did not return within 1 s"
 WRITTEN = """
 def written(said):
     for line in range(3, 64):

@@ -25,18 +25,15 @@ from bench.running import run
 EVENTS = {"open", "os.mkdir", "os.remove", "os.rename", "os.rmdir", "os.chmod"}
 
 
-def plan_of(words: tuple, start_sets: tuple, engines: tuple, count: int, kp: float = 100.0) -> plan.Plan:
-    """Return a small plan of the free body with curves, boundaries and costs."""
-    laws = [find_contender(word) for word in words]
-    settings: dict[str, Any] = {"count": count, "horizon_s": 0.25, "gains": Gains(kp, 20.0)}
-    made = plan.make("quick", laws, Choice(("free-body",), start_sets, engines), **settings)
-    names = {unit.contender for unit in made.of("free-body")}
-    units = [unit for unit in made.of("free-body", "costs") if unit.contender in names]
-    units += [of_law(one, 2) for of_law in (traces.of_law, boundaries.of_law) for one in laws]
-    return dataclasses.replace(made, units=tuple(units))
+def plan_of(kp: float) -> plan.Plan:
+    """Return a small plan of one law on the free body with curves, boundaries and costs."""
+    law, choice = find_contender("rotation-matrix"), Choice(("free-body",), ("paper", "tumbling"), ("ideal-rk4",))
+    made = plan.make("quick", [law], choice, count=3, horizon_s=0.25, gains=Gains(kp, 20.0))
+    units = [unit for unit in made.of("free-body", "costs") if unit.contender == law.name]
+    return dataclasses.replace(made, units=(*units, traces.of_law(law, 2), boundaries.of_law(law, 2)))
 
 
-SHORT, OTHER = (plan_of(("rotation-matrix",), ("paper", "tumbling"), ("ideal-rk4",), 3, kp) for kp in (100.0, 50.0))
+SHORT, OTHER = (plan_of(kp) for kp in (100.0, 50.0))
 """Five units, so few files: killed at every one of its file operations. OTHER is what SHORT replaces."""
 
 
@@ -47,19 +44,14 @@ class Undisturbed(NamedTuple):
     files: dict
 
 
-def start(
-    one: plan.Plan,
-    out: Path,
-    workers: int,
-    before: Callable[[], None] = lambda: None,
-) -> int:
+def start(one: plan.Plan, out: Path, before: Callable[[], None] = lambda: None) -> int:
     """Start a run in a process of its own, and return its id."""
     child = os.fork()
     if child:
         return child
     try:
         before()
-        run.run(one, out, workers=workers, replace=True)
+        run.run(one, out, workers=1, replace=True)
         os._exit(0)
     finally:
         os._exit(1)
@@ -86,17 +78,11 @@ def undisturbed(one: plan.Plan, out: Path) -> Undisturbed:
     return Undisturbed(one, files_of(out))
 
 
-def resumed(wanted: Undisturbed, out: Path, workers: int) -> dict:
-    """Resume a killed run, and return how far it had come and what it ends with."""
-    far = how_far(out)
-    code = ended(start(wanted.plan, out, workers))
-    return {**far, "code": code, "same": files_of(out) == wanted.files}
-
-
-def how_far(out: Path) -> dict:
-    """Return what lies in the folder of a killed run, and how many of its units are done."""
-    names = sorted(path.name for path in out.glob("*"))
-    return {"names": names, "parts": len(list((out / "parts").glob("*.rows")))}
+def resumed(wanted: Undisturbed, out: Path) -> dict:
+    """Resume a killed run, and return what lay in its folder, its units that were done, and what it ends with."""
+    names, parts = sorted(path.name for path in out.glob("*")), len(list((out / "parts").glob("*.rows")))
+    code = ended(start(wanted.plan, out))
+    return {"names": names, "parts": parts, "code": code, "same": files_of(out) == wanted.files}
 
 
 def is_file_below(out: Path, path: Any, _: Any, flags: int) -> bool:
@@ -126,15 +112,15 @@ def at_every_file_operation(
     while True:
         out = template.with_name(f"{template.name}-{len(found)}")
         shutil.copytree(template, out)
-        if ended(start(wanted.plan, out, 1, before=killing_at(len(found), out))) == 0 or is_over(out):
+        if ended(start(wanted.plan, out, before=killing_at(len(found), out))) == 0 or is_over(out):
             return found
-        found.append(resumed(wanted, out, 1))
+        found.append(resumed(wanted, out))
 
 
 def while_clearing(wanted: Undisturbed, folder: Path) -> list[dict]:
     """Kill a run that replaces a finished one of another plan, with parts, until the new plan is there."""
     template = folder / "clearing"
-    ended(start(OTHER, template, 1))
+    ended(start(OTHER, template))
     for name in ("a.parquet", ".a.parquet.b.tmp"):
         write_atomically(template / "parts" / name, lambda path: Path(path).write_text("half"))
 

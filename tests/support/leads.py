@@ -34,11 +34,6 @@ from support.tables import table
 from tasks.condition import condition_at
 
 
-def name_together(laws):
-    """Return the words of the first three laws and how many more, or of four laws and fewer all."""
-    return list_together([word(law) for law in laws])
-
-
 def list_together(words):
     """Return the first three words and how many more, or four and fewer whole."""
     return words if len(words) <= 4 else [*words[:3], len(words) - 3]
@@ -119,7 +114,7 @@ def recompute_noise():
 def recompute_velocities():
     rows = table("velocity-limits").query("law == 'rotation-vector' and arm == '' and share == 1 and reach == 'near'")
     one = velocities().decide(VELOCITY.need)
-    said = [word(one.law), *name_together(one.tied)] if one.tied else [word(one.law), len(one.asked)]
+    said = [word(one.law), *list_together([*map(word, one.tied)])] if one.tied else [word(one.law), len(one.asked)]
     return {"log_limit": f"{rows['k_dt'].iloc[0]:.3g}", "lead": said}
 
 

@@ -3,7 +3,7 @@
 import json
 
 import numpy as np
-from scipy.stats import binomtest, fisher_exact
+from scipy.stats import binomtest
 
 import tasks
 from bench.audit.examined import COUNT_RAD
@@ -41,19 +41,6 @@ def recompute_compliance():
     off = {beta: np.degrees(np.arctan2(np.hypot(*C[beta][1:, 0]), abs(C[beta][0, 0]))) for beta in betas}
     said = ", ".join(f"{value:.0f}° at β = {beta:.0f}°" for beta, value in off.items())
     return {"off": said, "in_contact.flat": recompute_flat()}
-
-
-def recompute_pegs(form):
-    rows = contact("peg-in-hole").query("form == @form")
-    tallies = []
-    for who in (CARTESIAN, EULER):
-        own = rows[rows["who"] == who]
-        leans, out = own["tilt_deg"] != 0, ~(own["jam"] == 0.0)
-        tallies.append((out.sum(), len(own), (out & leans).sum(), leans.sum()))
-    p = fisher_exact([(bad, n - bad) for *_, bad, n in tallies]).pvalue
-    mantissa, exponent = f"{p:.1e}".split("e")
-    said = [f"{p:.2g}"] if p >= 1e-3 else [mantissa, 10, int(exponent)]
-    return [*tallies[0], *tallies[1], "differ significantly" if p < 0.05 else "not differ", *said]
 
 
 def recompute_flat():

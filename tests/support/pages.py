@@ -2,8 +2,12 @@
 
 import re
 
+from bench.experiments.tables.schema import RESULTS
 from report.figures.kit import style
-from report.figures.kit.page import ABSENT, contents, text_of
+from report.figures.kit.page import ABSENT, contents, run_in, text_of
+
+RUN = run_in(RESULTS / "reference")
+"""The published run."""
 
 TWINS = {colour.lower() for pair in style.TWINS.items() for colour in pair}
 COLOUR = re.compile(r"#[0-9a-fA-F]{6}\b")

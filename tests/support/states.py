@@ -8,6 +8,7 @@ import functools
 import itertools
 
 import numpy as np
+from scipy.spatial.transform import Rotation as ScipyRotation
 
 import tasks
 from bench.law.so3 import Rotation
@@ -27,8 +28,19 @@ def of_scipy(turn) -> Rotation:
     return as_rotation(turn.as_matrix().T)
 
 
+def rotation(quats_wxyz) -> ScipyRotation:
+    """Return scipy's rotation of a quaternion, or of a stack of them."""
+    return ScipyRotation.from_quat(quats_wxyz, scalar_first=True)
+
+
+def directions(count: int, seed: int) -> np.ndarray:
+    """Return unit vectors, drawn."""
+    drawn = np.random.default_rng(seed).normal(size=(count, 3))
+    return drawn / np.linalg.norm(drawn, axis=1, keepdims=True)
+
+
 def vector(numbers) -> tuple:
-    """Three numpy.float64."""
+    """Numbers, mostly three, as numpy.float64."""
     return tuple(np.float64(x) for x in numbers)
 
 

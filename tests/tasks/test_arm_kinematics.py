@@ -14,6 +14,7 @@ import numpy as np
 import pinocchio
 import pytest
 from scipy.spatial.transform import Rotation
+from support.buffers import inertia_of, state_of
 
 import tasks
 from tasks.kinematics import Kinematics
@@ -120,16 +121,14 @@ def pinocchios_ur5e() -> pinocchio.Model:
 def test_ur5e_weighs_and_swings_as_pinocchio_says_from_the_makers_tables():
     """fg at rest and in motion, and D less the motors', at 100 poses; at rest no joint takes half its rated torque."""
     theirs, ours = pinocchios_ur5e(), Kinematics(tasks.arm("ur5e")).model
-    known, data, D = theirs.createData(), mujoco.MjData(ours), np.zeros((6, 6))
+    known = theirs.createData()
     for q in poses("ur5e", 100):
         for rates in (np.zeros(6), np.linspace(-2.0, 3.0, 6)):
-            data.qpos[:], data.qvel[:] = q, rates
-            mujoco.mj_forward(ours, data)
+            data = state_of(ours, q, rates)
             expected = pinocchio.nonLinearEffects(theirs, known, q, rates)
             assert np.abs(data.qfrc_bias - expected).max() <= ROUNDING * 100.0  # torques of up to 100 N m
             assert rates.any() or (np.abs(expected) < 0.5 * np.array(tasks.arm("ur5e").rated)).all()
-        mujoco.mj_fullM(ours, data, D)
-        expected = pinocchio.crba(theirs, known, q)
+        D, expected = inertia_of(ours, data), pinocchio.crba(theirs, known, q)
         expected = np.triu(expected) + np.triu(expected, 1).T
         assert np.abs(D - np.diag(ours.dof_armature) - expected).max() <= ROUNDING * D.max()
 
@@ -139,13 +138,9 @@ def test_jaco_is_dm_controls_own_model():
     path = files("dm_control") / "third_party" / "kinova" / "jaco_arm.xml"
     theirs = mujoco.MjModel.from_xml_path(str(path))
     ours = Kinematics(tasks.arm("jaco")).model
-    a, b = mujoco.MjData(theirs), mujoco.MjData(ours)
-    D, E = np.zeros((6, 6)), np.zeros((6, 6))
     for q in poses("jaco"):
-        for model, data, M in ((theirs, a, D), (ours, b, E)):
-            data.qpos[:], data.qvel[:] = q, 1.0
-            mujoco.mj_forward(model, data)
-            mujoco.mj_fullM(model, data, M)
+        a, b = (state_of(model, q, 1.0) for model in (theirs, ours))
+        D, E = inertia_of(theirs, a), inertia_of(ours, b)
         assert np.abs(a.site("wristsite").xpos - b.site("tool").xpos).max() <= ROUNDING
         assert np.abs(a.site("wristsite").xmat - b.site("tool").xmat).max() <= ROUNDING
         assert np.abs(D - E).max() <= ROUNDING * D.max()
@@ -168,7 +163,4 @@ def test_inertia_at_the_nominal_pose_of_the_puma_is_the_published_one():
 def test_gravity_at_the_nominal_and_the_zero_pose_of_the_puma_is_the_published_one():
     model = Kinematics(tasks.arm("puma560")).model
     for q, published in ((NOMINAL, [0.0, 31.640, 6.035, 0.0, 0.0283, 0.0]), ((0.0,) * 6, [0, 37.484, 0.249, 0, 0, 0])):
-        data = mujoco.MjData(model)
-        data.qpos[:] = q
-        mujoco.mj_forward(model, data)
-        assert data.qfrc_bias == pytest.approx(published, abs=5e-4)  # the table's last digit
+        assert state_of(model, q).qfrc_bias == pytest.approx(published, abs=5e-4)  # the table's last digit

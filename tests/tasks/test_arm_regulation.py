@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from dm_control.rl.control import PhysicsError
 from scipy.spatial.transform import Rotation
+from support.states import rotation
 
 import tasks
 from tasks.base import IDENTITY, Start
@@ -136,7 +137,7 @@ def test_free_rotation_is_the_matrix_exponential_and_momentum_is_conserved(integ
         for _ in range(500):
             observation = environment.step([0.0, 0.0, 0.0]).observation
         turned = Rotation.from_rotvec(0.5 * np.array(start.omega))
-        expected = turned * Rotation.from_quat(start.quat_wxyz, scalar_first=True)
+        expected = turned * rotation(start.quat_wxyz)
         # 500 products of quaternions, each rounded to about 1e-16 and adding up at worst
         np.testing.assert_allclose(matrix(observation), expected.as_matrix(), rtol=0, atol=5e-13)
         np.testing.assert_allclose(observation["omega"], start.omega, rtol=0, atol=1e-12)
@@ -150,7 +151,7 @@ def test_euler_step_turns_with_the_new_velocity():
         u = np.array([400.0, -300.0, 200.0])
         observation = environment.step(u).observation
         turned = Rotation.from_rotvec(DT * (np.array(start.omega) + DT * u))
-        expected = turned * Rotation.from_quat(start.quat_wxyz, scalar_first=True)
+        expected = turned * rotation(start.quat_wxyz)
         np.testing.assert_allclose(matrix(observation), expected.as_matrix(), rtol=0, atol=2e-15)
 
 

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation, Slerp
-from support.arm_paths import ARMS, BETWEEN, conditions, cos_beta, evenly, geodesic, in_range, middle, rotation, walked
+from support.arm_paths import ARMS, BETWEEN, conditions, cos_beta, evenly, geodesic, in_range, middle, walked
+from support.states import rotation
 
 import tasks
 from tasks.base import haversine

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support.states import rotation
 
 import tasks
 from tasks.kinematics import kinematics, rotation_vector
@@ -21,10 +22,6 @@ def model(request):
 def poses(model, count=20, width=1.0, seed=SEED):
     spread = np.random.default_rng(seed).uniform(-width, width, size=(count, model.arm.joints))
     return np.array(model.arm.home) + spread
-
-
-def rotation(quat):
-    return Rotation.from_quat(quat, scalar_first=True)
 
 
 def test_jacobian_is_the_derivative_of_the_pose(model):

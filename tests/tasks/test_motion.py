@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 from scipy.spatial.transform import Rotation, Slerp
+from support.states import rotation
 
 from tasks.goal_stream import LENGTH_S, PERIOD_S, STREAMS, canonical, continued, goals, rotation_vector, sent, true_goal
 from tasks.moving_goal import reference_column, reference_rates
@@ -57,7 +58,7 @@ def test_turned_quaternion_is_scipys(angle):
         turn = angle * axis / np.linalg.norm(axis)
         found = turned(tuple(quat.as_quat(scalar_first=True)), tuple(turn))
         expected = (Rotation.from_rotvec(turn) * quat).as_matrix()
-        np.testing.assert_allclose(Rotation.from_quat(found, scalar_first=True).as_matrix(), expected, atol=2e-15)
+        np.testing.assert_allclose(rotation(found).as_matrix(), expected, atol=2e-15)
         assert np.linalg.norm(found) == pytest.approx(1.0, abs=3e-16)
 
 
@@ -83,12 +84,8 @@ COUNT = round(PERIOD_S / DT)
 BY_NAME = {one.name: one for one in STREAMS}
 
 
-def scipy(q):
-    return Rotation.from_quat(q, scalar_first=True)
-
-
 def filled(name):
-    return scipy(goals(BY_NAME[name], DT))
+    return rotation(goals(BY_NAME[name], DT))
 
 
 def steps_of(rotations):
@@ -99,12 +96,12 @@ def steps_of(rotations):
 def test_log_and_slerp_by_the_nearer_sign_are_scipys_slerp(name):
     times = np.arange(len(sent())) * PERIOD_S
     at = np.arange(COUNT * (len(times) - 1)) * DT
-    expected = Slerp(times, scipy(sent()))(at)
+    expected = Slerp(times, rotation(sent()))(at)
     assert np.max((filled(name).inv() * expected).magnitude()) < 1e-14
 
 
 def test_rotation_vectors_are_scipys_up_to_180_degrees():
-    np.testing.assert_allclose(rotation_vector(canonical(sent())), scipy(sent()).as_rotvec(), atol=1e-14)
+    np.testing.assert_allclose(rotation_vector(canonical(sent())), rotation(sent()).as_rotvec(), atol=1e-14)
 
 
 def test_true_goal_passes_180_degrees_once():
@@ -115,13 +112,13 @@ def test_true_goal_passes_180_degrees_once():
 @pytest.mark.parametrize("name", BY_NAME)
 def test_every_stream_meets_the_goals_that_were_sent(name):
     found = filled(name)[::COUNT]
-    assert np.max((found.inv() * scipy(sent()[:-1])).magnitude()) < 1e-14
+    assert np.max((found.inv() * rotation(sent()[:-1])).magnitude()) < 1e-14
 
 
 @pytest.mark.parametrize("name", ["rotation-vector", "quaternion", "slerp"])
 def test_flip_adds_nearly_a_whole_turn(name):
     extra = steps_of(filled(name)).sum() - steps_of(filled("log")).sum()
-    step = steps_of(scipy(sent())).max()
+    step = steps_of(rotation(sent())).max()
     assert 2.0 * math.pi - 3.0 * step < extra < 2.0 * math.pi
 
 

@@ -6,8 +6,8 @@ import re
 import numpy as np
 import pytest
 from scipy import stats
-from scipy.spatial.transform import Rotation
 from scipy.stats import qmc
+from support.states import rotation
 
 import tasks
 from tasks.base import AT_REST, IDENTITY, Start, angle
@@ -20,7 +20,7 @@ DIRECTED = ("paper", "half-turn", "poles", "wraps", "box")
 
 
 def rotations(starts):
-    return Rotation.from_quat([start.quat_wxyz for start in starts], scalar_first=True)
+    return rotation([start.quat_wxyz for start in starts])
 
 
 def euler_angles(starts):

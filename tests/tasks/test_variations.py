@@ -3,6 +3,7 @@
 import mujoco
 import numpy as np
 import pytest
+from support.buffers import inertia_of, state_of
 
 import tasks
 from tasks.arm_model import model_xml
@@ -38,24 +39,11 @@ def compiled_anew(arm: str, factors) -> mujoco.MjModel:
     return spec.compile()
 
 
-def inertia(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarray:
-    D = np.zeros((model.nv, model.nv))
-    mujoco.mj_fullM(model, data, D)
-    return D
-
-
 def states(arm: str, count: int, qdot: float = 0.0):
     rng = np.random.default_rng(7)
     joints = tasks.arm(arm).joints
     for _ in range(count):
         yield rng.uniform(-np.pi, np.pi, joints), qdot * rng.standard_normal(joints)
-
-
-def at(model: mujoco.MjModel, q, qdot) -> mujoco.MjData:
-    data = mujoco.MjData(model)
-    data.qpos[:], data.qvel[:] = q, qdot
-    mujoco.mj_forward(model, data)
-    return data
 
 
 def test_nominal_is_first_and_ideal_motors_change_nothing():
@@ -72,7 +60,7 @@ def test_nominal_is_first_and_ideal_motors_change_nothing():
 def test_motors_give_no_more_than_their_rating_and_joints_stop(arm, name):
     found = tasks.arm(arm)
     model = compiled(arm, name)
-    data = at(model, found.home, np.zeros(model.nv))
+    data = state_of(model, found.home)
     data.ctrl[:] = 10.0 * np.array(found.rated)
     mujoco.mj_forward(model, data)
     np.testing.assert_array_equal(data.qfrc_actuator, found.rated)
@@ -80,7 +68,7 @@ def test_motors_give_no_more_than_their_rating_and_joints_stop(arm, name):
         if np.isfinite(upper):
             q = np.array(found.home)
             q[joint] = upper + 0.05
-            assert at(model, q, np.zeros(model.nv)).qfrc_constraint[joint] < 0.0
+            assert state_of(model, q).qfrc_constraint[joint] < 0.0
 
 
 DERIVED = ("body_subtreemass", "body_invweight0", "dof_invweight0", "dof_M0", "body_mass", "body_inertia")
@@ -98,8 +86,8 @@ def test_derived_constants_are_those_of_a_model_compiled_anew(arm, name):
         # MuJoCo's weights come from its solve with D, whose condition number is below 1e3 on these arms: 1e-13.
         assert np.abs(found - expected).max() <= 1e-12 * np.abs(expected).max(), constant
     for q, qdot in states(arm, 3, qdot=1.0):
-        a, b = at(varied, q, qdot), at(anew, q, qdot)
-        assert np.abs(inertia(varied, a) - inertia(anew, b)).max() <= 1e-13 * inertia(anew, b).max()
+        a, b = state_of(varied, q, qdot), state_of(anew, q, qdot)
+        assert np.abs(inertia_of(varied, a) - inertia_of(anew, b)).max() <= 1e-13 * inertia_of(anew, b).max()
         assert np.abs(a.qfrc_bias - b.qfrc_bias).max() <= 1e-13 * np.abs(b.qfrc_bias).max()
 
 
@@ -117,7 +105,7 @@ def test_links_draws_differ_from_link_to_link_and_draw_to_draw(arm):
 def pushed(arm: str, name: str, joint: int, torque: float) -> tuple[float, float]:
     """Speed of a joint [rad/s] half a second after a torque was put on it, gravity held; and MuJoCo's 1/m."""
     found, model = tasks.arm(arm), compiled(arm, name)
-    data = at(model, found.home, np.zeros(model.nv))
+    data = state_of(model, found.home)
     held = data.qfrc_bias.copy()
     for _ in range(500):
         data.ctrl[:] = held
@@ -141,5 +129,5 @@ def test_arm_pushed_below_the_friction_level_stays_put(arm, name, fraction):
 @pytest.mark.parametrize(("name", "fraction"), FRICTIONS.items())
 def test_joint_that_turns_is_slowed_by_that_per_cent_of_its_rated_torque(arm, name, fraction):
     found, model = tasks.arm(arm), compiled(arm, name)
-    data = at(model, found.home, np.ones(model.nv))
+    data = state_of(model, found.home, np.ones(model.nv))
     np.testing.assert_allclose(data.qfrc_constraint, -fraction * np.array(found.rated), rtol=1e-9)
