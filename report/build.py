@@ -9,8 +9,6 @@ out the text of the pages: while it stays, cells keep their stored outputs (jupy
 cells' own text); when it moves, every cell runs again.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

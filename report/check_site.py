@@ -4,8 +4,6 @@ A page must load nothing from the network, have no dead local link or anchor, de
 words, hold one main heading, no repeated id and no directive as text; the site must stay within its size budget.
 """
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from pathlib import Path

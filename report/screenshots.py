@@ -4,8 +4,6 @@ The browser tests drive it. Needs selenium (the dev extra) and Debian's chromium
 nothing is downloaded.
 """
 
-from __future__ import annotations
-
 import contextlib
 import importlib.util
 import json

@@ -3,8 +3,6 @@
 Orientations come from the compiled engine tick by tick, as in the episodes of the results (ideal-rk4, half-turn).
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any, NamedTuple
 

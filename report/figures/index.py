@@ -1,7 +1,5 @@
 """What the front page shows: three fates of one start, the default, and what leads to another law."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from bench.findings.selection.regions import find_bounds, find_default

@@ -1,7 +1,5 @@
 """The map of advice as a picture that the reader changes: report/_extra/advice.js draws it."""
 
-from __future__ import annotations
-
 import html as markup
 import json
 import math

@@ -1,7 +1,5 @@
 """Which controllers settle on arms as they are, and what limits them: motors, stops, gains."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Iterator
 

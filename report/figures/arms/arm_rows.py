@@ -4,8 +4,6 @@ A way is `law@jacobian+inverse`, with "standard" for the inverse that is taken i
 seven share a line: it is another one for each.
 """
 
-from __future__ import annotations
-
 import functools
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The page on arms: which laws settle on arms as they are, what limits them, and what a wrong model leaves."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 

@@ -1,7 +1,5 @@
 """The page on robots commanded in velocity: what is advised, the limits of K dt, and which laws stick or unwind."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import pandas as pd

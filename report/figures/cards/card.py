@@ -1,7 +1,5 @@
 """The page of a law of any kind: a card of fields, its files for other languages, and its source."""
 
-from __future__ import annotations
-
 import ast
 import html as markup
 import re

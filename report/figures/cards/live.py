@@ -3,8 +3,6 @@
 The laws, the plant and the judge are those that are measured, translated (`bench.export.browser`).
 """
 
-from __future__ import annotations
-
 import html as markup
 import itertools
 import json

@@ -1,7 +1,5 @@
 """The laws: a line of a table each, and a card; nothing of it is typed here."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The verdicts on a page: how many of each, and the table. All words are the claim's own."""
 
-from __future__ import annotations
-
 from bench.findings import claims
 from bench.findings.claims import Verdict, Word
 from report.figures.kit import html

@@ -1,7 +1,5 @@
 """The page on the law that brakes late: how slow, strong and dear it is."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

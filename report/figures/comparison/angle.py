@@ -1,7 +1,5 @@
 """Settling time against the initial angle of the laws that turn about one fixed axis: measured, and the closed form."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

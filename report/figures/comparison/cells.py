@@ -1,7 +1,5 @@
 """What laws are compared by: the starts that all ran, and numbers of a law's rows as a table's cells."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 
 import numpy as np

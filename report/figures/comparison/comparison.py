@@ -1,7 +1,5 @@
 """The page that compares all laws: on the same uniform starts, at the same gains and at the same peak command."""
 
-from __future__ import annotations
-
 import functools
 import math
 

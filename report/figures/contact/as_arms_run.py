@@ -1,7 +1,5 @@
 """The page on impedance without inertia shaping: damping felt by mode, and the control periods that are stable."""
 
-from __future__ import annotations
-
 import functools
 
 import pandas as pd

@@ -1,7 +1,5 @@
 """The page on tasks in contact: a plate, a peg, a crank and a plane, by controller and frame of the hand."""
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Iterator
 from typing import NamedTuple

@@ -1,7 +1,5 @@
 """The page on cost: operations of each law, the printed form beside the lean one, a law's share of a controller."""
 
-from __future__ import annotations
-
 import functools
 import json
 import math

@@ -1,7 +1,5 @@
 """Texts of a figure that overlap each other or leave the figure, by matplotlib's own bounding boxes."""
 
-from __future__ import annotations
-
 import itertools
 
 from matplotlib.figure import Figure

@@ -4,8 +4,6 @@ Their looks are in report/_static/report.css. Tables are Markdown, so that links
 cells are checked when the report is built; the rest is HTML.
 """
 
-from __future__ import annotations
-
 import math
 import numbers
 import re

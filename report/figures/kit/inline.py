@@ -5,8 +5,6 @@ of `light-dark(light, dark)`, which the theme's `color-scheme` decides. Ids are 
 share a page.
 """
 
-from __future__ import annotations
-
 import functools
 import html
 import inspect

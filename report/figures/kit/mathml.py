@@ -1,7 +1,5 @@
 """Formulas from TeX to MathML when the book is built, so that a page needs no script for them."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from xml.etree import ElementTree

@@ -7,8 +7,6 @@ modules on a page give what it pastes under their own word: `spread` of response
 and the claims' NoEvidence) are not in this run, and the page says so. A key that the page does not paste is an error.
 """
 
-from __future__ import annotations
-
 import functools
 import importlib
 import re

@@ -4,8 +4,6 @@ Colours are Okabe and Ito's eight, distinguished with any colour vision, each wi
 Colour never stands alone: the marker and the line differ too, so that a print in grey still reads.
 """
 
-from __future__ import annotations
-
 import functools
 import itertools
 import zlib

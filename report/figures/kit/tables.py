@@ -1,7 +1,5 @@
 """Plain tables, declared: the columns in their order with their units, and how each one's numbers are written."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 

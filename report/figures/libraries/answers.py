@@ -3,8 +3,6 @@
 Read from results/libraries, which is committed: it does not change with the run that a report is built from.
 """
 
-from __future__ import annotations
-
 import functools
 import math
 

@@ -1,7 +1,5 @@
 """Controllers as their authors ship them: what is felt of what is set, where they rest, and the smallest fix."""
 
-from __future__ import annotations
-
 import functools
 import math
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """The appendix on other libraries: how functions were tested, and questions of users."""
 
-from __future__ import annotations
-
 from bench.findings.questions import QUESTIONS, Question
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power

@@ -1,7 +1,5 @@
 """The page on other libraries: which functions fail, with the smallest fix, and shipped controllers."""
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Iterator
 from typing import Any

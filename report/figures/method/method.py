@@ -1,7 +1,5 @@
 """What the page on method says: whether engines agree, and by which rules operations are counted."""
 
-from __future__ import annotations
-
 import functools
 from typing import Any
 

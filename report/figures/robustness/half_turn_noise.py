@@ -4,8 +4,6 @@ A law that turns about one axis is a scalar equation there (`isotropic`), and th
 is held follows from adding up. A law with memory is held from where its memory ends.
 """
 
-from __future__ import annotations
-
 import math
 
 import pandas as pd

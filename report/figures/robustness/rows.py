@@ -1,7 +1,5 @@
 """Episodes under perturbations as the pages read them, and what every page says of them."""
 
-from __future__ import annotations
-
 import functools
 
 import numpy as np
