@@ -138,11 +138,16 @@ def link(one: Law) -> str:
     return f"[{one.name}]({HOST}/{source}/blob/{revision}/{one.shipped.path.partition(',')[0]})"
 
 
+def reported(thread: str, words: str = "") -> str:
+    """Return a thread upstream, owner/repository#number, as a link; pull requests are found under it too."""
+    repository, _, number = thread.partition("#")
+    return f"[{words or f'#{number}'}]({HOST}/{repository}/issues/{number})" if thread else html.MISSING
+
+
 def describe_fix(row: Any) -> tuple:
     """Return the cells of a controller's fix: what is felt, what to change, the greatest command before and after."""
     one, found = contenders("shipped")[row.shipped], fix_of(row.shipped)
-    repository, _, number = one.shipped.thread.partition("#")
-    known = f" Thread: [#{number}]({HOST}/{repository}/issues/{number})." if number else ""
+    known = f" Thread: {reported(one.shipped.thread)}." if one.shipped.thread else ""
     unit = "rad/s²" if one.shipped.shapes_inertia else "N m"
     return (
         link(one),
