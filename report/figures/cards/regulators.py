@@ -83,8 +83,9 @@ def card(one: Contender, run: Run) -> str:
         "Its command": set_words(found_of(one, run)),
         "Advised": advised(one.name),
     }
-    look, costs = html.both(style.look(one.name).colour), html.plain_table(costs_of(one, run))
-    return make_card(one.regulator, title, (what, fields), look, f'<div class="card-costs" tabindex="0">{costs}</div>')
+    look, costs = html.both(style.look(one.name).colour), costs_of(one, run)
+    shown = costs.to_html(index=False, classes="plain", border=0, formatters=[html.cell] * len(costs.columns))
+    return make_card(one.regulator, title, (what, fields), look, f'<div class="card-costs" tabindex="0">{shown}</div>')
 
 
 def costs_of(one: Contender, run: Run) -> pd.DataFrame:

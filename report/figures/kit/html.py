@@ -145,8 +145,3 @@ def formula(tex: str) -> str:
         return mathml.block(tex)
     except ValueError:
         return f'<div class="math"><code>{foreign(tex)}</code></div>'
-
-
-def plain_table(frame: pd.DataFrame) -> str:
-    """Return a small HTML table for inside a card; the first column is words."""
-    return frame.to_html(index=False, classes="plain", border=0, formatters=[cell] * len(frame.columns))

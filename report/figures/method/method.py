@@ -7,9 +7,9 @@ import pandas as pd
 
 from bench.engines.counting import RULES as COUNT_RULES
 from bench.findings.selection.needs import CHATTER
+from bench.findings.theory.closed_form import linear_settling
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
-from report.figures.kit.rows import small_error_settling_s
 from report.figures.kit.spelling import prose
 from tasks.rules import RULES
 
@@ -36,7 +36,7 @@ def facts(run: Run) -> dict[str, Any]:
         "unconverged": int((asked["converged"] == "no").sum()),
         "engines": runs["engine"].nunique(),
         "gains": describe_gains(runs),
-        "small": f"{small_error_settling_s(runs):.3f}",
+        "small": f"{linear_settling(*runs[['kp', 'kv', 'tolerance']].iloc[0]):.3f}",
         "later_ms": describe_ends(compute_lateness_ms(runs, "native")),
         "hold_s": f"{RULES.hold_s:g}",
         "chatter": f"{CHATTER:g}",

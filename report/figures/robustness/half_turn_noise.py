@@ -51,8 +51,7 @@ def strips(rows: pd.DataFrame, narrow: bool) -> Drawing:
     # 0.3 and its like lie too close to their neighbours on a phone
     axes.set_xticks(list(shares.index), ["" if narrow and f"{x:g}"[-1] == "3" else f"{x:g}" for x in shares.index])
     axes.minorticks_off()
-    axes.tick_params(axis="y", length=0)
-    axes.grid(visible=False, axis="y")
+    style.listed(axes)
     levels = ", ".join(f"{level:g}" for level in shares.index)
     return (
         figure,

@@ -28,11 +28,6 @@ def laws(rows: pd.DataFrame, controls: bool = True) -> list[str]:
     return names if controls else [name for name in names if name not in families.CONTROLS]
 
 
-def of(rows: pd.DataFrame, law: str) -> pd.DataFrame:
-    """Return rows of one law."""
-    return rows[rows["contender"] == law]
-
-
 def gains(rows: pd.DataFrame) -> tuple[float, float]:
     """(kp, kv) of the rows."""
     return float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0])
