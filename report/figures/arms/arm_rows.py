@@ -83,11 +83,6 @@ def with_standard(rows: pd.DataFrame) -> pd.DataFrame:
     return rows[is_law & rows["way"].str.endswith(f"+{STANDARD}") & rows["jacobian"].isin(PAPERS_JACOBIANS)]
 
 
-def of_baselines(rows: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows of controllers that are no laws."""
-    return rows[rows["regulator"].isin(baselines_of_arms())]
-
-
 def title(controller: str) -> str:
     """How a controller is called in a figure: its equation, and the law or the coordinates."""
     law, _, jacobian = controller.partition("@")

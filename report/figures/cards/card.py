@@ -30,7 +30,6 @@ PROPERTIES = {
     "none": "Nothing.",
     "": "",
 }
-LIMITATIONS = re.compile(r"\bLimitations:\s*(.*)", re.DOTALL)
 GREEK = {**LETTERS, "eps": "ε", "eta": "η", "lambda": "λ"}
 DOTTED = re.compile(rf"\b({'|'.join(GREEK)}|[A-Za-z])(d?)dot\b")
 SIGNS: tuple[tuple[str, Any], ...] = (

@@ -35,14 +35,9 @@ def in_order() -> list[Law]:
     return [*first, *sorted(others, key=lambda one: (one.later, one.name)), *read.own_laws()]
 
 
-def papers_first(regulator: Law) -> list[Contender]:
-    """Return a law in every representation it acts on, the paper's own coordinates first."""
-    return sorted(contenders_of(regulator), key=lambda one: one.is_elsewhere)
-
-
 def every_law() -> list[Contender]:
-    """Return each law in each of its coordinates, the run's own among them."""
-    return [one for regulator in in_order() for one in papers_first(regulator)]
+    """Return each law in each of its coordinates, the paper's own first; the run's own laws are among them."""
+    return [one for law in in_order() for one in sorted(contenders_of(law), key=lambda one: one.is_elsewhere)]
 
 
 def source(regulator: Law) -> Source:

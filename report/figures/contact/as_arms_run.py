@@ -1,7 +1,5 @@
 """The page on impedance without inertia shaping: damping felt by mode, and the control periods that are stable."""
 
-import functools
-
 import pandas as pd
 
 from bench.experiments.impedance_modes import FRANKAPYS
@@ -11,15 +9,9 @@ from bench.law.control.unshaped import DAMPINGS
 from report.figures.kit.page import Run
 
 
-@functools.cache
-def modes(run: Run) -> pd.DataFrame:
-    """Return the modes measured, beside theory's."""
-    return with_theory(run.rows("impedance-modes").astype({"arm": str, "damping": str}))
-
-
 def facts(run: Run) -> dict:
     """Return the damping felt by each design, and the longest stable control periods of frankapy's gains."""
-    every = modes(run)
+    every = with_theory(run.rows("impedance-modes").astype({"arm": str, "damping": str}))
     driven = every["variation"].astype(str) != IDEAL_MOTORS
     found, panda = every[driven], every["arm"] == "panda"
     franka = every[panda & (every["damping"] == "diagonal") & (every["stiffness_n_m"] == FRANKAPYS.translation)]

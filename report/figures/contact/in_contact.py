@@ -63,13 +63,9 @@ def all_rows(run: Run) -> pd.DataFrame:
     return pd.concat(found, ignore_index=True)
 
 
-def facts(run: Run) -> dict:
+def facts(run: Run) -> dict[str, str]:
     """Return how episodes end."""
-    return of_run(all_rows(run))
-
-
-def of_run(rows: pd.DataFrame) -> dict[str, str]:
-    """Return what the run says."""
+    rows = all_rows(run)
     return {
         **plate(rows),
         "betas": ", ".join(f"{beta:.0f}°" for beta in sorted(set(rows["beta_deg"]))),

@@ -88,11 +88,6 @@ def figures(run: Run) -> dict:
     return {"operations": operations.operations(costs(run))}
 
 
-def spent(flops: int, calls: int) -> str:
-    """Return flops and calls, as "45 + 6"."""
-    return f"{flops} + {calls}" if calls else (f"{flops}" if flops else html.MISSING)
-
-
 def totals(counted: pd.DataFrame) -> pd.DataFrame:
     """Return the row "total" of every contender's typical branch, by contender."""
     return counted[(counted["branch"] == "typical") & (counted["stage"] == "total")].set_index("contender")

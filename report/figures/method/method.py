@@ -1,6 +1,5 @@
 """What the page on method says: whether engines agree, and by which rules operations are counted."""
 
-import functools
 from typing import Any
 
 import pandas as pd
@@ -17,15 +16,9 @@ KEY = ["contender", "start_set", "start_id"]
 JUDGED = ["outcome", "settling_time_s", "failure_time_s", "final_angle_rad", "effort", "path_ratio", "peak_u", "ticks"]
 
 
-@functools.cache
-def episodes(run: Run) -> pd.DataFrame:
-    """Return the episodes of the free body."""
-    return run.rows("episodes", task="free-body")
-
-
 def facts(run: Run) -> dict[str, Any]:
     """Return whether engines agree, how many episodes asked for shorter steps, and the rules of counting."""
-    runs = episodes(run)
+    runs = run.rows("episodes", task="free-body")
     both, equal = count_equal(runs, "reference", "native")
     asked = runs[runs["converged"] != ""]
     return {
