@@ -23,16 +23,12 @@ CSS_URL = re.compile(r"""(?:url\(\s*['"]?|@import\s+['"])((?:https?:)?//[^)'"\s]
 DRAWINGS = ".//canvas | .//iframe | .//video | .//svg[@role='img'][not(@aria-hidden)]"
 
 
-def read_page(path: Path) -> html.HtmlElement:
-    """Parse a page."""
-    return html.document_fromstring(path.read_bytes(), html.HTMLParser(encoding="utf-8", huge_tree=True))
-
-
 def find_problems(site: Path, budget_bytes: int = BUDGET_BYTES) -> list[str]:
     """Return every problem of the site as one line each, none when it is fit to publish."""
     if not (site / "index.html").is_file():
         return [f"{site} holds no index.html (cure: make report)"]
-    pages = {path: read_page(path) for path in html_files(site)}
+    parser = html.HTMLParser(encoding="utf-8", huge_tree=True)
+    pages = {path: html.document_fromstring(path.read_bytes(), parser) for path in html_files(site)}
     ids = {path: Counter(page.xpath("//@id")) for path, page in pages.items()}
     found = [
         f"{path.relative_to(site)}: {line}"
