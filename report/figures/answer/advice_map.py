@@ -17,9 +17,7 @@ SHOWN = ("the rule", "noise is left out", "no memory", "a continuous command", "
 
 def figures(run: Run) -> dict[str, Any]:
     """Return the picture."""
-    names = sorted(
-        {str(law) for law in read_map()["contender"]}, key=families.in_order([*set(read_map()["contender"])]).index
-    )
+    names = families.in_order(read_map()["contender"].astype(str))
     planes = {name: plane(name, names) for name in list(COORDINATES)[1:]}
     data = {
         "laws": _colour(names),

@@ -44,12 +44,6 @@ def episodes(run: Run, variation: str = NOMINAL) -> pd.DataFrame:
     return every(run)[every(run)["variation"] == variation]
 
 
-def varied(run: Run) -> pd.DataFrame:
-    """Return the episodes whose plant differs from the controller's model."""
-    names = [name for name in tasks.variation_names() if tasks.variation(name).believed]
-    return every(run)[every(run)["variation"].isin(names)]
-
-
 def named(frame: pd.DataFrame) -> pd.DataFrame:
     """Return the frame with plain words, and columns law, controller (law@jacobian) and way (law@jacobian+inverse)."""
     frame = frame.assign(**{word: frame[word].astype(str) for word in WORDS if word in frame})

@@ -61,11 +61,6 @@ class Look(NamedTuple):
     marker: str
     line: str | tuple
 
-    @property
-    def dark(self) -> str:
-        """Return the colour on a dark page."""
-        return TWINS[self.colour]
-
 
 SOLID, DASHED, DOTTED, DASH_DOT = "-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2))
 
