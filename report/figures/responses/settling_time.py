@@ -10,7 +10,7 @@ from report.figures.kit.page import Run
 from report.figures.kit.rows import MATRIX, of
 from report.figures.kit.spelling import power
 
-DECADE = re.compile(r"-k(\d+)$")  # of a start that is 10^-k rad from the half turn
+DECADE = re.compile(r"-k(\d+)$")  # of a start that is 10^-k rad from 180°
 FITTED = (3, 10)
 """Decades of the slope: the sine is linear in pi - angle from the first on, and rounding of R is small to the last."""
 
