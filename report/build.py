@@ -9,8 +9,6 @@ out the text of the pages: while it stays, cells keep their stored outputs (jupy
 cells' own text); when it moves, every cell runs again.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os
@@ -35,8 +33,8 @@ CELL_CACHE = BUILD / ".jupyter_cache"
 CELL_KEY = BUILD / "cells.key"
 STAMP = BUILD / "finished.json"
 RESULTS_VARIABLE = "ORIENTATION_BENCH_RESULTS"
-# folders of results that are no run's
-STUDIES = ("timings", "libraries")
+# What cells read and run besides a run's folder.
+BEHIND_CELLS = ("results/timings", "results/libraries", "bench", "report/figures", "tasks", "requirements")
 WRITTEN_LAST = "provenance.json"  # a run without it is unfinished
 NO_GIT_EPOCH = 1_793_491_200  # 2026-11-01, the date printed by a copy without git history
 # It has no __main__, and its script in bin names the folder it was installed in.
@@ -80,9 +78,9 @@ def without_links(folder: Path) -> Path:
     return folder
 
 
-def files_below(folder: Path, pattern: str = "*") -> Iterator[Path]:
+def files_below(folder: Path) -> Iterator[Path]:
     """Every file of a folder that is source, in a fixed order: caches and builds left out."""
-    for path in sorted(folder.rglob(pattern)):
+    for path in sorted(folder.rglob("*")):
         inside = path.relative_to(folder).parts
         if path.is_file() and not any(part.startswith((".", "_build", "__pycache__")) for part in inside):
             yield path
@@ -103,11 +101,7 @@ def keys(results: Path, root: Path = ROOT) -> dict[str, str]:
     behind_cells = [
         *files_below(results),
         *(mark for mark in marks if mark.is_file()),
-        *(path for name in STUDIES for path in files_below(root / "results" / name)),
-        *files_below(root / "bench"),
-        *files_below(root / "report" / "figures"),
-        *files_below(root / "tasks"),
-        *files_below(root / "requirements"),
+        *(path for name in BEHIND_CELLS for path in files_below(root / name)),
         *(path for path in (root / "pyproject.toml", root / "CITATION.cff") if path.is_file()),
     ]
     of_site = [*behind_cells, *files_below(root / "report")]

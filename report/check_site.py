@@ -4,8 +4,6 @@ A page must load nothing from the network, have no dead local link or anchor, de
 words, hold one main heading, no repeated id and no directive as text; the site must stay within its size budget.
 """
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from pathlib import Path
@@ -25,16 +23,12 @@ CSS_URL = re.compile(r"""(?:url\(\s*['"]?|@import\s+['"])((?:https?:)?//[^)'"\s]
 DRAWINGS = ".//canvas | .//iframe | .//video | .//svg[@role='img'][not(@aria-hidden)]"
 
 
-def read_page(path: Path) -> html.HtmlElement:
-    """Parse a page."""
-    return html.document_fromstring(path.read_bytes(), html.HTMLParser(encoding="utf-8", huge_tree=True))
-
-
 def find_problems(site: Path, budget_bytes: int = BUDGET_BYTES) -> list[str]:
     """Return every problem of the site as one line each, none when it is fit to publish."""
     if not (site / "index.html").is_file():
         return [f"{site} holds no index.html (cure: make report)"]
-    pages = {path: read_page(path) for path in html_files(site)}
+    parser = html.HTMLParser(encoding="utf-8", huge_tree=True)
+    pages = {path: html.document_fromstring(path.read_bytes(), parser) for path in html_files(site)}
     ids = {path: Counter(page.xpath("//@id")) for path, page in pages.items()}
     found = [
         f"{path.relative_to(site)}: {line}"

@@ -4,8 +4,6 @@ mujoco is imported where a view is made: where there is no GL, its renderer may 
 spoils those that are.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path

@@ -4,8 +4,6 @@ make edition                        everything, into dist/orientation-bench-VERS
 make edition ARGS="data source"     parts of it
 """
 
-from __future__ import annotations
-
 import argparse
 import hashlib
 import shutil

@@ -7,8 +7,6 @@ from the record's pose of the hand, by Newton's method from one frame to the nex
 MUJOCO_GL=osmesa). Where that does not work the committed files stay. Loops need imageio-ffmpeg (the dev extra).
 """
 
-from __future__ import annotations
-
 import json
 import math
 import os

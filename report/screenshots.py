@@ -4,8 +4,6 @@ The browser tests drive it. Needs selenium (the dev extra) and Debian's chromium
 nothing is downloaded.
 """
 
-from __future__ import annotations
-
 import contextlib
 import importlib.util
 import json
@@ -14,12 +12,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import check_site
+
 SITE = Path(__file__).resolve().parent / "_build" / "html"
 THEMES = ("light", "dark")
 WIDTHS = (1280, 390)
 HEIGHT = 900
 LOAD_SECONDS = 30  # a page needs less than one; the rest is for a loaded machine
-GENERATED = {"genindex.html", "search.html"}
 LOCAL_SCHEMES = ("file:", "data:", "blob:", "about:", "chrome:")
 CURE = "apt-get install chromium chromium-driver; pip install selenium"
 
@@ -59,8 +58,7 @@ def chromium() -> str | None:
 
 def pages() -> list[Path]:
     """Return the pages people read."""
-    found = sorted(path for path in SITE.rglob("*.html") if "_static" not in path.relative_to(SITE).parts)
-    return [path for path in found if path.name not in GENERATED]
+    return [path for path in check_site.html_files(SITE) if path.name not in check_site.GENERATED]
 
 
 @contextlib.contextmanager

@@ -3,8 +3,6 @@
 Orientations come from the compiled engine tick by tick, as in the episodes of the results (ideal-rk4, half-turn).
 """
 
-from __future__ import annotations
-
 import math
 from typing import Any, NamedTuple
 
@@ -144,13 +142,8 @@ def draw_scene(view: Any, theme: Theme, place: int, by_law: dict[str, Fate]) -> 
         write_on(image, (image.width // 2, HEAD - 8), heading, 20, theme)
         for column, fate in enumerate(by_law.values()):
             x = column * SIZE[0] + SIZE[0] // 2
-            write_on(
-                image,
-                (x, above - 6),
-                describe_fate(fate.row),
-                18,
-                theme._replace(ink=FATE[theme.suffix][grade(fate.row)]),
-            )
+            in_colour = theme._replace(ink=FATE[theme.suffix][grade(fate.row)])
+            write_on(image, (x, above - 6), describe_fate(fate.row), 18, in_colour)
         frames.append(image)
     return frames
 

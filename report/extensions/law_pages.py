@@ -1,7 +1,5 @@
 """Sphinx extension: a page for every law, laws/NAME.html, with its card, files for other languages and source."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any

@@ -6,8 +6,6 @@ draws them, 1.5 MB on every page, and as fonts for the moment before that script
 is an item of its list to a screen reader: docutils gives it role="doc-biblioentry", which ARIA 1.3 deprecates.
 """
 
-from __future__ import annotations
-
 import re
 import shutil
 from pathlib import Path

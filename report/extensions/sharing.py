@@ -1,7 +1,5 @@
 """Sphinx extension: what a search engine and a shared link show of a page, its lead and the book's picture."""
 
-from __future__ import annotations
-
 import html
 import re
 from typing import Any

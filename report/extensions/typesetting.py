@@ -4,8 +4,6 @@ Numbers of a page are pasted and their units typed beside them, so that the spac
 are there: after all that is pasted, in the text of each paragraph, caption and cell as a whole.
 """
 
-from __future__ import annotations
-
 import re
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What the front page shows: three fates of one start, the default, and what leads to another law."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from bench.findings.selection.regions import find_bounds, find_default
@@ -30,8 +28,11 @@ def facts(run: Run) -> dict[str, Any]:
 
 
 def tables(_: Run) -> dict[str, Any]:
-    """Return the loop of three fates."""
-    return {"fates": show_fates(media.facts()["fates"]["episodes"])}
+    """Return the loop of three fates, which plays at once unless the reader wants less motion, with its words."""
+    episodes = media.facts()["fates"]["episodes"]
+    said = "; ".join(f"from {one['start']} {families.word(one['contender'])} {one['says']}" for one in episodes)
+    loop = media.loop(f"A gripper under three laws: {said}.", "fates-loop", "_static/media", 313)
+    return {"fates": html.Html(loop + PLAY)}
 
 
 def list_needs(run: Run) -> str:
@@ -42,9 +43,3 @@ def list_needs(run: Run) -> str:
             needs.setdefault(one.law, []).append(one.words)
     links = {law: families.link(law, families.word(law)).replace('href="../', 'href="', 1) for law in needs}
     return f"{listed([links[law] + ' if ' + ', or if '.join(words) for law, words in needs.items()])}."
-
-
-def show_fates(episodes: list[dict[str, Any]]) -> html.Html:
-    """Return the loop, which plays at once unless the reader wants less motion, with its words."""
-    said = "; ".join(f"from {one['start']} {families.word(one['contender'])} {one['says']}" for one in episodes)
-    return html.Html(media.loop(f"A gripper under three laws: {said}.", "fates-loop", "_static/media", 313) + PLAY)

@@ -1,7 +1,5 @@
 """The map of advice as a picture that the reader changes: report/_extra/advice.js draws it."""
 
-from __future__ import annotations
-
 import html as markup
 import json
 import math
@@ -19,9 +17,7 @@ SHOWN = ("the rule", "noise is left out", "no memory", "a continuous command", "
 
 def figures(run: Run) -> dict[str, Any]:
     """Return the picture."""
-    names = sorted(
-        {str(law) for law in read_map()["contender"]}, key=families.in_order([*set(read_map()["contender"])]).index
-    )
+    names = families.in_order(read_map()["contender"].astype(str))
     planes = {name: plane(name, names) for name in list(COORDINATES)[1:]}
     data = {
         "laws": _colour(names),

@@ -1,7 +1,5 @@
 """The page on checking an error and exporting a law: faults, forms and languages, as they are registered."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from bench.audit.examined import COUNT_RAD

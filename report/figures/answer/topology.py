@@ -1,7 +1,5 @@
 """The chapter on what an error must do: how many laws settle from everywhere, and how many noise cannot hold."""
 
-from __future__ import annotations
-
 from bench.experiments.situations import NOISE_RAD
 from bench.findings.selection.measured import measured
 from bench.findings.selection.needs import EVERYWHERE, UNHELD, has_all

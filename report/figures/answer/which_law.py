@@ -1,7 +1,5 @@
 """The page that says which law to use: the map of situations, its regions, and what changes the advice."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from bench.experiments.situations import FIRST, MOST, NOISE_RAD

@@ -1,7 +1,5 @@
 """Which controllers settle on arms as they are, and what limits them: motors, stops, gains."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Iterator
 
@@ -42,7 +40,7 @@ def ranked(rows: pd.DataFrame) -> Iterator[tuple]:
     """
     laws = arm_rows.with_standard(rows)
     top = {(name, one): best(laws[laws["start_set"] == name], one, "controller") for name, one in COLUMNS}
-    own = pd.concat([laws, arm_rows.of_baselines(rows)])
+    own = pd.concat([laws, rows[rows["regulator"].isin(baselines_of_arms())]])
     own = own[own["start_set"].isin(SETS)]
     own = own.assign(**passed(own), after=own["regulator"].isin(baselines_of_arms()))
     means = own[own["start_set"] == SETS[0]].groupby("controller")[["after", "settled"]].mean()

@@ -4,8 +4,6 @@ A way is `law@jacobian+inverse`, with "standard" for the inverse that is taken i
 seven share a line: it is another one for each.
 """
 
-from __future__ import annotations
-
 import functools
 
 import numpy as np
@@ -46,12 +44,6 @@ def episodes(run: Run, variation: str = NOMINAL) -> pd.DataFrame:
     return every(run)[every(run)["variation"] == variation]
 
 
-def varied(run: Run) -> pd.DataFrame:
-    """Return the episodes whose plant differs from the controller's model."""
-    names = [name for name in tasks.variation_names() if tasks.variation(name).believed]
-    return every(run)[every(run)["variation"].isin(names)]
-
-
 def named(frame: pd.DataFrame) -> pd.DataFrame:
     """Return the frame with plain words, and columns law, controller (law@jacobian) and way (law@jacobian+inverse)."""
     frame = frame.assign(**{word: frame[word].astype(str) for word in WORDS if word in frame})
@@ -83,11 +75,6 @@ def with_standard(rows: pd.DataFrame) -> pd.DataFrame:
     """Laws by the paper's two Jacobians and the standard inverse."""
     is_law = ~rows["regulator"].isin(baselines_of_arms())
     return rows[is_law & rows["way"].str.endswith(f"+{STANDARD}") & rows["jacobian"].isin(PAPERS_JACOBIANS)]
-
-
-def of_baselines(rows: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows of controllers that are no laws."""
-    return rows[rows["regulator"].isin(baselines_of_arms())]
 
 
 def title(controller: str) -> str:

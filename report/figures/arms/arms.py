@@ -1,7 +1,5 @@
 """The page on arms: which laws settle on arms as they are, what limits them, and what a wrong model leaves."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 
@@ -50,8 +48,9 @@ def figures(_: Run) -> dict:
 
 def describe_model_errors(run: Run) -> str:
     """State how far apart controllers end on a plant that is not their model, and what the variations leave."""
-    rows = arm_rows.with_standard(arm_rows.varied(run))
-    rows = rows[rows["controller"].isin(arm_rows.COMPARED)]
+    believed = [name for name in tasks.variation_names() if tasks.variation(name).believed]
+    rows = arm_rows.with_standard(arm_rows.every(run))
+    rows = rows[rows["variation"].isin(believed) & rows["controller"].isin(arm_rows.COMPARED)]
     if rows.empty:
         raise NotInRun("no variation")
     key = ["arm", "start_id", "variation"]

@@ -1,7 +1,5 @@
 """What the page on Euler angles says of arms: how J and the Euler Jacobian are conditioned, and the pole in motion."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

@@ -1,7 +1,5 @@
 """Laws as exported C++ in real time, against the simulated loop and theory; read from results/real-loop."""
 
-from __future__ import annotations
-
 import functools
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What each rule for a singular operational-space inertia does beside the singularities of arms."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import pandas as pd

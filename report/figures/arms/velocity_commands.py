@@ -1,7 +1,5 @@
 """The page on robots commanded in velocity: what is advised, the limits of K dt, and which laws stick or unwind."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 import pandas as pd
@@ -29,8 +27,7 @@ def facts(run: Run) -> dict:
     ways = uniform[uniform["settled"]].groupby("law")["path_ratio"].max()
     found = with_law(with_theory(run.rows("velocity-limits")))
     known = found[found["k_dt_theory"] > 0.0]
-    logarithm = found[(found["law"] == "rotation-vector") & (found["arm"] == "") & (found["share"] == 1.0)]
-    logarithm = logarithm[logarithm["reach"] == "near"]
+    logarithm = found.query("law == 'rotation-vector' and arm == '' and share == 1.0 and reach == 'near'")
     return {
         "lead": lead(decide_for(VELOCITY, run.folder)),
         "gain": float(rows["gain"].iloc[0]),

@@ -1,7 +1,5 @@
 """The page of a law of any kind: a card of fields, its files for other languages, and its source."""
 
-from __future__ import annotations
-
 import ast
 import html as markup
 import re
@@ -32,7 +30,6 @@ PROPERTIES = {
     "none": "Nothing.",
     "": "",
 }
-LIMITATIONS = re.compile(r"\bLimitations:\s*(.*)", re.DOTALL)
 GREEK = {**LETTERS, "eps": "ε", "eta": "η", "lambda": "λ"}
 DOTTED = re.compile(rf"\b({'|'.join(GREEK)}|[A-Za-z])(d?)dot\b")
 SIGNS: tuple[tuple[str, Any], ...] = (

@@ -3,8 +3,6 @@
 The laws, the plant and the judge are those that are measured, translated (`bench.export.browser`).
 """
 
-from __future__ import annotations
-
 import html as markup
 import itertools
 import json
@@ -39,11 +37,8 @@ def starts() -> list[tuple[str, str, Start]]:
     found = []
     for name, group, start_id, title in OFFERED["starts"]["every"]:
         [one] = [start for start in tasks.start_set(name) if start.id == start_id]
-        numbers = {
-            "angle": degrees(angle(one.quat_wxyz, one.goal_wxyz)),
-            "speed": f"{math.hypot(*one.omega):.0f} rad/s",
-        }
-        found.append((group, title.format(**numbers), one))
+        turn, speed = degrees(angle(one.quat_wxyz, one.goal_wxyz)), f"{math.hypot(*one.omega):.0f} rad/s"
+        found.append((group, title.format(angle=turn, speed=speed), one))
     return found
 
 
@@ -95,7 +90,7 @@ def law(name: str, costs: Any) -> dict:
         "name": families.word(name),
         "title": laws.title(name),
         "card": f"{families.PAGES}/{families.anchor(name)}.html",
-        "colour": [look.colour, look.dark],
+        "colour": [look.colour, style.TWINS[look.colour]],
         "cost": cost(name, costs),
     }
 

@@ -1,7 +1,5 @@
 """The laws: a line of a table each, and a card; nothing of it is typed here."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 
@@ -37,14 +35,9 @@ def in_order() -> list[Law]:
     return [*first, *sorted(others, key=lambda one: (one.later, one.name)), *read.own_laws()]
 
 
-def papers_first(regulator: Law) -> list[Contender]:
-    """Return a law in every representation it acts on, the paper's own coordinates first."""
-    return sorted(contenders_of(regulator), key=lambda one: one.is_elsewhere)
-
-
 def every_law() -> list[Contender]:
-    """Return each law in each of its coordinates, the run's own among them."""
-    return [one for regulator in in_order() for one in papers_first(regulator)]
+    """Return each law in each of its coordinates, the paper's own first; the run's own laws are among them."""
+    return [one for law in in_order() for one in sorted(contenders_of(law), key=lambda one: one.is_elsewhere)]
 
 
 def source(regulator: Law) -> Source:
@@ -85,8 +78,9 @@ def card(one: Contender, run: Run) -> str:
         "Its command": set_words(found_of(one, run)),
         "Advised": advised(one.name),
     }
-    look, costs = html.both(style.look(one.name).colour), html.plain_table(costs_of(one, run))
-    return make_card(one.regulator, title, (what, fields), look, f'<div class="card-costs" tabindex="0">{costs}</div>')
+    look, costs = html.both(style.look(one.name).colour), costs_of(one, run)
+    shown = costs.to_html(index=False, classes="plain", border=0, formatters=[html.cell] * len(costs.columns))
+    return make_card(one.regulator, title, (what, fields), look, f'<div class="card-costs" tabindex="0">{shown}</div>')
 
 
 def costs_of(one: Contender, run: Run) -> pd.DataFrame:

@@ -1,7 +1,5 @@
 """The verdicts on a page: how many of each, and the table. All words are the claim's own."""
 
-from __future__ import annotations
-
 from bench.findings import claims
 from bench.findings.claims import Verdict, Word
 from report.figures.kit import html
@@ -30,21 +28,17 @@ def facts(_: Run) -> dict:
 
 
 def tables(_: Run) -> dict:
-    """Return a row a claim."""
-    return {"verdicts": table(claims.judge_all())}
-
-
-def table(every: list[Verdict]) -> html.Markdown | None:
     """Return a row a claim, refuted ones first: number and section, statement, verdicts, and what is true."""
-    return VERDICTS(
+    rows = (
         (
             f'<a href="{EVIDENCE}#{anchor(one)}">{one.claim.id}</a>',
             prose(one.claim.sentence),
             f"{html.badge(str(one.word))}{'' if one.first == one.word else f'<br>first: {one.first}'}",
             prose(one.correction) if one.correction else "",
         )
-        for one in sorted(every, key=lambda one: ORDER.index(one.word))
+        for one in sorted(claims.judge_all(), key=lambda one: ORDER.index(one.word))
     )
+    return {"verdicts": VERDICTS(rows)}
 
 
 def anchor(one: Verdict) -> str:

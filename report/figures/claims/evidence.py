@@ -1,7 +1,5 @@
 """What decided each claim, sentences that no run decides, what the book does with the paper's parts, and errata."""
 
-from __future__ import annotations
-
 import html as escape
 from collections.abc import Iterable
 

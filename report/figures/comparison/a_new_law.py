@@ -1,7 +1,5 @@
 """The page on the law that brakes late: how slow, strong and dear it is."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -38,7 +36,7 @@ def facts(run: Run) -> dict:
         "later": ", ".join(f"{ratio:g}" for ratio in RATIOS if is_later(ratio)) or "none",
         "later_of": f"{', '.join(map('{:g}'.format, RATIOS))}",
         **(count_calls(spent.loc[NEW, "typical"]) if (NEW, "typical") in spent.index else {}),
-        "pull": f"{greatest_pull(LATE):.2f}",
+        "pull": f"{max(map(LATE.spring, np.linspace(0.0, math.pi, 1801))):.2f}",  # max f
     }
 
 
@@ -68,11 +66,6 @@ def count_calls(row: pd.Series) -> dict[str, int]:
 def longest(equation: Equation, kp: float, kv: float) -> float:
     """Return the longest settling time [s] from rest, over angles up to 180°."""
     return max(settling(equation, angle, kp, kv, RULES.tolerance) for angle in np.linspace(LEAST_RAD, math.pi, 24))
-
-
-def greatest_pull(equation: Equation) -> float:
-    """max f: the greatest command from rest, over Kp."""
-    return max(map(equation.spring, np.linspace(0.0, math.pi, 1801)))
 
 
 @responsive_picture

@@ -1,7 +1,5 @@
 """Settling time against the initial angle of the laws that turn about one fixed axis: measured, and the closed form."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -35,11 +33,6 @@ def groups(rows: pd.DataFrame) -> dict[Equation, list[str]]:
     return found
 
 
-def looks(names: list[str]) -> list[str]:
-    """Return the colour of each law."""
-    return [style.look_among_all(name).colour for name in names]
-
-
 @responsive_picture
 def curves(rows: pd.DataFrame, narrow: bool) -> Drawing:
     """Curves of the equations, and dots of the starts, of the first law of each.
@@ -52,7 +45,8 @@ def curves(rows: pd.DataFrame, narrow: bool) -> Drawing:
     angles = np.linspace(LEAST_RAD, math.pi - NEAREST_RAD, CURVE)
     beside, words = [], []
     for equation, names in groups(rows).items():
-        colour = next((one for one in looks(names) if one != style.REST), style.REST)
+        colours = (style.look_among_all(name).colour for name in names)
+        colour = next((one for one in colours if one != style.REST), style.REST)
         alpha = 0.5 if colour == style.REST else 1.0
         times = np.array([settling(equation, float(angle), kp, kv, tolerance) for angle in angles])
         axes.plot(

@@ -1,8 +1,6 @@
 """What laws are compared by: the starts that all ran, and numbers of a law's rows as a table's cells."""
 
-from __future__ import annotations
-
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
@@ -12,7 +10,7 @@ from bench.experiments.tables.read import converged
 from bench.experiments.tables.statistics import Estimate, quantile, quantile_estimate
 from bench.findings.claims.tables import share
 from bench.findings.start_sets import AT_REST
-from report.figures.cost.cost import spent, totals
+from report.figures.cost.cost import totals
 from report.figures.cost.operations import CALLS
 from report.figures.kit import families, html
 from report.figures.kit.spelling import power
@@ -30,14 +28,10 @@ def common(episodes: pd.DataFrame) -> pd.DataFrame:
     """
     uniform = episodes[(episodes["start_set"] == "uniform") & (episodes["arm"] == "")]
     ran = uniform.groupby("start_id", observed=True)["contender"].nunique()
-    return in_families(uniform[uniform["start_id"].isin(ran.index[ran == uniform["contender"].nunique()])])
-
-
-def in_families(rows: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows with their laws family by family."""
+    rows = uniform[uniform["start_id"].isin(ran.index[ran == uniform["contender"].nunique()])]
     names = families.in_order(rows["contender"].unique())
     ordered = rows.assign(contender=pd.Categorical(rows["contender"].astype(str), names, ordered=True))
-    return ordered.sort_values(["contender", "start_id"]).reset_index(drop=True)
+    return ordered.sort_values(["contender", "start_id"], ignore_index=True)
 
 
 def costs(rows: pd.DataFrame, column: str) -> pd.DataFrame:
@@ -53,12 +47,6 @@ def medians(table: pd.DataFrame) -> pd.Series:
     return pd.Series({name: float(quantile(table[name].to_numpy(), 0.5)) for name in table})
 
 
-def by_law(names: Iterable[str], line: Callable[[str], dict]) -> html.Markdown | None:
-    """Return a line for each law, family by family; no table without laws."""
-    lines = [{"Law": families.link(name, families.word(name)), **line(name)} for name in families.in_order(names)]
-    return html.table(pd.DataFrame(lines).fillna("")) if lines else None
-
-
 def settles(own: pd.DataFrame) -> str:
     """Return the share of a law's rows that settle [%], with its interval."""
     found = share(own["outcome"] == "settled")
@@ -66,7 +54,7 @@ def settles(own: pd.DataFrame) -> str:
 
 
 def tick(counted: pd.DataFrame, name: str) -> str:
-    """Flops and calls of a typical tick.
+    """Return flops and calls of a typical tick, as "45 + 6".
 
     Args:
         counted: rows of costs.parquet about the free body.
@@ -74,7 +62,8 @@ def tick(counted: pd.DataFrame, name: str) -> str:
     if name not in set(counted["contender"]):
         return html.MISSING
     own = totals(counted).loc[name]
-    return spent(int(own["flops"]), int(own[list(CALLS)].sum()))
+    flops, calls = int(own["flops"]), int(own[list(CALLS)].sum())
+    return f"{flops} + {calls}" if calls else (f"{flops}" if flops else html.MISSING)
 
 
 def percent(part: float) -> str:

@@ -1,9 +1,8 @@
 """The page that compares all laws: on the same uniform starts, at the same gains and at the same peak command."""
 
-from __future__ import annotations
-
 import functools
 import math
+from collections.abc import Iterator
 
 import numpy as np
 import pandas as pd
@@ -13,7 +12,9 @@ from bench.findings.selection.measured import measured
 from report.figures.comparison import cells
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
+from report.figures.kit.tables import Table
 
+ALL_LAWS = Table("Law | Settles [%] | Median [s] | 99 % [s] | Effort | Peak | A tick | Lost | Held")
 NEAR_DEG = 30, 60
 ANISOTROPIC = "weighted-columns"
 """Its stiffness is the others' on the average over its axes alone."""
@@ -32,16 +33,8 @@ def uniform(run: Run) -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """Return the numbers in the sentences of the page."""
-    return of_all(uniform(run), cells.directed_starts(ideal(run)))
-
-
-def of_all(rows: pd.DataFrame, tried: pd.DataFrame) -> dict:
-    """Return the numbers of the laws that are not negative controls.
-
-    Args:
-        rows: of `uniform`. tried: of `cells.directed_starts`.
-    """
+    """Return the numbers of the laws that are not negative controls."""
+    rows, tried = uniform(run), cells.directed_starts(ideal(run))
     times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
     laws = [name for name in times if name not in families.CONTROLS]
     middle, spent = cells.medians(times[laws]), cells.medians(efforts[laws])
@@ -74,26 +67,24 @@ def near(rows: pd.DataFrame) -> dict:
 
 def tables(run: Run) -> dict:
     """Return all laws."""
-    return {"all_laws": all_laws(run)}
+    return {"all_laws": ALL_LAWS(compare_laws(run))}
 
 
-def all_laws(run: Run) -> html.Markdown | None:
-    """Return a row a law: what settles, how fast, effort, peak, lost starts, what noise holds."""
+def compare_laws(run: Run) -> Iterator[tuple]:
+    """Return a row a law: what settles, how fast, effort, peak, a tick, lost starts, what noise holds."""
     rows, tried, counted = uniform(run), cells.directed_starts(ideal(run)), run.any_rows("costs", **read.FREE_BODY)
     held = in_run(lambda: measured(run.folder).values["held"]) or {}
     times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
-
-    def line(name: str) -> dict:
+    for name in families.in_order(times):
         own = rows[rows["contender"] == name]
-        return {
-            "Settles [%]": cells.settles(own),
-            "Median [s]": cells.seconds(times[name]),
-            "99 % [s]": cells.seconds(times[name], 0.99),
-            "Effort": html.number(float(f"{cells.quantile(efforts[name].to_numpy(), 0.5):.3g}")),
-            "Peak": cells.large(own["peak_u"].max()),
-            "A tick": cells.tick(counted, name),
-            "Lost": cells.count_lost(tried[tried["contender"] == name]),
-            "Held": html.cell(float(held[name][0])) if name in held else html.MISSING,
-        }
-
-    return cells.by_law(times, line)
+        yield (
+            families.link(name, families.word(name)),
+            cells.settles(own),
+            cells.seconds(times[name]),
+            cells.seconds(times[name], 0.99),
+            html.number(float(f"{cells.quantile(efforts[name].to_numpy(), 0.5):.3g}")),
+            cells.large(own["peak_u"].max()),
+            cells.tick(counted, name),
+            cells.count_lost(tried[tried["contender"] == name]),
+            html.cell(float(held[name][0])) if name in held else html.MISSING,
+        )

@@ -1,7 +1,5 @@
 """The page on compliance: the axis about which a hand yields, by the paper's force control and by accelerations."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 

@@ -4,8 +4,6 @@ The hand points down at beta = 0 and lies level at 90 degrees, with its own x ax
 ring in colour is a measured row: the direction of C e, and its length over that of a hand that yields as set.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 from typing import Any

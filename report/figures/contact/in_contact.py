@@ -1,7 +1,5 @@
 """The page on tasks in contact: a plate, a peg, a crank and a plane, by controller and frame of the hand."""
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -69,13 +67,9 @@ def all_rows(run: Run) -> pd.DataFrame:
     return pd.concat(found, ignore_index=True)
 
 
-def facts(run: Run) -> dict:
+def facts(run: Run) -> dict[str, str]:
     """Return how episodes end."""
-    return of_run(all_rows(run))
-
-
-def of_run(rows: pd.DataFrame) -> dict[str, str]:
-    """Return what the run says."""
+    rows = all_rows(run)
     return {
         **plate(rows),
         "betas": ", ".join(f"{beta:.0f}°" for beta in sorted(set(rows["beta_deg"]))),

@@ -1,7 +1,5 @@
 """Tasks in contact with motors that are cut and a force sensor as sold; read from results/contact."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from bench.experiments.tables.read import table

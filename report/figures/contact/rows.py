@@ -3,8 +3,6 @@
 C, 3 x 3, is a row's rotation per moment [rad/(N m)]: C[i, j] about i per moment about j.
 """
 
-from __future__ import annotations
-
 import functools
 from typing import Any
 

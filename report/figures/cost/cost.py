@@ -1,7 +1,5 @@
 """The page on cost: operations of each law, the printed form beside the lean one, a law's share of a controller."""
 
-from __future__ import annotations
-
 import functools
 import json
 import math
@@ -88,11 +86,6 @@ def describe_machine(run: Run) -> str:
 def figures(run: Run) -> dict:
     """Draw operations by kind."""
     return {"operations": operations.operations(costs(run))}
-
-
-def spent(flops: int, calls: int) -> str:
-    """Return flops and calls, as "45 + 6"."""
-    return f"{flops} + {calls}" if calls else (f"{flops}" if flops else html.MISSING)
 
 
 def totals(counted: pd.DataFrame) -> pd.DataFrame:

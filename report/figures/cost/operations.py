@@ -1,7 +1,5 @@
 """Operations a tick of every law, by kind: what a count says, with transcendental calls apart."""
 
-from __future__ import annotations
-
 from textwrap import fill
 
 import pandas as pd

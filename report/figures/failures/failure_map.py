@@ -1,10 +1,8 @@
 """What the page on failures shows: which starts each of the paper's laws loses, in numbers and against the angle."""
 
-import functools
 import math
 
 import numpy as np
-import pandas as pd
 
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
@@ -15,19 +13,13 @@ from report.figures.kit.page import Run, in_run
 from report.figures.kit.rows import LINEARIZED, SHORT, lost, of
 
 
-@functools.cache
-def continuous(run: Run) -> pd.DataFrame:
-    """Return the episodes on the continuous plant whose end no shorter step moves."""
-    return read.converged(run.rows("episodes", task="free-body", engine="ideal-rk4"))
-
-
 def facts(run: Run) -> dict:
     """Return how much each law loses, and where the linearized law's failures begin."""
     return {
         **count_mapped(),
         # |Edot| over |omega| half a degree off a pole
         "gain": f"{1.0 / math.sqrt(1.0 - math.cos(math.radians(0.5))):.0f}",
-        **(in_run(lambda: on_the_map(continuous(run))) or {}),
+        **(in_run(lambda: on_the_map(run)) or {}),
     }
 
 
@@ -39,8 +31,9 @@ def count_mapped() -> dict[str, str]:
     return {"mapped": html.number(int(found["starts"].min())), "mapped_l": f"{value:.2f} % ({low:.2f} to {high:.2f})"}
 
 
-def on_the_map(episodes: pd.DataFrame) -> dict:
-    """Return what the uniform starts of the run say."""
+def on_the_map(run: Run) -> dict:
+    """Return what the uniform starts of the run say, on the continuous plant, whose end no shorter step moves."""
+    episodes = read.converged(run.rows("episodes", task="free-body", engine="ideal-rk4"))
     linearized = of(episodes, LINEARIZED)
     failed, others = lost(linearized), [len(lost(of(episodes, SHORT[letter]))) for letter in "mf"]
     return {

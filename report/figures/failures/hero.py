@@ -29,9 +29,10 @@ def hero(episodes: pd.DataFrame, narrow: bool) -> Drawing:
     Args:
         episodes: rows of one engine; sets at rest with goal zero are drawn, what fails in the rail above.
     """
-    parts = laws.each(episodes[episodes["start_set"].isin(SETS)])
-    shared = {"sharex": True, "sharey": True, "squeeze": False}
-    figure, grid = style.beside(len(parts), 3.5, 2.3 * len(parts), narrow, **shared)
+    rows = episodes[episodes["start_set"].isin(SETS)]
+    parts = [(name, own) for name in laws.TITLES if len(own := rows[rows["contender"] == name])]
+    shape, height = ((len(parts), 1), 2.3 * len(parts)) if narrow else ((1, len(parts)), 3.5)
+    figure, grid = style.panels(*shape, height=height, narrow=narrow, sharex=True, sharey=True, squeeze=False)
     said = [_panel(axes, *part) for axes, part in zip(grid.flat, parts, strict=True)]
     for axes in grid[-1, :]:
         axes.set_xlabel("initial angle to the goal [deg]")
@@ -40,8 +41,8 @@ def hero(episodes: pd.DataFrame, narrow: bool) -> Drawing:
     return figure, "Settling time against initial angle, a panel for each law. " + " ".join(said)
 
 
-def _panel(axes: Any, name: str, title: str, rows: pd.DataFrame) -> str:
-    colour = style.look(name).colour
+def _panel(axes: Any, name: str, rows: pd.DataFrame) -> str:
+    title, colour = laws.TITLES[name], style.look(name).colour
     is_uniform, is_settled = rows["start_set"] == "uniform", rows["outcome"] == "settled"
     drawn = pd.concat(
         (rows[is_uniform & is_settled].head(DRAWN), rows[(rows["start_set"] == "half-turn") & is_settled])

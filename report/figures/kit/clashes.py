@@ -1,7 +1,5 @@
 """Texts of a figure that overlap each other or leave the figure, by matplotlib's own bounding boxes."""
 
-from __future__ import annotations
-
 import itertools
 
 from matplotlib.figure import Figure
@@ -27,11 +25,7 @@ def find_clashes(figure: Figure) -> list[str]:
         if min(a.x1, b.x1) - max(a.x0, b.x0) > SLACK and min(a.y1, b.y1) - max(a.y0, b.y0) > SLACK:
             found.append(f"{one!r} overlaps {other!r}")
     whole = figure.bbox.padded(SLACK)
-    leaving = [
-        text
-        for text, box in boxes
-        if min(box.x0 - whole.x0, box.y0 - whole.y0, whole.x1 - box.x1, whole.y1 - box.y1) < 0.0
-    ]
+    leaving = [text for text, box in boxes if not (whole.contains(*box.min) and whole.contains(*box.max))]
     return found + [f"{text!r} leaves the figure" for text in leaving]
 
 

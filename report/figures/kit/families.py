@@ -4,8 +4,6 @@ Two dozen laws in one figure cannot be distinguished. A family's laws are drawn 
 others in grey.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import NamedTuple
 

@@ -4,8 +4,6 @@ Their looks are in report/_static/report.css. Tables are Markdown, so that links
 cells are checked when the report is built; the rest is HTML.
 """
 
-from __future__ import annotations
-
 import math
 import numbers
 import re
@@ -147,8 +145,3 @@ def formula(tex: str) -> str:
         return mathml.block(tex)
     except ValueError:
         return f'<div class="math"><code>{foreign(tex)}</code></div>'
-
-
-def plain_table(frame: pd.DataFrame) -> str:
-    """Return a small HTML table for inside a card; the first column is words."""
-    return frame.to_html(index=False, classes="plain", border=0, formatters=[cell] * len(frame.columns))

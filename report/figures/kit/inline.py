@@ -5,8 +5,6 @@ of `light-dark(light, dark)`, which the theme's `color-scheme` decides. Ids are 
 share a page.
 """
 
-from __future__ import annotations
-
 import functools
 import html
 import inspect
@@ -33,7 +31,7 @@ STROKES = "stroke-linejoin: round; stroke-linecap: butt"
 
 Drawing = tuple[Figure, str]
 """A figure, and its alternative text."""
-POINTS_PER_INCH = 72  # the unit of an SVG, in which text is measured
+POINTS_PER_INCH, CSS_PIXELS_PER_INCH = 72, 96  # the units of an SVG, in which text is measured, and of a page
 
 
 class Picture(NamedTuple):
@@ -82,18 +80,14 @@ def svg(figure: Figure, alt: str, name: str) -> str:
     text = re.sub(r"<metadata>.*?</metadata>|<style.*?</style>|<!--.*?-->", "", text, flags=re.DOTALL)
     text = PATH.sub(lambda path: DOT.sub(r"M \1h0", LONG_NUMBER.sub(r"\1", path[0])), text)
     text = own_ids(text, name.replace("_", "-"), alt)
-    text = named_colours(text)
-    colours = "; ".join(
-        f"{variable(light)}: light-dark({light}, {dark})"
-        for light, dark in style.TWINS.items()
-        if variable(light) in text
-    )
-    words = html.escape(alt, quote=True)
-    size = re.search(r'width="([\d.]+)pt"', text)
-    width = f"{float(size[1]) * 4 / 3:.0f}px" if size else "100%"
-    text = re.sub(r'(<svg[^>]*?)\s+width="[^"]*"', r"\1", text, count=1)
-    text = re.sub(r'(<svg[^>]*?)\s+height="[^"]*"', r"\1", text, count=1)
-    opening = f'<svg role="img" aria-label="{words}" style="max-width: {width}; {STROKES}; {colours}"'
+    # Every colour that has a twin becomes its variable; attributes become styles, which allow one.
+    text = re.sub(r'\b(fill|stroke)="(#[0-9a-fA-F]{6})"', r'style="\1: \2"', text)
+    text = COLOUR.sub(lambda found: f"var({variable(found[0])})", text)
+    twins = [(variable(light), light, dark) for light, dark in style.TWINS.items()]
+    colours = "; ".join(f"{name}: light-dark({light}, {dark})" for name, light, dark in twins if name in text)
+    words, width = html.escape(alt, quote=True), figure.get_figwidth() * CSS_PIXELS_PER_INCH
+    text = re.sub(r'\s+(?:width|height)="[\d.]+pt"', "", text, count=2)
+    opening = f'<svg role="img" aria-label="{words}" style="max-width: {width:.0f}px; {STROKES}; {colours}"'
     return " ".join(text.replace("<svg", opening, 1).split())
 
 
@@ -115,12 +109,6 @@ def own_ids(text: str, name: str, alt: str = "") -> str:
     used = set(USED_ID.findall(text))
     text = ID.sub(lambda found: f' id="{prefix}{found[1]}"' if found[1] in used else "", text)
     return USED_ID.sub(lambda found: found[0].replace(f"#{found[1]}", f"#{prefix}{found[1]}"), text)
-
-
-def named_colours(text: str) -> str:
-    """Every colour that has a twin, as its variable; attributes become styles, which allow one."""
-    text = re.sub(r'\b(fill|stroke)="(#[0-9a-fA-F]{6})"', r'style="\1: \2"', text)
-    return COLOUR.sub(lambda found: f"var({variable(found[0])})", text)
 
 
 def variable(colour: str) -> str:

@@ -14,12 +14,6 @@ TITLES = {one.name: one.regulator.title.partition(" (")[0] for one in papers_law
 """contender -> how it is called in a figure."""
 
 
-def each(frame: pd.DataFrame) -> list[tuple[str, str, pd.DataFrame]]:
-    """(contender, title, its rows) of each of the three that the table holds."""
-    parts = ((name, title, frame[frame["contender"] == name]) for name, title in TITLES.items())
-    return [(name, title, rows) for name, title, rows in parts if len(rows)]
-
-
 def without_later(frame: pd.DataFrame) -> pd.DataFrame:
     """Return the rows of the paper's laws in any coordinates and of the user's own."""
     later = {name for name, one in contenders("regulators").items() if one.later}

@@ -1,7 +1,5 @@
 """Formulas from TeX to MathML when the book is built, so that a page needs no script for them."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterator
 from xml.etree import ElementTree
@@ -68,8 +66,7 @@ def space(row: ElementTree.Element) -> None:
     for child in row:
         if kind(child) == "mo" and ((child.text or "").isalpha() or child.text == TRANSPOSE):
             child.tag = f"{{{NAMESPACE}}}mi"  # as an operator a browser would set it apart on both sides
-    children = list(row)
-    row[:] = list(set_apart(children))
+    row[:] = list(set_apart(list(row)))
 
 
 def set_apart(children: list[ElementTree.Element]) -> Iterator[ElementTree.Element]:

@@ -3,8 +3,6 @@
 report/media.py made them and wrote media.json beside them; the joint motion is an episode of our own engine.
 """
 
-from __future__ import annotations
-
 import html as escape
 import json
 from collections.abc import Callable

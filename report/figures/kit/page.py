@@ -7,8 +7,6 @@ modules on a page give what it pastes under their own word: `spread` of response
 and the claims' NoEvidence) are not in this run, and the page says so. A key that the page does not paste is an error.
 """
 
-from __future__ import annotations
-
 import functools
 import importlib
 import re
@@ -152,4 +150,8 @@ def absent(key: str, kind: str) -> Any:
 @responsive_picture
 def blank(what: str, narrow: bool) -> Drawing:
     """Return the words alone, in the place of a figure."""
-    return style.words(f"{what}: {ABSENT}", narrow, height=0.6), f"{what}: {ABSENT}. The default suite holds it."
+    figure, axes = style.panels(height=0.6, narrow=narrow)
+    axes.axis("off")
+    said, look = f"{what}: {ABSENT}", {"color": style.MUTED, "linespacing": 1.6}
+    axes.text(0.5, 0.5, said, ha="center", va="center", wrap=True, **look)
+    return figure, f"{said}. The default suite holds it."

@@ -2,7 +2,6 @@
 
 import pandas as pd
 
-from bench.findings.theory.closed_form import linear_settling
 from report.figures.kit.laws import TITLES
 
 MATRIX, LINEARIZED, FEEDBACK = TITLES
@@ -17,9 +16,3 @@ def of(frame: pd.DataFrame, contender: str, start_set: str = "uniform") -> pd.Da
 def lost(rows: pd.DataFrame) -> pd.DataFrame:
     """Return the rows that did not settle."""
     return rows[rows["outcome"] != "settled"]
-
-
-def small_error_settling_s(episodes: pd.DataFrame) -> float:
-    """Settling time of a small error, from the closed form and the run's gains and band [s]."""
-    kp, kv, band = (float(episodes[column].iloc[0]) for column in ("kp", "kv", "tolerance"))
-    return linear_settling(kp, kv, band)

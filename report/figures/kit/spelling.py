@@ -1,7 +1,5 @@
 """From the spelling of sources, which is plain, to that of a page: Greek letters, signs, powers, quotation marks."""
 
-from __future__ import annotations
-
 import html
 import re
 from collections.abc import Iterable

@@ -4,8 +4,6 @@ Colours are Okabe and Ito's eight, distinguished with any colour vision, each wi
 Colour never stands alone: the marker and the line differ too, so that a print in grey still reads.
 """
 
-from __future__ import annotations
-
 import functools
 import itertools
 import zlib
@@ -17,7 +15,6 @@ from matplotlib import font_manager, rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from bench.law import display
 from report.figures.kit import laws
 
 FONTS = Path(__file__).parent / "fonts"
@@ -64,11 +61,6 @@ class Look(NamedTuple):
     marker: str
     line: str | tuple
 
-    @property
-    def dark(self) -> str:
-        """Return the colour on a dark page."""
-        return TWINS[self.colour]
-
 
 SOLID, DASHED, DOTTED, DASH_DOT = "-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2))
 
@@ -99,11 +91,9 @@ def look(name: str) -> Look:
     """How to draw a regulator or a contender (`regulator/representation@...`), unknown ones included."""
     word = laws.regulator_of(name)
     own = laws.regulator(word)
-    return drawn(own.display.look) if own and own.display.look else spare(word)
-
-
-def drawn(words: display.Look) -> Look:
-    """Return the look that these words name."""
+    if not own or not own.display.look:
+        return spare(word)
+    words = own.display.look
     return Look(COLOURS[words.colour], words.marker, LINES[words.line])
 
 
@@ -142,25 +132,10 @@ def panels(rows: int = 1, cols: int = 1, *, height: float = 3.2, narrow: bool = 
     return figure, axes
 
 
-def beside(count: int, height: float, narrow_height: float, narrow: bool, **subplots: Any) -> Any:
-    """Return a figure of panels side by side, one below the other on a phone, and its axes."""
-    shape = (count, 1) if narrow else (1, count)
-    return panels(*shape, height=narrow_height if narrow else height, narrow=narrow, **subplots)
-
-
-def words(text: str, narrow: bool, height: float = 1.0) -> Figure:
-    """Return a figure that only says something."""
-    figure, axes = panels(height=height, narrow=narrow)
-    axes.axis("off")
-    axes.text(0.5, 0.5, text, ha="center", va="center", color=MUTED, linespacing=1.6, wrap=True)
-    return figure
-
-
-def listed(*each: Axes) -> None:
+def listed(axes: Axes) -> None:
     """Axes whose rows are a list of names: no lines and no ticks between them."""
-    for axes in each:
-        axes.grid(visible=False, axis="y")
-        axes.tick_params(axis="y", length=0)
+    axes.grid(visible=False, axis="y")
+    axes.tick_params(axis="y", length=0)
 
 
 def label_line(axes: Axes, x: float, y: float, text: str, colour: str = INK, **place: Any) -> None:

@@ -1,7 +1,5 @@
 """Plain tables, declared: the columns in their order with their units, and how each one's numbers are written."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
@@ -23,15 +21,11 @@ class Table:
     """
 
     def __init__(
-        self,
-        columns: str | Mapping[str, str | Callable[[Any], str]],
-        forms: Mapping[str, Callable[[Any], str]] | None = None,
-        words: Iterable[str] = (),
+        self, columns: str, forms: Mapping[str, Callable[[Any], str]] | None = None, words: Iterable[str] = ()
     ):
-        if isinstance(columns, str):
-            columns = {head: form for head, _, form in (one.strip().partition(":") for one in columns.split("|"))}
-        self.heads = list(columns)
-        self.formats = {head: form for head, form in {**columns, **(forms or {})}.items() if form}
+        parts = [one.strip().partition(":") for one in columns.split("|")]
+        self.heads = [head for head, *_ in parts]
+        self.formats = {head: form for head, _, form in parts if form} | dict(forms or {})
         self.words = tuple(words)
 
     def __call__(self, rows: Iterable) -> html.Markdown | None:

@@ -3,8 +3,6 @@
 Read from results/libraries, which is committed: it does not change with the run that a report is built from.
 """
 
-from __future__ import annotations
-
 import functools
 import math
 
@@ -23,9 +21,9 @@ NO_NUMBER, ZERO, LONG_WAY, MISALIGNED, SHEET, DIGITS = "no-number", "zero", "lon
 
 
 @functools.cache
-def table() -> pd.DataFrame:
-    """Every row of libraries.parquet, words as words."""
-    found = read(FOLDER, "libraries")
+def table(name: str = "libraries") -> pd.DataFrame:
+    """Return every row of a table of the study, words as words."""
+    found = read(FOLDER, name)
     return found.astype(dict.fromkeys(found.select_dtypes("category"), str))
 
 
@@ -37,42 +35,15 @@ def origins() -> dict[str, dict[str, str]]:
 def functions(rows: pd.DataFrame) -> pd.DataFrame:
     """One line a function, in the table's order.
 
-    Columns: library, function, kind, takes, form, precision, thread; the largest error by its own form over `small`
-    turns, `drawn` ones, those `near` 180°, `at` it and at the `pole`; `turn`, the largest error of the turn
-    that an answer stands for; `off`, the largest error against theta k over drawn turns; `objections`, the verdict: a
-    dictionary from kind to words, empty if it is right.
+    Columns: library, function, kind, takes, form, precision, thread; `turn`, the largest error of the turn that an
+    answer stands for; `objections`, the verdict: a dictionary from kind to words; `is_right`: it is empty.
     """
-    lines = []
-    for (library, function), own in rows.groupby(["library", "function"], sort=False):
-        first, uniform = own.iloc[0], drawn(own)
-        lines.append(
-            {
-                "library": library,
-                "function": function,
-                **first[["kind", "takes", "form", "precision", "thread"]],
-                **{name: part["form_error_rad"].max() for name, part in parts(own).items()},
-                "turn": own["turn_error_rad"].max(),
-                "off": uniform["error_rad"].max(),
-                "objections": objections(own),
-            }
-        )
-    return pd.DataFrame(lines)
-
-
-def parts(own: pd.DataFrame) -> dict[str, pd.DataFrame]:
-    """Return a function's rows by where its turns are."""
-    return {
-        "small": own[own["angle_rad"].notna()],
-        "drawn": drawn(own),
-        "near": own[own["distance_rad"] > 0.0],
-        "at": own[own["distance_rad"] == 0.0],
-        "pole": own[own["turn_set"] == "pole"],
-    }
-
-
-def drawn(own: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows of uniform turns."""
-    return own[own["turn_set"] == "drawn"]
+    words = ["library", "function", "kind", "takes", "form", "precision", "thread"]
+    lines = [
+        {**own.iloc[0][words], "turn": own["turn_error_rad"].max(), "objections": objections(own)}
+        for _, own in rows.groupby(["library", "function"], sort=False)
+    ]
+    return pd.DataFrame(lines).assign(is_right=lambda every: ~every["objections"].map(bool))
 
 
 def objections(own: pd.DataFrame) -> dict[str, str]:
@@ -81,7 +52,7 @@ def objections(own: pd.DataFrame) -> dict[str, str]:
     Every function is judged by the turn that its answer stands for; that angles are no error along the axis is no fault
     of the function. This is the only verdict on a function that the page has.
     """
-    has_axis, at = FORMS[own["form"].iloc[0]].size is not None, parts(own)["at"]
+    has_axis, at = FORMS[own["form"].iloc[0]].size is not None, own[own["distance_rad"] == 0.0]
     found = {}
     silent = own["raised"].sum() + own["not_finite"].sum()
     if silent:

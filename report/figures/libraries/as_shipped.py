@@ -1,8 +1,5 @@
 """Controllers as their authors ship them: what is felt of what is set, where they rest, and the smallest fix."""
 
-from __future__ import annotations
-
-import functools
 import math
 from collections.abc import Callable
 from typing import Any
@@ -42,12 +39,6 @@ def shipped(run: Run) -> pd.DataFrame:
     return own.assign(order=order).sort_values(["order", "shipped"], ignore_index=True)
 
 
-@functools.cache
-def restated() -> dict[str, dict]:
-    """Return by name what the study found that held each controller to its source."""
-    return {one["name"]: one for one in read_json(STORED)["controllers"]}
-
-
 def is_weak(own: pd.DataFrame) -> pd.Series:
     """Find controllers with much less than the stiffness set at 3°; a limit of speed is none."""
     return (own["stiffness_50mrad"] < WEAK) & (own["level"] != VELOCITY)
@@ -72,15 +63,16 @@ def facts(run: Run) -> dict:
 
 
 def held() -> dict:
-    """Return what the study of sources found."""
-    built = [one for one in restated().values() if "difference" in one]
+    """Return what the study found that held each controller to its source."""
+    restated = read_json(STORED)["controllers"]
+    built = [one for one in restated if "difference" in one]
     fixes = {name: fix_of(name) for name in contenders("shipped")}
     rises = [name for name, fix in fixes.items() if fix.after > 1.01 * fix.before]
     return {
         "fixed": sum(fix.words != KEEP for fix in fixes.values()),
         "kept": sum(fix.words == KEEP for fix in fixes.values()),
         "rises": ", ".join(rises) or "none",
-        "built": f"{len(built)} of {len(restated())}",
+        "built": f"{len(built)} of {len(restated)}",
         "pairs": power(max(one["pairs"] for one in built)),
         "difference": power(max(one["difference"] for one in built)),
     }
@@ -140,11 +132,16 @@ def link(one: Law) -> str:
     return f"[{one.name}]({HOST}/{source}/blob/{revision}/{one.shipped.path.partition(',')[0]})"
 
 
+def reported(thread: str, words: str = "") -> str:
+    """Return a thread upstream, owner/repository#number, as a link; pull requests are found under it too."""
+    repository, _, number = thread.partition("#")
+    return f"[{words or f'#{number}'}]({HOST}/{repository}/issues/{number})" if thread else html.MISSING
+
+
 def describe_fix(row: Any) -> tuple:
     """Return the cells of a controller's fix: what is felt, what to change, the greatest command before and after."""
     one, found = contenders("shipped")[row.shipped], fix_of(row.shipped)
-    repository, _, number = one.shipped.thread.partition("#")
-    known = f" Thread: [#{number}]({HOST}/{repository}/issues/{number})." if number else ""
+    known = f" Thread: {reported(one.shipped.thread)}." if one.shipped.thread else ""
     unit = "rad/s²" if one.shipped.shapes_inertia else "N m"
     return (
         link(one),

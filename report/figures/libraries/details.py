@@ -1,13 +1,12 @@
 """The appendix on other libraries: how functions were tested, and questions of users."""
 
-from __future__ import annotations
-
 from bench.findings.questions import QUESTIONS, Question
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
 from report.figures.kit.tables import Table
 from report.figures.libraries import answers
-from report.figures.libraries.libraries import lines, passed, reported
+from report.figures.libraries.as_shipped import reported
+from report.figures.libraries.libraries import lines, passed
 
 PASSED = Table("Library | Functions")
 ASKED = Table("Question | Cause | Cure | Measured | Without the cure:.3g | With it:.3g")

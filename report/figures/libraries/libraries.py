@@ -1,7 +1,5 @@
 """The page on other libraries: which functions fail, with the smallest fix, and shipped controllers."""
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Iterator
 from typing import Any
@@ -17,7 +15,6 @@ from report.figures.libraries import answers, as_shipped, loops
 
 OURS = "orientation-bench"
 """Our own laws in results/libraries, asked like the libraries."""
-HOST = "https://github.com"
 
 FAULTS = Table("Library | Function | Fault | Smallest fix | Thread")
 ORDER = (answers.ZERO, answers.SHEET, answers.LONG_WAY, answers.MISALIGNED, answers.DIGITS)
@@ -35,36 +32,26 @@ def errors(every: pd.DataFrame, kind: str = "function") -> pd.DataFrame:
     return every[every["form"].ne(answers.ANGLES) & every["kind"].eq(kind)]
 
 
-def right(every: pd.DataFrame) -> pd.DataFrame:
-    """Return those against which nothing is said."""
-    return every[every["objections"].map(len).eq(0)]
-
-
-def faulty(every: pd.DataFrame) -> pd.DataFrame:
-    """Return those against which something is said."""
-    return every[every["objections"].map(len).gt(0)]
-
-
 def facts(run: Run) -> dict:
     """Return every number that the text takes; ours are not counted among other libraries'."""
     rows, every = answers.table(), lines()
     others = every[every["library"] != OURS]
     functions, idioms = errors(others), errors(others, "idiom")
-    good = right(functions)
+    good = functions[functions["is_right"]]
     single = good["precision"] == "single"
     return {
         "libraries": len(set(answers.origins()) - {OURS}),
         "functions": len(functions),
         "right": len(good),
         "idioms": len(idioms),
-        "idioms_wrong": len(faulty(idioms)),
+        "idioms_wrong": int((~idioms["is_right"]).sum()),
         "count": power(answers.COUNT_RAD),
         "worst_right": power(good[~single]["turn"].max()),
         "passed_names": listed(name for name, _ in passed(every)),
         "single_names": ", ".join(dict.fromkeys(good[single]["library"])),
         "worst_single": power(good[single]["turn"].max()),
         "turns": int(rows.groupby(["library", "function"])["turns"].sum().max()),
-        "known": int(faulty(functions)["thread"].ne("").sum()),
+        "known": int(functions.loc[~functions["is_right"], "thread"].ne("").sum()),
         **loop_facts(),
         **(in_run(shipped_facts, run) or {}),
     }
@@ -103,27 +90,22 @@ def tables(run: Run) -> dict:
 
 def faults(every: pd.DataFrame) -> Iterator[tuple]:
     """Return a row for the functions of a library that fail alike and for which the same thread is known."""
-    own = with_fixes(errors(every[every["library"] != OURS]))
+    own = errors(every[every["library"] != OURS]).query("not is_right")
+    own = own.merge(loops.verdicts()[["library", "function", "replacement"]], how="left").fillna({"replacement": ""})
     own = own.assign(
-        said=own.apply(said, axis=1), first=own["objections"].map(lambda found: min(map(ORDER.index, found)))
+        said=own["objections"].map(lambda found: "; ".join(found.values())),
+        first=own["objections"].map(lambda found: min(map(ORDER.index, found))),
     )
     own = own.sort_values(["first", "library"], kind="stable")
     for (library, fault, thread), alike in own.groupby(["library", "said", "thread"], sort=False):
         names = ", ".join(f"`{name}`" for name in alike["function"])
         fixes = " or ".join(dict.fromkeys(instead(one, every) for one in alike.itertuples()))
-        yield f"{library} {answers.origins()[library]['version']}", names, fault, fixes, reported(thread)
-
-
-def with_fixes(every: pd.DataFrame) -> pd.DataFrame:
-    """Return the functions that fail, with the study's replacement of each."""
-    keys = ["library", "function"]
-    found = faulty(every).merge(loops.verdicts()[[*keys, "replacement"]], on=keys, how="left")
-    return found.fillna({"replacement": ""})
+        yield f"{library} {answers.origins()[library]['version']}", names, fault, fixes, as_shipped.reported(thread)
 
 
 def passed(every: pd.DataFrame) -> Iterator[tuple]:
     """Return a row a library: its functions that are right and give the rotation vector."""
-    kept = right(errors(every[every["library"] != OURS]))
+    kept = errors(every[every["library"] != OURS]).query("is_right")
     for library, own in kept[kept["form"] == answers.VECTOR].groupby("library", sort=False):
         names = dict.fromkeys(name.partition(", of a ")[0] for name in own["function"])
         yield f"{library} {answers.origins()[library]['version']}", ", ".join(f"`{name}`" for name in names)
@@ -133,17 +115,6 @@ def instead(one: Any, every: pd.DataFrame) -> str:
     """Return the smallest fix: a change of a line, else a right function of the same library, else one of ours."""
     if one.form == answers.ANGLES or (one.replacement and not one.replacement.startswith("`of_")):
         return one.replacement or html.MISSING
-    kept = right(errors(every))
+    kept = errors(every).query("is_right")
     alike = kept[(kept["library"] == one.library) & (kept["takes"] == one.takes) & (kept["form"] == answers.VECTOR)]
     return f"`{alike['function'].iloc[0]}`" if len(alike) else f"`of_{one.takes}`"
-
-
-def said(one: Any) -> str:
-    """Return the verdict on a line's function."""
-    return "; ".join(one.objections.values()) or loops.RIGHT
-
-
-def reported(thread: str, words: str = "") -> str:
-    """Return a thread upstream, owner/repository#number, as a link; pull requests are found under it too."""
-    repository, _, number = thread.partition("#")
-    return f"[{words or f'#{number}'}]({HOST}/{repository}/issues/{number})" if thread else html.MISSING

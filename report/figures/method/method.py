@@ -1,17 +1,14 @@
 """What the page on method says: whether engines agree, and by which rules operations are counted."""
 
-from __future__ import annotations
-
-import functools
 from typing import Any
 
 import pandas as pd
 
 from bench.engines.counting import RULES as COUNT_RULES
 from bench.findings.selection.needs import CHATTER
+from bench.findings.theory.closed_form import linear_settling
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
-from report.figures.kit.rows import small_error_settling_s
 from report.figures.kit.spelling import prose
 from tasks.rules import RULES
 
@@ -19,15 +16,9 @@ KEY = ["contender", "start_set", "start_id"]
 JUDGED = ["outcome", "settling_time_s", "failure_time_s", "final_angle_rad", "effort", "path_ratio", "peak_u", "ticks"]
 
 
-@functools.cache
-def episodes(run: Run) -> pd.DataFrame:
-    """Return the episodes of the free body."""
-    return run.rows("episodes", task="free-body")
-
-
 def facts(run: Run) -> dict[str, Any]:
     """Return whether engines agree, how many episodes asked for shorter steps, and the rules of counting."""
-    runs = episodes(run)
+    runs = run.rows("episodes", task="free-body")
     both, equal = count_equal(runs, "reference", "native")
     asked = runs[runs["converged"] != ""]
     return {
@@ -38,7 +29,7 @@ def facts(run: Run) -> dict[str, Any]:
         "unconverged": int((asked["converged"] == "no").sum()),
         "engines": runs["engine"].nunique(),
         "gains": describe_gains(runs),
-        "small": f"{small_error_settling_s(runs):.3f}",
+        "small": f"{linear_settling(*runs[['kp', 'kv', 'tolerance']].iloc[0]):.3f}",
         "later_ms": describe_ends(compute_lateness_ms(runs, "native")),
         "hold_s": f"{RULES.hold_s:g}",
         "chatter": f"{CHATTER:g}",

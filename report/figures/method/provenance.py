@@ -1,7 +1,5 @@
 """What the page on provenance shows: the run, its files with links to take them."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 from typing import Any

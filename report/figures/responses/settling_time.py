@@ -10,20 +10,15 @@ from report.figures.kit.page import Run
 from report.figures.kit.rows import MATRIX, of
 from report.figures.kit.spelling import power
 
-DECADE = re.compile(r"-k(\d+)$")
+DECADE = re.compile(r"-k(\d+)$")  # of a start that is 10^-k rad from 180°
 FITTED = (3, 10)
 """Decades of the slope: the sine is linear in pi - angle from the first on, and rounding of R is small to the last."""
 
 
-def directed(run: Run) -> pd.DataFrame:
-    """Return the law's rows of the set half-turn on the continuous plant, `k` where they are 10^-k rad from it."""
-    rows = of(run.rows("episodes", engine="ideal-rk4"), MATRIX, "half-turn")
-    return rows.assign(k=rows["start_id"].astype(str).str.extract(DECADE, expand=False).astype(float))
-
-
 def facts(run: Run) -> dict:
     """Return the time a decade, by theory and as measured, and what becomes of exact 180° rotations."""
-    rows = directed(run)
+    rows = of(run.rows("episodes", engine="ideal-rk4"), MATRIX, "half-turn")
+    rows = rows.assign(k=rows["start_id"].astype(str).str.extract(DECADE, expand=False).astype(float))
     near, exact = rows[rows["k"].notna()], rows[rows["k"].isna()]
     return {
         "slope": f"{slope(near):.4f}",

@@ -1,7 +1,5 @@
 """Goals that jump while the body moves: how often a law then unwinds, with its memory kept or reset."""
 
-from __future__ import annotations
-
 import math
 
 import pandas as pd

@@ -1,7 +1,5 @@
 """Goals that arrive as a stream: the worst of the filters between them, and of the quaternion taken as it came."""
 
-from __future__ import annotations
-
 import math
 
 from report.figures.kit.page import Run

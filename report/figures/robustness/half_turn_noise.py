@@ -4,8 +4,6 @@ A law that turns about one axis is a scalar equation there (`isotropic`), and th
 is held follows from adding up. A law with memory is held from where its memory ends.
 """
 
-from __future__ import annotations
-
 import math
 
 import pandas as pd
@@ -53,8 +51,7 @@ def strips(rows: pd.DataFrame, narrow: bool) -> Drawing:
     # 0.3 and its like lie too close to their neighbours on a phone
     axes.set_xticks(list(shares.index), ["" if narrow and f"{x:g}"[-1] == "3" else f"{x:g}" for x in shares.index])
     axes.minorticks_off()
-    axes.tick_params(axis="y", length=0)
-    axes.grid(visible=False, axis="y")
+    style.listed(axes)
     levels = ", ".join(f"{level:g}" for level in shares.index)
     return (
         figure,

@@ -1,7 +1,5 @@
 """The page that opens the chapter on robustness: up to which level each law withstands each perturbation."""
 
-from __future__ import annotations
-
 import functools
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Episodes under perturbations as the pages read them, and what every page says of them."""
 
-from __future__ import annotations
-
 import functools
 
 import numpy as np
@@ -28,11 +26,6 @@ def laws(rows: pd.DataFrame, controls: bool = True) -> list[str]:
     """Return the laws of the rows, family by family; without the negative controls if so asked."""
     names = [name for name in rows["contender"].cat.categories if (rows["contender"] == name).any()]
     return names if controls else [name for name in names if name not in families.CONTROLS]
-
-
-def of(rows: pd.DataFrame, law: str) -> pd.DataFrame:
-    """Return rows of one law."""
-    return rows[rows["contender"] == law]
 
 
 def gains(rows: pd.DataFrame) -> tuple[float, float]:
