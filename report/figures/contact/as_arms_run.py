@@ -1,13 +1,8 @@
 """The page on impedance without inertia shaping: damping felt by mode, and the control periods that are stable."""
 
-<<<<<<< HEAD
-from __future__ import annotations
-
 import functools
 from collections.abc import Iterator
 
-=======
->>>>>>> trim-report
 import pandas as pd
 
 from bench.experiments.impedance import Stiffness
@@ -23,16 +18,8 @@ PANDA = Table("Gains of | Stiffness [N/m; N m/rad] | Control period [ms] | Delay
 
 def facts(run: Run) -> dict:
     """Return the damping felt by each design, and the longest stable control periods of frankapy's gains."""
-<<<<<<< HEAD
     every, frankapys = modes(run), SHIPPED["frankapy"]
     found, franka = driven(every), on_panda(every, frankapys)
-=======
-    every = with_theory(run.rows("impedance-modes").astype({"arm": str, "damping": str}))
-    driven = every["variation"].astype(str) != IDEAL_MOTORS
-    found, panda = every[driven], every["arm"] == "panda"
-    franka = every[panda & (every["damping"] == "diagonal") & (every["stiffness_n_m"] == FRANKAPYS.translation)]
-    stable = 1000.0 * franka.loc[driven, "longest_dt_s"]
->>>>>>> trim-report
     felt = {name: found.loc[found["damping"] == name, "ratio"] for name in DAMPINGS}
     double, axes = felt["double-diagonalization"], felt["per-axis"]
     return {
