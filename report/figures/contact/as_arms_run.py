@@ -16,6 +16,12 @@ from report.figures.kit.tables import Table
 PANDA = Table("Gains of | Stiffness [N/m; N m/rad] | Control period [ms] | Delay at 1 kHz [ms]")
 
 
+@functools.cache
+def modes(run: Run) -> pd.DataFrame:
+    """Return the modes measured, beside theory's."""
+    return with_theory(run.rows("impedance-modes").astype({"arm": str, "damping": str}))
+
+
 def facts(run: Run) -> dict:
     """Return the damping felt by each design, and the longest stable control periods of frankapy's gains."""
     every, frankapys = modes(run), SHIPPED["frankapy"]
