@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import math
 
 import numpy as np
@@ -147,7 +146,8 @@ def _is_erratic(rows: pd.DataFrame, limit: float) -> pd.Series:
 def c30(results: Results) -> tuple[Word, Evidence]:
     """Both laws on bodies heavier and lighter than the model."""
     gains = results.gains()
-    runs = [results.found_by(off_model, law, gains, results.seed) for law in (THREE[0], THREE[-1])]
+    bodies = LIMIT.AXIS, LIMIT.STARTS, LIMIT.HORIZON_S, gains, results.seed
+    runs = [results.found_by(probes.perturbed, law, *bodies) for law in (THREE[0], THREE[-1])]
     levels = sorted(set(runs[0]["level"]) - {1.0})
     lost = [[share(~settled(one[one["level"] == level])) for one in runs] for level in levels]
     times = [[_median(one, level) for one in runs] for level in levels]
@@ -169,14 +169,3 @@ def c30(results: Results) -> tuple[Word, Evidence]:
 
 def _median(rows: pd.DataFrame, level: float) -> float:
     return float(rows.loc[rows["level"] == level, "settling_time_s"].median())
-
-
-@functools.cache
-def off_model(law: str, gains: Gains, seed: int) -> pd.DataFrame:
-    """Rows of robustness.parquet of a law along the axis."""
-    from bench.experiments.experiment import Settings, Unit, rows_of
-
-    unit = Unit(
-        "robustness", law, selector=LIMIT.AXIS, count=LIMIT.STARTS, total=LIMIT.STARTS, horizon_s=LIMIT.HORIZON_S
-    )
-    return rows_of(Settings(gains=gains, seed=seed), unit)

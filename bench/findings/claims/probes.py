@@ -130,6 +130,15 @@ def beside_pole(margin: float, contender: str, gains: Gains, dt_s: float = 1e-3)
     return episodes(contender, starts, gains, dt_s, 10.0)
 
 
+@functools.cache
+def perturbed(law: str, axis: str, starts: int, horizon_s: float, gains: Gains, seed: int) -> pd.DataFrame:
+    """Rows of robustness.parquet of a law along a perturbation."""
+    from bench.experiments.experiment import Settings, Unit, rows_of
+
+    unit = Unit("robustness", law, selector=axis, count=starts, total=starts, horizon_s=horizon_s)
+    return rows_of(Settings(gains=gains, seed=seed), unit)
+
+
 def boundary_distance(frame: pd.DataFrame) -> pd.DataFrame:
     """Return the distance of each start from the poles, the jumps of alpha and gamma, and 180° [rad]."""
     return pd.DataFrame(

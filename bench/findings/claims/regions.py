@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import functools
-
 import numpy as np
 
 from bench.base.on_first_use import pd
@@ -23,7 +21,6 @@ from bench.findings.claims.tables import (
 )
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form
-from bench.law.inputs import Gains
 
 LIMIT = read_limits(__file__)
 
@@ -83,7 +80,8 @@ def c38(results: Results) -> tuple[Word, Evidence]:
 @claim("C39")
 def c39(results: Results) -> tuple[Word, Evidence]:
     """Errors under a moving goal from small starts, against the rotation-matrix law's."""
-    runs = [results.found_by(tracked, law, results.gains(), results.seed) for law in (f"{CURE}/zyx-euler", THREE[0])]
+    goals = LIMIT.AXIS, LIMIT.STARTS, LIMIT.HORIZON_S, results.gains(), results.seed
+    runs = [results.found_by(probes.perturbed, law, *goals) for law in (f"{CURE}/zyx-euler", THREE[0])]
     near = (one[(one["angle0_rad"] <= LIMIT.SMALL_RAD) & (one["level"] > 0)] for one in runs)
     own, other = (some(one, "small start under a moving goal") for one in near)
     both = own.merge(other, on=["level", "start_id"], suffixes=("", "_other"))
@@ -97,14 +95,3 @@ def c39(results: Results) -> tuple[Word, Evidence]:
         follows, and greatest ratio to the rotation-matrix law's, {said}.""",
         len(both),
     )
-
-
-@functools.cache
-def tracked(law: str, gains: Gains, seed: int) -> pd.DataFrame:
-    """Rows of robustness.parquet of a law with goals that sway, their rate and acceleration given."""
-    from bench.experiments.experiment import Settings, Unit, rows_of
-
-    unit = Unit(
-        "robustness", law, selector=LIMIT.AXIS, count=LIMIT.STARTS, total=LIMIT.STARTS, horizon_s=LIMIT.HORIZON_S
-    )
-    return rows_of(Settings(gains=gains, seed=seed), unit)
