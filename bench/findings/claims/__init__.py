@@ -40,22 +40,6 @@ from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results
 from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Verdict, Word, decide, does
 from bench.findings.kept import keep
 
-__all__ = [
-    "RULE",
-    "Claim",
-    "Evidence",
-    "NoEvidence",
-    "Results",
-    "Verdict",
-    "Word",
-    "all_claims",
-    "judge",
-    "judge_all",
-    "judge_possible",
-    "tally",
-    "told",
-]
-
 RULE = (
     f"Engine {MAIN_ENGINE}, the paper's continuous system (2.6)-(2.7), decides. A claim about episodes is asked of "
     f"{' and '.join(CHECK_ENGINES)} too where they have rows, and what they say is reported: a sampled clock is ours, "
