@@ -15,8 +15,7 @@ from bench.engines.metrics.registry import metrics_of
 from bench.findings.claims.tables import some
 from bench.findings.theory.closed_form import linear, linear_settling
 from bench.findings.theory.compliance_theory import matrix_B
-from bench.law.contender import Contender
-from bench.law.contenders.registry import find_contender, inverse, jacobian, representation
+from bench.law.contenders.registry import find_contender, representation
 from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import IDENTITY, Rotation, from_quaternion
 from tasks.base import Start
@@ -169,13 +168,6 @@ TASK = "arm-regulation"
 BENDS = ("bend_0", "bend_1", "bend_2")
 
 
-def controller(word: str) -> Contender:
-    """Return the contender of `law@jacobian+inverse`."""
-    law, _, way = word.partition("@")
-    by, _, through = way.partition("+")
-    return find_contender(law)._replace(jacobian=jacobian(by), inverse=inverse(through))
-
-
 def curves(word: str, arm: str, gains: Gains, dt_s: float, count: int) -> pd.DataFrame:
     """Traces of a contender from the first clear starts of an arm: the angles' departure from the closed form.
 
@@ -186,7 +178,7 @@ def curves(word: str, arm: str, gains: Gains, dt_s: float, count: int) -> pd.Dat
     from bench.experiments import traces
     from bench.experiments.experiment import Settings
 
-    unit = traces.of_arm(controller(word).name, TASK, arm, count, "clear")
+    unit = traces.of_arm(word, TASK, arm, count, "clear")
     frame = traces.rows(Settings(gains=gains, dt_s=dt_s), unit)
     goals = {start.id: start.goal_wxyz for start in tasks.start_set("clear", count, 0, arm=arm)}
     parts = []
@@ -224,8 +216,7 @@ def beside_poles(word: str, arm: str, poses: pd.DataFrame, gains: Gains) -> pd.D
         if not id.endswith("-1e-01") and (family := id.rpartition("-1e-")[0] or id.removesuffix("-exact")) in goals
     ]
     some(starts, f"pose of {arm} beside a pole")
-    name = controller(word).name
-    unit = Unit("arm", name, TASK, arm, "native", "pole", IDEAL_MOTORS, count=len(starts), horizon_s=ON_ARM)
+    unit = Unit("arm", word, TASK, arm, "native", "pole", IDEAL_MOTORS, count=len(starts), horizon_s=ON_ARM)
     return rows_from(Settings(gains=gains), unit, starts)
 
 
