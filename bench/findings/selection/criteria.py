@@ -85,12 +85,10 @@ def longest_path(tables: Tables) -> dict[str, np.ndarray]:
 
 def held_by_noise_from(tables: Tables) -> dict[str, np.ndarray]:
     """Return the least noise tried that holds a law at some 180° rotation; infinite if none does."""
-    rows = tables.robustness[tables.robustness["axis"] == NOISE]
-    found = {}
-    for name, own in rows[rows["contender"].isin(tables.contenders)].groupby("contender", observed=True):
-        holding = own.loc[own["lost"], "level"]
-        found[str(name)] = np.array([holding.min() if len(holding) else math.inf])
-    return found
+    rows = tables.robustness
+    rows = rows[(rows["axis"] == NOISE) & rows["contender"].isin(tables.contenders)]
+    least = rows["level"].where(rows["lost"], math.inf).groupby(rows["contender"], observed=True).min()
+    return {str(name): np.array([level]) for name, level in least.items()}
 
 
 BESIDE_RAD, DIRECTIONS = 1e-6, 16
@@ -132,11 +130,6 @@ def on_arms(measure: str) -> Measure:
     return measured
 
 
-def settled_under(axis: str, level: float) -> Measure:
-    """Return the settling times at one level of a perturbation."""
-    return perturbed(axis, level, "settling_time_s")
-
-
 def in_degrees(measure: Measure) -> Measure:
     """Return a measure of angles in degrees."""
     return lambda tables: {name: np.degrees(angles) for name, angles in measure(tables).items()}
@@ -156,7 +149,7 @@ MEASURES: dict[str, Measure] = {
     "chatter": over_uniform("rest_change"),
     "variation": perturbed("delay", 0.0, "variation"),
     "overshoot": in_degrees(perturbed("saturation", BOUND, "overshoot_rad")),
-    "late": settled_under("delay", LATE_S),
+    "late": perturbed("delay", LATE_S, "settling_time_s"),
     "arms": on_arms("settled"),
     "within": on_arms("range"),
 }

@@ -115,10 +115,9 @@ def by_standard_inverse(rows: pd.DataFrame) -> pd.DataFrame:
     """Rows of arms by their standard inverse, in the order of arms and starts."""
     own = rows[(rows["arm"] != "") & rows["inverse"].isin(("solve", "pseudo-inverse"))]
     own = own.assign(inverse=own["inverse"].astype(str))
-    has_solve = own.groupby(["contender", "arm"], observed=True)["inverse"].transform(
-        lambda one: (one == "solve").any()
-    )
-    return own[~has_solve | (own["inverse"] == "solve")].sort_values(["arm", "start_set", "start_id"], kind="stable")
+    solves = own["inverse"] == "solve"
+    has_solve = solves.groupby([own["contender"], own["arm"]], observed=True).transform("any")
+    return own[~has_solve | solves].sort_values(["arm", "start_set", "start_id"], kind="stable")
 
 
 def _own(results: Results) -> list[Contender]:
