@@ -69,9 +69,7 @@ class Threshold(NamedTuple):
     share: float
 
     def __str__(self) -> str:
-        if math.isnan(self.held):
-            return "none"
-        return f"{self.held:g}" if not self.is_whole else f"{self.held:g}+"
+        return "none" if math.isnan(self.held) else f"{self.held:g}{'+' * self.is_whole}"
 
     @property
     def is_whole(self) -> bool:
