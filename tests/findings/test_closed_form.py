@@ -108,8 +108,7 @@ GAINS = (100.0, 20.0, 0.02)
 
 def test_sine_settles_as_the_closed_form_of_the_rotation_matrix():
     for angle in (0.5, 2.0, 3.1):
-        expected = settle(math.pi - angle, *GAINS)
-        assert isotropic.settling(SINE, angle, *GAINS) == pytest.approx(expected, abs=1e-6)
+        assert isotropic.settling(SINE, angle, *GAINS) == pytest.approx(settle(math.pi - angle, *GAINS), abs=1e-6)
 
 
 def test_straight_spring_settles_as_the_linear_system_from_every_angle():

@@ -56,9 +56,8 @@ def test_sine_settles_in_the_time_of_its_closed_form(angle_deg):
 
 def test_sine_never_leaves_an_exact_180_degree_rotation():
     rows = closed_loop.rows_of(Function("f", MATRIX, sine))
-    at_180 = rows[-1]
-    assert (at_180["angle_deg"], at_180["dead"]) == (180.0, closed_loop.HALF_TURN_AXES)
-    assert sum(row["dead"] for row in rows) == at_180["dead"]
+    assert (rows[-1]["angle_deg"], rows[-1]["dead"]) == (180.0, closed_loop.HALF_TURN_AXES)
+    assert sum(row["dead"] for row in rows) == rows[-1]["dead"]
 
 
 def test_bare_quaternion_unwinds_from_the_antipode_alone():
