@@ -11,7 +11,6 @@ import numpy as np
 
 import tasks
 from bench.base.on_first_use import Turn, pd
-from bench.engines.metrics.registry import metrics_of
 from bench.findings.claims.tables import some
 from bench.findings.theory.closed_form import linear, linear_settling
 from bench.findings.theory.compliance_theory import matrix_B
@@ -20,7 +19,6 @@ from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import IDENTITY, Rotation, from_quaternion
 from tasks.base import Start
 from tasks.haar import axes
-from tasks.verdict import OUTCOMES
 
 PAPER = Gains()
 QUAT = ("quat_w", "quat_x", "quat_y", "quat_z")
@@ -83,22 +81,12 @@ def about(axis: Sequence[float] | np.ndarray, angle: float) -> tuple:
 
 
 def episodes(contender: str, starts: list[Start], gains: Gains, dt_s: float, horizon_s: float) -> pd.DataFrame:
-    """Outcome and settling time of a few starts on the continuous plant."""
-    from bench.engines.episode import FIRST_METRIC, NEVER, OUTCOME, SETTLING_TICK
-    from bench.engines.simulate import run as run_engine  # imports the compiler: listing claims must not
-    from bench.experiments.experiment import Settings
+    """Rows of episodes.parquet of a few starts on the continuous plant."""
+    from bench.experiments.episodes import rows_from  # imports the compiler: listing claims must not
+    from bench.experiments.experiment import Settings, Unit
 
-    settings = Settings(gains=gains, dt_s=dt_s).limits(horizon_s)
-    metrics = metrics_of(on_arm=False)
-    rows = run_engine("ideal-rk4", find_contender(contender), "free-body", starts, settings, metrics)
-    ticks = rows[:, SETTLING_TICK]
-    return pd.DataFrame(
-        {
-            "outcome": [OUTCOMES[int(code)] for code in rows[:, OUTCOME]],
-            "settling_time_s": np.where(ticks == NEVER, np.nan, ticks * dt_s),
-            "peak_u": np.sqrt(rows[:, FIRST_METRIC + [metric.column for metric in metrics].index("peak_u")]),
-        }
-    )
+    unit = Unit("free-body", contender, "free-body", engine="ideal-rk4", count=len(starts), horizon_s=horizon_s)
+    return rows_from(Settings(gains=gains, dt_s=dt_s), unit, starts)
 
 
 def off_linear(contender: str, angle: float, about_axes: Any, gains: Gains, dt_s: float) -> np.ndarray:
