@@ -11,6 +11,7 @@ import numpy as np
 
 import tasks
 from bench.base.on_first_use import pd
+from bench.experiments.tables.read import chosen
 from bench.findings.claims import adequacy, probes, standing
 from bench.findings.claims.adequacy import CALLS, of_stage, tallied
 from bench.findings.claims.side_by_side import BASE
@@ -112,8 +113,7 @@ def _pairs(results: Results, found: pd.DataFrame, arm: str, start_set: str, cont
     rows = found[(found["arm"] == arm) & (found["start_set"] == start_set)]
     parts = []
     for one in (controller, ON_MATRIX):
-        named = words(one, tasks.arm(arm).joints).items()
-        own = rows[np.logical_and.reduce([rows[column] == word for column, word in named])]
+        own = chosen(rows, words(one, tasks.arm(arm).joints))
         parts.append(some(own, f"episode of {one} on {arm} from {start_set}"))
         results.check_starts(own, f"{one} on {arm}", least_on_arms(), start_set)
     return _against(*parts)

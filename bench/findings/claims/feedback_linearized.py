@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -88,12 +89,10 @@ def _growth(gains: Gains) -> tuple[float, float]:
     zyx = representation("zyx-euler")
     low, high = LIMIT.GROWTH_DECADES
     margins, sizes = [], []
-    for k in range(low, high + 1):
-        for sign in (1, -1):
-            for alpha, gamma in LIMIT.PAIRS:
-                R = zyx.to_matrix((alpha, sign * (math.pi / 2 - 10.0**-k), gamma))
-                margins.append(zyx.margin(R))
-                sizes.append(np.linalg.norm(probes.command(CONTENDER, R, LIMIT.SPIN, gains=gains)))
+    for k, sign, (alpha, gamma) in itertools.product(range(low, high + 1), (1, -1), LIMIT.PAIRS):
+        R = zyx.to_matrix((alpha, sign * (math.pi / 2 - 10.0**-k), gamma))
+        margins.append(zyx.margin(R))
+        sizes.append(np.linalg.norm(probes.command(CONTENDER, R, LIMIT.SPIN, gains=gains)))
     return float(np.polyfit(np.log(margins), np.log(sizes), 1)[0]), float(max(sizes))
 
 

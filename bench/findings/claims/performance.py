@@ -180,11 +180,10 @@ def _gain(own: np.ndarray, other: np.ndarray) -> Any:
 def c35(results: Results) -> tuple[Word, Evidence]:
     """Shares and medians of the three."""
     small, laws = closed_form.linear_settling(*results.gains()), _of_the_three(results)
-    kept, times = (
-        [share(settled(rows)) for rows in laws],
-        [quantile_estimate(settling_times(rows), 0.5) for rows in laws],
-    )
-    found = list(zip(NAMES, kept, times, strict=True))
+    found = [
+        (name, share(settled(rows)), quantile_estimate(settling_times(rows), 0.5))
+        for name, rows in zip(NAMES, laws, strict=True)
+    ]
     reasonable = [name for name, one, time in found if one.low >= LIMIT.REASONABLE and time.high <= LIMIT.PACE * small]
     told = "; ".join(
         f"{name} {one}, in {time.value:.3f} s ({time.low:.3f} to {time.high:.3f}) in the median"
@@ -192,5 +191,5 @@ def c35(results: Results) -> tuple[Word, Evidence]:
     )
     return word_of(len(reasonable) == 2, len(reasonable) == 3), evidence(
         f"""Reasonable: {", ".join(reasonable) or "none"}. {told}. A small error settles in {small:.3f} s.""",
-        sum(one.n for one in kept),
+        sum(one.n for _, one, _ in found),
     )

@@ -76,16 +76,13 @@ def c41(results: Results) -> tuple[Word, Evidence]:
     """A second set of variables for random orientations, and sets for a degenerate one, of four representations."""
     rng = np.random.default_rng(results.seed)
     sets = rng.uniform(0.1, 1.4, (LIMIT.MATRICES, 3))
-    turned = sets + np.array((np.pi, 0.0, np.pi))
-    flipped = np.array((1.0, -1.0, 1.0))
+    flipped = (sets + np.array((np.pi, 0.0, np.pi))) * np.array((1.0, -1.0, 1.0))
+    mirrored = flipped + np.array((0.0, np.pi, 0.0))
     angle, axis = sets[:, :1], sets / np.linalg.norm(sets, axis=1)[:, None]
     pairs = {
-        "Z-Y-X": (_of("ZYX", sets), _of("ZYX", turned * flipped + np.array((0.0, np.pi, 0.0)))),
-        "Z-Y-Z": (_of("ZYZ", sets), _of("ZYZ", turned * flipped)),
-        "roll, pitch and yaw": (
-            _of("xyz", sets[:, ::-1]),
-            _of("xyz", (turned * flipped + np.array((0.0, np.pi, 0.0)))[:, ::-1]),
-        ),
+        "Z-Y-X": (_of("ZYX", sets), _of("ZYX", mirrored)),
+        "Z-Y-Z": (_of("ZYZ", sets), _of("ZYZ", flipped)),
+        "roll, pitch and yaw": (_of("xyz", sets[:, ::-1]), _of("xyz", mirrored[:, ::-1])),
         "angle and axis": (_about(axis, angle), _about(-axis, -angle)),
     }
     twice = {name: float(np.abs(one - other).max()) for name, (one, other) in pairs.items()}
@@ -152,8 +149,7 @@ def c43(results: Results) -> tuple[Word, Evidence]:
     rng = np.random.default_rng(results.seed)
     start, end = (Turn.random(LIMIT.MATRICES, rng=rng) for _ in range(2))
     shortest = (end * start.inv()).magnitude()
-    ends = (one.as_euler("ZYX") for one in (start, end))
-    first, last = ends
+    first, last = (one.as_euler("ZYX") for one in (start, end))
     steps = np.linspace(0.0, 1.0, LIMIT.STEPS)
     ways = [Turn.from_euler("ZYX", first + s * (last - first)) for s in steps]
     length = np.sum([(after * before.inv()).magnitude() for before, after in itertools.pairwise(ways)], axis=0)

@@ -199,7 +199,8 @@ def c32(results: Results) -> tuple[Word, Evidence]:
     ended = int(every["outcome"].isin(LIMIT.BROKEN).sum())
     frame = every.drop_duplicates(["start_set", "start_id"])
     ours = np.array([error(*pair) for pair in _pairs(frame)])
-    off = np.array([_farthest(e, _exact(*pair)) for e, pair in zip(ours, _pairs(frame), strict=True)])
+    exact = np.array([_exact(*pair) for pair in _pairs(frame)])
+    off = np.abs(np.vectorize(Fraction, otypes=[object])(ours) - exact).max(axis=1).astype(float)
     angle = frame["angle0_rad"].to_numpy()
     inner = np.minimum(angle, np.pi - angle) >= LIMIT.CLOSEST_RAD * (1 - LIMIT.DIGITS)
     relative = (off / np.linalg.norm(ours, axis=1).clip(min=EPS))[inner]
@@ -212,10 +213,6 @@ def c32(results: Results) -> tuple[Word, Evidence]:
         {" or ".join(LIMIT.BROKEN)}.""",
         len(every) + len(costs),
     )
-
-
-def _farthest(ours: np.ndarray, exact: list[Fraction]) -> float:
-    return float(max(abs(Fraction(x) - y) for x, y in zip(ours, exact, strict=True)))
 
 
 def _exact(R: Rotation, R_d: Rotation) -> list[Fraction]:

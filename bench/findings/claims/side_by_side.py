@@ -69,12 +69,9 @@ def paired(results: Results, representation: str, forms: tuple[str, ...], **word
     """Rows of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`), of some forms."""
     own = results.table("compliance", controller="hybrid", representation=representation, **words)
     base = results.table("compliance", controller=BASE, **words)
-    own, base = (_in_words(one[one["form"].isin(forms)]) for one in (own, base))
+    own, base = (one[one["form"].isin(forms)] for one in (own, base))
+    own, base = (one.assign(**{name: one[name].astype(str) for name in PAIRED}) for one in (own, base))
     return own.merge(base, on=list(PAIRED), suffixes=("", "_base"))
-
-
-def _in_words(frame: pd.DataFrame) -> pd.DataFrame:
-    return frame.assign(**{name: frame[name].astype(str) for name in PAIRED})
 
 
 def compliances(rows: pd.DataFrame, suffix: str = "") -> np.ndarray:

@@ -144,9 +144,7 @@ class Results:
 
     def controller_timings(self) -> pd.DataFrame:
         """Time per tick of whole controllers of arms, on every machine that was timed; maybe empty."""
-        every = self._all_timings()
-        if not set(TIMED) <= set(every):
-            return pd.DataFrame(columns=[*TIMED, "contender"])
+        every = self._all_timings().reindex(columns=[*TIMED, "contender"])
         compiled = (every["what"] == "engine") & (every["engine"] == "native") & (every["jacobian"] != "")
         return every[compiled & (every["ticks"] > 0)]
 
