@@ -5,20 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from bench.base.on_first_use import pd
-from bench.findings.claims import adequacy, probes
+from bench.findings.claims import adequacy, probes, tables
 from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.at_gains import at_every_gain
 from bench.findings.claims.linearized_euler import CURE, LAW
-from bench.findings.claims.tables import (
-    MAIN_ENGINE,
-    Results,
-    evidence,
-    lost,
-    settled,
-    settling_times,
-    share,
-    some,
-)
+from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, share, some
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form
 
@@ -51,7 +42,7 @@ def _beyond(results: Results) -> pd.DataFrame:
 def c37(results: Results) -> tuple[Word, Evidence]:
     """Share of starts outside the linear region that settle within C35's time."""
     rows, small = _beyond(results), closed_form.linear_settling(*results.gains())
-    good = share(pd.Series(settling_times(rows) <= LIMIT.PACE * small))
+    good = share(pd.Series(tables.settling_times(rows) <= LIMIT.PACE * small))
     return word_of(good.high <= LIMIT.FEW, good.high <= 0.5), evidence(
         f"""Of the uniform starts at {LIMIT.BEYOND_RAD:g} rad or more {good} settle within
         {LIMIT.PACE * small:.3f} s, {LIMIT.PACE:g} times the time of a small error.""",
@@ -65,8 +56,8 @@ def c38(results: Results) -> tuple[Word, Evidence]:
     """Settling times and losses outside the linear region, against turns of one angle alone."""
     rows, gains = _beyond(results), results.gains()
     small = closed_form.linear_settling(*gains)
-    off = np.abs(rows.loc[settled(rows), "settling_time_s"].to_numpy() / small - 1)
-    typical, unsettled = float(np.median(some(off, "start that settles"))), lost(rows)
+    off = np.abs(rows.loc[tables.settled(rows), "settling_time_s"].to_numpy() / small - 1)
+    typical, unsettled = float(np.median(some(off, "start that settles"))), tables.lost(rows)
     alone = max(float(probes.off_linear(LAW, angle, np.eye(3), gains, results.dt_s).max()) for angle in LIMIT.ALONE_RAD)
     coupled = typical >= LIMIT.OFF and alone <= LIMIT.SAME + results.dt_s / small
     return word_of(coupled and unsettled.low > 0.0, coupled), evidence(
