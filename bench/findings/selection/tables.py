@@ -68,7 +68,10 @@ def tables_of(results: Results) -> Tables:
     costs = results.table("costs", **published.FREE_BODY)
     priced = {str(name): rows for name, rows in costs.groupby("contender", observed=True)}
     sets = runs.groupby("contender", observed=True)["start_set"].agg(set)
-    known = {one.name: one for one in (*all_contenders(), *_own(results))}
+    laws = published.own_laws(results.folder) if results.folder else ()
+    # a user's law that may not run cannot be asked how far it jumps, and is left out
+    own = [one for law in laws if law.law or law.law_in for one in contenders_of(law)]
+    known = {one.name: one for one in (*all_contenders(), *own)}
     names = [name for name in sets.index if {"uniform", "half-turn"} <= sets[name] and name in priced and name in known]
     runs = some(runs[runs["contender"].isin(names)], "law with uniform and half-turn starts and a cost")
     runs = runs.assign(contender=runs["contender"].astype(str), lost=~settled(runs))
@@ -118,12 +121,6 @@ def by_standard_inverse(rows: pd.DataFrame) -> pd.DataFrame:
     solves = own["inverse"] == "solve"
     has_solve = solves.groupby([own["contender"], own["arm"]], observed=True).transform("any")
     return own[~has_solve | solves].sort_values(["arm", "start_set", "start_id"], kind="stable")
-
-
-def _own(results: Results) -> list[Contender]:
-    """Return the user's laws of the run; one that may not run cannot be asked how far it jumps, and is left out."""
-    laws = published.own_laws(results.folder) if results.folder else ()
-    return [one for law in laws if law.law or law.law_in for one in contenders_of(law)]
 
 
 BY = "rotation-matrix@geometric"

@@ -30,14 +30,10 @@ def linear_settling(kp: float, kv: float, tolerance: float = RULES.tolerance) ->
     """Last time [s] at which the linear response is `tolerance` of its beginning."""
     from scipy.optimize import brentq
 
-    t = np.linspace(0.0, 20.0 / _slowest(kp, kv), 20_001)  # exp(-20) = 2e-9, far below any tolerance
+    slowest = kv / 2 - math.sqrt(max(0.0, kv**2 / 4 - kp))  # rate of decay near the goal [1/s]
+    t = np.linspace(0.0, 20.0 / slowest, 20_001)  # exp(-20) = 2e-9, far below any tolerance
     last = np.flatnonzero(np.abs(linear(t, kp, kv)) > tolerance)[-1]
     return brentq(lambda x: abs(linear(x, kp, kv)) - tolerance, t[last], t[last + 1])
-
-
-def _slowest(kp: float, kv: float) -> float:
-    """Rate of decay near the goal [1/s]."""
-    return kv / 2 - math.sqrt(max(0.0, kv**2 / 4 - kp))
 
 
 def decade_slope(kp: float, kv: float) -> float:
