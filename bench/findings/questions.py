@@ -3,8 +3,6 @@
 Each measurement restates a public thread in a few lines: nobody's code runs here.
 """
 
-from __future__ import annotations
-
 import itertools
 import tomllib
 from collections.abc import Callable

@@ -26,8 +26,6 @@ A module holds measurements alone; the TOML file of the same name holds the text
     errata.py                what is printed wrongly in the paper, what no run can decide, where each part is treated
 """
 
-from __future__ import annotations
-
 import functools
 import importlib
 import pkgutil

@@ -1,7 +1,5 @@
 """Claims that are decided more than once: on the runs at other gains, and by the sampled engines too."""
 
-from __future__ import annotations
-
 import functools
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """C44 to C46: the linearizations (2.2) and (2.14), and what the Euler Jacobian simplifies (Murphy 1988, 2, 3)."""
 
-from __future__ import annotations
-
 import functools
 
 import numpy as np

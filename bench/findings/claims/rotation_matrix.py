@@ -1,7 +1,5 @@
 """C01 to C05 and C32: stability, settling times, zeros and arithmetic of the rotation-matrix law (Murphy 1988, 2.4)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any

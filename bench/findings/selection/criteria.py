@@ -1,7 +1,5 @@
 """What is measured of a law: criteria.toml says what each number means, a function here computes it from tables."""
 
-from __future__ import annotations
-
 import functools
 import math
 import tomllib

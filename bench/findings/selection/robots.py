@@ -4,8 +4,6 @@ Criteria keep their names and what is notable. What the rows of such a robot hav
 not run on it is not asked.
 """
 
-from __future__ import annotations
-
 import math
 import tomllib
 from collections.abc import Callable

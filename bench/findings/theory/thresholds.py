@@ -1,7 +1,5 @@
 """Closed forms of the thresholds along perturbations, where there is one: near the goal, and at a 180° rotation."""
 
-from __future__ import annotations
-
 import functools
 import math
 
