@@ -24,7 +24,8 @@ def c40(results: Results) -> tuple[Word, Evidence]:
     possible = [trio for trio in trios if np.abs(divisor(R, trio)).max() > LIMIT.SAME]
     off = max(float(np.abs(divisor(R, trio) - product(R, trio)).max()) for trio in possible)
     second = [another(R, trio) for trio in possible]
-    left = max(float(np.abs(constraints(other)).max()) for other in second)
+    both = (other[:, :, :2] for other in second)  # n and o, of which (2.5) says that they are orthonormal
+    left = max(float(np.abs(pair.swapaxes(1, 2) @ pair - np.eye(2)).max()) for pair in both)
     apart = min(float(np.median(np.abs(other - R).max(axis=(1, 2)))) for other in second)
     divides, is_double = off <= LIMIT.SAME, left <= LIMIT.SAME and apart > LIMIT.APART
     return word_of(divides and not is_double and len(possible) == len(trios), divides and is_double), evidence(
@@ -34,12 +35,6 @@ def c40(results: Results) -> tuple[Word, Evidence]:
         {apart:.2f} in the median, has the same three elements left and meets (2.5) to {left:.0e}.""",
         LIMIT.MATRICES * len(trios),
     )
-
-
-def constraints(R: np.ndarray) -> np.ndarray:
-    """Compute what (2.5) leaves, k x 3, of k matrices."""
-    n, o = R[:, :, 0], R[:, :, 1]
-    return np.stack([(n * n).sum(axis=1) - 1, (o * o).sum(axis=1) - 1, (n * o).sum(axis=1)], axis=1)
 
 
 def divisor(R: np.ndarray, trio: tuple[int, ...]) -> np.ndarray:

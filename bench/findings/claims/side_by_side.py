@@ -15,7 +15,7 @@ import numpy as np
 from bench.base.on_first_use import Turn, pd
 from bench.findings.claims.tables import Results, evidence, some
 from bench.findings.claims.verdict import Evidence, Word
-from bench.law.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM
+from bench.law.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM, hybrid
 
 PROBE, BASE = "wrench-probe", "hybrid-base"
 MEASURED = tuple(f"c_{i}{j}" for i in "xyz" for j in "xyz")
@@ -85,7 +85,6 @@ def predicted(rows: pd.DataFrame, representation: str = "") -> np.ndarray:
     import tasks
     from bench.findings.theory.compliance_theory import compliance
     from bench.law.contenders.registry import contenders
-    from bench.law.control.contact_controller import hybrid
     from bench.law.control.setpoint import ContactParameters
     from bench.law.inputs import Gains
     from bench.law.so3 import from_quaternion

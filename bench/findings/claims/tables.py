@@ -148,12 +148,15 @@ class Results:
         compiled = (every["what"] == "engine") & (every["engine"] == "native") & (every["jacobian"] != "")
         return every[compiled & (every["ticks"] > 0)]
 
-    def _all_timings(self) -> pd.DataFrame:
+    def machines(self) -> list[pd.DataFrame]:
+        """Return the times of each machine that was timed, its name in a column `machine`."""
         from bench.experiments.tables.store import read_arrow
 
         paths = sorted(self.timings_folder.glob("*.parquet"))
-        frames = [read_arrow(path, "timings").to_pandas().assign(machine=path.stem) for path in paths]
-        frames += [self.frames["timings"]] if "timings" in self.frames else []
+        return [read_arrow(path, "timings").to_pandas().assign(machine=path.stem) for path in paths]
+
+    def _all_timings(self) -> pd.DataFrame:
+        frames = self.machines() + ([self.frames["timings"]] if "timings" in self.frames else [])
         every = pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=TIMED)
         return read.with_contender(every)
 

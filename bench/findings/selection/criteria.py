@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from bench.findings.claims.adequacy import NOISE
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.on_arms import passed
 from bench.findings.selection.tables import Tables, by_law
@@ -22,8 +23,6 @@ LEAST, GREATEST = 1.0, -1.0
 
 NOTABLE = 0.01
 """Differences below a hundredth are no reason to choose a law."""
-
-NOISE = "half-turn-noise"
 
 Measure = Callable[[Tables], dict[str, np.ndarray]]
 """tables -> law: values, all laws' in the order of the same starts; a law that was not asked is missing."""
@@ -128,11 +127,6 @@ def on_arms(measure: str) -> Measure:
     return measured
 
 
-def in_degrees(measure: Measure) -> Measure:
-    """Return a measure of angles in degrees."""
-    return lambda tables: {name: np.degrees(angles) for name, angles in measure(tables).items()}
-
-
 MEASURES: dict[str, Measure] = {
     "unsettled": lambda tables: {name: 100.0 * lost for name, lost in by_law(tables.uniform, "lost").items()},
     "lost": lambda tables: {name: np.array([lost.sum()]) for name, lost in by_law(tables.directed, "lost").items()},
@@ -146,7 +140,9 @@ MEASURES: dict[str, Measure] = {
     "peak": over_uniform("peak_u"),
     "chatter": over_uniform("rest_change"),
     "variation": perturbed("delay", 0.0, "variation"),
-    "overshoot": in_degrees(perturbed("saturation", BOUND, "overshoot_rad")),
+    "overshoot": lambda tables: {
+        name: np.degrees(angles) for name, angles in perturbed("saturation", BOUND, "overshoot_rad")(tables).items()
+    },
     "late": perturbed("delay", LATE_S, "settling_time_s"),
     "arms": on_arms("settled"),
     "within": on_arms("range"),

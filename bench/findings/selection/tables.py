@@ -133,20 +133,12 @@ def ticks(results: Results) -> dict[str, float]:
     Laws that no machine timed are left out, and so are machines that timed no whole controller.
     """
     found: dict[str, list[float]] = {}
-    for frame in _machines(results):
+    given = results.frames.get("timings")
+    timed = [one for one in results.machines() if "arm" in one] if given is None else [given]
+    for frame in map(with_contender, timed):
         is_whole = (frame["what"] == "controller") & frame["contender"].astype(str).str.startswith(BY)
         whole = frame.loc[is_whole & (frame["ticks"] > 0), "ratio"].median()
         alone = frame[(frame["what"] == "law") & (frame["ticks"] > 0)]
         for law, ratio in zip(alone["contender"].astype(str), alone["ratio"], strict=True):
             found.setdefault(law, []).append(100.0 * float(ratio / whole))
     return {law: float(np.median(shares)) for law, shares in found.items() if np.isfinite(shares).all()}
-
-
-def _machines(results: Results) -> list[pd.DataFrame]:
-    """Return the times of each machine whose file has arms."""
-    from bench.experiments.tables.store import read_arrow
-
-    if "timings" in results.frames:
-        return [with_contender(results.frames["timings"])]
-    every = (read_arrow(path, "timings").to_pandas() for path in sorted(results.timings_folder.glob("*.parquet")))
-    return [with_contender(frame) for frame in every if "arm" in frame]
