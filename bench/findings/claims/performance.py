@@ -36,27 +36,23 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         ", ".join(f"{short} {one[name]}" for short, name in zip(NAMES, THREE, strict=True)) for one in known.accountings
     )
     timed = ", ".join(f"{short} {known.over(name, THREE[0])}" for short, name in zip(NAMES[1:], THREE[1:], strict=True))
-    literal = known.accountings[0].get(LIMIT.LITERAL)  # the law that is compared shares sines and folds Bdot
-    as_printed = f" (2.15) as printed, term by term, takes {literal}." if literal else ""
-    priced = f"; in these times a call takes {known.price:.0f} flops" if np.isfinite(known.price) else ""
-    return word_of(all(in_order), all(np.logical_or(in_order, [one.is_disputed for one in pairs]))), evidence(
-        f"""Time a tick over the rotation matrix's: {timed}; its intervals part
-        {sum(bool(one.by_time) for one in pairs)} of {len(pairs)} pairs. Flops and calls: {paper}; with the goal's
-        angles taken from its matrix: {total}; the columns decide {sum(0 not in one.by_columns for one in pairs)} of
-        {len(pairs)} pairs{priced}. {_flops_alone(known)}{as_printed}""",
-        len(THREE) * (len(known.accountings) + len(known.times)),
-        ("costs", "timings") if known.times else ("costs",),
-    )
-
-
-def _flops_alone(known: Ledger) -> str:
-    """Describe where flops, calls left out, come in another order."""
     orders = [
         [short for _, short in sorted((one[name].flops, short) for short, name in zip(NAMES, THREE, strict=True))]
         for one in known.accountings
     ]
     others = [" < ".join(order) for order in orders if order != NAMES]
-    return f"By flops alone, calls left out: {'; '.join(others) or 'the same order'}."
+    literal = known.accountings[0].get(LIMIT.LITERAL)  # the law that is compared shares sines and folds Bdot
+    as_printed = f"(2.15) as printed, term by term, takes {literal}." if literal else ""
+    priced = f"; in these times a call takes {known.price:.0f} flops" if np.isfinite(known.price) else ""
+    return word_of(all(in_order), all(np.logical_or(in_order, [one.is_disputed for one in pairs]))), evidence(
+        f"""Time a tick over the rotation matrix's: {timed}; its intervals part
+        {sum(bool(one.by_time) for one in pairs)} of {len(pairs)} pairs. Flops and calls: {paper}; with the goal's
+        angles taken from its matrix: {total}; the columns decide {sum(0 not in one.by_columns for one in pairs)} of
+        {len(pairs)} pairs{priced}. By flops alone, calls left out: {"; ".join(others) or "the same order"}.
+        {as_printed}""",
+        len(THREE) * (len(known.accountings) + len(known.times)),
+        ("costs", "timings") if known.times else ("costs",),
+    )
 
 
 @claim("C17")

@@ -58,11 +58,9 @@ def c01(results: Results, engine: str) -> tuple[Word, Evidence]:
 @claim("C02")
 def c02(results: Results) -> tuple[Word, Evidence]:
     """Small rotations at several gains, and the small steps of the run."""
-    off, allowed = [], []
-    for gains in (Gains(*pair) for pair in GAINS):
-        for angle in SMALL_ANGLES:
-            off.append(probes.off_linear(LAW, angle, LIMIT.AXES, gains, results.dt_s))
-            allowed.append(results.dt_s / closed_form.linear_settling(*gains) + angle**2)
+    small = [(Gains(*pair), angle) for pair in GAINS for angle in SMALL_ANGLES]
+    off = [probes.off_linear(LAW, angle, LIMIT.AXES, gains, results.dt_s) for gains, angle in small]
+    allowed = [results.dt_s / closed_form.linear_settling(*gains) + angle**2 for gains, angle in small]
     steps = results.episodes(LAW, MAIN_ENGINE, "goals")
     steps = some(steps[steps["angle0_rad"].between(1e-3, 0.11)], "small step of the start set goals")
     closed = closed_form.linear_settling(*results.gains())

@@ -68,16 +68,12 @@ class Results:
         """Rows of one table that have these words, chosen once and shared; there may be none."""
         asked = (name, *sorted(words.items()))
         if asked not in self._chosen:
-            self._chosen[asked] = read.chosen(self._whole(name), words)
+            if name not in self.frames:
+                if self.folder is None:
+                    raise NoEvidence(f"table '{name}': there is no folder to read it from; give one, or its frame")
+                self.frames[name] = read.table(self.folder, name)
+            self._chosen[asked] = read.chosen(self.frames[name], words)
         return self._chosen[asked]
-
-    def _whole(self, name: str) -> pd.DataFrame:
-        frame = self.frames.get(name)
-        if frame is None:
-            if self.folder is None:
-                raise NoEvidence(f"table '{name}': there is no folder to read it from; give one, or its frame")
-            frame = self.frames[name] = read.table(self.folder, name)
-        return frame
 
     def free_body(self, name: str, **words: str) -> pd.DataFrame:
         """Rows of one table that have these words and are about the free body, in the paper's coordinates."""

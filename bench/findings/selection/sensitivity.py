@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-import pandas as pd
 
 from bench.findings.selection import regions
 from bench.findings.selection.regions import RULE, STUDY, Rule, decide_all, find_default, find_regions, read_map
@@ -69,27 +68,22 @@ def correct(folder: Path = STUDY) -> tuple[int, int]:
     """Return how many comparisons of the map the advised law wins, and how many are left if all are corrected at once.
 
     By S. Holm, Scand. J. Statist. 6, 1979. A difference of two 99 % times has the standard error that their 95 %
-    intervals give, as for independent starts.
+    intervals give, as for independent starts; p is two-sided.
     """
-    p_values = []
-    for word, rows in read_map(folder).groupby("situation", observed=True):
-        one = decide_all(folder)[read_situation(str(word))]
-        p_values += _p_values(rows, one)
-    return len(p_values), count_rejected(np.array(p_values))
-
-
-def _p_values(rows: pd.DataFrame, one: regions.Verdict) -> list[float]:
-    """Return two-sided p of the advised law against each law that it beats."""
     from scipy.stats import norm
 
-    if one.law is None:
-        return []
-    names, times = rows["contender"].astype(str), rows["time"]
-    own = rows[names == one.law].iloc[0]
-    is_beaten = np.isfinite(times) & (own["time_high"] < rows["time_low"]) & ~names.isin(one.unbeaten)
-    beaten = rows[is_beaten & (own["time"] < (1.0 - RULE.tie) * times)]
-    errors = ((each["time_high"] - each["time_low"]) / 3.92 for each in (own, beaten))
-    return (2.0 * norm.sf((beaten["time"] - own["time"]) / np.hypot(*errors).clip(1e-12))).tolist()
+    p_values: list[float] = []
+    for word, rows in read_map(folder).groupby("situation", observed=True):
+        one = decide_all(folder)[read_situation(str(word))]
+        if one.law is None:
+            continue
+        names, times = rows["contender"].astype(str), rows["time"]
+        own = rows[names == one.law].iloc[0]
+        is_beaten = np.isfinite(times) & (own["time_high"] < rows["time_low"]) & ~names.isin(one.unbeaten)
+        beaten = rows[is_beaten & (own["time"] < (1.0 - RULE.tie) * times)]
+        errors = ((each["time_high"] - each["time_low"]) / 3.92 for each in (own, beaten))
+        p_values += (2.0 * norm.sf((beaten["time"] - own["time"]) / np.hypot(*errors).clip(1e-12))).tolist()
+    return len(p_values), count_rejected(np.array(p_values))
 
 
 def count_rejected(p_values: np.ndarray, level: float = LEVEL) -> int:
