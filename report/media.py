@@ -28,7 +28,7 @@ from bench.engines.simulate_contact import run_contact
 from bench.experiments.episodes import rows_from, simulate
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.suites import IDEAL_MOTORS, ON_ARM
-from bench.findings.claims.probes import controller
+from bench.law.contenders.registry import find_contender
 from bench.law.control.registry import find_controller
 from tasks import contact_model
 from tasks.arm_model import model_xml
@@ -123,7 +123,7 @@ def simulate_at_pole() -> dict[str, tuple[Motion, dict]]:
     settings, found = Settings("media"), {}
     first = ARM_NUMBERS.index("q_1")
     for word in CONTENDERS:
-        names = controller(word).name, "arm-regulation", POLE["arm"], "native", POLE["start_set"]
+        names = find_contender(word).name, "arm-regulation", POLE["arm"], "native", POLE["start_set"]
         unit = Unit("arm", *names, IDEAL_MOTORS, count=1, horizon_s=ON_ARM)
         curves = blank_curves(1, round(POLE_LOOP["loop_s"] / settings.dt_s), numbers=ARM_NUMBERS)
         simulate(settings, unit, [start], POLE_LOOP["loop_s"], curves)

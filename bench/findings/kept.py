@@ -55,16 +55,13 @@ def _sum(found: object) -> str:
 def _digest(folder: Path) -> str:
     """Return the digest of a run, of the committed results, and of every source."""
     digest = hashlib.sha256(everything_digest().encode())
-    for path in (*_files(folder), *_committed()):
+    for path in _files(folder):
         digest.update(path.name.encode() + b"\0" + hashlib.sha256(path.read_bytes()).digest())
     return digest.hexdigest()[:32]
 
 
 def _files(folder: Path) -> Iterator[Path]:
-    yield from sorted(path for path in folder.iterdir() if path.suffix in (".parquet", ".json") and path.is_file())
-
-
-def _committed() -> Iterator[Path]:
-    """Yield the files that a run is compared with: of results at other gains, maps, timings and the reference."""
-    for name in ("gains", "maps", "timings", "reference"):
-        yield from sorted(path for path in (RESULTS / name).rglob("*") if path.suffix in (".parquet", ".json"))
+    """Yield a run's files, and those that it is compared with: at other gains, maps, timings and the reference."""
+    committed = ((RESULTS / name, "**/*") for name in ("gains", "maps", "timings", "reference"))
+    for root, pattern in ((folder, "*"), *committed):
+        yield from sorted(one for one in root.glob(pattern) if one.suffix in (".parquet", ".json") and one.is_file())

@@ -61,18 +61,16 @@ def by_law(rows: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(
         {
             "law": found["contender"],
-            "speed [rad/s]": [speed_text(*pair) for pair in found[SPEEDS].itertuples(index=False)],
+            "speed [rad/s]": [
+                f"{most:g}" if least == most else f"{least:g} to {most:g}"  # of all starts, or uniform between both
+                for least, most in found[SPEEDS].itertuples(index=False)
+            ],
             **{name: found[name] for name in ("starts", "unconverged", "lost")},
             **{f"{head} [ppm]": shares[:, k] for k, head in enumerate(("lost", "least", "most"))},
             "slowest [s]": found["settling_time_s"],
             "from [deg]": found["ring_deg"].fillna(-1).astype(int),
         }
     )
-
-
-def speed_text(least: float, most: float) -> str:
-    """Return the speed of all starts, or that up to which they are uniform."""
-    return f"{most:g}" if least == most else f"{least:g} to {most:g}"
 
 
 class Spun(NamedTuple):

@@ -69,9 +69,7 @@ class Threshold(NamedTuple):
     share: float
 
     def __str__(self) -> str:
-        if math.isnan(self.held):
-            return "none"
-        return f"{self.held:g}" if not self.is_whole else f"{self.held:g}+"
+        return "none" if math.isnan(self.held) else f"{self.held:g}{'+' * self.is_whole}"
 
     @property
     def is_whole(self) -> bool:
@@ -86,17 +84,11 @@ def ways() -> tuple[Way, ...]:
     return tuple(way for way in each if len(way.outwards(tasks.axis(way.axis).levels)) > 1)
 
 
-@functools.cache
-def lasting() -> tuple[str, ...]:
-    """Perturbations that last."""
-    every = map(tasks.axis, tasks.axis_names())
-    return tuple(axis.name for axis in every if condition_at(axis, max(axis.levels)).lasts)
-
-
 def went_well(rows: pd.DataFrame) -> pd.Series:
     """Whether each row of robustness.parquet did."""
-    follows = rows["tail_rms_rad"] <= FOLLOWED_RAD
-    return follows.where(rows["axis"].isin(lasting()), rows["outcome"] == "settled").astype(bool)
+    follows, every = rows["tail_rms_rad"] <= FOLLOWED_RAD, map(tasks.axis, tasks.axis_names())
+    lasting = [axis.name for axis in every if condition_at(axis, max(axis.levels)).lasts]
+    return follows.where(rows["axis"].isin(lasting), rows["outcome"] == "settled").astype(bool)
 
 
 def by_level(rows: pd.DataFrame) -> pd.DataFrame:

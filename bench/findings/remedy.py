@@ -47,7 +47,7 @@ def smallest_fix(one: Law) -> Fix:
                 f"for goals beyond 90°, return the vector axis times angle, of a length of at most {bound:.3g}"
             )
             fixed = logarithm
-    if HALF[0] < size(free, DIRECTIONS[0], NEAR_RAD) / NEAR_RAD < HALF[1]:
+    if HALF[0] < np.dot(free(about(DIRECTIONS[0], NEAR_RAD)), DIRECTIONS[0]) / NEAR_RAD < HALF[1]:
         steps.append("multiply the vector part by 2" + (", before the clip" if math.isfinite(own.bound) else ""))
         fixed = doubled(fixed)
     if is_bent(own.error):
@@ -68,11 +68,6 @@ def about(k: np.ndarray, angle: float) -> tuple[float, ...]:
     """Return the quaternion of a rotation; its scalar is exactly 0 at 180°."""
     w = 0.0 if angle == math.pi else math.cos(0.5 * angle)
     return (w, *(math.sin(0.5 * angle) * k).tolist())
-
-
-def size(error: Callable, k: np.ndarray, angle: float) -> float:
-    """Return the component of the error along the axis."""
-    return float(np.dot(error(about(k, angle)), k))
 
 
 def largest(error: Callable, angle: float | None) -> float:

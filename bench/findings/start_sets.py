@@ -31,11 +31,6 @@ def least_starts(engine: str, part: str = "slices") -> dict[str, int]:
     return {name: min(own[name] for own in sizes) for name in shared}
 
 
-def least_on_arms() -> dict[str, int]:
-    """Return how many starts of each set the smallest suite has on an arm."""
-    return {one.start_set: one.size or 0 for one in SUITES["quick"].on_arms.slices}
-
-
 def describe_lacking(frame: pd.DataFrame, least: Mapping[str, int], *start_sets: str) -> str:
     """Name the start sets (these or all) with fewer starts than `least`; return an empty text if none has."""
     found = frame.groupby("start_set", observed=True)["start_id"].nunique()

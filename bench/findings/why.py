@@ -69,9 +69,7 @@ def ends(rows: pd.DataFrame, declared: str) -> list[Said]:
         text = f"Not settled, {outcome}: {_counts(own)}."
         said.append(Said(text, FAILURES, "" if known else FAULTS.get(outcome, "lost starts")))
     settled = rows[is_settled]
-    chatters, quiet = (
-        settled[is_one] for is_one in (settled["rest_change"] > CHATTER, settled["rest_change"] <= CHATTER)
-    )
+    chatters, quiet = settled[settled["rest_change"] > CHATTER], settled[settled["rest_change"] <= CHATTER]
     change = f"at rest its command changes by {settled['rest_change'].max():.3g} rad/s² from tick to tick"
     if len(chatters):
         said.append(Said(f"Chatter: {change}, over {CHATTER:g}: {_counts(chatters)}.", ENDS, "chatter"))

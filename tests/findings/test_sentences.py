@@ -30,7 +30,7 @@ def gains_only():
     ],
 )
 def test_law_tracks_as_well_as_another_or_does_not(tails, outcome, word):
-    def tracked(law, gains, seed):
+    def perturbed(law, *_):
         is_own = law.startswith("linearized")
         rows = [
             {
@@ -45,7 +45,7 @@ def test_law_tracks_as_well_as_another_or_does_not(tails, outcome, word):
         ]
         return pd.DataFrame(rows)
 
-    assert decided(judged("C39", {"tracked": tracked}, episodes=gains_only()), word)
+    assert decided(judged("C39", {"perturbed": perturbed}, episodes=gains_only()), word)
 
 
 def test_divisor_of_a_turn_about_z_is_its_sine():

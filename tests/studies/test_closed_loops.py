@@ -7,7 +7,8 @@ import pandas as pd
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 
-from bench.findings.theory.closed_form import linear_settling, settling
+from bench.findings.theory.closed_form import linear_settling
+from bench.findings.theory.isotropic import EQUATIONS, settling
 from bench.law.contenders.registry import contenders
 from bench.studies.libraries import __main__ as study
 from bench.studies.libraries import closed_loop, turns
@@ -49,15 +50,14 @@ def test_logarithm_settles_in_the_time_of_the_linear_system_from_any_angle(angle
 
 @pytest.mark.parametrize("angle_deg", [30.0, 90.0, 179.0])
 def test_sine_settles_in_the_time_of_its_closed_form(angle_deg):
-    expected = settling(math.radians(angle_deg), 100.0, 20.0, RULES.tolerance)
+    expected = settling(EQUATIONS["rotation-matrix"], math.radians(angle_deg), 100.0, 20.0, RULES.tolerance)
     assert response(sine, angle_deg).settling_s == pytest.approx(expected, abs=2 * TICK_S)
 
 
 def test_sine_never_leaves_an_exact_180_degree_rotation():
     rows = closed_loop.rows_of(Function("f", MATRIX, sine))
-    at_180 = rows[-1]
-    assert (at_180["angle_deg"], at_180["dead"]) == (180.0, closed_loop.HALF_TURN_AXES)
-    assert sum(row["dead"] for row in rows) == at_180["dead"]
+    assert (rows[-1]["angle_deg"], rows[-1]["dead"]) == (180.0, closed_loop.HALF_TURN_AXES)
+    assert sum(row["dead"] for row in rows) == rows[-1]["dead"]
 
 
 def test_bare_quaternion_unwinds_from_the_antipode_alone():

@@ -96,7 +96,7 @@ def of_heavier(table):
     """Return C30's: feedback linearization slowed by so much and losing so many of 100 at twice the inertia."""
     one = table.iloc[0]
 
-    def off_model(law, gains, seed):
+    def perturbed(law, *_):
         levels = np.repeat((1.0, 2.0), 100)
         frame = pd.DataFrame({"level": levels, "outcome": "settled", "settling_time_s": 1.0})
         if law != "rotation-matrix":
@@ -104,7 +104,7 @@ def of_heavier(table):
             frame.loc[frame.index[100 : 100 + int(one.lost)], ["outcome", "settling_time_s"]] = ["timed-out", math.nan]
         return frame
 
-    return {"off_model": off_model}
+    return {"perturbed": perturbed}
 
 
 def of_counts(table):

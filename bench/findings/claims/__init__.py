@@ -26,8 +26,6 @@ A module holds measurements alone; the TOML file of the same name holds the text
     errata.py                what is printed wrongly in the paper, what no run can decide, where each part is treated
 """
 
-from __future__ import annotations
-
 import functools
 import importlib
 import pkgutil
@@ -39,22 +37,6 @@ from bench.experiments.tables import read as published
 from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results
 from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Verdict, Word, decide, does
 from bench.findings.kept import keep
-
-__all__ = [
-    "RULE",
-    "Claim",
-    "Evidence",
-    "NoEvidence",
-    "Results",
-    "Verdict",
-    "Word",
-    "all_claims",
-    "judge",
-    "judge_all",
-    "judge_possible",
-    "tally",
-    "told",
-]
 
 RULE = (
     f"Engine {MAIN_ENGINE}, the paper's continuous system (2.6)-(2.7), decides. A claim about episodes is asked of "

@@ -170,12 +170,6 @@ BOTH = "abcd"
 """What C17 asks."""
 
 
-def is_kept_spinning(one: Adequacy) -> bool:
-    """Whether random starts at every stated speed settle but for 1 - SETTLED_SHARE; not, if none were run."""
-    spinning = [spun.share.high <= LOST_SHARE for spun in one.spun if spun.speed > 0.0]
-    return bool(spinning) and all(spinning)
-
-
 def missed(one: Adequacy, known: Ledger, small_s: float, held: dict[str, tuple[int, int]]) -> str:
     """Return the tests of C27's criterion that a law does not pass; (f) is among them if it was not tried.
 
@@ -183,9 +177,10 @@ def missed(one: Adequacy, known: Ledger, small_s: float, held: dict[str, tuple[i
         held: of `adequacy.held`.
     """
     cost = [known.stand(one.name, other) for other in THREE[1:] if other != one.name]
+    spinning = [spun.share.high <= LOST_SHARE for spun in one.spun if spun.speed > 0.0] or [False]
     passed = {
         "a": one.settled >= SETTLED_SHARE,
-        "b": one.lost <= (1.0 - DIRECTED_SHARE) * one.directed and is_kept_spinning(one),
+        "b": one.lost <= (1.0 - DIRECTED_SHARE) * one.directed and all(spinning),
         "c": one.pace.high <= SLOW * small_s,
         "d": all(stands.sign == ORDERED for stands in cost),
         "e": not one.lost_exact,

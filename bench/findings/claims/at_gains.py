@@ -1,7 +1,6 @@
 """Claims that are decided more than once: on the runs at other gains, and by the sampled engines too."""
 
-from __future__ import annotations
-
+import contextlib
 import functools
 from collections.abc import Callable
 from typing import Any
@@ -52,20 +51,14 @@ def on_every_engine(decide: Callable) -> Callable:
         word, found = decide(results, MAIN_ENGINE)
         others, rows = {}, found.rows
         for engine in CHECK_ENGINES:
-            try:
+            with contextlib.suppress(NoEvidence):
                 others[engine], also = decide(results, engine)
-            except NoEvidence:
-                continue
-            rows += also.rows
-        differing = {engine: other for engine, other in others.items() if other != word}
-        return word, found._replace(sentence=f"{found.sentence} {_said_by(others, differing)}", rows=rows)
+                rows += also.rows
+        said = "No sampled engine has rows for this."
+        if others:
+            said = f"Sampled engines agree ({', '.join(others)})."
+        if set(others.values()) - {word}:
+            said = "Sampled: " + ", ".join(f"{engine} says '{other}'" for engine, other in others.items()) + "."
+        return word, found._replace(sentence=f"{found.sentence} {said}", rows=rows)
 
     return judge
-
-
-def _said_by(others: dict, differing: dict) -> str:
-    if not others:
-        return "No sampled engine has rows for this."
-    if not differing:
-        return f"Sampled engines agree ({', '.join(others)})."
-    return "Sampled: " + ", ".join(f"{engine} says '{word}'" for engine, word in others.items()) + "."

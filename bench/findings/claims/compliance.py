@@ -51,8 +51,8 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         )
     C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
     differs = side_by_side.apart(C, base)
-    differs_turned = side_by_side.apart(C, side_by_side.turned(base, _turns(earlier)))
-    differs_in_hand = side_by_side.apart(C, side_by_side.turned(base, _turns(rows[list(LIMIT.ANGLES)].to_numpy())))
+    turns = (Turn.from_euler("ZYX", each).as_matrix() for each in (earlier, rows[list(LIMIT.ANGLES)].to_numpy()))
+    differs_turned, differs_in_hand = (side_by_side.apart(C, side_by_side.turned(base, Q)) for Q in turns)
     word = word_of((differs[away] <= LIMIT.SAME).all(), (differs_turned[away] <= LIMIT.SAME).all())
     judged = rows.assign(same=differs <= LIMIT.SAME, same_in_hand=differs_in_hand <= LIMIT.SAME)[away]
     ends = rows.loc[~away, "outcome"].astype(str).value_counts()
@@ -64,10 +64,6 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         the hand's own axes {_by_order(judged, "same_in_hand")}. Closer to the pole: {close}.""",
         len(rows),
     )
-
-
-def _turns(angles: np.ndarray) -> np.ndarray:
-    return Turn.from_euler("ZYX", angles).as_matrix()
 
 
 def _by_order(rows: pd.DataFrame, fact: str) -> str:
@@ -130,12 +126,8 @@ def _leak(rows: pd.DataFrame, C: np.ndarray) -> np.ndarray:
 def c24(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     """Rotation about x and z per moment about x with Z-Y-Z and with Z-Y-X angles, over what is wanted."""
     zyz, zyx = (_about_x(results, coordinates, forms) for coordinates in (LIMIT.ZYZ, COORDINATES))
-    at_zero = some(
-        zyz[zyz["from_zero"] <= LIMIT.ZERO_RAD], f"pose of {side_by_side.PROBE} by hybrid/{LIMIT.ZYZ} at zero rotation"
-    )
-    near = some(
-        zyz[zyz["from_zero"] > LIMIT.ZERO_RAD], f"pose of {side_by_side.PROBE} by hybrid/{LIMIT.ZYZ} near zero rotation"
-    )
+    what, is_zero = f"pose of {side_by_side.PROBE} by hybrid/{LIMIT.ZYZ}", zyz["from_zero"] <= LIMIT.ZERO_RAD
+    at_zero, near = some(zyz[is_zero], f"{what} at zero rotation"), some(zyz[~is_zero], f"{what} near zero rotation")
     word = word_of(zyz["problem"].all() and not zyx["problem"].any(), zyz["problem"].any())
     done = near[near["outcome"] == "done"]
     ends = ", ".join(sorted(set(at_zero["outcome"].astype(str))))

@@ -11,13 +11,14 @@ import numpy as np
 
 import tasks
 from bench.base.on_first_use import pd
+from bench.experiments.suites import SUITES
+from bench.experiments.tables.read import chosen
 from bench.findings.claims import adequacy, probes, standing
 from bench.findings.claims.adequacy import CALLS, of_stage, tallied
 from bench.findings.claims.side_by_side import BASE
 from bench.findings.claims.standing import ORDERED, Operations, by_columns
 from bench.findings.claims.tables import Results, evidence, some
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
-from bench.findings.start_sets import least_on_arms
 from bench.law.control.contact_controller import PAPERS_FORM
 from bench.law.inputs import Gains
 
@@ -110,12 +111,12 @@ def bend(arm: str, gains: Gains, dt_s: float, curves: Callable = probes.curves) 
 def _pairs(results: Results, found: pd.DataFrame, arm: str, start_set: str, controller: str = BY_EULER) -> pd.DataFrame:
     """Episodes by a controller and by the law on R from the same starts of a set."""
     rows = found[(found["arm"] == arm) & (found["start_set"] == start_set)]
+    least = {part.start_set: part.size or 0 for part in SUITES["quick"].on_arms.slices}  # of the smallest suite
     parts = []
     for one in (controller, ON_MATRIX):
-        named = words(one, tasks.arm(arm).joints).items()
-        own = rows[np.logical_and.reduce([rows[column] == word for column, word in named])]
+        own = chosen(rows, words(one, tasks.arm(arm).joints))
         parts.append(some(own, f"episode of {one} on {arm} from {start_set}"))
-        results.check_starts(own, f"{one} on {arm}", least_on_arms(), start_set)
+        results.check_starts(own, f"{one} on {arm}", least, start_set)
     return _against(*parts)
 
 

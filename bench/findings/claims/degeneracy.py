@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Sequence
 from typing import Any
@@ -184,7 +185,4 @@ def ways(seed: int) -> tuple[np.ndarray, list[float], float]:
 
 def _after(legs: Sequence) -> Turn:
     """Compute the orientation after turns in the base frame, one after the other."""
-    at = Turn.identity()
-    for leg in legs:
-        at = Turn.from_rotvec(leg) * at
-    return at
+    return functools.reduce(lambda at, leg: Turn.from_rotvec(leg) * at, legs, Turn.identity())

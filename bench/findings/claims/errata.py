@@ -2,7 +2,8 @@
 
 coverage.toml: what the book does with each numbered equation and figure.
 
-Where a check can be computed it is a function that returns True if the erratum is confirmed; the others are by reading.
+Where a check can be computed it is the function `check_` and the erratum's id, which returns True if it is confirmed;
+the others are by reading.
 """
 
 import math
@@ -55,29 +56,29 @@ def _to_matrix(E: Sequence) -> Any:
     return representation("zyx-euler").to_matrix(E)
 
 
-def half_turn_is_regular() -> bool:
+def check_E01() -> bool:
     """B is regular at 180 degrees about Y and singular at 90."""
     return probes.least_of_B(probes.ABOUT_Y[180]) > 0.5 and probes.least_of_B(probes.ABOUT_Y[90]) < TINY
 
 
-def difference_at_plus() -> bool:
+def check_E02() -> bool:
     """At beta = +pi/2 R does not change if alpha and gamma grow together."""
     one, other = (np.array(_to_matrix((0.4 + x, math.pi / 2, -0.9 + x))) for x in (0.0, 0.7))
     return bool(np.abs(one - other).max() < TINY)
 
 
-def normal_has_other_sign() -> bool:
+def check_E03() -> bool:
     """beta = +pi/2 has n = (0, 0, -1), and -pi/2 has (0, 0, +1)."""
     return all(abs(_to_matrix((0.4, sign * math.pi / 2, -0.9)).n[2] + sign) < TINY for sign in (1, -1))
 
 
-def pole_B_is_finite() -> bool:
+def check_E04() -> bool:
     """B has elements of at most 1 at both poles."""
     poles = [from_quaternion(probes.ABOUT_Y[degrees]) for degrees in (90, -90)]
     return all(np.abs(probes.euler_B(R)).max() <= 1 + TINY for R in poles)
 
 
-def printed_feedback_is_unstable() -> bool:
+def check_E05() -> bool:
     """(2.14) under u = -Kp E - Kd Edot has a growing mode; with the permutation undone it has none."""
     gains, P = Gains(), np.eye(3)[::-1]
 
@@ -89,7 +90,7 @@ def printed_feedback_is_unstable() -> bool:
     return growth(np.eye(3)) > 1.0 and growth(P) < 0.0
 
 
-def B_rate_has_no_inverse() -> bool:
+def check_E06() -> bool:
     """(dB/dt)^-1 never exists, for a column of B is constant; d(B^-1)/dt does."""
     step = 1e-6
     E = np.array((0.4, 0.6, -0.9))
@@ -97,25 +98,16 @@ def B_rate_has_no_inverse() -> bool:
     return abs(np.linalg.det((B[0] - B[1]) / (2 * step))) < 1e-9  # rounding of the difference is 1e-10
 
 
-def rates_need_the_inverse() -> bool:
+def check_E07() -> bool:
     """Edot = B^-1 omega of (2.9) undoes (2.8)."""
     zyx = representation("zyx-euler")
     at = zyx.chart_of((0.4, 0.6, -0.9))
     return bool(np.allclose(zyx.rates(at, zyx.angular_velocity(at, RATES)), RATES, atol=TINY))
 
 
-CHECKS = {
-    "E01": half_turn_is_regular,
-    "E02": difference_at_plus,
-    "E03": normal_has_other_sign,
-    "E04": pole_B_is_finite,
-    "E05": printed_feedback_is_unstable,
-    "E06": B_rate_has_no_inverse,
-    "E07": rates_need_the_inverse,
-}
-
 ERRATA = tuple(
-    Erratum(id, **words, check=CHECKS.get(id)) for id, words in read_texts(Path(__file__).with_suffix(".toml")).items()
+    Erratum(id, **words, check=globals().get(f"check_{id}"))
+    for id, words in read_texts(Path(__file__).with_suffix(".toml")).items()
 )
 
 UNTESTABLE = tuple(Sentence(**words) for words in read_texts(Path(__file__).with_name("untestable.toml"))["sentences"])

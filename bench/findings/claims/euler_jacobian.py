@@ -9,19 +9,10 @@ import numpy as np
 from bench.base.on_first_use import pd
 from bench.experiments.tables.read import FREE_BODY
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
+from bench.findings.claims import tables
 from bench.findings.claims.degeneracy import condition_in
 from bench.findings.claims.feedback_linearized import LAW
-from bench.findings.claims.tables import (
-    MAIN_ENGINE,
-    Results,
-    Share,
-    evidence,
-    same_starts,
-    settled,
-    settling_times,
-    share,
-    some,
-)
+from bench.findings.claims.tables import MAIN_ENGINE, Results, Share, evidence, share, some
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from bench.findings.start_sets import least_starts
 from bench.law.contenders.registry import representation
@@ -133,8 +124,8 @@ def c34(results: Results) -> tuple[Word, Evidence]:
         for form, own in zip(forms, rows, strict=True):
             some(own, f"episode of {LAW}/{form} from {name}")
             results.check_starts(own, f"{LAW}/{form}", least_starts(MAIN_ENGINE, "beyond"), name)
-        for form, own in zip(forms, same_starts(rows), strict=True):
-            found[form][name] = share(settled(own)), quantile_estimate(settling_times(own), 0.5)
+        for form, own in zip(forms, tables.same_starts(rows), strict=True):
+            found[form][name] = share(tables.settled(own)), quantile_estimate(tables.settling_times(own), 0.5)
     degenerate = {form: _degenerates(form) for form in forms}
     alike = {
         (one, two): degenerate[one][0]

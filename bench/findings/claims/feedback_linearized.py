@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import functools
+import itertools
 import math
 
 import numpy as np
@@ -89,12 +89,10 @@ def _growth(gains: Gains) -> tuple[float, float]:
     zyx = representation("zyx-euler")
     low, high = LIMIT.GROWTH_DECADES
     margins, sizes = [], []
-    for k in range(low, high + 1):
-        for sign in (1, -1):
-            for alpha, gamma in LIMIT.PAIRS:
-                R = zyx.to_matrix((alpha, sign * (math.pi / 2 - 10.0**-k), gamma))
-                margins.append(zyx.margin(R))
-                sizes.append(np.linalg.norm(probes.command(CONTENDER, R, LIMIT.SPIN, gains=gains)))
+    for k, sign, (alpha, gamma) in itertools.product(range(low, high + 1), (1, -1), LIMIT.PAIRS):
+        R = zyx.to_matrix((alpha, sign * (math.pi / 2 - 10.0**-k), gamma))
+        margins.append(zyx.margin(R))
+        sizes.append(np.linalg.norm(probes.command(CONTENDER, R, LIMIT.SPIN, gains=gains)))
     return float(np.polyfit(np.log(margins), np.log(sizes), 1)[0]), float(max(sizes))
 
 
@@ -147,7 +145,8 @@ def _is_erratic(rows: pd.DataFrame, limit: float) -> pd.Series:
 def c30(results: Results) -> tuple[Word, Evidence]:
     """Both laws on bodies heavier and lighter than the model."""
     gains = results.gains()
-    runs = [results.found_by(off_model, law, gains, results.seed) for law in (THREE[0], THREE[-1])]
+    bodies = LIMIT.AXIS, LIMIT.STARTS, LIMIT.HORIZON_S, gains, results.seed
+    runs = [results.found_by(probes.perturbed, law, *bodies) for law in (THREE[0], THREE[-1])]
     levels = sorted(set(runs[0]["level"]) - {1.0})
     lost = [[share(~settled(one[one["level"] == level])) for one in runs] for level in levels]
     times = [[_median(one, level) for one in runs] for level in levels]
@@ -169,14 +168,3 @@ def c30(results: Results) -> tuple[Word, Evidence]:
 
 def _median(rows: pd.DataFrame, level: float) -> float:
     return float(rows.loc[rows["level"] == level, "settling_time_s"].median())
-
-
-@functools.cache
-def off_model(law: str, gains: Gains, seed: int) -> pd.DataFrame:
-    """Rows of robustness.parquet of a law along the axis."""
-    from bench.experiments.experiment import Settings, Unit, rows_of
-
-    unit = Unit(
-        "robustness", law, selector=LIMIT.AXIS, count=LIMIT.STARTS, total=LIMIT.STARTS, horizon_s=LIMIT.HORIZON_S
-    )
-    return rows_of(Settings(gains=gains, seed=seed), unit)

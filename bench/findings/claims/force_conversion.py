@@ -125,10 +125,7 @@ def balances(along: Coordinates, places: list[tuple[str, Rotation]], seed: int) 
     """Return a row an orientation: `place` and what `balance` finds for random directions of moment and rates."""
     rng, rows = np.random.default_rng(seed), []
     for place, R in places:
-        moment, rates = rng.normal(size=3), rng.normal(size=len(along.chart(R).E))
-        rows.append({"place": place, **balance(along, R, _unit(moment), _unit(rates))})
+        drawn = rng.normal(size=3), rng.normal(size=len(along.chart(R).E))
+        moment, rates = (vector / np.linalg.norm(vector) for vector in drawn)
+        rows.append({"place": place, **balance(along, R, moment, rates)})
     return pd.DataFrame(rows)
-
-
-def _unit(vector: np.ndarray) -> np.ndarray:
-    return vector / np.linalg.norm(vector)

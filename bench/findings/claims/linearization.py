@@ -1,7 +1,5 @@
 """C44 to C46: the linearizations (2.2) and (2.14), and what the Euler Jacobian simplifies (Murphy 1988, 2, 3)."""
 
-from __future__ import annotations
-
 import functools
 
 import numpy as np
@@ -40,22 +38,15 @@ def accelerations(name: str, variation: str, seed: int) -> np.ndarray:
     import mujoco
 
     from tasks.arm_model import model_xml
+    from tasks.kinematics import Kinematics
 
     arm = tasks.arm(name)
-    model, plant = (mujoco.MjModel.from_xml_string(model_xml(arm, 1e-3)) for _ in range(2))
+    judge, plant = Kinematics(arm), mujoco.MjModel.from_xml_string(model_xml(arm, 1e-3))
     if variation:
         tasks.variation(variation).apply(plant, arm.rated)
+    model, jacobian = judge.model, judge.jacobian
     data, body = mujoco.MjData(model), mujoco.MjData(plant)
-    rng, D, hand = np.random.default_rng(seed), np.zeros((model.nv, model.nv)), model.site("tool").id
-
-    def jacobian(q: np.ndarray) -> np.ndarray:
-        data.qpos[:] = q
-        mujoco.mj_fwdPosition(model, data)
-        J = np.zeros((6, model.nv))
-        mujoco.mj_jacSite(model, data, J[:3], J[3:], hand)
-        return J
-
-    gaps = []
+    rng, gaps = np.random.default_rng(seed), []
     for _ in range(LIMIT.POSES):
         q = np.array(arm.home) + rng.uniform(-LIMIT.AROUND_RAD, LIMIT.AROUND_RAD, model.nv)
         qdot, u = rng.uniform(-1.0, 1.0, model.nv), rng.uniform(-1.0, 1.0, 6)
@@ -63,10 +54,9 @@ def accelerations(name: str, variation: str, seed: int) -> np.ndarray:
         Jdot = (jacobian(q + LIMIT.STEP_S * qdot) - jacobian(q - LIMIT.STEP_S * qdot)) / (2 * LIMIT.STEP_S)
         data.qpos[:], data.qvel[:] = q, qdot
         mujoco.mj_forward(model, data)
-        mujoco.mj_fullM(model, data, D)
         fg = data.qfrc_bias - data.qfrc_passive
         body.qpos[:], body.qvel[:] = q, qdot
-        body.qfrc_applied[:] = D @ np.linalg.solve(J, u - Jdot @ qdot) + fg
+        body.qfrc_applied[:] = judge.inertia_matrix(q) @ np.linalg.solve(J, u - Jdot @ qdot) + fg
         mujoco.mj_forward(plant, body)
         ends = []
         for t in (-LIMIT.STEP_S, LIMIT.STEP_S):  # J(q) qdot along the motion that follows, to second order in t

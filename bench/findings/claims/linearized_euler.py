@@ -1,7 +1,6 @@
 """C06 to C08 and C29: PD on Z-Y-X Euler angles linearized about zero (Murphy 1988, 2.14 and 2.4)."""
 
 import math
-from typing import Any
 
 import numpy as np
 
@@ -60,7 +59,10 @@ def c07(results: Results, engine: str) -> tuple[Word, Evidence]:
     near = frame["min_margin"] < LIMIT.PASSING
     passing, rest = some(frame[near], "episode that comes near the pole"), some(frame[~near], "other episode")
     lost_passing, lost_rest = lost(passing), lost(rest)
-    peak, rest_peak = _median_peak(passing), _median_peak(rest)
+    peak, rest_peak = (
+        quantile_estimate(some(converged(part), "episode that converges")["peak_u"].to_numpy(), 0.5)
+        for part in (passing, rest)
+    )
     ratio = peak.low / rest_peak.high
     is_extreme = lost_passing.low >= LIMIT.FAIL_EXTREME and lost_rest.high <= LIMIT.FAIL_REST
     is_raised = ratio >= LIMIT.PEAK_RAISED or lost_passing.low >= LIMIT.FAIL_RAISED * lost_rest.high
@@ -77,11 +79,6 @@ def c07(results: Results, engine: str) -> tuple[Word, Evidence]:
         {len(poles) - len(beside)} do not converge.""",
         len(frame) + len(poles),
     )
-
-
-def _median_peak(frame: Any) -> Any:
-    """Compute the median peak command of the episodes that converge, with its interval."""
-    return quantile_estimate(some(converged(frame), "episode that converges")["peak_u"].to_numpy(), 0.5)
 
 
 @claim("C08")

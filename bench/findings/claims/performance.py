@@ -10,22 +10,11 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.experiments.tables.statistics import bootstrap, quantile, quantile_estimate
-from bench.findings.claims import adequacy, probes
+from bench.findings.claims import adequacy, probes, tables
 from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy
 from bench.findings.claims.at_gains import at_every_gain, on_every_engine
 from bench.findings.claims.standing import ORDERED, Ledger
-from bench.findings.claims.tables import (
-    MAIN_ENGINE,
-    Results,
-    evidence,
-    interval,
-    lost_text,
-    same_starts,
-    settled,
-    settling_times,
-    share,
-    some,
-)
+from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, interval, settled, settling_times, share, some
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form
 
@@ -46,32 +35,24 @@ def c12(results: Results) -> tuple[Word, Evidence]:
     paper, total = (
         ", ".join(f"{short} {one[name]}" for short, name in zip(NAMES, THREE, strict=True)) for one in known.accountings
     )
-    literal = known.accountings[0].get(LIMIT.LITERAL)  # the law that is compared shares sines and folds Bdot
-    as_printed = f" (2.15) as printed, term by term, takes {literal}." if literal else ""
-    priced = f"; in these times a call takes {known.price:.0f} flops" if np.isfinite(known.price) else ""
-    return word_of(all(in_order), all(np.logical_or(in_order, [one.is_disputed for one in pairs]))), evidence(
-        f"""Time a tick over the rotation matrix's: {_timed(known)}; its intervals part
-        {sum(bool(one.by_time) for one in pairs)} of {len(pairs)} pairs. Flops and calls: {paper}; with the goal's
-        angles taken from its matrix: {total}; the columns decide {sum(0 not in one.by_columns for one in pairs)} of
-        {len(pairs)} pairs{priced}. {_flops_alone(known)}{as_printed}""",
-        len(THREE) * (len(known.accountings) + len(known.times)),
-        ("costs", "timings") if known.times else ("costs",),
-    )
-
-
-def _timed(known: Ledger) -> str:
-    """'linearized-euler 10.0, feedback-linearized 10.3', or that they were not timed."""
-    return ", ".join(f"{short} {known.over(name, THREE[0])}" for short, name in zip(NAMES[1:], THREE[1:], strict=True))
-
-
-def _flops_alone(known: Ledger) -> str:
-    """Describe where flops, calls left out, come in another order."""
+    timed = ", ".join(f"{short} {known.over(name, THREE[0])}" for short, name in zip(NAMES[1:], THREE[1:], strict=True))
     orders = [
         [short for _, short in sorted((one[name].flops, short) for short, name in zip(NAMES, THREE, strict=True))]
         for one in known.accountings
     ]
     others = [" < ".join(order) for order in orders if order != NAMES]
-    return f"By flops alone, calls left out: {'; '.join(others) or 'the same order'}."
+    literal = known.accountings[0].get(LIMIT.LITERAL)  # the law that is compared shares sines and folds Bdot
+    as_printed = f"(2.15) as printed, term by term, takes {literal}." if literal else ""
+    priced = f"; in these times a call takes {known.price:.0f} flops" if np.isfinite(known.price) else ""
+    return word_of(all(in_order), all(np.logical_or(in_order, [one.is_disputed for one in pairs]))), evidence(
+        f"""Time a tick over the rotation matrix's: {timed}; its intervals part
+        {sum(bool(one.by_time) for one in pairs)} of {len(pairs)} pairs. Flops and calls: {paper}; with the goal's
+        angles taken from its matrix: {total}; the columns decide {sum(0 not in one.by_columns for one in pairs)} of
+        {len(pairs)} pairs{priced}. By flops alone, calls left out: {"; ".join(others) or "the same order"}.
+        {as_printed}""",
+        len(THREE) * (len(known.accountings) + len(known.times)),
+        ("costs", "timings") if known.times else ("costs",),
+    )
 
 
 @claim("C17")
@@ -99,7 +80,7 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
 def _placed(one: Adequacy, known: Ledger) -> str:
     return (
         f"{one.name.partition('/')[0]} {one.settled:.2%} settled, {one.lost} ({one.lost_exact}) lost, of spinning ones "
-        f"{'; '.join(map(lost_text, one.spun[-1:])) or 'none is known'}, {adequacy.NEARLY_ALL:.0%} in "
+        f"{'; '.join(map(tables.lost_text, one.spun[-1:])) or 'none is known'}, {adequacy.NEARLY_ALL:.0%} in "
         f"{one.pace.value:.2f} s ({one.pace.low:.2f} to {one.pace.high:.2f}), {one.cost} flops and calls, "
         f"time {known.over(one.name, THREE[0])}"
     )
@@ -117,7 +98,13 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
         raise NoEvidence("no law was timed, and flops and calls alone give no cost: run bench time")
     lacks = {one.name: adequacy.missed(one, known, small, held) for one in later}
     adequate = [one.name for one in later if not set(lacks[one.name]) & set(adequacy.BOTH)]
-    answers = [_answer(one, known) for one in later if not lacks[one.name]]
+    answers = [
+        f"{one.name} (time {known.over(one.name, THREE[0])}, {one.cost} flops and calls, {one.settled:.2%} of {one.n} "
+        f"starts settle, {adequacy.NEARLY_ALL:.0%} in {one.pace.value:.2f} s, way at most {one.detour:.2f} times the "
+        "shortest)"
+        for one in later
+        if not lacks[one.name]
+    ]
     parts: dict[str, Any] = {"adequate": ", ".join(adequate) or "none", "answers": "; ".join(answers) or "none"}
     lacking = "; ".join(f"{name} ({', '.join(missed)})" for name, missed in lacks.items() if missed) or "nothing"
     untimed = [one.name for one in later if not any(one.name in times for times in known.times)]
@@ -132,19 +119,11 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
     )
 
 
-def _answer(one: Adequacy, known: Ledger) -> str:
-    return (
-        f"{one.name} (time {known.over(one.name, THREE[0])}, {one.cost} flops and calls, {one.settled:.2%} of {one.n} "
-        f"starts settle, {adequacy.NEARLY_ALL:.0%} in {one.pace.value:.2f} s, way at most {one.detour:.2f} times the "
-        "shortest)"
-    )
-
-
 def _of_the_three(results: Results) -> list[pd.DataFrame]:
     """Uniform starts from rest of each law, the same in the same order; one that does not converge settles nowhere."""
     found = [results.episodes(name, MAIN_ENGINE, "uniform") for name in NAMES]
     found = [one.assign(outcome=one["outcome"].astype(str).where(one["converged"] != "no", "unknown")) for one in found]
-    return same_starts(found)
+    return tables.same_starts(found)
 
 
 @claim("C31")
@@ -180,11 +159,10 @@ def _gain(own: np.ndarray, other: np.ndarray) -> Any:
 def c35(results: Results) -> tuple[Word, Evidence]:
     """Shares and medians of the three."""
     small, laws = closed_form.linear_settling(*results.gains()), _of_the_three(results)
-    kept, times = (
-        [share(settled(rows)) for rows in laws],
-        [quantile_estimate(settling_times(rows), 0.5) for rows in laws],
-    )
-    found = list(zip(NAMES, kept, times, strict=True))
+    found = [
+        (name, share(settled(rows)), quantile_estimate(settling_times(rows), 0.5))
+        for name, rows in zip(NAMES, laws, strict=True)
+    ]
     reasonable = [name for name, one, time in found if one.low >= LIMIT.REASONABLE and time.high <= LIMIT.PACE * small]
     told = "; ".join(
         f"{name} {one}, in {time.value:.3f} s ({time.low:.3f} to {time.high:.3f}) in the median"
@@ -192,5 +170,5 @@ def c35(results: Results) -> tuple[Word, Evidence]:
     )
     return word_of(len(reasonable) == 2, len(reasonable) == 3), evidence(
         f"""Reasonable: {", ".join(reasonable) or "none"}. {told}. A small error settles in {small:.3f} s.""",
-        sum(one.n for one in kept),
+        sum(one.n for _, one, _ in found),
     )

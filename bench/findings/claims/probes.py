@@ -11,17 +11,14 @@ import numpy as np
 
 import tasks
 from bench.base.on_first_use import Turn, pd
-from bench.engines.metrics.registry import metrics_of
 from bench.findings.claims.tables import some
 from bench.findings.theory.closed_form import linear, linear_settling
 from bench.findings.theory.compliance_theory import matrix_B
-from bench.law.contender import Contender
-from bench.law.contenders.registry import find_contender, inverse, jacobian, representation
+from bench.law.contenders.registry import find_contender, representation
 from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import IDENTITY, Rotation, from_quaternion
 from tasks.base import Start
 from tasks.haar import axes
-from tasks.verdict import OUTCOMES
 
 PAPER = Gains()
 QUAT = ("quat_w", "quat_x", "quat_y", "quat_z")
@@ -84,22 +81,12 @@ def about(axis: Sequence[float] | np.ndarray, angle: float) -> tuple:
 
 
 def episodes(contender: str, starts: list[Start], gains: Gains, dt_s: float, horizon_s: float) -> pd.DataFrame:
-    """Outcome and settling time of a few starts on the continuous plant."""
-    from bench.engines.episode import FIRST_METRIC, NEVER, OUTCOME, SETTLING_TICK
-    from bench.engines.simulate import run as run_engine  # imports the compiler: listing claims must not
-    from bench.experiments.experiment import Settings
+    """Rows of episodes.parquet of a few starts on the continuous plant."""
+    from bench.experiments.episodes import rows_from  # imports the compiler: listing claims must not
+    from bench.experiments.experiment import Settings, Unit
 
-    settings = Settings(gains=gains, dt_s=dt_s).limits(horizon_s)
-    metrics = metrics_of(on_arm=False)
-    rows = run_engine("ideal-rk4", find_contender(contender), "free-body", starts, settings, metrics)
-    ticks = rows[:, SETTLING_TICK]
-    return pd.DataFrame(
-        {
-            "outcome": [OUTCOMES[int(code)] for code in rows[:, OUTCOME]],
-            "settling_time_s": np.where(ticks == NEVER, np.nan, ticks * dt_s),
-            "peak_u": np.sqrt(rows[:, FIRST_METRIC + [metric.column for metric in metrics].index("peak_u")]),
-        }
-    )
+    unit = Unit("free-body", contender, "free-body", engine="ideal-rk4", count=len(starts), horizon_s=horizon_s)
+    return rows_from(Settings(gains=gains, dt_s=dt_s), unit, starts)
 
 
 def off_linear(contender: str, angle: float, about_axes: Any, gains: Gains, dt_s: float) -> np.ndarray:
@@ -128,6 +115,15 @@ def beside_pole(margin: float, contender: str, gains: Gains, dt_s: float = 1e-3)
         quat = Turn.from_matrix(np.array(R).T).as_quat(scalar_first=True)
         starts.append(Start("", tuple(quat.tolist()), tuple((SPEED * direction).tolist())))
     return episodes(contender, starts, gains, dt_s, 10.0)
+
+
+@functools.cache
+def perturbed(law: str, axis: str, starts: int, horizon_s: float, gains: Gains, seed: int) -> pd.DataFrame:
+    """Rows of robustness.parquet of a law along a perturbation."""
+    from bench.experiments.experiment import Settings, Unit, rows_of
+
+    unit = Unit("robustness", law, selector=axis, count=starts, total=starts, horizon_s=horizon_s)
+    return rows_of(Settings(gains=gains, seed=seed), unit)
 
 
 def boundary_distance(frame: pd.DataFrame) -> pd.DataFrame:
@@ -160,13 +156,6 @@ TASK = "arm-regulation"
 BENDS = ("bend_0", "bend_1", "bend_2")
 
 
-def controller(word: str) -> Contender:
-    """Return the contender of `law@jacobian+inverse`."""
-    law, _, way = word.partition("@")
-    by, _, through = way.partition("+")
-    return find_contender(law)._replace(jacobian=jacobian(by), inverse=inverse(through))
-
-
 def curves(word: str, arm: str, gains: Gains, dt_s: float, count: int) -> pd.DataFrame:
     """Traces of a contender from the first clear starts of an arm: the angles' departure from the closed form.
 
@@ -177,7 +166,7 @@ def curves(word: str, arm: str, gains: Gains, dt_s: float, count: int) -> pd.Dat
     from bench.experiments import traces
     from bench.experiments.experiment import Settings
 
-    unit = traces.of_arm(controller(word).name, TASK, arm, count, "clear")
+    unit = traces.of_arm(word, TASK, arm, count, "clear")
     frame = traces.rows(Settings(gains=gains, dt_s=dt_s), unit)
     goals = {start.id: start.goal_wxyz for start in tasks.start_set("clear", count, 0, arm=arm)}
     parts = []
@@ -215,8 +204,7 @@ def beside_poles(word: str, arm: str, poses: pd.DataFrame, gains: Gains) -> pd.D
         if not id.endswith("-1e-01") and (family := id.rpartition("-1e-")[0] or id.removesuffix("-exact")) in goals
     ]
     some(starts, f"pose of {arm} beside a pole")
-    name = controller(word).name
-    unit = Unit("arm", name, TASK, arm, "native", "pole", IDEAL_MOTORS, count=len(starts), horizon_s=ON_ARM)
+    unit = Unit("arm", word, TASK, arm, "native", "pole", IDEAL_MOTORS, count=len(starts), horizon_s=ON_ARM)
     return rows_from(Settings(gains=gains), unit, starts)
 
 

@@ -2,28 +2,16 @@
 
 from __future__ import annotations
 
-import functools
-
 import numpy as np
 
 from bench.base.on_first_use import pd
-from bench.findings.claims import adequacy, probes
+from bench.findings.claims import adequacy, probes, tables
 from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.at_gains import at_every_gain
 from bench.findings.claims.linearized_euler import CURE, LAW
-from bench.findings.claims.tables import (
-    MAIN_ENGINE,
-    Results,
-    evidence,
-    lost,
-    settled,
-    settling_times,
-    share,
-    some,
-)
+from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, share, some
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form
-from bench.law.inputs import Gains
 
 LIMIT = read_limits(__file__)
 
@@ -54,7 +42,7 @@ def _beyond(results: Results) -> pd.DataFrame:
 def c37(results: Results) -> tuple[Word, Evidence]:
     """Share of starts outside the linear region that settle within C35's time."""
     rows, small = _beyond(results), closed_form.linear_settling(*results.gains())
-    good = share(pd.Series(settling_times(rows) <= LIMIT.PACE * small))
+    good = share(pd.Series(tables.settling_times(rows) <= LIMIT.PACE * small))
     return word_of(good.high <= LIMIT.FEW, good.high <= 0.5), evidence(
         f"""Of the uniform starts at {LIMIT.BEYOND_RAD:g} rad or more {good} settle within
         {LIMIT.PACE * small:.3f} s, {LIMIT.PACE:g} times the time of a small error.""",
@@ -68,8 +56,8 @@ def c38(results: Results) -> tuple[Word, Evidence]:
     """Settling times and losses outside the linear region, against turns of one angle alone."""
     rows, gains = _beyond(results), results.gains()
     small = closed_form.linear_settling(*gains)
-    off = np.abs(rows.loc[settled(rows), "settling_time_s"].to_numpy() / small - 1)
-    typical, unsettled = float(np.median(some(off, "start that settles"))), lost(rows)
+    off = np.abs(rows.loc[tables.settled(rows), "settling_time_s"].to_numpy() / small - 1)
+    typical, unsettled = float(np.median(some(off, "start that settles"))), tables.lost(rows)
     alone = max(float(probes.off_linear(LAW, angle, np.eye(3), gains, results.dt_s).max()) for angle in LIMIT.ALONE_RAD)
     coupled = typical >= LIMIT.OFF and alone <= LIMIT.SAME + results.dt_s / small
     return word_of(coupled and unsettled.low > 0.0, coupled), evidence(
@@ -83,7 +71,8 @@ def c38(results: Results) -> tuple[Word, Evidence]:
 @claim("C39")
 def c39(results: Results) -> tuple[Word, Evidence]:
     """Errors under a moving goal from small starts, against the rotation-matrix law's."""
-    runs = [results.found_by(tracked, law, results.gains(), results.seed) for law in (f"{CURE}/zyx-euler", THREE[0])]
+    goals = LIMIT.AXIS, LIMIT.STARTS, LIMIT.HORIZON_S, results.gains(), results.seed
+    runs = [results.found_by(probes.perturbed, law, *goals) for law in (f"{CURE}/zyx-euler", THREE[0])]
     near = (one[(one["angle0_rad"] <= LIMIT.SMALL_RAD) & (one["level"] > 0)] for one in runs)
     own, other = (some(one, "small start under a moving goal") for one in near)
     both = own.merge(other, on=["level", "start_id"], suffixes=("", "_other"))
@@ -97,14 +86,3 @@ def c39(results: Results) -> tuple[Word, Evidence]:
         follows, and greatest ratio to the rotation-matrix law's, {said}.""",
         len(both),
     )
-
-
-@functools.cache
-def tracked(law: str, gains: Gains, seed: int) -> pd.DataFrame:
-    """Rows of robustness.parquet of a law with goals that sway, their rate and acceleration given."""
-    from bench.experiments.experiment import Settings, Unit, rows_of
-
-    unit = Unit(
-        "robustness", law, selector=LIMIT.AXIS, count=LIMIT.STARTS, total=LIMIT.STARTS, horizon_s=LIMIT.HORIZON_S
-    )
-    return rows_of(Settings(gains=gains, seed=seed), unit)

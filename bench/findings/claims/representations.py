@@ -24,7 +24,8 @@ def c40(results: Results) -> tuple[Word, Evidence]:
     possible = [trio for trio in trios if np.abs(divisor(R, trio)).max() > LIMIT.SAME]
     off = max(float(np.abs(divisor(R, trio) - product(R, trio)).max()) for trio in possible)
     second = [another(R, trio) for trio in possible]
-    left = max(float(np.abs(constraints(other)).max()) for other in second)
+    both = (other[:, :, :2] for other in second)  # n and o, of which (2.5) says that they are orthonormal
+    left = max(float(np.abs(pair.swapaxes(1, 2) @ pair - np.eye(2)).max()) for pair in both)
     apart = min(float(np.median(np.abs(other - R).max(axis=(1, 2)))) for other in second)
     divides, is_double = off <= LIMIT.SAME, left <= LIMIT.SAME and apart > LIMIT.APART
     return word_of(divides and not is_double and len(possible) == len(trios), divides and is_double), evidence(
@@ -34,12 +35,6 @@ def c40(results: Results) -> tuple[Word, Evidence]:
         {apart:.2f} in the median, has the same three elements left and meets (2.5) to {left:.0e}.""",
         LIMIT.MATRICES * len(trios),
     )
-
-
-def constraints(R: np.ndarray) -> np.ndarray:
-    """Compute what (2.5) leaves, k x 3, of k matrices."""
-    n, o = R[:, :, 0], R[:, :, 1]
-    return np.stack([(n * n).sum(axis=1) - 1, (o * o).sum(axis=1) - 1, (n * o).sum(axis=1)], axis=1)
 
 
 def divisor(R: np.ndarray, trio: tuple[int, ...]) -> np.ndarray:
@@ -76,16 +71,13 @@ def c41(results: Results) -> tuple[Word, Evidence]:
     """A second set of variables for random orientations, and sets for a degenerate one, of four representations."""
     rng = np.random.default_rng(results.seed)
     sets = rng.uniform(0.1, 1.4, (LIMIT.MATRICES, 3))
-    turned = sets + np.array((np.pi, 0.0, np.pi))
-    flipped = np.array((1.0, -1.0, 1.0))
+    flipped = (sets + np.array((np.pi, 0.0, np.pi))) * np.array((1.0, -1.0, 1.0))
+    mirrored = flipped + np.array((0.0, np.pi, 0.0))
     angle, axis = sets[:, :1], sets / np.linalg.norm(sets, axis=1)[:, None]
     pairs = {
-        "Z-Y-X": (_of("ZYX", sets), _of("ZYX", turned * flipped + np.array((0.0, np.pi, 0.0)))),
-        "Z-Y-Z": (_of("ZYZ", sets), _of("ZYZ", turned * flipped)),
-        "roll, pitch and yaw": (
-            _of("xyz", sets[:, ::-1]),
-            _of("xyz", (turned * flipped + np.array((0.0, np.pi, 0.0)))[:, ::-1]),
-        ),
+        "Z-Y-X": (_of("ZYX", sets), _of("ZYX", mirrored)),
+        "Z-Y-Z": (_of("ZYZ", sets), _of("ZYZ", flipped)),
+        "roll, pitch and yaw": (_of("xyz", sets[:, ::-1]), _of("xyz", mirrored[:, ::-1])),
         "angle and axis": (_about(axis, angle), _about(-axis, -angle)),
     }
     twice = {name: float(np.abs(one - other).max()) for name, (one, other) in pairs.items()}
@@ -152,8 +144,7 @@ def c43(results: Results) -> tuple[Word, Evidence]:
     rng = np.random.default_rng(results.seed)
     start, end = (Turn.random(LIMIT.MATRICES, rng=rng) for _ in range(2))
     shortest = (end * start.inv()).magnitude()
-    ends = (one.as_euler("ZYX") for one in (start, end))
-    first, last = ends
+    first, last = (one.as_euler("ZYX") for one in (start, end))
     steps = np.linspace(0.0, 1.0, LIMIT.STEPS)
     ways = [Turn.from_euler("ZYX", first + s * (last - first)) for s in steps]
     length = np.sum([(after * before.inv()).magnitude() for before, after in itertools.pairwise(ways)], axis=0)

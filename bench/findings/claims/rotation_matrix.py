@@ -1,7 +1,5 @@
 """C01 to C05 and C32: stability, settling times, zeros and arithmetic of the rotation-matrix law (Murphy 1988, 2.4)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
@@ -60,11 +58,9 @@ def c01(results: Results, engine: str) -> tuple[Word, Evidence]:
 @claim("C02")
 def c02(results: Results) -> tuple[Word, Evidence]:
     """Small rotations at several gains, and the small steps of the run."""
-    off, allowed = [], []
-    for gains in (Gains(*pair) for pair in GAINS):
-        for angle in SMALL_ANGLES:
-            off.append(probes.off_linear(LAW, angle, LIMIT.AXES, gains, results.dt_s))
-            allowed.append(results.dt_s / closed_form.linear_settling(*gains) + angle**2)
+    small = [(Gains(*pair), angle) for pair in GAINS for angle in SMALL_ANGLES]
+    off = [probes.off_linear(LAW, angle, LIMIT.AXES, gains, results.dt_s) for gains, angle in small]
+    allowed = [results.dt_s / closed_form.linear_settling(*gains) + angle**2 for gains, angle in small]
     steps = results.episodes(LAW, MAIN_ENGINE, "goals")
     steps = some(steps[steps["angle0_rad"].between(1e-3, 0.11)], "small step of the start set goals")
     closed = closed_form.linear_settling(*results.gains())
@@ -199,7 +195,8 @@ def c32(results: Results) -> tuple[Word, Evidence]:
     ended = int(every["outcome"].isin(LIMIT.BROKEN).sum())
     frame = every.drop_duplicates(["start_set", "start_id"])
     ours = np.array([error(*pair) for pair in _pairs(frame)])
-    off = np.array([_farthest(e, _exact(*pair)) for e, pair in zip(ours, _pairs(frame), strict=True)])
+    exact = np.array([_exact(*pair) for pair in _pairs(frame)])
+    off = np.abs(np.vectorize(Fraction, otypes=[object])(ours) - exact).max(axis=1).astype(float)
     angle = frame["angle0_rad"].to_numpy()
     inner = np.minimum(angle, np.pi - angle) >= LIMIT.CLOSEST_RAD * (1 - LIMIT.DIGITS)
     relative = (off / np.linalg.norm(ours, axis=1).clip(min=EPS))[inner]
@@ -212,10 +209,6 @@ def c32(results: Results) -> tuple[Word, Evidence]:
         {" or ".join(LIMIT.BROKEN)}.""",
         len(every) + len(costs),
     )
-
-
-def _farthest(ours: np.ndarray, exact: list[Fraction]) -> float:
-    return float(max(abs(Fraction(x) - y) for x, y in zip(ours, exact, strict=True)))
 
 
 def _exact(R: Rotation, R_d: Rotation) -> list[Fraction]:

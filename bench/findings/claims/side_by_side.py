@@ -15,7 +15,7 @@ import numpy as np
 from bench.base.on_first_use import Turn, pd
 from bench.findings.claims.tables import Results, evidence, some
 from bench.findings.claims.verdict import Evidence, Word
-from bench.law.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM
+from bench.law.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM, hybrid
 
 PROBE, BASE = "wrench-probe", "hybrid-base"
 MEASURED = tuple(f"c_{i}{j}" for i in "xyz" for j in "xyz")
@@ -69,12 +69,9 @@ def paired(results: Results, representation: str, forms: tuple[str, ...], **word
     """Rows of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`), of some forms."""
     own = results.table("compliance", controller="hybrid", representation=representation, **words)
     base = results.table("compliance", controller=BASE, **words)
-    own, base = (_in_words(one[one["form"].isin(forms)]) for one in (own, base))
+    own, base = (one[one["form"].isin(forms)] for one in (own, base))
+    own, base = (one.assign(**{name: one[name].astype(str) for name in PAIRED}) for one in (own, base))
     return own.merge(base, on=list(PAIRED), suffixes=("", "_base"))
-
-
-def _in_words(frame: pd.DataFrame) -> pd.DataFrame:
-    return frame.assign(**{name: frame[name].astype(str) for name in PAIRED})
 
 
 def compliances(rows: pd.DataFrame, suffix: str = "") -> np.ndarray:
@@ -88,7 +85,6 @@ def predicted(rows: pd.DataFrame, representation: str = "") -> np.ndarray:
     import tasks
     from bench.findings.theory.compliance_theory import compliance
     from bench.law.contenders.registry import contenders
-    from bench.law.control.contact_controller import hybrid
     from bench.law.control.setpoint import ContactParameters
     from bench.law.inputs import Gains
     from bench.law.so3 import from_quaternion

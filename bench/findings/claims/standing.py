@@ -115,8 +115,7 @@ def by_times(cheap: Estimate, dear: Estimate, least: float = 0.0) -> int:
 
 def by_columns(cheap: Operations, dear: Operations) -> int:
     """Compare by columns: in order if none falls and one rises, reversed if none rises, undecided otherwise."""
-    signs = set(np.sign(np.subtract(dear, cheap)).astype(int).tolist()) - {0}
-    return signs.pop() if len(signs) == 1 else UNDECIDED
+    return agreed(np.sign(np.subtract(dear, cheap)).astype(int).tolist())
 
 
 def by_price(cheap: Operations, dear: Operations, price: float) -> int:

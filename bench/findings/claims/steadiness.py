@@ -1,7 +1,5 @@
 """What the study of verdicts found: claims that get another word with other draws, half the step, or other gains."""
 
-from __future__ import annotations
-
 import math
 
 from bench.experiments.tables.schema import RESULTS

@@ -68,16 +68,12 @@ class Results:
         """Rows of one table that have these words, chosen once and shared; there may be none."""
         asked = (name, *sorted(words.items()))
         if asked not in self._chosen:
-            self._chosen[asked] = read.chosen(self._whole(name), words)
+            if name not in self.frames:
+                if self.folder is None:
+                    raise NoEvidence(f"table '{name}': there is no folder to read it from; give one, or its frame")
+                self.frames[name] = read.table(self.folder, name)
+            self._chosen[asked] = read.chosen(self.frames[name], words)
         return self._chosen[asked]
-
-    def _whole(self, name: str) -> pd.DataFrame:
-        frame = self.frames.get(name)
-        if frame is None:
-            if self.folder is None:
-                raise NoEvidence(f"table '{name}': there is no folder to read it from; give one, or its frame")
-            frame = self.frames[name] = read.table(self.folder, name)
-        return frame
 
     def free_body(self, name: str, **words: str) -> pd.DataFrame:
         """Rows of one table that have these words and are about the free body, in the paper's coordinates."""
@@ -144,18 +140,19 @@ class Results:
 
     def controller_timings(self) -> pd.DataFrame:
         """Time per tick of whole controllers of arms, on every machine that was timed; maybe empty."""
-        every = self._all_timings()
-        if not set(TIMED) <= set(every):
-            return pd.DataFrame(columns=[*TIMED, "contender"])
+        every = self._all_timings().reindex(columns=[*TIMED, "contender"])
         compiled = (every["what"] == "engine") & (every["engine"] == "native") & (every["jacobian"] != "")
         return every[compiled & (every["ticks"] > 0)]
 
-    def _all_timings(self) -> pd.DataFrame:
+    def machines(self) -> list[pd.DataFrame]:
+        """Return the times of each machine that was timed, its name in a column `machine`."""
         from bench.experiments.tables.store import read_arrow
 
         paths = sorted(self.timings_folder.glob("*.parquet"))
-        frames = [read_arrow(path, "timings").to_pandas().assign(machine=path.stem) for path in paths]
-        frames += [self.frames["timings"]] if "timings" in self.frames else []
+        return [read_arrow(path, "timings").to_pandas().assign(machine=path.stem) for path in paths]
+
+    def _all_timings(self) -> pd.DataFrame:
+        frames = self.machines() + ([self.frames["timings"]] if "timings" in self.frames else [])
         every = pd.concat(frames, ignore_index=True) if frames else pd.DataFrame(columns=TIMED)
         return read.with_contender(every)
 

@@ -1,7 +1,5 @@
 """What is measured of a law: criteria.toml says what each number means, a function here computes it from tables."""
 
-from __future__ import annotations
-
 import functools
 import math
 import tomllib
@@ -11,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from bench.findings.claims.adequacy import NOISE
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.on_arms import passed
 from bench.findings.selection.tables import Tables, by_law
@@ -24,8 +23,6 @@ LEAST, GREATEST = 1.0, -1.0
 
 NOTABLE = 0.01
 """Differences below a hundredth are no reason to choose a law."""
-
-NOISE = "half-turn-noise"
 
 Measure = Callable[[Tables], dict[str, np.ndarray]]
 """tables -> law: values, all laws' in the order of the same starts; a law that was not asked is missing."""
@@ -85,12 +82,10 @@ def longest_path(tables: Tables) -> dict[str, np.ndarray]:
 
 def held_by_noise_from(tables: Tables) -> dict[str, np.ndarray]:
     """Return the least noise tried that holds a law at some 180° rotation; infinite if none does."""
-    rows = tables.robustness[tables.robustness["axis"] == NOISE]
-    found = {}
-    for name, own in rows[rows["contender"].isin(tables.contenders)].groupby("contender", observed=True):
-        holding = own.loc[own["lost"], "level"]
-        found[str(name)] = np.array([holding.min() if len(holding) else math.inf])
-    return found
+    rows = tables.robustness
+    rows = rows[(rows["axis"] == NOISE) & rows["contender"].isin(tables.contenders)]
+    least = rows["level"].where(rows["lost"], math.inf).groupby(rows["contender"], observed=True).min()
+    return {str(name): np.array([level]) for name, level in least.items()}
 
 
 BESIDE_RAD, DIRECTIONS = 1e-6, 16
@@ -132,16 +127,6 @@ def on_arms(measure: str) -> Measure:
     return measured
 
 
-def settled_under(axis: str, level: float) -> Measure:
-    """Return the settling times at one level of a perturbation."""
-    return perturbed(axis, level, "settling_time_s")
-
-
-def in_degrees(measure: Measure) -> Measure:
-    """Return a measure of angles in degrees."""
-    return lambda tables: {name: np.degrees(angles) for name, angles in measure(tables).items()}
-
-
 MEASURES: dict[str, Measure] = {
     "unsettled": lambda tables: {name: 100.0 * lost for name, lost in by_law(tables.uniform, "lost").items()},
     "lost": lambda tables: {name: np.array([lost.sum()]) for name, lost in by_law(tables.directed, "lost").items()},
@@ -155,8 +140,10 @@ MEASURES: dict[str, Measure] = {
     "peak": over_uniform("peak_u"),
     "chatter": over_uniform("rest_change"),
     "variation": perturbed("delay", 0.0, "variation"),
-    "overshoot": in_degrees(perturbed("saturation", BOUND, "overshoot_rad")),
-    "late": settled_under("delay", LATE_S),
+    "overshoot": lambda tables: {
+        name: np.degrees(angles) for name, angles in perturbed("saturation", BOUND, "overshoot_rad")(tables).items()
+    },
+    "late": perturbed("delay", LATE_S, "settling_time_s"),
     "arms": on_arms("settled"),
     "within": on_arms("range"),
 }

@@ -17,8 +17,6 @@ The rule was written and committed before any run was judged by it:
 Where a robot takes torques and a model cancels the inertia, the map of situations advises (`regions`).
 """
 
-from __future__ import annotations
-
 import functools
 import math
 from collections.abc import Callable, Sequence
@@ -118,8 +116,3 @@ def dominates(found: Measured, law: str, other: str, criteria: Sequence[str]) ->
     return any(found.beats(one, law, other) for one in criteria) and not any(
         found.beats(one, other, law) for one in criteria
     )
-
-
-def simplest(found: Measured, laws: Sequence[str]) -> str:
-    """Return the simplest of some laws; of two alike in that, the first by name."""
-    return min(laws, key=lambda law: (*found.tables.simplicity(law), law))

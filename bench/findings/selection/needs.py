@@ -3,13 +3,11 @@
 Where a robot takes torques and a model cancels the inertia, the map (`regions`) advises instead.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import NamedTuple
 
 from bench.findings.claims.adequacy import DETOUR, HELD_RAD, SETTLED_SHARE
-from bench.findings.selection.measured import GENERAL, Measured, front, simplest
+from bench.findings.selection.measured import GENERAL, Measured, front
 
 CHATTER = 1.0
 """Largest change of the command from tick to tick at rest [rad/s^2]: a hundredth of Kp times a radian. A linear loop
@@ -71,17 +69,12 @@ def has_all(found: Measured, law: str, facts: tuple[Fact, ...]) -> bool:
     return all(fact.has(found, law) for fact in facts)
 
 
-def is_ours(found: Measured, law: str) -> bool:
-    """Whether a law was made here: it is compared with what is advised, and is not advised."""
-    return found.tables.contenders[law].regulator.is_ours()
-
-
 def decide(need: Need, found: Measured) -> Decision:
     """Apply the rule to a need; a law of ours is never advised."""
     asked = tuple(
         law
         for law in found.laws
-        if not is_ours(found, law)
+        if not found.tables.contenders[law].regulator.is_ours()
         and has_all(found, law, need.facts)
         and all(len(found.values[one].get(law, ())) for one in need.by)
     )
@@ -89,5 +82,5 @@ def decide(need: Need, found: Measured) -> Decision:
         return Decision(need, None, (), (), ())
     best = front(found, asked, need.by)
     kept = front(found, best, GENERAL)
-    law = simplest(found, kept)
+    law = min(kept, key=lambda one: (*found.tables.simplicity(one), one))  # the simplest; of two alike, by name
     return Decision(need, law, tuple(one for one in kept if one != law), tuple(best), asked)

@@ -11,8 +11,6 @@ The rule was committed before the map was run:
 5. The default is the law with the widest region: advised in most of the situations that were drawn at random.
 """
 
-from __future__ import annotations
-
 import collections
 import functools
 from collections.abc import Sequence

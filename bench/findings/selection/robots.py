@@ -4,11 +4,9 @@ Criteria keep their names and what is notable. What the rows of such a robot hav
 not run on it is not asked.
 """
 
-from __future__ import annotations
-
 import math
 import tomllib
-from collections.abc import Callable, Container
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -18,11 +16,11 @@ import pandas as pd
 from bench.base.errors import BadResults
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
-from bench.findings.selection.criteria import BY_NAME, CRITERIA
+from bench.findings.selection.criteria import CRITERIA
 from bench.findings.selection.measured import Measured, measure, measured
 from bench.findings.selection.needs import FACTS, Decision, Need, decide
 from bench.findings.selection.regions import Rule, answer, find_default
-from bench.findings.selection.tables import Tables, by_law, by_standard_inverse, common, tables_of
+from bench.findings.selection.tables import by_law, by_standard_inverse, common, tables_of
 from tasks.situation import UNCANCELLED
 
 
@@ -33,7 +31,10 @@ def measure_velocities(results: Results) -> Measured:
         NoEvidence: the run commands no robot by velocities.
     """
     advice = "no robot was commanded by velocities (try: bench run --experiment velocity)"
-    rows = _rows(results, advice, "velocity", limiter="none")
+    try:
+        rows = results.table("velocity", limiter="none")
+    except BadResults as error:  # a run that is older than the table
+        raise NoEvidence(advice) from error
     rows = rows[rows["share"] == 1.0] if len(rows) else rows
     if rows.empty:
         raise NoEvidence(advice)
@@ -43,36 +44,23 @@ def measure_velocities(results: Results) -> Measured:
     rows = rows[rows["contender"].isin(tables.contenders)]
     free = rows[rows["arm"] == ""]
     uniform, exact = (common(free[free["start_set"] == name]) for name in ("uniform", "half-turn"))
-    tables = _of_laws(tables, set(uniform["contender"]))
-    tables = tables._replace(uniform=uniform, directed=exact, robustness=pd.DataFrame())
+    known = {name: one for name, one in tables.contenders.items() if name in set(uniform["contender"])}
+    tables = tables._replace(contenders=known, uniform=uniform, directed=exact, robustness=pd.DataFrame())
     ways = [by_law(part, "path_ratio") for part in (uniform, exact)]
     at_once, late = (by_standard_inverse(rows[is_late]) for is_late in (rows["lag_s"] == 0.0, rows["lag_s"] > 0.0))
     at_once = at_once[at_once["start_set"] == "uniform"]
-    return _measured(
+    as_ever = ("unsettled", "lost", "time", "worst", "tick", "memory", "jump")
+    values = {one.name: one.measure(tables) if one.name in as_ever else {} for one in CRITERIA}
+    return Measured(
         tables,
-        ("unsettled", "lost", "time", "worst", "tick", "memory", "jump"),
-        detour={name: np.array([np.nanmax([way[name].max() for way in ways])]) for name in tables.contenders},
-        peak=by_law(uniform, "peak_omega", math.inf),
-        arms=by_law(at_once.assign(passed=100.0 * ~at_once["lost"]), "passed"),
-        late=by_law(late, "settling_time_s", math.inf),
+        values
+        | {
+            "detour": {name: np.array([np.nanmax([way[name].max() for way in ways])]) for name in known},
+            "peak": by_law(uniform, "peak_omega", math.inf),
+            "arms": by_law(at_once.assign(passed=100.0 * ~at_once["lost"]), "passed"),
+            "late": by_law(late, "settling_time_s", math.inf),
+        },
     )
-
-
-def _rows(results: Results, advice: str, name: str, **words: str) -> pd.DataFrame:
-    try:
-        return results.table(name, **words)
-    except BadResults as error:  # a run that is older than the table
-        raise NoEvidence(advice) from error
-
-
-def _of_laws(tables: Tables, known: Container[str]) -> Tables:
-    return tables._replace(contenders={name: one for name, one in tables.contenders.items() if name in known})
-
-
-def _measured(tables: Tables, usual: tuple[str, ...], **values: dict[str, np.ndarray]) -> Measured:
-    """Return criteria: some measured as for accelerations, others by these values, and the rest without a number."""
-    as_ever = {name: BY_NAME[name].measure(tables) for name in usual}
-    return Measured(tables, {one.name: {} for one in CRITERIA} | as_ever | values)
 
 
 class Robot(NamedTuple):
@@ -90,19 +78,13 @@ class Robot(NamedTuple):
     measure: Callable[[Results], Measured]
 
 
-MEASURES = {
-    "arm": measure,
-    **dict.fromkeys(("velocity", "position"), measure_velocities),
-}
-
-
 def read_robots() -> dict[str, Robot]:
     """Return the robots of robots.toml by name."""
     found = {}
     for name, said in tomllib.loads(Path(__file__).with_name("robots.toml").read_text(encoding="utf-8")).items():
         one: dict[str, Any] = dict(said)
         need = Need(one.pop("words"), tuple(FACTS[word] for word in one.pop("facts")), tuple(one.pop("by", ())))
-        found[name] = Robot(name, **one, need=need, measure=MEASURES[name])
+        found[name] = Robot(name, **one, need=need, measure=measure if name == "arm" else measure_velocities)
     return found
 
 

@@ -1,27 +1,14 @@
 """How the advice depends on the rule, on the draw of the situations, and on how many comparisons are made."""
 
-from __future__ import annotations
-
 import functools
 import math
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-import pandas as pd
 
-from bench.findings.selection.regions import (
-    RULE,
-    STUDY,
-    Rule,
-    Verdict,
-    decide_all,
-    facts_of,
-    find_default,
-    find_regions,
-    is_drawn,
-    read_map,
-)
+from bench.findings.selection import regions
+from bench.findings.selection.regions import RULE, STUDY, Rule, decide_all, find_default, find_regions, read_map
 from tasks.situation import NOMINAL, Situation, read_situation
 
 RULES = {
@@ -63,7 +50,7 @@ def vary(folder: Path = STUDY) -> tuple[Varied, ...]:
     usual, found = decide_all(folder), []
     for words, rule in RULES.items():
         widest, verdicts = find_regions(folder, rule)[0], decide_all(folder, rule)
-        drawn = [at for at in usual if is_drawn(at)]
+        drawn = [at for at in usual if regions.is_drawn(at)]
         changed = sum(verdicts[at].law != usual[at].law for at in drawn) / len(drawn)
         found.append(Varied(words, widest.law, widest.advised, widest.unbeaten, changed))
     return tuple(found)
@@ -71,46 +58,32 @@ def vary(folder: Path = STUDY) -> tuple[Varied, ...]:
 
 def count_halves(folder: Path = STUDY) -> tuple[int, int]:
     """Return in how many random halves of the drawn situations the default is the same, and of how many."""
-    drawn, default = [at for at in decide_all(folder) if is_drawn(at)], find_default(folder)
+    drawn, default = [at for at in decide_all(folder) if regions.is_drawn(at)], find_default(folder)
     rng = np.random.default_rng(SEED)
     halves = (rng.permutation(len(drawn))[: len(drawn) // 2] for _ in range(HALVES))
     return sum(find_regions(folder, RULE, [drawn[i] for i in half])[0].law == default for half in halves), HALVES
 
 
-class Corrected(NamedTuple):
-    """Comparisons in which the advised law beats another, and those that Holm's correction over all of them leaves."""
+def correct(folder: Path = STUDY) -> tuple[int, int]:
+    """Return how many comparisons of the map the advised law wins, and how many are left if all are corrected at once.
 
-    beaten: int
-    left: int
-
-
-def correct(folder: Path = STUDY) -> Corrected:
-    """Correct all comparisons of the map at once (S. Holm, Scand. J. Statist. 6, 1979).
-
-    A difference of two 99 % times has the standard error that their 95 % intervals give, as for independent starts.
+    By S. Holm, Scand. J. Statist. 6, 1979. A difference of two 99 % times has the standard error that their 95 %
+    intervals give, as for independent starts; p is two-sided.
     """
-    p_values = []
-    for word, rows in read_map(folder).groupby("situation", observed=True):
-        one = decide_all(folder)[read_situation(str(word))]
-        p_values += _p_values(rows, one)
-    return Corrected(len(p_values), count_rejected(np.array(p_values)))
-
-
-def _p_values(rows: pd.DataFrame, one: Verdict) -> list[float]:
-    """Return two-sided p of the advised law against each law that it beats."""
     from scipy.stats import norm
 
-    if one.law is None:
-        return []
-    names = rows["contender"].astype(str)
-    own, found = rows[names == one.law].iloc[0], []
-    for law, row in zip(names, rows.to_dict("records"), strict=True):
-        is_beaten = math.isfinite(row["time"]) and own["time_high"] < row["time_low"] and law not in one.unbeaten
-        if is_beaten and own["time"] < (1.0 - RULE.tie) * row["time"]:
-            errors = [(each["time_high"] - each["time_low"]) / 3.92 for each in (own, row)]
-            error = max(math.hypot(*errors), 1e-12)
-            found.append(float(2.0 * norm.sf((row["time"] - own["time"]) / error)))
-    return found
+    p_values: list[float] = []
+    for word, rows in read_map(folder).groupby("situation", observed=True):
+        one = decide_all(folder)[read_situation(str(word))]
+        if one.law is None:
+            continue
+        names, times = rows["contender"].astype(str), rows["time"]
+        own = rows[names == one.law].iloc[0]
+        is_beaten = np.isfinite(times) & (own["time_high"] < rows["time_low"]) & ~names.isin(one.unbeaten)
+        beaten = rows[is_beaten & (own["time"] < (1.0 - RULE.tie) * times)]
+        errors = ((each["time_high"] - each["time_low"]) / 3.92 for each in (own, beaten))
+        p_values += (2.0 * norm.sf((beaten["time"] - own["time"]) / np.hypot(*errors).clip(1e-12))).tolist()
+    return len(p_values), count_rejected(np.array(p_values))
 
 
 def count_rejected(p_values: np.ndarray, level: float = LEVEL) -> int:
@@ -166,10 +139,8 @@ def count_agreeing(folder: Path = STUDY) -> dict[str, float]:
         of: how many; same: share whose nearest row advises the law that their own rows do; of the map's answers, and
         after "always_" of the default in every situation, what `rate` returns.
     """
-    from bench.findings.selection.regions import answer
-
     verdicts = decide_all(folder / "held-out")
-    given = {at: answer(at, RULE, folder).verdict.law for at in verdicts}
+    given = {at: regions.answer(at, RULE, folder).verdict.law for at in verdicts}
     always = rate(dict.fromkeys(verdicts, find_default(folder)), folder)
     return {
         "of": len(verdicts),
@@ -189,7 +160,7 @@ def rate(given: dict[Situation, str | None], folder: Path) -> dict[str, float]:
     rows, verdicts, later = read_map(folder / "held-out"), decide_all(folder / "held-out"), []
     for at, truth in verdicts.items():
         times = rows[rows["situation"] == at.word].set_index("contender")["time"]
-        best = min((times[law] for law in truth.unbeaten if not facts_of(law).is_ours), default=math.nan)
+        best = min((times[law] for law in truth.unbeaten if not regions.facts_of(law).is_ours), default=math.nan)
         later.append(times.get(given[at], math.inf) / best - 1.0 if truth.law else math.nan)
     some = np.array([one for one in later if one == one])
     unbeaten = sum(given[at] in truth.unbeaten or given[at] is truth.law for at, truth in verdicts.items())

@@ -68,7 +68,10 @@ def tables_of(results: Results) -> Tables:
     costs = results.table("costs", **published.FREE_BODY)
     priced = {str(name): rows for name, rows in costs.groupby("contender", observed=True)}
     sets = runs.groupby("contender", observed=True)["start_set"].agg(set)
-    known = {one.name: one for one in (*all_contenders(), *_own(results))}
+    laws = published.own_laws(results.folder) if results.folder else ()
+    # a user's law that may not run cannot be asked how far it jumps, and is left out
+    own = [one for law in laws if law.law or law.law_in for one in contenders_of(law)]
+    known = {one.name: one for one in (*all_contenders(), *own)}
     names = [name for name in sets.index if {"uniform", "half-turn"} <= sets[name] and name in priced and name in known]
     runs = some(runs[runs["contender"].isin(names)], "law with uniform and half-turn starts and a cost")
     runs = runs.assign(contender=runs["contender"].astype(str), lost=~settled(runs))
@@ -115,16 +118,9 @@ def by_standard_inverse(rows: pd.DataFrame) -> pd.DataFrame:
     """Rows of arms by their standard inverse, in the order of arms and starts."""
     own = rows[(rows["arm"] != "") & rows["inverse"].isin(("solve", "pseudo-inverse"))]
     own = own.assign(inverse=own["inverse"].astype(str))
-    has_solve = own.groupby(["contender", "arm"], observed=True)["inverse"].transform(
-        lambda one: (one == "solve").any()
-    )
-    return own[~has_solve | (own["inverse"] == "solve")].sort_values(["arm", "start_set", "start_id"], kind="stable")
-
-
-def _own(results: Results) -> list[Contender]:
-    """Return the user's laws of the run; one that may not run cannot be asked how far it jumps, and is left out."""
-    laws = published.own_laws(results.folder) if results.folder else ()
-    return [one for law in laws if law.law or law.law_in for one in contenders_of(law)]
+    solves = own["inverse"] == "solve"
+    has_solve = solves.groupby([own["contender"], own["arm"]], observed=True).transform("any")
+    return own[~has_solve | solves].sort_values(["arm", "start_set", "start_id"], kind="stable")
 
 
 BY = "rotation-matrix@geometric"
@@ -137,20 +133,12 @@ def ticks(results: Results) -> dict[str, float]:
     Laws that no machine timed are left out, and so are machines that timed no whole controller.
     """
     found: dict[str, list[float]] = {}
-    for frame in _machines(results):
+    given = results.frames.get("timings")
+    timed = [one for one in results.machines() if "arm" in one] if given is None else [given]
+    for frame in map(with_contender, timed):
         is_whole = (frame["what"] == "controller") & frame["contender"].astype(str).str.startswith(BY)
         whole = frame.loc[is_whole & (frame["ticks"] > 0), "ratio"].median()
         alone = frame[(frame["what"] == "law") & (frame["ticks"] > 0)]
         for law, ratio in zip(alone["contender"].astype(str), alone["ratio"], strict=True):
             found.setdefault(law, []).append(100.0 * float(ratio / whole))
     return {law: float(np.median(shares)) for law, shares in found.items() if np.isfinite(shares).all()}
-
-
-def _machines(results: Results) -> list[pd.DataFrame]:
-    """Return the times of each machine whose file has arms."""
-    from bench.experiments.tables.store import read_arrow
-
-    if "timings" in results.frames:
-        return [with_contender(results.frames["timings"])]
-    every = (read_arrow(path, "timings").to_pandas() for path in sorted(results.timings_folder.glob("*.parquet")))
-    return [with_contender(frame) for frame in every if "arm" in frame]

@@ -1,7 +1,5 @@
 """An advised law in words, for pages, cards and commands alike; `called` names a law as they do."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Callable, Sequence

@@ -21,12 +21,12 @@ acts on the whole arm; nor where B^-1 does not exist. Radians, N m.
 Source: Murphy 1988, 3.1 and 3.3; Hogan 1985 for stiffness in other coordinates, K -> B^-T K B^-1.
 """
 
-import cmath
 import functools
 import math
 
 import numpy as np
 
+from bench.findings.theory.closed_form import linear
 from bench.law.control.contact_controller import PAPERS_FORM, ContactController
 from bench.law.control.hybrid import conversion
 from bench.law.control.setpoint import TOUCH, ContactParameters
@@ -63,17 +63,28 @@ def compliance(
     moment acts through its inertia, by the Jacobian transpose.
     """
     B = directions(controller, goal)
-    if controller.form == PAPERS_FORM:
-        if arm is None:
-            raise TypeError(f"'{controller.name}' lets moments act through the inertia of an arm (try: arm=)")
-        held = np.array(controller.selection(specification)[3:])
-        return B @ through_inertia(controller, B, goal, held, mobility(arm), time_s, gains, touch)
-    if not controller.converts:
-        return np.full((3, 3), np.nan)
-    if controller.impedance is not None:
-        return B @ B.T * sprung(time_s, gains, touch.m_o)
-    own = B[:, np.array(controller.selection(specification)[3:]) == 0.0]
-    return own @ own.T * free(time_s, touch)
+    if controller.form != PAPERS_FORM:
+        if not controller.converts:
+            return np.full((3, 3), np.nan)
+        if controller.impedance is not None:
+            return B @ B.T * sprung(time_s, gains, touch.m_o)
+        own = B[:, np.array(controller.selection(specification)[3:]) == 0.0]
+        return own @ own.T * free(time_s, touch)
+    if arm is None:
+        raise TypeError(f"'{controller.name}' lets moments act through the inertia of an arm (try: arm=)")
+    if not np.isfinite(B).all():
+        return B
+    K = np.eye(3)  # what the controller takes of a moment
+    if controller.representation is not None:
+        convert, at = conversion(controller.representation, controller.converts), controller.representation.chart(goal)
+        K = np.array([convert(at, unit) for unit in UNITS]).T
+    held, as_unit = np.array(controller.selection(specification)[3:]), touch._replace(m_o=1.0)
+    kept = (
+        free(time_s, as_unit._replace(kc=gains.kv)) if controller.law == "hybrid-rate" else sprung(time_s, gains, 1.0)
+    )
+    answers = np.where(held > 0.0, kept, free(time_s, as_unit))
+    exerted = np.linalg.solve(B.T, (1.0 - held)[:, None] * K)
+    return B @ (answers[:, None] * np.linalg.solve(B, mobility(arm) @ (np.eye(3) + touch.kf * exerted)))
 
 
 def directions(controller: ContactController, goal: Rotation) -> np.ndarray:
@@ -86,32 +97,6 @@ def directions(controller: ContactController, goal: Rotation) -> np.ndarray:
     if size[-1] <= NOWHERE * size[0]:
         return np.full((3, 3), np.nan)
     return np.array(goal).T @ B if seen_from_goal else B
-
-
-def through_inertia(
-    controller: ContactController,
-    B: np.ndarray,
-    goal: Rotation,
-    held: np.ndarray,
-    A: np.ndarray,
-    time_s: float,
-    gains: Gains,
-    touch: ContactParameters,
-) -> np.ndarray:
-    """R(t) B^-1 A (I + kf B^-T (I - S) K), K what the controller takes of a moment: rates per moment, 3 x 3."""
-    if not np.isfinite(B).all():
-        return B
-    K = np.eye(3)
-    if controller.representation is not None:
-        convert, at = conversion(controller.representation, controller.converts), controller.representation.chart(goal)
-        K = np.array([convert(at, unit) for unit in UNITS]).T
-    as_unit = touch._replace(m_o=1.0)
-    kept = (
-        free(time_s, as_unit._replace(kc=gains.kv)) if controller.law == "hybrid-rate" else sprung(time_s, gains, 1.0)
-    )
-    answers = np.where(held > 0.0, kept, free(time_s, as_unit))
-    exerted = np.linalg.solve(B.T, (1.0 - held)[:, None] * K)
-    return answers[:, None] * np.linalg.solve(B, A @ (np.eye(3) + touch.kf * exerted))
 
 
 @functools.cache
@@ -132,9 +117,4 @@ def free(time_s: float, touch: ContactParameters = TOUCH) -> float:
 
 def sprung(time_s: float, gains: Gains = PAPERS_GAINS, inertia: float = TOUCH.m_o) -> float:
     """Rotation per moment [rad/(N m)] of an impedance: m_o (thetadd + kv thetad + kp theta) = m from rest."""
-    root = cmath.sqrt(gains.kv**2 / 4.0 - gains.kp)
-    fading = math.exp(-gains.kv / 2.0 * time_s)
-    along = cmath.cosh(root * time_s)
-    across = cmath.sinh(root * time_s) / root if root != 0.0 else time_s
-    left = fading * (along + gains.kv / 2.0 * across).real
-    return (1.0 - left) / (gains.kp * inertia)
+    return (1.0 - float(linear(time_s, *gains))) / (gains.kp * inertia)

@@ -48,16 +48,11 @@ def hand_of(name: str, variation: str = "ideal-motors") -> Hand:
     return Hand(J @ by_joints @ J.T, J @ by_joints @ friction @ np.linalg.pinv(J))
 
 
-def diagonal(stiffness: Stiffness) -> np.ndarray:
-    """Return K's diagonal: six stiffnesses."""
-    return np.repeat(stiffness, 3)
-
-
 def hand_matrices(hand: Hand, damping: str, stiffness: Stiffness, zeta: float) -> tuple[np.ndarray, np.ndarray]:
     """Compute P = Lambda^-1 K [1/s^2] and Q = Lambda^-1 D and friction's [1/s], D of a design."""
-    D = np.zeros((6, 6))
-    DAMPINGS[damping].design(diagonal(stiffness), np.linalg.inv(hand.mobility), zeta, D, buffers(7).scratch)
-    return hand.mobility * diagonal(stiffness), hand.mobility @ D + hand.friction
+    D, diagonal = np.zeros((6, 6)), np.repeat(stiffness, 3)
+    DAMPINGS[damping].design(diagonal, np.linalg.inv(hand.mobility), zeta, D, buffers(7).scratch)
+    return hand.mobility * diagonal, hand.mobility @ D + hand.friction
 
 
 def longest_tick(P: np.ndarray, Q: np.ndarray) -> float:

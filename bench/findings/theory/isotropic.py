@@ -3,8 +3,6 @@
 `settling` gives the last time at which the angle is the band's edge, as the judge means it.
 """
 
-from __future__ import annotations
-
 import functools
 import math
 from typing import Any

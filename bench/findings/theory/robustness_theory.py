@@ -4,8 +4,6 @@ Most is about the linear loop x'' = -Kp x - Kv x' that every isotropic law is ne
 vector's law is from rest at any angle.
 """
 
-from __future__ import annotations
-
 import functools
 import math
 

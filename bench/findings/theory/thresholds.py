@@ -1,7 +1,5 @@
 """Closed forms of the thresholds along perturbations, where there is one: near the goal, and at a 180° rotation."""
 
-from __future__ import annotations
-
 import functools
 import math
 
@@ -22,9 +20,6 @@ DELTAS = {
     "late-braking": 0.5,
 }
 """Law -> -eta where it leaves the side that it keeps in memory, eta = cos(theta/2)."""
-
-UNBOUNDED = tuple(law for law, equation in EQUATIONS.items() if not equation.is_bounded)
-"""Laws without a greatest command: at a 180° rotation they have none that a tick could hold."""
 
 STEPS = 16
 """Halvings of the interval that holds the least noise: to 1e-4 of it on a scale of factors."""
@@ -48,7 +43,8 @@ def least(law: str, kp: float, kv: float) -> float:
     if not math.isnan(kept):
         return kept
     has_memory = {one.name for one in all_contenders() if one.regulator.memory}
-    if law not in EQUATIONS or law in UNBOUNDED or law in has_memory:
+    # a law without a greatest command has none at a 180° rotation that a tick could hold
+    if law not in EQUATIONS or not EQUATIONS[law].is_bounded or law in has_memory:
         return math.nan
     held = functools.partial(robustness_theory.is_held, EQUATIONS[law], kp, kv)
     low, high = math.log(1e-6), math.log(1.0)
