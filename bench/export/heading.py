@@ -3,8 +3,6 @@
 import re
 import sys
 import textwrap
-from collections.abc import Callable
-from typing import Any
 
 from bench.base.provenance import describe_project
 from bench.engines.counting.costs import FLOPS, cost
@@ -51,7 +49,8 @@ def heading(subject: Subject, *notes: str) -> str:
     """Return the heading as lines of plain text, for a comment; notes: on the language, each after its padded name."""
     record = subject.record
     of = f" in {subject.representation.title}" if subject.representation else ""
-    module = sys.modules[_function(record).__module__].__doc__ or ""
+    functions = (getattr(record, name, None) for name in ("law", "law_in", "chart", "moment"))
+    module = sys.modules[next(filter(None, functions)).__module__].__doc__ or ""
     limits = re.search(r"Limitations: (.*?)(?:\n\n|\Z)", module, re.DOTALL)
     entries = "; ".join(f"{one.name}: {one.doc}" for one in subject.entries if not one.name.endswith("_body"))
     lines = [
@@ -87,12 +86,6 @@ def _facts(subject: Subject) -> list[str]:
         first = ", ".join(map(repr, subject.memory))
         lines += _wrapped(f"Memory    the error quaternion of the last tick, at first ({first}). {RESET} {SIDE}")
     return lines
-
-
-def _function(record: Any) -> Callable:
-    """Return the function of a record whose module says where it fails."""
-    found = (getattr(record, name, None) for name in ("law", "law_in", "chart", "moment"))
-    return next(one for one in found if one is not None)
 
 
 def _wrapped(text: str) -> list[str]:

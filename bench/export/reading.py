@@ -12,19 +12,7 @@ from collections.abc import Callable
 from typing import Any
 
 from bench.base.errors import BadLaw
-from bench.export.program import (
-    INDEX,
-    REAL,
-    TRUTH,
-    Function,
-    Kind,
-    Tuple,
-    Typed,
-    arguments,
-    kind_of_value,
-    place_of,
-    read_function,
-)
+from bench.export.program import INDEX, REAL, TRUTH, Function, Kind, Tuple, Typed, arguments, place_of, read_function
 from bench.law.scalar import PRIMITIVES
 
 CALLS_OF_LIBM = {"sin", "cos", "acos", "atan2"}
@@ -76,6 +64,14 @@ def _collect(kind: Kind, found: dict) -> None:
         for item in kind.items:
             _collect(item, found)
         found.setdefault(kind)
+
+
+def kind_of_value(value: Any) -> Kind:
+    """Return the kind of a constant."""
+    if isinstance(value, tuple):
+        items = tuple(kind_of_value(one) for one in value)
+        return Tuple(items, type(value).__name__, value._fields) if hasattr(value, "_fields") else Tuple(items)
+    return TRUTH if isinstance(value, bool) else REAL
 
 
 class _Reading:
