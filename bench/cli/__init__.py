@@ -64,8 +64,9 @@ def main(words: list[str] | None = None) -> int:
     except Exit as stop:
         return stop.exit_code
     except click.ClickException as error:
-        reason = error.format_message()
-        return _refused(reason if "(try: " in reason else f"{reason} (try: {_path(error)} --help)")
+        reason, context = error.format_message(), getattr(error, "ctx", None)
+        command = context.command_path if context else "bench"
+        return _refused(reason if "(try: " in reason else f"{reason} (try: {command} --help)")
     except mistakes() as error:
         return _refused(str(error))
     except (KeyboardInterrupt, click.Abort):
@@ -85,9 +86,3 @@ def _refused(reason: str) -> int:
     shown = "".join(sign if sign.isprintable() else "?" for sign in " ".join(reason.split()))  # of a file, perhaps
     print(f"error: {shown}", file=sys.stderr)
     return 2
-
-
-def _path(error: click.ClickException) -> str:
-    """Return the command that the mistake was made with."""
-    context = getattr(error, "ctx", None)
-    return context.command_path if context else "bench"

@@ -43,18 +43,21 @@ def COMMAND(
     if controllers:
         if laws or regulators or representations or jacobians or inverses or joints:
             raise click.UsageError("--controller is counted alone (leave out all other options but --stages)")
-        _print(_in_contact(controllers), "Operations per tick of a controller in contact", stages)
+        from bench.engines.counting.in_contact import rows_in_contact
+
+        rows = [row for word in dict.fromkeys(controllers) for row in rows_in_contact(find_controller(word))]
+        _print(pd.DataFrame(rows), "Operations per tick of a controller in contact", stages)
         return
     named = options.named(regulators, jacobians, inverses)
     alone = named.regulators or tuple(one.name for one in options.own_laws(laws))
     chosen = options.chosen(laws, alone, representations, costings=True)
     if joints or named.jacobians or named.inverses:
         n = int(joints or 6)
-        table = _rows(_controllers(chosen, named, n), _arm_of(n))
+        arm = next(name for name in tasks.arm_names() if tasks.arm(name).joints == n)  # nothing else of it counts
+        table = _rows(_controllers(chosen, named, n), arm)
         title = f"Operations per tick of a controller of {n} joints"
     else:
-        table = _rows(chosen)
-        table = table.drop(columns=["jacobian", "inverse"])
+        table = _rows(chosen).drop(columns=["jacobian", "inverse"])
         title = "Operations per tick"
     _print(table.drop(columns="joints"), title, stages)
 
@@ -79,19 +82,6 @@ def _print(table: pd.DataFrame, title: str, stages: bool) -> None:
     if not stages:
         table = table[table["stage"] == "total"].drop(columns="stage")
     console().print(frame_table(table.loc[:, (table != 0).any()], title))
-
-
-def _in_contact(words: tuple[str, ...]) -> pd.DataFrame:
-    """Return the costs of the controllers of these names."""
-    from bench.engines.counting.in_contact import rows_in_contact
-
-    controllers = [find_controller(word) for word in dict.fromkeys(words)]
-    return pd.DataFrame([row for one in controllers for row in rows_in_contact(one)])
-
-
-def _arm_of(joints: int) -> str:
-    """Return an arm of so many joints: counting takes nothing else of it."""
-    return next(name for name in tasks.arm_names() if tasks.arm(name).joints == joints)
 
 
 def _controllers(laws: list[Contender], named: options.Named, joints: int) -> list[Contender]:

@@ -35,17 +35,13 @@ def add(folder: Path) -> None:
     with console(stderr=True).status("compiling and timing: some minutes"):
         path = append_build(folder)
     console().print(f"added: {path}")
-    _show(folder)
+    click.get_current_context().invoke(show, folder=folder)
 
 
 @COMMAND.command("show")
 @folder
 def show(folder: Path) -> None:
     """Show the newest builds: the time of a tick in steps of the reference kernel, and flops of the typical branch."""
-    _show(folder)
-
-
-def _show(folder: Path) -> None:
     from bench.regression.history import read_history
 
     rows = read_history(folder)

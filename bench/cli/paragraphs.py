@@ -23,19 +23,12 @@ class Paragraph(NamedTuple):
 
 def laid_out(every: list[Paragraph], width: int) -> list[str]:
     """Their lines; nothing is broken but at spaces, so that a name or a command is copied whole."""
-    lines = []
+    lines, by = [], textwrap.TextWrapper(width, break_long_words=False, break_on_hyphens=False)
+    by.subsequent_indent = " " * HEAD
     for head, sentences in every:
         for place, sentence in enumerate(sentences):
-            first = f"{'' if place else head:{HEAD}}"
-            wrapped = textwrap.wrap(
-                sentence,
-                width,
-                initial_indent=first,
-                subsequent_indent=" " * HEAD,
-                break_long_words=False,
-                break_on_hyphens=False,
-            )
-            lines += wrapped
+            by.initial_indent = f"{'' if place else head:{HEAD}}"
+            lines += by.wrap(sentence)
     return lines
 
 
@@ -46,10 +39,10 @@ def print_paragraphs(*every: Paragraph) -> None:
         screen.print(line, soft_wrap=True)
 
 
-def listed(words: Sequence[str], last: str = "and") -> str:
+def listed(words: Sequence[str]) -> str:
     """Words as a sentence has them: a, b and c."""
     *others, end = words
-    return f"{', '.join(others)} {last} {end}" if others else end
+    return f"{', '.join(others)} and {end}" if others else end
 
 
 def origin(folder: Path) -> str:

@@ -31,12 +31,10 @@ FEW = 3
 
 def print_size(plan: Plan, out: Path, workers: int, scheduler: str) -> None:
     """Print how much is run, how, and into which folder."""
-    print_paragraphs(*size(plan, out, workers, scheduler))
-
-
-def size(plan: Plan, out: Path, workers: int, scheduler: str) -> list[Paragraph]:
-    """Return the size and settings of a plan and its folder as paragraphs."""
-    return [*_sizes(plan), _settings(plan, workers, scheduler), Paragraph("into", (shown_path(out),))]
+    given, who = plan.settings, counted(workers, "thread") if scheduler == THREADS else scheduler
+    gains = f"kp {given.gains.kp:g}/s², kv {given.gains.kv:g}/s"
+    settings = f"control period {given.dt_s:g} s, {gains}, seed {given.seed}; by {who}"
+    print_paragraphs(*_sizes(plan), Paragraph("with", (settings,)), Paragraph("into", (shown_path(out),)))
 
 
 def _sizes(plan: Plan) -> list[Paragraph]:
@@ -61,12 +59,6 @@ def _sizes(plan: Plan) -> list[Paragraph]:
 def _few(units: Sequence[Unit], field: str, word: str) -> str:
     names = list(dict.fromkeys(getattr(unit, field) for unit in units))
     return listed(names) if 0 < len(names) <= FEW else counted(len(names), word)
-
-
-def _settings(plan: Plan, workers: int, scheduler: str) -> Paragraph:
-    given, who = plan.settings, counted(workers, "thread") if scheduler == THREADS else scheduler
-    gains = f"kp {given.gains.kp:g}/s², kv {given.gains.kv:g}/s"
-    return Paragraph("with", (f"control period {given.dt_s:g} s, {gains}, seed {given.seed}; by {who}",))
 
 
 def print_all(plan: Plan) -> None:
