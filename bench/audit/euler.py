@@ -29,7 +29,7 @@ class Angles(NamedTuple):
 @functools.lru_cache(maxsize=2)
 def find_angles(examined: Examined) -> Angles | None:
     """Return the sequence whose angles e is, or whose difference; None if it is no such thing."""
-    if examined.convention and examined.convention.form:
+    if examined.form:
         return None
     here = examined.pairs.chosen(examined.at(WIDE))
     e = examined.e[examined.at(WIDE)]

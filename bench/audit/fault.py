@@ -48,7 +48,7 @@ class Fault(NamedTuple):
     title: str
     effect: str
     cure: str
-    law: str
+    law: str = "rotation-vector"
     unless: tuple[str, ...] = ()
     name: str = ""
     find: Callable = print

@@ -2,7 +2,6 @@
 
 effect: far from the goal the robot turns about another axis than the shortest way has
 cure: scale the whole vector down to the limit
-law: rotation-vector
 """
 
 import numpy as np
@@ -17,10 +16,8 @@ SAME = 1e-6
 BENT_RAD = 1e-3
 
 
-def find(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Found | None:
     """Many answers have the same largest component, and leave the axis."""
-    if not examined.convention:
-        return None
     here = np.flatnonzero(examined.at(WIDE, CLOSE, POLE) & np.isfinite(examined.e).all(axis=1))
     largest = np.abs(examined.e[here]).max(axis=1)
     limit = float(largest.max(initial=0.0))

@@ -2,7 +2,6 @@
 
 effect: the command flickers, or is zero, at the goal
 cure: no arc cosine of a trace or scalar part: atan2 of the vector's length and the scalar keeps every digit
-law: rotation-vector
 unless: single-precision, deadband, euler-angles, norm-clip, axis-clip, long-way
 """
 
@@ -20,14 +19,12 @@ NEARER_RAD = 1e-3
 farther away is another fault."""
 
 
-def find(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Found | None:
     """|e - truth| of the smallest rotations; a note if no encoder shows it."""
-    if not examined.convention:
-        return None
     angle = examined.pairs.angle
     here = examined.at(NEAR_IDENTITY, IDENTITY) & (angle <= LARGEST_RAD)
     # Of a size of its own nothing can be said along the axis.
-    off = examined.error if examined.convention.form else examined.size * np.sin(examined.apart)
+    off = examined.error if examined.form else examined.size * np.sin(examined.apart)
     error = np.where(here, np.nan_to_num(off), 0.0) / examined.slope
     lost = error > LOST
     worst = int(np.argmax(error))

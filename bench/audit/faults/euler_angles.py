@@ -2,7 +2,6 @@
 
 effect: the robot takes a detour that depends on the orientation, and at the pole turns by any amount for none
 cure: take an error along the axis, or map the angles' rates to angular velocity, and stay off the pole
-law: rotation-vector
 unless: quaternion-order, transpose, frame
 """
 

@@ -2,7 +2,6 @@
 
 effect: the command jumps while the robot passes, and chatters if it rests there
 cure: let the two sides meet; only at 180° no error can be continuous
-law: rotation-vector
 unless: long-way, deadband, euler-angles
 """
 
@@ -23,10 +22,8 @@ JUMP = 1e-3
 """A difference over WIDTH_RAD; the steepest form, 2 tan(theta/2) at 179°, changes by 1e-5 there."""
 
 
-def find(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Found | None:
     """Along rotations from 1 to 179° about some axes: neighbours apart, and still so when they come together."""
-    if not examined.convention:
-        return None
     for q, axis in lines():
         angle = np.radians(np.arange(1.0, 179.5, STEP_DEG))
         e = examined.evaluate(along(q, axis, angle)).e

@@ -2,7 +2,6 @@
 
 effect: the robot takes a detour, or does not come to the goal
 cure: begin with R_d R^T or q_d q*, and take its axis
-law: rotation-vector
 unless: quaternion-order, transpose, frame, euler-angles, raises, not-a-number, axis-clip, long-way, deadband, jump,
   memory
 """
