@@ -17,7 +17,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 
 from bench.base.processes import module_command
-from bench.experiments.experiment import Settings, Unit, experiment_of
+from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
 from bench.running.wire_format import described, plan_of
 
@@ -103,7 +103,7 @@ def main(parent: int, content: dict) -> None:
         importlib.import_module(f"bench.engines.{name}")
     plan = plan_of(content["plan"])
     work: list[Callable[[], object]] = [
-        *(functools.partial(prepare, plan.settings, unit) for unit in plan.units),
+        *(functools.partial(experiment_of(unit).prepare, plan.settings, unit) for unit in plan.units),
         *(functools.partial(count_one, name) for name in content["count"]),
     ]
     for first in range(0, len(work), LIFE):
@@ -118,11 +118,6 @@ def main(parent: int, content: dict) -> None:
                 work[number]()
             print(number, flush=True)
         os._exit(0)
-
-
-def prepare(settings: Settings, unit: Unit) -> None:
-    """Compile what the rows of a unit need into the cache."""
-    experiment_of(unit).prepare(settings, unit)
 
 
 def count_one(name: str) -> None:

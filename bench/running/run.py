@@ -74,7 +74,8 @@ def _team(
     A cluster has answered when this yields, so that nothing is written, or replaced, for one that does not.
     """
     if scheduler == THREADS:
-        with compiling_ahead(plan, _ours(todo, sandbox)) as ahead:
+        ours = [unit for unit in todo if experiment_of(unit).compiles and not sandbox.has(unit)]
+        with compiling_ahead(plan, ours) as ahead:
 
             def by_threads(done: Callable[[Unit], None]) -> int:
                 threads.run(plan, todo, out, workers, sandbox, done, ahead)
@@ -86,11 +87,6 @@ def _team(
 
     with cluster.client_of(scheduler) as client:
         yield functools.partial(cluster.run, client, plan, todo, out, sandbox=sandbox)
-
-
-def _ours(todo: list[Unit], sandbox: Sandbox) -> list[Unit]:
-    """Return the units of compiled contenders that a user's laws have no part in."""
-    return [unit for unit in todo if experiment_of(unit).compiles and not sandbox.has(unit)]
 
 
 def in_running_order(units: Iterable[Unit]) -> list[Unit]:
