@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import re
 import tempfile
@@ -35,11 +36,9 @@ class Duration(click.ParamType):
         """Return seconds."""
         if isinstance(value, float):
             return value
-        found = FORMS.fullmatch(str(value))
-        try:
+        found, seconds = FORMS.fullmatch(str(value)), math.nan
+        with contextlib.suppress(ValueError):
             seconds = float(found[1]) * UNITS[found[2]] if found else math.nan
-        except ValueError:
-            seconds = math.nan
         if not 0.0 <= seconds < math.inf:
             self.fail(f"'{value}' is no time of at least 0 (try: 5ms or 0.005)", param, ctx)
         return seconds

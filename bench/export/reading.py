@@ -19,10 +19,14 @@ CALLS_OF_LIBM = {"sin", "cos", "acos", "atan2"}
 
 
 class Program:
-    """Typed functions, callees first, each with a unique name; those that return an argument as it is are left out."""
+    """Typed functions, callees first, each with a unique name; those that return an argument as it is are left out.
+
+    entries: those that a subject offers, by the names of its entries.
+    """
 
     def __init__(self) -> None:
         self.functions: list[Typed] = []
+        self.entries: dict[str, Typed] = {}
         self._done: dict[tuple, Typed] = {}
         self._names: set[str] = set()
         self.read = functools.cache(read_function)
