@@ -78,17 +78,13 @@ def code(name: str, evidence: Evidence | None) -> list[str]:
     if evidence is None:
         return []
     now, goal = ("R", "R_d") if evidence.now.shape == (3, 3) else ("q", "q_d")
+    called = name.rpartition(":")[2].rpartition(".")[2] or name  # as it is written in code
     right = f"; right is {numbers(evidence.right)}" if len(evidence.right) else ""
     return [
         f"{now} = np.array({numbers(evidence.now)})",
         f"{goal} = np.array({numbers(evidence.goal)})",
-        f"{call(name)}({now}, {goal})  # {numbers(evidence.said)}{right}",
+        f"{called}({now}, {goal})  # {numbers(evidence.said)}{right}",
     ]
-
-
-def call(name: str) -> str:
-    """How a function of this name is written in code."""
-    return name.rpartition(":")[2].rpartition(".")[2] or name
 
 
 def numbers(value: np.ndarray | str) -> str:

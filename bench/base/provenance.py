@@ -60,11 +60,6 @@ def read_provenance(folder: Path, needed: Iterable[str] = ()) -> dict:
     return found
 
 
-def count_episodes(provenance: dict) -> int:
-    """Return how many episodes a run simulated: on the free body and arms, trials in contact, and perturbed ones."""
-    return sum(provenance.get(name, 0) for name in ("episodes", "trials", "troubled"))
-
-
 @functools.cache
 def describe_project() -> dict[str, Any]:
     """Return version, dependencies and authors: of the checkout that runs, installed or not, else of the package."""

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from bench.base.provenance import count_episodes, read_provenance
+from bench.base.provenance import read_provenance
 from bench.cli.screen import console, counted, shown_path
 
 WIDTH = 100
@@ -48,7 +48,7 @@ def listed(words: Sequence[str]) -> str:
 def origin(folder: Path) -> str:
     """Return suite, size, commit, processor and time of a run."""
     found = read_provenance(folder, ("suite", "episodes", "commit", "dirty", "cpu", "wall_s"))
-    episodes = count_episodes(found)
+    episodes = sum(found.get(name, 0) for name in ("episodes", "trials", "troubled"))
     changed = " with changes" if found["dirty"] else ""
     return (
         f"{shown_path(folder)}: suite {found['suite']}, {counted(episodes, 'episode')}, commit "

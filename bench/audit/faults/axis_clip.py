@@ -27,7 +27,5 @@ def find_known(examined: Examined) -> Found | None:
     if len(at_limit) < FEWEST or len(bent) < len(at_limit) / 2:
         return None
     worst = int(bent[np.argmax(astray[bent])])
-    return Found(
-        f"no component exceeds {limit:.6g}; the direction is bent by up to {np.degrees(astray[worst]):.3g}°",
-        examined.evidence(worst),
-    )
+    text = f"no component exceeds {limit:.6g}; the direction is bent by up to {np.degrees(astray[worst]):.3g}°"
+    return Found(text, examined.evidence(worst))

@@ -8,7 +8,7 @@ unless: single-precision, deadband, euler-angles, norm-clip, axis-clip, long-way
 import numpy as np
 
 from bench.audit.examined import COUNT_RAD, Examined
-from bench.audit.fault import FAULT, NOTE, Found
+from bench.audit.fault import NOTE, Found
 from bench.audit.pairs import IDENTITY, NEAR_IDENTITY
 
 LARGEST_RAD = 0.01
@@ -26,14 +26,10 @@ def find_known(examined: Examined) -> Found | None:
     # Of a size of its own nothing can be said along the axis.
     off = examined.error if examined.form else examined.size * np.sin(examined.apart)
     error = np.where(here, np.nan_to_num(off), 0.0) / examined.slope
-    lost = error > LOST
     worst = int(np.argmax(error))
-    if not lost.any() or angle[worst] > NEARER_RAD:
+    if error[worst] <= LOST or angle[worst] > NEARER_RAD:
         return None
     text = f"off by up to {error[worst]:.2g} rad, at {angle[worst]:.2g} rad"
-    is_felt = error[worst] > COUNT_RAD
-    return Found(
-        text if is_felt else f"{text}: less than a count of an encoder of 24 bits",
-        examined.evidence(worst),
-        FAULT if is_felt else NOTE,
-    )
+    if error[worst] > COUNT_RAD:
+        return Found(text, examined.evidence(worst))
+    return Found(f"{text}: less than a count of an encoder of 24 bits", examined.evidence(worst), NOTE)

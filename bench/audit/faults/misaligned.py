@@ -26,7 +26,5 @@ def find(examined: Examined) -> Found | None:
     if not bent:
         return None
     worst = int(np.argmax(angle))
-    return Found(
-        f"{bent} of {len(here)} answers are off the axis, by up to {np.degrees(angle[worst]):.3g}°",
-        examined.evidence(int(here[worst])),
-    )
+    text = f"{bent} of {len(here)} answers are off the axis, by up to {np.degrees(angle[worst]):.3g}°"
+    return Found(text, examined.evidence(int(here[worst])))
