@@ -29,8 +29,8 @@ from bench.law.control.registry import find_controller
 @click.option("--joints", type=click.Choice(["6", "7"]), help="Joints of the arm (default: 6).")
 @click.option("--stages", is_flag=True, help="A line for each stage of the tick, not only the total.")
 def COMMAND(
-    laws: options.Files, regulators: options.Words, representations: options.Words, jacobians: options.Words,
-    inverses: options.Words, controllers: options.Words, joints: str | None, stages: bool,
+    laws: options.Files, representations: options.Words, controllers: options.Words, joints: str | None, stages: bool,
+    **words: options.Words,
 ) -> None:  # fmt: skip
     """Count the operations of each law per tick: typical and worst branch, transcendental functions apart.
 
@@ -41,14 +41,14 @@ def COMMAND(
     six joints, compliant about x and y.
     """
     if controllers:
-        if laws or regulators or representations or jacobians or inverses or joints:
+        if laws or representations or joints or any(words.values()):
             raise click.UsageError("--controller is counted alone (leave out all other options but --stages)")
         from bench.engines.counting.in_contact import rows_in_contact
 
         rows = [row for word in dict.fromkeys(controllers) for row in rows_in_contact(find_controller(word))]
         _print(pd.DataFrame(rows), "Operations per tick of a controller in contact", stages)
         return
-    named = options.named(regulators, jacobians, inverses)
+    named = options.named(**words)
     alone = named.regulators or tuple(one.name for one in options.own_laws(laws))
     chosen = options.chosen(laws, alone, representations, costings=True)
     if joints or named.jacobians or named.inverses:
