@@ -76,17 +76,13 @@ def _team(
     if scheduler == THREADS:
         ours = [unit for unit in todo if experiment_of(unit).compiles and not sandbox.has(unit)]
         with compiling_ahead(plan, ours) as ahead:
-
-            def by_threads(done: Callable[[Unit], None]) -> int:
-                threads.run(plan, todo, out, workers, sandbox, done, ahead)
-                return workers
-
-            yield by_threads
+            yield functools.partial(threads.run, plan, todo, out, workers, sandbox, ahead=ahead)
         return
     from bench.running.schedulers import cluster  # Dask is an extra, and takes a second to import
 
+    told = {"notes": sandbox.notes, "again": sandbox.again}
     with cluster.client_of(scheduler) as client:
-        yield functools.partial(cluster.run, client, plan, todo, out, sandbox=sandbox)
+        yield lambda done: cluster.Chunks(client, plan, out, done, sandbox.limit_s, **told).carry_out(todo)
 
 
 def in_running_order(units: Iterable[Unit]) -> list[Unit]:

@@ -22,8 +22,8 @@ UNITS_A_PROCESS = 8
 def run(
     plan: Plan, todo: Sequence[Unit], out: Path, workers: int, sandbox: Sandbox, done: Callable[[Unit], None],
     ahead: Ahead | None = None,
-) -> None:  # fmt: skip
-    """Carry out units, in their order, and write each when it is done.
+) -> int:  # fmt: skip
+    """Carry out units, in their order, and write each when it is done; return the number of workers.
 
     Args:
         sandbox: of the user's laws. done: called for each unit when it is written. ahead: compiles our contenders.
@@ -58,3 +58,4 @@ def run(
             stop.set()
             sandbox.stopping = True
             raise
+    return workers
