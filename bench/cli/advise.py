@@ -110,14 +110,12 @@ def _of_other_robot(robot: str) -> Paragraph:
     if found is None or found.law is None:
         return Paragraph("Which law", (f"No law of results/reference is advised where a robot takes {one.takes}.",))
     tied = f", tied with {listed(found.tied)}" if found.tied else ""
-    return Paragraph(
-        "Which law",
-        (
-            f"Use {found.law}{tied}. Your robot takes {one.takes}; compared were {counted(len(found.asked), 'law')} "
-            f"({one.rows}). Gains, bound and timing do not enter here: laws of first order have one gain, and its time "
-            "scale is 1/K.",
-        ),
+    said = (
+        f"Use {found.law}{tied}. Your robot takes {one.takes}; compared were {counted(len(found.asked), 'law')} "
+        f"({one.rows}). Gains, bound and timing do not enter here: laws of first order have one gain, and its time "
+        "scale is 1/K."
     )
+    return Paragraph("Which law", (said,))
 
 
 def _nearest(wanted: Situation, rule: Rule) -> Answer:

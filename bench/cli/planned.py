@@ -66,12 +66,10 @@ def print_all(plan: Plan) -> None:
     touching = dict.fromkeys(unit.contender for unit in plan.of("contact"))
     if touching:
         console().print(f"controllers in contact: {', '.join(touching)}")
-    ours = [one for one in plan.contenders if one.regulator.assemble is None]
-    baselines = [one for one in plan.contenders if one.regulator.assemble is not None]
-    if ours:
-        console().print(f"\nlaws: {', '.join(dict.fromkeys(one.on_free_body for one in ours))}")
-    if baselines:
-        console().print(f"baselines: {', '.join(dict.fromkeys(one.on_free_body for one in baselines))}")
+    for title, is_law in (("\nlaws", True), ("baselines", False)):
+        some = [one.on_free_body for one in plan.contenders if (one.regulator.assemble is None) == is_law]
+        if some:
+            console().print(f"{title}: {', '.join(dict.fromkeys(some))}")
     sizes: dict[str, dict[str, Counter[str]]] = {}
     for unit in plan.of(*PARTS):
         what = unit.task if unit.experiment == "contact" else unit.selector

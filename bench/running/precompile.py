@@ -101,10 +101,13 @@ def main(parent: int, content: dict) -> None:
     threading.Thread(target=_end_without, args=(parent,), daemon=True).start()
     for name in ENGINES:
         importlib.import_module(f"bench.engines.{name}")
+    from bench.experiments.costs import count_operations
+    from bench.law.contenders.registry import find_contender
+
     plan = plan_of(content["plan"])
     work: list[Callable[[], object]] = [
         *(functools.partial(experiment_of(unit).prepare, plan.settings, unit) for unit in plan.units),
-        *(functools.partial(count_one, name) for name in content["count"]),
+        *(functools.partial(count_operations, find_contender(name)) for name in content["count"]),
     ]
     for first in range(0, len(work), LIFE):
         some = range(first, min(first + LIFE, len(work)))
@@ -118,14 +121,6 @@ def main(parent: int, content: dict) -> None:
                 work[number]()
             print(number, flush=True)
         os._exit(0)
-
-
-def count_one(name: str) -> None:
-    """Count the operations of a law of ours, and keep them."""
-    from bench.experiments.costs import count_operations
-    from bench.law.contenders.registry import find_contender
-
-    count_operations(find_contender(name))
 
 
 def _end_without(parent: int) -> None:

@@ -49,7 +49,7 @@ LOST = tuple(OUTCOMES[one] for one in (CRASHED, HUNG))
 """The outcomes of episodes that did not come back."""
 
 
-class Sandbox:
+class Sandbox(contextlib.AbstractContextManager):
     """The processes of a plan's own laws, as many as there are threads that ask; started when first needed.
 
     Args:
@@ -69,9 +69,6 @@ class Sandbox:
         self._tried: dict[Unit, pa.Table] = {}
         self._unready: dict[str | tuple[str, ...], Lost] = {}
         self._pool = Pool(MOST_KEPT)
-
-    def __enter__(self) -> "Sandbox":
-        return self
 
     def __exit__(self, *_: object) -> None:
         self._pool.end_all()

@@ -52,14 +52,8 @@ def _next(folder: Path, is_named: bool, present: list[str]) -> Paragraph:
     show = f"bench show {here}" if is_named else "bench show"
     book = f"{results.VARIABLE}={here} make report" if is_named else "make report"
     parts = f", or one part: {', '.join(present)}" if len(present) > 1 else ""
-    return Paragraph(
-        "Next",
-        (
-            f"{book}   the book of this run",
-            f"{show} --details   every table{parts}",
-            f"bench claims {here}   each claim with its evidence",
-        ),
-    )
+    claims = f"bench claims {here}   each claim with its evidence"
+    return Paragraph("Next", (f"{book}   the book of this run", f"{show} --details   every table{parts}", claims))
 
 
 def count_verdicts(results: Results) -> Paragraph:
