@@ -62,16 +62,6 @@ class Finding(NamedTuple):
     is_accepted: bool = False
 
     @property
-    def effect(self) -> str:
-        """Return what it does to a controller."""
-        return self.found.effect or self.fault.effect
-
-    @property
-    def cure(self) -> str:
-        """Return what to do."""
-        return self.found.cure or self.fault.cure
-
-    @property
     def is_fault(self) -> bool:
         """Tell whether it makes the audit fail."""
         return self.found.severity == FAULT and not self.is_accepted
