@@ -80,9 +80,9 @@ def _team(
         return
     from bench.running.schedulers import cluster  # Dask is an extra, and takes a second to import
 
-    told = {"notes": sandbox.notes, "again": sandbox.again}
+    chunks = functools.partial(cluster.Chunks, notes=sandbox.notes, again=sandbox.again)
     with cluster.client_of(scheduler) as client:
-        yield lambda done: cluster.Chunks(client, plan, out, done, sandbox.limit_s, **told).carry_out(todo)
+        yield lambda done: chunks(client, plan, out, done, sandbox.limit_s).carry_out(todo)
 
 
 def in_running_order(units: Iterable[Unit]) -> list[Unit]:

@@ -22,7 +22,8 @@ import pyarrow as pa
 from bench.base.errors import BadLaw
 from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
-from bench.experiments.tables.store import joined, lost_table
+from bench.experiments.tables.packed import pack
+from bench.experiments.tables.store import joined, lost_table, table_of_unit
 from bench.running.process_pool import Pool
 from bench.running.sandbox_line import Ended, Forged, Killed, Lost, Mistake, Process
 from bench.running.wire_format import described
@@ -117,6 +118,11 @@ class Sandbox(contextlib.AbstractContextManager):
                 return self._lost(unit, lost.outcome)
             self._note(f"{unit.label}, {unit.selector} from {unit.first}: {lost}; its episodes are run singly")
         return joined(list(self._one_by_one(unit)))
+
+    def packed(self, unit: Unit) -> bytes | None:
+        """Return the rows of a unit, of a user's law or of ours, as bytes; None if it is to be tried again."""
+        made = self.rows(unit) if self.has(unit) else table_of_unit(self.plan.settings, unit)
+        return None if unit.key in self.again else pack(made, experiment_of(unit).table)
 
     def _one_by_one(self, unit: Unit) -> Iterator[pa.Table]:
         lost_before, end = 0.0, unit.first + unit.count
