@@ -65,20 +65,17 @@ def main(words: list[str] | None = None) -> int:
         return stop.exit_code
     except click.ClickException as error:
         reason, context = error.format_message(), getattr(error, "ctx", None)
-        command = context.command_path if context else "bench"
-        return _refused(reason if "(try: " in reason else f"{reason} (try: {command} --help)")
-    except mistakes() as error:
-        return _refused(str(error))
+        path = context.command_path if context else "bench"
+        return _refused(reason if "(try: " in reason else f"{reason} (try: {path} --help)")
     except (KeyboardInterrupt, click.Abort):
         print("stopped; what was finished is kept, and the same command goes on from there", file=sys.stderr)
         return 130
+    except Exception as error:
+        from tasks.errors import TaskError  # with numpy, so only when there is a mistake
 
-
-def mistakes() -> tuple[type[Exception], ...]:
-    """Return the exceptions of a caller's mistake; the judge's are imported, with numpy, when there is one."""
-    from tasks.errors import TaskError
-
-    return BenchError, TaskError
+        if not isinstance(error, BenchError | TaskError):
+            raise
+        return _refused(str(error))
 
 
 def _refused(reason: str) -> int:

@@ -92,9 +92,8 @@ def COMMAND(
     if unevenness is None:
         unevenness = (UNCANCELLED if robot == TORQUES[1] else NOMINAL).unevenness
     root = math.sqrt(kp)
-    wanted = rounded(
-        (kv / (2.0 * root), bound / kp, delay * root, root / rate, inertia, unevenness, spin / root, jump * root)
-    )
+    own = kv / (2.0 * root), bound / kp, delay * root, root / rate, inertia, unevenness, spin / root, jump * root
+    wanted = rounded(own)
     rule = Rule(adversary=not no_adversary, forgetful=no_memory, continuous=continuous)
     found = _simulated(wanted, rule) if is_run else _nearest(wanted, rule)
     print_paragraphs(*_said(found, wanted, kp))

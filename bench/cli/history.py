@@ -47,7 +47,6 @@ def show(folder: Path) -> None:
     rows = read_history(folder)
     if rows.empty:
         raise BadResults("the history is empty; add a build to it (try: bench history add)")
-    builds = rows["commit"].unique()
     for machine, timed in rows.groupby("machine"):
         newest = timed[timed["commit"].isin(timed["commit"].unique()[-SHOWN:])]
         cells = newest["kernel_steps"].map("{:.3f}".format)
@@ -56,4 +55,4 @@ def show(folder: Path) -> None:
         wide = table.pivot_table(index="name", columns="commit", values="cell", aggfunc="last", sort=False)
         title = f"{machine}: steps of the reference kernel a tick (flops), newest build last"
         console().print(frame_table(wide.fillna("").reset_index(), title))
-    console().print(counted(len(builds), "build"))
+    console().print(counted(rows["commit"].nunique(), "build"))

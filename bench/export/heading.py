@@ -10,7 +10,6 @@ from bench.engines.counting.counted import TOTAL
 from bench.export.subject import COMPENSATOR, IMPEDANCE, SPRING, Subject
 
 PROJECT = describe_project()
-HOLDER = PROJECT["authors"][0]["name"]
 WIDTH = 110
 RESET = (
     "Call reset before the first tick, after a pause, and whenever the goal jumps: the memory outlives the goal, and "
@@ -64,7 +63,7 @@ def heading(subject: Subject, *notes: str) -> str:
         *_wrapped(f"Entries   {entries}"),
         *(line for note in notes for line in _wrapped(note)),
         f"Made by   orientation-bench {PROJECT['version']} from the law's one source",
-        f"SPDX-FileCopyrightText: {HOLDER}",
+        f"SPDX-FileCopyrightText: {PROJECT['authors'][0]['name']}",
         "SPDX-License-Identifier: Apache-2.0",
     ]
     return "\n".join(lines)
