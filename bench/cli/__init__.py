@@ -65,8 +65,8 @@ def main(words: list[str] | None = None) -> int:
         return stop.exit_code
     except click.ClickException as error:
         reason, context = error.format_message(), getattr(error, "ctx", None)
-        path = context.command_path if context else "bench"
-        return _refused(reason if "(try: " in reason else f"{reason} (try: {path} --help)")
+        where = context.command_path if context else "bench"
+        return _refused(reason if "(try: " in reason else f"{reason} (try: {where} --help)")
     except (KeyboardInterrupt, click.Abort):
         print("stopped; what was finished is kept, and the same command goes on from there", file=sys.stderr)
         return 130

@@ -28,14 +28,15 @@ def COMMAND() -> None:
 
 @COMMAND.command("add")
 @folder
-def add(folder: Path) -> None:
+@click.pass_context
+def add(context: click.Context, folder: Path) -> None:
     """Time each law and some engines of this commit, count operations, and add a file to the history."""
     from bench.regression.history import append_build
 
     with console(stderr=True).status("compiling and timing: some minutes"):
         path = append_build(folder)
     console().print(f"added: {path}")
-    click.get_current_context().invoke(show, folder=folder)
+    context.invoke(show, folder=folder)
 
 
 @COMMAND.command("show")
