@@ -63,9 +63,8 @@ def answer_for(request: dict[str, Any]) -> dict[str, Any]:
         answer.seek(0)
         if code == 0 and (text := answer.read()):
             return dict(json.loads(text))
-    return describe_report(
-        request["target"], report_lost(request["target"], find_lost_call(request, board, code, lasted))
-    )
+    lost = find_lost_call(request, board, code, lasted)
+    return describe_report(request["target"], report_lost(request["target"], lost))
 
 
 def watch(child: int, limit_s: float, board: np.ndarray) -> tuple[int | None, float]:

@@ -132,17 +132,14 @@ def form_of(pairs: Pairs, size: np.ndarray) -> tuple[str, float]:
     ratio = size[nearest] / pairs.angle[nearest]
     if len(ratio) and np.ptp(ratio) <= EVEN * ratio.min():
         return "", float(np.median(ratio))
-    return "", limit_at_0(pairs.angle[pairs.place == FINE], size[pairs.place == FINE])
+    fine = pairs.place == FINE
+    there = fine & (size > 0.0)
+    if there.sum() < FEWEST * fine.sum():
+        return "", 0.0
+    line = np.polyfit(pairs.angle[there] ** 2, size[there] / pairs.angle[there], 1)  # in the square of the angle
+    return "", float(line[1])
 
 
 def is_nearest(pairs: Pairs) -> np.ndarray:
     """Return the pairs (n) at NEAREST_RAD, as a mask."""
     return (pairs.place == NEAR_IDENTITY) & (pairs.angle >= NEAREST_RAD[0]) & (pairs.angle <= NEAREST_RAD[1])
-
-
-def limit_at_0(angle: np.ndarray, size: np.ndarray) -> float:
-    """size/angle at 0, by a line in the square of the angle through those that are positive."""
-    there = size > 0.0
-    if there.sum() < FEWEST * len(angle):
-        return 0.0
-    return float(np.polyfit(angle[there] ** 2, size[there] / angle[there], 1)[1])

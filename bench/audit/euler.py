@@ -29,7 +29,7 @@ class Angles(NamedTuple):
 @functools.lru_cache(maxsize=2)
 def find_angles(examined: Examined) -> Angles | None:
     """Return the sequence whose angles e is, or whose difference; None if it is no such thing."""
-    if examined.convention and examined.convention.form:
+    if examined.form:
         return None
     here = examined.pairs.chosen(examined.at(WIDE))
     e = examined.e[examined.at(WIDE)]
@@ -38,7 +38,9 @@ def find_angles(examined: Examined) -> Angles | None:
         for how, angles in combined(here, sequence):
             for order, sign in itertools.product(orders, (1.0, -1.0)):
                 values = sign * angles[:, order]
-                if np.mean(np.abs(wrapped(e - values)).max(axis=1) < SAME_RAD) >= ENOUGH:
+                off = e - values
+                off -= 2.0 * np.pi * np.round(off / (2.0 * np.pi))  # whole turns apart
+                if np.mean(np.abs(off).max(axis=1) < SAME_RAD) >= ENOUGH:
                     return Angles(sequence, how, values)
     return None
 
@@ -57,8 +59,3 @@ def angles_of(X: np.ndarray, sequence: str) -> np.ndarray:
     from scipy.spatial.transform import Rotation  # a third of a second, for a function that has no axis
 
     return Rotation.from_matrix(X).as_euler(sequence)
-
-
-def wrapped(angle: np.ndarray) -> np.ndarray:
-    """In [-pi, pi]."""
-    return angle - 2.0 * np.pi * np.round(angle / (2.0 * np.pi))

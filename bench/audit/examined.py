@@ -11,7 +11,7 @@ import numpy as np
 
 from bench.audit import convention, pairs
 from bench.audit.convention import Convention, Stated
-from bench.audit.fault import Evidence
+from bench.audit.fault import FAULT, Evidence, Found
 from bench.audit.forms import FORMS
 from bench.audit.pairs import WIDE, Pairs
 
@@ -120,6 +120,11 @@ class Examined:
         self.direction, self.truth = self.known(self.pairs)
 
     @property
+    def form(self) -> str:
+        """Return the word of its form; empty where it has a size of its own, or no convention."""
+        return self.convention.form if self.convention else ""
+
+    @property
     def slope(self) -> float:
         """|e|/theta at the goal; 1 where it has none, as in a dead band."""
         return (self.convention and self.convention.slope) or 1.0
@@ -149,6 +154,10 @@ class Examined:
         truth = self.truth[i] if right and np.isfinite(self.truth[i]).all() else ""
         return Evidence(now, goal, self.raised[i] or self.e[i], truth)
 
+    def first(self, which: np.ndarray, text: str, right: bool = True, severity: str = FAULT) -> Found | None:
+        """Return what is found at the first pair of a mask; None if the mask is empty."""
+        return Found(text, self.evidence(int(np.argmax(which)), right), severity) if which.any() else None
+
     @functools.cached_property
     def error(self) -> np.ndarray:
         """|e - truth| (n), of the nearer direction where 180° is too close to tell; NaN without a form."""
@@ -170,12 +179,14 @@ EXPLAINED_RAD = 1e-3
 """Largest angle to a model's line; of two random directions one in two million is so near."""
 
 
-def explanation(examined: Examined, models: Callable[[Pairs], Iterable[Model]]) -> tuple[str, int] | None:
-    """Return the model along whose vectors most answers lie, in words, and a pair that shows it; None if there is none.
+def explanation(
+    examined: Examined, models: Callable[[Pairs], Iterable[Model]], text: str, right: bool = False
+) -> Found | None:
+    """Return the model along whose vectors most answers lie, with a pair that shows it; None if there is none.
 
     Args:
         examined: a function whose convention is not known.
-        models: pairs -> (words, vectors n x 3) of each.
+        models: pairs -> (words, vectors n x 3) of each. text: what is said, with {} for a model's words.
     """
     if examined.convention:
         return None
@@ -185,7 +196,8 @@ def explanation(examined: Examined, models: Callable[[Pairs], Iterable[Model]]) 
         angle = convention.apart(examined.e[here], vectors)
         is_along = (angle < EXPLAINED_RAD) | (angle > np.pi - EXPLAINED_RAD)
         if is_along.mean() > share:
-            best, share = (words, int(here[np.argmax(is_along)])), float(is_along.mean())
+            evidence = examined.evidence(int(here[np.argmax(is_along)]), right)
+            best, share = Found(text.format(words), evidence), float(is_along.mean())
     return best
 
 

@@ -48,7 +48,7 @@ class Fault(NamedTuple):
     title: str
     effect: str
     cure: str
-    law: str
+    law: str = "rotation-vector"
     unless: tuple[str, ...] = ()
     name: str = ""
     find: Callable = print
@@ -60,16 +60,6 @@ class Finding(NamedTuple):
     fault: Fault
     found: Found
     is_accepted: bool = False
-
-    @property
-    def effect(self) -> str:
-        """Return what it does to a controller."""
-        return self.found.effect or self.fault.effect
-
-    @property
-    def cure(self) -> str:
-        """Return what to do."""
-        return self.found.cure or self.fault.cure
 
     @property
     def is_fault(self) -> bool:

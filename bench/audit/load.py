@@ -52,7 +52,11 @@ def load(target: str) -> Callable:
     except AttributeError:
         public = [word for word in vars(module) if not word.startswith("_")]
         raise BadFunction(f"{place} has no '{name}'; it has {', '.join(public) or 'nothing'}") from None
-    return of_class(found, target) if inspect.isclass(found) else callable_one(found, target)
+    if inspect.isclass(found):
+        return of_class(found, target)
+    if not callable(found):
+        raise BadFunction(f"{target} is {type(found).__name__}, no function; give one of (R, R_d) or (q, q_d)")
+    return found
 
 
 def existing(path: Path) -> Path:
@@ -115,13 +119,6 @@ def takes_two(instance: object, name: str) -> bool:
     except TypeError:
         return False
     return True
-
-
-def callable_one(found: Any, target: str) -> Callable:
-    """Return what can be called, as it is."""
-    if not callable(found):
-        raise BadFunction(f"{target} is {type(found).__name__}, no function; give one of (R, R_d) or (q, q_d)")
-    return found
 
 
 def of_library(path: Path, symbol: str) -> Callable:

@@ -8,6 +8,7 @@ drawn, uniform. Quaternions have q . q_d >= 0.
 from __future__ import annotations
 
 import functools
+import itertools
 from typing import NamedTuple
 
 import numpy as np
@@ -89,11 +90,7 @@ def joined(*parts: Pairs) -> Pairs:
     return Pairs(*map(np.concatenate, zip(*parts, strict=True)))
 
 
-CUBE_AXES = np.array(
-    sorted(((x, y, z) for x in (1, 0, -1) for y in (1, 0, -1) for z in (1, 0, -1) if (x, y, z) != (0, 0, 0)),
-           key=lambda k: np.abs(k).sum()),
-    dtype=float,
-)  # fmt: skip
+CUBE_AXES = np.array(sorted(itertools.product((1, 0, -1), repeat=3), key=lambda k: np.abs(k).sum())[1:], dtype=float)
 """To the faces, edges and corners of a cube, in this order."""
 
 

@@ -56,21 +56,16 @@ def file(finding: Finding) -> str:
     return f"bench/audit/faults/{finding.fault.name.replace('-', '_')}.py"
 
 
-def word(finding: Finding) -> str:
-    """fault, note, or accepted."""
-    return "accepted" if finding.is_accepted and finding.found.severity != NOTE else finding.found.severity
-
-
 def paragraph(name: str, finding: Finding) -> str:
     """One finding for people."""
-    fault, found = finding.fault, finding.found
+    said = as_dict(finding)
     lines = [
-        f"{word(finding)} {fault.name}: {fault.title}",
-        f"  {found.text}",
-        f"  Effect: {finding.effect}",
-        f"  Cure: {finding.cure} (law: {fault.law}; {file(finding)})",
+        f"{said['severity']} {said['name']}: {said['title']}",
+        f"  {said['text']}",
+        f"  Effect: {said['effect']}",
+        f"  Cure: {said['cure']} (law: {said['law']}; {said['file']})",
     ]
-    return "\n".join((*lines, *(f"    {line}" for line in code(name, found.evidence))))
+    return "\n".join((*lines, *(f"    {line}" for line in code(name, finding.found.evidence))))
 
 
 def code(name: str, evidence: Evidence | None) -> list[str]:
@@ -78,17 +73,13 @@ def code(name: str, evidence: Evidence | None) -> list[str]:
     if evidence is None:
         return []
     now, goal = ("R", "R_d") if evidence.now.shape == (3, 3) else ("q", "q_d")
+    called = name.rpartition(":")[2].rpartition(".")[2] or name  # as it is written in code
     right = f"; right is {numbers(evidence.right)}" if len(evidence.right) else ""
     return [
         f"{now} = np.array({numbers(evidence.now)})",
         f"{goal} = np.array({numbers(evidence.goal)})",
-        f"{call(name)}({now}, {goal})  # {numbers(evidence.said)}{right}",
+        f"{called}({now}, {goal})  # {numbers(evidence.said)}{right}",
     ]
-
-
-def call(name: str) -> str:
-    """How a function of this name is written in code."""
-    return name.rpartition(":")[2].rpartition(".")[2] or name
 
 
 def numbers(value: np.ndarray | str) -> str:
@@ -98,15 +89,16 @@ def numbers(value: np.ndarray | str) -> str:
 
 def as_dict(finding: Finding) -> dict[str, Any]:
     """One finding for machines; numbers that are none as words, for JSON has no other."""
-    evidence = finding.found.evidence
+    fault, found = finding.fault, finding.found
+    evidence = found.evidence
     return {
-        "name": finding.fault.name,
-        "severity": word(finding),
-        "title": finding.fault.title,
-        "text": finding.found.text,
-        "effect": finding.effect,
-        "cure": finding.cure,
-        "law": finding.fault.law,
+        "name": fault.name,
+        "severity": "accepted" if finding.is_accepted and found.severity != NOTE else found.severity,
+        "title": fault.title,
+        "text": found.text,
+        "effect": found.effect or fault.effect,
+        "cure": found.cure or fault.cure,
+        "law": fault.law,
         "file": file(finding),
         "evidence": {key: plain(value) for key, value in evidence._asdict().items()} if evidence else None,
     }

@@ -36,21 +36,16 @@ def held(folder: Path, waits: bool = False, flock: Callable | None = FLOCK) -> I
         return
     handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)  # not inherited by the programs that a run starts
     try:
-        _lock(folder, handle, waits, flock)
+        try:
+            flock(handle, fcntl.LOCK_EX if waits else fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            cure = "wait for its end, stop it, or choose another folder with --out"
+            raise BadResults(f"{folder}: another run is writing into it; {cure}") from None
+        except OSError as error:
+            _warn(folder, error.strerror or str(error))
         yield
     finally:
         os.close(handle)
-
-
-def _lock(folder: Path, handle: int, waits: bool, flock: Callable) -> None:
-    try:
-        flock(handle, fcntl.LOCK_EX if waits else fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        raise BadResults(
-            f"{folder}: another run is writing into it; wait for its end, stop it, or choose another folder with --out"
-        ) from None
-    except OSError as error:
-        _warn(folder, error.strerror or str(error))
 
 
 def _warn(folder: Path, reason: str) -> None:

@@ -60,11 +60,6 @@ def read_provenance(folder: Path, needed: Iterable[str] = ()) -> dict:
     return found
 
 
-def count_episodes(provenance: dict) -> int:
-    """Return how many episodes a run simulated: on the free body and arms, trials in contact, and perturbed ones."""
-    return sum(provenance.get(name, 0) for name in ("episodes", "trials", "troubled"))
-
-
 @functools.cache
 def describe_project() -> dict[str, Any]:
     """Return version, dependencies and authors: of the checkout that runs, installed or not, else of the package."""
@@ -90,12 +85,6 @@ def everything_digest() -> str:
     """Sixteen hex digits over every source, the versions of what they use, and how this processor rounds."""
     settings = [os.environ.get(name) for name in ARITHMETIC]
     return _digest(("bench", "tasks"), repr((sorted(versions().items()), vectors(), settings)))
-
-
-@functools.cache
-def judge_digest() -> str:
-    """Sixteen hex digits over the judge."""
-    return _digest(JUDGE)
 
 
 def _digest(names: tuple[str, ...], more: str = "") -> str:
@@ -170,12 +159,6 @@ def machine_key() -> str:
     return "-".join(part for part in words.split("-") if part)
 
 
-def lock_digest() -> str:
-    """SHA-256 of requirements/base.txt; empty where the package lies without it."""
-    path = ROOT / "requirements" / "base.txt"
-    return hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
-
-
 def commit() -> dict:
     """Commit of the checkout and whether it had changes; empty outside git."""
     try:
@@ -201,13 +184,17 @@ def _without_folders(word: str) -> str:
 
 
 def describe() -> dict:
-    """Everything about this moment that a reader may want to know."""
+    """Everything about this moment that a reader may want to know.
+
+    lock: SHA-256 of requirements/base.txt; empty where the package lies without it.
+    """
+    lock = ROOT / "requirements" / "base.txt"
     return {
         **commit(),
         "sources": source_digest(),
-        "judge": judge_digest(),
+        "judge": _digest(JUDGE),
         "versions": versions(),
-        "lock": lock_digest(),
+        "lock": hashlib.sha256(lock.read_bytes()).hexdigest() if lock.is_file() else "",
         "platform": " ".join((platform.system(), platform.machine(), *platform.libc_ver())).strip(),
         "cpu": cpu_name(),
         "vectors": vectors(),

@@ -64,20 +64,18 @@ def main(words: list[str] | None = None) -> int:
     except Exit as stop:
         return stop.exit_code
     except click.ClickException as error:
-        reason = error.format_message()
-        return _refused(reason if "(try: " in reason else f"{reason} (try: {_path(error)} --help)")
-    except mistakes() as error:
-        return _refused(str(error))
+        reason, context = error.format_message(), getattr(error, "ctx", None)
+        where = context.command_path if context else "bench"
+        return _refused(reason if "(try: " in reason else f"{reason} (try: {where} --help)")
     except (KeyboardInterrupt, click.Abort):
         print("stopped; what was finished is kept, and the same command goes on from there", file=sys.stderr)
         return 130
+    except Exception as error:
+        from tasks.errors import TaskError  # with numpy, so only when there is a mistake
 
-
-def mistakes() -> tuple[type[Exception], ...]:
-    """Return the exceptions of a caller's mistake; the judge's are imported, with numpy, when there is one."""
-    from tasks.errors import TaskError
-
-    return BenchError, TaskError
+        if not isinstance(error, BenchError | TaskError):
+            raise
+        return _refused(str(error))
 
 
 def _refused(reason: str) -> int:
@@ -85,9 +83,3 @@ def _refused(reason: str) -> int:
     shown = "".join(sign if sign.isprintable() else "?" for sign in " ".join(reason.split()))  # of a file, perhaps
     print(f"error: {shown}", file=sys.stderr)
     return 2
-
-
-def _path(error: click.ClickException) -> str:
-    """Return the command that the mistake was made with."""
-    context = getattr(error, "ctx", None)
-    return context.command_path if context else "bench"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import re
 import tempfile
@@ -35,11 +36,9 @@ class Duration(click.ParamType):
         """Return seconds."""
         if isinstance(value, float):
             return value
-        found = FORMS.fullmatch(str(value))
-        try:
+        found, seconds = FORMS.fullmatch(str(value)), math.nan
+        with contextlib.suppress(ValueError):
             seconds = float(found[1]) * UNITS[found[2]] if found else math.nan
-        except ValueError:
-            seconds = math.nan
         if not 0.0 <= seconds < math.inf:
             self.fail(f"'{value}' is no time of at least 0 (try: 5ms or 0.005)", param, ctx)
         return seconds
@@ -93,9 +92,8 @@ def COMMAND(
     if unevenness is None:
         unevenness = (UNCANCELLED if robot == TORQUES[1] else NOMINAL).unevenness
     root = math.sqrt(kp)
-    wanted = rounded(
-        (kv / (2.0 * root), bound / kp, delay * root, root / rate, inertia, unevenness, spin / root, jump * root)
-    )
+    own = kv / (2.0 * root), bound / kp, delay * root, root / rate, inertia, unevenness, spin / root, jump * root
+    wanted = rounded(own)
     rule = Rule(adversary=not no_adversary, forgetful=no_memory, continuous=continuous)
     found = _simulated(wanted, rule) if is_run else _nearest(wanted, rule)
     print_paragraphs(*_said(found, wanted, kp))
@@ -111,14 +109,12 @@ def _of_other_robot(robot: str) -> Paragraph:
     if found is None or found.law is None:
         return Paragraph("Which law", (f"No law of results/reference is advised where a robot takes {one.takes}.",))
     tied = f", tied with {listed(found.tied)}" if found.tied else ""
-    return Paragraph(
-        "Which law",
-        (
-            f"Use {found.law}{tied}. Your robot takes {one.takes}; compared were {counted(len(found.asked), 'law')} "
-            f"({one.rows}). Gains, bound and timing do not enter here: laws of first order have one gain, and its time "
-            "scale is 1/K.",
-        ),
+    said = (
+        f"Use {found.law}{tied}. Your robot takes {one.takes}; compared were {counted(len(found.asked), 'law')} "
+        f"({one.rows}). Gains, bound and timing do not enter here: laws of first order have one gain, and its time "
+        "scale is 1/K."
     )
+    return Paragraph("Which law", (said,))
 
 
 def _nearest(wanted: Situation, rule: Rule) -> Answer:

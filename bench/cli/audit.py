@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import rich_click as click
 from click.exceptions import Exit
@@ -21,17 +22,13 @@ from bench.cli.screen import examples
 @click.option("--accept", multiple=True, metavar="FAULT", help="A fault that is meant; repeatable.")
 @click.option("--limit", type=click.FloatRange(0.1), default=LIMIT_S, show_default=True, help="Seconds it may take.")
 @click.option("--json", "json_file", type=click.Path(path_type=Path), metavar="FILE", help="All of it for machines.")
-def COMMAND(
-    function: str, takes: str | None, frame: str | None, sign: str | None, stiffness: float, accept: tuple[str, ...],
-    limit: float, json_file: Path | None,
-) -> None:  # fmt: skip
+def COMMAND(function: str, limit: float, json_file: Path | None, **stated: Any) -> None:
     """Check an orientation error of yours: its convention, and what is wrong with it, each with a pair to reproduce.
 
     FUNCTION is FILE.py:NAME, MODULE:NAME or LIBRARY.so:SYMBOL. It takes (R, R_d), 3 x 3, or (q, q_d), and returns three
     numbers. Which frame, direction, form and order of quaternions it has is found, and said. It is called with some
     thousand pairs of orientations, in a process of its own that has a time limit and whose output is dropped: a second.
     """
-    stated = {"takes": takes, "frame": frame, "sign": sign, "stiffness": stiffness, "accept": accept}
     try:
         with progress("calls", f"loading {function}") as steps:
             said = audit_apart(function, stated, limit, lambda calls: steps.now(f"calling {function}", calls, CALLS))

@@ -35,13 +35,12 @@ def COMMAND(folder: Path | None, criteria: bool) -> None:
         console().print()
     if steadiness.STORED.is_file():
         study = read_json(steadiness.STORED)
-        print_paragraphs(
-            Paragraph("Steady?", (f"Of results/reference: {steadiness.describe(study, study['reference'])}",))
-        )
+        said = steadiness.describe(study, study["reference"])
+        print_paragraphs(Paragraph("Steady?", (f"Of results/reference: {said}",)))
     if lacks:
         reasons = ((id, reason.removesuffix(f": {WHOLE}")) for id, reason in lacks.items())
-        said = (f"{id} cannot be judged from this run: {reason}." for id, reason in reasons)
-        print_paragraphs(Paragraph("Not judged", (*said, f"To judge every claim, {WHOLE}.")))
+        texts = (f"{id} cannot be judged from this run: {reason}." for id, reason in reasons)
+        print_paragraphs(Paragraph("Not judged", (*texts, f"To judge every claim, {WHOLE}.")))
 
 
 def _record(one: Any) -> tuple[str, ...]:

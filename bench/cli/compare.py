@@ -3,6 +3,7 @@
 import os
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import rich_click as click
 from click.exceptions import Exit
@@ -26,10 +27,7 @@ from tasks.errors import TaskError
 @click.option("--no-timing", is_flag=True, help="Do not compare time.")
 @click.option("--benchmarks", type=click.Path(path_type=Path), metavar="FOLDER", help="Keep base.json and head.json.")
 @click.option("--summary", type=click.Path(path_type=Path), metavar="FILE", help="Markdown for a pull request.")
-def COMMAND(
-    base: str | None, head: str | None, laws: options.Files, no_timing: bool, benchmarks: Path | None,
-    summary: Path | None,
-) -> None:  # fmt: skip
+def COMMAND(summary: Path | None, **asked: Any) -> None:
     """Compare HEAD with BASE, each a results folder or a git revision: what got worse, by how much, how sure.
 
     HEAD defaults to the working tree. BASE defaults to the commit where HEAD left main (on main: the commit before;
@@ -53,20 +51,20 @@ def COMMAND(
 
     leave("### Not judged: the comparison did not come to its end\n")
     try:
-        _compare(base, head, laws, no_timing, benchmarks, leave)
+        _compare(leave=leave, **asked)
     except (BenchError, TaskError, click.UsageError) as error:
         leave(f"### Not judged: {words.escape(str(error))}\n")
         raise
 
 
 def _compare(
-    first: str | None, second: str | None, laws: options.Files, no_timing: bool, benchmarks: Path | None,
+    base: str | None, head: str | None, laws: options.Files, no_timing: bool, benchmarks: Path | None,
     leave: Callable[[str], None],
 ) -> None:  # fmt: skip
     from bench.regression import rows
     from bench.regression.revisions import gates
 
-    base, head, folders = _resolve_sides(first, second, laws)
+    base, head, folders = _resolve_sides(base, head, laws)
     if folders:
         said = gates.compare_folders(*folders)
         differences = rows.compare(*folders)

@@ -29,8 +29,8 @@ from bench.law.control.registry import find_controller
 @click.option("--joints", type=click.Choice(["6", "7"]), help="Joints of the arm (default: 6).")
 @click.option("--stages", is_flag=True, help="A line for each stage of the tick, not only the total.")
 def COMMAND(
-    laws: options.Files, regulators: options.Words, representations: options.Words, jacobians: options.Words,
-    inverses: options.Words, controllers: options.Words, joints: str | None, stages: bool,
+    laws: options.Files, representations: options.Words, controllers: options.Words, joints: str | None, stages: bool,
+    **words: options.Words,
 ) -> None:  # fmt: skip
     """Count the operations of each law per tick: typical and worst branch, transcendental functions apart.
 
@@ -41,20 +41,23 @@ def COMMAND(
     six joints, compliant about x and y.
     """
     if controllers:
-        if laws or regulators or representations or jacobians or inverses or joints:
+        if laws or representations or joints or any(words.values()):
             raise click.UsageError("--controller is counted alone (leave out all other options but --stages)")
-        _print(_in_contact(controllers), "Operations per tick of a controller in contact", stages)
+        from bench.engines.counting.in_contact import rows_in_contact
+
+        rows = [row for word in dict.fromkeys(controllers) for row in rows_in_contact(find_controller(word))]
+        _print(pd.DataFrame(rows), "Operations per tick of a controller in contact", stages)
         return
-    named = options.named(regulators, jacobians, inverses)
+    named = options.named(**words)
     alone = named.regulators or tuple(one.name for one in options.own_laws(laws))
     chosen = options.chosen(laws, alone, representations, costings=True)
     if joints or named.jacobians or named.inverses:
         n = int(joints or 6)
-        table = _rows(_controllers(chosen, named, n), _arm_of(n))
+        arm = next(name for name in tasks.arm_names() if tasks.arm(name).joints == n)  # nothing else of it counts
+        table = _rows(_controllers(chosen, named, n), arm)
         title = f"Operations per tick of a controller of {n} joints"
     else:
-        table = _rows(chosen)
-        table = table.drop(columns=["jacobian", "inverse"])
+        table = _rows(chosen).drop(columns=["jacobian", "inverse"])
         title = "Operations per tick"
     _print(table.drop(columns="joints"), title, stages)
 
@@ -79,19 +82,6 @@ def _print(table: pd.DataFrame, title: str, stages: bool) -> None:
     if not stages:
         table = table[table["stage"] == "total"].drop(columns="stage")
     console().print(frame_table(table.loc[:, (table != 0).any()], title))
-
-
-def _in_contact(words: tuple[str, ...]) -> pd.DataFrame:
-    """Return the costs of the controllers of these names."""
-    from bench.engines.counting.in_contact import rows_in_contact
-
-    controllers = [find_controller(word) for word in dict.fromkeys(words)]
-    return pd.DataFrame([row for one in controllers for row in rows_in_contact(one)])
-
-
-def _arm_of(joints: int) -> str:
-    """Return an arm of so many joints: counting takes nothing else of it."""
-    return next(name for name in tasks.arm_names() if tasks.arm(name).joints == joints)
 
 
 def _controllers(laws: list[Contender], named: options.Named, joints: int) -> list[Contender]:

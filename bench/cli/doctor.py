@@ -1,11 +1,11 @@
 """`doctor`: is this machine ready, and if not, what is the cure."""
 
-import importlib.metadata
 import os
 import subprocess
 import sys
 import tempfile
 from collections.abc import Iterable
+from importlib.metadata import distributions
 from typing import Any
 
 import rich_click as click
@@ -56,16 +56,10 @@ def _python() -> str:
 
 
 def _versions() -> str:
-    pins = dict(line.split("==") for line in describe_project()["dependencies"] if "==" in line)
-    wrong = []
-    for name, wanted in pins.items():
-        wanted = wanted.split(";")[0].strip()
-        try:
-            found = importlib.metadata.version(name)
-        except importlib.metadata.PackageNotFoundError:
-            found = "missing"
-        if found != wanted:
-            wrong.append(f"{name} {found} (pinned: {wanted})")
+    lines = (line.partition(";")[0].strip() for line in describe_project()["dependencies"])
+    pins = dict(line.split("==") for line in lines if "==" in line)
+    found = {name: next((one.version for one in distributions(name=name)), "missing") for name in pins}
+    wrong = [f"{name} {found[name]} (pinned: {wanted})" for name, wanted in pins.items() if found[name] != wanted]
     if wrong:
         raise RuntimeError(f"{', '.join(wrong)}. Cure: {CURE_INSTALL}")
     return f"{len(pins)} packages as pinned, mujoco {pins['mujoco']}, dm-control {pins['dm-control']}"

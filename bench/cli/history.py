@@ -28,30 +28,26 @@ def COMMAND() -> None:
 
 @COMMAND.command("add")
 @folder
-def add(folder: Path) -> None:
+@click.pass_context
+def add(context: click.Context, folder: Path) -> None:
     """Time each law and some engines of this commit, count operations, and add a file to the history."""
     from bench.regression.history import append_build
 
     with console(stderr=True).status("compiling and timing: some minutes"):
         path = append_build(folder)
     console().print(f"added: {path}")
-    _show(folder)
+    context.invoke(show, folder=folder)
 
 
 @COMMAND.command("show")
 @folder
 def show(folder: Path) -> None:
     """Show the newest builds: the time of a tick in steps of the reference kernel, and flops of the typical branch."""
-    _show(folder)
-
-
-def _show(folder: Path) -> None:
     from bench.regression.history import read_history
 
     rows = read_history(folder)
     if rows.empty:
         raise BadResults("the history is empty; add a build to it (try: bench history add)")
-    builds = rows["commit"].unique()
     for machine, timed in rows.groupby("machine"):
         newest = timed[timed["commit"].isin(timed["commit"].unique()[-SHOWN:])]
         cells = newest["kernel_steps"].map("{:.3f}".format)
@@ -60,4 +56,4 @@ def _show(folder: Path) -> None:
         wide = table.pivot_table(index="name", columns="commit", values="cell", aggfunc="last", sort=False)
         title = f"{machine}: steps of the reference kernel a tick (flops), newest build last"
         console().print(frame_table(wide.fillna("").reset_index(), title))
-    console().print(counted(len(builds), "build"))
+    console().print(counted(rows["commit"].nunique(), "build"))

@@ -45,7 +45,8 @@ def print_judgement(one: Judgement) -> None:
     screen = console()
     if one.heading not in ("", one.name):
         screen.print(one.heading)
-    screen.print(f"{one.name}: {verdict(one)}\n")
+    faults = f"{counted(len(one.faults), 'fault')}: {', '.join(one.faults)}." if one.faults else "no fault found."
+    screen.print(f"{one.name}: {faults}\n")
     for head, is_fault in (("Faults", True), ("Otherwise" if one.faults else "Findings", False)):
         texts = tuple(f"{each.text} [{each.page}]" for each in one.said if bool(each.fault) == is_fault)
         print_paragraphs(Paragraph(head, texts))
@@ -53,8 +54,3 @@ def print_judgement(one: Judgement) -> None:
         title = "\nThe laws of results/reference nearest to it in pull at 90 degrees and median settling time"
         screen.print(frame_table(pd.DataFrame(one.beside), f"{title} (a/b: a of b settled)"))
     screen.print("\n[..] are pages of the book: report/pages, or make report.")
-
-
-def verdict(one: Judgement) -> str:
-    """Return the faults of a law in a line."""
-    return f"{counted(len(one.faults), 'fault')}: {', '.join(one.faults)}." if one.faults else "no fault found."

@@ -96,11 +96,6 @@ def _print(out: Path) -> None:
     from bench.findings.maps import by_law
 
     digits = {**dict.fromkeys(("lost [ppm]", "least [ppm]", "most [ppm]"), 2), "slowest [s]": 3}
-    lines = by_law(read(out, "map")).round(digits)
-    console().print(
-        frame_table(
-            lines,
-            "\nStarts that are lost, of those that converge; least and most: exact 95 % interval (Clopper-Pearson)",
-        )
-    )
+    title = "Starts that are lost, of those that converge; least and most: exact 95 % interval (Clopper-Pearson)"
+    console().print(frame_table(by_law(read(out, "map")).round(digits), f"\n{title}"))
     console().print(f"in {shown_path(out)}")

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from bench.base.provenance import count_episodes, read_provenance
+from bench.base.provenance import read_provenance
 from bench.cli.screen import console, counted, shown_path
 
 WIDTH = 100
@@ -23,19 +23,12 @@ class Paragraph(NamedTuple):
 
 def laid_out(every: list[Paragraph], width: int) -> list[str]:
     """Their lines; nothing is broken but at spaces, so that a name or a command is copied whole."""
-    lines = []
+    lines, by = [], textwrap.TextWrapper(width, break_long_words=False, break_on_hyphens=False)
+    by.subsequent_indent = " " * HEAD
     for head, sentences in every:
         for place, sentence in enumerate(sentences):
-            first = f"{'' if place else head:{HEAD}}"
-            wrapped = textwrap.wrap(
-                sentence,
-                width,
-                initial_indent=first,
-                subsequent_indent=" " * HEAD,
-                break_long_words=False,
-                break_on_hyphens=False,
-            )
-            lines += wrapped
+            by.initial_indent = f"{'' if place else head:{HEAD}}"
+            lines += by.wrap(sentence)
     return lines
 
 
@@ -46,16 +39,16 @@ def print_paragraphs(*every: Paragraph) -> None:
         screen.print(line, soft_wrap=True)
 
 
-def listed(words: Sequence[str], last: str = "and") -> str:
+def listed(words: Sequence[str]) -> str:
     """Words as a sentence has them: a, b and c."""
     *others, end = words
-    return f"{', '.join(others)} {last} {end}" if others else end
+    return f"{', '.join(others)} and {end}" if others else end
 
 
 def origin(folder: Path) -> str:
     """Return suite, size, commit, processor and time of a run."""
     found = read_provenance(folder, ("suite", "episodes", "commit", "dirty", "cpu", "wall_s"))
-    episodes = count_episodes(found)
+    episodes = sum(found.get(name, 0) for name in ("episodes", "trials", "troubled"))
     changed = " with changes" if found["dirty"] else ""
     return (
         f"{shown_path(folder)}: suite {found['suite']}, {counted(episodes, 'episode')}, commit "

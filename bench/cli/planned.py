@@ -31,12 +31,10 @@ FEW = 3
 
 def print_size(plan: Plan, out: Path, workers: int, scheduler: str) -> None:
     """Print how much is run, how, and into which folder."""
-    print_paragraphs(*size(plan, out, workers, scheduler))
-
-
-def size(plan: Plan, out: Path, workers: int, scheduler: str) -> list[Paragraph]:
-    """Return the size and settings of a plan and its folder as paragraphs."""
-    return [*_sizes(plan), _settings(plan, workers, scheduler), Paragraph("into", (shown_path(out),))]
+    given, who = plan.settings, counted(workers, "thread") if scheduler == THREADS else scheduler
+    gains = f"kp {given.gains.kp:g}/s², kv {given.gains.kv:g}/s"
+    settings = f"control period {given.dt_s:g} s, {gains}, seed {given.seed}; by {who}"
+    print_paragraphs(*_sizes(plan), Paragraph("with", (settings,)), Paragraph("into", (shown_path(out),)))
 
 
 def _sizes(plan: Plan) -> list[Paragraph]:
@@ -63,23 +61,15 @@ def _few(units: Sequence[Unit], field: str, word: str) -> str:
     return listed(names) if 0 < len(names) <= FEW else counted(len(names), word)
 
 
-def _settings(plan: Plan, workers: int, scheduler: str) -> Paragraph:
-    given, who = plan.settings, counted(workers, "thread") if scheduler == THREADS else scheduler
-    gains = f"kp {given.gains.kp:g}/s², kv {given.gains.kv:g}/s"
-    return Paragraph("with", (f"control period {given.dt_s:g} s, {gains}, seed {given.seed}; by {who}",))
-
-
 def print_all(plan: Plan) -> None:
     """Print every law and controller of a plan, and how many episodes each has, by place and start set or task."""
     touching = dict.fromkeys(unit.contender for unit in plan.of("contact"))
     if touching:
         console().print(f"controllers in contact: {', '.join(touching)}")
-    ours = [one for one in plan.contenders if one.regulator.assemble is None]
-    baselines = [one for one in plan.contenders if one.regulator.assemble is not None]
-    if ours:
-        console().print(f"\nlaws: {', '.join(dict.fromkeys(one.on_free_body for one in ours))}")
-    if baselines:
-        console().print(f"baselines: {', '.join(dict.fromkeys(one.on_free_body for one in baselines))}")
+    for title, is_law in (("\nlaws", True), ("baselines", False)):
+        some = [one.on_free_body for one in plan.contenders if (one.regulator.assemble is None) == is_law]
+        if some:
+            console().print(f"{title}: {', '.join(dict.fromkeys(some))}")
     sizes: dict[str, dict[str, Counter[str]]] = {}
     for unit in plan.of(*PARTS):
         what = unit.task if unit.experiment == "contact" else unit.selector

@@ -54,9 +54,8 @@ from bench.running.schedulers import check_scheduler
 )
 @click.option("--dry-run", is_flag=True, help="Print the whole plan; run nothing.")
 def COMMAND(
-    suite: str, laws: options.Files, count: int | None, dt_s: float, horizon_s: float | None, kp: float, kv: float,
-    integrator: str | None, seed: int, workers: int, scheduler: str, out: Path, law_limit: float | None, replace: bool,
-    dry_run: bool, **words: Any,
+    suite: str, laws: options.Files, kp: float, kv: float, workers: int, scheduler: str, out: Path,
+    law_limit: float | None, replace: bool, dry_run: bool, **words: Any,
 ) -> None:  # fmt: skip
     """Run a suite and store its episodes; a run that was stopped goes on where it was.
 
@@ -75,18 +74,10 @@ def COMMAND(
 
     check_workers(workers)  # at once: a plan of arms' starts takes seconds
     check_scheduler(scheduler)
+    numbers = {name: words.pop(name) for name in ("count", "dt_s", "horizon_s", "integrator", "seed")}
     choice = Choice(**{**words, **options.named(*(words[name] for name in options.Named._fields))._asdict()})
-    plan = planning.make(
-        suite,
-        options.chosen(laws, choice.regulators, choice.representations),
-        choice,
-        count=count,
-        dt_s=dt_s,
-        horizon_s=horizon_s,
-        gains=Gains(kp, kv),
-        integrator=integrator,
-        seed=seed,
-    )
+    contenders = options.chosen(laws, choice.regulators, choice.representations)
+    plan = planning.make(suite, contenders, choice, gains=Gains(kp, kv), **numbers)
     planned.print_size(plan, out, workers, scheduler)
     if dry_run:
         planned.print_all(plan)

@@ -1,6 +1,5 @@
 """Printing: one console, the same width rules everywhere, plain text when the output is not a terminal."""
 
-import functools
 import os
 import shlex
 import tomllib
@@ -37,14 +36,12 @@ def counted(number: int, word: str) -> str:
     return f"{number:,} {word}{'' if number == 1 else 's'}"
 
 
-@functools.cache
-def _examples() -> dict:
-    return tomllib.loads(Path(__file__).with_name("examples.toml").read_text(encoding="utf-8"))
+EXAMPLES = tomllib.loads(Path(__file__).with_name("examples.toml").read_text(encoding="utf-8"))
 
 
 def examples(command: str) -> Text:
     """Return the end of a command's help: what each example does, and its words on their own line (60 characters)."""
-    said, own = Text(), _examples()[command]
+    said, own = Text(), EXAMPLES[command]
     for what, words in own["examples"]:
         said.append(f"{what}:\n").append(f"  bench {words}\n", "bold")
     return said.append(own.get("after", ""))

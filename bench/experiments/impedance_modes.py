@@ -50,8 +50,8 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
     every = map(tasks.variation, tasks.variation_names(unit.arm))
     plants = [one.name for one in every if not one.believed and one.late_ticks(settings.dt_s) < 0]
     found = []
-    every = dict.fromkeys((*STIFFNESSES, *(SHIPPED.values() if unit.arm == "panda" else ())))
-    for plant, stiffness in itertools.product(plants, every):
+    stiffnesses = dict.fromkeys((*STIFFNESSES, *(SHIPPED.values() if unit.arm == "panda" else ())))
+    for plant, stiffness in itertools.product(plants, stiffnesses):
         P, Q = hand_matrices(settings, unit, stiffness, plant)
         radius = compute_tick_radius(P, Q, settings.dt_s)
         delay = find_longest_delay(P, Q, settings.dt_s) if radius < 1.0 else np.nan

@@ -18,7 +18,7 @@ LIMIT_S, WAITS_S = 60.0, 300.0
 NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.]{0,120}")
 
 
-def files_apart(own: Law, word: str, language: str, limit_s: float = LIMIT_S) -> dict[str, str]:
+def files_apart(own: Law, word: str, language: str) -> dict[str, str]:
     """Return the files of the export of a user's law by name.
 
     Args:
@@ -26,7 +26,7 @@ def files_apart(own: Law, word: str, language: str, limit_s: float = LIMIT_S) ->
     Errors:
         BadLaw: it cannot be translated, ends its process, does not return, or gives back no files.
     """
-    asked = {"text": own.text, "origin": own.origin, "word": word, "language": language, "limit_s": limit_s}
+    asked = {"text": own.text, "origin": own.origin, "word": word, "language": language}
     said = next(ask(__name__, asked, WAITS_S, own.origin)).get("files")
     files: dict[str, str] = said if isinstance(said, dict) else {}
     is_known = all(NAME.fullmatch(name) and isinstance(text, str) for name, text in files.items())
@@ -41,7 +41,7 @@ def main(descriptor: int) -> None:
         asked = json.loads(line.recv_bytes())
         path = keep_text(asked["text"])
         try:
-            limit(asked["limit_s"])
+            limit(LIMIT_S)
             own = load_law(path, asked["text"].encode())
             files = find_language(asked["language"]).files(find_subject(asked["word"], (own,)))
             line.send_bytes(json.dumps({"files": files}).encode())

@@ -8,7 +8,6 @@ first, so that a page can show the text of the very functions it runs.
 
 import json
 from collections.abc import Callable, Iterable, Iterator
-from typing import NamedTuple
 
 from bench.engines.ideal import angle_between, haversine, turned
 from bench.engines.rigid_body import bounded, step
@@ -45,24 +44,11 @@ JUDGE: dict[Callable, tuple[Kind, ...]] = {
 }
 
 
-class Live(NamedTuple):
-    """A law in the script: its function, and its memory at first; what it needs ends with itself."""
-
-    law: Typed
-    memory: tuple | None
-
-    def __str__(self) -> str:
-        needs = list(dict.fromkeys(one.name for one in _with_callees(self.law)))
-        if any("copysign(" in write_function(one) for one in _with_callees(self.law)):
-            needs.insert(0, "copysign")
-        return f"{{law: {self.law.name}, memory: {json.dumps(self.memory)}, needs: {json.dumps(needs)}}}"
-
-
-def script(contenders: Iterable[Contender], name: str = "live") -> str:
-    """Write the script, which defines a global of that name: laws, plant, judge, outcomes, and functions by name."""
+def script(contenders: Iterable[Contender]) -> str:
+    """Write the script, which defines a global `live`: laws, plant, judge, outcomes, and functions by name."""
     program = Program()
     plant, judge = ([program.add(one, kinds) for one, kinds in of.items()] for of in (PLANT, JUDGE))
-    laws = {one.on_free_body: _live(program, one) for one in contenders}
+    laws = {one.on_free_body: _write_law(program, one) for one in contenders}
     listed = ",\n".join(f"{json.dumps(word)}: {one}" for word, one in laws.items())
     return "\n".join(
         (
@@ -70,7 +56,7 @@ def script(contenders: Iterable[Contender], name: str = "live") -> str:
             "'use strict';",
             COPYSIGN,
             *map(write_function, program.functions),
-            f"root.{name} = {{",
+            "root.live = {",
             f"plant: {_object(plant)},",
             f"judge: {_object(judge)},",
             f"functions: {{copysign, {', '.join(one.name for one in program.functions)}}},",
@@ -81,10 +67,14 @@ def script(contenders: Iterable[Contender], name: str = "live") -> str:
     )
 
 
-def _live(program: Program, one: Contender) -> Live:
+def _write_law(program: Program, one: Contender) -> str:
+    """Write a law: its function, its memory at first, and what it needs, which ends with itself."""
     memory = one.regulator.memory
     kinds = (MATRIX, THREE, GOAL, GAINS, *((numbers(len(memory)),) if memory else ()))
-    return Live(program.add(one.law, kinds), memory)
+    called = list(_with_callees(program.add(one.law, kinds)))
+    needs = ["copysign"] * any("copysign(" in write_function(each) for each in called)
+    needs += dict.fromkeys(each.name for each in called)
+    return f"{{law: {needs[-1]}, memory: {json.dumps(memory)}, needs: {json.dumps(needs)}}}"
 
 
 def _with_callees(function: Typed) -> Iterator[Typed]:

@@ -1,6 +1,6 @@
 """The test of an export to C or C++: the vectors as rows of numbers, and a program that calls each entry with them."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -8,7 +8,7 @@ import numpy as np
 from bench.export.entries import Entry
 from bench.export.layout import INDENT, read_template, wrapped
 from bench.export.subject import Subject
-from bench.export.vectors import CLOSE, Vector, vectors
+from bench.export.vectors import CLOSE, vectors
 
 
 class Calls(NamedTuple):
@@ -27,22 +27,18 @@ class Calls(NamedTuple):
 
 def write_program(subject: Subject, calls: Calls) -> str:
     """Write a program that counts the wrong answers, and ends with 1 if there are any."""
-    found = vectors(subject)
-    functions = (
-        line
-        for entry in subject.entries
-        for line in _test_entry(subject, entry, [one for one in found if one.entry == entry.name], calls)
-    )
+    functions = (line for entry in subject.entries for line in _test_entry(subject, entry, calls))
     tests = "\n".join(f"{INDENT}wrong += test_{one.name}();" for one in subject.entries)
-    filled = {"NAME": subject.identifier, "COUNT": len(found), "CLOSE": f"{CLOSE:g}", "CALLS": tests}
+    filled = {"NAME": subject.identifier, "COUNT": len(vectors(subject)), "CLOSE": f"{CLOSE:g}", "CALLS": tests}
     text = read_template("test.c")
     for word, value in (filled | {"FUNCTIONS": "\n".join(functions)}).items():
         text = text.replace(word, str(value))
     return f'#include "{calls.header}"\n{text}'
 
 
-def _test_entry(subject: Subject, entry: Entry, found: Sequence[Vector], calls: Calls) -> Iterator[str]:
+def _test_entry(subject: Subject, entry: Entry, calls: Calls) -> Iterator[str]:
     """Write rows of arguments, result, memory and tolerance, and a function that runs them."""
+    found = [one for one in vectors(subject) if one.entry == entry.name]
     given, results = sum(one.size for one in entry.parameters), len(found[0].result)
     kept, deep = len(found[0].memory), INDENT * 2
     width = given + results + kept + 1

@@ -3,8 +3,6 @@
 import re
 import sys
 import textwrap
-from collections.abc import Callable
-from typing import Any
 
 from bench.base.provenance import describe_project
 from bench.engines.counting.costs import FLOPS, cost
@@ -12,7 +10,6 @@ from bench.engines.counting.counted import TOTAL
 from bench.export.subject import COMPENSATOR, IMPEDANCE, SPRING, Subject
 
 PROJECT = describe_project()
-HOLDER = PROJECT["authors"][0]["name"]
 WIDTH = 110
 RESET = (
     "Call reset before the first tick, after a pause, and whenever the goal jumps: the memory outlives the goal, and "
@@ -51,7 +48,8 @@ def heading(subject: Subject, *notes: str) -> str:
     """Return the heading as lines of plain text, for a comment; notes: on the language, each after its padded name."""
     record = subject.record
     of = f" in {subject.representation.title}" if subject.representation else ""
-    module = sys.modules[_function(record).__module__].__doc__ or ""
+    functions = (getattr(record, name, None) for name in ("law", "law_in", "chart", "moment"))
+    module = sys.modules[next(filter(None, functions)).__module__].__doc__ or ""
     limits = re.search(r"Limitations: (.*?)(?:\n\n|\Z)", module, re.DOTALL)
     entries = "; ".join(f"{one.name}: {one.doc}" for one in subject.entries if not one.name.endswith("_body"))
     lines = [
@@ -65,7 +63,7 @@ def heading(subject: Subject, *notes: str) -> str:
         *_wrapped(f"Entries   {entries}"),
         *(line for note in notes for line in _wrapped(note)),
         f"Made by   orientation-bench {PROJECT['version']} from the law's one source",
-        f"SPDX-FileCopyrightText: {HOLDER}",
+        f"SPDX-FileCopyrightText: {PROJECT['authors'][0]['name']}",
         "SPDX-License-Identifier: Apache-2.0",
     ]
     return "\n".join(lines)
@@ -87,12 +85,6 @@ def _facts(subject: Subject) -> list[str]:
         first = ", ".join(map(repr, subject.memory))
         lines += _wrapped(f"Memory    the error quaternion of the last tick, at first ({first}). {RESET} {SIDE}")
     return lines
-
-
-def _function(record: Any) -> Callable:
-    """Return the function of a record whose module says where it fails."""
-    found = (getattr(record, name, None) for name in ("law", "law_in", "chart", "moment"))
-    return next(one for one in found if one is not None)
 
 
 def _wrapped(text: str) -> list[str]:

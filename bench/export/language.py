@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import importlib
 import json
-import pkgutil
 from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
@@ -14,6 +12,7 @@ from bench.export.entries import Entry
 from bench.export.heading import BY_ROWS, RESET, SIDE
 from bench.export.subject import Subject
 from bench.export.vectors import CLOSE, vectors
+from tasks.discovery import constants
 
 
 class Language(NamedTuple):
@@ -48,12 +47,12 @@ class Language(NamedTuple):
 
 def language_words() -> list[str]:
     """Return every language: the names of the files of bench/export/languages."""
-    return [one.name for one in pkgutil.iter_modules(languages.__path__)]
+    return list(constants(languages, "LANGUAGE"))
 
 
 def find_language(word: str) -> Language:
     """Return the constant LANGUAGE of the file of that name."""
-    every = {name: importlib.import_module(f"{languages.__name__}.{name}").LANGUAGE for name in language_words()}
+    every = constants(languages, "LANGUAGE")
     if word not in every:
         meant = (name for name, one in every.items() if one.title.casefold().startswith(word.casefold()))
         raise UnknownWord("language", word, list(every), next(meant, None))

@@ -155,14 +155,6 @@ class Typed(NamedTuple):
         return value.id if isinstance(value, ast.Name) and value.id in self.parameters else None
 
 
-def kind_of_value(value: Any) -> Kind:
-    """Return the kind of a constant."""
-    if isinstance(value, tuple):
-        items = tuple(kind_of_value(one) for one in value)
-        return Tuple(items, type(value).__name__, value._fields) if hasattr(value, "_fields") else Tuple(items)
-    return TRUTH if isinstance(value, bool) else REAL
-
-
 def arguments(node: ast.Call, names: tuple[str, ...] | list[str]) -> list[ast.expr]:
     """Return the arguments of a call in the order of the parameters."""
     named = {one.arg: one.value for one in node.keywords}

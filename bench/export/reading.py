@@ -12,29 +12,21 @@ from collections.abc import Callable
 from typing import Any
 
 from bench.base.errors import BadLaw
-from bench.export.program import (
-    INDEX,
-    REAL,
-    TRUTH,
-    Function,
-    Kind,
-    Tuple,
-    Typed,
-    arguments,
-    kind_of_value,
-    place_of,
-    read_function,
-)
+from bench.export.program import INDEX, REAL, TRUTH, Function, Kind, Tuple, Typed, arguments, place_of, read_function
 from bench.law.scalar import PRIMITIVES
 
 CALLS_OF_LIBM = {"sin", "cos", "acos", "atan2"}
 
 
 class Program:
-    """Typed functions, callees first, each with a unique name; those that return an argument as it is are left out."""
+    """Typed functions, callees first, each with a unique name; those that return an argument as it is are left out.
+
+    entries: those that a subject offers, by the names of its entries.
+    """
 
     def __init__(self) -> None:
         self.functions: list[Typed] = []
+        self.entries: dict[str, Typed] = {}
         self._done: dict[tuple, Typed] = {}
         self._names: set[str] = set()
         self.read = functools.cache(read_function)
@@ -76,6 +68,14 @@ def _collect(kind: Kind, found: dict) -> None:
         for item in kind.items:
             _collect(item, found)
         found.setdefault(kind)
+
+
+def kind_of_value(value: Any) -> Kind:
+    """Return the kind of a constant."""
+    if isinstance(value, tuple):
+        items = tuple(kind_of_value(one) for one in value)
+        return Tuple(items, type(value).__name__, value._fields) if hasattr(value, "_fields") else Tuple(items)
+    return TRUTH if isinstance(value, bool) else REAL
 
 
 class _Reading:

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from bench.base.errors import UnknownWord
 from bench.export.entries import Entry, of_impedance, of_law, of_representation
-from bench.export.program import REAL, Kind, Tuple, Typed, numbers
+from bench.export.program import REAL, Kind, Tuple, numbers
 from bench.export.reading import Program
 from bench.export.sprung import of_compensator, of_spring
 from bench.law.contender import Contender
@@ -95,19 +95,11 @@ KINDS: dict[str, Kind] = {"matrix": MATRIX, "gains": GAINS, "number": REAL}
 """Kinds of the arguments of entries; those of others are numbers."""
 
 
-class Translated(NamedTuple):
-    """A subject's functions, callees first, and its entries as such."""
-
-    program: Program
-    entries: dict[str, Typed]
-
-
 @functools.lru_cache(maxsize=128)
-def translated(subject: Subject) -> Translated:
+def translated(subject: Subject) -> Program:
     """Translate all that a subject calls, once a subject."""
     program = Program()
-    entries: dict[str, Typed] = {}
     for entry in subject.entries:
         kinds = tuple(KINDS.get(one.kind, numbers(one.size)) for one in entry.parameters)
-        entries[entry.name] = program.add(entry.function, kinds)
-    return Translated(program, entries)
+        program.entries[entry.name] = program.add(entry.function, kinds)
+    return program

@@ -81,7 +81,7 @@ def _vector(subject: Subject, entry: Entry, state: State, random: np.random.Gene
     result, memory = answer if entry.has_memory else (answer, ())
     numbers = np.transpose(result) if entry.returns.kind == "matrix" else np.array(result)
     flat = numbers.astype(float).ravel().tolist()
-    tolerance = 0.0 if translated(subject).program.is_algebraic else CLOSE * max(map(abs, flat))
+    tolerance = 0.0 if translated(subject).is_algebraic else CLOSE * max(map(abs, flat))
     return Vector(entry.name, state.kind, arguments, flat, list(map(float, memory)), tolerance)
 
 

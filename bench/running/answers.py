@@ -6,12 +6,10 @@ write another's, leave some out, or give any that would stop the run when they a
 
 import numpy as np
 import pandas as pd
-import pyarrow as pa
 
 from bench.experiments.columns import Table
 from bench.experiments.episode_rows import contender_columns
 from bench.experiments.experiment import Settings, Unit, experiment_of, no_rows
-from bench.experiments.tables.packed import unpack
 from bench.experiments.tables.store import lost_table
 from tasks.cause import CAUSES
 from tasks.verdict import CRASHED, OUTCOMES, SETTLED
@@ -30,17 +28,6 @@ peak of its own, and the ideal plant shortens its step."""
 def most_rows(unit: Unit) -> int:
     """Return how many rows a unit may have."""
     return MOST_ROWS if experiment_of(unit).lost is no_rows else unit.episodes
-
-
-def read_answer(settings: Settings, unit: Unit, content: bytes) -> pa.Table:
-    """Return the rows of an answer.
-
-    Errors:
-        BadResults, ValueError: it holds no rows, or others than the unit's.
-    """
-    made = unpack(content, experiment_of(unit).table, most_rows(unit))
-    check_rows(settings, unit, made.to_pandas())
-    return made
 
 
 def check_rows(settings: Settings, unit: Unit, rows: pd.DataFrame) -> None:

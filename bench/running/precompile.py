@@ -17,7 +17,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 
 from bench.base.processes import module_command
-from bench.experiments.experiment import Settings, Unit, experiment_of
+from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
 from bench.running.wire_format import described, plan_of
 
@@ -101,10 +101,13 @@ def main(parent: int, content: dict) -> None:
     threading.Thread(target=_end_without, args=(parent,), daemon=True).start()
     for name in ENGINES:
         importlib.import_module(f"bench.engines.{name}")
+    from bench.experiments.costs import count_operations
+    from bench.law.contenders.registry import find_contender
+
     plan = plan_of(content["plan"])
     work: list[Callable[[], object]] = [
-        *(functools.partial(prepare, plan.settings, unit) for unit in plan.units),
-        *(functools.partial(count_one, name) for name in content["count"]),
+        *(functools.partial(experiment_of(unit).prepare, plan.settings, unit) for unit in plan.units),
+        *(functools.partial(count_operations, find_contender(name)) for name in content["count"]),
     ]
     for first in range(0, len(work), LIFE):
         some = range(first, min(first + LIFE, len(work)))
@@ -118,19 +121,6 @@ def main(parent: int, content: dict) -> None:
                 work[number]()
             print(number, flush=True)
         os._exit(0)
-
-
-def prepare(settings: Settings, unit: Unit) -> None:
-    """Compile what the rows of a unit need into the cache."""
-    experiment_of(unit).prepare(settings, unit)
-
-
-def count_one(name: str) -> None:
-    """Count the operations of a law of ours, and keep them."""
-    from bench.experiments.costs import count_operations
-    from bench.law.contenders.registry import find_contender
-
-    count_operations(find_contender(name))
 
 
 def _end_without(parent: int) -> None:

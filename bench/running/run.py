@@ -74,23 +74,15 @@ def _team(
     A cluster has answered when this yields, so that nothing is written, or replaced, for one that does not.
     """
     if scheduler == THREADS:
-        with compiling_ahead(plan, _ours(todo, sandbox)) as ahead:
-
-            def by_threads(done: Callable[[Unit], None]) -> int:
-                threads.run(plan, todo, out, workers, sandbox, done, ahead)
-                return workers
-
-            yield by_threads
+        ours = [unit for unit in todo if experiment_of(unit).compiles and not sandbox.has(unit)]
+        with compiling_ahead(plan, ours) as ahead:
+            yield functools.partial(threads.run, plan, todo, out, workers, sandbox, ahead=ahead)
         return
     from bench.running.schedulers import cluster  # Dask is an extra, and takes a second to import
 
+    chunks = functools.partial(cluster.Chunks, notes=sandbox.notes, again=sandbox.again)
     with cluster.client_of(scheduler) as client:
-        yield functools.partial(cluster.run, client, plan, todo, out, sandbox=sandbox)
-
-
-def _ours(todo: list[Unit], sandbox: Sandbox) -> list[Unit]:
-    """Return the units of compiled contenders that a user's laws have no part in."""
-    return [unit for unit in todo if experiment_of(unit).compiles and not sandbox.has(unit)]
+        yield lambda done: chunks(client, plan, out, done, sandbox.limit_s).carry_out(todo)
 
 
 def in_running_order(units: Iterable[Unit]) -> list[Unit]:

@@ -157,12 +157,7 @@ def begin(plan: Plan, out: Path) -> None:
     """Make the folder this plan's, whatever of ours it held."""
     _clear(out)
     write_json(out / "plan.json", {"digest": plan.digest(), **plan.identity()})
-    _keep_own_laws(plan, out)
-
-
-def _keep_own_laws(plan: Plan, out: Path) -> None:
-    """Copy a user's laws into the run, so that its rows can be read, and its report written, with what made them."""
-    for own in plan.settings.own:
+    for own in plan.settings.own:  # so that its rows can be read, and its report written, with what made them
         copy = out / "laws" / f"{own.name.replace('-', '_')}.py"
         write_atomically(copy, lambda temporary, own=own: Path(temporary).write_bytes(own.text.encode()))
         with contextlib.suppress(OSError):  # without it the report shows the law's rows, and asks to trust it

@@ -22,7 +22,8 @@ import pyarrow as pa
 from bench.base.errors import BadLaw
 from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
-from bench.experiments.tables.store import joined, lost_table
+from bench.experiments.tables.packed import pack
+from bench.experiments.tables.store import joined, lost_table, table_of_unit
 from bench.running.process_pool import Pool
 from bench.running.sandbox_line import Ended, Forged, Killed, Lost, Mistake, Process
 from bench.running.wire_format import described
@@ -49,7 +50,7 @@ LOST = tuple(OUTCOMES[one] for one in (CRASHED, HUNG))
 """The outcomes of episodes that did not come back."""
 
 
-class Sandbox:
+class Sandbox(contextlib.AbstractContextManager):
     """The processes of a plan's own laws, as many as there are threads that ask; started when first needed.
 
     Args:
@@ -69,9 +70,6 @@ class Sandbox:
         self._tried: dict[Unit, pa.Table] = {}
         self._unready: dict[str | tuple[str, ...], Lost] = {}
         self._pool = Pool(MOST_KEPT)
-
-    def __enter__(self) -> "Sandbox":
-        return self
 
     def __exit__(self, *_: object) -> None:
         self._pool.end_all()
@@ -120,6 +118,11 @@ class Sandbox:
                 return self._lost(unit, lost.outcome)
             self._note(f"{unit.label}, {unit.selector} from {unit.first}: {lost}; its episodes are run singly")
         return joined(list(self._one_by_one(unit)))
+
+    def packed(self, unit: Unit) -> bytes | None:
+        """Return the rows of a unit, of a user's law or of ours, as bytes; None if it is to be tried again."""
+        made = self.rows(unit) if self.has(unit) else table_of_unit(self.plan.settings, unit)
+        return None if unit.key in self.again else pack(made, experiment_of(unit).table)
 
     def _one_by_one(self, unit: Unit) -> Iterator[pa.Table]:
         lost_before, end = 0.0, unit.first + unit.count

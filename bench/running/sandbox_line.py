@@ -7,10 +7,10 @@ import pyarrow as pa
 
 from bench.base.errors import BadResults
 from bench.experiments.experiment import Settings, Unit, experiment_of
-from bench.experiments.tables.packed import most_bytes
+from bench.experiments.tables.packed import most_bytes, unpack
 from bench.law.contenders.law_process import LawProcess
 from bench.running import sandbox_process
-from bench.running.answers import most_rows, read_answer
+from bench.running.answers import check_rows, most_rows
 from tasks.verdict import CRASHED, HUNG, OUTCOMES
 
 WAITING, AND_S = 10.0, 20.0
@@ -96,10 +96,12 @@ class Process:
         asked = {"key": unit.key, "processor_s": limit_s, "longest_s": longest_s}
         if some is not unit:
             asked |= {"first": some.first, "count": some.count}
-        most = most_bytes(experiment_of(unit).table, most_rows(some))
-        content = self._say(json.dumps(asked).encode(), longest_s + START_S, most)
+        table, most = experiment_of(unit).table, most_rows(some)
+        content = self._say(json.dumps(asked).encode(), longest_s + START_S, most_bytes(table, most))
         try:
-            return read_answer(self.settings, some, content)
+            made = unpack(content, table, most)
+            check_rows(self.settings, some, made.to_pandas())
+            return made
         except (BadResults, ValueError) as error:
             raise Forged(OUTCOMES[CRASHED], f"what it gave back is not its rows: {str(error)[:SHOWN]}") from error
 

@@ -69,7 +69,7 @@ def _judged(rows: np.ndarray) -> np.ndarray:
 
 
 def _is_algebraic(word: str) -> bool:
-    return translated(find_subject(word)).program.is_algebraic
+    return translated(find_subject(word)).is_algebraic
 
 
 def differing(wanted: Wanted, found: list) -> list[int]:

@@ -1,7 +1,8 @@
 """Faults of an orientation error, one file each: its words are the docstring, and `find(examined)` looks for it.
 
 The first sentence is the title; `effect`, `cure`, `law` and `unless` are fields of `Fault`, names with commas between.
-A fault that ends the asking (`Lost`) has no `find`.
+`find_known` in its place looks only at functions whose convention is known. A fault that ends the asking (`Lost`) has
+neither.
 """
 
 import functools
@@ -10,12 +11,7 @@ import inspect
 import pkgutil
 import re
 
-from bench.audit.examined import Examined
 from bench.audit.fault import Fault
-
-
-def no_more(examined: Examined) -> None:
-    """Find nothing: this fault would have ended the asking."""
 
 
 @functools.cache
@@ -30,4 +26,6 @@ def read_fault(name: str) -> Fault:
     title, _, text = (inspect.getdoc(module) or "").partition(".\n\n")
     words = {key: " ".join(said.split()) for key, said in re.findall(r"^(\w+): (.*(?:\n .*)*)", text, re.MULTILINE)}
     unless = tuple(filter(None, words.pop("unless", "").split(", ")))
-    return Fault(title, **words, unless=unless, name=name.replace("_", "-"), find=getattr(module, "find", no_more))
+    known = getattr(module, "find_known", lambda examined: None)
+    find = getattr(module, "find", lambda examined: known(examined) if examined.convention else None)
+    return Fault(title, **words, unless=unless, name=name.replace("_", "-"), find=find)

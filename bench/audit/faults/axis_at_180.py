@@ -2,7 +2,6 @@
 
 effect: at 180°, and next to it, the robot starts about another axis than the shortest way has
 cure: take the axis from the column of R + R^T with the largest diagonal element: signs and all
-law: rotation-vector
 unless: digits-near-180, euler-angles, misaligned, axis-clip
 """
 
@@ -17,12 +16,10 @@ ASTRAY_RAD = 0.01
 """Angle to the axis: a hundred thousand times what a root of rounding leaves, 1e-8."""
 
 
-def find(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Found | None:
     """At 180° either direction along the axis is right, and nothing else."""
     alive = examined.size > ZERO * examined.slope * np.pi
     here = examined.at(AT_180) & np.isfinite(examined.apart) & alive
     bad = here & (examined.apart > ASTRAY_RAD)
-    if not examined.convention or not bad.any():
-        return None
     text = f"{bad.sum()} of {examined.at(AT_180).sum()} rotations by 180° are answered with another axis"
-    return Found(text, examined.evidence(int(np.argmax(bad))))
+    return examined.first(bad, text)

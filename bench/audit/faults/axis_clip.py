@@ -2,7 +2,6 @@
 
 effect: far from the goal the robot turns about another axis than the shortest way has
 cure: scale the whole vector down to the limit
-law: rotation-vector
 """
 
 import numpy as np
@@ -17,10 +16,8 @@ SAME = 1e-6
 BENT_RAD = 1e-3
 
 
-def find(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Found | None:
     """Many answers have the same largest component, and leave the axis."""
-    if not examined.convention:
-        return None
     here = np.flatnonzero(examined.at(WIDE, CLOSE, POLE) & np.isfinite(examined.e).all(axis=1))
     largest = np.abs(examined.e[here]).max(axis=1)
     limit = float(largest.max(initial=0.0))
@@ -30,7 +27,5 @@ def find(examined: Examined) -> Found | None:
     if len(at_limit) < FEWEST or len(bent) < len(at_limit) / 2:
         return None
     worst = int(bent[np.argmax(astray[bent])])
-    return Found(
-        f"no component exceeds {limit:.6g}; the direction is bent by up to {np.degrees(astray[worst]):.3g}°",
-        examined.evidence(worst),
-    )
+    text = f"no component exceeds {limit:.6g}; the direction is bent by up to {np.degrees(astray[worst]):.3g}°"
+    return Found(text, examined.evidence(worst))

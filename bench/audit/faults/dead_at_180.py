@@ -9,7 +9,7 @@ unless: not-a-number, raises
 import numpy as np
 
 from bench.audit.examined import Examined
-from bench.audit.fault import NOTE, Found
+from bench.audit.fault import FAULT, NOTE, Found
 from bench.audit.pairs import AT_180
 
 ZERO = 1e-6
@@ -18,17 +18,13 @@ TWENTIETH = 0.05
 BEFORE_RAD = 0.01
 
 
-def find(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Found | None:
     """|e| is zero at 180°; a property of its form if e dies away before, as sin(theta) does."""
-    if not examined.convention:
-        return None
     here = examined.at(AT_180)
     dead = here & (examined.size <= ZERO * examined.slope * np.pi)
-    if not dead.any():
-        return None
     near = examined.size[np.abs(examined.pairs.distance - BEFORE_RAD) < 1e-9]
     is_form = bool(np.nanmedian(near) < TWENTIETH * examined.slope * np.pi)
     text = f"e = 0 for {dead.sum()} of {here.sum()} rotations by exactly 180°"
     if is_form:
         text += "; its form itself vanishes there"
-    return Found(text, examined.evidence(int(np.argmax(dead)), right=not is_form), NOTE if is_form else "fault")
+    return examined.first(dead, text, right=not is_form, severity=NOTE if is_form else FAULT)

@@ -2,7 +2,6 @@
 
 effect: the robot rests beside its goal, and an integral or a force near the edge makes it chatter
 cure: leave it out; noise wants a filter
-law: rotation-vector
 unless: single-precision
 """
 
@@ -17,10 +16,8 @@ SMALLEST_RAD = 1e-7
 FEWEST = 10
 
 
-def find(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Found | None:
     """e is exactly zero, or a component of it, up to an angle; beyond it is not."""
-    if not examined.convention:
-        return None
     small = examined.at(NEAR_IDENTITY, FINE, CLOSE)
     zero = small & (examined.pairs.angle >= SMALLEST_RAD) & (examined.size == 0.0)
     if zero.sum() < FEWEST:

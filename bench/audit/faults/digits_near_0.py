@@ -2,14 +2,13 @@
 
 effect: the command flickers, or is zero, at the goal
 cure: no arc cosine of a trace or scalar part: atan2 of the vector's length and the scalar keeps every digit
-law: rotation-vector
 unless: single-precision, deadband, euler-angles, norm-clip, axis-clip, long-way
 """
 
 import numpy as np
 
 from bench.audit.examined import COUNT_RAD, Examined
-from bench.audit.fault import FAULT, NOTE, Found
+from bench.audit.fault import NOTE, Found
 from bench.audit.pairs import IDENTITY, NEAR_IDENTITY
 
 LARGEST_RAD = 0.01
@@ -20,23 +19,17 @@ NEARER_RAD = 1e-3
 farther away is another fault."""
 
 
-def find(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Found | None:
     """|e - truth| of the smallest rotations; a note if no encoder shows it."""
-    if not examined.convention:
-        return None
     angle = examined.pairs.angle
     here = examined.at(NEAR_IDENTITY, IDENTITY) & (angle <= LARGEST_RAD)
     # Of a size of its own nothing can be said along the axis.
-    off = examined.error if examined.convention.form else examined.size * np.sin(examined.apart)
+    off = examined.error if examined.form else examined.size * np.sin(examined.apart)
     error = np.where(here, np.nan_to_num(off), 0.0) / examined.slope
-    lost = error > LOST
     worst = int(np.argmax(error))
-    if not lost.any() or angle[worst] > NEARER_RAD:
+    if error[worst] <= LOST or angle[worst] > NEARER_RAD:
         return None
     text = f"off by up to {error[worst]:.2g} rad, at {angle[worst]:.2g} rad"
-    is_felt = error[worst] > COUNT_RAD
-    return Found(
-        text if is_felt else f"{text}: less than a count of an encoder of 24 bits",
-        examined.evidence(worst),
-        FAULT if is_felt else NOTE,
-    )
+    if error[worst] > COUNT_RAD:
+        return Found(text, examined.evidence(worst))
+    return Found(f"{text}: less than a count of an encoder of 24 bits", examined.evidence(worst), NOTE)

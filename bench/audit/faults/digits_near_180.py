@@ -2,7 +2,6 @@
 
 effect: near 180° the command has a wrong size or a wrong axis, and flickers
 cure: do not divide by sin(theta): begin with a quaternion from the largest diagonal element
-law: rotation-vector
 unless: single-precision, misaligned, euler-angles, axis-clip, long-way
 """
 
@@ -15,13 +14,11 @@ from bench.audit.pairs import NEAR_180
 FARTHEST_RAD = 0.1
 
 
-def find(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Found | None:
     """Find what is across the axis; and along it, if the size is right 0.1 rad before."""
-    if not examined.convention:
-        return None
     here = examined.at(NEAR_180) & (examined.size > 0.0)
     error = np.fmin(examined.size, np.pi * examined.slope) * np.sin(examined.apart)
-    is_endless = examined.convention.form == "gibbs"  # at 180°, where no digit of its size can be kept
+    is_endless = examined.form == "gibbs"  # at 180°, where no digit of its size can be kept
     before = examined.error[here & (examined.pairs.distance > FARTHEST_RAD)]
     if not is_endless and np.nanmax(before, initial=0.0) < COUNT_RAD:
         error = np.fmax(error, examined.error)

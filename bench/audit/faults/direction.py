@@ -2,7 +2,6 @@
 
 effect: positive feedback: the robot runs away from the goal
 cure: swap the arguments, or change the sign
-law: rotation-vector
 unless: transpose
 """
 

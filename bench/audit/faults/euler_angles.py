@@ -2,7 +2,6 @@
 
 effect: the robot takes a detour that depends on the orientation, and at the pole turns by any amount for none
 cure: take an error along the axis, or map the angles' rates to angular velocity, and stay off the pole
-law: rotation-vector
 unless: quaternion-order, transpose, frame
 """
 
@@ -21,7 +20,5 @@ def find(examined: Examined) -> Found | None:
         return None
     here = np.flatnonzero(examined.at(WIDE))
     worst = int(here[np.argmax(np.abs(examined.e[here]).max(axis=1))])
-    return Found(
-        f"e is {angles.how} (intrinsic {angles.sequence}): no axis, and a pole where the middle angle is 90°",
-        examined.evidence(worst, False),
-    )
+    text = f"e is {angles.how} (intrinsic {angles.sequence}): no axis, and a pole where the middle angle is 90°"
+    return Found(text, examined.evidence(worst, False))

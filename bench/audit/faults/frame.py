@@ -18,8 +18,7 @@ def find(examined: Examined) -> Found | None:
     stated, found = examined.stated, examined.convention
     if found and stated.frame and stated.frame != found.frame:
         return Found(f"stated to be in the {stated.frame} frame, it is in the {found.frame} frame")
-    why = explanation(examined, models)
-    return Found(f"e = {why[0]}, which is in no frame", examined.evidence(why[1], False)) if why else None
+    return explanation(examined, models, "e = {}, which is in no frame")
 
 
 def models(pairs: Pairs) -> Iterator[Model]:

@@ -2,7 +2,6 @@
 
 effect: the command jumps while the robot passes, and chatters if it rests there
 cure: let the two sides meet; only at 180° no error can be continuous
-law: rotation-vector
 unless: long-way, deadband, euler-angles
 """
 
@@ -23,12 +22,11 @@ JUMP = 1e-3
 """A difference over WIDTH_RAD; the steepest form, 2 tan(theta/2) at 179°, changes by 1e-5 there."""
 
 
-def find(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Found | None:
     """Along rotations from 1 to 179° about some axes: neighbours apart, and still so when they come together."""
-    if not examined.convention:
-        return None
-    for q, axis in lines():
-        angle = np.radians(np.arange(1.0, 179.5, STEP_DEG))
+    rng, angle = np.random.default_rng(SEED), np.radians(np.arange(1.0, 179.5, STEP_DEG))
+    begins = np.vstack((diagonal(3), drawn_orientations(rng, 5)))
+    for q, axis in zip(begins, np.vstack((CUBE_AXES[[0, 6, 18]], drawn_axes(rng, 5))), strict=True):
         e = examined.evaluate(along(q, axis, angle)).e
         step = np.linalg.norm(np.diff(e, axis=0), axis=1) / examined.slope
         beside = np.fmax(np.append(step[1:], 0.0), np.insert(step[:-1], 0, 0.0))
@@ -44,13 +42,6 @@ def find(examined: Examined) -> Found | None:
                 evidence = Evidence(now, goal, said[1], right if np.isfinite(right).all() else "")
                 return Found(f"e jumps by {size:.3g} at {np.degrees(high):.6g}°", evidence)
     return None
-
-
-def lines() -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return the orientations at which rotations begin, and their axes."""
-    rng = np.random.default_rng(SEED)
-    q = np.vstack((diagonal(3), drawn_orientations(rng, 5)))
-    return [*zip(q, np.vstack((CUBE_AXES[[0, 6, 18]], drawn_axes(rng, 5))), strict=True)]
 
 
 def along(q: np.ndarray, axis: np.ndarray, angle: np.ndarray) -> Pairs:

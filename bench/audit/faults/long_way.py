@@ -31,6 +31,4 @@ def find(examined: Examined) -> Found | None:
         bad[here] = outside.any(axis=1)
     else:
         return None
-    if not bad.any():
-        return None
-    return Found(f"for {bad.sum()} of {here.sum()} pairs", examined.evidence(int(np.argmax(bad))))
+    return examined.first(bad, f"for {bad.sum()} of {here.sum()} pairs")

@@ -27,7 +27,5 @@ def find(examined: Examined) -> Found | None:
     differs = np.linalg.norm(again - first, axis=1) > DIFFERENCE * examined.slope
     if not differs.any():
         return None
-    return Found(
-        f"{differs.sum()} of {len(here)} pairs have another answer when they are evaluated again, in reverse order",
-        examined.evidence(int(here[np.argmax(differs)])),
-    )
+    text = f"{differs.sum()} of {len(here)} pairs have another answer when they are evaluated again, in reverse order"
+    return Found(text, examined.evidence(int(here[np.argmax(differs)])))

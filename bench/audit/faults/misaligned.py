@@ -2,7 +2,6 @@
 
 effect: the robot takes a detour, or does not come to the goal
 cure: begin with R_d R^T or q_d q*, and take its axis
-law: rotation-vector
 unless: quaternion-order, transpose, frame, euler-angles, raises, not-a-number, axis-clip, long-way, deadband, jump,
   memory
 """
@@ -27,7 +26,5 @@ def find(examined: Examined) -> Found | None:
     if not bent:
         return None
     worst = int(np.argmax(angle))
-    return Found(
-        f"{bent} of {len(here)} answers are off the axis, by up to {np.degrees(angle[worst]):.3g}°",
-        examined.evidence(int(here[worst])),
-    )
+    text = f"{bent} of {len(here)} answers are off the axis, by up to {np.degrees(angle[worst]):.3g}°"
+    return Found(text, examined.evidence(int(here[worst])))

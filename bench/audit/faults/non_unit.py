@@ -2,7 +2,6 @@
 
 effect: rounding in a sensor or an integrator becomes a wrong error, or none
 cure: normalize quaternions; keep arguments of acos in their range, or take atan2
-law: rotation-vector
 unless: raises, not-a-number, deadband, jump, memory, single-precision
 """
 
@@ -18,10 +17,8 @@ AMPLIFIED = 1e-4
 """Change of e, a hundred times that of the input, in rad times slope."""
 
 
-def find(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Found | None:
     """Both inputs longer or shorter by a millionth: no number, or another error; a note if it refuses them."""
-    if not examined.convention:
-        return None
     places = (examined.at(IDENTITY), examined.at(NEAR_IDENTITY, WIDE))
     usable = np.isfinite(examined.e).all(axis=1)
     here = np.concatenate([np.flatnonzero(which & usable)[::step] for which, step in zip(places, (1, 20), strict=True)])

@@ -2,7 +2,6 @@
 
 effect: beyond the limit the stiffness felt falls with the angle while the damping stays: a slow return
 cure: clip the command, not the error; or accept it, for it bends nothing
-law: rotation-vector
 """
 
 import numpy as np
@@ -18,16 +17,14 @@ BENT_RAD = 1e-3
 SHORTER = 0.999
 
 
-def find(examined: Examined) -> Found | None:
+def find_known(examined: Examined) -> Found | None:
     """Many answers have one length, or one largest component, and are shorter than they should be.
 
     Of a form of no name, shorter than a slope says that it has near the goal: a smooth one has its largest length at a
     few angles, not at many.
     """
-    if not examined.convention:
-        return None
     full = np.linalg.norm(examined.truth, axis=1)
-    if not examined.convention.form:
+    if not examined.form:
         full, near = examined.slope * examined.pairs.angle, is_nearest(examined.pairs)
         if not np.allclose(examined.size[near], full[near], rtol=1.0 - SHORTER, atol=0.0):
             return None

@@ -2,7 +2,6 @@
 
 effect: a command that is no number passes every comparison with a limit, and then reaches the motors
 cure: divide by no length that can be zero; keep arguments of acos and sqrt in their range
-law: rotation-vector
 """
 
 import numpy as np
@@ -15,8 +14,5 @@ def find(examined: Examined) -> Found | None:
     """Three numbers of which one is none."""
     answered = np.array([not reason for reason in examined.raised])
     bad = answered & ~np.isfinite(examined.e).all(axis=1)
-    if not bad.any():
-        return None
-    i = int(np.argmax(bad))
     places = ", ".join(dict.fromkeys(examined.pairs.place[bad]))
-    return Found(f"no finite numbers for {bad.sum()} of {len(bad)} pairs ({places})", examined.evidence(i))
+    return examined.first(bad, f"no finite numbers for {bad.sum()} of {len(bad)} pairs ({places})")

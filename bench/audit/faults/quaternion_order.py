@@ -26,10 +26,8 @@ def find(examined: Examined) -> Found | None:
         return Found(f"stated to take {stated}, it takes {found.takes}")
     if examined.takes not in ORDERS:
         return None
-    why = explanation(examined, lambda pairs: models(examined.takes, pairs))
-    return (
-        Found(f"{why[0]}, of quaternions given as {examined.takes}", examined.evidence(why[1], False)) if why else None
-    )
+    text = f"{{}}, of quaternions given as {examined.takes}"
+    return explanation(examined, lambda pairs: models(examined.takes, pairs), text)
 
 
 def models(takes: str, pairs: Pairs) -> Iterator[Model]:

@@ -2,7 +2,6 @@
 
 effect: the control loop stops, or keeps its last command
 cure: answer every pair of orientations: there is an error for each
-law: rotation-vector
 """
 
 import numpy as np
@@ -14,8 +13,5 @@ from bench.audit.fault import Found
 def find(examined: Examined) -> Found | None:
     """Find calls that raise or that do not return three numbers."""
     silent = np.array([bool(reason) for reason in examined.raised])
-    if not silent.any():
-        return None
-    i = int(np.argmax(silent))
     places = ", ".join(dict.fromkeys(examined.pairs.place[silent]))
-    return Found(f"no answer for {silent.sum()} of {len(silent)} pairs ({places})", examined.evidence(i))
+    return examined.first(silent, f"no answer for {silent.sum()} of {len(silent)} pairs ({places})")

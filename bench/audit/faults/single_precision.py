@@ -2,7 +2,6 @@
 
 effect: steps of 1e-7 rad in the error, which a derivative or high damping makes audible
 cure: compute the difference of two orientations in double precision; what follows may be single
-law: rotation-vector
 """
 
 import numpy as np

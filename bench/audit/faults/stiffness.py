@@ -30,7 +30,7 @@ def find(examined: Examined) -> Found | None:
     """|e|/theta at the goal is not what was stated."""
     if not examined.convention or abs(examined.slope / examined.stated.stiffness - 1.0) <= DEVIATION:
         return None
-    if not examined.convention.form:
+    if not examined.form:
         here = examined.at(NEAR_IDENTITY) & (examined.pairs.angle >= LEAST_RAD) & (examined.pairs.angle <= MOST_RAD)
         felt = examined.size[here] / examined.pairs.angle[here]
         if not felt.all():

@@ -20,8 +20,7 @@ def find(examined: Examined) -> Found | None:
             "frame and direction are both the other than stated: both matrices are transposed, as those of a library "
             "that stores columns are when they are read by rows"
         )  # fmt: skip
-    why = explanation(examined, models)
-    return Found(f"e lies along the axis of {why[0]}", examined.evidence(why[1])) if why else None
+    return explanation(examined, models, "e lies along the axis of {}", right=True)
 
 
 def models(pairs: Pairs) -> Iterator[Model]:

@@ -2,7 +2,6 @@
 
 effect: the stiffness felt changes from place to place, and jumps at the edge between two
 cure: compute the size from the angle between the two orientations alone
-law: rotation-vector
 unless: norm-clip, axis-clip, deadband, jump, long-way, misaligned, euler-angles, single-precision, digits-near-0,
   digits-near-180, memory
 """
@@ -21,7 +20,7 @@ SMALLEST_RAD = 1e-4
 
 def find(examined: Examined) -> Found | None:
     """Most sizes are those of a form, and some are not, along the axis all the same."""
-    if not examined.convention or not examined.convention.form:
+    if not examined.form:
         return None
     right = np.linalg.norm(examined.truth, axis=1)
     here = ~examined.at(AT_180, IDENTITY, NEAR_180) & (examined.pairs.angle > SMALLEST_RAD)

@@ -102,10 +102,9 @@ def summarize_variations(episodes: pd.DataFrame) -> pd.DataFrame:
     """One line for each controller, one column for each variation of the plant: settled, and the median angle left."""
     lines = []
     for name, rows in by_contender(episodes):
-        line = {"controller": name}
-        for variation, part in rows.groupby("variation", observed=True, sort=False):
-            line[str(variation)] = f"{settled(part)}  {1e3 * part['final_angle_rad'].median():.3g}"
-        lines.append(line)
+        groups = rows.groupby("variation", observed=True, sort=False)
+        cells = {str(one): f"{settled(own)}  {1e3 * own['final_angle_rad'].median():.3g}" for one, own in groups}
+        lines.append({"controller": name, **cells})
     return pd.DataFrame(lines)
 
 

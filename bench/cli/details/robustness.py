@@ -23,9 +23,8 @@ def tables(rows: pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
     alike = [one for one in table.columns[2:] if laws[one].nunique() == 1 and table.shape[1] > FEW + 2]
     title = f"robustness, thresholds ({OF_STARTS}; threshold: {WITHSTANDS})"
     if alike:
-        title += (
-            f"\nalike for all laws that settle unperturbed: {', '.join(f'{one} {laws[one].iloc[0]}' for one in alike)}"
-        )
+        levels = ", ".join(f"{one} {laws[one].iloc[0]}" for one in alike)
+        title += f"\nalike for all laws that settle unperturbed: {levels}"
     yield title, table.drop(columns=alike)
     axes = sorted(rows["axis"].unique())
     for axis in axes if len(axes) <= FEW else ():

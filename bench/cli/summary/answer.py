@@ -4,16 +4,8 @@ from __future__ import annotations
 
 from bench.cli.options import REFERENCE
 from bench.cli.paragraphs import Paragraph
+from bench.findings.selection import regions
 from bench.findings.selection.measured import Measured
-from bench.findings.selection.regions import (
-    compare_ours,
-    decide_all,
-    find_bounds,
-    find_regions,
-    is_drawn,
-    list_ours,
-    read_map,
-)
 from bench.findings.selection.robots import list_elsewhere
 from bench.findings.selection.sensitivity import vary
 from bench.findings.selection.words import compare, cost, describe_bounds, together
@@ -28,9 +20,9 @@ def paragraphs(found: Measured | None) -> list[Paragraph]:
     Args:
         found: what a run measured; None of a run that cannot compare laws.
     """
-    default = find_regions()[0]
+    default = regions.find_regions()[0]
     said = [Paragraph("Which law", _default(found)), Paragraph("Elsewhere", _elsewhere(default.law))]
-    said += [Paragraph("Ours", (_ours(law, found, default.law),)) for law in list_ours()]
+    said += [Paragraph("Ours", (_ours(law, found, default.law),)) for law in regions.list_ours()]
     own = [law for law in (found.laws if found else ()) if found and found.tables.contenders[law].regulator.origin]
     said += [Paragraph("Yours", (f"{law}: {_compared(found, law, default.law)}",)) for law in own]
     others = [
@@ -42,16 +34,16 @@ def paragraphs(found: Measured | None) -> list[Paragraph]:
 
 
 def _default(found: Measured | None) -> tuple[str, ...]:
-    region = find_regions()[0]
-    rows = read_map()
+    region = regions.find_regions()[0]
+    rows = regions.read_map()
     [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == region.law)].to_dict("records")
-    drawn = sum(map(is_drawn, decide_all()))
+    drawn = sum(map(regions.is_drawn, regions.decide_all()))
     priced = f" A tick takes {cost(found, region.law)}." if found and region.law in found.laws else ""
     return (
         f"Use the law {region.law} (published: {find_contender(region.law).regulator.source}) for a body that turns "
         f"freely, in simulation. Of {drawn} situations drawn at random it is advised in {region.advised:.0%}, and "
         f"nothing published beats it in {region.unbeaten:.0%}.",
-        f"One number at a time: {describe_bounds(find_bounds(region.law))}.",
+        f"One number at a time: {describe_bounds(regions.find_bounds(region.law))}.",
         f"At kp = {PAPERS_GAINS.kp:g} 1/s², kv = {PAPERS_GAINS.kv:g} 1/s 99 % of the starts settle within "
         f"{row['time'] / KP**0.5:.3f} s.{priced} Your own numbers: bench advise --help.",
     )
@@ -59,8 +51,8 @@ def _default(found: Measured | None) -> tuple[str, ...]:
 
 def _elsewhere(default: str) -> tuple[str, ...]:
     """Return the law for each other region, for robots beside those of the map, and without memory."""
-    regions = [f"{one.law} ({one.advised:.0%})" for one in find_regions()[1:] if one.advised >= 0.05]
-    lines = [f"In other situations: {together(regions)}; bench advise says which."] if regions else []
+    others = [f"{one.law} ({one.advised:.0%})" for one in regions.find_regions()[1:] if one.advised >= 0.05]
+    lines = [f"In other situations: {together(others)}; bench advise says which."] if others else []
     for one in list_elsewhere(REFERENCE):
         tied = f", tied with {together(one.tied)}" if one.tied else ""
         lines.append(f"If {one.words}: {one.law}{tied}.")
@@ -69,7 +61,7 @@ def _elsewhere(default: str) -> tuple[str, ...]:
 
 def _ours(law: str, found: Measured | None, default: str) -> str:
     """Return the sentences on a law of ours: its origin, where the map has it, and the run's comparison."""
-    ties, beats = compare_ours(law)
+    ties, beats = regions.compare_ours(law)
     return (
         f"{law} is ours: 2026, simulation only, not reviewed. Nothing published beats it in {ties:.0%} of the drawn "
         f"situations; it beats the advised law in {beats:.0%}. {_compared(found, law, default)} Reset its memory when "

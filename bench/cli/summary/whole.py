@@ -23,7 +23,9 @@ def print_summary(folder: Path, is_named: bool) -> None:
     """Print it. `is_named`: whether the user named the folder, so that the commands below name it too."""
     found = Results(folder)
     found.table("episodes")  # refuses a run that has not finished
-    here = origin(folder)
+    here: tuple[str, ...] = (origin(folder),)
+    if not is_named and folder == REFERENCE and results.VARIABLE not in os.environ:
+        here += ("It came with the benchmark; results/latest has no finished run (try: make bench).",)
     said = keep(folder, "answer", lambda: _answer(found))["said"]
     print_paragraphs(*(Paragraph(head, tuple(sentences)) for head, sentences in said))
     with progress("claims", "judging the paper's claims"):
@@ -32,7 +34,7 @@ def print_summary(folder: Path, is_named: bool) -> None:
         judged,
         failures.paragraph(found),
         *list_absent(found),
-        Paragraph("This run", (here, *_instead(folder, is_named))),
+        Paragraph("This run", here),
         _next(folder, is_named, parts_in(found)),
     )
 
@@ -45,25 +47,13 @@ def _answer(found: Results) -> dict:
         return {"said": answer.paragraphs(None)}
 
 
-def _instead(folder: Path, is_named: bool) -> list[str]:
-    """Said where another folder stands in for results/latest."""
-    stands_in = not is_named and folder == REFERENCE and results.VARIABLE not in os.environ
-    return ["It came with the benchmark; results/latest has no finished run (try: make bench)."] * stands_in
-
-
 def _next(folder: Path, is_named: bool, present: list[str]) -> Paragraph:
     here = shown_path(folder)
     show = f"bench show {here}" if is_named else "bench show"
     book = f"{results.VARIABLE}={here} make report" if is_named else "make report"
     parts = f", or one part: {', '.join(present)}" if len(present) > 1 else ""
-    return Paragraph(
-        "Next",
-        (
-            f"{book}   the book of this run",
-            f"{show} --details   every table{parts}",
-            f"bench claims {here}   each claim with its evidence",
-        ),
-    )
+    claims = f"bench claims {here}   each claim with its evidence"
+    return Paragraph("Next", (f"{book}   the book of this run", f"{show} --details   every table{parts}", claims))
 
 
 def count_verdicts(results: Results) -> Paragraph:

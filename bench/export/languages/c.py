@@ -29,7 +29,7 @@ class Core:
     """The functions of a subject in C, on structures; prefix: begins every name of theirs."""
 
     def __init__(self, subject: Subject) -> None:
-        self.program, self.prefix = translated(subject).program, f"{subject.identifier}_core_"
+        self.program, self.prefix = translated(subject), f"{subject.identifier}_core_"
         self.names: dict[Tuple, str] = {}
         for kind in self.program.tuples:
             name = f"real{len(kind.items)}" if kind.is_numbers else kind.name

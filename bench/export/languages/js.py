@@ -42,11 +42,11 @@ PASSED = {"gains": "[kp, kv]", "memory": "state.memory", "matrix": "columns({nam
 
 def write_script(subject: Subject) -> str:
     """Write the law as one script: NAME.command(...) and so on."""
-    done = translated(subject)
-    functions = [write_function(one) for one in done.program.functions]
+    program = translated(subject)
+    functions = [write_function(one) for one in program.functions]
     if any("copysign(" in one for one in functions):
         functions.insert(0, COPYSIGN)
-    offered = [line for one in subject.entries for line in write_entry(one, done.entries[one.name].name)]
+    offered = [line for one in subject.entries for line in write_entry(one, program.entries[one.name].name)]
     if subject.memory:
         first = f"Object.assign(state, {{ memory: {json.dumps(subject.memory)} }})"
         offered = [*slashes(f"{RESET} reset() makes a state."), f"reset: (state = {{}}) => {first},", *offered]

@@ -51,8 +51,8 @@ class _Resolved(ast.NodeTransformer):
 
 def write_module(subject: Subject) -> str:
     """Write the law as one module: command(R, omega, R_d, kp, kv) and so on."""
-    done = translated(subject)
-    named = {kind.name: kind.fields for kind in done.program.tuples if kind.name}
+    program = translated(subject)
+    named = {kind.name: kind.fields for kind in program.tuples if kind.name}
     classes = (
         f"class {name}(NamedTuple):\n" + "\n".join(f"{INDENT}{one}: Any" for one in named[name]) for name in named
     )
@@ -63,9 +63,9 @@ def write_module(subject: Subject) -> str:
             f'r"""{heading(subject, *NUMBERS)}\n"""\n\n{imports}\n',
             *(f"{one}\n" for one in classes),
             read_template("reading.python"),
-            *(write_function(one) for one in done.program.functions),
+            *(write_function(one) for one in program.functions),
             *reset,
-            *("\n".join(write_entry(one, f"_{done.entries[one.name].name}")) for one in subject.entries),
+            *("\n".join(write_entry(one, f"_{program.entries[one.name].name}")) for one in subject.entries),
         )
     )
 

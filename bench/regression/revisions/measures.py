@@ -19,11 +19,11 @@ STIFFNESS = "stiffness near the goal [kp]"
 def compare_measures(base: Path, head: Path) -> list[dict[str, str]]:
     """Return a line for each law and measure on the free body: base, head, and the change where it is a number."""
     was, now = _measure(base), _measure(head)
-    lines = []
-    for key in dict.fromkeys((*now, *was)):
-        before, after = was.get(key, "none"), now.get(key, "none")
-        lines.append({"law": key[0], "": key[1], "base": before, "head": after, "change": _change(before, after)})
-    return lines
+    both = {key: (was.get(key, "none"), now.get(key, "none")) for key in (now | was)}
+    return [
+        {"law": law, "": what, "base": before, "head": after, "change": _change(before, after)}
+        for (law, what), (before, after) in both.items()
+    ]
 
 
 def _measure(folder: Path) -> dict[tuple[str, str], str]:

@@ -56,11 +56,10 @@ def _write_judgement(one: Judgement) -> list[str]:
     """Return why a law does what it does, faults first, and the laws nearest to it."""
     lines = [f"**{escape(one.heading or one.name)}: {', '.join(one.faults) or 'no fault found'}**", ""]
     lines += [f"- {escape(each.text)} ({each.page})" for each in sorted(one.said, key=lambda each: not each.fault)]
-    return lines + (
-        ["", "The laws nearest to it in pull at 90 degrees and median settling time:", "", *_write_table(one.beside)]
-        if one.beside
-        else []
-    )
+    if one.beside:
+        lines += ["", "The laws nearest to it in pull at 90 degrees and median settling time:", ""]
+        lines += _write_table(one.beside)
+    return lines
 
 
 def _write_table(table: Sequence[dict[str, Any]]) -> list[str]:

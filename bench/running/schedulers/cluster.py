@@ -25,7 +25,6 @@ from bench.base.errors import LostWorkers, MissingTool
 from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
 from bench.running.run_folder import part, write_part
-from bench.running.sandbox import Sandbox
 from bench.running.schedulers import LOCAL, worker
 from bench.running.wire_format import described
 
@@ -48,28 +47,6 @@ EMPTY_S = 10.0
 
 logging.getLogger("distributed").setLevel(logging.CRITICAL)
 """What goes wrong is said by our errors; of a lost worker there is nothing to say, for another takes its chunk."""
-
-
-def run(
-    client: distributed.Client,
-    plan: Plan,
-    todo: Sequence[Unit],
-    out: Path,
-    done: Callable[[Unit], None],
-    sandbox: Sandbox,
-) -> int:
-    """Carry out units and write each when its chunk has come back; the most threads of workers that were there.
-
-    Args:
-        done: called for each unit when it is written. sandbox: of the user's laws: its limit holds for the
-            workers', and it is given their notes.
-    Errors:
-        MissingTool: a worker without this package. BadResults: a worker has other sources. LostWorkers: a unit ended
-        all that took it, or the scheduler is gone. KeyboardInterrupt: what has come back is written.
-    """
-    chunks = Chunks(client, plan, out, done, sandbox.limit_s, notes=sandbox.notes, again=sandbox.again)
-    chunks.carry_out(todo)
-    return chunks.threads
 
 
 @contextlib.contextmanager
@@ -135,8 +112,9 @@ def print_while_empty(client: Any, every_s: float = EMPTY_S) -> Iterator[None]:
 class Chunks:
     """Chunks on their way to workers and back: as many as keep them busy, and no more.
 
-    ahead: how many each thread of a worker is given. threads: the most that were there. notes: what workers say of a
-    user's laws. again: keys of units that have no rows yet, see `Sandbox`. waiting: not given yet.
+    done: called for each unit when it is written. law_limit_s: of a user's laws, as `Sandbox` takes it. ahead: how many
+    each thread of a worker is given. threads: the most that were there. notes: what workers say of a user's laws.
+    again: keys of units that have no rows yet, see `Sandbox`. waiting: not given yet.
     """
 
     client: distributed.Client
@@ -151,8 +129,13 @@ class Chunks:
     waiting: deque[tuple[Unit, ...]] = field(default_factory=deque)
     given: dict[distributed.Future, tuple[Unit, ...]] = field(default_factory=dict)
 
-    def carry_out(self, todo: Sequence[Unit]) -> None:
-        """Give, take and write until all is done."""
+    def carry_out(self, todo: Sequence[Unit]) -> int:
+        """Give, take and write until all is done; return the most threads of workers that were there.
+
+        Errors:
+            MissingTool: a worker without this package. BadResults: one with other sources. LostWorkers: a unit ended
+            all that took it, or the scheduler is gone. KeyboardInterrupt: what has come back is written.
+        """
         self.waiting.extend(in_batches(todo, self._present()))
         ended = distributed.as_completed(loop=self.client.loop)
         try:
@@ -167,6 +150,7 @@ class Chunks:
             with contextlib.suppress(OSError):  # the scheduler may be what is lost
                 self.client.cancel(list(self.given))
             raise
+        return self.threads
 
     def _present(self) -> int:
         """Threads of the workers that are there now; others may come and go."""

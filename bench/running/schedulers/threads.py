@@ -6,10 +6,8 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
-from bench.experiments.experiment import Unit, experiment_of
+from bench.experiments.experiment import Unit
 from bench.experiments.plan import Plan
-from bench.experiments.tables.packed import pack
-from bench.experiments.tables.store import table_of_unit
 from bench.running.precompile import Ahead
 from bench.running.run_folder import write_part
 from bench.running.sandbox import Sandbox
@@ -22,8 +20,8 @@ UNITS_A_PROCESS = 8
 def run(
     plan: Plan, todo: Sequence[Unit], out: Path, workers: int, sandbox: Sandbox, done: Callable[[Unit], None],
     ahead: Ahead | None = None,
-) -> None:  # fmt: skip
-    """Carry out units, in their order, and write each when it is done.
+) -> int:  # fmt: skip
+    """Carry out units, in their order, and write each when it is done; return the number of workers.
 
     Args:
         sandbox: of the user's laws. done: called for each unit when it is written. ahead: compiles our contenders.
@@ -38,9 +36,8 @@ def run(
             ahead.wait_for(unit, stop)
         if stop.is_set():
             return None
-        made = sandbox.rows(unit) if sandbox.has(unit) else table_of_unit(plan.settings, unit)
-        if unit.key not in sandbox.again:
-            write_part(plan, out, unit, pack(made, experiment_of(unit).table))
+        if (content := sandbox.packed(unit)) is not None:
+            write_part(plan, out, unit, content)
         return unit
 
     ours, own = [unit for unit in todo if not sandbox.has(unit)], [unit for unit in todo if sandbox.has(unit)]
@@ -58,3 +55,4 @@ def run(
             stop.set()
             sandbox.stopping = True
             raise
+    return workers

@@ -4,9 +4,6 @@ import importlib
 import json
 import signal
 
-from bench.experiments.experiment import experiment_of
-from bench.experiments.tables.packed import pack
-from bench.experiments.tables.store import table_of_unit
 from bench.running.sandbox import Sandbox
 from bench.running.wire_format import plan_of
 
@@ -24,12 +21,8 @@ def carry_out(text: str, law_limit_s: float | None = None) -> tuple[dict[str, by
     """
     plan = plan_of(json.loads(text))
     with Sandbox(plan, law_limit_s, is_checked=True) as sandbox:
-        files = {}
-        for unit in plan.units:
-            made = sandbox.rows(unit) if sandbox.has(unit) else table_of_unit(plan.settings, unit)
-            if unit.key not in sandbox.again:
-                files[unit.key] = pack(made, experiment_of(unit).table)
-        return files, sandbox.notes
+        made = {unit.key: sandbox.packed(unit) for unit in plan.units}
+        return {key: content for key, content in made.items() if content is not None}, sandbox.notes
 
 
 def dask_setup(_: object) -> None:

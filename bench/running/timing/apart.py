@@ -6,7 +6,7 @@ progress, sample by sample, and at last the file's path or the mistake.
 
 import json
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from multiprocessing.connection import Connection
 from pathlib import Path
 
@@ -23,24 +23,19 @@ SILENT_S = 300.0
 
 
 def run_apart(
-    contenders: Iterable[Contender],
-    folder: Path,
-    quick: bool = False,
-    report: Callable = lambda _: None,
+    contenders: list[Contender], folder: Path, quick: bool = False, report: Callable = lambda _: None,
     arms: tuple[str, ...] = (),
-    silent_s: float = SILENT_S,
-) -> Path:
+) -> Path:  # fmt: skip
     """Time contenders as `run` does, where some of them are a user's.
 
     Errors:
         BadLaw: a user's law that cannot be compiled, that ends its process, or that does not return.
     """
-    contenders = list(contenders)
     files = sorted({(one.regulator.origin, one.regulator.text) for one in contenders if one.regulator.origin})
     how = {"folder": str(folder), "quick": quick, "arms": arms}
     asked = {"files": files, "names": [one.name for one in contenders], "how": how}
     named = ", ".join(path for path, _ in files)
-    for said in ask(__name__, asked, silent_s, named):
+    for said in ask(__name__, asked, SILENT_S, named):
         if "path" in said:
             return Path(said["path"])
         report(Progress(*said["progress"]))

@@ -11,7 +11,6 @@ import numpy as np
 
 import tasks
 from bench.engines.binding import command_of, memory_of
-from bench.engines.episode import Settings as EngineSettings
 from bench.engines.episode import blank
 from bench.engines.metrics.registry import metrics_of
 from bench.engines.native.libmujoco import model_of
@@ -23,12 +22,10 @@ from bench.law.contender import Contender
 from bench.law.inputs import Gains
 from bench.running.timing import law, on_arms, reference_kernel
 from bench.running.timing.benchmark import KERNEL, LAW, LOOP, NEVER, Benchmark, closed_loop
-from tasks.base import Start
 
 ENGINES = ("ideal-held", "ideal-rk4", "native")
 
-TASK = "free-body"
-HORIZON_S = 0.4
+SETTINGS = Settings().limits(0.4)._replace(hold_ticks=NEVER)
 """400 ticks of 1 ms: from rest through the fastest part of a response; a tick costs the same at any time."""
 
 STARTS = {"ideal-held": 128, "ideal-rk4": 128, "native": 8}
@@ -66,17 +63,12 @@ def benchmarks(
             loops += [_engine(engine, one) for engine in ENGINES]
         laws.append(_law(LAW, one))
     empty = _law(LOOP, Contender(law.EMPTY))._replace(contender=None)
-    kernel = Benchmark(KERNEL, None, "", reference_kernel.STEPS, _kernel())
-    found = [kernel, *laws, *loops, empty]
+    chain, given = reference_kernel.compiled(), (reference_kernel.START, reference_kernel.STEPS)
+    found = [Benchmark(KERNEL, None, "", reference_kernel.STEPS, lambda: chain(*given)), *laws, *loops, empty]
     for arm in arms:
         report(Progress(arm, 0, 0))
         found += on_arms.of_arm(arm, [one for one in contenders if not one.regulator.costing_only])
     return found
-
-
-def _kernel() -> Callable:
-    chain = reference_kernel.compiled()
-    return lambda: chain(reference_kernel.START, reference_kernel.STEPS)
 
 
 def _law(what: str, one: Contender) -> Benchmark:
@@ -89,22 +81,14 @@ def _law(what: str, one: Contender) -> Benchmark:
     return Benchmark(what, one, "", law.SWEEPS * law.STATES if call() == 0.0 else 0, call)
 
 
-def _settings() -> EngineSettings:
-    return Settings().limits(HORIZON_S)._replace(hold_ticks=NEVER)
-
-
 def _engine(engine: str, one: Contender) -> Benchmark:
     metrics = metrics_of(on_arm=False)
     loop, kept, world = compiled_loop(engine, metrics), None, None
     starts = tasks.start_set("uniform", STARTS[engine])
     if engine == "native":
-        model, *kept = _simulation(starts)
+        task = tasks.task("free-body")
+        model = model_of(task.xml(SETTINGS.dt_s), "euler")
+        kept = mujoco.MjData(model), np.array([[*qpos, *qvel] for qpos, qvel in map(task.state, starts)])
         world = free_body.World(compiled_view(model, kept[0]), 0, kept[1])
     fresh = blank(len(starts), metrics)
-    return closed_loop(engine, one, loop, (evaluation(one),), world, starts, _settings(), fresh, kept=kept)
-
-
-def _simulation(starts: list[Start]) -> tuple[mujoco.MjModel, mujoco.MjData, np.ndarray]:
-    task = tasks.task(TASK)
-    model = model_of(task.xml(_settings().dt_s), "euler")
-    return model, mujoco.MjData(model), np.array([[*qpos, *qvel] for qpos, qvel in map(task.state, starts)])
+    return closed_loop(engine, one, loop, (evaluation(one),), world, starts, SETTINGS, fresh, kept=kept)

@@ -12,7 +12,7 @@ import random
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -22,7 +22,6 @@ from bench.running.timing.benchmarks import Progress
 
 ROUNDS = 2
 TIMER = "time.thread_time"
-PASSES_FILE = Path(__file__).with_name("passes.py")
 
 
 class Sample(NamedTuple):
@@ -31,6 +30,12 @@ class Sample(NamedTuple):
     benchmark: Benchmark
     pass_number: int
     taken: Callable
+
+
+def test_sample(benchmark: Any, sample: Sample) -> None:
+    """Take one sample, in two rounds on end; pytest collects it here. `make test` does not collect this file."""
+    benchmark.pedantic(sample.benchmark.call, rounds=ROUNDS, iterations=1)
+    sample.taken(benchmark.stats.stats.data)
 
 
 def order(count: int, passes: int, seed: int) -> list[list[int]]:
@@ -61,7 +66,7 @@ def measure(benchmarks: list[Benchmark], passes: int, seed: int = 0, report: Cal
 
 
 class _Visits:
-    """The plugin that gives the samples to passes.py and pytest's own report to a buffer.
+    """The plugin that gives the samples to `test_sample` and pytest's own report to a buffer.
 
     Reporters keep the streams they find while pytest configures itself: a buffer, then. Whatever is written later, a
     progress bar say, has the real ones.
@@ -89,8 +94,7 @@ class _Visits:
 def _benchmark(samples: list[Sample]) -> None:
     plugin = _Visits(samples)
     words = [
-        str(PASSES_FILE),
-        *("-c", os.devnull, "--rootdir", str(PASSES_FILE.parent), "--noconftest"),
+        *(__file__, "-c", os.devnull, "--rootdir", str(Path(__file__).parent), "--noconftest"),
         *("-p", "no:cacheprovider", "-p", "no:xdist", "-p", "no:faulthandler"),
         *("-q", "--exitfirst", "--capture=no", "--assert=plain", "-W", "ignore"),
         *(f"--benchmark-timer={TIMER}", "--benchmark-disable-gc", "--benchmark-quiet"),
@@ -101,7 +105,7 @@ def _benchmark(samples: list[Sample]) -> None:
         raise KeyboardInterrupt
     if code != pytest.ExitCode.OK:
         report = plugin.report.getvalue().strip()
-        raise RuntimeError(f"pytest ended with {code!r} on {PASSES_FILE.name}:\n{report}")
+        raise RuntimeError(f"pytest ended with {code!r} on {Path(__file__).name}:\n{report}")
 
 
 @contextlib.contextmanager

@@ -26,9 +26,8 @@ def tables(timings: Path | pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
         for row in rows.itertuples():
             name = str(row.contender) if row.regulator else EMPTY
             line = lines.setdefault(name, {"law": name})
-            line[f"{row.engine or 'alone'} [ns]"] = (
-                f"{row.ns_per_tick:.1f}" if math.isfinite(row.ns_per_tick) else NOT_TIMED
-            )
+            time = f"{row.ns_per_tick:.1f}" if math.isfinite(row.ns_per_tick) else NOT_TIMED
+            line[f"{row.engine or 'alone'} [ns]"] = time
             if not row.engine:
                 interval = f"{row.ratio:.3f} [{row.ratio_low:.3f}, {row.ratio_high:.3f}]"
                 line["alone / kernel"] = interval if math.isfinite(row.ratio) else NOT_TIMED

@@ -82,7 +82,7 @@ def measure(arm: str, law: str) -> dict[str, Any]:
         is_stable, most = functools.partial(is_shrinking, loop, beside_home(arm)), GREATEST / PERIOD_S
         limits = [bisect(is_stable, 0.0, most, HALVINGS)[0] for _ in range(REPEATS)]
     contender = f"{law}@geometric+{'solve' if len(some[0].q) == 6 else 'pseudo-inverse'}"
-    unit = Unit("arm", contender, TASK, arm, "native", "uniform", NOMINAL, 0, *[STARTS] * 3, HORIZON_S)
+    unit = Unit("arm", contender, TASK, arm, "native", "uniform", NOMINAL, 0, STARTS, STARTS, STARTS, HORIZON_S)
     simulated = rows_of(Settings("default", dt_s=PERIOD_S), unit)["settling_time_s"].fillna(np.inf).to_numpy()
     real = np.array([settling_time(*both) for both in zip(courses, some, strict=True)])
     has_settled, both = np.isfinite(real), np.isfinite(real) & np.isfinite(simulated)

@@ -64,7 +64,7 @@ def build_controller(law: str, folder: Path) -> Path:
     library = next(MUJOCO.glob("libmujoco.so*"))
     words = [f"-DLAW={name}", f'-DHEADER="{name}.hpp"', *(["-DHAS_MEMORY"] if subject.memory else [])]
     includes = [f"-I{path}" for path in (folder, *INCLUDE)]
-    link = [library, f"-Wl,-rpath,{MUJOCO}", "-lpthread"]
+    link = [str(library), f"-Wl,-rpath,{MUJOCO}", "-lpthread"]
     subprocess.run(["g++", "-O2", "-std=c++17", *words, *includes, SOURCE, "-o", program, *link], check=True)
     return program
 

@@ -42,17 +42,17 @@ def facts(_: Run) -> dict:
 
 def tables(_: Run) -> dict:
     """Return what the loops did."""
-    return {"loops": LOOPS(describe(one) for one in rows().itertuples())}
+    return {"loops": LOOPS(describe(row) for _, row in rows().iterrows())}
 
 
-def describe(one: tuple) -> tuple:
+def describe(row: pd.Series) -> tuple:
     """Return the cells of a row."""
-    late = (f"{1e3 * each:.3g}" for each in (one.delay_median_s, one.delay_p99_s, one.delay_max_s))
+    late = (f"{1e3 * row[f'delay_{one}_s']:.3g}" for one in ("median", "p99", "max"))
     return (
-        arm_rows.name_arm(one.arm),
-        families.word(one.regulator),
-        f"{one.settled}, {one.simulated}, {one.agreeing} of {one.starts}",
+        arm_rows.name_arm(row["arm"]),
+        families.word(row["regulator"]),
+        f"{row['settled']}, {row['simulated']}, {row['agreeing']} of {row['starts']}",
         ", ".join(late),
-        one.kv_measured,
-        one.kv_predicted,
+        row["kv_measured"],
+        row["kv_predicted"],
     )
