@@ -47,7 +47,7 @@ TOO_LONG: dict[str, int] = {}
 """Files that are still longer, with their lines."""
 
 
-DATA = {"bench": 3_333, "report": 6_210, "tasks": 5_301, "tests": 1_034}
+DATA = {"bench": 3_333, "report": 1_750, "tasks": 489, "tests": 1_034}
 """Lines of text in other files than Python: what moves into them counts too. One new file may come on top."""
 SUFFIXES = (".toml", ".text", ".xml", ".js", ".c", ".cpp", ".html", ".css")
 
