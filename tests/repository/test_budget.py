@@ -40,7 +40,7 @@ LINES = {
     "tasks": 5_301,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
-FILES = {"bench/audit": 2_181, "bench/experiments": 5_224, "bench/export": 2_001, "bench/law": 6_718, "tasks": 77}
+FILES = {"bench/audit": 42, "bench/experiments": 45, "bench/export": 19, "bench/law": 109, "tasks": 77}
 """Python files of the rooms in which one file adds one thing: with one more, a room may have as many lines more."""
 LONGEST_FILE = 250
 TOO_LONG: dict[str, int] = {}
