@@ -92,7 +92,7 @@ def measure(arm: str, law: str) -> dict[str, Any]:
         **{"arm": arm, "regulator": law, "starts": STARTS, "settled": int(has_settled.sum())},
         "simulated": int(np.isfinite(simulated).sum()),
         "agreeing": int((has_settled == np.isfinite(simulated)).sum()),
-        "time_difference_s": float(np.median(np.abs(real - simulated)[both])),
+        "time_difference_s": float(np.median(np.abs(real[both] - simulated[both]))),
         "delay_median_s": float(np.median(late)),
         "delay_p99_s": float(np.quantile(late, 0.99)),
         "delay_max_s": float(late.max()),
