@@ -14,7 +14,7 @@ import numpy as np
 
 from bench.base.bisection import bisect
 
-GREATEST = 2.2
+GREATEST = 4.0
 """Kv T up to which a limit is looked for."""
 HALVINGS = 12
 LAST = 0.1

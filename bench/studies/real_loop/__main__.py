@@ -38,7 +38,7 @@ from tasks.verdict import first_watch, watched
 STORED = RESULTS / "real-loop" / "real_loop.parquet"
 LAWS = ("rotation-matrix", "late-braking")
 STARTS, HORIZON_S = 12, 2.5
-EDGE_RAD, EDGE_S, HALVINGS, REPEATS = 1e-7, 2.0, 8, 3
+EDGE_RAD, EDGE_S, HALVINGS, REPEATS = 1e-7, 2.0, 9, 3
 
 
 def settling_time(course: Course, start: Start) -> float:
