@@ -14,6 +14,7 @@ RULES = Table(
     "Λ | Arms | Ideal motors: settled [%] | Largest torque, of the rated one:.3g | As they are: settled [%] "
     "| Tool off its place, at most [mm]"
 )
+INVERSE = "dynamically-consistent"
 REDUNDANT = {False: "six joints", True: "Panda"}
 
 
@@ -23,8 +24,27 @@ def tables(run: Run) -> dict:
 
 
 def facts(run: Run) -> dict:
-    """Return how many starts there are."""
-    return {"starts": in_run(lambda: find_rows(run).groupby("arm")["start_id"].nunique().sum())}
+    """Return how many starts there are, and what the rules do."""
+    return {
+        "starts": in_run(lambda: find_rows(run).groupby("arm")["start_id"].nunique().sum()),
+        "said": in_run(lambda: describe_rules(find_rows(run))),
+    }
+
+
+def describe_rules(rows: pd.DataFrame) -> str:
+    """Say what the rules do on arms of six joints, with ideal motors and as they are, and on the Panda."""
+    six, panda = rows[~rows["is_redundant"]], rows[rows["is_redundant"]]
+    ideal, real = (six[six["variation"] == name] for name in (IDEAL_MOTORS, NOMINAL))
+    shares, torques = (ideal.groupby("inverse")[column] for column in ("settled", "peak_torque_ratio"))
+    settled, torque, cut = 100.0 * shares.mean(), torques.max(), 100.0 * real.groupby("inverse")["settled"].mean()
+    others, of_panda = settled.index != INVERSE, 100.0 * panda.groupby(["inverse", "variation"])["settled"].mean().min()
+    return (
+        f"On arms of six joints with ideal motors, the inverse settles {settled[INVERSE]:.0f} % and needs up to "
+        f"{torque[INVERSE]:,.0f} times the rated torque. The other rules settle {settled[others].min():.0f} to "
+        f"{settled[others].max():.0f} %, with up to {torque[others].max():,.0f} times. If the motors are cut, "
+        f"{cut[INVERSE]:.0f} % settle with the inverse and {cut[others].min():.0f} to {cut[others].max():.0f} % with "
+        f"the others. The Panda settles at least {of_panda:.0f} % with every rule."
+    )
 
 
 def find_rows(run: Run) -> pd.DataFrame:
@@ -44,7 +64,7 @@ def compare_rules(rows: pd.DataFrame) -> Iterator[tuple]:
             ideal, real = (own[own["variation"] == name] for name in (IDEAL_MOTORS, NOMINAL))
             settled = (f"{100 * one['settled'].mean():.0f}" for one in (ideal, real))
             yield (
-                {"dynamically consistent": "inverse"}.get(title, title),
+                "inverse" if word == INVERSE else title,
                 REDUNDANT[is_redundant],
                 next(settled),
                 ideal["peak_torque_ratio"].max(),
