@@ -84,7 +84,8 @@ def on_joints(law: Contender, joints: int) -> list[Contender]:
     if law.name != BY_EVERY_INVERSE:
         return combinations.on((f"{law.name}@geometric+standard",), {law.name: law}, joints)
     (by, *_) = combinations.on((f"{law.name}@geometric+standard",), {law.name: law}, joints)
-    return [one for every in contenders("inverses").values() if not refusal(one := by._replace(inverse=every), joints)]
+    every = (by._replace(inverse=one) for one in contenders("inverses").values() if not one.uses_inertia)
+    return [one for one in every if not refusal(one, joints)]
 
 
 def rows(settings: Settings, unit: Unit) -> dict:

@@ -193,6 +193,7 @@ class Inverse(NamedTuple):
     gives: "acceleration" if J x = a, up to the inverse's own error; "torque" if x is the torque for it; "joint-torque"
     of a baseline on the joints, if it is what gravity leaves to be added.
     refuses(rows, n) -> why it cannot be used with a Jacobian of that shape; empty if it can, as any can by default.
+    uses_inertia: whether resolve reads D; robots that are commanded velocities take no such inverse.
     """
 
     name: str
@@ -202,6 +203,7 @@ class Inverse(NamedTuple):
     resolve: Callable
     gives: str
     refuses: Callable[[int, int], str] = lambda rows, n: ""
+    uses_inertia: bool = False
 
 
 class Impedance(NamedTuple):

@@ -148,7 +148,7 @@ def test_memory_ends_where_its_hysteresis_does():
     assert math.tan((math.pi + thresholds.keeps("mrp-linearized")) / 4.0) ** 2 == pytest.approx(1.5)
 
 
-EXACT = ("solve", "pseudo-inverse", "dynamically-consistent", "truncated-svd", "damped-least-squares-variable")
+EXACT = ("solve", "pseudo-inverse", "truncated-svd", "damped-least-squares-variable")
 
 
 def test_limit_of_every_velocity_law_is_within_one_percent_of_its_closed_form():

@@ -49,4 +49,5 @@ INVERSE = Inverse(
     resolve=resolve,
     gives="torque",
     refuses=refuses,
+    uses_inertia=True,
 )

@@ -29,4 +29,5 @@ INVERSE = Inverse(
     formula=r"\tau = J^\top \Lambda a, \quad \lambda_i = 1 / \max(\sigma_i^2,\; \sigma_{\max}^2 / \kappa)",
     resolve=resolve,
     gives="torque",
+    uses_inertia=True,
 )

@@ -32,4 +32,5 @@ INVERSE = Inverse(
     formula=r"\tau = J^\top \Lambda a, \quad \lambda_i = 1 / (\sigma_i^2 + \delta(\sigma_i^2 / \sigma_{\max}^2))",
     resolve=resolve,
     gives="torque",
+    uses_inertia=True,
 )

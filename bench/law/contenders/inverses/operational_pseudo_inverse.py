@@ -34,4 +34,5 @@ INVERSE = Inverse(
     formula=r"\tau = J^\top (J D^{-1} J^\top)^{+} a",
     resolve=resolve,
     gives="torque",
+    uses_inertia=True,
 )
