@@ -13,7 +13,7 @@ from bench.experiments import episodes
 from bench.experiments.episode_rows import TABLE
 from bench.experiments.experiment import ON_ARMS, Asked, Experiment, Settings, Unit
 from bench.experiments.rounding import judged_beside
-from bench.experiments.suites import AT_INVERSES, BY_WORD_ALONE, IDEAL_MOTORS, NOMINAL, SINGULAR, SLOW
+from bench.experiments.suites import AT_INVERSES, BY_WORD_ALONE, IDEAL_MOTORS, NOMINAL, SLOW
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
 from tasks.arm_model import Arm
@@ -72,9 +72,8 @@ def _on_arm(asked: Asked, arm: Arm) -> Iterator[tuple]:
                 yield part, one, variation
     if is_whole:
         yield from _as_it_is(asked, by_name, arm)
-        at = [part for part in slices if part.start_set in SINGULAR]
         for one in combinations.on(on_arms.operational, by_name, joints):
-            yield from ((part, one, name) for part in at for name in (IDEAL_MOTORS, NOMINAL))
+            yield from ((part, one, name) for part in on_arms.operational_slices for name in (IDEAL_MOTORS, NOMINAL))
         for one in combinations.on(on_arms.varied, by_name, joints):
             for part in on_arms.varied_slices:
                 for variation in tasks.variation_names(arm.name):

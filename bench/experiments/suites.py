@@ -35,8 +35,8 @@ class OnArms(NamedTuple):
     """The part of a suite that runs on every arm.
 
     words: contenders as `combinations` writes them, with ideal motors; none at all: every compatible combination. few:
-    those of them that run from AT_INVERSES alone. operational: contenders that run from SINGULAR alone, with ideal
-    motors and as the arm is. compared: the laws that run on the arm as it is, a user's among them; from other_slices
+    those of them that run from AT_INVERSES alone. operational: contenders that run with ideal motors and as the arm is,
+    from operational_slices alone. compared: the laws that run on the arm as it is, a user's among them; from other_slices
     also with other gains and motors. varied: the contenders of the study of model errors, which runs
     over all variations of the plant. poses: how many an arm's Jacobians are looked at, beside the directed ones.
     """
@@ -47,6 +47,7 @@ class OnArms(NamedTuple):
     varied_slices: tuple[Slice, ...] = ()
     few: tuple[str, ...] = ()
     operational: tuple[str, ...] = ()
+    operational_slices: tuple[Slice, ...] = ()
     compared: tuple[str, ...] = ()
     compared_slices: tuple[Slice, ...] = ()
     other_slices: tuple[Slice, ...] = ()
@@ -127,9 +128,7 @@ HORIZON = {"half-turn": LONG, "poles": LONG, "wraps": LONG}
 
 DECLARED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 LISTS: dict[str, tuple[str, ...]] = {name: tuple(words) for name, words in DECLARED.pop("lists").items()}
-LAWS, BEST, LATER, AT_INVERSES, SINGULAR = (
-    LISTS[name] for name in ("LAWS", "BEST", "LATER", "AT_INVERSES", "SINGULAR")
-)
+LAWS, BEST, LATER, AT_INVERSES = (LISTS[name] for name in ("LAWS", "BEST", "LATER", "AT_INVERSES"))
 BY_WORD_ALONE = (*LATER, *LISTS["BY_WORD_ALONE"])
 STREAMED = ("rotation-matrix", *BEST)
 """What follows goals that arrive as a stream: the paper's first law, and the best of later ones."""
@@ -159,8 +158,8 @@ def read_slices(declared: list[list]) -> tuple[Slice, ...]:
 def read_on_arms(varied_size: int | str, varied_s: float, poses: int, **said: Any) -> OnArms:
     """Return the part of a suite on arms."""
     slices: dict[str, Any] = {
-        f"{part}slices": tuple(read_on_arm(*one) for one in said.pop(f"{part}sizes").items())
-        for part in ("", "compared_", "other_")
+        f"{part}slices": tuple(read_on_arm(*one) for one in said.pop(f"{part}sizes", {}).items())
+        for part in ("", "operational_", "compared_", "other_")
     }
     varied = (read_on_arm("clear", varied_size, varied_s),)
     words: dict[str, Any] = {name: expanded(those) for name, those in said.items()}

@@ -16,8 +16,8 @@ from report.figures.kit.tables import Table
 
 STUDY = RESULTS / "real-loop"
 LOOPS = Table(
-    "Arm | Law | Settled: real, simulated, same end | Delay: median, 99 %, greatest [ms] | Kv limit: measured [1/s]:.0f"
-    " | predicted [1/s]:.0f"
+    "Arm | Law | Settled; simulated; same end | Delay, median; 99 %; greatest [ms] | Greatest Kv [1/s]:.0f "
+    "| Kv predicted [1/s]:.0f"
 )
 
 
@@ -51,8 +51,8 @@ def describe(row: pd.Series) -> tuple:
     return (
         arm_rows.name_arm(row["arm"]),
         families.word(row["regulator"]),
-        f"{row['settled']}, {row['simulated']}, {row['agreeing']} of {row['starts']}",
-        ", ".join(late),
+        f"{row['settled']}; {row['simulated']}; {row['agreeing']} of {row['starts']}",
+        "; ".join(late),
         row["kv_measured"],
         row["kv_predicted"],
     )
