@@ -36,9 +36,9 @@ class OnArms(NamedTuple):
 
     words: contenders as `combinations` writes them, with ideal motors; none at all: every compatible combination. few:
     those of them that run from AT_INVERSES alone. operational: contenders that run with ideal motors and as the arm is,
-    from operational_slices alone. compared: the laws that run on the arm as it is, a user's among them; from other_slices
-    also with other gains and motors. varied: the contenders of the study of model errors, which runs
-    over all variations of the plant. poses: how many an arm's Jacobians are looked at, beside the directed ones.
+    from operational_slices alone. compared: the laws that run on the arm as it is, a user's among them; from
+    other_slices also with other gains and motors. varied: the contenders of the study of model errors, which runs over
+    all variations of the plant. poses: how many an arm's Jacobians are looked at, beside the directed ones.
     """
 
     words: tuple[str, ...]
