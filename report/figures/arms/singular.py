@@ -43,8 +43,9 @@ def describe_rules(rows: pd.DataFrame) -> str:
         f"{torque[INVERSE]:,.0f} times the rated torque. The other rules settle {settled[others].min():.0f} to "
         f"{settled[others].max():.0f} %, with up to {torque[others].max():,.0f} times. If the motors are cut, "
         f"{cut[INVERSE]:.0f} % settle with the inverse and {cut[others].min():.0f} to {cut[others].max():.0f} % with "
-        f"the others. Meanwhile the tool leaves its place by up to {drift.min():.0f} mm ({drift.idxmin()}) to "
-        f"{drift.max():.0f} mm ({drift.idxmax()}). On the Panda, {100.0 * panda['settled'].mean():.0f} % settle."
+        f"the others. Meanwhile the tool leaves its place by up to {drift.min():.0f} mm ({name_rule(drift.idxmin())}) "
+        f"to {drift.max():.0f} mm ({name_rule(drift.idxmax())}). On the Panda, {100 * panda['settled'].mean():.0f} % "
+        "settle."
     )
 
 
@@ -57,15 +58,19 @@ def find_rows(run: Run) -> pd.DataFrame:
     return rows.assign(settled=arm_rows.settled(rows), is_redundant=rows["arm"] == "panda")
 
 
+def name_rule(word: str) -> str:
+    """Return what the page calls a rule."""
+    return "inverse" if word == INVERSE else contenders("inverses")[word].title.removeprefix("Operational space, ")
+
+
 def compare_rules(rows: pd.DataFrame) -> Iterator[tuple]:
     """Return a row a rule and number of joints."""
     for word, by_rule in rows.groupby("inverse", sort=False):
-        title = contenders("inverses")[word].title.removeprefix("Operational space, ").lower()
         for is_redundant, own in by_rule.groupby("is_redundant"):
             ideal, real = (own[own["variation"] == name] for name in (IDEAL_MOTORS, NOMINAL))
             settled = (f"{100 * one['settled'].mean():.0f}" for one in (ideal, real))
             yield (
-                "inverse" if word == INVERSE else title,
+                name_rule(word),
                 REDUNDANT[is_redundant],
                 next(settled),
                 ideal["peak_torque_ratio"].max(),
