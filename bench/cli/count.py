@@ -87,7 +87,8 @@ def _print(table: pd.DataFrame, title: str, stages: bool) -> None:
 def _controllers(laws: list[Contender], named: options.Named, joints: int) -> list[Contender]:
     """Return the controllers of the laws by the Jacobians and inverses that are named; the quick suite's if none is."""
     by_name = {one.name: one for one in laws}
-    words = (*SUITES["quick"].on_arms.words, *SUITES["quick"].on_arms.compared)
+    quick = SUITES["quick"].on_arms
+    words = (*quick.words, *quick.operational, *quick.compared)
     found = combinations.chosen(words, by_name, joints, named.jacobians, named.inverses, BY_WORD_ALONE)
     if not found:
         reasons = combinations.refusals(laws, joints, named.jacobians, named.inverses)

@@ -84,11 +84,17 @@ def ways() -> tuple[Way, ...]:
     return tuple(way for way in each if len(way.outwards(tasks.axis(way.axis).levels)) > 1)
 
 
+@functools.cache
+def lasting() -> tuple[str, ...]:
+    """Return the perturbations that last."""
+    every = map(tasks.axis, tasks.axis_names())
+    return tuple(axis.name for axis in every if condition_at(axis, max(axis.levels)).lasts)
+
+
 def went_well(rows: pd.DataFrame) -> pd.Series:
     """Whether each row of robustness.parquet did."""
-    follows, every = rows["tail_rms_rad"] <= FOLLOWED_RAD, map(tasks.axis, tasks.axis_names())
-    lasting = [axis.name for axis in every if condition_at(axis, max(axis.levels)).lasts]
-    return follows.where(rows["axis"].isin(lasting), rows["outcome"] == "settled").astype(bool)
+    follows = rows["tail_rms_rad"] <= FOLLOWED_RAD
+    return follows.where(rows["axis"].isin(lasting()), rows["outcome"] == "settled").astype(bool)
 
 
 def by_level(rows: pd.DataFrame) -> pd.DataFrame:

@@ -20,7 +20,8 @@ from bench.law.kinds import Inverse
 from bench.law.scalar import kernel
 from tasks.contact import Specification
 
-ITERATES = ("truncated-svd", "damped-least-squares-variable")
+OPERATIONAL = ("pseudo-inverse", "clamped", "damped")
+ITERATES = ("truncated-svd", "damped-least-squares-variable", *(f"operational-{how}" for how in OPERATIONAL))
 """Inverses that decide by the state how much they do."""
 
 cost_on_arm = functools.cache(on_arms.cost_on_arm)

@@ -62,7 +62,8 @@ def test_arm_alone_is_the_suite_on_that_arm():
     plan = planning.make("default", laws, Choice(arms=("puma560",)))
     assert {unit.arm for unit in plan.units if unit.arm} == {"puma560"}
     ideal = {unit.contender for unit in plan.of("arm") if unit.variation == IDEAL_MOTORS}
-    by_words = combinations.chosen(SUITES["default"].on_arms.words, LAWS, 6, by_word_alone=BY_WORD_ALONE)
+    on_arms = SUITES["default"].on_arms
+    by_words = combinations.chosen((*on_arms.words, *on_arms.operational), LAWS, 6, by_word_alone=BY_WORD_ALONE)
     assert ideal == {one.name for one in (*by_words, *combinations.baselines(6))}
     assert {unit.selector for unit in plan.of("arm") if unit.variation == IDEAL_MOTORS} == set(
         tasks.task("arm-regulation", "puma560").start_sets

@@ -22,7 +22,7 @@ from tasks.kinematics import kinematics
 over_arms = pytest.mark.parametrize("arm", ARMS)
 SEVEN = [arm for arm in ARMS if tasks.arm(arm).joints == 7]
 
-APPROXIMATE = ("damped-least-squares", "transpose")
+APPROXIMATE = ("damped-least-squares", "operational-pseudo-inverse", "transpose")
 EXACT = [word for word in contenders("inverses") if word not in APPROXIMATE]
 """The inverses that give J x = a wherever the damped and the truncated one leave J alone."""
 

@@ -28,6 +28,11 @@ def facts(_: Run) -> dict:
 
 
 def tables(_: Run) -> dict:
+    """Return a row a claim."""
+    return {"verdicts": table(claims.judge_all())}
+
+
+def table(every: list[Verdict]) -> html.Markdown | None:
     """Return a row a claim, refuted ones first: number and section, statement, verdicts, and what is true."""
     rows = (
         (
@@ -36,9 +41,9 @@ def tables(_: Run) -> dict:
             f"{html.badge(str(one.word))}{'' if one.first == one.word else f'<br>first: {one.first}'}",
             prose(one.correction) if one.correction else "",
         )
-        for one in sorted(claims.judge_all(), key=lambda one: ORDER.index(one.word))
+        for one in sorted(every, key=lambda one: ORDER.index(one.word))
     )
-    return {"verdicts": VERDICTS(rows)}
+    return VERDICTS(rows)
 
 
 def anchor(one: Verdict) -> str:
