@@ -22,7 +22,8 @@ from tasks.kinematics import kinematics
 over_arms = pytest.mark.parametrize("arm", ARMS)
 SEVEN = [arm for arm in ARMS if tasks.arm(arm).joints == 7]
 
-APPROXIMATE = ("damped-least-squares", "operational-pseudo-inverse", "transpose")
+OPERATIONAL = ("operational-pseudo-inverse", "operational-clamped", "operational-damped")
+APPROXIMATE = ("damped-least-squares", "transpose", *OPERATIONAL)
 EXACT = [word for word in contenders("inverses") if word not in APPROXIMATE]
 """The inverses that give J x = a wherever the damped and the truncated one leave J alone."""
 

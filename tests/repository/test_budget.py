@@ -28,7 +28,7 @@ LINES = {
     "tests/experiments": 2_231,
     "tests/export": 314,
     "tests/findings": 2_146,
-    "tests/law": 2_562,
+    "tests/law": 2_563,
     "tests/regression": 722,
     "tests/report": 1_683,
     "tests/repository": 517,
