@@ -17,7 +17,7 @@ from report.figures.kit.tables import Table
 STEPS = 8
 STUDY = RESULTS / "real-loop"
 LOOPS = Table(
-    "Arm | Law | Settled; simulated; same end | Delay, median; 99 %; greatest [ms] | Greatest Kv [1/s]:.0f "
+    "Arm | Law | Settled; simulated; same end | Delay, median; 99 %; longest [ms] | Largest Kv [1/s]:.0f "
     "| Kv predicted [1/s]:.0f"
 )
 

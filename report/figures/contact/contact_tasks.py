@@ -1,9 +1,9 @@
 """The page on the equations and tasks in contact: what each task is, when it ends, and how it looks."""
 
 import tasks
+from report.figures.contact import limits
 from report.figures.contact.compliance import PROBE
 from report.figures.contact.in_contact import MEASURES
-from report.figures.contact.limits import LIMITS, compare_settings
 from report.figures.contact.rows import PAPERS_EULER, of, of_task
 from report.figures.kit import media
 from report.figures.kit.page import Run, in_run
@@ -23,6 +23,7 @@ def facts(run: Run) -> dict:
         for task in map(tasks.contact_task, MEASURES)
     ]
     return {
+        **limits.facts(run),
         "orders": f"{'. '.join(parts)}.",
         "rest_rule": f"{1e3 * REST.speed:g} mm/s and {REST.rate:g} rad/s for {REST.hold_s:g} s",
         "rest_horizon": f"{HORIZON_S:g}",
@@ -32,7 +33,7 @@ def facts(run: Run) -> dict:
 
 def tables(_: Run) -> dict:
     """Return the tasks with real motors and sensors."""
-    return {"settings": LIMITS(compare_settings())}
+    return {"settings": limits.LIMITS(limits.compare_settings())}
 
 
 def figures(_: Run) -> dict:

@@ -9,8 +9,8 @@ from report.figures.contact.rows import PAPERS, PAPERS_EULER
 from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
 
-SETTINGS = {"ideal": "Ideal motors", "motors": "Motors cut", "sensor": "Motors cut, sensor of 100 Hz"}
-NAMES = {PAPERS: "Cartesian", PAPERS_EULER: "Euler, all β", SPRINGS: "springs"}
+SETTINGS = {"ideal": "Unlimited torque", "motors": "Limited torque", "sensor": "Limited torque, noisy sensor"}
+NAMES = {PAPERS: "Cartesian", PAPERS_EULER: "Euler", SPRINGS: "springs"}
 LIMITS = Table(f"Task | Measured at the end | Control | Episodes | {':.2g | '.join(SETTINGS.values())}:.2g")
 
 
