@@ -12,8 +12,8 @@ from report.figures.kit.spelling import listed
 from report.figures.kit.tables import Table
 
 RULES = Table(
-    "Λ | Arms | Settled, unlimited torque [%] | Largest torque / rated:.3g | Settled, limited torque [%] "
-    "| Tool off its place, at most [mm]"
+    "Λ | Arms | Settled, unlimited torque [%]:.0f | Largest torque / rated:.3g "
+    "| Settled, limited torque [%]:.0f | Tool off its place, at most [mm]:.0f"
 )
 START_SET, INVERSE = "wrist", "dynamically-consistent"
 REDUNDANT = {False: "six joints", True: "Panda"}
@@ -68,12 +68,12 @@ def compare_rules(rows: pd.DataFrame) -> Iterator[tuple]:
     for word, by_rule in rows.groupby("inverse", sort=False):
         for is_redundant, own in by_rule.groupby("is_redundant"):
             ideal, real = (own[own["variation"] == name] for name in (IDEAL_MOTORS, NOMINAL))
-            settled = (f"{100 * one['settled'].mean():.0f}" for one in (ideal, real))
+            settled = (100.0 * one["settled"].mean() for one in (ideal, real))
             yield (
                 name_rule(word),
                 REDUNDANT[is_redundant],
                 next(settled),
                 ideal["peak_torque_ratio"].max(),
                 next(settled),
-                f"{1000 * real['position_error_m'].max():.0f}",
+                1000.0 * real["position_error_m"].max(),
             )
