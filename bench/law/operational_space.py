@@ -10,21 +10,28 @@ from bench.law.scalar import kernel
 
 
 @kernel
-def decompose(J, a, D, rows, n, scratch):
-    """Write L, the rows sigma_i v_i^T and the numbers u_i . a into scratch B, V and s."""
-    L, Y_transposed, force, column = scratch.B, scratch.V, scratch.s, scratch.t
+def whiten(J, D, rows, n, scratch):
+    """Write L and Y^T = J L^-T into scratch B and V; t is overwritten."""
+    L, Y_transposed, column = scratch.B, scratch.V, scratch.t
     for i in range(n):
         for j in range(i + 1):
             L[i, j] = D[i, j]
     factor(L, n)
     for i in range(rows):
-        force[i] = a[i]
         for j in range(n):
             column[j] = J[i, j]
         solve_lower(L, column, n)
         for j in range(n):
             Y_transposed[i, j] = column[j]
-    orthogonalize(Y_transposed, force, rows, n)
+
+
+@kernel
+def decompose(J, a, D, rows, n, scratch):
+    """Write L, the rows sigma_i v_i^T and the numbers u_i . a into scratch B, V and s."""
+    whiten(J, D, rows, n, scratch)
+    for i in range(rows):
+        scratch.s[i] = a[i]
+    orthogonalize(scratch.V, scratch.s, rows, n)
 
 
 @kernel

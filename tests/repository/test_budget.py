@@ -16,7 +16,7 @@ LINES = {
     "bench/experiments": 5_223,
     "bench/export": 2_001,
     "bench/findings": 6_329,
-    "bench/law": 6_724,
+    "bench/law": 6_723,
     "bench/regression": 1_295,
     "bench/running": 2_419,
     "bench/studies": 2_666,

@@ -1,4 +1,4 @@
-"""Variations of an arm's plant: factors against a model that MuJoCo compiles anew, friction against its level."""
+"""Variations of an arm's plant: factors against a model compiled from its source, friction against its level."""
 
 import mujoco
 import numpy as np
@@ -22,7 +22,7 @@ def compiled(arm: str, variation: str = "nominal") -> mujoco.MjModel:
     return model
 
 
-def compiled_anew(arm: str, factors) -> mujoco.MjModel:
+def compiled_from_source(arm: str, factors) -> mujoco.MjModel:
     """MuJoCo's own compiler on the nominal arm, whose inertial parameters were scaled before it saw them."""
     found = tasks.arm(arm)
     spec = mujoco.MjSpec.from_string(model_xml(found, DT))
@@ -76,18 +76,18 @@ DERIVED = ("body_subtreemass", "body_invweight0", "dof_invweight0", "dof_M0", "b
 
 @pytest.mark.parametrize("arm", tasks.arm_names())
 @pytest.mark.parametrize("name", [*FACTORS, *LINKS])
-def test_derived_constants_are_those_of_a_model_compiled_anew(arm, name):
+def test_derived_constants_are_those_of_a_model_compiled_from_source(arm, name):
     varied, plain = compiled(arm, name), compiled(arm)
     factors = [varied.body_mass[plain.jnt_bodyid[i]] / plain.body_mass[plain.jnt_bodyid[i]] for i in range(plain.nv)]
     assert name not in FACTORS or factors == pytest.approx([FACTORS[name]] * plain.nv, rel=1e-15)
-    anew = compiled_anew(arm, factors)
+    fresh = compiled_from_source(arm, factors)
     for constant in DERIVED:
-        found, expected = getattr(varied, constant), getattr(anew, constant)
+        found, expected = getattr(varied, constant), getattr(fresh, constant)
         # MuJoCo's weights come from its solve with D, whose condition number is below 1e3 on these arms: 1e-13.
         assert np.abs(found - expected).max() <= 1e-12 * np.abs(expected).max(), constant
     for q, qdot in states(arm, 3, qdot=1.0):
-        a, b = state_of(varied, q, qdot), state_of(anew, q, qdot)
-        assert np.abs(inertia_of(varied, a) - inertia_of(anew, b)).max() <= 1e-13 * inertia_of(anew, b).max()
+        a, b = state_of(varied, q, qdot), state_of(fresh, q, qdot)
+        assert np.abs(inertia_of(varied, a) - inertia_of(fresh, b)).max() <= 1e-13 * inertia_of(fresh, b).max()
         assert np.abs(a.qfrc_bias - b.qfrc_bias).max() <= 1e-13 * np.abs(b.qfrc_bias).max()
 
 

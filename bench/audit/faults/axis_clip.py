@@ -1,4 +1,4 @@
-"""each component is clipped: the direction is bent.
+"""each component is clipped: the direction of the error changes.
 
 effect: far from the goal the robot turns about another axis than the shortest way has
 cure: scale the whole vector down to the limit
@@ -27,5 +27,5 @@ def find_known(examined: Examined) -> Found | None:
     if len(at_limit) < FEWEST or len(bent) < len(at_limit) / 2:
         return None
     worst = int(bent[np.argmax(astray[bent])])
-    text = f"no component exceeds {limit:.6g}; the direction is bent by up to {np.degrees(astray[worst]):.3g}°"
+    text = f"no component exceeds {limit:.6g}; the direction changes by up to {np.degrees(astray[worst]):.3g}°"
     return Found(text, examined.evidence(worst))

@@ -6,24 +6,16 @@ see. From D = L L^T and Y = L^-1 J^T, Lambda^-1 = Y^T Y, so that D is never inve
 Limitations: where J loses rank Lambda is not finite; like pseudo-inverse it squares the condition number of J.
 """
 
-from bench.law import Inverse, factor, gram, kernel, multiply_transposed, solve_factored, solve_lower
+from bench.law import Inverse, factor, gram, kernel, multiply_transposed, solve_factored
+from bench.law.operational_space import whiten
 
 
 @kernel
 def resolve(J, a, D, x, rows, n, scratch):
     """x = J^T (J D^-1 J^T)^-1 a; by Cholesky's factors, twice."""
-    L, Y_transposed, S, column, force = scratch.B, scratch.V, scratch.A, scratch.t, scratch.s
-    for i in range(n):
-        for j in range(i + 1):
-            L[i, j] = D[i, j]
-    factor(L, n)
-    for i in range(rows):
-        for j in range(n):
-            column[j] = J[i, j]
-        solve_lower(L, column, n)
-        for j in range(n):
-            Y_transposed[i, j] = column[j]
-    gram(Y_transposed, S, rows, n)
+    S, force = scratch.A, scratch.s
+    whiten(J, D, rows, n, scratch)
+    gram(scratch.V, S, rows, n)
     factor(S, rows)
     for i in range(rows):
         force[i] = a[i]
