@@ -106,12 +106,12 @@ def find_longest_delay(P: np.ndarray, Q: np.ndarray, dt: float) -> float:
     """
     z = np.exp(1j * ANGLES)[:, None, None]
     mu = np.linalg.eigvals(-dt * (Q * (z - 1.0) + dt * z * P) / (z - 1.0) ** 2)
-    falls = np.sort(np.abs(mu), axis=1)
-    crossing = (falls[:-1] >= 1.0) & (falls[1:] < 1.0)
-    ticks = np.take_along_axis(np.angle(mu) % (2.0 * np.pi), np.argsort(np.abs(mu), axis=1), axis=1) / ANGLES[:, None]
-    share = np.log(falls[:-1]) / np.log(falls[:-1] / falls[1:])
-    at = ticks[:-1] + share * (ticks[1:] - ticks[:-1])
-    return dt * float(at[crossing].min(initial=np.inf))
+    order = np.argsort(np.abs(mu), axis=1)
+    moduli = np.take_along_axis(np.abs(mu), order, axis=1)
+    ticks = np.take_along_axis(np.angle(mu) % (2.0 * np.pi), order, axis=1) / ANGLES[:, None]
+    crosses = (moduli[:-1] >= 1.0) & (moduli[1:] < 1.0)
+    share = np.log(moduli[:-1]) / np.log(moduli[:-1] / moduli[1:])
+    return dt * float((ticks[:-1] + share * np.diff(ticks, axis=0))[crosses].min(initial=np.inf))
 
 
 def compute_tick_radius(P: np.ndarray, Q: np.ndarray, dt: float) -> float:

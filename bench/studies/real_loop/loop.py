@@ -1,9 +1,8 @@
 """The two processes: the arm, which is this one, and the exported law in `controller.cpp`, in real time at 1 kHz.
 
-The arm moves in SUBSTEPS steps of each control period, as the clock of this machine has reached them. It writes its
-state at the first of them, and takes a torque at whichever step comes after the answer: how late torques are is what
-the operating system makes of it. A step that is late itself is followed by the next without a wait, and delays are
-counted in steps, so that they are delays in the arm's own time.
+The arm moves in SUBSTEPS steps of each control period, each when the clock has reached it. It writes its state at the
+first of them, and applies a torque from the first step after the answer on. The operating system decides how late that
+is. After a late step the next one follows without a wait. Delays are counted in steps of the simulated arm.
 """
 
 from __future__ import annotations
@@ -95,7 +94,8 @@ class Loop:
 
     def __exit__(self, *error: object) -> None:
         self.tell(-1)
-        self.process.wait()
+        if (code := self.process.wait()) and error[0] is None:
+            raise ChildProcessError(f"the controller of {self.task.arm} ended with {code}; no episode of it counts")
 
     def tell(self, tick: int) -> None:
         """Write the arm's state, and wake the controller."""
