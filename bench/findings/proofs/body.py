@@ -1,0 +1,114 @@
+"""A free body under a law, in symbols: q = (w, (x, y, z)) of the turn from R to R_d, omega, gains, and any goal R_d.
+
+    q = (eta, eps),   E = R_d R^T = E(q),   eta' = (1/2) eps . omega,   eps' = -(1/2)(eta omega + eps x omega),   omega' = u
+
+A law is called with R = E^T R_d. Where its answer, in normal form, does not mention the goal, what is proved of it holds
+for every goal.
+"""
+
+import functools
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, NamedTuple
+
+from bench.findings.proofs.solver import Solver
+from bench.findings.proofs.trace import Path, Symbols, Traced
+from bench.law.inputs import Gains, Goal
+from bench.law.kinds import Law
+from bench.law.so3 import Rotation, cross, dot, from_quaternion, rotate, rotate_back
+
+QUATERNION, RATES, GOAL = ("w", "x", "y", "z"), ("omega_x", "omega_y", "omega_z"), ("a", "b", "c", "d")
+
+
+class Tick(NamedTuple):
+    """A law's answer on one path: u at rest and as the body turns, and, with memory, after = kept q.
+
+    kept is positive on the side of the memory; None of a law without memory.
+    """
+
+    at_rest: tuple
+    u: tuple
+    kept: Traced | None
+    after: tuple | None
+    path: Path
+
+
+class FreeBody:
+    """The symbols of a body and its goal. more: symbols of a law's own state; goal_frame: rates and q in the goal's axes.
+
+    In the goal's axes R = R_d X, and what a law answers must not mention the goal either once it is turned back.
+    """
+
+    def __init__(
+        self,
+        positive: tuple[str, ...] = (),
+        more: tuple[str, ...] = (),
+        constants: Mapping[float, str] | None = None,
+        goal_frame: bool = False,
+    ) -> None:
+        names = ("x", "w", "y", "z", *RATES, "kp", "kv", *GOAL, "size", *more)
+        self.symbols = Symbols(names, ("kp", "kv", "size", *positive), constants)
+        symbol = self.symbols.of
+        self.symbols.relate("x", 1 - symbol["w"] ** 2 - symbol["y"] ** 2 - symbol["z"] ** 2)
+        self.symbols.relate("a", 1 - symbol["b"] ** 2 - symbol["c"] ** 2 - symbol["d"] ** 2)
+        self.q, self.omega = self.symbols[QUATERNION], self.symbols[RATES]
+        self.eta, self.eps, self.gains = self.q[0], self.q[1:], Gains(symbol["kp"], symbol["kv"])
+        self.R_d, E = from_quaternion(self.symbols[GOAL]), from_quaternion(self.q)
+        self.goal_frame = goal_frame
+        if goal_frame:
+            back = Rotation(*(tuple(row) for row in zip(*E, strict=True)))
+            self.R = Rotation(*(rotate(self.R_d, column) for column in back))
+        else:
+            self.R = Rotation(*(rotate_back(E, column) for column in self.R_d))
+        self.solver = Solver(self.symbols)
+
+    def command(self, law: Callable, rates: tuple, *memory: Any) -> Any:
+        """Call a law at this body's orientation, with rates that are given in the frame of q."""
+        answer = law(self.R, rotate(self.R_d, rates) if self.goal_frame else rates, Goal(self.R_d), self.gains, *memory)
+        if not self.goal_frame:
+            return answer
+        return (rotate_back(self.R_d, answer[0]), answer[1]) if memory else rotate_back(self.R_d, answer)
+
+    def ticks(self, law: Law, memory: tuple | None = None) -> Iterator[Tick]:
+        """Return what a law answers on every path on which Z3 finds a state; memory: (w, v), by default on q's side."""
+        held = memory or tuple(self.symbols.of["size"] * one for one in self.q)
+        given = (held,) if law.memory is not None else ()
+        rest = tuple(self.symbols.number(0) for _ in range(3))
+
+        def call() -> tuple:
+            return self.command(law.law, rest, *given), self.command(law.law, self.omega, *given)  # type: ignore[arg-type]
+
+        for path in self.symbols.paths(call):
+            if self.solver.find(*self.solver.condition(path), self.is_turned())[0] == "unsat":
+                continue
+            still, moving = path.answer
+            if law.memory is None:
+                yield Tick(still, moving, None, None, path)
+            else:
+                u, after = moving
+                yield Tick(still[0], u, after[0] / self.eta, after, path)
+
+    def is_turned(self) -> Any:
+        """Return Z3's condition that the body is not at its goal: eta^2 < 1."""
+        return self.solver.of["w"] * self.solver.of["w"] < 1
+
+    def derive(self, value: Traced, u: tuple, more: Mapping[str, Traced] | None = None) -> Traced:
+        """Return the derivative of a function of q and omega (and of `more`, by their derivatives) along the motion."""
+        half = self.symbols.number(0.5)
+        turned = cross(self.eps, self.omega)
+        rates = {
+            "w": half * dot(self.eps, self.omega),
+            **{name: -half * (self.eta * self.omega[i] + turned[i]) for i, name in enumerate(QUATERNION[1:])},
+            **dict(zip(RATES, u, strict=True)),
+            **(more or {}),
+        }
+        gens = {str(one): one for one in self.symbols.field.gens}
+        return functools.reduce(
+            lambda sum_, name: sum_ + Traced(value.value.diff(gens[name]), self.symbols) * rates[name],
+            rates,
+            self.symbols.number(0),
+        )
+
+    def mentions(self, value: Traced, *names: str) -> bool:
+        """Tell whether a value depends on any of these symbols."""
+        gens = {str(one): one for one in self.symbols.field.gens}
+        return any(value.value.diff(gens[name]) != 0 for name in names)

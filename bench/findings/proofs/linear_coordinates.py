@@ -1,0 +1,57 @@
+"""Coordinates x of the turn that obey x'' + Kv x' + Kp x = 0 exactly: eps, or with memory sigma = eps/(1 + eta).
+
+V = |x'|^2/2 + Kp |x|^2/2 falls as -Kv |x'|^2. A law that is not defined at eta = 0 must not come there: from rest V < Kp/2
+and |eps| < 1 for ever, but a body that spins fast enough comes there. With memory the side changes at eta <= -delta, and
+the two sides have |x'| = (1 + |sigma|^2) |omega|/4 with the smaller |sigma| after the change: V falls.
+
+Source: Paielli & Bach 1993; Schaub, Akella, Junkins 2001.
+"""
+
+from bench.findings.proofs.body import FreeBody, Tick
+from bench.findings.proofs.question import Question
+from bench.findings.proofs.solver import Lemma
+from bench.findings.proofs.theorem import DoesNotFit, Proof, Theorem, by_algebra
+from bench.findings.proofs.trace import Traced
+from bench.law.kinds import ON_MATRIX, Law
+from bench.law.so3 import dot
+
+
+def prove(law: Law) -> Proof:
+    """Prove that eps or sigma is linear, and where a body stays."""
+    if law.law is None or law.state is not None or law.coordinates != ON_MATRIX:
+        raise DoesNotFit("it is no law on the rotation matrix without a state")
+    has_memory = law.memory is not None
+    body = FreeBody(positive=() if has_memory else ("w",))
+    (kp, kv), omega = body.gains, body.omega
+
+    def coordinate(side: int) -> tuple[Traced, ...]:
+        return tuple(side * one / (1 + side * body.eta) if has_memory else one for one in body.eps)
+
+    rates = {side: [body.derive(one, (0, 0, 0)) for one in coordinate(side)] for side in (1, -1)}
+
+    def check(_: FreeBody, tick: Tick) -> set[int]:
+        found = set()
+        for side in (1, -1) if has_memory else (1,):
+            pairs = zip(coordinate(side), rates[side], strict=True)
+            if all(body.derive(rate, tick.u) + kv * rate + kp * one == 0 for one, rate in pairs):
+                found.add(side)
+        if not found:
+            raise DoesNotFit("neither eps nor sigma obeys a linear equation")
+        return found
+
+    ask = Question(body, law, check)
+    x = r"\sigma" if has_memory else r"\epsilon"
+    V = rf"V = \tfrac12|\dot x|^2 + \tfrac12 K_p |x|^2, \quad x = {x}"
+    lemmas = [
+        Lemma("x'' + Kv x' + Kp x = 0", all(part.side in part.taken for part in ask.parts), "algebra", 0.0),
+    ]
+    if not has_memory:
+        return Proof(THEOREM.name, "almost global from rest", lemmas, V, "not defined at 180°", 1.0)
+    size = dot(rates[1], rates[1]) - dot(omega, omega) / (4 * (1 + body.eta) ** 2)
+    delta = float(ask.delta)
+    drop = 0.5 * ((1 + delta) / (1 - delta) - (1 - delta) / (1 + delta))
+    lemmas += [by_algebra("|x'| = |omega|/(2 (1 + eta))", size), *ask.changes_of_side()]
+    return Proof(THEOREM.name, "global with memory", lemmas, V, "none", 1.0, delta, drop)
+
+
+THEOREM = Theorem("linear-coordinates", "Coordinates that obey a linear equation", prove)

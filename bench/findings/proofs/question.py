@@ -1,0 +1,77 @@
+"""What is asked of all paths of a law: is there a state with a fault? A law with memory has two sides."""
+
+import functools
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+from bench.findings.proofs.body import FreeBody, Tick
+from bench.findings.proofs.solver import Lemma
+from bench.law.kinds import Law
+
+
+class Part(NamedTuple):
+    """One path on which Z3 finds states.
+
+    side: 1 where q is the side on which the law acts after the tick, -1 where that is -q. taken: what a theorem makes of
+    the tick. known: conditions for Z3.
+    """
+
+    tick: Tick
+    side: int
+    taken: Any
+    known: list[Any]
+
+
+class Question:
+    """The paths of a law, and what a theorem makes of each: take(body, tick), made once of ticks with equal answers."""
+
+    def __init__(self, body: FreeBody, law: Law, take: Callable[[FreeBody, Tick], Any]) -> None:
+        self.body, self.has_memory, self.parts = body, law.memory is not None, list[Part]()
+        self.eta = body.solver.of["w"]
+        made: list[tuple[Tick, Any]] = []
+        for tick in body.ticks(law):
+            mine = tick.u, tick.at_rest, tick.path.meanings
+            same = (taken for one, taken in made if (one.u, one.at_rest, one.path.meanings) == mine)
+            taken = next(same, None) or take(body, tick)
+            made.append((tick, taken))
+            for side in (1, -1) if self.has_memory else (1,):
+                known = [*body.solver.condition(tick.path), body.is_turned()]
+                known += [body.solver.is_below(-side * tick.kept)] if tick.kept is not None else []
+                if body.solver.find(*known)[0] != "unsat":
+                    self.parts.append(Part(tick, side, taken, known))
+
+    def never(self, statement: str, fault: Callable[[Any, int], Any], sides: tuple[int, ...] = (1, -1)) -> Lemma:
+        """Return the lemma that no path on some sides has a state with a fault, fault(taken, side): Z3's condition."""
+        seconds = 0.0
+        for part in self.parts:
+            if part.side in sides:
+                answer, state, lasted = self.body.solver.find(*part.known, fault(part.taken, part.side))
+                seconds += lasted
+                if answer != "unsat":
+                    return Lemma(statement, False, "Z3", seconds, state)
+        return Lemma(statement, True, "Z3", seconds)
+
+    @functools.cached_property
+    def delta(self) -> Fraction:
+        """The least delta, to 0.001, with no side kept at eta < -delta; 1 if a side is kept everywhere."""
+        return find_least(lambda end: self.never("", lambda *_: self.eta < -float(end), (1,)).is_proved, 1000)
+
+    def changes_of_side(self) -> list[Lemma]:
+        """Return the lemmas on where a side is kept and where it changes; none of a law without memory."""
+        if not self.has_memory:
+            return []
+        kept, changed = -float(min(self.delta, Fraction(99, 100))), -float(self.delta)
+        return [
+            self.never(f"a side is kept at eta >= {kept:g} alone", lambda *_: self.eta < kept, (1,)),
+            self.never(f"a side changes at eta <= {changed:g} alone", lambda *_: self.eta > changed, (-1,)),
+        ]
+
+
+def find_least(holds: Callable[[Fraction], bool], steps: int) -> Fraction:
+    """Return the least k/steps at which a condition holds that goes on to hold; 1 if it does at none below."""
+    low, high = -1, steps
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if holds(Fraction(middle, steps)) else (middle, high)
+    return Fraction(high, steps)

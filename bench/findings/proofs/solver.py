@@ -1,0 +1,83 @@
+"""Inequalities of polynomials, decided by Z3: a claim holds where what contradicts it has no solution."""
+
+import time
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+import z3
+from sympy.polys.rings import PolyElement
+
+from bench.findings.proofs.trace import Path, Symbols, Traced
+
+PATIENCE_S = 60
+"""After which Z3 gives up on one inequality."""
+
+
+class Lemma(NamedTuple):
+    """One statement. counterexample: symbol -> number, where it is false; None where it is proved, or not decided."""
+
+    statement: str
+    is_proved: bool
+    by: str
+    seconds: float
+    counterexample: dict[str, float] | None = None
+
+
+class Solver:
+    """Z3, which knows the relations of a trace's symbols."""
+
+    def __init__(self, symbols: Symbols) -> None:
+        self.symbols = symbols
+        self.of = {str(one): z3.Real(str(one)) for one in symbols.field.gens}
+        self.given: list[Any] = [self.of[str(one)] > 0 for one in symbols.positive]
+
+    def term(self, polynomial: PolyElement) -> Any:
+        """Return a polynomial as Z3 has it."""
+        names = [str(one) for one in self.symbols.field.gens]
+        terms = []
+        for powers, coefficient in polynomial.terms():
+            factors = [self.of[name] for name, power in zip(names, powers, strict=True) for _ in range(power)]
+            ratio = Fraction(int(coefficient.numerator), int(coefficient.denominator))
+            terms.append(z3.Product(z3.RealVal(str(ratio)), *factors))
+        return z3.Sum(terms) if terms else z3.RealVal(0)
+
+    def sign(self, value: Traced) -> Any:
+        """Return a term that has the sign of a value."""
+        return self.term(value.value.numer * value.value.denom)
+
+    def is_below(self, value: Traced, strictly: bool = True) -> Any:
+        """Return Z3's condition that a value is below zero, or at most zero."""
+        return self.sign(value) < 0 if strictly else self.sign(value) <= 0
+
+    def condition(self, path: Path) -> list[Any]:
+        """Return what a path knows, and the relations of its symbols."""
+        known = [self.term(one) == 0 for one in [*self.symbols.relations, *path.relations]]
+        known += [self.term(one) < 0 if sign == "<" else self.term(one) >= 0 for one, sign in path.decisions]
+        for y, angle in path.signs:
+            known += [z3.Implies(self.term(y) > 0, self.term(angle) > 0)]
+            known += [z3.Implies(self.term(y) < 0, self.term(angle) < 0)]
+        return known
+
+    def find(self, *contradictions: Any) -> tuple[str, dict[str, float] | None, float]:
+        """Return ("unsat", None, s), ("sat", a solution, s) or ("unknown", None, s)."""
+        solver = z3.Solver()
+        solver.set("timeout", 1000 * PATIENCE_S)
+        solver.add(*self.given, *contradictions)
+        began = time.perf_counter()
+        answer = str(solver.check())
+        seconds = time.perf_counter() - began
+        if answer != "sat":
+            return answer, None, seconds
+        solver.push()
+        solver.add(self.of["kp"] == 100, self.of["kv"] == 20)  # the paper's, where they show it too
+        if solver.check() != z3.sat:
+            solver.pop()
+            solver.check()
+        model = solver.model()
+        return answer, {name: _number(model.eval(one, model_completion=True)) for name, one in self.of.items()}, seconds
+
+
+def _number(value: Any) -> float:
+    if z3.is_algebraic_value(value):
+        value = value.approx(20)
+    return float(value.as_fraction())

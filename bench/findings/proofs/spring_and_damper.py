@@ -1,0 +1,117 @@
+"""A spring along the axis of the turn and a damper: u = Kp f(eta) eps - a omega + b (eps . omega) eps + g eps x omega.
+
+With dU/deta = -2 f and V = Kp U + |omega|^2/2 the terms of the spring cancel, and since |eps|^2 = 1 - eta^2
+
+    V' = -a |omega|^2 + b (eps . omega)^2 <= -min(a, a - (1 - eta^2) b) |omega|^2
+
+so that V falls where both are positive. A body that stays where V' = 0 has omega = 0 and f eps = 0: where f > 0, the goal
+alone (LaSalle). At eta = 0 a law without memory is at rest if f(0) = 0, and leaves it if f grows there; where f(0) > 0
+the command points to the goal on both sides.
+
+A law with memory acts on a side, q, of any eta; q changes to -q at eta <= -delta and is kept at eta >= -delta. A change
+takes 2 times the integral of f from -delta to delta, or more, from V/Kp. So there are finitely many.
+
+f, a, b, g and delta are what the law's own source gives. Source of the argument: Koditschek 1989; Mayhew, Sanfelice,
+Teel 2011.
+"""
+
+import math
+from collections.abc import Callable
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+import sympy as sp
+
+from bench.findings.proofs.body import QUATERNION, RATES, FreeBody, Tick
+from bench.findings.proofs.question import Question, find_least
+from bench.findings.proofs.solver import Lemma
+from bench.findings.proofs.theorem import DoesNotFit, Proof, Theorem
+from bench.findings.proofs.trace import Traced
+from bench.law.kinds import ON_MATRIX, Law
+from bench.law.so3 import IDENTITY, cross, dot
+
+ETA = sp.Symbol("w")
+FORM = "u = Kp f(eta) eps - a omega + b (eps . omega) eps + g eps x omega"
+
+
+class Command(NamedTuple):
+    """The command of one path, taken apart: functions of eta and the gains."""
+
+    f: Traced
+    a: Traced
+    b: Traced
+
+
+def take_apart(body: FreeBody, tick: Tick) -> Command:
+    """Return f, a and b of a command; refuse a command that is not of the form."""
+    eps, omega, kp = body.eps, body.omega, body.gains.kp
+    turned, across = cross(eps, omega), dot(eps, omega)
+    square, rates = dot(eps, eps), dot(omega, omega)
+    damping = tuple(u - still for u, still in zip(tick.u, tick.at_rest, strict=True))
+    f = dot(eps, tick.at_rest) / (kp * square)
+    a = (across * dot(eps, damping) - dot(omega, damping) * square) / (rates * square - across**2)
+    b = (dot(eps, damping) / across + a) / square
+    g = dot(turned, damping) / (rates * square - across**2)
+    for i in range(3):
+        if tick.u[i] != kp * f * eps[i] - a * omega[i] + b * across * eps[i] + g * turned[i]:
+            raise DoesNotFit(f"its command is not of the form {FORM}")
+    if any(body.mentions(one, *QUATERNION[1:], "b", "c", "d") for one in (f, a, b)) or body.mentions(f, *RATES):
+        raise DoesNotFit(f"f, a or b of {FORM} depend on the axis or on the goal")
+    return Command(f, a, b)
+
+
+def is_damped_less(body: FreeBody, one: Command, c: Fraction, is_along: bool) -> Any:
+    """Return the condition that the damping along or across eps is below c Kv; at most zero where c is zero."""
+    damping = one.a - (1 - body.eta**2) * one.b if is_along else one.a
+    return body.solver.is_below(damping - body.symbols.number(c) * body.gains.kv, c != 0)
+
+
+def find_rate(body: FreeBody, ask: Question) -> Fraction:
+    """Return the greatest c, to 0.01, with V' <= -c Kv |omega|^2."""
+
+    def is_held(lost: Fraction) -> bool:
+        ways = (lambda one, _, along=along: is_damped_less(body, one, 1 - lost, along) for along in (False, True))
+        return all(ask.never("", way).is_proved for way in ways)
+
+    return 1 - find_least(is_held, 100)
+
+
+def prove(law: Law) -> Proof:
+    """Prove descent, equilibria and changes of side of a law of this form."""
+    if law.law is None or law.state is not None or law.coordinates != ON_MATRIX:
+        raise DoesNotFit("it is no law on the rotation matrix without a state")
+    body = FreeBody(positive=() if law.memory is not None else ("w",))
+    ask = Question(body, law, take_apart)
+    c = find_rate(body, ask)
+    least = f">= {float(c):g} Kv" if c else "> 0"
+    lemmas = [
+        Lemma(FORM, True, "algebra", 0.0),
+        ask.never("f > 0 but at the goal", lambda one, side: body.solver.is_below(side * one.f, strictly=False)),
+        turn(ask.never(f"a {least}", lambda one, _: is_damped_less(body, one, c, False)), is_along=False),
+        turn(ask.never(f"a - (1 - eta^2) b {least}", lambda one, _: is_damped_less(body, one, c, True)), is_along=True),
+    ]
+    springs = {body.symbols.as_function(one.f, part.tick.path) for part in ask.parts if part.side > 0 for one in [part.taken]}
+    delta, drop, equilibria = None, None, "none"
+    if law.memory is not None:
+        delta = float(ask.delta)
+        drop = float(2 * sp.Integral(min(springs, key=str), (ETA, -ask.delta, ask.delta)).evalf())
+    elif min(sp.limit(one, ETA, 0, "+") for one in springs) == 0:
+        equilibria = "every 180° rotation"
+    f = ", ".join(sorted(sp.latex(sp.simplify(one.subs(ETA, sp.Symbol("eta")))) for one in springs))
+    V = rf"V = K_p U + \tfrac12|\omega|^2, \quad \mathrm dU/\mathrm d\eta = -2 f, \quad f = {f}"
+    stands = "almost global" if law.memory is None else "global with memory"
+    return Proof(THEOREM.name, stands, [*lemmas, *ask.changes_of_side()], V, equilibria, float(c), delta, drop)
+
+
+def turn(lemma: Lemma, is_along: bool) -> Lemma:
+    """Let the body of a counterexample turn along eps or across it, by 5 rad/s."""
+    if lemma.counterexample is None:
+        return lemma
+    eps = [lemma.counterexample[name] for name in QUATERNION[1:]]
+    direction = eps if is_along else cross(eps, min(IDENTITY, key=lambda axis: abs(dot(axis, eps))))
+    size = math.sqrt(dot(direction, direction))
+    omega = {name: 5.0 * one / size for name, one in zip(RATES, direction, strict=True)}
+    return lemma._replace(counterexample=lemma.counterexample | omega)
+
+
+THEOREM = Theorem("spring-and-damper", "A spring along the axis of the turn, and a damper", prove)

@@ -1,0 +1,74 @@
+"""What a theorem is, what became of it for a law, and the theorems there are: one file each beside this one."""
+
+import importlib
+import pkgutil
+import time
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from bench.findings import proofs
+from bench.findings.proofs.solver import Lemma
+from bench.law.kinds import Law
+
+
+class DoesNotFit(Exception):
+    """A law that is not of a theorem's form; the reason is its text."""
+
+
+class Proof(NamedTuple):
+    """What a theorem says of one law.
+
+    property: what its lemmas prove if all hold, as a law's file writes it. lemmas: in order. V: the function that falls,
+    in TeX. equilibria: away from the goal. rate: the greatest found c, to 0.01, of V' <= -c Kv |omega|^2; None if V
+    falls otherwise. delta: -eta where a side that is kept ends; drop: what a change of side takes from V, over Kp.
+    """
+
+    theorem: str
+    property: str
+    lemmas: list[Lemma]
+    V: str
+    equilibria: str = "none"
+    rate: float | None = None
+    delta: float | None = None
+    drop: float | None = None
+    seconds: float = 0.0
+
+    @property
+    def is_proved(self) -> bool:
+        """Whether every lemma holds."""
+        return all(one.is_proved for one in self.lemmas)
+
+
+class Theorem(NamedTuple):
+    """prove(law) -> Proof; raises DoesNotFit. laws: the names for which it is made; empty if it fits by form alone."""
+
+    name: str
+    title: str
+    prove: Callable[[Law], Proof]
+    laws: tuple[str, ...] = ()
+
+
+def list_theorems() -> list[Theorem]:
+    """Return the THEOREM of every file beside this one that has one."""
+    modules = (importlib.import_module(f"{proofs.__name__}.{one.name}") for one in pkgutil.iter_modules(proofs.__path__))
+    return [module.THEOREM for module in modules if hasattr(module, "THEOREM")]
+
+
+def prove(law: Law) -> Proof | None:
+    """Prove what the first theorem that fits says of a law; None if none fits."""
+    for theorem in sorted(list_theorems(), key=lambda one: law.name not in one.laws):
+        if theorem.laws and law.name not in theorem.laws:
+            continue
+        began = time.perf_counter()
+        try:
+            proof = theorem.prove(law)
+        except DoesNotFit:
+            continue
+        return proof._replace(seconds=time.perf_counter() - began)
+    return None
+
+
+def by_algebra(statement: str, difference: Any) -> Lemma:
+    """Return a lemma that two expressions are equal: their difference is zero in normal form."""
+    parts = difference if isinstance(difference, tuple | list) else (difference,)
+    return Lemma(statement, all(part == 0 for part in parts), "algebra", 0.0)
