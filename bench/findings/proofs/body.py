@@ -6,7 +6,6 @@ A law is called with R = E^T R_d. Where its answer, in normal form, does not men
 for every goal.
 """
 
-import functools
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any, NamedTuple
 
@@ -42,7 +41,7 @@ class FreeBody:
         self,
         positive: tuple[str, ...] = (),
         more: tuple[str, ...] = (),
-        constants: Mapping[float, str] | None = None,
+        constants: Mapping[float, Any] | None = None,
         goal_frame: bool = False,
     ) -> None:
         names = ("x", "w", "y", "z", *RATES, "kp", "kv", *GOAL, "size", *more)
@@ -53,7 +52,7 @@ class FreeBody:
         self.q, self.omega = self.symbols[QUATERNION], self.symbols[RATES]
         self.eta, self.eps, self.gains = self.q[0], self.q[1:], Gains(symbol["kp"], symbol["kv"])
         self.R_d, E = from_quaternion(self.symbols[GOAL]), from_quaternion(self.q)
-        self.goal_frame = goal_frame
+        self.goal_frame, self.goal = goal_frame, Goal(self.R_d)
         if goal_frame:
             back = Rotation(*(tuple(row) for row in zip(*E, strict=True)))
             self.R = Rotation(*(rotate(self.R_d, column) for column in back))
@@ -63,7 +62,7 @@ class FreeBody:
 
     def command(self, law: Callable, rates: tuple, *memory: Any) -> Any:
         """Call a law at this body's orientation, with rates that are given in the frame of q."""
-        answer = law(self.R, rotate(self.R_d, rates) if self.goal_frame else rates, Goal(self.R_d), self.gains, *memory)
+        answer = law(self.R, rotate(self.R_d, rates) if self.goal_frame else rates, self.goal, self.gains, *memory)
         if not self.goal_frame:
             return answer
         return (rotate_back(self.R_d, answer[0]), answer[1]) if memory else rotate_back(self.R_d, answer)
@@ -101,14 +100,9 @@ class FreeBody:
             **dict(zip(RATES, u, strict=True)),
             **(more or {}),
         }
-        gens = {str(one): one for one in self.symbols.field.gens}
-        return functools.reduce(
-            lambda sum_, name: sum_ + Traced(value.value.diff(gens[name]), self.symbols) * rates[name],
-            rates,
-            self.symbols.number(0),
-        )
+        terms = (self.symbols.derivative(value, name) * rate for name, rate in rates.items())
+        return sum(terms, self.symbols.number(0))
 
     def mentions(self, value: Traced, *names: str) -> bool:
         """Tell whether a value depends on any of these symbols."""
-        gens = {str(one): one for one in self.symbols.field.gens}
-        return any(value.value.diff(gens[name]) != 0 for name in names)
+        return any(self.symbols.derivative(value, name) != 0 for name in names)

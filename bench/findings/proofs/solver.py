@@ -58,6 +58,11 @@ class Solver:
             known += [z3.Implies(self.term(y) < 0, self.term(angle) < 0)]
         return known
 
+    def never(self, statement: str, known: list[Any], fault: Any) -> Lemma:
+        """Return the lemma that no state has a fault."""
+        answer, state, seconds = self.find(*known, fault)
+        return Lemma(statement, answer == "unsat", "Z3", seconds, state)
+
     def find(self, *contradictions: Any) -> tuple[str, dict[str, float] | None, float]:
         """Return ("unsat", None, s), ("sat", a solution, s) or ("unknown", None, s)."""
         solver = z3.Solver()

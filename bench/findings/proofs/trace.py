@@ -44,17 +44,17 @@ class Path(NamedTuple):
 class Symbols:
     """The field of rational functions in which laws are traced, with relations g^2 = polynomial of its symbols.
 
-    constants: float -> symbol, of constants of a law that are no short decimals.
+    constants: float -> the symbol or the fraction that it stands for, of constants that are no short decimals.
     """
 
     def __init__(
-        self, names: tuple[str, ...], positive: tuple[str, ...] = (), constants: Mapping[float, str] | None = None
+        self, names: tuple[str, ...], positive: tuple[str, ...] = (), constants: Mapping[float, str | Fraction] | None = None
     ) -> None:
         self.field = FracField((*ROOTS, *ANGLES, *COSINES, *SINES, *names), QQ, lex)
         self.of = {str(one): Traced(one, self) for one in self.field.gens}
         self.ring = self.field.ring
         self.positive = [self.of[name].value.numer for name in positive]
-        self.constants = {value: self.of[name] for value, name in (constants or {}).items()}
+        self.constants = dict(constants or {})
         self.relations: list[PolyElement] = []
         self.begin([])
 
@@ -162,10 +162,15 @@ class Symbols:
         """Return a number as a value: a float as the decimal that it is written as."""
         if isinstance(value, Traced):
             return value
-        if value in self.constants:
-            return self.constants[value]
+        value = self.constants.get(value, value)
+        if isinstance(value, str):
+            return self.of[value]
         exact = Fraction(repr(value)) if isinstance(value, float) else Fraction(value)
         return Traced(self.field(QQ(exact.numerator, exact.denominator)), self)
+
+    def derivative(self, value: "Traced", name: str) -> "Traced":
+        """Return the partial derivative by a symbol; roots and angles count as constants."""
+        return Traced(self.reduce(value.value.diff(self.of[name].value)), self)
 
     def as_function(self, value: "Traced", path: Path) -> Any:
         """Return a value as sympy has it, roots and angles written out."""

@@ -1,0 +1,60 @@
+"""A law without a measured rate: a frame F follows the body, and the body is damped by what F lags behind.
+
+In the goal's axes let q be the turn from R to R_d, p the quaternion of F and r that of R. With cos(theta/2) = w and
+cos(theta_F/2) = p . r,
+
+    V = 2 Kp (1 - w^2) + 4 Kv^2 (1 - (p . r)^2) + |omega|^2/2        V' = -c Kv |omega_F|^2
+
+omega_F is the rate at which the law turns F, and c a positive number. A body that stays where V' = 0 has a frame that
+rests, so that theta_F is constant, 0 or 180°, and the body rests too: u = 0, and sin(theta) = 0.
+
+Source: Lizarralde & Wen 1996; Tayebi 2008.
+"""
+
+from bench.findings.proofs.body import GOAL, FreeBody
+from bench.findings.proofs.solver import Lemma
+from bench.findings.proofs.theorem import Proof, Theorem
+from bench.law.kinds import Law
+from bench.law.so3 import dot, rotate_back
+
+FRAME = ("p_w", "p_x", "p_y", "p_z")
+
+
+def multiply(p: tuple, q: tuple) -> tuple:
+    """Return the product of two quaternions."""
+    (a, b, c, d), (w, x, y, z) = p, q
+    return (
+        a * w - b * x - c * y - d * z,
+        a * x + b * w + c * z - d * y,
+        a * y - b * z + c * w + d * x,
+        a * z + b * y - c * x + d * w,
+    )
+
+
+def conjugate(q: tuple) -> tuple:
+    """Return (w, -x, -y, -z)."""
+    return (q[0], -q[1], -q[2], -q[3])
+
+
+def prove(law: Law) -> Proof:
+    """Prove descent of a body and its frame."""
+    body = FreeBody(more=FRAME, goal_frame=True)
+    symbol, (kp, kv) = body.symbols.of, body.gains
+    p, goal = body.symbols[FRAME], body.symbols[GOAL]
+    body.symbols.relate("p_w", 1 - p[1] ** 2 - p[2] ** 2 - p[3] ** 2)
+    state = tuple(symbol["size"] * one for one in multiply(goal, p))
+    (path,) = body.symbols.paths(lambda: law.law(body.R, body.omega, body.goal, body.gains, state))  # type: ignore[misc]
+    u, rate = path.answer
+    u = rotate_back(body.R_d, u)
+    moved = tuple(one / symbol["size"] for one in multiply(conjugate(goal), rate))
+    turning = tuple(2 * one for one in multiply(moved, conjugate(p))[1:])
+    following = sum((one * other for one, other in zip(p, conjugate(body.q), strict=True)), body.symbols.number(0))
+    V = 2 * kp * (1 - body.eta**2) + 4 * kv**2 * (1 - following**2) + body.symbols.number(0.5) * dot(body.omega, body.omega)
+    falls = body.derive(V, u, dict(zip(FRAME, moved, strict=True)))
+    ratio = (-falls / (kv * dot(turning, turning))).value
+    lemmas = [Lemma("V' = -c Kv |omega_F|^2, c constant and positive", ratio.numer.is_ground and ratio.numer.LC > 0, "algebra", 0.0)]
+    shown = r"V = 2 K_p (1 - \eta^2) + 4 K_v^2 (1 - \eta_F^2) + \tfrac12|\omega|^2"
+    return Proof(THEOREM.name, "almost global", lemmas, shown, "every 180° rotation")
+
+
+THEOREM = Theorem("following-frame", "A frame that follows the body, in place of its rate", prove, ("velocity-free",))
