@@ -68,7 +68,7 @@ class FreeBody:
         return (rotate_back(self.R_d, answer[0]), answer[1]) if memory else rotate_back(self.R_d, answer)
 
     def ticks(self, law: Law, memory: tuple | None = None) -> Iterator[Tick]:
-        """Return what a law answers on every path on which Z3 finds a state; memory: (w, v), by default on q's side."""
+        """Return what a law answers on every path, by default with a memory (w, v) on q's side where Z3 finds a state."""
         held = memory or tuple(self.symbols.of["size"] * one for one in self.q)
         given = (held,) if law.memory is not None else ()
         rest = tuple(self.symbols.number(0) for _ in range(3))
@@ -77,7 +77,7 @@ class FreeBody:
             return self.command(law.law, rest, *given), self.command(law.law, self.omega, *given)  # type: ignore[arg-type]
 
         for path in self.symbols.paths(call):
-            if self.solver.find(*self.solver.condition(path), self.is_turned())[0] == "unsat":
+            if not memory and self.solver.find(*self.solver.condition(path), self.is_turned())[0] == "unsat":
                 continue
             still, moving = path.answer
             if law.memory is None:

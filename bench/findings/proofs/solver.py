@@ -77,7 +77,8 @@ class Solver:
         solver.add(self.of["kp"] == 100, self.of["kv"] == 20)  # the paper's, where they show it too
         if solver.check() != z3.sat:
             solver.pop()
-            solver.check()
+            if solver.check() != z3.sat:
+                return answer, None, seconds
         model = solver.model()
         return answer, {name: _number(model.eval(one, model_completion=True)) for name, one in self.of.items()}, seconds
 

@@ -30,8 +30,8 @@ class Decision(NamedTuple):
 class Path(NamedTuple):
     """answer: what the function returned, in symbols. decisions: under which conditions.
 
-    relations: polynomials that are zero. meanings: what roots, angles, cosines and sines stand for. signs: (y, angle) of
-    angles that have the sign of y.
+    relations: polynomials that are zero. meanings: what roots and angles stand for. signs: (y, angle) of angles that have
+    the sign of y. turns: the angles whose cosines and sines are symbols.
     """
 
     answer: Any
@@ -39,6 +39,7 @@ class Path(NamedTuple):
     relations: list[PolyElement]
     meanings: dict[str, Any]
     signs: list[tuple]
+    turns: list["Traced"]
 
 
 class Symbols:
@@ -72,7 +73,11 @@ class Symbols:
         self.meanings: dict[str, Any] = {}
         self.roots: dict[PolyElement, Traced] = {}
         self.angles: dict[tuple, Traced] = {}
-        self.circles: dict[Any, tuple[Traced, Traced]] = {}
+        self.turns: list[Traced] = []
+
+    def enter(self, path: Path) -> None:
+        """Take up the relations of a path again."""
+        self.own_relations = path.relations
 
     def reduce(self, value: Any) -> Any:
         """Return the normal form of a quotient modulo the relations."""
@@ -152,11 +157,12 @@ class Symbols:
 
     def circle_of(self, angle: "Traced") -> tuple["Traced", "Traced"]:
         """Return (cosine, sine) of an angle as symbols with cosine^2 + sine^2 = 1."""
-        if angle.value not in self.circles:
-            cosine, sine = self.of[COSINES[len(self.circles)]], self.of[SINES[len(self.circles)]]
-            self.circles[angle.value] = (cosine, sine)
+        if all(angle != one for one in self.turns):
+            self.turns.append(angle)
+            cosine, sine = self.of[COSINES[len(self.turns) - 1]], self.of[SINES[len(self.turns) - 1]]
             self.own_relations.append((cosine**2 + sine**2 - 1).value.numer)
-        return self.circles[angle.value]
+        place = next(i for i, one in enumerate(self.turns) if one == angle)
+        return self.of[COSINES[place]], self.of[SINES[place]]
 
     def number(self, value: Any) -> "Traced":
         """Return a number as a value: a float as the decimal that it is written as."""
@@ -183,7 +189,7 @@ class Symbols:
             self.begin(script)
             answer = function()
             signs = [(y.numer * y.denom, self.angles[y, x].value.numer) for y, x in self.angles]
-            yield Path(answer, list(self.decisions), list(self.own_relations), dict(self.meanings), signs)
+            yield Path(answer, list(self.decisions), list(self.own_relations), dict(self.meanings), signs, list(self.turns))
             taken = self.taken
             while taken and not taken[-1]:
                 taken = taken[:-1]
