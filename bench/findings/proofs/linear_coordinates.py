@@ -54,4 +54,4 @@ def prove(law: Law) -> Proof:
     return Proof(THEOREM.name, "global with memory", lemmas, V, "none", 1.0, delta, drop)
 
 
-THEOREM = Theorem("linear-coordinates", "Coordinates that obey a linear equation", prove)
+THEOREM = Theorem("linear-coordinates", "Coordinates that obey a linear equation", prove, order=2)

@@ -67,4 +67,4 @@ def prove(law: Law) -> Proof:
     return Proof(THEOREM.name, "almost global", lemmas, V, "180° rotations about n_d, o_d and a_d", 1.0)
 
 
-THEOREM = Theorem("quadratic-potential", "A potential that is quadratic in the quaternion, and a damper", prove)
+THEOREM = Theorem("quadratic-potential", "A potential that is quadratic in the quaternion, and a damper", prove, order=1)

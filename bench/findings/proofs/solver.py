@@ -8,6 +8,7 @@ import z3
 from sympy.polys.rings import PolyElement
 
 from bench.findings.proofs.trace import Path, Symbols, Traced
+from bench.law.inputs import PAPERS_GAINS
 
 PATIENCE_S = 60
 """After which Z3 gives up on one inequality."""
@@ -74,7 +75,8 @@ class Solver:
         if answer != "sat":
             return answer, None, seconds
         solver.push()
-        solver.add(self.of["kp"] == 100, self.of["kv"] == 20)  # the paper's, where they show it too
+        papers = zip(("kp", "kv"), map(z3.RealVal, PAPERS_GAINS), strict=True)  # if they show it too
+        solver.add(*(self.of[name] == value for name, value in papers if name in self.of))
         if solver.check() != z3.sat:
             solver.pop()
             if solver.check() != z3.sat:

@@ -40,32 +40,40 @@ class Proof(NamedTuple):
 
 
 class Theorem(NamedTuple):
-    """prove(law) -> Proof; raises DoesNotFit. laws: the names for which it is made; empty if it fits by form alone."""
+    """prove(law) -> Proof; raises DoesNotFit.
+
+    laws: the names for which it is made; empty if it fits by form alone. order: in which those are tried, the cheap first.
+    """
 
     name: str
     title: str
     prove: Callable[[Law], Proof]
     laws: tuple[str, ...] = ()
+    order: int = 0
 
 
 def list_theorems() -> list[Theorem]:
     """Return the THEOREM of every file beside this one that has one."""
     modules = (importlib.import_module(f"{proofs.__name__}.{one.name}") for one in pkgutil.iter_modules(proofs.__path__))
-    return [module.THEOREM for module in modules if hasattr(module, "THEOREM")]
+    found = [module.THEOREM for module in modules if hasattr(module, "THEOREM")]
+    return sorted(found, key=lambda one: one.order)
 
 
 def prove(law: Law) -> Proof | None:
-    """Prove what the first theorem that fits says of a law; None if none fits."""
-    for theorem in sorted(list_theorems(), key=lambda one: law.name not in one.laws):
-        if theorem.laws and law.name not in theorem.laws:
-            continue
+    """Prove what a theorem says of a law: the one made for it, or the first that holds of those that it fits."""
+    first = None
+    named = [one for one in list_theorems() if law.name in one.laws]
+    for theorem in named or [one for one in list_theorems() if not one.laws]:
         began = time.perf_counter()
         try:
             proof = theorem.prove(law)
         except DoesNotFit:
             continue
-        return proof._replace(seconds=time.perf_counter() - began)
-    return None
+        proof = proof._replace(seconds=time.perf_counter() - began)
+        if proof.is_proved:
+            return proof
+        first = first or proof
+    return first
 
 
 def by_algebra(statement: str, difference: Any) -> Lemma:

@@ -57,6 +57,7 @@ class Symbols:
         self.positive = [self.of[name].value.numer for name in positive]
         self.constants = dict(constants or {})
         self.relations: list[PolyElement] = []
+        self.known_angles: dict[tuple, Traced] = {}
         self.begin([])
 
     def __getitem__(self, names: tuple[str, ...]) -> tuple:
@@ -66,13 +67,17 @@ class Symbols:
         """Let the square of a symbol be a polynomial."""
         self.relations.append((self.of[square_of] ** 2 - polynomial).value.numer)
 
+    def know_angle(self, name: str, y: "Traced", x: "Traced") -> None:
+        """Let a symbol be atan2(y, x) on every path."""
+        self.known_angles[y, x] = self.of[name]
+
     def begin(self, script: list[bool]) -> None:
         """Forget the path before, and take the next one's first decisions from a list."""
         self.script, self.taken, self.decisions = script, [], []
         self.own_relations: list[PolyElement] = []
         self.meanings: dict[str, Any] = {}
         self.roots: dict[PolyElement, Traced] = {}
-        self.angles: dict[tuple, Traced] = {}
+        self.angles: dict[tuple, Traced] = dict(self.known_angles)
         self.turns: list[Traced] = []
 
     def enter(self, path: Path) -> None:
@@ -122,6 +127,9 @@ class Symbols:
             outside = outside * self.number(Fraction(*roots))
         else:
             inside = inside * constant
+        symbol = self._symbol_of_square(inside)
+        if symbol is not None and symbol[0] == 1:
+            return outside * abs(symbol[1])
         return outside if inside == 1 else outside * self._root_symbol(inside)
 
     def _symbol_of_square(self, factor: PolyElement) -> tuple | None:
@@ -144,16 +152,20 @@ class Symbols:
 
     def angle_of(self, y: "Traced", x: "Traced") -> "Traced":
         """Return atan2(y, x) as a symbol, the same for every positive multiple of both."""
+        for (y_0, x_0), symbol in self.angles.items():
+            if y * x_0 == x * y_0 and not self.is_negative(x * x_0):
+                return symbol
         common = y.value.numer.gcd(x.value.numer)
-        scale = self.field(common) / self.field(y.value.denom)
-        if x.value.denom != y.value.denom or self.is_negative(Traced(scale, self)):
-            scale = -scale if x.value.denom == y.value.denom else self.field(1)
-        key = (y.value / scale, x.value / scale)
-        if key not in self.angles:
-            name = ANGLES[len(self.angles)]
-            self.angles[key] = self.of[name]
-            self.meanings[name] = sp.atan2(*(part.as_expr() for part in key))
-        return self.angles[key]
+        scale = self.number(0)._with(self.field(common) / self.field(y.value.denom))
+        if x.value.denom != y.value.denom:
+            scale = self.number(1)
+        elif self.is_negative(scale):
+            scale = -scale
+        name = ANGLES[len(self.angles)]
+        of = y / scale, x / scale
+        self.angles[of] = self.of[name]
+        self.meanings[name] = sp.atan2(*(one.value.as_expr() for one in of))
+        return self.angles[of]
 
     def circle_of(self, angle: "Traced") -> tuple["Traced", "Traced"]:
         """Return (cosine, sine) of an angle as symbols with cosine^2 + sine^2 = 1."""
@@ -188,7 +200,7 @@ class Symbols:
         while script is not None:
             self.begin(script)
             answer = function()
-            signs = [(y.numer * y.denom, self.angles[y, x].value.numer) for y, x in self.angles]
+            signs = [(y.value.numer * y.value.denom, one.value.numer) for (y, _), one in self.angles.items()]
             yield Path(answer, list(self.decisions), list(self.own_relations), dict(self.meanings), signs, list(self.turns))
             taken = self.taken
             while taken and not taken[-1]:
@@ -254,7 +266,7 @@ class Traced:
     def __eq__(self, other: object) -> bool:
         return not self._with(self.value - self._other(other)).value
 
-    __hash__ = None  # type: ignore[assignment]  # two quotients may be equal by a relation alone
+    __hash__ = object.__hash__
 
     def __repr__(self) -> str:
         return str(self.value)
