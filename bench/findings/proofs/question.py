@@ -62,7 +62,7 @@ class Question:
         """Return the lemmas on where a side is kept and where it changes; none of a law without memory."""
         if not self.has_memory:
             return []
-        kept, changed = -float(min(self.delta, Fraction(99, 100))), -float(self.delta)
+        kept, changed = 0.0 - float(min(self.delta, Fraction(99, 100))), 0.0 - float(self.delta)
         return [
             self.never(f"a side is kept at eta >= {kept:g} alone", lambda *_: self.eta < kept, (1,)),
             self.never(f"a side changes at eta <= {changed:g} alone", lambda *_: self.eta > changed, (-1,)),

@@ -36,7 +36,7 @@ from bench.law.kinds import Law
 from bench.law.so3 import IDENTITY, Rotation, from_quaternion
 from tasks.rules import RULES
 
-ORDER, TERMS, PARTS = 9, 14, 16
+ORDER, TERMS, PARTS, ACCURACY = 9, 14, 16, 1e-5
 STEP_S, SHORTEST_S, LONGEST_S, WIDTH_S, NARROWEST_RAD = 0.02, 0.001, 1.2, 5e-4, 1e-4
 Z, V, C, S, P = sp.symbols("z v c s P")
 
@@ -198,7 +198,7 @@ class Flow:
         """Return the polynomials of one step of [0, h], and an enclosure of v over it.
 
         Errors:
-            Unenclosed: no enclosure of the step was found.
+            Unenclosed: no enclosure of the step was found, or a wide one: shorten the step.
         """
         during = arb(0).union(h)
         grows = (self.a * during).exp()
@@ -213,12 +213,14 @@ class Flow:
             box = [one + arb(0, 0.2 * float(one.rad()) + 1e-12) for one in box]
         else:
             raise Unenclosed
-        box = image
+        box = image  # tighter, and an enclosure too
         near, over = self.expand(begin, arb(1)), self.expand(box, grows)
         joined = [
             Polynomials(*([*part[:-1], rest[-1]] for part, rest in zip(one, whole, strict=True)))
             for one, whole in zip(near, over, strict=True)
         ]
+        if any(float((one.upsilon[-1] * h**ORDER).rad()) > ACCURACY for one in joined):
+            raise Unenclosed
         return joined, (box[1] - self.a * box[0]) / grows
 
 
@@ -244,10 +246,10 @@ def enclose(equation: Equation, a: arb, p: tuple[float, float], tolerance: arb) 
         try:
             (path,), _ = one.step(centre, arb(h))
             (_, drift), v = all_.step([*begin, *change], arb(h))
-        except Unenclosed:
+        except (Unenclosed, ValueError):  # flint's ValueError: it would divide by an interval that holds zero
             h = h / 2
             if h < SHORTEST_S:
-                raise
+                raise Unenclosed from None
             continue
 
         def angle(t: float, path: Polynomials = path, drift: Polynomials = drift) -> arb:
@@ -267,7 +269,7 @@ def enclose(equation: Equation, a: arb, p: tuple[float, float], tolerance: arb) 
     raise Unenclosed
 
 
-def bound_settling(law: Law, gains: Gains = PAPERS_GAINS) -> Bound:
+def bound(law: Law, gains: Gains = PAPERS_GAINS) -> Bound:
     """Return bounds of the longest settling time from rest, WIDTH_S apart.
 
     Errors:
@@ -275,6 +277,11 @@ def bound_settling(law: Law, gains: Gains = PAPERS_GAINS) -> Bound:
     """
     tolerance, a = arb(str(RULES.tolerance)), arb(gains.kv) / 2
     equation = make_equation(law, gains, tolerance)
+    c, s, *_ = turned_by(arb(1), arb.pi() ** 2)
+    from_180 = a**2 - equation.N(arb("0.5") - arb.pi() ** 2 * s, arb(0), c, s, arb.pi() ** 2)
+    if not from_180 > 0:
+        is_dead = from_180.is_finite()
+        raise DoesNotFit("a 180° rotation is an equilibrium" if is_dead else "its command has no bound at 180°")
     ends = [k * math.pi / PARTS for k in range(PARTS)] + [math.pi]
     lower, waiting, count = 0.0, [], 0
     for begin, end in itertools.pairwise(ends):
