@@ -21,14 +21,14 @@ KP, KV, H, A, K, T, ROOT = sp.symbols("kp kv h a K T z", positive=True)
 def held_loop() -> sp.Poly:
     """Return the polynomial of the second-order loop: the double integrator, held for h, with its feedback."""
     free, pushed = sp.Matrix([[1, H], [0, 1]]), sp.Matrix([H**2 / 2, H])
-    return sp.Poly((free - pushed * sp.Matrix([[KP, KV]])).charpoly(ROOT).as_expr(), ROOT)
+    return sp.Poly((ROOT * sp.eye(2) - free + pushed * sp.Matrix([[KP, KV]])).det(), ROOT)
 
 
 def lagged_loop() -> sp.Poly:
     """Return the polynomial of e' = -w, T w' = K e - w over one tick, K e held, with a = exp(-h/T)."""
     free = sp.Matrix([[1, -T * (1 - A)], [0, A]])
     pushed = sp.Matrix([-(H - T * (1 - A)), 1 - A])
-    return sp.Poly((free + pushed * sp.Matrix([[K, 0]])).charpoly(ROOT).as_expr(), ROOT)
+    return sp.Poly((ROOT * sp.eye(2) - free - pushed * sp.Matrix([[K, 0]])).det(), ROOT)
 
 
 def prove_loops() -> list[Lemma]:
