@@ -5,7 +5,7 @@
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help setup setup-cluster bench bench-quick time libraries report test check lint gate regress reference lock
+.PHONY: help setup setup-cluster bench bench-quick time prove libraries report test check lint gate regress reference lock
 .PHONY: clean audit judge history edition
 
 SHELL := /bin/sh
@@ -51,6 +51,8 @@ bench-quick: $(READY) ## run the quick suite into results/quick (minutes)
 	@$(PY) -m bench show results/quick
 time: $(READY) ## time every law per control tick on this machine: results/timings
 	@$(PY) -m bench time $(ARGS)
+prove: $(DEV) ## prove what the laws' files call global, from their source (minutes): results/proofs
+	@$(PY) -m bench prove --out results/proofs/proofs.json $(ARGS)
 libraries: .venv-libraries/.made $(APART:%=.venv-%/.made) ## compare other robot libraries (5 GB): results/libraries
 	@.venv-libraries/bin/python -m bench.studies.libraries $(ARGS)
 	@for name in $(APART); do .venv-$$name/bin/python -m bench.studies.libraries $$name || exit; done

@@ -1,7 +1,5 @@
 """`judge`: say what one law does, and why."""
 
-from pathlib import Path
-
 import rich_click as click
 from click.exceptions import Exit
 
@@ -10,7 +8,6 @@ from bench.cli import options
 from bench.cli.paragraphs import Paragraph, print_paragraphs
 from bench.cli.screen import console, counted, examples, frame_table
 from bench.findings.judgement import Judgement
-from bench.law.contenders import registry
 
 
 @click.command("judge", epilog=examples("judge"))
@@ -28,12 +25,11 @@ def COMMAND(law: str, law_limit: float) -> None:
     lists the laws of results/reference that are nearest to yours in two numbers: the pull towards the goal at 90
     degrees, and the median settling time from uniform starts.
     """
-    is_file = Path(law).suffix or Path(law).exists()
-    own = options.own_laws((Path(law),)) if is_file else (registry.regulator(law),)
+    own = options.find_law(law)
     from bench.findings.judged import judged  # after the file is known to hold a law, for it takes a second
 
     with console(stderr=True).status("compiling and judging"):
-        judgements = judged(own, law_limit)
+        judgements = judged((own,), law_limit)
     for one in judgements:
         print_judgement(one)
     if any(one.faults or one.is_lost for one in judgements):

@@ -112,6 +112,12 @@ def own_laws(files: Files) -> tuple[Law, ...]:
     return own
 
 
+def find_law(word: str) -> Law:
+    """Return the law of a name, or of a user's file."""
+    is_file = Path(word).suffix or Path(word).exists()
+    return own_laws((Path(word),))[0] if is_file else registry.regulator(word)
+
+
 def chosen(files: Files, regulators: Words, representations: Words, costings: bool = False) -> list[Contender]:
     """Return the contenders that the options name; without names, all (the user's own included)."""
     own = own_laws(files)

@@ -34,7 +34,7 @@ REGULATOR = Law(
     source="Paielli & Bach 1993",
     formula=r"u = (2 K_p - \tfrac{1}{2}|\omega|^2)\, s/(1 + t) - K_v\,\omega",
     law=law,
-    property="almost global",
+    property="almost global from rest",
     margin=half_cosine_squared,
     later=True,
     display=Display("Paielli–Bach", Look("yellow", "d", "solid"), "On the quaternion", LINEAR_SINE),
