@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 from support.bits import different_rows, same_bits
-from support.driving import recorder, settings
+from support.driving import ARM_METRICS, METRICS, recorder, settings
 
 import tasks
 from bench.engines.curve import ARM_NUMBERS, NUMBERS, blank_curves
 from bench.engines.episode import TICKS
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
 from bench.engines.simulate_arms import run_arm
 from bench.law.contenders import combinations
@@ -16,7 +15,6 @@ from bench.law.contenders.registry import find_contender
 
 LAW, ARM = "feedback-linearized/zyx-euler", "puma560"
 CHOSEN = settings(horizon_s=0.1)
-METRICS = metrics_of(on_arm=False)
 
 
 def flat(sample) -> tuple:
@@ -46,7 +44,7 @@ def test_curve_of_an_arm_is_what_dm_controls_loop_shows_a_metric_bit_for_bit():
     starts = tasks.start_set("clear", 2, arm=ARM)
     curves = blank_curves(2, 10, 5, ARM_NUMBERS)
     given = "arm-regulation", ARM, starts, settings(horizon_s=0.05)
-    run_arm("native", one, *given, metrics_of(on_arm=True), curves=curves)
+    run_arm("native", one, *given, ARM_METRICS, curves=curves)
     kept = []
     run_arm("reference", one, *given, [recorder(kept)])
     expected = []

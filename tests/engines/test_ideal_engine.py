@@ -8,21 +8,19 @@ import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
 from support.bodies import path, regulated
-from support.driving import settings
+from support.driving import METRICS, settings
 from support.states import as_rotation, matrix, of_scipy, vector
 
 import tasks
 from bench.engines import ideal
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.episode import FIRST_METRIC, OUTCOME, SETTLING_TICK
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
 from bench.law.contenders.registry import find_contender
 from tasks.base import Start
 from tasks.rotations import zyx
 from tasks.verdict import SETTLED
 
-METRICS = metrics_of(on_arm=False)
 COUNT = 20
 HORIZON = 3.0
 PATH = [NUMBERS.index(name) for name in (*(f"{v}_{x}" for v in ("omega", "n", "o", "a") for x in "xyz"),)]

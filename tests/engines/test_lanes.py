@@ -10,14 +10,13 @@ import numba
 import numpy as np
 import pytest
 from support.bits import different_rows, same_bits
-from support.driving import compile_into_cache, settings, spread
+from support.driving import METRICS, compile_into_cache, settings, spread
 
 from bench.engines import lanes
 from bench.engines import simulate as engines
 from bench.engines.binding import evaluation_of, observer
 from bench.engines.curve import blank_curves
 from bench.engines.episode import FIRST_METRIC, OUTCOME, TICKS, start_rows
-from bench.engines.metrics.registry import metrics_of
 from bench.law.contenders.registry import all_contenders, find_contender
 from bench.law.inputs import Gains
 from tasks.base import Start
@@ -25,7 +24,6 @@ from tasks.rotations import about, short_of_180_degrees
 from tasks.rules import RULES
 from tasks.verdict import DIVERGED, SATURATED, SETTLED, SINGULAR
 
-METRICS = metrics_of(on_arm=False)
 IDEAL = tuple(lanes.STEPS)
 LAWS = [one for one in all_contenders() if not one.regulator.in_engine]
 AXIS = (0.48, -0.6, 0.64)

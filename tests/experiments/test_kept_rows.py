@@ -3,13 +3,12 @@
 import numpy as np
 import pandas as pd
 import pytest
-from support.driving import settings
+from support.driving import METRICS, settings
 from support.user_law import DAMPER, law_text
 
 import tasks
 from bench.engines import cache, counting
 from bench.engines.curve import NUMBERS, blank_curves
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
 from bench.experiments import plan, starts, traces
 from bench.experiments import plan as planning
@@ -95,7 +94,7 @@ def rerun(law, start_set, start_id, horizon_s=20.0):
     """Return (samples, columns of the judge) of one episode, run alone."""
     [start] = [one for one in tasks.start_set(start_set) if one.id == start_id]
     samples, chosen = blank_curves(1, 200, 20), settings(horizon_s=horizon_s, hold_ticks=HOLD_TICKS)
-    rows = run("ideal-rk4", find_contender(law), "free-body", [start], chosen, metrics_of(False), curves=samples)
+    rows = run("ideal-rk4", find_contender(law), "free-body", [start], chosen, METRICS, curves=samples)
     return samples.samples[0], judged_columns(rows, chosen.dt_s)
 
 

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 from support.bits import different_rows
 from support.command_line import bench
-from support.driving import settings, spread
+from support.driving import METRICS, settings, spread
 from support.user_law import spring_text
 
 from bench.base.provenance import ROOT
 from bench.engines.episode import FAILURE_TICK, OUTCOME
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
 from bench.experiments.suites import ENGINES
 from bench.experiments.tables import read, store
@@ -24,7 +23,6 @@ from tasks.verdict import CRASHED, SINGULAR
 
 README = (ROOT / "README.md").read_text()
 EXAMPLE = next(code for code in re.findall(r"```python\n(.*?)```", README, re.DOTALL) if "REGULATOR" in code)
-METRICS = metrics_of(on_arm=False)
 ON_BODY = ("--regulator", "gibbs", "--task", "free-body")
 
 

@@ -4,11 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from support.driving import settings
+from support.driving import ARM_METRICS, settings
 from support.on_arms import named
 
 import tasks
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate_arms import run_arm as run
 from bench.experiments.episode_rows import frame
 from bench.experiments.experiment import Settings, Unit
@@ -196,14 +195,13 @@ def test_thresholds_themselves_are_not_near():
 
 
 ARM = "ur5e"
-METRICS = metrics_of(on_arm=True)
 
 
 def rows_of(word: str, starts, horizon_s: float = 3.0, engine: str = "native"):
     """The rows that a run would store."""
     one = named(ARM, word)
     unit = Unit("arm", one.name, "arm-regulation", ARM, engine, "clear", NOMINAL, horizon_s=horizon_s)
-    numbers = run(engine, one, unit.task, ARM, starts, settings(horizon_s=horizon_s), METRICS)
+    numbers = run(engine, one, unit.task, ARM, starts, settings(horizon_s=horizon_s), ARM_METRICS)
     return frame(Settings(), unit, starts, numbers)
 
 
