@@ -109,15 +109,12 @@ def test_some_episode_overshoots_and_some_does_not():
     assert max(found) > 0.05
 
 
-def test_min_margin_is_the_smallest_cosine_of_beta_measured_from_the_goal_where_the_law_is(start):
+def test_min_margin_is_the_smallest_cosine_of_beta_measured_from_the_goal_where_the_law_is_and_none_on_R(start):
     goal = ScipyRotation.from_quat(start.goal_wxyz, scalar_first=True)
     for word, frame in zip(LAWS[1:], (ScipyRotation.identity(), goal), strict=True):
         kept, found, _ = episode(word, start)
         margins = np.hypot(*frame.inv().apply([s.R.n for s in kept])[:, :2].T)
         assert found["min_margin"] == pytest.approx(margins.min(), abs=10 * EPS)
-
-
-def test_min_margin_is_no_number_for_a_law_without_coordinates(start):
     assert math.isnan(episode("rotation-matrix", start)[1]["min_margin"])
 
 

@@ -32,18 +32,18 @@ def frame(axis: str, angle: float, x=0.0, z=0.0) -> np.ndarray:
     return T
 
 
+def chain(transforms) -> np.ndarray:
+    return functools.reduce(np.matmul, transforms)
+
+
 def standard(q, a, d, alpha) -> np.ndarray:
     """Denavit and Hartenberg: Rz(q) Tz(d) Tx(a) Rx(alpha), joint after joint."""
-    return functools.reduce(
-        np.matmul, (frame("z", angle) @ frame("x", alpha[i], a[i], d[i]) for i, angle in enumerate(q))
-    )
+    return chain(frame("z", angle) @ frame("x", alpha[i], a[i], d[i]) for i, angle in enumerate(q))
 
 
 def modified(q, a, d, alpha) -> np.ndarray:
     """Craig: Rx(alpha) Tx(a) Rz(q) Tz(d), joint after joint."""
-    return functools.reduce(
-        np.matmul, (frame("x", alpha[i], a[i]) @ frame("z", angle, z=d[i]) for i, angle in enumerate(q))
-    )
+    return chain(frame("x", alpha[i], a[i]) @ frame("z", angle, z=d[i]) for i, angle in enumerate(q))
 
 
 # Corke (1995).
