@@ -59,13 +59,10 @@ def test_without_room_are_made_each_time(of, made, tmp_path):
     assert len(made) == 2
 
 
-def test_law_of_a_user_is_not_kept():
+def test_what_is_kept_is_what_is_counted_and_a_users_law_is_not_kept():
     own = LAW._replace(regulator=LAW.regulator._replace(name="nobody-s", origin="nobody_s.py"))
     assert count_operations(own) == counting.rows([own])
     assert not list((cache.FOLDER / "costs").glob("*nobody-s*"))
-
-
-def test_what_is_kept_is_what_is_counted():
     assert count_operations(LAW) == counting.rows([LAW])
     one = find_contender("rotation-matrix@geometric+solve")
     assert count_operations(one, 6) == counting.rows_on_arm(one, 6)
