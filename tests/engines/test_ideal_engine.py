@@ -83,16 +83,11 @@ def ours(word, dt_s):
 
 
 @pytest.mark.parametrize("word", PAPERS_LAWS)
-def test_path_is_that_of_an_adaptive_integrator(word):
-    found, expected = ours(word, 1e-3)[0], by_scipy(word)[0]
+def test_path_is_that_of_an_adaptive_integrator_and_the_settling_time_to_one_tick(word):
+    (found, rows), (expected, angles) = ours(word, 1e-3), by_scipy(word)
     assert len(found) >= COUNT
     np.testing.assert_allclose(found[:, :, 3:], expected[:, :, 3:], rtol=0.0, atol=R_TOLERANCE)
     np.testing.assert_allclose(found[:, :, :3], expected[:, :, :3], rtol=0.0, atol=OMEGA_TOLERANCE)
-
-
-@pytest.mark.parametrize("word", PAPERS_LAWS)
-def test_settling_time_is_that_of_an_adaptive_integrator_to_one_tick(word):
-    rows, angles = ours(word, 1e-3)[1], by_scipy(word)[1]
     outside = angles > 0.02 * angles[:, :1]
     settled_since = outside.shape[1] - np.argmax(outside[:, ::-1], axis=1)
     assert (rows[:, OUTCOME] == SETTLED).all()

@@ -111,23 +111,17 @@ def test_own_law_is_listed_with_its_file_counted_alone_and_run_beside_ours(examp
     assert not re.search(lacks, said.out)
 
 
-def test_own_law_runs_on_every_engine_and_settles(example, capsys, tmp_path):
+def test_own_law_runs_on_every_engine_and_settles_and_the_run_keeps_it_for_the_report(tmp_path, monkeypatch, capsys):
+    path, out = tmp_path / "my_law.py", tmp_path / "run"
+    path.write_text(EXAMPLE)
     engines = [word for engine in ENGINES for word in ("--engine", engine)]
-    words = ("--law", example, "--regulator", "my-law", "--starts", "paper", "--horizon", "1.5", *engines)
-    assert bench(capsys, "run", *words, "--out", tmp_path / "out").code == 0
-    found = store.read(tmp_path / "out", "episodes")
+    words = ("--regulator", "my-law", "--starts", "paper", "--horizon", "1.5", *engines, "--out", out)
+    assert bench(capsys, "run", "--law", path, *words).code == 0
+    found = store.read(out, "episodes")
     assert sorted(found["engine"].unique()) == sorted(ENGINES)
     assert set(found["outcome"]) == {"settled"}
     assert set(found["regulator"]) == {"my-law"}
-    assert "my-law" in set(store.read(tmp_path / "out", "costs")["regulator"])
-
-
-def test_run_keeps_a_law_of_ones_own_and_the_report_shows_it(tmp_path, monkeypatch, capsys):
-    path = tmp_path / "my_law.py"
-    path.write_text(EXAMPLE)
-    out = tmp_path / "run"
-    words = ("--regulator", "my-law", "--starts", "paper", "--engine", "ideal-held", "--out", out)
-    assert bench(capsys, "run", "--law", path, *words).code == 0
+    assert "my-law" in set(store.read(out, "costs")["regulator"])
     assert (out / "laws" / "my_law.py").read_text() == EXAMPLE
     path.unlink()
     monkeypatch.setenv(read.VARIABLE, str(out))

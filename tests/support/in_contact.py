@@ -90,16 +90,11 @@ def drawn(arm: str, count: int = 8, turn: float = 0.5) -> tuple:
         push = draw.normal(size=6) * (20.0, 20.0, 20.0, 2.0, 2.0, 2.0)
         at = hand(arm, q, qdot, mount, push)
         goal = ScipyRotation.from_matrix(at.R) * ScipyRotation.from_rotvec(turn * draw.normal(size=3) / 3**0.5)
-        found.append(
-            ((arm, q, qdot, mount, push), setpoint_of(goal, np.array(at.chain.p) + 0.05 * draw.normal(size=3), draw))
-        )
+        p_d = vector(np.array(at.chain.p) + 0.05 * draw.normal(size=3))
+        v_d, f_d, m_d = (vector(draw.normal(scale=scale, size=3)) for scale in (0.1, 15.0, 1.5))
+        setpoint = Setpoint(as_rotation(goal.as_matrix().T), p_d, v_d, f_d, m_d)
+        found.append(((arm, q, qdot, mount, push), setpoint))
     return tuple(found)
-
-
-def setpoint_of(goal: ScipyRotation, p_d, draw) -> Setpoint:
-    """A setpoint with that goal; velocity, force and moment drawn."""
-    v_d, f_d, m_d = (vector(draw.normal(scale=scale, size=3)) for scale in (0.1, 15.0, 1.5))
-    return Setpoint(as_rotation(goal.as_matrix().T), vector(p_d), v_d, f_d, m_d)
 
 
 def felt(at: Here):
