@@ -59,15 +59,12 @@ def test_rows_are_the_same_with_curves_and_without(engine):
     assert different_rows(free_body(blank_curves(4, 7, 2), engine), free_body(blank_curves(4), engine)) == []
 
 
-def test_samples_after_the_end_stay_unfilled():
+def test_samples_after_the_end_stay_unfilled_and_there_are_no_more_than_there_is_room_for():
     curves = blank_curves(4, 50, 10)
     rows = free_body(curves)
     filled = np.isfinite(curves.samples[:, :, NUMBERS.index("time_s")])
     assert filled.sum(axis=1).tolist() == np.ceil(rows[:, TICKS] / 10).tolist() == [10] * 4
     assert not filled[:, 10:].any()
-
-
-def test_curve_has_no_more_samples_than_there_is_room_for():
     curves = blank_curves(4, 3, 2)
     free_body(curves)
     assert curves.samples[:, :, 0].tolist() == [[0.0, 0.002, 0.004]] * 4

@@ -9,8 +9,8 @@ from support.command_line import bench
 import tasks
 from bench.base.errors import Incompatible, UnknownWord
 from bench.cli.details import robustness as details
-from bench.experiments import plan, robustness
 from bench.experiments import plan as planning
+from bench.experiments import robustness
 from bench.experiments.choice import EVERYTHING, Choice
 from bench.experiments.contact import DENSE, can_do, cut, poses_of
 from bench.experiments.experiment import Asked
@@ -163,7 +163,7 @@ def units(choice, laws=TWO, suite="quick"):
 
 
 def made(choice, laws=TWO, **words):
-    return plan.make("quick", laws, choice, **words)
+    return planning.make("quick", laws, choice, **words)
 
 
 @pytest.mark.parametrize("suite", SUITES)

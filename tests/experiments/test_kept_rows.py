@@ -10,8 +10,8 @@ import tasks
 from bench.engines import cache, counting
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.simulate import run
-from bench.experiments import plan, starts, traces
 from bench.experiments import plan as planning
+from bench.experiments import starts, traces
 from bench.experiments.choice import Choice
 from bench.experiments.costs import count_operations
 from bench.experiments.episode_rows import judged_columns
@@ -99,7 +99,7 @@ def test_suite_follows_the_papers_laws_and_a_users(tmp_path):
     (tmp_path / "mine.py").write_text(law_text(DAMPER))
     names = (PAPERS, "quaternion-unwinding", "feedback-linearized/mrp")
     chosen = [*map(find_contender, names), find_contender("mine", (load_law(tmp_path / "mine.py"),))]
-    followed = {unit.contender for unit in plan.make("quick", chosen, Choice(experiments=("traces",))).units}
+    followed = {unit.contender for unit in planning.make("quick", chosen, Choice(experiments=("traces",))).units}
     assert followed == {PAPERS, "mine"}
 
 

@@ -88,14 +88,6 @@ def test_law_that_divides_by_a_constant_of_the_run_is_the_same_natively(tmp_path
     assert different_rows(native, reference) == []
 
 
-@pytest.fixture(scope="module")
-def example(tmp_path_factory):
-    """The README's example as a file."""
-    path = tmp_path_factory.mktemp("example") / "my_law.py"
-    path.write_text(EXAMPLE)
-    return path
-
-
 @pytest.mark.parametrize(
     ("words", "has", "lacks"),
     [
@@ -104,8 +96,9 @@ def example(tmp_path_factory):
         (("run", "--suite", "quick", "--dry-run"), r"^laws: [^:]*rotation-matrix[^:]*my-law$", "^$"),
     ],
 )
-def test_own_law_is_listed_with_its_file_counted_alone_and_run_beside_ours(example, capsys, words, has, lacks):
-    said = bench(capsys, *words, "--law", example)
+def test_own_law_is_listed_with_its_file_counted_alone_and_run_beside_ours(tmp_path, capsys, words, has, lacks):
+    (tmp_path / "my_law.py").write_text(EXAMPLE)
+    said = bench(capsys, *words, "--law", tmp_path / "my_law.py")
     assert said.code == 0
     assert re.search(has, said.out, re.MULTILINE)
     assert not re.search(lacks, said.out)

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
+from support.planted import log as logarithm
 
 from bench.findings.theory.closed_form import linear_settling
 from bench.findings.theory.isotropic import EQUATIONS, settling
@@ -21,10 +22,6 @@ from report.figures.libraries import loops
 from tasks.rules import RULES
 
 TICK_S = closed_loop.DT_S
-
-
-def logarithm(R):
-    return ScipyRotation.from_matrix(R).as_rotvec()
 
 
 def sine(R):
