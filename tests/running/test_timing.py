@@ -211,7 +211,7 @@ def on_arm(tmp_path_factory):
 
 
 def test_every_controller_of_the_default_suite_with_these_laws_is_timed_on_the_arm(on_arm):
-    own = on_arm[(on_arm.arm == "ur5e") & (quick.what == ENGINE)]
+    own = on_arm[(on_arm.arm == "ur5e") & (on_arm.what == ENGINE)]
     timed = own[own.engine == "native"]
     names = set(zip(timed.regulator, timed.jacobian, timed.inverse, strict=True))
     assert names == {(one.regulator.name, *one.way) for one in on_arms.controllers(CONTENDERS, "ur5e")}
