@@ -10,6 +10,7 @@ import pytest
 from support.command_line import bench, refused
 
 from bench.audit import audit
+from bench.audit.faults import every_fault
 from bench.audit.load import load
 from bench.base.errors import BadFunction, BadNumber, UnknownWord
 
@@ -77,20 +78,17 @@ def test_c_function_of_another_interface_is_named_so_and_nothing_else(library, s
         ("{file}:Wants", "give a class that needs no arguments"),
         ("{broken}:f", "does not import (SyntaxError"),
         ("{broken_library}:f", "does not load"),
+        ("{library}:missing", "no symbol 'missing'; declare it extern"),
     ],
 )
-def test_mistake_in_a_name_is_refused_with_its_cure(file, target, said):
+def test_mistake_in_a_name_is_refused_with_its_cure(request, file, target, said):
+    library = request.getfixturevalue("library") if "{library}" in target else None
     broken, broken_library = file.parent / "broken.py", file.parent / "broken.so"
     broken.write_text("def f(:")
     broken_library.write_text("no library")
     with pytest.raises(BadFunction) as error:
-        load(target.format(file=file, broken=broken, broken_library=broken_library))
+        load(target.format(file=file, broken=broken, broken_library=broken_library, library=library))
     assert said in str(error.value)
-
-
-def test_missing_symbol_is_refused(library):
-    with pytest.raises(BadFunction, match=r"no symbol 'missing'; declare it extern"):
-        load(f"{library}:missing")
 
 
 @pytest.mark.parametrize(("name", "said"), [("four", r"an array of shape \(4,\)"), ("words", "str")])
@@ -175,16 +173,12 @@ def run(pytester):
 
 
 def test_each_fault_is_a_test_beside_the_others(run):
-    from bench.audit.faults import every_fault
-
     result = run("--orientation-error", "mine.py:columns", "-v")
     result.assert_outcomes(passed=1 + len(every_fault()))
     result.stdout.fnmatch_lines(["*mine.py:columns[[]dead-at-180[]] PASSED*"])
 
 
 def test_fault_fails_its_own_test_and_says_the_cure(run):
-    from bench.audit.faults import every_fault
-
     result = run("--orientation-error", "mine:half")
     result.assert_outcomes(passed=len(every_fault()), failed=1)
     result.stdout.fnmatch_lines(["fault stiffness: *", "*Cure: *", "*FAILED*mine:half[[]stiffness[]]*"])

@@ -177,12 +177,9 @@ def test_numbers_that_overflow_print_no_warning(recwarn):
     assert [one for one in recwarn if one.category is RuntimeWarning] == []
 
 
-def test_refusal_of_input_that_is_off_is_a_note():
+def test_refusal_of_input_that_is_off_is_a_note_and_another_answer_a_fault():
     report = audit(refuses)
     assert ([one.fault.name for one in report.findings], report.faults) == (["non-unit"], ())
-
-
-def test_input_that_is_off_and_answered_otherwise_is_a_fault():
     assert "non-unit" in audit(arc_cosine_unclipped).faults
 
 

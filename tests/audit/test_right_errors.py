@@ -1,8 +1,7 @@
-"""Against right errors nothing is said, and their conventions are found; the page on the audit names its files."""
+"""Against right errors nothing is said, and their conventions are found; a finding names its file."""
 
 import numpy as np
 import pytest
-from support.pages import assert_is_whole
 from support.planted import PLANTED, audited
 from support.right_errors import RIGHT, scipy_in_base
 
@@ -10,7 +9,6 @@ from bench.audit import audit
 from bench.audit.fault import NOTE
 from bench.audit.report import file
 from bench.base.provenance import ROOT
-from report.figures.answer import take_it_home
 
 NAMED = pytest.mark.parametrize(("function", "convention"), RIGHT.values(), ids=RIGHT)
 
@@ -51,10 +49,6 @@ def test_function_that_takes_both_kinds_of_input_is_asked_as_stated():
 
     assert audit(both).takes == audit(both, "matrix").takes == "matrix"
     assert audit(both, "wxyz").convention is None
-
-
-def test_page_is_whole():
-    assert_is_whole(take_it_home, None)
 
 
 def test_every_finding_names_the_file_that_looks_for_it():

@@ -7,7 +7,6 @@ import pytest
 from support.command_line import bench, refused, refused_run
 
 import tasks
-from bench.base.errors import Incompatible
 from bench.experiments import plan as planning
 from bench.experiments.choice import INTEGRATORS, Choice
 from bench.experiments.suites import ENGINES, SUITES
@@ -95,11 +94,6 @@ def test_contender_pasted_so_that_it_would_mean_more_is_refused_with_the_cure(ca
     assert "(try: --regulator rotation-matrix --jacobian geometric --inverse solve)" in refused_run(
         capsys, finished, *words
     )
-
-
-def test_law_in_several_coordinates_is_refused_where_one_is_needed():
-    with pytest.raises(Incompatible, match=r"name one: .*feedback-linearized/zyx-euler, feedback-linearized/zyz-euler"):
-        find_contender("feedback-linearized")
 
 
 def test_same_word_twice_is_the_word_once():

@@ -123,15 +123,12 @@ def test_suite_runs_every_law_that_is_not_a_costing(capsys, suite):
     assert laws == [one.name for one in all_contenders() if not one.regulator.costing_only]
 
 
-def test_show_counts_what_settled_by_law_and_start_set(capsys, tiny_run):
+def test_show_counts_what_settled_by_law_and_start_set_and_every_outcome_when_asked(capsys, tiny_run):
     """A hundred ticks are too few to settle."""
     said = bench(capsys, "show", tiny_run, "--details")
     assert said.code == 0
     assert "suite quick, 3 episodes" in said.out
     assert re.search(r"law +paper\s+rotation-matrix +0/3\s", said.out)
-
-
-def test_show_has_every_outcome_when_asked(capsys, tiny_run):
     assert re.search(r"paper +rotation-matrix +3 ", bench(capsys, "show", tiny_run, "--outcomes").out)
 
 

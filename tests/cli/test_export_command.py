@@ -58,7 +58,7 @@ def test_export_of_a_user_s_law_is_of_its_file(capsys, tmp_path, language, run):
         (("late-braking", "--to", "ada"), ", ".join(language_words())),
         (("late-braking", "--to", "c++"), "did you mean 'cpp'"),
         (("pose-spring-geometric", "--to", "c"), "impedance-geometric"),
-        (("feedback-linearized", "--to", "c"), "name one: feedback-linearized/mrp"),
+        (("feedback-linearized", "--to", "c"), "feedback-linearized/zyx-euler, feedback-linearized/zyz-euler"),
         (("representation-euler", "--to", "c"), "zyx-euler"),
     ],
 )

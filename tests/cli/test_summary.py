@@ -130,10 +130,11 @@ def test_few_perturbations_are_shown_level_by_level(tables):
     assert list(levels["law"]) == list(whole["law"])[1:]  # the first line is theory's
 
 
-def test_part_that_a_run_lacks_is_said(capsys, finished):
+def test_part_that_a_run_lacks_is_said_and_an_option_that_a_part_does_not_take_is_refused(capsys, finished):
     said = bench(capsys, "show", finished, "robustness")
     assert said.code == 0
     assert "nothing of robustness in this run" in said.out
+    assert "contact takes no --outcomes" in refused(capsys, "show", finished, "contact", "--outcomes")
 
 
 @pytest.mark.parametrize("words", [("arm",), ("results/reference", "arm")])
@@ -141,10 +142,6 @@ def test_unknown_part_is_refused_with_the_parts(capsys, words):
     line = refused(capsys, "show", *words)
     assert ", ".join(PARTS) in line
     assert "try: " in line
-
-
-def test_option_that_a_part_does_not_take_is_refused(capsys, finished):
-    assert "contact takes no --outcomes" in refused(capsys, "show", finished, "contact", "--outcomes")
 
 
 # ------------------------------------------------------------------------------------------ its tables

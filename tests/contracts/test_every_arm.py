@@ -61,18 +61,11 @@ def test_joint_ranges_are_those_of_the_model_and_home_is_inside(arm, model):
         assert arm.lower[i] < arm.home[i] < arm.upper[i]
 
 
-def test_arm_is_well_conditioned_at_home(arm):
-    """In metres and radians; from 20 on a stretched or folded arm is near."""
+def test_home_is_well_conditioned_far_from_the_pole_and_held_with_half_the_motors_torque(arm, model):
+    """In metres and radians a stretched or folded arm is near from 20 on; |cos beta| is above a half."""
     assert Kinematics(arm).condition(arm.home) < 20.0
-
-
-def test_home_is_far_from_the_pole_of_zyx_angles(arm):
-    """|cos beta| above a half: sixty degrees of beta to either side."""
     _, (w, x, y, z) = Kinematics(arm).pose(arm.home)
     assert abs(2.0 * (w * y - z * x)) < math.sqrt(3.0) / 2.0
-
-
-def test_motors_hold_the_arm_at_home_with_half_their_torque(arm, model):
     assert np.all(np.abs(state_of(model, arm.home).qfrc_bias) <= 0.5 * np.array(arm.rated))
 
 

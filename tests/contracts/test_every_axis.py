@@ -23,13 +23,10 @@ AXES = [tasks.axis(name) for name in tasks.axis_names()]
 axis = each(AXES)
 
 
-def test_it_is_named_as_its_file_and_says_what_it_is(axis):
+def test_it_is_named_as_its_file_says_what_it_is_and_levels_grow_the_nominal_one_among_them(axis):
     assert tasks.axis(axis.name) is axis
     assert axis.title
     assert axis.unit
-
-
-def test_levels_grow_and_the_nominal_one_is_among_them(axis):
     assert len(axis.levels) > 1
     assert np.all(np.diff(axis.levels) > 0)
     assert axis.nominal is None or axis.nominal in axis.levels

@@ -80,9 +80,9 @@ def known(name):
     return contenders("compensators")[name]
 
 
-def starts(count=8):
+def starts():
     """(R, omega, goal) drawn, anywhere."""
-    draw = np.random.default_rng(4)
+    draw, count = np.random.default_rng(4), 8
     pairs = (ScipyRotation.random(count, rng=draw) for _ in range(2))
     return list(zip(*pairs, draw.normal(scale=4.0, size=(count, 3)), strict=True))
 
@@ -118,19 +118,14 @@ def test_energy_with_an_integral_never_rises_under_a_constant_disturbance():
         assert V[-1] < 1e-6 * V[0]
 
 
-def test_filter_begins_with_no_command_of_its_own():
+def test_filter_begins_with_no_command_of_its_own_and_the_length_of_its_quaternion_does_not_matter():
     """At rest its first command is the spring alone: nothing is felt of where the frame was switched on."""
+    one, q = known("velocity-free"), np.array((0.3, -0.8, 0.1, 0.5))
     for R, R_d, _ in starts():
-        one = known("velocity-free")
         u, rate = commanded(one, R, REST, R_d, Gains(), one.state.begin(of_scipy(R)))
         k = left(R, R_d)
         np.testing.assert_allclose(u, KP * np.sinc(np.linalg.norm(k) / np.pi) * k, atol=1e-11)
         np.testing.assert_allclose(rate, 0.0, atol=1e-13)
-
-
-def test_length_of_the_filters_quaternion_does_not_matter():
-    R, R_d, _ = starts(1)[0]
-    one, q = known("velocity-free"), np.array((0.3, -0.8, 0.1, 0.5))
-    short, long = (commanded(one, R, REST, R_d, Gains(), size * q) for size in (1.0, 3.0))
-    np.testing.assert_allclose(short[0], long[0], rtol=1e-13)
-    np.testing.assert_allclose(3.0 * short[1], long[1], rtol=1e-12, atol=1e-12)
+        short, long = (commanded(one, R, REST, R_d, Gains(), size * q) for size in (1.0, 3.0))
+        np.testing.assert_allclose(short[0], long[0], rtol=1e-13)
+        np.testing.assert_allclose(3.0 * short[1], long[1], rtol=1e-12, atol=1e-12)

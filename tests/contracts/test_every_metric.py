@@ -9,7 +9,7 @@ import numba
 import numpy as np
 import pytest
 from support.bits import different_rows, same_bits
-from support.driving import NO_EARLY_STOP, settings, spread
+from support.driving import ARM_METRICS, METRICS, NO_EARLY_STOP, settings, spread
 from support.each import each
 from support.on_arms import named
 from support.states import vector
@@ -22,7 +22,7 @@ from bench.engines.contact_episode import WIDTH, Ended
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME
 from bench.engines.metrics.contact_metric import Pose, response
 from bench.engines.metrics.metric import Ending
-from bench.engines.metrics.registry import known_contact_metrics, metrics_of
+from bench.engines.metrics.registry import known_contact_metrics
 from bench.engines.simulate import run
 from bench.engines.simulate_arms import run_arm
 from bench.engines.simulate_contact import run_contact
@@ -33,12 +33,11 @@ from bench.law.control.contact_controller import hybrid, impedance_controller
 from bench.law.so3 import Rotation
 from tasks.verdict import OUTCOMES, SETTLED
 
-METRICS, ON_ARM = metrics_of(on_arm=False), metrics_of(on_arm=True)
 GOOD_ENDINGS = [Ending(angle0=1.0, final_angle=1e-4, band=0.02, outcome=word) for word in OUTCOMES]
 AT_GOAL = Ending(angle0=0.0, final_angle=0.0, band=0.02, outcome="settled")
 
 metric = each(METRICS)
-any_metric = each(ON_ARM)
+any_metric = each(ARM_METRICS)
 
 NAN, INF = (math.nan,) * 7, (math.inf,) * 7
 SPOILED = [
@@ -89,12 +88,12 @@ def rows_on_arm():
     """Episodes of the plain laws on an arm, some of which fail, by the metrics of arms."""
     starts = [tasks.start_set(word, arm="ur5e")[0] for word in tasks.task("arm-regulation", "ur5e").start_sets]
     words = ("rotation-matrix@geometric+solve", "feedback-linearized/zyx-euler@geometric+transpose")
-    given = ("arm-regulation", "ur5e", starts, settings(dt_s=1e-2, horizon_s=1.0), ON_ARM)
+    given = ("arm-regulation", "ur5e", starts, settings(dt_s=1e-2, horizon_s=1.0), ARM_METRICS)
     return np.vstack([run_arm("native", named("ur5e", word), *given) for word in words])
 
 
 def test_finish_answers_a_number_or_nan_after_any_episode_on_an_arm(any_metric):
-    column = FIRST_METRIC + ON_ARM.index(any_metric)
+    column = FIRST_METRIC + ARM_METRICS.index(any_metric)
     rows = rows_on_arm()
     assert len(set(rows[:, OUTCOME])) > 1
     for row in rows:

@@ -10,7 +10,7 @@ from numba import types
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS, different_rows
 from support.buffers import numbers_of
-from support.driving import settings, spread
+from support.driving import METRICS, settings, spread
 from support.each import each
 from support.states import as_rotation, of_scipy, rotations, vector
 
@@ -21,14 +21,12 @@ from bench.engines.counting import OPERATIONS, STAGES, TOTAL, Tally, cost, flops
 from bench.engines.counting.costs import counted
 from bench.engines.counting.staged import STAGE_OF, law_of
 from bench.engines.episode import OUTCOME, TICKS
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import evaluation, run
 from bench.law.contenders.registry import all_contenders, contenders
 from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import IDENTITY
 from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR
 
-METRICS = metrics_of(on_arm=False)
 BODIES = [name for name in tasks.names() if not tasks.is_for_arms(name)]  # arms have contracts of their own
 GAINS = Gains(kp=37.0, kv=9.0)  # not the defaults: a law that has those built in is found out
 

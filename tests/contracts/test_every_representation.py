@@ -100,10 +100,6 @@ def test_round_trip_rebuilds_every_orientation_to_rounding(representation):
         np.testing.assert_allclose(matrix(rebuilt), matrix(R), rtol=0.0, atol=ROUND_TRIP_TOLERANCE)
 
 
-def test_coordinates_are_finite_at_every_orientation(representation):
-    assert all(np.isfinite(representation.chart(R).E).all() for R in rotations())
-
-
 def test_kernels_are_the_derivatives_of_to_matrix_its_inverse_and_its_transpose(representation, draw):
     """With 80 digits; rates relative to |B^-1| |omega|, however near the singular set: no digit is lost that B has."""
     for R in some_rotations(representation):

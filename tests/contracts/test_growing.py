@@ -10,11 +10,41 @@ from pathlib import Path
 import pyarrow.parquet as pq
 import pytest
 from support.command_line import digest, python
-from support.dropped_files import ASKED_OF_AXIS, DROPPED, DROPPED_EXPERIMENT, EXPERIMENT, PLANTED, PLANTED_AXIS
 
 from bench.base.provenance import ROOT
 from bench.experiments.tables import store
 from bench.law.contenders.registry import contenders
+
+
+def renamed(room: str, of: str, kind: str) -> str:
+    """The file of a contender that is another one by another name."""
+    name = f'name="dropped-{kind}", title="Dropped {kind}"'
+    constant = room.removesuffix("s").upper()
+    head = f'"""By another name."""\n\nfrom bench.law.contenders.{room} import {of}\n\n'
+    return f"{head}{constant} = {of}.{constant}._replace({name})\n"
+
+
+SUPPORT = ROOT / "tests" / "support"
+HERE = SUPPORT / "dropped"
+DROPPED = {
+    "bench/law/contenders/representations/dropped_coordinates.py": renamed(
+        "representations", "zyx_euler", "coordinates"
+    ),
+    "bench/law/contenders/jacobians/dropped_jacobian.py": renamed("jacobians", "geometric", "jacobian"),
+    "bench/law/contenders/inverses/dropped_inverse.py": renamed("inverses", "solve", "inverse"),
+    "bench/law/contenders/impedances/dropped_impedance.py": renamed("impedances", "geometric", "impedance"),
+    "bench/law/contenders/shipped/dropped_shipped.py": renamed("shipped", "deoxys", "shipped"),
+    "bench/law/contenders/springs/dropped_spring.py": renamed("springs", "vector_part", "spring"),
+    "bench/law/contenders/compensators/dropped_compensator.py": renamed("compensators", "integral", "compensator"),
+    "bench/law/contenders/baselines/dropped_baseline.py": renamed("baselines", "resolved_rate", "baseline"),
+    **{str(path.relative_to(HERE)).removesuffix(".text"): path.read_text() for path in sorted(HERE.rglob("*.text"))},
+}
+"""Files that are dropped into a copy of the tree, one of each kind that grows by a file: path -> text."""
+EXPERIMENT, PLANTED = "bench/experiments/dropped_experiment.py", "tasks/conditions/planted_bias.py"
+DROPPED_EXPERIMENT, PLANTED_AXIS, ASKED_OF_AXIS = (
+    (SUPPORT / "planted_texts" / f"{name}.text").read_text()
+    for name in ("dropped_experiment", "planted_axis", "asked_of_axis")
+)
 
 INDEX = "# A book of one page\n\nIt cites {cite}`murphy1988`.\n"
 

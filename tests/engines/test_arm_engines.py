@@ -11,13 +11,12 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 from support.bits import different_rows
-from support.driving import settings
+from support.driving import ARM_METRICS, settings
 from support.on_arms import ARMS, LAWS, named
 
 import tasks
 from bench.engines.arm_episode import POSE, drive
 from bench.engines.episode import OUTCOME
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate_arms import run_arm as run
 from bench.experiments.choice import INTEGRATORS
 from bench.law.contenders import combinations
@@ -26,7 +25,6 @@ from tasks.kinematics import kinematics
 from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR, STUCK, TIMED_OUT
 
 TASK = "arm-regulation"
-METRICS = metrics_of(on_arm=True)
 SETS = tasks.task(TASK, ARMS[0]).start_sets
 VARIED = ("mass-1.30", "motors-late", "friction-10", "motors-slow")
 over_arms = pytest.mark.parametrize("arm", ARMS)
@@ -64,7 +62,7 @@ def straight(arm: str):
 def both(arm, one, starts, chosen, integrator="euler", variation="ideal-motors"):
     """Rows of the compiled loop and of dm_control's."""
     return [
-        run(engine, one, TASK, arm, starts, chosen, METRICS, integrator, variation)
+        run(engine, one, TASK, arm, starts, chosen, ARM_METRICS, integrator, variation)
         for engine in ("native", "reference")
     ]
 
@@ -141,7 +139,7 @@ def test_native_rows_are_the_reference_rows_when_the_plant_is_not_the_model(arm,
     one = named(arm, PAPERS)
     fast, slow = both(arm, one, starts, chosen, integrator, variation)
     assert [starts[i].id for i in different_rows(fast, slow)] == []
-    exact = run("native", one, TASK, arm, starts, chosen, METRICS, integrator)
+    exact = run("native", one, TASK, arm, starts, chosen, ARM_METRICS, integrator)
     assert different_rows(fast, exact) != []  # it does make a difference
 
 
@@ -170,7 +168,7 @@ def test_episode_gives_the_same_row_whatever_ran_before_it(arm):
     starts = [*(of(arm, word, 1) for word in SETS), straight(arm)]
     for word in (PLAIN, PAPERS, KHATIB, FLIPPED):
         forward, backward = (
-            run("native", named(arm, word), TASK, arm, order, settings(horizon_s=0.5), METRICS)
+            run("native", named(arm, word), TASK, arm, order, settings(horizon_s=0.5), ARM_METRICS)
             for order in (starts, starts[::-1])
         )
         assert different_rows(forward, backward[::-1]) == []

@@ -11,12 +11,11 @@ import math
 
 import numpy as np
 import pytest
-from support.driving import settings
+from support.driving import ARM_METRICS, METRICS, settings
 from support.on_arms import ARMS, LAWS, named
 
 import tasks
 from bench.engines.episode import FINAL_ANGLE, SETTLING_TICK
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
 from bench.engines.simulate_arms import run_arm
 
@@ -56,7 +55,7 @@ def starts(arm: str) -> tuple:
 
 def on_body(arm: str, law, engine: str, dt: float, at: float) -> np.ndarray:
     """Rows of the free body at that time."""
-    return run(engine, law, "free-body", starts(arm), settings(dt_s=dt, horizon_s=at), metrics_of(on_arm=False))
+    return run(engine, law, "free-body", starts(arm), settings(dt_s=dt, horizon_s=at), METRICS)
 
 
 def angles_on_body(arm: str, law, engine: str, dt: float, ticks: int = 0) -> np.ndarray:
@@ -67,7 +66,7 @@ def angles_on_body(arm: str, law, engine: str, dt: float, ticks: int = 0) -> np.
 def on_arm(arm: str, one, dt: float, at: float) -> np.ndarray:
     """Rows of the arm at that time, by motors without a limit: the Jaco's are too weak for some of its turns."""
     chosen = settings(dt_s=dt, horizon_s=at, torque_limit=math.inf)
-    return run_arm("native", one, "arm-regulation", arm, starts(arm), chosen, metrics_of(on_arm=True))
+    return run_arm("native", one, "arm-regulation", arm, starts(arm), chosen, ARM_METRICS)
 
 
 @pytest.mark.parametrize(("arm", "law", "by"), CASES)

@@ -13,17 +13,14 @@ import pytest
 from numba.core.bytecode import FunctionIdentity
 from support.bits import different_rows
 from support.command_line import python
-from support.driving import settings, spread
+from support.driving import METRICS, settings, spread
 
 import tasks
 from bench.engines import simulate as engines
 from bench.engines.compiled import made_once
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.native.libmujoco import model_of, skip_constraints
 from bench.law.contenders.registry import find_contender
 from tasks.contact_model import model_xml
-
-METRICS = metrics_of(on_arm=False)
 
 
 def test_threads_that_need_the_same_wait_for_the_first_to_make_it():

@@ -42,29 +42,6 @@ PEAKS[17, 2] = 75.0
 THERE_AND_BACK = record(p=np.outer(np.sin(np.pi * TIME / TIME[-1]), (0.0, 0.0, -0.1)))
 
 
-@pytest.mark.parametrize(
-    ("measure", "measured", "found"),
-    [
-        (rest.time_to_rest, record(rested=True), pytest.approx(TIME[-1] - 0.25)),  # when the window began
-        (rest.time_to_rest, record(), NONE),
-        (rest.remaining_speed, CREEPS, pytest.approx(5e-3)),  # of the last window
-        (rest.remaining_rate, CREEPS, pytest.approx(0.02)),
-        (rest.remaining_speed, dataclasses.replace(CREEPS, task=force_on_plane.TASK), NONE),
-        (rest.time_to_align, record(R=TILTS.as_matrix()), pytest.approx(FADES_S * math.log(50.0), abs=1.01 * DT)),
-        (wrench.force_overshoot, record(force=PEAKS), pytest.approx(75.0 / 20.0 - 1.0)),  # of the component ordered
-        (
-            port.port_energy,
-            record(p=np.outer(TIME**2, (0.0, 0.0, -0.01))),
-            pytest.approx(0.2 * TIME[-1] ** 2, rel=1e-12),
-        ),
-        (port.port_energy, THERE_AND_BACK, pytest.approx(0.0, abs=1e-12)),
-        (port.port_energy_peak, THERE_AND_BACK, pytest.approx(2.0, rel=1e-4)),
-    ],
-)
-def test_measure_of_a_record_is_what_was_put_into_it(measure, measured, found):
-    assert measure(measured) == found
-
-
 @pytest.mark.parametrize("kept", [TICKS, 120])
 def test_mean_error_is_over_the_window_and_what_rests_stays(kept):
     """An episode that ends at rest has the mean error of the same one watched for longer."""
@@ -142,6 +119,12 @@ def leaning(angle: float) -> np.ndarray:
     return 0.08 * axes.T @ axes
 
 
+def turned(angle: float, yields=(0.1, 0.2, 0.3), axis="y") -> Pose:
+    """Springs along the base's axes turned about one of them."""
+    Q = Turn.from_euler(axis, angle).as_matrix()
+    return yielding(Q @ np.diag(yields) @ Q.T, 0, 0, 0, controller=SPRINGS)
+
+
 LEANING = yielding(leaning(0.6), 0, 0, 1)
 BACKWARDS = yielding(-0.1 * np.eye(3), 0, 0, 1)
 DEAF = yielding(np.diag((0.0, 0.1, 0.0)), 0, 0, 1)
@@ -158,6 +141,20 @@ SKEW = yielding(0.1 * np.array([[1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 1.
 @pytest.mark.parametrize(
     ("measure", "measured", "found"),
     [
+        (rest.time_to_rest, record(rested=True), pytest.approx(TIME[-1] - 0.25)),  # when the window began
+        (rest.time_to_rest, record(), NONE),
+        (rest.remaining_speed, CREEPS, pytest.approx(5e-3)),  # of the last window
+        (rest.remaining_rate, CREEPS, pytest.approx(0.02)),
+        (rest.remaining_speed, dataclasses.replace(CREEPS, task=force_on_plane.TASK), NONE),
+        (rest.time_to_align, record(R=TILTS.as_matrix()), pytest.approx(FADES_S * math.log(50.0), abs=1.01 * DT)),
+        (wrench.force_overshoot, record(force=PEAKS), pytest.approx(75.0 / 20.0 - 1.0)),  # of the component ordered
+        (
+            port.port_energy,
+            record(p=np.outer(TIME**2, (0.0, 0.0, -0.01))),
+            pytest.approx(0.2 * TIME[-1] ** 2, rel=1e-12),
+        ),
+        (port.port_energy, THERE_AND_BACK, pytest.approx(0.0, abs=1e-12)),
+        (port.port_energy_peak, THERE_AND_BACK, pytest.approx(2.0, rel=1e-4)),
         (stiffness.misalignment, LEANING, pytest.approx(0.6)),
         (stiffness.mean_misalignment, LEANING, pytest.approx(0.3)),
         (held_axes.leakage, LEANING, pytest.approx(math.tan(0.6))),
@@ -176,22 +173,9 @@ SKEW = yielding(0.1 * np.array([[1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 1.
         (stiffness.stiffness_condition, yielding(GENERAL, 0, 1, 1), NONE),  # of one axis
         (stiffness.stiffness_asymmetry, yielding(GENERAL + GENERAL.T, 0, 0, 0), pytest.approx(0.0, abs=1e-12)),
         (stiffness.stiffness_asymmetry, SKEW, pytest.approx(math.sqrt(2.0 / 3.0))),
+        *((stiffness.stiffness_axes, turned(angle), pytest.approx(angle, abs=1e-7)) for angle in (0.0, 0.2, 0.7)),
+        (stiffness.stiffness_axes, turned(0.5, (0.1, 0.1 + 1e-9, 0.3), "z"), pytest.approx(0.0, abs=1e-7)),  # alike
     ],
 )
-def test_measure_of_a_compliance_is_what_follows_from_it(measure, measured, found):
+def test_measure_of_a_record_is_what_was_put_into_it_or_follows_from_it(measure, measured, found):
     assert measure(measured) == found
-
-
-@pytest.mark.parametrize(
-    ("yields", "angle", "found"),
-    [
-        ((0.1, 0.2, 0.3), 0.0, 0.0),
-        ((0.1, 0.2, 0.3), 0.2, 0.2),
-        ((0.1, 0.2, 0.3), 0.7, 0.7),
-        ((0.1, 0.1, 0.3), 0.5, 0.0),
-    ],
-)
-def test_principal_axes_are_those_that_the_stiffness_was_turned_to_and_any_where_it_is_equal(yields, angle, found):
-    Q = Turn.from_rotvec((0.0, angle, 0.0) if len(set(yields)) == 3 else (0.0, 0.0, angle)).as_matrix()
-    springs = yielding(Q @ np.diag(yields) @ Q.T, 0, 0, 0, controller=SPRINGS)
-    assert stiffness.stiffness_axes(springs) == pytest.approx(found, abs=1e-7)

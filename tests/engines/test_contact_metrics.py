@@ -71,29 +71,6 @@ ONCE_OUTSIDE = np.tile((0.0, 0.0, 20.3), (TICKS - FROM, 1))
 ONCE_OUTSIDE[10] = (0.0, 0.0, 20.5)  # 2.5 %
 
 
-@pytest.mark.parametrize(
-    ("measure", "measured", "found"),
-    [
-        (wrench.force_error_rms, TOUCHING, 3.0),
-        (wrench.force_error_peak, TOUCHING, 3.0),
-        (wrench.moment_error_rms, TOUCHING, 0.5),
-        (wrench.moment_error_peak, TOUCHING, 0.5),
-        (wrench.force_error_peak, RAMP, 10.0),  # counted from the first touch on
-        *(
-            (measure, NO_TOUCH, math.nan)
-            for measure in (wrench.force_error_rms, wrench.moment_error_peak, wrench.normal_force_error)
-        ),
-        # settling: from the touch to the last tick outside the band
-        (wrench.contact_settling_time, NO_TOUCH, math.nan),
-        (wrench.contact_settling_time, pressed(ONCE_OUTSIDE), 0.11),
-        (wrench.contact_settling_time, pressed((0.0, 0.0, 19.9)), 0.0),
-        (wrench.contact_settling_time, pressed((0.0, 0.0, 19.0)), math.nan),
-    ],
-)
-def test_errors_and_settling_are_of_what_is_felt_from_the_first_touch_on(measure, measured, found):
-    assert measure(measured) == pytest.approx(found, nan_ok=True)
-
-
 def test_a_tool_flat_on_a_plate_has_no_alignment_error():
     """The wrist's axis points down; how the hand's frame is drawn on it does not matter."""
     mount = zyx(0.3, -0.8, 1.1)
@@ -107,14 +84,10 @@ def test_a_tool_flat_on_a_plate_has_no_alignment_error():
     assert scene.alignment_error(pose(askew, task=surface_alignment.TASK)) == pytest.approx(0.3)
 
 
-def test_normal_force_error_is_along_the_normal_of_the_plane():
-    """A plane that leans by 30 degrees: a force along it is no error."""
-    plane = about((0.0, 1.0, 0.0), math.radians(30.0))
-    normal, along = np.array((0.5, 0.0, math.sqrt(0.75))), np.array((math.sqrt(0.75), 0.0, -0.5))
-    measured = pressed(
-        (20.0 * math.sqrt(0.75) + 2.0) * normal + 7.0 * along, task=force_on_plane.TASK, scene_wxyz=plane
-    )
-    assert wrench.normal_force_error(measured) == pytest.approx(2.0)
+LEANS = {"task": force_on_plane.TASK, "scene_wxyz": about((0.0, 1.0, 0.0), math.radians(30.0))}
+NORMAL, ALONG = np.array((0.5, 0.0, math.sqrt(0.75))), np.array((math.sqrt(0.75), 0.0, -0.5))
+"""Normal of a plane that leans by 30 degrees; a force along it is no error."""
+ON_SLOPE = pressed((20.0 * math.sqrt(0.75) + 2.0) * NORMAL + 7.0 * ALONG, **LEANS)
 
 
 def test_peaks_are_the_largest_of_all_ticks_and_trials():
@@ -127,10 +100,6 @@ def test_peaks_are_the_largest_of_all_ticks_and_trials():
     assert wrench.peak_force(both) == wrench.peak_moment(both) == 5.0
     assert wrench.peak_torque_ratio(both) == 0.7
     assert scene.penetration(both) == 2e-3
-
-
-def test_nothing_penetrates_that_does_not_touch():
-    assert math.isnan(scene.penetration(pose(answered(trial(PRESSING)))))
 
 
 HOLE = {"scene_pos": (0.4, 0.1, 0.2), "scene_wxyz": about((1.0, 0.0, 0.0), 0.1)}
@@ -170,6 +139,22 @@ TURNED = answered(trial(PRESSING), R=spun((0.3, 0.1, 0.02)))
 @pytest.mark.parametrize(
     ("measure", "measured", "found"),
     [
+        (wrench.force_error_rms, TOUCHING, 3.0),
+        (wrench.force_error_peak, TOUCHING, 3.0),
+        (wrench.moment_error_rms, TOUCHING, 0.5),
+        (wrench.moment_error_peak, TOUCHING, 0.5),
+        (wrench.force_error_peak, RAMP, 10.0),  # counted from the first touch on
+        *(
+            (measure, NO_TOUCH, math.nan)
+            for measure in (wrench.force_error_rms, wrench.moment_error_peak, wrench.normal_force_error)
+        ),
+        (wrench.normal_force_error, ON_SLOPE, 2.0),
+        (scene.penetration, pose(answered(trial(PRESSING))), math.nan),  # nothing touches
+        # settling: from the touch to the last tick outside the band
+        (wrench.contact_settling_time, NO_TOUCH, math.nan),
+        (wrench.contact_settling_time, pressed(ONCE_OUTSIDE), 0.11),
+        (wrench.contact_settling_time, pressed((0.0, 0.0, 19.9)), 0.0),
+        (wrench.contact_settling_time, pressed((0.0, 0.0, 19.0)), math.nan),
         (scene.crank_angle, pose(CRANKED, task=crank.TASK), 0.7),
         (scene.crank_angle, pose(CRANKED), math.nan),
         (held_axes.loop_rest, pose(LEFT), 0.05),
@@ -179,7 +164,7 @@ TURNED = answered(trial(PRESSING), R=spun((0.3, 0.1, 0.02)))
         (held_axes.held_turn, pose(TURNED, task=surface_alignment.TASK), 0.02),  # about held axes alone
     ],
 )
-def test_turn_that_is_left_is_that_of_the_crank_the_loop_or_the_held_axes(measure, measured, found):
+def test_measure_of_a_record_is_what_was_put_into_it(measure, measured, found):
     assert measure(measured) == pytest.approx(found, nan_ok=True)
 
 

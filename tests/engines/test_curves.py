@@ -3,12 +3,11 @@
 import numpy as np
 import pytest
 from support.bits import different_rows, same_bits
-from support.driving import recorder, settings
+from support.driving import ARM_METRICS, METRICS, recorder, settings
 
 import tasks
 from bench.engines.curve import ARM_NUMBERS, NUMBERS, blank_curves
 from bench.engines.episode import TICKS
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
 from bench.engines.simulate_arms import run_arm
 from bench.law.contenders import combinations
@@ -16,7 +15,6 @@ from bench.law.contenders.registry import find_contender
 
 LAW, ARM = "feedback-linearized/zyx-euler", "puma560"
 CHOSEN = settings(horizon_s=0.1)
-METRICS = metrics_of(on_arm=False)
 
 
 def flat(sample) -> tuple:
@@ -46,7 +44,7 @@ def test_curve_of_an_arm_is_what_dm_controls_loop_shows_a_metric_bit_for_bit():
     starts = tasks.start_set("clear", 2, arm=ARM)
     curves = blank_curves(2, 10, 5, ARM_NUMBERS)
     given = "arm-regulation", ARM, starts, settings(horizon_s=0.05)
-    run_arm("native", one, *given, metrics_of(on_arm=True), curves=curves)
+    run_arm("native", one, *given, ARM_METRICS, curves=curves)
     kept = []
     run_arm("reference", one, *given, [recorder(kept)])
     expected = []
@@ -61,15 +59,12 @@ def test_rows_are_the_same_with_curves_and_without(engine):
     assert different_rows(free_body(blank_curves(4, 7, 2), engine), free_body(blank_curves(4), engine)) == []
 
 
-def test_samples_after_the_end_stay_unfilled():
+def test_samples_after_the_end_stay_unfilled_and_there_are_no_more_than_there_is_room_for():
     curves = blank_curves(4, 50, 10)
     rows = free_body(curves)
     filled = np.isfinite(curves.samples[:, :, NUMBERS.index("time_s")])
     assert filled.sum(axis=1).tolist() == np.ceil(rows[:, TICKS] / 10).tolist() == [10] * 4
     assert not filled[:, 10:].any()
-
-
-def test_curve_has_no_more_samples_than_there_is_room_for():
     curves = blank_curves(4, 3, 2)
     free_body(curves)
     assert curves.samples[:, :, 0].tolist() == [[0.0, 0.002, 0.004]] * 4

@@ -7,14 +7,13 @@ import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import same_bits
 from support.bodies import path
-from support.driving import settings
+from support.driving import METRICS, settings
 from support.states import matrix, of_scipy
 
 import tasks
 from bench.engines import rigid_body
 from bench.engines.binding import evaluation_of, memory_of, observer
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, SETTLING_TICK, TICKS, blank, numbers, start_rows
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.plants import perturbed
 from bench.engines.simulate import run as run_unperturbed
 from bench.engines.simulate import simulate
@@ -28,7 +27,6 @@ from tasks.rotations import about, short_of_180_degrees
 from tasks.rules import RULES
 from tasks.verdict import SETTLED
 
-METRICS = metrics_of(on_arm=False)
 KP, KV = 100.0, 20.0
 AXIS = (0.48, -0.6, 0.64)
 X = (1.0, 0.0, 0.0)

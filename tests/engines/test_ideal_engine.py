@@ -8,21 +8,19 @@ import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
 from support.bodies import path, regulated
-from support.driving import settings
+from support.driving import METRICS, settings
 from support.states import as_rotation, matrix, of_scipy, vector
 
 import tasks
 from bench.engines import ideal
 from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.episode import FIRST_METRIC, OUTCOME, SETTLING_TICK
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
 from bench.law.contenders.registry import find_contender
 from tasks.base import Start
 from tasks.rotations import zyx
 from tasks.verdict import SETTLED
 
-METRICS = metrics_of(on_arm=False)
 COUNT = 20
 HORIZON = 3.0
 PATH = [NUMBERS.index(name) for name in (*(f"{v}_{x}" for v in ("omega", "n", "o", "a") for x in "xyz"),)]
@@ -85,16 +83,11 @@ def ours(word, dt_s):
 
 
 @pytest.mark.parametrize("word", PAPERS_LAWS)
-def test_path_is_that_of_an_adaptive_integrator(word):
-    found, expected = ours(word, 1e-3)[0], by_scipy(word)[0]
+def test_path_is_that_of_an_adaptive_integrator_and_the_settling_time_to_one_tick(word):
+    (found, rows), (expected, angles) = ours(word, 1e-3), by_scipy(word)
     assert len(found) >= COUNT
     np.testing.assert_allclose(found[:, :, 3:], expected[:, :, 3:], rtol=0.0, atol=R_TOLERANCE)
     np.testing.assert_allclose(found[:, :, :3], expected[:, :, :3], rtol=0.0, atol=OMEGA_TOLERANCE)
-
-
-@pytest.mark.parametrize("word", PAPERS_LAWS)
-def test_settling_time_is_that_of_an_adaptive_integrator_to_one_tick(word):
-    rows, angles = ours(word, 1e-3)[1], by_scipy(word)[1]
     outside = angles > 0.02 * angles[:, :1]
     settled_since = outside.shape[1] - np.argmax(outside[:, ::-1], axis=1)
     assert (rows[:, OUTCOME] == SETTLED).all()

@@ -4,13 +4,12 @@ import math
 
 import numpy as np
 import pytest
-from support.driving import settings
+from support.driving import METRICS, settings
 
 import tasks
 from bench.engines.episode import FIRST_METRIC, OUTCOME, SETTLING_TICK, TICKS
 from bench.engines.metrics.metric import Ending
 from bench.engines.metrics.motion.overshoot import METRIC
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.plants import perturbed
 from bench.engines.simulate_bodies import run_disturbed
 from bench.law.contenders.registry import find_contender
@@ -22,7 +21,6 @@ from tasks.rules import RULES
 from tasks.truth import angle
 from tasks.verdict import SETTLED
 
-METRICS = metrics_of(on_arm=False)
 PATH, OVERSHOOT = (FIRST_METRIC + [one.column for one in METRICS].index(name) for name in ("path_ratio", METRIC.column))
 AXIS = (0.48, -0.6, 0.64)
 ENDS = perturbed.EXTRA

@@ -10,14 +10,13 @@ import numba
 import numpy as np
 import pytest
 from support.bits import different_rows, same_bits
-from support.driving import compile_into_cache, settings, spread
+from support.driving import METRICS, compile_into_cache, settings, spread
 
 from bench.engines import lanes
 from bench.engines import simulate as engines
 from bench.engines.binding import evaluation_of, observer
 from bench.engines.curve import blank_curves
 from bench.engines.episode import FIRST_METRIC, OUTCOME, TICKS, start_rows
-from bench.engines.metrics.registry import metrics_of
 from bench.law.contenders.registry import all_contenders, find_contender
 from bench.law.inputs import Gains
 from tasks.base import Start
@@ -25,11 +24,9 @@ from tasks.rotations import about, short_of_180_degrees
 from tasks.rules import RULES
 from tasks.verdict import DIVERGED, SATURATED, SETTLED, SINGULAR
 
-METRICS = metrics_of(on_arm=False)
 IDEAL = tuple(lanes.STEPS)
 LAWS = [one for one in all_contenders() if not one.regulator.in_engine]
 AXIS = (0.48, -0.6, 0.64)
-MANY = 10**9
 
 HOLD = RULES.hold_ticks(1e-3)
 CONDITIONS = {
@@ -52,7 +49,7 @@ def begun() -> np.ndarray:
     return start_rows([*spread(8), *starts])
 
 
-def rows(engine, contender, condition, given, metrics=METRICS, total=MANY):
+def rows(engine, contender, condition, given, metrics=METRICS, total=10**9):
     """In lanes, or with a total of none one at a time."""
     return engines.on_ideal(engine, contender, given, CONDITIONS[condition], metrics, total, converge=False)
 
@@ -140,6 +137,6 @@ def test_law_is_compiled_into_lanes_for_many_episodes_without_curves():
         engines.on_ideal("ideal-held", seen, begun(), CONDITIONS["one tick"], (), total, curves)
         return len(made) - before
 
-    assert [compilations(engines.WORTH_LANES - 1), compilations(MANY, kept), compilations(0)] == [1, 0, 0]
+    assert [compilations(engines.WORTH_LANES - 1), compilations(10**9, kept), compilations(0)] == [1, 0, 0]
     assert not np.isnan(kept.samples).all()
-    assert [compilations(engines.WORTH_LANES), compilations(MANY)] == [1, 0]
+    assert [compilations(engines.WORTH_LANES), compilations(10**9)] == [1, 0]

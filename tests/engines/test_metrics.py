@@ -7,14 +7,13 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
-from support.driving import recorder, settings
+from support.driving import ARM_METRICS, METRICS, recorder, settings
 from support.each import each
 from support.on_arms import named
 
 import tasks
 from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME
 from bench.engines.metrics.metric import Ending
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
 from bench.engines.simulate_arms import run_arm
 from bench.law.contenders.registry import find_contender
@@ -24,7 +23,6 @@ from tasks.rotations import zyx
 from tasks.rules import RULES
 from tasks.verdict import OUTCOMES
 
-METRICS = metrics_of(on_arm=False)
 DT = 2e-3
 CHOSEN = settings(dt_s=DT, horizon_s=1.0)
 TICKS = CHOSEN.ticks
@@ -111,15 +109,12 @@ def test_some_episode_overshoots_and_some_does_not():
     assert max(found) > 0.05
 
 
-def test_min_margin_is_the_smallest_cosine_of_beta_measured_from_the_goal_where_the_law_is(start):
+def test_min_margin_is_the_smallest_cosine_of_beta_measured_from_the_goal_where_the_law_is_and_none_on_R(start):
     goal = ScipyRotation.from_quat(start.goal_wxyz, scalar_first=True)
     for word, frame in zip(LAWS[1:], (ScipyRotation.identity(), goal), strict=True):
         kept, found, _ = episode(word, start)
         margins = np.hypot(*frame.inv().apply([s.R.n for s in kept])[:, :2].T)
         assert found["min_margin"] == pytest.approx(margins.min(), abs=10 * EPS)
-
-
-def test_min_margin_is_no_number_for_a_law_without_coordinates(start):
     assert math.isnan(episode("rotation-matrix", start)[1]["min_margin"])
 
 
@@ -129,7 +124,6 @@ def test_path_ratio_is_no_number_for_a_start_at_its_goal():
 
 # ---------------------------------------------------------------------------- on arms
 
-METRICS_ON_ARM = metrics_of(on_arm=True)
 CHOSEN_ON_ARM = settings(dt_s=DT, horizon_s=0.12)
 ARM_CASES = [
     (arm, word, name)
@@ -145,13 +139,11 @@ def episode_on_arm(arm, word, start_set):
     """(samples, {metric: column}) of one episode of the reference engine."""
     kept: list = []
     start = tasks.start_set(start_set, 2, arm=arm)[1]
-    given = ("arm-regulation", arm, [start], CHOSEN_ON_ARM, (*METRICS_ON_ARM, recorder(kept)))
+    given = ("arm-regulation", arm, [start], CHOSEN_ON_ARM, (*ARM_METRICS, recorder(kept)))
     row = run_arm("reference", named(arm, word), *given)[0]
     ending = Ending(1.0, row[FINAL_ANGLE], 0.02, OUTCOMES[int(row[OUTCOME])])
-    values = row[FIRST_METRIC : FIRST_METRIC + len(METRICS_ON_ARM)]
-    return kept, {
-        one.column: one.finish(float(value), ending) for one, value in zip(METRICS_ON_ARM, values, strict=True)
-    }
+    values = row[FIRST_METRIC : FIRST_METRIC + len(ARM_METRICS)]
+    return kept, {one.column: one.finish(float(value), ending) for one, value in zip(ARM_METRICS, values, strict=True)}
 
 
 @pytest.fixture(params=ARM_CASES, ids=lambda case: "-".join(case))
@@ -199,7 +191,7 @@ def sample():
 
 
 def update(name):
-    return next(one for one in METRICS_ON_ARM if one.column == name)
+    return next(one for one in ARM_METRICS if one.column == name)
 
 
 def test_range_excess_is_seen_below_and_above_and_not_where_there_is_no_range(sample):

@@ -10,34 +10,28 @@ from bench.experiments.columns import VERSION
 from bench.experiments.tables import store
 
 
-def test_file_in_place_of_a_results_folder_is_refused(capsys, tmp_path):
-    path = tmp_path / "file"
+def test_place_where_no_results_folder_can_be_is_refused(capsys, tmp_path):
+    """A file, and /proc, where as in a read-only mount not even root makes a folder."""
+    path, nowhere = tmp_path / "file", "/proc/orientation-bench"
     path.write_text("keep me")
-    for out in (path, path / "below"):
+    for out in (path, path / "below", nowhere):
         line = refused(capsys, "run", *TINY, "--engine", "reference", "--out", out)
         assert str(out) in line
         assert "choose another" in line
+    assert "cannot be written" in line
     assert path.read_text() == "keep me"
 
 
-def test_folder_that_nobody_can_write_is_refused(capsys):
-    """Not even root makes a folder in /proc, as in a read-only mount."""
-    line = refused(capsys, "run", *TINY, "--engine", "reference", "--out", "/proc/orientation-bench")
-    assert "cannot be written" in line
-    assert "choose another folder" in line
+FOREIGN = [("holiday.txt", "photos"), *(("plan.json", content) for content in ('{"steps": 3}', "[1, 2]", "{", ""))]
 
 
-def test_foreign_folder_is_refused_even_with_replace(capsys, tmp_path):
-    (tmp_path / "holiday.txt").write_text("photos")
-    assert "something else than a run of ours" in refused_run(capsys, tmp_path, *TINY)
-
-
-@pytest.mark.parametrize("content", ['{"steps": 3}', "[1, 2]", "{", ""])
-def test_foreign_plan_is_refused_even_with_replace(capsys, tmp_path, content):
-    (tmp_path / "plan.json").write_text(content)
-    (tmp_path / "episodes.parquet").write_text("somebody's")
+@pytest.mark.parametrize(("name", "content"), FOREIGN)
+def test_foreign_folder_or_plan_is_refused_even_with_replace(capsys, tmp_path, name, content):
+    (tmp_path / name).write_text(content)
+    if name == "plan.json":
+        (tmp_path / "episodes.parquet").write_text("somebody's")
     line = refused_run(capsys, tmp_path, *TINY)
-    assert "plan.json" in line
+    assert ("plan.json" if name == "plan.json" else "something else than a run of ours") in line
 
 
 SAME = ("run", *TINY, "--engine", "reference")

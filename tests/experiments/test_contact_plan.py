@@ -9,8 +9,8 @@ from support.command_line import bench
 import tasks
 from bench.base.errors import Incompatible, UnknownWord
 from bench.cli.details import robustness as details
-from bench.experiments import plan, robustness
 from bench.experiments import plan as planning
+from bench.experiments import robustness
 from bench.experiments.choice import EVERYTHING, Choice
 from bench.experiments.contact import DENSE, can_do, cut, poses_of
 from bench.experiments.experiment import Asked
@@ -23,6 +23,7 @@ from bench.law.control.registry import all_controllers, find_controller
 from bench.running import run as running
 
 LAW = [find_contender("rotation-matrix")]
+EVERY_LAW = [one for one in all_contenders() if not one.regulator.costing_only]
 TASKS = tasks.contact_names()
 ABLE = [arm for arm in tasks.arm_names() if can_do(tasks.contact_task("wrench-probe"), tasks.arm(arm))]
 EULER = "hybrid/zyx-euler+inverse"
@@ -60,19 +61,22 @@ def test_suite_sets_every_task_to_every_arm_that_can_do_it(suite):
     assert episodes > 0
 
 
-@pytest.mark.parametrize("suite", SUITES)
-def test_units_cover_each_pose_once_and_have_keys_of_their_own(suite):
-    plan = planning.make(suite, LAW)
+@pytest.mark.parametrize(("suite", "laws", "count"), [*((one, LAW, None) for one in SUITES), ("quick", EVERY_LAW, 7)])
+def test_units_cover_each_pose_and_start_once_and_have_keys_of_their_own(suite, laws, count):
+    plan = planning.make(suite, laws, count=count)
     assert len({unit.key for unit in plan.units}) == len(plan.units)
     reached: dict = {}
-    for unit in plan.of("contact"):
+    for unit in plan.of("contact", "free-body", "arm"):
         place = dataclasses.replace(unit, first=0, count=0, episodes=0)
         assert unit.first == reached.get(place, 0)
         reached[place] = unit.first + unit.count
-    for place, poses in reached.items():
-        one, task, arm = find_controller(place.contender), tasks.contact_task(place.task), tasks.arm(place.arm)
-        every = poses_of(one, task, arm, place.selector == DENSE)
-        assert poses == min(len(every), SUITES[suite].in_contact.on(arm.joints)[1] or len(every))
+    for place, found in reached.items():
+        expected = place.total
+        if place.experiment == "contact" and not count:
+            task, arm = tasks.contact_task(place.task), tasks.arm(place.arm)
+            every = len(poses_of(find_controller(place.contender), task, arm, place.selector == DENSE))
+            expected = min(every, SUITES[suite].in_contact.on(arm.joints)[1] or every)
+        assert found == expected
 
 
 def test_unit_lasts_some_seconds_at_most():
@@ -151,7 +155,6 @@ def test_dry_run_counts_trials_of_each_arm_and_task(capsys):
         assert f"contact, {arm}: wrench-probe 18 " in said.out
 
 
-EVERY_LAW = [one for one in all_contenders() if not one.regulator.costing_only]
 TWO = [find_contender("rotation-matrix"), find_contender("hybrid")]
 
 
@@ -160,7 +163,7 @@ def units(choice, laws=TWO, suite="quick"):
 
 
 def made(choice, laws=TWO, **words):
-    return plan.make("quick", laws, choice, **words)
+    return planning.make("quick", laws, choice, **words)
 
 
 @pytest.mark.parametrize("suite", SUITES)

@@ -42,17 +42,21 @@ def marker(tmp_path):
     return tmp_path / "marker"
 
 
+def rename(path, change) -> None:
+    """Change the names of the regulators of a table."""
+    table = pq.read_table(path)
+    at = table.schema.names.index("regulator")
+    words = change(table["regulator"].cast(pa.string()))
+    pq.write_table(table.set_column(at, table.schema.field(at), words.dictionary_encode()), path)
+
+
 @pytest.fixture(scope="module")
 def renamed(tmp_path_factory):
     """Copy the reference with one law's rows under an unknown name."""
     folder = shutil.copytree(RESULTS / "reference", tmp_path_factory.mktemp("renamed") / "theirs")
     for path in folder.glob("*.parquet"):
-        table = pq.read_table(path)
-        if "regulator" in table.schema.names:
-            at = table.schema.names.index("regulator")
-            words = pc.replace_substring(table["regulator"].cast(pa.string()), "weighted-columns", "evil-law")
-            table = table.set_column(at, table.schema.field(at), words.dictionary_encode())
-            pq.write_table(table, path)
+        if "regulator" in pq.read_schema(path).names:
+            rename(path, lambda words: pc.replace_substring(words, "weighted-columns", "evil-law"))
     return folder
 
 
@@ -138,19 +142,11 @@ def test_run_into_a_folder_that_leads_outside_touches_neither(capsys, theirs, tm
     assert [path.name for path in outside.iterdir()] == ["mine.txt"]
 
 
-def rename_regulators(folder, word: str) -> None:
-    path = folder / "episodes.parquet"
-    table = pq.read_table(path)
-    at = table.schema.names.index("regulator")
-    column = pa.array([word] * table.num_rows).dictionary_encode()
-    pq.write_table(table.set_column(at, table.schema.field(at), column), path)
-
-
 @pytest.mark.parametrize(
     "word", ["<script>alert(1)</script>", "a|b", "`x`", "$x$", "{eval-rst}", "[a](b)", "x\ny", "\x1b[2J", "&lt;"]
 )
 def test_word_that_a_page_would_take_for_its_own_is_refused(theirs, word):
-    rename_regulators(theirs, word)
+    rename(theirs / "episodes.parquet", lambda words: pa.array([word] * len(words)))
     with pytest.raises(BadResults, match="is no word of ours"):
         store.read(theirs, "episodes")
 

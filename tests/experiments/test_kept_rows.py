@@ -3,16 +3,15 @@
 import numpy as np
 import pandas as pd
 import pytest
-from support.driving import settings
+from support.driving import METRICS, settings
 from support.user_law import DAMPER, law_text
 
 import tasks
 from bench.engines import cache, counting
 from bench.engines.curve import NUMBERS, blank_curves
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
-from bench.experiments import plan, starts, traces
 from bench.experiments import plan as planning
+from bench.experiments import starts, traces
 from bench.experiments.choice import Choice
 from bench.experiments.costs import count_operations
 from bench.experiments.episode_rows import judged_columns
@@ -60,13 +59,10 @@ def test_without_room_are_made_each_time(of, made, tmp_path):
     assert len(made) == 2
 
 
-def test_law_of_a_user_is_not_kept():
+def test_what_is_kept_is_what_is_counted_and_a_users_law_is_not_kept():
     own = LAW._replace(regulator=LAW.regulator._replace(name="nobody-s", origin="nobody_s.py"))
     assert count_operations(own) == counting.rows([own])
     assert not list((cache.FOLDER / "costs").glob("*nobody-s*"))
-
-
-def test_what_is_kept_is_what_is_counted():
     assert count_operations(LAW) == counting.rows([LAW])
     one = find_contender("rotation-matrix@geometric+solve")
     assert count_operations(one, 6) == counting.rows_on_arm(one, 6)
@@ -95,7 +91,7 @@ def rerun(law, start_set, start_id, horizon_s=20.0):
     """Return (samples, columns of the judge) of one episode, run alone."""
     [start] = [one for one in tasks.start_set(start_set) if one.id == start_id]
     samples, chosen = blank_curves(1, 200, 20), settings(horizon_s=horizon_s, hold_ticks=HOLD_TICKS)
-    rows = run("ideal-rk4", find_contender(law), "free-body", [start], chosen, metrics_of(False), curves=samples)
+    rows = run("ideal-rk4", find_contender(law), "free-body", [start], chosen, METRICS, curves=samples)
     return samples.samples[0], judged_columns(rows, chosen.dt_s)
 
 
@@ -103,7 +99,7 @@ def test_suite_follows_the_papers_laws_and_a_users(tmp_path):
     (tmp_path / "mine.py").write_text(law_text(DAMPER))
     names = (PAPERS, "quaternion-unwinding", "feedback-linearized/mrp")
     chosen = [*map(find_contender, names), find_contender("mine", (load_law(tmp_path / "mine.py"),))]
-    followed = {unit.contender for unit in plan.make("quick", chosen, Choice(experiments=("traces",))).units}
+    followed = {unit.contender for unit in planning.make("quick", chosen, Choice(experiments=("traces",))).units}
     assert followed == {PAPERS, "mine"}
 
 

@@ -97,14 +97,10 @@ def test_stated_speeds_and_a_range_exclude_each_other(capsys):
     assert "give one of the two" in capsys.readouterr().err
 
 
-def test_starts_that_do_not_converge_widen_the_interval_of_what_is_lost():
+def test_share_is_exact_and_starts_that_do_not_converge_widen_its_interval():
     """3 lost and 2 that may be: the lower end is that of 3 of 1,000, the upper one that of 5."""
     found = lost_between(3, 2, 1000)
     assert found.value == pytest.approx(3 / 998)
     assert (found.low, found.high) == (lost_share(3, 1000).low, lost_share(5, 1000).high)
-
-
-def test_share_is_exact():
-    """Clopper-Pearson of none of n: the upper end is 1 - 0.025^(1/n)."""
-    share = lost_share(0, 1000)
-    np.testing.assert_allclose(share, (0.0, 0.0, 1.0 - 0.025 ** (1.0 / 1000)), rtol=1e-9)
+    # Clopper-Pearson of none of n: the upper end is 1 - 0.025^(1/n)
+    np.testing.assert_allclose(lost_share(0, 1000), (0.0, 0.0, 1.0 - 0.025 ** (1.0 / 1000)), rtol=1e-9)

@@ -75,10 +75,11 @@ def test_settling_time_is_that_of_a_body_that_scipy_moves(name):
     assert found == pytest.approx(about_x, abs=0.02)
 
 
-def test_dead_points_are_where_the_sign_of_zero_is_zero_and_where_the_sine_is():
+def test_dead_points_are_where_the_sign_of_zero_is_zero_and_where_the_sine_is_and_none_unwinds():
     found = rows()["dead"]
     assert set(found[found > 0].index) == {"isaac-gym", "robosuite"}
     assert set(found[found > 0]) == {measured.DIRECTIONS}
+    assert not rows()["away"].any()
 
 
 def test_sine_leaves_its_dead_point_by_a_decade_as_linearized():
@@ -101,10 +102,6 @@ def test_error_without_a_sign_is_found_to_unwind_from_the_antipode():
     [found] = compare(one, (), Settings(), HORIZON_S)
     assert found["away"] > 0
     assert "double-cover" in found["findings"] or "long-way" in found["findings"]
-
-
-def test_no_shipped_controller_unwinds():
-    assert not rows()["away"].any()
 
 
 def test_audit_agrees_with_what_is_measured():

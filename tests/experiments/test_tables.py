@@ -35,11 +35,8 @@ LAWS = pd.DataFrame(
 NAMES = ["rotation-matrix", "feedback-linearized/mrp", "feedback-linearized/zyx-euler@analytic+solve"]
 
 
-def test_contender_is_the_word_of_the_command_line():
+def test_contender_is_the_word_of_the_command_line_and_in_a_table_of_times_the_law():
     assert list(read.with_contender(LAWS)["contender"]) == NAMES
-
-
-def test_contender_of_a_table_of_times_is_the_law():
     assert list(read.with_contender(LAWS[["regulator", "representation"]])["contender"])[2] == NAMES[2].split("@")[0]
 
 
@@ -47,12 +44,9 @@ def test_free_body_has_no_jacobian():
     assert list(read.chosen(LAWS, read.FREE_BODY)["regulator"]) == ["rotation-matrix", "feedback-linearized"]
 
 
-def test_summary_keeps_a_law_on_an_arm_apart():
+def test_summary_and_outcomes_keep_a_law_on_an_arm_apart():
     assert list(summarize_laws(LAWS)["law"]) == NAMES
     assert list(summarize_laws(LAWS)["worst s"]) == ["1.000", "2.000", "never"]
-
-
-def test_outcomes_keep_a_law_on_an_arm_apart():
     table = outcome_table(LAWS).set_index("law")
     assert (table.at[NAMES[2], "diverged"], table.at[NAMES[1], "diverged"]) == (1, 0)
 

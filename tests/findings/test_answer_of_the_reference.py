@@ -2,7 +2,7 @@
 
 import pytest
 from support import advised, map_rule
-from support.pages import RUN, assert_is_whole
+from support.pages import RUN
 
 from bench.experiments import suites
 from bench.experiments.tables.read import with_contender
@@ -36,8 +36,7 @@ def found():
 
 @pytest.mark.parametrize(("robot", "again"), [(ARM, advised.accelerations), (VELOCITY, advised.velocities)])
 def test_robot_is_advised_as_by_the_rule_written_again(robot, again):
-    _, *decision = decide_for(robot, FOLDER)
-    assert again().decide(robot.need) == tuple(decision)
+    assert again().decide(robot.need) == decide_for(robot, FOLDER)
 
 
 def test_map_is_decided_as_by_the_rule_written_again():
@@ -101,10 +100,3 @@ def test_cards_say_in_how_many_situations_a_law_is_advised():
 def test_open_question_has_the_advised_law_among_the_later_laws_that_were_judged():
     evidence, law = claims.judge("C27", Results(FOLDER)).evidence, find_default()
     assert law in evidence.parts["answers"] or f"{law} (b)" in str(evidence)  # few laws run from all starts of (b)
-
-
-# ---------------------------------------------------------------------------------------------- the page
-
-
-def test_page_is_whole():
-    assert_is_whole(which_law, RUN)

@@ -67,13 +67,10 @@ def test_verdict_on_no_rows_is_an_error():
         decide(Claim("C00", "", "", "", judge=lambda results: (Word.HOLDS, nothing)), None)
 
 
-def test_share_has_wilsons_interval():
+def test_share_has_wilsons_interval_and_none_of_no_rows():
     # Newcombe 1998, Statistics in Medicine 17, 857-872, table I: 81 of 263
     found = share(pd.Series([True] * 81 + [False] * 182))
     assert (found.low, found.high) == pytest.approx((0.2553, 0.3662), abs=5e-5)
-
-
-def test_share_of_no_rows_is_an_error():
     with pytest.raises(NoEvidence):
         share(pd.Series([], dtype=bool))
 

@@ -92,13 +92,16 @@ def push(kp, kv) -> float:
     return solve_ivp(rates, (0.0, 0.3), (0.0, 0.0), rtol=1e-11, atol=1e-14).y[0, -1]
 
 
-@pytest.mark.parametrize("gains", [PAPERS_GAINS, Gains(100.0, 10.0), Gains(100.0, 40.0)], ids=str)
-def test_springs_are_those_of_an_integrated_oscillator(gains):
-    assert compliance_theory.sprung(0.3, gains) == pytest.approx(push(*gains), rel=1e-8)
+SPRUNG = [PAPERS_GAINS, Gains(100.0, 10.0), Gains(100.0, 40.0)]
+YIELDS = [
+    *((compliance_theory.sprung(0.3, gains), gains) for gains in SPRUNG),
+    (compliance_theory.free(0.3), (0.0, TOUCH.kc)),
+]
 
 
-def test_what_is_free_is_an_integrated_damper():
-    assert compliance_theory.free(0.3) == pytest.approx(push(0.0, TOUCH.kc), rel=1e-8)
+@pytest.mark.parametrize(("yields", "gains"), YIELDS, ids=str)
+def test_what_a_moment_turns_is_an_integrated_oscillator_or_damper(yields, gains):
+    assert yields == pytest.approx(push(*gains), rel=1e-8)
 
 
 GAINS = (100.0, 20.0, 0.02)

@@ -85,24 +85,15 @@ COMPARED = [
 ]
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("case", COMPARED, ids=lambda case: f"{case[0].name}-{case[1]}-{case[2]}")
-def test_compliance_is_as_predicted(case):
-    controller, complies, angles, tolerance = case
-    compare(controller, probed(controller, complies, *angles), tolerance)
+ON_EVERY_ARM = [hybrid("hybrid", "projected", EULER), hybrid("hybrid", PAPERS_FORM, EULER), SPRINGS_OF_EULER]
+CASES = [pytest.param(*case, "ur5e", marks=pytest.mark.slow) for case in COMPARED]
+CASES += [(one, "about x and y", (35, 45, -20), SPRUNG, arm) for one in ON_EVERY_ARM for arm in ARMS]
 
 
-@pytest.mark.parametrize("arm", ARMS)
-@pytest.mark.parametrize(
-    "controller",
-    [hybrid("hybrid", "projected", EULER), hybrid("hybrid", PAPERS_FORM, EULER), SPRINGS_OF_EULER],
-)
-def test_every_arm_complies_alike(controller, arm):
-    compare(controller, probed(controller, "about x and y", 35, 45, -20, arm=arm), SPRUNG)
-
-
-def compare(controller, pose, tolerance):
+@pytest.mark.parametrize(("controller", "complies", "angles", "tolerance", "arm"), CASES)
+def test_compliance_is_as_predicted(controller, complies, angles, tolerance, arm):
     """The measured C against the predicted, Frobenius; where nothing is predicted, nothing was measured."""
+    pose = probed(controller, complies, *angles, arm=arm)
     goal = from_quaternion(pose.first.trial.goal_wxyz)
     predicted = theory.compliance(controller, pose.first.trial.specification, goal, TASK.horizon_s, arm=pose.arm)
     measured = compliance(pose)

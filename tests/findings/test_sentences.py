@@ -48,13 +48,10 @@ def test_law_tracks_as_well_as_another_or_does_not(tails, outcome, word):
     assert decided(judged("C39", {"perturbed": perturbed}, episodes=gains_only()), word)
 
 
-def test_divisor_of_a_turn_about_z_is_its_sine():
+def test_divisor_of_a_turn_about_z_is_its_sine_and_no_column_can_be_eliminated():
     # det [[2c, 2s, 0], [0, 0, -2s], [-s, c, c]] = 4 s (c^2 + s^2)
     assert representations.divisor(TURNED, TRIO)[0] == pytest.approx(np.sin(0.7), abs=1e-15)
     assert representations.product(TURNED, TRIO)[0] == pytest.approx(np.sin(0.7), abs=1e-15)
-
-
-def test_no_column_of_the_rotation_matrix_can_be_eliminated():
     assert np.abs(representations.divisor(Turn.random(5, rng=0).as_matrix(), (0, 1, 2))).max() < 1e-15
 
 

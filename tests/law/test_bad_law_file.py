@@ -96,7 +96,7 @@ def test_two_law_files_of_one_name_are_refused(capsys, finished, tmp_path):
 UNCOMPILABLE = law_text("table = {'a': [str(x) for x in omega]}", "return (-float(table['a'][0]), *omega[1:])")
 
 
-def test_law_beyond_the_compiler_is_refused_before_anything_is_touched(capsys, finished, tmp_path):
+def test_law_beyond_the_compiler_is_refused_with_nothing_touched_and_runs_on_the_reference(capsys, finished, tmp_path):
     path = written(tmp_path, UNCOMPILABLE)
     line = refused_run(
         capsys, finished, "--law", path, "--regulator", "mine", "--starts", "paper", "--engine", "native"
@@ -104,10 +104,6 @@ def test_law_beyond_the_compiler_is_refused_before_anything_is_touched(capsys, f
     assert "cannot be compiled (" in line
     assert "--engine reference" in line
     assert "float(unicode_type)" in line  # what in the law, not which pass of the compiler
-
-
-def test_law_beyond_the_compiler_runs_on_the_reference_engine(capsys, tmp_path):
-    path = written(tmp_path, UNCOMPILABLE)
     out = tmp_path / "out"
     words = ("--regulator", "mine", "--starts", "paper", "--engine", "reference", "--horizon", "0.1")
     said = bench(capsys, "run", "--law", path, "--out", out, *words)

@@ -7,19 +7,17 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 from support.bits import different_rows
-from support.driving import recorder, settings
+from support.driving import ARM_METRICS, recorder, settings
 from support.on_arms import ARMS, GAINS, here, torques
 
 import tasks
 from bench.engines.arm_episode import controls
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate_arms import run_arm as run
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import baselines_of_arms, find_contender
 from bench.law.control.resolved_acceleration import BY_JOINT
 from tasks.kinematics import kinematics
 
-METRICS = metrics_of(on_arm=True)
 JOINT_PD = "joint-pd@joints+inertia-at-home"
 SHORT = settings(horizon_s=0.03)
 over_arms = pytest.mark.parametrize("arm", ARMS)
@@ -44,7 +42,7 @@ def test_native_rows_are_the_reference_rows_bit_for_bit(arm):
     for one in on(arm):
         for integrator, variation in (("euler", "nominal"), ("rk4", "ideal-motors"), ("euler", "mass-1.30")):
             fast, slow = (
-                run(engine, one, "arm-regulation", arm, starts, SHORT, METRICS, integrator, variation)
+                run(engine, one, "arm-regulation", arm, starts, SHORT, ARM_METRICS, integrator, variation)
                 for engine in ("native", "reference")
             )
             assert different_rows(fast, slow) == []
@@ -59,7 +57,7 @@ def lively(arm):
     kept: list = []
     start = tasks.start_set("uniform", 5, arm=arm)[4]
     chosen = settings(dt_s=5e-4, horizon_s=1.0, hold_ticks=10**9, torque_limit=math.inf)
-    run("reference", find_contender(JOINT_PD), "arm-regulation", arm, [start], chosen, (*METRICS, recorder(kept)))
+    run("reference", find_contender(JOINT_PD), "arm-regulation", arm, [start], chosen, (*ARM_METRICS, recorder(kept)))
     return start, kept, chosen
 
 
@@ -94,6 +92,6 @@ def test_resolved_rate_is_a_servo_on_the_rates_that_the_inverse_gives(arm):
         v = GAINS.kp / GAINS.kv * np.array((*(place - at.chain.p), *(R_d * R.inv()).as_rotvec()))
         inverse = np.linalg.pinv(at.J)
         unseen = (np.eye(at.n) - inverse @ at.J) @ at.chain.qdot
-        qddot = GAINS.kv * (inverse @ (v - at.xdot)) - 0.5 * GAINS.kv * unseen
+        qddot = GAINS.kv * (inverse @ (v - at.velocity)) - 0.5 * GAINS.kv * unseen
         tau, _ = torques(one, at, goal, place)
         np.testing.assert_allclose(tau, at.D @ qddot + at.fg, rtol=0.0, atol=1e-9 * np.abs(tau).max())

@@ -59,7 +59,7 @@ def on_coordinates(one) -> bool:
 
 def desired(at, p_d, u, gains=GAINS) -> np.ndarray:
     """(2.1) for the position, and the law's own answer."""
-    return np.array([*(gains.kp * (p_d - at.chain.p) - gains.kv * at.xdot[:3]), *u])
+    return np.array([*(gains.kp * (p_d - at.chain.p) - gains.kv * at.velocity[:3]), *u])
 
 
 def rounding(one, at, J) -> float:

@@ -130,12 +130,6 @@ def test_specification_that_holds_nothing_or_everything_is_unusual_and_no_more(h
     assert ended.outcome == "done"
 
 
-@ENGINES
-def test_bad_specification_is_refused_by_both_engines_before_the_first_episode(engine):
-    bad = TRIAL._replace(specification=SPECIFICATION._replace(selection=(1, 1, 1, 0.5, 1, 1)))
-    assert "six of 0 and 1" in line_of(lambda: run(engine, BASE, TASK, ARM, [TRIAL, bad]), TaskError)
-
-
 # ---------------------------------------------------------------------------- trials and arms
 
 OTHERS_RANGE = (*TRIAL.q[:2], 7.0, *TRIAL.q[3:])
@@ -206,7 +200,9 @@ def test_contact_that_MuJoCo_would_replace_without_a_word_is_refused(name, value
 
 
 @ENGINES
-def test_bad_contact_is_refused_by_both_engines_and_by_dm_controls_environment(engine):
+def test_bad_specification_or_contact_is_refused_by_both_engines_before_the_first_episode(engine):
+    bad = TRIAL._replace(specification=SPECIFICATION._replace(selection=(1, 1, 1, 0.5, 1, 1)))
+    assert "six of 0 and 1" in line_of(lambda: run(engine, BASE, TASK, ARM, [TRIAL, bad]), TaskError)
     contact = STANDARD._replace(stiffness=-0.01)
     for action in (
         lambda: run(engine, BASE, TASK, ARM, [TRIAL], USUAL, contact),

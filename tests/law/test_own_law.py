@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 from support.bits import different_rows
 from support.command_line import bench
-from support.driving import settings, spread
+from support.driving import METRICS, settings, spread
 from support.user_law import spring_text
 
 from bench.base.provenance import ROOT
 from bench.engines.episode import FAILURE_TICK, OUTCOME
-from bench.engines.metrics.registry import metrics_of
 from bench.engines.simulate import run
 from bench.experiments.suites import ENGINES
 from bench.experiments.tables import read, store
@@ -24,7 +23,6 @@ from tasks.verdict import CRASHED, SINGULAR
 
 README = (ROOT / "README.md").read_text()
 EXAMPLE = next(code for code in re.findall(r"```python\n(.*?)```", README, re.DOTALL) if "REGULATOR" in code)
-METRICS = metrics_of(on_arm=False)
 ON_BODY = ("--regulator", "gibbs", "--task", "free-body")
 
 
@@ -90,14 +88,6 @@ def test_law_that_divides_by_a_constant_of_the_run_is_the_same_natively(tmp_path
     assert different_rows(native, reference) == []
 
 
-@pytest.fixture(scope="module")
-def example(tmp_path_factory):
-    """The README's example as a file."""
-    path = tmp_path_factory.mktemp("example") / "my_law.py"
-    path.write_text(EXAMPLE)
-    return path
-
-
 @pytest.mark.parametrize(
     ("words", "has", "lacks"),
     [
@@ -106,30 +96,25 @@ def example(tmp_path_factory):
         (("run", "--suite", "quick", "--dry-run"), r"^laws: [^:]*rotation-matrix[^:]*my-law$", "^$"),
     ],
 )
-def test_own_law_is_listed_with_its_file_counted_alone_and_run_beside_ours(example, capsys, words, has, lacks):
-    said = bench(capsys, *words, "--law", example)
+def test_own_law_is_listed_with_its_file_counted_alone_and_run_beside_ours(tmp_path, capsys, words, has, lacks):
+    (tmp_path / "my_law.py").write_text(EXAMPLE)
+    said = bench(capsys, *words, "--law", tmp_path / "my_law.py")
     assert said.code == 0
     assert re.search(has, said.out, re.MULTILINE)
     assert not re.search(lacks, said.out)
 
 
-def test_own_law_runs_on_every_engine_and_settles(example, capsys, tmp_path):
+def test_own_law_runs_on_every_engine_and_settles_and_the_run_keeps_it_for_the_report(tmp_path, monkeypatch, capsys):
+    path, out = tmp_path / "my_law.py", tmp_path / "run"
+    path.write_text(EXAMPLE)
     engines = [word for engine in ENGINES for word in ("--engine", engine)]
-    words = ("--law", example, "--regulator", "my-law", "--starts", "paper", "--horizon", "1.5", *engines)
-    assert bench(capsys, "run", *words, "--out", tmp_path / "out").code == 0
-    found = store.read(tmp_path / "out", "episodes")
+    words = ("--regulator", "my-law", "--starts", "paper", "--horizon", "1.5", *engines, "--out", out)
+    assert bench(capsys, "run", "--law", path, *words).code == 0
+    found = store.read(out, "episodes")
     assert sorted(found["engine"].unique()) == sorted(ENGINES)
     assert set(found["outcome"]) == {"settled"}
     assert set(found["regulator"]) == {"my-law"}
-    assert "my-law" in set(store.read(tmp_path / "out", "costs")["regulator"])
-
-
-def test_run_keeps_a_law_of_ones_own_and_the_report_shows_it(tmp_path, monkeypatch, capsys):
-    path = tmp_path / "my_law.py"
-    path.write_text(EXAMPLE)
-    out = tmp_path / "run"
-    words = ("--regulator", "my-law", "--starts", "paper", "--engine", "ideal-held", "--out", out)
-    assert bench(capsys, "run", "--law", path, *words).code == 0
+    assert "my-law" in set(store.read(out, "costs")["regulator"])
     assert (out / "laws" / "my_law.py").read_text() == EXAMPLE
     path.unlink()
     monkeypatch.setenv(read.VARIABLE, str(out))

@@ -190,13 +190,10 @@ def test_other_word_for_a_scheduler_is_refused(error, says, words):
             check_scheduler(word)
 
 
-def test_batches_keep_every_unit_in_its_order(plan):
+def test_batches_keep_every_unit_in_its_order_and_of_little_work_leave_no_worker_idle(plan):
     for workers in (0, 1, 2, 100):
         assert [unit for chunk in in_batches(plan.units, workers) for unit in chunk] == list(plan.units)
     assert in_batches([], 2) == []
-
-
-def test_batches_of_little_work_leave_no_worker_idle(plan):
     assert len(in_batches(plan.units * 20, 2)) >= 8
 
 

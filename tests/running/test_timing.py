@@ -6,33 +6,35 @@ import numpy as np
 import pytest
 from scipy.stats import binom
 from support.command_line import bench
+from support.on_arms import here, named, torques
 from support.user_law import spring_text
 
+import tasks
 from bench.base.errors import BadLaw
 from bench.base.provenance import machine_key
 from bench.cli.time import folder_for
 from bench.law.contender import Contender
 from bench.law.contenders.described_law import described
 from bench.law.contenders.registry import contenders_of, find_contender
+from bench.law.inputs import PAPERS_GAINS
 from bench.law.kinds import Law
 from bench.law.scalar import kernel, sqrt
 from bench.running import timing
-from bench.running.timing import benchmarks, law, reference_kernel
+from bench.running.timing import benchmarks, controller, law, on_arms, reference_kernel
 from bench.running.timing.benchmark import ENGINE, KERNEL, LAW, LOOP, Benchmark
 from bench.running.timing.ratios import ranks, ratio
 from bench.running.timing.rows import QUICK_PASSES, frame
 from bench.running.timing.session import measure, order
 
 LAWS = ("rotation-matrix", "linearized-euler/zyx-euler")
+CONTENDERS = [find_contender(word) for word in LAWS]
 
 
 @pytest.fixture(scope="module")
 def quick(tmp_path_factory):
     """A quick run of two laws: its file, and what it told of its samples."""
     told = []
-    contenders = [find_contender(word) for word in LAWS]
-    folder = tmp_path_factory.mktemp("timings")
-    path = timing.run(contenders, folder, quick=True, report=told.append)
+    path = timing.run(CONTENDERS, tmp_path_factory.mktemp("timings"), quick=True, report=told.append)
     assert [one.name for one in told if one.total == 0] == list(LAWS)
     return path, [one for one in told if one.total]
 
@@ -197,3 +199,45 @@ def test_law_that_ends_its_process_is_refused(tmp_path):
     with pytest.raises(BadLaw, match=r"own\.py"):
         timing.run_apart(made, tmp_path / "timings", quick=True)
     assert not (tmp_path / "timings").exists()
+
+
+# ------------------------------------------------------------------------------------------- on arms
+
+
+@pytest.fixture(scope="module")
+def on_arm(tmp_path_factory):
+    """Return the rows of a quick run of the two laws on one arm."""
+    return timing.read(timing.run(CONTENDERS, tmp_path_factory.mktemp("timings"), quick=True, arms=("ur5e",)))
+
+
+def test_every_controller_of_the_default_suite_with_these_laws_is_timed_on_the_arm(on_arm):
+    own = on_arm[(on_arm.arm == "ur5e") & (on_arm.what == ENGINE)]
+    timed = own[own.engine == "native"]
+    names = set(zip(timed.regulator, timed.jacobian, timed.inverse, strict=True))
+    assert names == {(one.regulator.name, *one.way) for one in on_arms.controllers(CONTENDERS, "ur5e")}
+    assert {("rotation-matrix", "geometric", "solve"), ("linearized-euler", "geometric", "solve")} < names
+    assert (own.passes == QUICK_PASSES).all()
+
+
+def test_controller_alone_commands_the_torques_of_the_equations():
+    one, start = named("ur5e", "rotation-matrix@geometric+standard"), tasks.start_set("clear", 8, arm="ur5e")[-1]
+    benchmark = controller.controller(on_arms.TASK, "ur5e", one, start)
+    _, world, _ = benchmark.call()
+    last = controller.states(start)[-1]
+    at = here("ur5e", last[:6], last[6:12])
+    expected, _ = torques(one, at, last[12:], at.chain.p, PAPERS_GAINS)
+    np.testing.assert_allclose(world.work.buffers.tau, expected, rtol=1e-9)
+    assert benchmark.ticks == controller.SWEEPS * controller.STATES
+
+
+def test_tables_keep_the_free_body_and_the_arms_apart(on_arm):
+    made = dict(timing.tables(on_arm))
+    assert list(made[""].law) == [*LAWS, "(empty loop)"]
+    assert set(made) == {"", "ur5e"}
+    assert list(made["ur5e"].columns[:2]) == ["law", "native [ns]"]
+    assert len(made["ur5e"]) == ((on_arm.arm == "ur5e") & (on_arm.engine == "native")).sum()
+
+
+def test_controller_that_fails_at_once_is_a_row_without_a_time():
+    one, start = named("jaco", "rotation-matrix@geometric+transpose"), tasks.start_set("wrist", arm="jaco")[0]
+    assert on_arms.native("jaco", one, start=start, fewest=10**6).ticks == 0

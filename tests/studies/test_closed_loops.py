@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
+from support.planted import log as logarithm
 
 from bench.findings.theory.closed_form import linear_settling
 from bench.findings.theory.isotropic import EQUATIONS, settling
@@ -21,10 +22,6 @@ from report.figures.libraries import loops
 from tasks.rules import RULES
 
 TICK_S = closed_loop.DT_S
-
-
-def logarithm(R):
-    return ScipyRotation.from_matrix(R).as_rotvec()
 
 
 def sine(R):
@@ -151,16 +148,15 @@ def table(version, faults, **others):
     return pd.DataFrame([row | {"fixed": "", "fixed_since": ""} | others])
 
 
-def test_fault_that_a_new_version_has_no_longer_is_marked_fixed():
-    (row,) = study.marked(table("1.1", "deadband"), table("1.0", "deadband, dead-at-180")).to_dict("records")
-    assert (row["fixed"], row["fixed_since"]) == ("dead-at-180", "1.0")
-
-
-def test_mark_stays_when_the_same_version_is_asked_again():
-    earlier = table("1.1", "", fixed="deadband", fixed_since="1.0")
-    (row,) = study.marked(table("1.1", ""), earlier).to_dict("records")
-    assert (row["fixed"], row["fixed_since"]) == ("deadband", "1.0")
-
-
-def test_nothing_is_marked_of_a_function_that_is_new():
-    assert study.marked(table("1.0", "deadband"), table("1.0", "").assign(function="g"))["fixed"].tolist() == [""]
+@pytest.mark.parametrize(
+    ("now", "earlier", "fixed", "since"),
+    [
+        (table("1.1", "deadband"), table("1.0", "deadband, dead-at-180"), "dead-at-180", "1.0"),
+        # the same version asked again, and a function that is new
+        (table("1.1", ""), table("1.1", "", fixed="deadband", fixed_since="1.0"), "deadband", "1.0"),
+        (table("1.0", "deadband"), table("1.0", "").assign(function="g"), "", ""),
+    ],
+)
+def test_fault_that_a_new_version_has_no_longer_is_marked_fixed_and_stays_so(now, earlier, fixed, since):
+    (row,) = study.marked(now, earlier).to_dict("records")
+    assert (row["fixed"], row["fixed_since"]) == (fixed, since)

@@ -75,17 +75,10 @@ def test_same_code_raised_no_false_alarm():
     assert not any(one["alarms"] for one in rows)
 
 
-@pytest.fixture(scope="module")
-def stored():
-    return read_json(STORED)
-
-
-def test_stored_study_has_every_seed_and_half_the_step(stored):
+def test_no_verdict_hangs_on_the_draw_of_twenty_seeds_or_on_the_step():
+    stored = read_json(STORED)
     assert len(SEEDS) == 20
     assert set(stored["runs"]) == set(RUNS)
-
-
-def test_no_verdict_hangs_on_the_draw_or_on_the_step(stored):
     reference = {one.id: str(one.word) for one in claims.judge_all(verdicts.REFERENCE)}
     assert list(reference) == [one.id for one in claims.all_claims()]
     assert turned(stored["runs"], reference) == {}

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bits import EPS
+from support.planted import log as logarithm
 
 from bench.experiments.tables.store import read
 from bench.studies.libraries import turns
@@ -171,10 +172,6 @@ def line(call, takes=MATRIX, form="rotation-vector"):
     library = Library("numpy", "numpy", (Function("f", takes, call, form),))
     (found,) = answers.functions(rows(library, FEW)).to_dict("records")
     return found
-
-
-def logarithm(R):
-    return ScipyRotation.from_matrix(R).as_rotvec()
 
 
 def test_nothing_is_said_against_a_logarithm():

@@ -2,10 +2,11 @@
 
 import time
 
-import mujoco
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support.buffers import bias_of, inertia_of, jacobian_of
+from support.states import rotation
 
 import tasks
 from bench.experiments import starts
@@ -46,21 +47,14 @@ def test_without_delay_the_limit_is_jurys():
 
 def expected_torque(loop, start):
     """Return D J^+ (a - Jdot qdot) + h by numpy, the law on R by the sine of scipy's rotation vector."""
-    model, data, n = loop.model, loop.data, loop.joints
-    site, (kp, kv) = model.site("tool").id, PAPERS_GAINS
-    J, J_dot, D = np.zeros((6, n)), np.zeros((6, n)), np.zeros((n, n))
-    mujoco.mj_jacSite(model, data, J[:3], J[3:], site)
-    mujoco.mj_jacDot(model, data, J_dot[:3], J_dot[3:], data.site_xpos[site], model.site_bodyid[site])
-    mujoco.mj_fullM(model, data, D)
-    left = (
-        Rotation.from_quat(start.goal_wxyz, scalar_first=True)
-        * Rotation.from_matrix(data.site_xmat[site].reshape(3, 3)).inv()
-    )
+    model, data, (kp, kv) = loop.model, loop.data, PAPERS_GAINS
+    J, drift, D = jacobian_of(model, data, "tool"), bias_of(model, data, "tool"), inertia_of(model, data)
+    left = rotation(start.goal_wxyz) * Rotation.from_matrix(data.site("tool").xmat.reshape(3, 3)).inv()
     angle = left.magnitude()
     sine = left.as_rotvec() / angle * np.sin(angle)
     twist = J @ data.qvel
-    a = np.r_[-kv * twist[:3], kp * sine - kv * twist[3:]] - J_dot @ data.qvel
-    damped = (0.5 * kv if n > 6 else 0.0) * data.qvel
+    a = np.r_[-kv * twist[:3], kp * sine - kv * twist[3:]] - drift
+    damped = (0.5 * kv if loop.joints > 6 else 0.0) * data.qvel
     return D @ (np.linalg.pinv(J) @ (a + J @ damped) - damped) + data.qfrc_bias - data.qfrc_passive
 
 

@@ -40,13 +40,17 @@ def test_every_controller_was_compared_at_the_commit_that_it_names():
 
 
 @pytest.mark.parametrize("row", ROWS.values(), ids=lambda row: row["name"])
-def test_controller_equals_its_source_where_it_was_built(row):
+def test_controller_equals_its_source_where_it_was_built_and_lines_are_those_that_the_study_marks(row):
     if "reason" in row:
         assert row["reason"]
     else:
         assert row["pairs"] == study.PAIRS
         assert row["difference"] <= LIMIT
         assert (row["near_180"] > LIMIT) == (row["name"] in LOSING)
+    [source] = study.SOURCES.glob(f"{row['name'].replace('-', '_')}.*")
+    marks = [mark for mark in study.MARK.finditer(source.read_text()) if mark["file"] == row["file"]]
+    assert row["lines"] == ", ".join(f"{mark['first']}-{mark['last']}" for mark in marks)
+    assert all(int(mark["first"]) <= int(mark["last"]) for mark in marks)
 
 
 def test_restatement_is_exact_beyond_175_degrees_where_three_sources_lose_digits():
@@ -69,14 +73,6 @@ def test_kernel_gives_what_the_source_gave(row):
     found = study.errors_of(contenders("shipped")[row["name"]], turns)
     is_far = turns.magnitude() <= study.NEAR_180_RAD
     np.testing.assert_allclose(found[is_far], np.array(row["errors"])[is_far], rtol=0.0, atol=LIMIT)
-
-
-@pytest.mark.parametrize("row", ROWS.values(), ids=lambda row: row["name"])
-def test_lines_are_those_that_the_study_marks(row):
-    [source] = study.SOURCES.glob(f"{row['name'].replace('-', '_')}.*")
-    marks = [mark for mark in study.MARK.finditer(source.read_text()) if mark["file"] == row["file"]]
-    assert row["lines"] == ", ".join(f"{mark['first']}-{mark['last']}" for mark in marks)
-    assert all(int(mark["first"]) <= int(mark["last"]) for mark in marks)
 
 
 @pytest.mark.parametrize(("factor", "difference"), [("1.0", 0.0), ("1.5", 0.5)])

@@ -4,7 +4,6 @@ Only what robots ask (robots.toml), whose laws are ours and what a law remembers
 """
 
 import functools
-from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -27,15 +26,6 @@ def take(criterion, values):
         return values.mean(axis=-2)
     place = int(np.ceil(LEVELS.get(criterion, 0.5) * values.shape[-2] - 1e-9)) - 1
     return np.take(np.partition(values, place, axis=-2), place, axis=-2)
-
-
-class Decision(NamedTuple):
-    """What `needs.Decision` has, beside the situation."""
-
-    law: str
-    tied: tuple
-    best: tuple
-    asked: tuple
 
 
 class Asked:
@@ -104,7 +94,7 @@ class Asked:
         best = self.front(asked, need.by) if need.by else asked
         kept = self.front(best, GENERAL)
         law = min(kept, key=lambda law: (*self.simplicity(law), law))
-        return Decision(law, tuple(one for one in kept if one != law), tuple(best), tuple(asked))
+        return needs.Decision(need, law, tuple(one for one in kept if one != law), tuple(best), tuple(asked))
 
 
 def is_ours(law):

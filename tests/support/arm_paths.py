@@ -14,10 +14,6 @@ BETWEEN = 1.05
 """A bound was looked at every five degrees; between these points a condition number can be a little larger."""
 
 
-def quats(rotations):
-    return [tuple(quat) for quat in rotations.as_quat(scalar_first=True).tolist()]
-
-
 def geodesic(start, points):
     """Rotations along the shortest way from start to goal, at these shares of it."""
     return Slerp([0.0, 1.0], Rotation.concatenate([rotation(start.quat_wxyz), rotation(start.goal_wxyz)]))(points)
@@ -43,7 +39,8 @@ def cos_beta(rotations):
 
 def walked(arm, start, rotations):
     """The joint path, which must be there to the end."""
-    path = kinematics(tasks.arm(arm)).follow(start.q, quats(rotations))
+    quats = [tuple(quat) for quat in rotations.as_quat(scalar_first=True).tolist()]
+    path = kinematics(tasks.arm(arm)).follow(start.q, quats)
     assert path is not None, start.id
     return path
 

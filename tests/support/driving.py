@@ -10,6 +10,7 @@ from bench.law.inputs import Gains
 from tasks.rules import ticks
 
 NO_EARLY_STOP = 10**9
+METRICS, ARM_METRICS = metrics_of(on_arm=False), metrics_of(on_arm=True)
 
 
 def settings(dt_s=1e-3, horizon_s=3.0, hold_ticks=NO_EARLY_STOP, gains=None, **limits):
@@ -29,7 +30,7 @@ def spread(each: int, task: str = "free-body") -> list:
 def compile_into_cache(engine: str, law: str) -> None:
     """Loops of an ideal plant with a law, one start at a time and in lanes, as a run of all metrics has them."""
     for total in (0, WORTH_LANES):
-        prepare(engine, find_contender(law), metrics_of(on_arm=False), total)
+        prepare(engine, find_contender(law), METRICS, total)
 
 
 def recorder(kept):

@@ -14,7 +14,6 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 import tasks
 from bench.engines.contact_episode import room, rows, wrench
 from bench.experiments.contact import can_do
-from bench.law.chain import Chain
 from bench.law.contenders.registry import contenders
 from bench.law.control.contact_controller import FORMS
 from bench.law.control.hybrid import comply
@@ -22,8 +21,7 @@ from bench.law.control.registry import all_controllers
 from bench.law.control.setpoint import ContactParameters, Rows, Setpoint
 from bench.law.inputs import Gains
 from support.bits import EPS
-from support.buffers import bias_of, chain_of, inertia_of, jacobian_of
-from support.on_arms import Here
+from support.on_arms import GAINS, Here, at_site
 from support.states import as_rotation, vector
 from tasks.contact import Specification, Trial, prepare
 from tasks.contact_model import model_xml
@@ -35,8 +33,7 @@ IMPEDANCES = [one for one in all_controllers() if one.impedance is not None]
 COORDINATES = {word: one for word, one in contenders("representations").items() if one.about is not None}
 """Representations with a coordinate for each of the axes x, y and z."""
 
-# Not the defaults: what has those built in is found out.
-GAINS = Gains(kp=37.0, kv=9.0)
+# Not the defaults, as GAINS: what has those built in is found out.
 TOUCH = ContactParameters(m_p=7.0, m_o=0.3, kc=4.0, kf=0.8)
 SELECTIONS = [tuple(map(float, held)) for held in itertools.product((0, 1), repeat=6)]
 """All of them; the first holds nothing, the last everything."""
@@ -50,32 +47,6 @@ def backward(J) -> float:
 def damping(qdot) -> np.ndarray:
     """z, n: of the joints where they are more than a hand's freedoms, 1/s of half of kv; none on six."""
     return -GAINS.kv / 2.0 * qdot if len(qdot) > 6 else np.zeros(6)
-
-
-class Hand(NamedTuple):
-    """A state: what MuJoCo says of it (J, drift = Jdot qdot, D, fg, the wrench F) and what the controller sees."""
-
-    model: mujoco.MjModel
-    data: mujoco.MjData
-    chain: Chain
-    J: np.ndarray
-    drift: np.ndarray
-    D: np.ndarray
-    fg: np.ndarray
-    F: np.ndarray
-
-    @property
-    def R(self) -> np.ndarray:
-        """The hand's orientation, 3 x 3."""
-        return np.array(self.chain.R).T
-
-    @property
-    def velocity(self) -> np.ndarray:
-        """(pdot, omega), base frame."""
-        return self.J @ self.chain.qdot
-
-    acceleration = Here.acceleration
-    """Under these torques and the wrench."""
 
 
 class Tick(NamedTuple):
@@ -94,7 +65,7 @@ def simulated(arm: str):
     return model, mujoco.MjData(model)
 
 
-def hand(arm: str, q, qdot, mount: ScipyRotation, push) -> Hand:
+def hand(arm: str, q, qdot, mount: ScipyRotation, push) -> Here:
     """Return the state with the hand's frame rotated by `mount`; it is valid until the next call."""
     model, data = simulated(arm)
     mujoco.mj_resetData(model, data)
@@ -102,11 +73,7 @@ def hand(arm: str, q, qdot, mount: ScipyRotation, push) -> Hand:
     frame = (1.0, 0.0, 0.0, 0.0), tuple(mount.as_quat(scalar_first=True))
     prepare(model, data, Trial("", "", anyhow, tuple(q), *frame, push=tuple(push)))
     data.qvel[:] = qdot
-    mujoco.mj_forward(model, data)
-    J, drift, D = jacobian_of(model, data, "hand"), bias_of(model, data, "hand"), inertia_of(model, data)
-    f, m, fg = np.array(push[:3]), np.array(push[3:]), data.qfrc_bias - data.qfrc_passive
-    F = np.concatenate((f, m + np.cross(data.xipos[model.body("hand").id] - data.site("hand").xpos, f)))
-    return Hand(model, data, chain_of(model, data, "hand"), J, drift, D, fg, F)
+    return at_site(model, data, "hand", push)
 
 
 @functools.cache
@@ -123,24 +90,19 @@ def drawn(arm: str, count: int = 8, turn: float = 0.5) -> tuple:
         push = draw.normal(size=6) * (20.0, 20.0, 20.0, 2.0, 2.0, 2.0)
         at = hand(arm, q, qdot, mount, push)
         goal = ScipyRotation.from_matrix(at.R) * ScipyRotation.from_rotvec(turn * draw.normal(size=3) / 3**0.5)
-        found.append(
-            ((arm, q, qdot, mount, push), setpoint_of(goal, np.array(at.chain.p) + 0.05 * draw.normal(size=3), draw))
-        )
+        p_d = vector(np.array(at.chain.p) + 0.05 * draw.normal(size=3))
+        v_d, f_d, m_d = (vector(draw.normal(scale=scale, size=3)) for scale in (0.1, 15.0, 1.5))
+        setpoint = Setpoint(as_rotation(goal.as_matrix().T), p_d, v_d, f_d, m_d)
+        found.append(((arm, q, qdot, mount, push), setpoint))
     return tuple(found)
 
 
-def setpoint_of(goal: ScipyRotation, p_d, draw) -> Setpoint:
-    """A setpoint with that goal; velocity, force and moment drawn."""
-    v_d, f_d, m_d = (vector(draw.normal(scale=scale, size=3)) for scale in (0.1, 15.0, 1.5))
-    return Setpoint(as_rotation(goal.as_matrix().T), vector(p_d), v_d, f_d, m_d)
-
-
-def felt(at: Hand):
+def felt(at: Here):
     """(f, m), base frame, as the engines read them from MuJoCo's sensors."""
     return wrench(at.chain.R, at.data.sensordata)
 
 
-def tick(one, at: Hand, setpoint: Setpoint, held) -> Tick:
+def tick(one, at: Here, setpoint: Setpoint, held) -> Tick:
     """One tick of a controller, with the wrench that MuJoCo's sensors read."""
     n = at.chain.n
     into, about, J, tau = rows(), room(), np.zeros((6, n)), np.zeros(n)

@@ -31,7 +31,7 @@ def named(arm: str, word: str):
 
 
 class Here(NamedTuple):
-    """A state of an arm. x is (p, omega); J, Jdot, D and fg are MuJoCo's own."""
+    """A state of an arm at a site: J, drift = Jdot qdot, D, fg and the wrench F by MuJoCo; what the controller sees."""
 
     model: mujoco.MjModel
     data: mujoco.MjData
@@ -40,15 +40,25 @@ class Here(NamedTuple):
     drift: np.ndarray
     D: np.ndarray
     fg: np.ndarray
-    xdot: np.ndarray
+    F: np.ndarray
 
     @property
     def n(self) -> int:
         """Joints."""
         return self.model.nv
 
+    @property
+    def R(self) -> np.ndarray:
+        """The site's orientation, 3 x 3."""
+        return np.array(self.chain.R).T
+
+    @property
+    def velocity(self) -> np.ndarray:
+        """(pdot, omega), base frame."""
+        return self.J @ self.chain.qdot
+
     def acceleration(self, tau) -> np.ndarray:
-        """(pddot, omegadot) under these torques, by MuJoCo's forward dynamics."""
+        """(pddot, omegadot) under these torques and the wrench, by MuJoCo's forward dynamics."""
         self.data.ctrl[:] = tau
         mujoco.mj_forward(self.model, self.data)
         return self.J @ self.data.qacc + self.drift
@@ -66,10 +76,16 @@ def here(arm: str, q, qdot) -> Here:
     model, data = simulated(arm)
     mujoco.mj_resetData(model, data)
     data.qpos[:], data.qvel[:] = q, qdot
+    return at_site(model, data, "tool")
+
+
+def at_site(model, data, site: str, push=(0.0,) * 6) -> Here:
+    """Return the state of a model; of a push (f, m) on the site's body the wrench about the site."""
     mujoco.mj_forward(model, data)
-    J, drift, D = jacobian_of(model, data, "tool"), bias_of(model, data, "tool"), inertia_of(model, data)
-    fg = data.qfrc_bias - data.qfrc_passive
-    return Here(model, data, chain_of(model, data, "tool"), J, drift, D, fg, J @ qdot)
+    J, drift, D = jacobian_of(model, data, site), bias_of(model, data, site), inertia_of(model, data)
+    place, (f, m) = data.site(site).xpos, np.reshape(push, (2, 3))
+    F = np.concatenate((f, m + np.cross(data.xipos[model.site(site).bodyid[0]] - place, f)))
+    return Here(model, data, chain_of(model, data, site), J, drift, D, data.qfrc_bias - data.qfrc_passive, F)
 
 
 def torques(one, at: Here, goal_wxyz, p_d, gains=GAINS):

@@ -3,20 +3,15 @@
 JOINTS = (("1", "0 0 1"), ("2", "0 1 0"), ("3", "0 1 0"), ("4", "0 0 1"), ("5", "0 1 0"), ("6", "0 0 1"))
 
 
-def body(name: str, axis: str, inside: str) -> str:
-    """A link of .2 m and 1 kg that carries the next one."""
-    return f"""<body name="link {name}" pos="0 0 .2">
-<joint name="joint {name}" axis="{axis}" range="-3 3"/>
-<inertial pos="0 0 .1" mass="1" diaginertia=".01 .01 .005"/>
-{inside}</body>
-"""
-
-
 def xml(joints=JOINTS) -> str:
-    """The MJCF text of a chain of these joints: (name, axis) from the base on."""
+    """The MJCF text of a chain of these joints, (name, axis) from the base on, and links of .2 m and 1 kg."""
     chain = '<site name="tool" pos="0 0 .2"/>\n'
     for name, axis in reversed(joints):
-        chain = body(name, axis, chain)
+        chain = f"""<body name="link {name}" pos="0 0 .2">
+<joint name="joint {name}" axis="{axis}" range="-3 3"/>
+<inertial pos="0 0 .1" mass="1" diaginertia=".01 .01 .005"/>
+{chain}</body>
+"""
     motors = "".join(
         f'<motor name="motor {name}" joint="joint {name}" ctrlrange="-20 20" ctrllimited="false"/>\n'
         for name, _ in joints

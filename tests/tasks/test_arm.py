@@ -20,7 +20,6 @@ def xml() -> str:
     return """{}"""
 '''
 WRITTEN = {"xml": "{}", "py": PYTHON_ARM}
-EITHER = pytest.mark.parametrize("suffix", WRITTEN)
 
 
 @pytest.fixture
@@ -43,15 +42,11 @@ def test_names_are_file_names_with_dashes(tmp_path):
     assert arm("my-arm", tmp_path).name == "my-arm"
 
 
-@EITHER
-def test_text_is_kept_as_the_file_has_or_writes_it(own, suffix):
+@pytest.mark.parametrize("suffix", WRITTEN)
+def test_text_is_kept_as_the_file_has_or_writes_it_until_it_is_edited(own, suffix):
+    """Also within the second that a file's time is kept to, and at the same length."""
     assert own(suffix=suffix).xml == xml()
     assert own(suffix=suffix) is own(suffix=suffix)  # checked once
-
-
-@EITHER
-def test_edited_file_is_another_arm_at_once(own, suffix):
-    """Also within the second that a file's time is kept to, and at the same length."""
     for title in ("A small arm", "A smell arm", "A small arm"):
         assert own("A small arm", title, suffix).title == title
 

@@ -32,18 +32,18 @@ def frame(axis: str, angle: float, x=0.0, z=0.0) -> np.ndarray:
     return T
 
 
+def chain(transforms) -> np.ndarray:
+    return functools.reduce(np.matmul, transforms)
+
+
 def standard(q, a, d, alpha) -> np.ndarray:
     """Denavit and Hartenberg: Rz(q) Tz(d) Tx(a) Rx(alpha), joint after joint."""
-    return functools.reduce(
-        np.matmul, (frame("z", angle) @ frame("x", alpha[i], a[i], d[i]) for i, angle in enumerate(q))
-    )
+    return chain(frame("z", angle) @ frame("x", alpha[i], a[i], d[i]) for i, angle in enumerate(q))
 
 
 def modified(q, a, d, alpha) -> np.ndarray:
     """Craig: Rx(alpha) Tx(a) Rz(q) Tz(d), joint after joint."""
-    return functools.reduce(
-        np.matmul, (frame("x", alpha[i], a[i]) @ frame("z", angle, z=d[i]) for i, angle in enumerate(q))
-    )
+    return chain(frame("x", alpha[i], a[i]) @ frame("z", angle, z=d[i]) for i, angle in enumerate(q))
 
 
 # Corke (1995).
@@ -152,15 +152,11 @@ CLIPPED = 0.086 - 0.0785
 NOMINAL = (0.0, math.pi / 4, math.pi, 0.0, math.pi / 4, 0.0)
 
 
-def test_inertia_at_the_nominal_pose_of_the_puma_is_the_published_one():
+def test_inertia_and_gravity_of_the_puma_at_the_nominal_and_the_zero_pose_are_the_published_ones():
+    """To the last digits of the tables."""
     assert tasks.arm("puma560").pose("qn") == NOMINAL
-    published = np.array([3.6594, 4.4137, 0.9378, 0.1925, 0.1713, 0.1941])
+    published, puma = np.array([3.6594, 4.4137, 0.9378, 0.1925, 0.1713, 0.1941]), Kinematics(tasks.arm("puma560"))
     clipped = np.array([0.0, CLIPPED, CLIPPED, 0.0, 0.0, 0.0])
-    D = Kinematics(tasks.arm("puma560")).inertia_matrix(NOMINAL)
-    assert np.abs(np.diag(D) - (published - clipped)).max() <= 0.5e-4 + 1e-12  # the table's last digit
-
-
-def test_gravity_at_the_nominal_and_the_zero_pose_of_the_puma_is_the_published_one():
-    model = Kinematics(tasks.arm("puma560")).model
+    assert np.abs(np.diag(puma.inertia_matrix(NOMINAL)) - (published - clipped)).max() <= 0.5e-4 + 1e-12
     for q, published in ((NOMINAL, [0.0, 31.640, 6.035, 0.0, 0.0283, 0.0]), ((0.0,) * 6, [0, 37.484, 0.249, 0, 0, 0])):
-        assert state_of(model, q).qfrc_bias == pytest.approx(published, abs=5e-4)  # the table's last digit
+        assert state_of(puma.model, q).qfrc_bias == pytest.approx(published, abs=5e-4)

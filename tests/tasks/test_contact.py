@@ -35,11 +35,8 @@ def test_rest_does_not_count_while_the_place_moves():
     assert RULE.first == 500
 
 
-def test_task_without_an_end_is_never_over():
+def test_rest_at_another_control_period_is_the_same_motion_and_a_task_without_an_end_is_never_over():
     assert rest_numbers(False, 0.5, 1e-3).ticks == 0
-
-
-def test_rest_at_another_control_period_is_the_same_motion():
     other = rest_numbers(True, 0.5, 5e-4)
     assert other.ticks == 2 * RULE.ticks
     assert other[2:] == RULE[2:]

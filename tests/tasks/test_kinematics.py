@@ -1,5 +1,6 @@
 """The judge's kinematics of arms, against a product of matrices, finite differences, scipy and MuJoCo's sensors."""
 
+import itertools
 import math
 
 import numpy as np
@@ -112,36 +113,23 @@ def test_whole_turns_are_taken_off(model):
         assert model.within_range(back) == model.within_range(model.into_range(q))
 
 
-def test_rates_turn_the_tool_in_place(model):
+def test_rates_turn_the_tool_in_place_and_a_start_in_motion_has_its_angular_velocity(model):
     for q in poses(model):
-        np.testing.assert_allclose(
-            model.jacobian(q) @ model.rates(q, (1.0, -2.0, 0.5)), (0, 0, 0, 1.0, -2.0, 0.5), atol=1e-11
-        )
+        rates = model.rates(q, (1.0, -2.0, 0.5))
+        np.testing.assert_allclose(model.jacobian(q) @ rates, (0, 0, 0, 1.0, -2.0, 0.5), atol=1e-11)
+        start = model.start("moving", q, (1.0, 0.0, 0.0, 0.0), rates)
+        np.testing.assert_allclose(start.omega, (1.0, -2.0, 0.5), atol=1e-12)
 
 
-def test_start_in_motion_has_the_angular_velocity_of_the_tool(model):
-    q = poses(model, 1)[0]
-    start = model.start("moving", q, (1.0, 0.0, 0.0, 0.0), model.rates(q, (1.0, -2.0, 0.5)))
-    np.testing.assert_allclose(start.omega, (1.0, -2.0, 0.5), atol=1e-12)
-
-
-@pytest.fixture(scope="module", params=tasks.arm_names())
-def singularities(request):
-    model = kinematics(tasks.arm(request.param))
-    found = [singularity_near(model, q) for q in poses(model, 12)]
-    assert sum(at is not None for at in found) >= 8
-    return model, [at for at in found if at]
-
-
-def test_place_beside_a_singularity_has_the_distance_asked_for(singularities):
-    model, found = singularities
+def test_place_beside_a_singularity_has_the_distance_asked_for(model):
+    found = [at for q in poses(model, 12) if (at := singularity_near(model, q))]
+    assert len(found) >= 8
     made = 0
-    for at in found:
-        for distance in (1e-2, 1e-4, 1e-6):
-            place = beside(model, at, distance)
-            if place is not None:
-                made += 1
-                s = np.linalg.svd(model.jacobian(place[0]), compute_uv=False)
-                assert s[5] == pytest.approx(distance, rel=2e-6)
-                assert math.hypot(*place[1]) == pytest.approx(1.0, abs=1e-14)
+    for at, distance in itertools.product(found, (1e-2, 1e-4, 1e-6)):
+        place = beside(model, at, distance)
+        if place is not None:
+            made += 1
+            s = np.linalg.svd(model.jacobian(place[0]), compute_uv=False)
+            assert s[5] == pytest.approx(distance, rel=2e-6)
+            assert math.hypot(*place[1]) == pytest.approx(1.0, abs=1e-14)
     assert made >= 10

@@ -51,15 +51,11 @@ BAD = [
 ]
 
 
-@pytest.mark.parametrize(("call", "says"), UNKNOWN)
-def test_unknown_name_lists_the_known_ones(call, says):
-    with pytest.raises(UnknownName, match=says):
-        call()
-
-
-@pytest.mark.parametrize(("call", "says"), BAD)
-def test_bad_value_is_refused_with_the_cure(call, says):
-    with pytest.raises(BadValue, match=says):
+@pytest.mark.parametrize(
+    ("error", "call", "says"), [*((UnknownName, *one) for one in UNKNOWN), *((BadValue, *one) for one in BAD)]
+)
+def test_unknown_name_lists_the_known_ones_and_a_bad_value_is_refused_with_the_cure(error, call, says):
+    with pytest.raises(error, match=says):
         call()
 
 
