@@ -27,6 +27,7 @@ from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.kinds import Coordinates, Impedance, Inverse, Jacobian, Law, Spring, State
 from bench.law.linalg import (
     determinant,
+    dot_rows,
     exceeds,
     factor,
     gram,

@@ -5,7 +5,7 @@ B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
 """
 
 from bench.law import Coordinates, Display, Look, Rotation, atan2, cos, kernel, sin, sqrt
-from bench.law.euler import EulerChart, derivatives_of, first_angle
+from bench.law.euler import EulerChart, fields_of, first_angle
 
 
 @kernel
@@ -99,7 +99,6 @@ REPRESENTATION = Coordinates(
     title="X-Y-Z Euler angles",
     source="Craig 1986",
     formula=r"R = R_x(\alpha)\, R_y(\beta)\, R_z(\gamma), \quad E = (\alpha, \beta, \gamma)",
-    symbols=("alpha", "beta", "gamma"),
     chart=chart,
     chart_of=chart_of,
     to_matrix=to_matrix,
@@ -108,6 +107,6 @@ REPRESENTATION = Coordinates(
     angular_velocity=angular_velocity,
     generalized=generalized,
     margin=margin,
-    **derivatives_of(elements),
+    **fields_of(elements),
     display=Display("X-Y-Z angles", Look("orange", "v", "dashed")),
 )
