@@ -8,14 +8,13 @@ import shutil
 from pathlib import Path
 
 from bench.base.files import write_json
-from bench.base.provenance import describe, source_digest
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.experiments.tables.store import read, write_table
 from bench.findings.perturbed import STUDY, by_level
 from bench.law.contenders.registry import all_contenders
 from bench.running import run
-from bench.studies.study import make_parser
+from bench.studies.study import describe_study, make_parser
 
 STARTS = 400
 """Evenly spread; the axes with starts of their own take as many. 20 of 40 settle to 15 points, 200 of 400 to 5."""
@@ -30,14 +29,8 @@ def study(workers: int, starts: int = STARTS, folder: Path = STUDY) -> None:
     plan = planning.make("default", laws, Choice(experiments=("robustness",)), count=starts)
     run.run(plan, folder / UNFINISHED.name, workers=workers)
     kept = by_level(read(folder / UNFINISHED.name, "robustness"))
-    about = {
-        **describe(),
-        "sources": source_digest(),
-        "starts": starts,
-        "command": "python -P -m bench.studies.robustness",
-    }
     write_table(folder / "perturbed.parquet", kept, "perturbed")
-    write_json(folder / "provenance.json", about)
+    write_json(folder / "provenance.json", describe_study("robustness", starts=starts))
     shutil.rmtree(folder / UNFINISHED.name)
     print(f"wrote {folder.name}/perturbed.parquet: {len(kept)} rows")
 

@@ -10,13 +10,12 @@ import dataclasses
 import functools
 import tempfile
 import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from bench.base.files import read_json, write_json
 from bench.base.on_first_use import pd
-from bench.base.provenance import ROOT, describe, source_digest
+from bench.base.provenance import ROOT, source_digest
 from bench.experiments import plan as planning
 from bench.experiments.experiment import Settings, Unit, known_experiments, rows_of
 from bench.experiments.plan import Plan
@@ -31,7 +30,7 @@ from bench.findings.claims.tables import MAIN_ENGINE, Results
 from bench.law.contenders.registry import all_contenders
 from bench.law.inputs import Gains
 from bench.running import run
-from bench.studies.study import make_parser, make_parts
+from bench.studies.study import describe_study, make_parser, make_parts
 
 REFERENCE = ROOT / "results" / "reference"
 
@@ -72,11 +71,8 @@ def plan_of(name: str) -> Plan:
     drawn = {"dt_s": STEP_S / 2} if at_half else {"seed": int(name)}
     whole = planning.make(read_json(REFERENCE / "plan.json")["suite"], laws, **drawn)
     wanted = STEPPED if at_half else DRAWN
-    return dataclasses.replace(whole, units=tuple(one for one in whole.units if _is_in(wanted, one)))
-
-
-def _is_in(wanted: dict[str, Callable[[Unit], bool]], unit: Unit) -> bool:
-    return unit.experiment in wanted and wanted[unit.experiment](unit)
+    units = (one for one in whole.units if one.experiment in wanted and wanted[one.experiment](one))
+    return dataclasses.replace(whole, units=tuple(units))
 
 
 def judged(name: str, workers: int) -> dict:
@@ -121,7 +117,7 @@ def study(names: tuple[str, ...], workers: int, out: Path, again: bool) -> dict:
         "runs": {one: runs[one] for one in RUNS if one in runs},
         "reference": {one.id: str(one.word) for one in claims.judge_all(REFERENCE)},
         "gains": at_other_gains(),
-        "provenance": {**describe(), "command": "python -P -m bench.studies.verdicts"},
+        "provenance": describe_study("verdicts"),
     }
     write_json(out, content)
     for id, words in turned(content["runs"], content["reference"]).items():

@@ -81,24 +81,16 @@ def errors(library: Library) -> Iterable[Function]:
 
 def closed_loops(library: Library) -> pd.DataFrame:
     """One library's rows of closed_loop.parquet."""
+    found = []
+    for one in errors(library):
+        kind = "restated" if library.is_restated else kind_of(one)
+        found += [(one.name, kind, "", one.name, "acceleration", row) for row in rows_of(one)]
+    for loop in library.controllers:
+        kind = "our-loop" if loop.is_our_loop else "controller"
+        found += [(loop.name, kind, loop.title, loop.error, loop.command, row) for row in rows_of_controller(loop)]
     whose = {"library": library.name, "version": version_of(library)}
-    of_functions = [
-        whose
-        | {"function": one.name, "kind": "restated" if library.is_restated else kind_of(one), "title": ""}
-        | {"error": one.name, "command": "acceleration"}
-        | row
-        for one in errors(library)
-        for row in rows_of(one)
-    ]
-    of_controllers = [
-        whose
-        | {"function": one.name, "kind": "our-loop" if one.is_our_loop else "controller", "title": one.title}
-        | {"error": one.error, "command": one.command}
-        | row
-        for one in library.controllers
-        for row in rows_of_controller(one)
-    ]
-    return pd.DataFrame(of_functions + of_controllers)
+    names = ("function", "kind", "title", "error", "command")
+    return pd.DataFrame(whose | dict(zip(names, words, strict=True)) | row for *words, row in found)
 
 
 def verdicts(library: Library) -> pd.DataFrame:

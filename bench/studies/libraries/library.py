@@ -36,6 +36,11 @@ class Function(NamedTuple):
     thread: str = ""
 
 
+def vector_part(name: str, call: Callable[[np.ndarray], Any], fix: str = "") -> Function:
+    """Return the idiom that doubles the vector part of the quaternion that a library makes of a matrix."""
+    return Function(f"2 {name}, vector part", MATRIX, call, "sine-of-half", is_idiom=True, fix=fix)
+
+
 class Controller(NamedTuple):
     """A controller as its users run it, with its own plant or command.
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
+from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library, vector_part
 
 
 def scipy() -> list[Library]:
@@ -20,14 +20,7 @@ def scipy() -> list[Library]:
         Function(
             "as_rotvec, of a quaternion", QUATERNION, lambda q: Rotation.from_quat(q, scalar_first=True).as_rotvec()
         ),
-        Function(
-            "2 as_quat, vector part",
-            MATRIX,
-            lambda R: 2.0 * from_matrix(R).as_quat()[:3],
-            "sine-of-half",
-            is_idiom=True,
-            fix="`as_quat(canonical=True)`",
-        ),
+        vector_part("as_quat", lambda R: 2.0 * from_matrix(R).as_quat()[:3], "`as_quat(canonical=True)`"),
         Function("4 as_mrp", MATRIX, lambda R: 4.0 * from_matrix(R).as_mrp(), "mrp"),
         Function('as_euler("ZYX")', MATRIX, lambda R: from_matrix(R).as_euler("ZYX")[::-1], "z-y-x"),
     )

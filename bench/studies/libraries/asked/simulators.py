@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from bench.studies.libraries.closed_loop import conjugate
-from bench.studies.libraries.library import MATRIX, QUATERNION, Controller, Function, Library
+from bench.studies.libraries.library import MATRIX, QUATERNION, Controller, Function, Library, vector_part
 
 BALL = """
 <body name="body"><joint type="ball"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/><site name="body"/></body>
@@ -77,14 +77,7 @@ def mujoco() -> list[Library]:
         Function("mju_subQuat", QUATERNION, lambda q: filled(3, mujoco.mju_subQuat, q, identity)),
         Function("mju_quat2Vel", QUATERNION, quat_to_vel),
         Function("mju_mat2Quat, mju_quat2Vel", MATRIX, lambda R: quat_to_vel(mat_to_quat(R))),
-        Function(
-            "2 mju_mat2Quat, vector part",
-            MATRIX,
-            lambda R: 2.0 * mat_to_quat(R)[1:],
-            "sine-of-half",
-            is_idiom=True,
-            fix="`mju_quat2Vel` of it",
-        ),
+        vector_part("mju_mat2Quat", lambda R: 2.0 * mat_to_quat(R)[1:], "`mju_quat2Vel` of it"),
         actuator,
     )
 
