@@ -6,7 +6,9 @@ Where the first axis is z, R = Rz(alpha) Ry(beta) R_3(gamma), the third is at
                                                             Z-Y-Z: level = sin beta,  upright = cos beta
 
 and B = [z, (-sin alpha, cos alpha, 0), w] (Murphy 1988, 2.8). X-Y-Z angles begin about x and keep their own B; their
-level and upright are cos beta and sin beta. Limitations: where level = 0 B^-1 does not exist.
+level and upright are cos beta and sin beta. A chart measures gamma in the frame already turned by alpha, so that R is
+rebuilt to rounding however close the pole is, where alpha itself is lost. Limitations: where level = 0 B^-1 does not
+exist.
 """
 
 from typing import NamedTuple

@@ -209,9 +209,8 @@ def _check_shape(one: Contender, path: Path) -> None:
     except Exception:
         return  # a law that raises in an episode is a row, not a mistake of the caller
     if has_memory:
-        if not (
-            isinstance(answer, tuple) and len(answer) == 2 and isinstance(answer[1], tuple) and len(answer[1]) == 4
-        ):
+        memory = answer[1] if isinstance(answer, tuple) and len(answer) == 2 else None
+        if not (isinstance(memory, tuple) and len(memory) == 4):
             raise BadLaw(
                 f"--law {path}: the law of '{one.name}' has memory and returned {_shown(answer)}; it must return "
                 "(command, memory) with a memory of four floats"

@@ -18,6 +18,7 @@ from bench.law import (
     quaternion_direction,
     sqrt,
 )
+from bench.law.contenders.representations.rotation_vector import combined
 
 
 class Chart(NamedTuple):
@@ -57,12 +58,7 @@ def mapped(at, v, swept):
 
     Forward with swept = sigma x v, as B turns it; back with v x sigma, as B^-1 does.
     """
-    E, along = at.E, dot(at.E, v)
-    return (
-        at.scalar * v[0] + swept[0] + E[0] * along,
-        at.scalar * v[1] + swept[1] + E[1] * along,
-        at.scalar * v[2] + swept[2] + E[2] * along,
-    )
+    return combined(at.scalar, v, swept, dot(at.E, v), at.E)
 
 
 @kernel

@@ -10,11 +10,7 @@ from bench.law.euler import ABOUT_Z, EulerChart, fields_of, first_angle
 
 @kernel
 def chart(R):
-    """Angles of R; alpha, gamma in [-pi, pi], beta in [-pi/2, pi/2].
-
-    gamma is measured in the frame already turned by alpha, so R is rebuilt to rounding however close the pole is,
-    where alpha itself is lost.
-    """
+    """Angles of R; alpha, gamma in [-pi, pi], beta in [-pi/2, pi/2]."""
     cos_beta, alpha, sin_alpha, cos_alpha = first_angle(R.n[0], R.n[1])
     beta = atan2(-R.n[2], cos_beta)
     gamma = atan2(sin_alpha * R.a[0] - cos_alpha * R.a[1], cos_alpha * R.o[1] - sin_alpha * R.o[0])

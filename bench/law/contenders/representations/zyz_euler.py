@@ -10,11 +10,7 @@ from bench.law.euler import ABOUT_Z, EulerChart, fields_of, first_angle
 
 @kernel
 def chart(R):
-    """Angles of R; alpha, gamma in [-pi, pi], beta in [0, pi].
-
-    gamma is measured in the frame already turned by alpha, so R is rebuilt to rounding however close the pole is,
-    where alpha itself is lost.
-    """
+    """Angles of R; alpha, gamma in [-pi, pi], beta in [0, pi]."""
     sin_beta, alpha, sin_alpha, cos_alpha = first_angle(R.a[0], R.a[1])
     beta = atan2(sin_beta, R.a[2])
     gamma = atan2(cos_alpha * R.n[1] - sin_alpha * R.n[0], cos_alpha * R.o[1] - sin_alpha * R.o[0])

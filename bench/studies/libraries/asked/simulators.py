@@ -84,26 +84,16 @@ def mujoco() -> list[Library]:
     def numbers(values: Any) -> str:
         return " ".join(f"{value:g}" for value in values)
 
-    (held, _), (weld, _) = load_model("held"), load_model("welded")
-    dt_s, title = weld.opt.timestep, f"solref {numbers(weld.eq_solref[0])}, solimp {numbers(weld.eq_solimp[0])}, "
+    def stepping(model: str, name: str, error: str, title: str, **more: Any) -> Controller:
+        dt_s = load_model(model)[0].opt.timestep
+        return Controller(name, error, "acceleration", title, dt_s, partial(stepped, model), **more)
+
+    weld, _ = load_model("welded")
+    title = f"solref {numbers(weld.eq_solref[0])}, solimp {numbers(weld.eq_solimp[0])}, "
+    title += f"timestep {1e3 * weld.opt.timestep:g} ms"
     controllers = (
-        Controller(
-            "<orientation> actuators",
-            actuator.name,
-            "acceleration",
-            "kp 100, kv 20, timestep 1 ms",
-            held.opt.timestep,
-            partial(stepped, "held"),
-        ),
-        Controller(
-            "<weld>, by default",
-            "",
-            "acceleration",
-            f"{title}timestep {1e3 * dt_s:g} ms",
-            dt_s,
-            partial(stepped, "welded"),
-            lambda q: place_body("welded", q).qacc.copy(),
-        ),
+        stepping("held", "<orientation> actuators", actuator.name, "kp 100, kv 20, timestep 1 ms"),
+        stepping("welded", "<weld>, by default", "", title, pull=lambda q: place_body("welded", q).qacc.copy()),
     )
     return [Library("mujoco", "mujoco", functions, controllers)]
 
