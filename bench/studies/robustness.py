@@ -7,14 +7,13 @@ to either side at the widest.
 import shutil
 from pathlib import Path
 
-from bench.base.files import write_json
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
-from bench.experiments.tables.store import read, write_table
+from bench.experiments.tables.store import read
 from bench.findings.perturbed import STUDY, by_level
 from bench.law.contenders.registry import all_contenders
 from bench.running import run
-from bench.studies.study import describe_study, make_parser
+from bench.studies.study import keep_table, make_parser
 
 STARTS = 400
 """Evenly spread; the axes with starts of their own take as many. 20 of 40 settle to 15 points, 200 of 400 to 5."""
@@ -29,10 +28,8 @@ def study(workers: int, starts: int = STARTS, folder: Path = STUDY) -> None:
     plan = planning.make("default", laws, Choice(experiments=("robustness",)), count=starts)
     run.run(plan, folder / UNFINISHED.name, workers=workers)
     kept = by_level(read(folder / UNFINISHED.name, "robustness"))
-    write_table(folder / "perturbed.parquet", kept, "perturbed")
-    write_json(folder / "provenance.json", describe_study("robustness", starts=starts))
+    keep_table("robustness", folder / "perturbed.parquet", kept, starts=starts)
     shutil.rmtree(folder / UNFINISHED.name)
-    print(f"wrote {folder.name}/perturbed.parquet: {len(kept)} rows")
 
 
 def main() -> None:

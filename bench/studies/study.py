@@ -51,9 +51,14 @@ def make_parts(out: Path, parts: Mapping[str, Callable[[], Any]], only: Iterable
     return made
 
 
+def keep_table(name: str, out: Path, rows: pd.DataFrame, **about: Any) -> None:
+    """Write the table of a study, which has the name of its file, and beside it where it comes from."""
+    write_table(out, rows, out.stem)
+    write_json(out.with_name("provenance.json"), describe_study(name, **about))
+    print(f"wrote {out.parent.name}/{out.name}: {len(rows)} rows")
+
+
 def make_table(name: str, doc: str | None, out: Path, parts: Mapping[str, Callable[[], list[dict]]]) -> None:
     """Run the command of a study whose parts are rows of the table NAME, and write it with its provenance."""
     out = make_parser(name, doc, out=out).parse_args().out
-    rows = [row for part in make_parts(out, parts).values() for row in part]
-    write_table(out, pd.DataFrame(rows), name)
-    write_json(out.with_name("provenance.json"), describe_study(name))
+    keep_table(name, out, pd.DataFrame([row for part in make_parts(out, parts).values() for row in part]))

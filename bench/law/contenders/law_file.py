@@ -10,6 +10,7 @@ import traceback
 import types
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from bench import law
 from bench.base.errors import BadLaw
@@ -136,7 +137,8 @@ def check_fields(own: Law, path: Path) -> None:
 
 def _problems(own: Law) -> Iterator[str]:
     """Yield what is wrong with the fields of a law."""
-    on_matrix, shown, memory = own.coordinates == ON_MATRIX, own.display, own.memory or ()
+    on_matrix, memory = own.coordinates == ON_MATRIX, own.memory or ()
+    shown: Any = own.display
     needed = "law" if on_matrix else "law_in"
     if not (isinstance(own.name, str) and WORD.fullmatch(own.name) and len(own.name) <= LONGEST_NAME):
         yield (

@@ -91,6 +91,3 @@ def compiled(name: str, *options: str) -> Callable[[str], Callable]:
         return call
 
     return function
-
-
-ASKED = (eigen, kdl, tf2)

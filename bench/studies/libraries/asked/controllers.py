@@ -182,6 +182,3 @@ def robosuite() -> list[Library]:
     motion, name = partial(accelerated, error, kp, kv, dt_s), "OSC_POSE, rotation decoupled"
     loop = Controller(name, error.name, "acceleration", title, dt_s, motion, is_our_loop=True)
     return [Library("robosuite", "robosuite", functions, (loop,))]
-
-
-ASKED = (drake, pink, placo, roboticstoolbox, robosuite)

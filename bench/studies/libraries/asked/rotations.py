@@ -191,17 +191,3 @@ def dm_control() -> list[Library]:
         ),
     )
     return [Library("dm_control", "dm-control", functions)]
-
-
-ASKED = (
-    scipy,
-    numpy_quaternion,
-    pyquaternion,
-    pytransform3d,
-    transforms3d,
-    jaxlie,
-    spatialmath,
-    gtsam,
-    pinocchio,
-    dm_control,
-)

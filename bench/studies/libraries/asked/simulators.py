@@ -204,6 +204,3 @@ def newton() -> list[Library]:
         Function(by_matrix, MATRIX, lambda R: launched(of_matrix, [on_cpu([R], warp.mat33)])),
     )
     return [Library("newton", "newton", functions, is_single=True)]
-
-
-ASKED = (mujoco, mink, newton)
