@@ -5,7 +5,6 @@ to either side at the widest.
 """
 
 import shutil
-from pathlib import Path
 
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
@@ -22,19 +21,15 @@ UNFINISHED = STUDY / "run"
 """The run's folder, until it is finished."""
 
 
-def study(workers: int, starts: int = STARTS, folder: Path = STUDY) -> None:
-    """Run, or go on, and keep a row a law and level."""
-    laws = [one for one in all_contenders() if not one.regulator.costing_only]
-    plan = planning.make("default", laws, Choice(experiments=("robustness",)), count=starts)
-    run.run(plan, folder / UNFINISHED.name, workers=workers)
-    kept = by_level(read(folder / UNFINISHED.name, "robustness"))
-    keep_table("robustness", folder / "perturbed.parquet", kept, starts=starts)
-    shutil.rmtree(folder / UNFINISHED.name)
-
-
 def main() -> None:
-    """Run the study."""
-    study(make_parser("robustness", __doc__, workers=2).parse_args().workers)
+    """Run the study, or go on, and keep a row a law and level."""
+    workers = make_parser("robustness", __doc__, workers=2).parse_args().workers
+    laws = [one for one in all_contenders() if not one.regulator.costing_only]
+    plan = planning.make("default", laws, Choice(experiments=("robustness",)), count=STARTS)
+    run.run(plan, UNFINISHED, workers=workers)
+    kept = by_level(read(UNFINISHED, "robustness"))
+    keep_table("robustness", STUDY / "perturbed.parquet", kept, starts=STARTS)
+    shutil.rmtree(UNFINISHED)
 
 
 if __name__ == "__main__":

@@ -33,15 +33,15 @@ def describe_study(name: str, **more: Any) -> dict[str, Any]:
     return describe() | {"command": f"python -P -m bench.studies.{name}"} | more
 
 
-def make_parts(out: Path, parts: Mapping[str, Callable[[], Any]], only: Iterable[str] | None = None) -> dict[str, Any]:
-    """Make parts, or those of some names, and return them by name.
+def make_parts(out: Path, parts: Mapping[str, Callable[[], Any]]) -> dict[str, Any]:
+    """Make parts and return them by name.
 
     Each is written beside `out` when it is made; a call that was stopped goes on there if the sources are the same.
     """
     beside, digest = out.with_name(f"{out.stem}-unfinished.json"), source_digest()
     kept = read_json(beside) if beside.is_file() else {}
     made: dict[str, Any] = kept["parts"] if kept.get("sources") == digest else {}
-    for name in only or parts:
+    for name in parts:
         if name not in made:
             began = time.process_time()
             made[name] = parts[name]()

@@ -90,10 +90,7 @@ def regulator(word: str, extra: tuple[Law, ...] = ()) -> Law:
 
 def regulator_in(file: Path) -> Law | None:
     """Return the regulator of a file in bench/law/contenders/regulators/; None for a file elsewhere."""
-    is_here = (
-        file.is_file()
-        and file.resolve().parent == Path(importlib.import_module(f"{__package__}.regulators").__path__[0]).resolve()
-    )
+    is_here = file.is_file() and file.resolve().parent == Path(__file__).resolve().with_name("regulators")
     return contenders("regulators").get(file.stem.replace("_", "-")) if is_here else None
 
 

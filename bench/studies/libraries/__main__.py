@@ -126,9 +126,8 @@ def keep(tables: dict[str, pd.DataFrame], about: dict[str, dict]) -> None:
             if name == "verdicts":
                 new = marked(new, earlier)
             new = pd.concat([earlier[~earlier["library"].isin(new["library"])], new])
-        order = new["library"].str.lower()
-        new = new.assign(order=order).sort_values("order", kind="stable").drop(columns="order")
-        write_table(FOLDER / f"{name}.parquet", new.reset_index(drop=True), name)
+        new = new.sort_values("library", key=lambda names: names.str.lower(), kind="stable", ignore_index=True)
+        write_table(FOLDER / f"{name}.parquet", new, name)
         print(f"wrote {name}: {len(new)} rows, {new['library'].nunique()} libraries")
     if (FOLDER / "provenance.json").is_file():
         about = read_json(FOLDER / "provenance.json")["libraries"] | about

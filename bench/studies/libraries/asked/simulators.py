@@ -181,10 +181,8 @@ def newton() -> list[Library]:
     model = builder.finalize(device="cpu")
     goal = on_cpu([warp.vec4(0.0, 0.0, 0.0, 1.0)], warp.vec4)
     objective = newton.ik.IKObjectiveRotation(0, warp.quat_identity(), goal)
-    residuals, first = (
-        warp.zeros((1, 3), dtype=warp.float32, device="cpu"),
-        warp.zeros(1, dtype=warp.int32, device="cpu"),
-    )
+    residuals = warp.zeros((1, 3), dtype=warp.float32, device="cpu")
+    first = warp.zeros(1, dtype=warp.int32, device="cpu")
     objective.set_batch_layout(3, 0, 1)
     objective.bind_device(model.device)
     objective.init_buffers(model, newton.ik.IKJacobianType.ANALYTIC)
