@@ -148,17 +148,12 @@ def marked(new: pd.DataFrame, earlier: pd.DataFrame) -> pd.DataFrame:
             if old["version"] == row["version"]:
                 row |= {"fixed": old["fixed"], "fixed_since": old["fixed_since"]}
             else:
-                gone = sorted(set(words(old["faults"])) - set(words(row["faults"])))
+                gone = sorted({*old["faults"].split(", ")} - {*row["faults"].split(", "), ""})
                 row |= {"fixed": ", ".join(gone), "fixed_since": old["version"] if gone else ""}
                 if gone:
                     print(f"fixed in {row['library']} {row['version']}: {row['function']}: {row['fixed']}")
         rows.append(row)
     return pd.DataFrame(rows)
-
-
-def words(text: str) -> list[str]:
-    """Names between commas."""
-    return [one for one in text.split(", ") if one]
 
 
 if __name__ == "__main__":

@@ -55,13 +55,7 @@ def pyquaternion() -> list[Library]:
     functions = (
         Function("angle, axis", QUATERNION, lambda q: vector(Quaternion(*q))),
         Function("angle, axis, of a matrix", MATRIX, lambda R: vector(Quaternion(matrix=R))),
-        Function(
-            "2 log, vector part",
-            QUATERNION,
-            lambda q: 2.0 * Quaternion.log(Quaternion(*q)).vector,
-            is_idiom=True,
-            fix="`angle * axis`",
-        ),
+        vector_part("log", lambda q: 2.0 * Quaternion.log(Quaternion(*q)).vector, "`angle * axis`", is_logarithm=True),
     )
     return [Library("pyquaternion", "pyquaternion", functions)]
 
@@ -174,13 +168,7 @@ def dm_control() -> list[Library]:
     logging.set_verbosity(logging.ERROR)  # rmat_to_euler warns of every pole that it gets
     functions = (
         Function("quat_to_axisangle", QUATERNION, its.quat_to_axisangle),
-        Function(
-            "2 quat_log, vector part",
-            QUATERNION,
-            lambda q: 2.0 * its.quat_log(q)[1:],
-            is_idiom=True,
-            fix="`quat_to_axisangle`",
-        ),
+        vector_part("quat_log", lambda q: 2.0 * its.quat_log(q)[1:], "`quat_to_axisangle`", is_logarithm=True),
         Function("mat_to_quat, quat_to_axisangle", MATRIX, lambda R: its.quat_to_axisangle(its.mat_to_quat(R))),
         Function(
             'rmat_to_euler("ZYX")',
