@@ -28,7 +28,7 @@ def main() -> None:
     plan = planning.make("default", laws, Choice(experiments=("robustness",)), count=STARTS)
     run.run(plan, UNFINISHED, workers=workers)
     kept = by_level(read(UNFINISHED, "robustness"))
-    keep_table("robustness", STUDY / "perturbed.parquet", kept, starts=STARTS)
+    keep_table("robustness", STUDY / "perturbed.parquet", kept, "perturbed", starts=STARTS)
     shutil.rmtree(UNFINISHED)
 
 

@@ -51,9 +51,9 @@ def make_parts(out: Path, parts: Mapping[str, Callable[[], Any]]) -> dict[str, A
     return made
 
 
-def keep_table(name: str, out: Path, rows: pd.DataFrame, **about: Any) -> None:
-    """Write the table of a study, which has the name of its file, and beside it where it comes from."""
-    write_table(out, rows, out.stem)
+def keep_table(name: str, out: Path, rows: pd.DataFrame, table: str = "", **about: Any) -> None:
+    """Write the table of a study, named as the study unless said otherwise, and beside it where it comes from."""
+    write_table(out, rows, table or name)
     write_json(out.with_name("provenance.json"), describe_study(name, **about))
     print(f"wrote {out.parent.name}/{out.name}: {len(rows)} rows")
 
