@@ -62,9 +62,7 @@ def make_folder(folder: Path) -> None:
 
 
 def _sync_folder(folder: Path) -> None:
-    """Bring a folder's list of names to the disk, where the system can: a rename alone may be lost with the power."""
-    if not hasattr(os, "O_DIRECTORY"):
-        return
+    """Bring a folder's list of names to the disk: a rename alone may be lost with the power."""
     handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
         os.fsync(handle)

@@ -4,36 +4,24 @@ No file is left behind, however a run ends. Some network file systems lock no fo
 """
 
 import contextlib
+import fcntl
 import os
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 from bench.base.errors import BadResults
 
-fcntl: Any
-try:
-    import fcntl
-except ImportError:  # no such locks on this system
-    fcntl = None
-
-FLOCK = fcntl and fcntl.flock
-
 
 @contextlib.contextmanager
-def held(folder: Path, waits: bool = False, flock: Callable | None = FLOCK) -> Iterator[None]:
+def held(folder: Path, waits: bool = False, flock: Callable = fcntl.flock) -> Iterator[None]:
     """Hold a folder that exists; where it cannot be locked, say so and go on.
 
     Args:
-        waits: for another process that holds it. flock: the system's; None if it has no such locks.
+        waits: for another process that holds it. flock: the system's.
     Errors:
         BadResults: another process holds it, and this one does not wait.
     """
-    if flock is None:
-        _warn(folder, "this system has no such locks")
-        yield
-        return
     handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)  # not inherited by the programs that a run starts
     try:
         try:
@@ -42,14 +30,9 @@ def held(folder: Path, waits: bool = False, flock: Callable | None = FLOCK) -> I
             cure = "wait for its end, stop it, or choose another folder with --out"
             raise BadResults(f"{folder}: another run is writing into it; {cure}") from None
         except OSError as error:
-            _warn(folder, error.strerror or str(error))
+            reason = f"cannot be locked ({error.strerror or error})"
+            said = f"{folder}: {reason}, so that nothing keeps a second run out of it; start none there"
+            print(said, file=sys.stderr)
         yield
     finally:
         os.close(handle)
-
-
-def _warn(folder: Path, reason: str) -> None:
-    print(
-        f"{folder}: cannot be locked ({reason}), so that nothing keeps a second run out of it; start none there",
-        file=sys.stderr,
-    )

@@ -128,11 +128,9 @@ def versions() -> dict[str, str]:
 def cpu_name() -> str:
     """Return the processor's name as the system gives it."""
     info = Path("/proc/cpuinfo")
-    if info.is_file():
-        for line in info.read_text().splitlines():
-            if line.startswith("model name"):
-                return line.split(":", 1)[1].strip()
-    return platform.processor() or platform.machine()
+    text = info.read_text() if info.is_file() else ""
+    name = text.partition("\nmodel name")[2].partition("\n")[0].partition(":")[2].strip()
+    return name or platform.processor() or platform.machine()
 
 
 VECTORS = ("sse4_2", "avx", "avx2", "fma", "avx512f")

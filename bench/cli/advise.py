@@ -87,7 +87,7 @@ def COMMAND(
     if robot not in TORQUES:
         print_paragraphs(_of_other_robot(robot))
         return
-    from bench.findings.selection.regions import Rule
+    from bench.findings.selection.regions import Rule, answer
 
     if unevenness is None:
         unevenness = (UNCANCELLED if robot == TORQUES[1] else NOMINAL).unevenness
@@ -95,7 +95,11 @@ def COMMAND(
     own = kv / (2.0 * root), bound / kp, delay * root, root / rate, inertia, unevenness, spin / root, jump * root
     wanted = rounded(own)
     rule = Rule(adversary=not no_adversary, forgetful=no_memory, continuous=continuous)
-    found = _simulated(wanted, rule) if is_run else _nearest(wanted, rule)
+    if is_run:
+        found = _simulated(wanted, rule)
+    else:
+        with console(stderr=True).status("reading the map"):
+            found = answer(wanted, rule)
     print_paragraphs(*_said(found, wanted, kp))
     console().print(frame_table(_table(found, kp), "\nLaws in that situation, the fastest first"))
 
@@ -115,13 +119,6 @@ def _of_other_robot(robot: str) -> Paragraph:
         "scale is 1/K."
     )
     return Paragraph("Which law", (said,))
-
-
-def _nearest(wanted: Situation, rule: Rule) -> Answer:
-    from bench.findings.selection.regions import answer
-
-    with console(stderr=True).status("reading the map"):
-        return answer(wanted, rule)
 
 
 def _simulated(wanted: Situation, rule: Rule) -> Answer:

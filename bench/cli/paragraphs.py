@@ -21,22 +21,16 @@ class Paragraph(NamedTuple):
     sentences: tuple[str, ...]
 
 
-def laid_out(every: list[Paragraph], width: int) -> list[str]:
-    """Their lines; nothing is broken but at spaces, so that a name or a command is copied whole."""
-    lines, by = [], textwrap.TextWrapper(width, break_long_words=False, break_on_hyphens=False)
+def print_paragraphs(*every: Paragraph) -> None:
+    """Print some, as wide as the screen and at most WIDTH; names and commands are not broken, to be copied whole."""
+    screen = console()
+    by = textwrap.TextWrapper(min(screen.width, WIDTH), break_long_words=False, break_on_hyphens=False)
     by.subsequent_indent = " " * HEAD
     for head, sentences in every:
         for place, sentence in enumerate(sentences):
             by.initial_indent = f"{'' if place else head:{HEAD}}"
-            lines += by.wrap(sentence)
-    return lines
-
-
-def print_paragraphs(*every: Paragraph) -> None:
-    """Print some, as wide as the screen and at most WIDTH."""
-    screen = console()
-    for line in laid_out(list(every), min(screen.width, WIDTH)):
-        screen.print(line, soft_wrap=True)
+            for line in by.wrap(sentence):
+                screen.print(line, soft_wrap=True)
 
 
 def listed(words: Sequence[str]) -> str:

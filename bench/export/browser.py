@@ -47,7 +47,10 @@ JUDGE: dict[Callable, tuple[Kind, ...]] = {
 def script(contenders: Iterable[Contender]) -> str:
     """Write the script, which defines a global `live`: laws, plant, judge, outcomes, and functions by name."""
     program = Program()
-    plant, judge = ([program.add(one, kinds) for one, kinds in of.items()] for of in (PLANT, JUDGE))
+    offered = [
+        f"{name}: {{{', '.join(program.add(one, kinds).name for one, kinds in functions.items())}}},"
+        for name, functions in (("plant", PLANT), ("judge", JUDGE))
+    ]
     laws = {one.on_free_body: _write_law(program, one) for one in contenders}
     listed = ",\n".join(f"{json.dumps(word)}: {one}" for word, one in laws.items())
     return "\n".join(
@@ -57,8 +60,7 @@ def script(contenders: Iterable[Contender]) -> str:
             COPYSIGN,
             *map(write_function, program.functions),
             "root.live = {",
-            f"plant: {_object(plant)},",
-            f"judge: {_object(judge)},",
+            *offered,
             f"functions: {{copysign, {', '.join(one.name for one in program.functions)}}},",
             f"outcomes: {json.dumps(OUTCOMES)},",
             f"laws: {{\n{listed}\n}}}};",
@@ -82,7 +84,3 @@ def _with_callees(function: Typed) -> Iterator[Typed]:
         if one.identity is None:
             yield from _with_callees(one)
     yield function
-
-
-def _object(functions: list[Typed]) -> str:
-    return f"{{{', '.join(one.name for one in functions)}}}"

@@ -160,7 +160,7 @@ def of_impedance(law: Callable) -> list[Entry]:
 def of_representation(record: Coordinates) -> list[Entry]:
     """Return the entries of coordinates: to and from R, B, B^-1 and B^T, base frame."""
     size = len(record.symbols)
-    chart, chart_of, to_matrix, margin_of = record.chart, record.chart_of, record.to_matrix, record.margin
+    chart, chart_of = record.chart, record.chart_of
     push, pull, accelerate, convert = record.angular_velocity, record.rates, record.accelerate, record.generalized
     E, Edot, Eddot, F = (Parameter(name, "tuple", size) for name in ("E", "Edot", "Eddot", "F"))
     alpha, number = Parameter("alpha", "vector", 3), Parameter("margin", "number")
@@ -168,10 +168,6 @@ def of_representation(record: Coordinates) -> list[Entry]:
     @kernel
     def coordinates(R):
         return chart(R).E
-
-    @kernel
-    def rotation(E):
-        return to_matrix(E)
 
     @kernel
     def rates(E, omega):
@@ -189,16 +185,12 @@ def of_representation(record: Coordinates) -> list[Entry]:
     def generalized_forces(E, moment):
         return convert(chart_of(E), moment)
 
-    @kernel
-    def margin(R):
-        return margin_of(R)
-
     return [
         Entry("coordinates", coordinates, (R,), E, "E of R"),
-        Entry("rotation", rotation, (E,), R, "R of E"),
+        Entry("rotation", record.to_matrix, (E,), R, "R of E"),
         Entry("rates", rates, (E, OMEGA), Edot, "Edot = B^-1 omega"),
         Entry("angular_velocity", angular_velocity, (E, Edot), OMEGA, "omega = B Edot"),
         Entry("angular_acceleration", angular_acceleration, (E, Edot, Eddot), alpha, "B Eddot + Bdot Edot"),
         Entry("generalized_forces", generalized_forces, (E, MOMENT), F, "B^T m"),
-        Entry("margin", margin, (R,), number, "in [0, 1], 0 exactly where B^-1 does not exist"),
+        Entry("margin", record.margin, (R,), number, "in [0, 1], 0 exactly where B^-1 does not exist"),
     ]

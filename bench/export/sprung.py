@@ -38,13 +38,9 @@ def of_compensator(law: Callable, begin: Callable) -> list[Entry]:
 
         return command, next_state
 
-    @kernel
-    def first(R):
-        return begin(R)
-
     given = (R, OMEGA, R_D, GAINS, STATE)
     both = in_both_frames(make, (given, U, COMMAND), ((*given, PERIOD), NEXT, NEXT_STATE))
-    return [*both, Entry("begin", first, (R,), STATE, BEGIN)]
+    return [*both, Entry("begin", begin, (R,), STATE, BEGIN)]
 
 
 def of_spring(law: Callable) -> list[Entry]:

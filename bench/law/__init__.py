@@ -27,6 +27,7 @@ from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.kinds import Coordinates, Impedance, Inverse, Jacobian, Law, Spring, State
 from bench.law.linalg import (
     determinant,
+    dot_rows,
     exceeds,
     factor,
     gram,
@@ -61,7 +62,7 @@ from bench.law.so3 import (
     turn_quaternion,
 )
 from bench.law.spring import divide_by_left_jacobian, rotation_vector, times
-from bench.law.weighting import GREATEST_GAIN, LENGTH, smaller_gram, solve_gram, weigh
+from bench.law.weighting import GREATEST_GAIN, LENGTH, refuse_seven, smaller_gram, solve_gram, weigh
 
 RENAMED = {"Regulator": "Law", "Compensator": "Law", "Representation": "Coordinates"}
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from bench.base.errors import Incompatible
 from bench.law.display import Equation
-from bench.law.kinds import ON_MATRIX, Coordinates, Inverse, Jacobian, Law
+from bench.law.kinds import ON_MATRIX, Coordinates, Impedance, Inverse, Jacobian, Law
 
 
 class Contender(NamedTuple):
@@ -87,13 +87,13 @@ class Contender(NamedTuple):
         return law_in(self.representation)
 
 
-def bind(regulator: Law, representation: Coordinates | None) -> Callable:
-    """Return the law of a regulator, in a representation if it acts on one."""
-    law = regulator.law
-    if representation is not None and regulator.law_in is not None:
-        law = regulator.law_in(representation)
+def bind(one: Law | Impedance, representation: Coordinates | None) -> Callable:
+    """Return the law of a regulator or an impedance, in a representation if it acts on one."""
+    law = one.law
+    if representation is not None and one.law_in is not None:
+        law = one.law_in(representation)
     if law is None:
-        raise Incompatible(f"regulator '{regulator.name}' has neither law nor law_in for the coordinates it names")
+        raise Incompatible(f"'{one.name}' has neither law nor law_in for the coordinates it names")
     return law
 
 

@@ -6,7 +6,9 @@ Where the first axis is z, R = Rz(alpha) Ry(beta) R_3(gamma), the third is at
                                                             Z-Y-Z: level = sin beta,  upright = cos beta
 
 and B = [z, (-sin alpha, cos alpha, 0), w] (Murphy 1988, 2.8). X-Y-Z angles begin about x and keep their own B; their
-level and upright are cos beta and sin beta. Limitations: where level = 0 B^-1 does not exist.
+level and upright are cos beta and sin beta. A chart measures gamma in the frame already turned by alpha, so that R is
+rebuilt to rounding however close the pole is, where alpha itself is lost. Limitations: where level = 0 B^-1 does not
+exist.
 """
 
 from typing import NamedTuple
@@ -80,8 +82,8 @@ def generalized(at, moment):
     )
 
 
-def derivatives_of(elements):
-    """Return the fields `differentiate` and `differentiate_twice` of angles, element by element (Murphy 1988, 3.5).
+def fields_of(elements):
+    """Return the fields that angles share; derivatives are taken element by element (Murphy 1988, 3.5).
 
     elements(R) -> (x, y, z, X, Y): alpha = atan2(y, x), beta = asin(z) up to a constant, gamma = atan2(Y, X). A row and
     a column of R stay unit vectors, so that both pairs have the length level, and level^2 = 1 - z^2.
@@ -116,4 +118,12 @@ def derivatives_of(elements):
             (X * ddY - Y * ddX - growth * gammadot) * inverse_square,
         )
 
-    return {"differentiate": differentiate, "differentiate_twice": differentiate_twice}
+    symbols = ("alpha", "beta", "gamma")
+    return {"symbols": symbols, "differentiate": differentiate, "differentiate_twice": differentiate_twice}
+
+
+ABOUT_Z = {
+    **{"rates": rates, "accelerate": accelerate, "angular_velocity": angular_velocity, "generalized": generalized},
+    "about": (2, 1, 0),
+}
+"""The fields of angles whose first axis is z."""

@@ -5,7 +5,7 @@ tau = J^T Lambda a, is L Y^T+ a: the sum of (u_i . a) / sigma_i^2 times L sigma_
 the place of 1 / sigma_i^2. Eigenvalues mix metres and radians, as in the libraries whose rules these are.
 """
 
-from bench.law.linalg import factor, multiply, multiply_transposed, orthogonalize, solve_lower, solve_upper
+from bench.law.linalg import dot_rows, factor, multiply, multiply_transposed, orthogonalize, solve_lower, solve_upper
 from bench.law.scalar import kernel
 
 
@@ -37,11 +37,7 @@ def decompose(J, a, D, rows, n, scratch):
 @kernel
 def eigenvalue(i, n, scratch):
     """Return sigma_i^2, an eigenvalue of J D^-1 J^T."""
-    row = scratch.V
-    square = row[i, 0] * row[i, 0]
-    for j in range(1, n):
-        square = square + row[i, j] * row[i, j]
-    return square
+    return dot_rows(scratch.V, i, scratch.V, i, n)
 
 
 @kernel

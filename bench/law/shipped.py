@@ -104,32 +104,11 @@ def law_of(error: Callable) -> Callable:
     return law
 
 
-def as_shipped(
-    name: str,
-    title: str,
-    source: str,
-    path: str,
-    level: str,
-    formula: str,
-    error: Callable,
-    stiffness: float,
-    damping: float,
-    set_by: str,
-    **more: Any,
-) -> Law:
-    """Return the law of a controller as its authors set it; more: other fields of `AsShipped`."""
-    return Law(
-        name,
-        title,
-        source,
-        formula,
-        law_of(error),
-        memory=NEAR,
-        property="none",
-        level=level,
-        gains=Gains(stiffness, damping),
-        shipped=AsShipped(error, path, set_by, **more),
-    )
+def as_shipped(stiffness: float, damping: float, **words: Any) -> Law:
+    """Return the law of a controller as its authors set it; words: other fields of `AsShipped` and of `Law`."""
+    shipped = AsShipped(**{name: words.pop(name) for name in AsShipped._fields if name in words})
+    gains = Gains(stiffness, damping)
+    return Law(**words, law=law_of(shipped.error), memory=NEAR, property="none", gains=gains, shipped=shipped)
 
 
 def read_shipped(path: Path) -> Law:
@@ -148,4 +127,4 @@ def read_shipped(path: Path) -> Law:
     damping = words.pop("damping", None)
     if damping is None:
         damping = 2.0 * words.pop("damping_ratio") * stiffness**0.5
-    return as_shipped(path.stem.replace("_", "-"), error=error, stiffness=stiffness, damping=damping, **words)
+    return as_shipped(stiffness, damping, name=path.stem.replace("_", "-"), error=error, **words)

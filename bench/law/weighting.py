@@ -20,6 +20,16 @@ The gain without a bound is 1 / sigma. Over poses drawn from the joints' whole r
 W J is 0.17 on the PUMA 560 and 0.13 on the UR5e: a bound of 25 is met at sigma = 0.04, in one pose of five or seven."""
 
 
+def refuse_seven(why: str, rows: int, n: int) -> str:
+    """Refuse seven rows on seven joints, whose rank is 6 everywhere, and say why that is too little."""
+    if rows > 6 and n > 6:
+        return (
+            f"a {rows} x {n} Jacobian has rank 6, as a rigid body has six freedoms{why}; use damped-least-squares or "
+            "truncated-svd"
+        )
+    return ""
+
+
 @kernel
 def weigh(J, a, J_W, a_W, rows, n):
     """J_W = W J and a_W = W a, W = diag(1/LENGTH, 1/LENGTH, 1/LENGTH, 1, ...)."""

@@ -10,16 +10,14 @@ import functools
 import pandas as pd
 
 import tasks
-from bench.base.files import write_json
-from bench.base.provenance import describe, source_digest
 from bench.engines.contact_episode import Conditions, Sensor
 from bench.experiments.contact import can_do, poses_of
 from bench.experiments.contact.poses import frame
 from bench.experiments.suites import SUITES
 from bench.experiments.tables.schema import RESULTS
-from bench.experiments.tables.store import as_table, write_table
+from bench.experiments.tables.store import as_table
 from bench.law.control.registry import find_controller
-from bench.studies.study import make_parser, make_parts
+from bench.studies.study import make_table
 
 STORED = RESULTS / "contact" / "contact_limits.parquet"
 TASKS = ("surface-alignment", "peg-in-hole", "crank", "force-on-plane")
@@ -48,11 +46,7 @@ def run_setting(setting: str) -> list[dict]:
 
 def main() -> None:
     """Run the study, or go on."""
-    out = make_parser("contact_limits", __doc__, out=STORED).parse_args().out
-    made = make_parts(out, {one: functools.partial(run_setting, one) for one in SETTINGS})
-    write_table(out, pd.DataFrame([row for rows in made.values() for row in rows]), "contact_limits")
-    about = {**describe(), "sources": source_digest(), "command": "python -P -m bench.studies.contact_limits"}
-    write_json(out.with_name("provenance.json"), about)
+    make_table("contact_limits", __doc__, STORED, {one: functools.partial(run_setting, one) for one in SETTINGS})
 
 
 if __name__ == "__main__":

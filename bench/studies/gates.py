@@ -7,10 +7,10 @@ results/regress. Planted faults are in tests/regression.
 from typing import Any
 
 from bench.base.files import write_json
-from bench.base.provenance import ROOT, describe
+from bench.base.provenance import ROOT
 from bench.experiments.tables.schema import RESULTS
 from bench.regression.revisions.timing import SAME, Side, compare_times
-from bench.studies.study import make_parser, make_parts
+from bench.studies.study import describe_study, make_parser, make_parts
 
 STORED = RESULTS / "regress" / "same_code.json"
 COMPARISONS = 20
@@ -33,9 +33,7 @@ def main() -> None:
     """Run the study's command."""
     make_parser("gates", __doc__).parse_args()
     made = make_parts(STORED, {f"same-code {k}": compare_same_code for k in range(COMPARISONS)})
-    write_json(
-        STORED, {"about": describe() | {"command": "python -P -m bench.studies.gates"}, "rows": [*made.values()]}
-    )
+    write_json(STORED, {"about": describe_study("gates"), "rows": [*made.values()]})
 
 
 if __name__ == "__main__":

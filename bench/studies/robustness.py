@@ -5,17 +5,14 @@ to either side at the widest.
 """
 
 import shutil
-from pathlib import Path
 
-from bench.base.files import write_json
-from bench.base.provenance import describe, source_digest
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
-from bench.experiments.tables.store import read, write_table
+from bench.experiments.tables.store import read
 from bench.findings.perturbed import STUDY, by_level
 from bench.law.contenders.registry import all_contenders
 from bench.running import run
-from bench.studies.study import make_parser
+from bench.studies.study import keep_table, make_parser
 
 STARTS = 400
 """Evenly spread; the axes with starts of their own take as many. 20 of 40 settle to 15 points, 200 of 400 to 5."""
@@ -24,27 +21,15 @@ UNFINISHED = STUDY / "run"
 """The run's folder, until it is finished."""
 
 
-def study(workers: int, starts: int = STARTS, folder: Path = STUDY) -> None:
-    """Run, or go on, and keep a row a law and level."""
-    laws = [one for one in all_contenders() if not one.regulator.costing_only]
-    plan = planning.make("default", laws, Choice(experiments=("robustness",)), count=starts)
-    run.run(plan, folder / UNFINISHED.name, workers=workers)
-    kept = by_level(read(folder / UNFINISHED.name, "robustness"))
-    about = {
-        **describe(),
-        "sources": source_digest(),
-        "starts": starts,
-        "command": "python -P -m bench.studies.robustness",
-    }
-    write_table(folder / "perturbed.parquet", kept, "perturbed")
-    write_json(folder / "provenance.json", about)
-    shutil.rmtree(folder / UNFINISHED.name)
-    print(f"wrote {folder.name}/perturbed.parquet: {len(kept)} rows")
-
-
 def main() -> None:
-    """Run the study."""
-    study(make_parser("robustness", __doc__, workers=2).parse_args().workers)
+    """Run the study, or go on, and keep a row a law and level."""
+    workers = make_parser("robustness", __doc__, workers=2).parse_args().workers
+    laws = [one for one in all_contenders() if not one.regulator.costing_only]
+    plan = planning.make("default", laws, Choice(experiments=("robustness",)), count=STARTS)
+    run.run(plan, UNFINISHED, workers=workers)
+    kept = by_level(read(UNFINISHED, "robustness"))
+    keep_table("robustness", STUDY / "perturbed.parquet", kept, "perturbed", starts=STARTS)
+    shutil.rmtree(UNFINISHED)
 
 
 if __name__ == "__main__":

@@ -15,14 +15,12 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from bench.base.files import write_json
-from bench.base.provenance import describe, source_digest
 from bench.experiments.situations import mapped_laws, plan_of
 from bench.experiments.tables.schema import table_of
-from bench.experiments.tables.store import read, write_table
+from bench.experiments.tables.store import read
 from bench.findings.selection.regions import NAMES, STUDY, Verdict, decide, is_drawn, with_words
 from bench.running import run
-from bench.studies.study import make_parser
+from bench.studies.study import keep_table, make_parser
 from tasks.situation import COORDINATES, NOMINAL, Situation, read_situation, rounded
 
 ROUNDS, DRAWN, SEED = 2, 300, 1988
@@ -132,12 +130,9 @@ def kept(folder: Path) -> pd.DataFrame:
 
 def keep(rows: pd.DataFrame, folder: Path, **about: object) -> None:
     """Write rows with their provenance, and remove the runs that they came from."""
-    write_table(folder / "situations.parquet", rows, "situations")
-    command = "python -P -m bench.studies.situations"
-    write_json(folder / "provenance.json", {**describe(), "sources": source_digest(), "command": command, **about})
+    keep_table("situations", folder / "situations.parquet", rows, **about)
     for path in folder.glob("round-*"):
         shutil.rmtree(path)
-    print(f"wrote {folder.name}/situations.parquet: {len(rows)} rows")
 
 
 def main() -> None:

@@ -7,7 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from bench.base.files import read_json, write_json
-from bench.base.provenance import source_digest
+from bench.base.on_first_use import pd
+from bench.base.provenance import describe, source_digest
+from bench.experiments.tables.store import write_table
 
 
 def make_parser(
@@ -26,15 +28,20 @@ def make_parser(
     return parser
 
 
-def make_parts(out: Path, parts: Mapping[str, Callable[[], Any]], only: Iterable[str] | None = None) -> dict[str, Any]:
-    """Make parts, or those of some names, and return them by name.
+def describe_study(name: str, **more: Any) -> dict[str, Any]:
+    """Return the provenance of a study's results; the command is the study's, whatever its words."""
+    return describe() | {"command": f"python -P -m bench.studies.{name}"} | more
+
+
+def make_parts(out: Path, parts: Mapping[str, Callable[[], Any]]) -> dict[str, Any]:
+    """Make parts and return them by name.
 
     Each is written beside `out` when it is made; a call that was stopped goes on there if the sources are the same.
     """
     beside, digest = out.with_name(f"{out.stem}-unfinished.json"), source_digest()
     kept = read_json(beside) if beside.is_file() else {}
     made: dict[str, Any] = kept["parts"] if kept.get("sources") == digest else {}
-    for name in only or parts:
+    for name in parts:
         if name not in made:
             began = time.process_time()
             made[name] = parts[name]()
@@ -42,3 +49,16 @@ def make_parts(out: Path, parts: Mapping[str, Callable[[], Any]], only: Iterable
             print(f"{name}: {time.process_time() - began:.0f} s of CPU", flush=True)
     beside.unlink(missing_ok=True)
     return made
+
+
+def keep_table(name: str, out: Path, rows: pd.DataFrame, table: str = "", **about: Any) -> None:
+    """Write the table of a study, named as the study unless said otherwise, and beside it where it comes from."""
+    write_table(out, rows, table or name)
+    write_json(out.with_name("provenance.json"), describe_study(name, **about))
+    print(f"wrote {out.parent.name}/{out.name}: {len(rows)} rows")
+
+
+def make_table(name: str, doc: str | None, out: Path, parts: Mapping[str, Callable[[], list[dict]]]) -> None:
+    """Run the command of a study whose parts are rows of the table NAME, and write it with its provenance."""
+    out = make_parser(name, doc, out=out).parse_args().out
+    keep_table(name, out, pd.DataFrame([row for part in make_parts(out, parts).values() for row in part]))

@@ -10,13 +10,12 @@ import dataclasses
 import functools
 import tempfile
 import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from bench.base.files import read_json, write_json
 from bench.base.on_first_use import pd
-from bench.base.provenance import ROOT, describe, source_digest
+from bench.base.provenance import ROOT, source_digest
 from bench.experiments import plan as planning
 from bench.experiments.experiment import Settings, Unit, known_experiments, rows_of
 from bench.experiments.plan import Plan
@@ -29,9 +28,8 @@ from bench.findings.claims.controller_costs import BY_COMMON, BY_EULER, ON_MATRI
 from bench.findings.claims.steadiness import HALF_STEP, STORED, turned
 from bench.findings.claims.tables import MAIN_ENGINE, Results
 from bench.law.contenders.registry import all_contenders
-from bench.law.inputs import Gains
 from bench.running import run
-from bench.studies.study import make_parser, make_parts
+from bench.studies.study import describe_study, make_parser, make_parts
 
 REFERENCE = ROOT / "results" / "reference"
 
@@ -72,11 +70,8 @@ def plan_of(name: str) -> Plan:
     drawn = {"dt_s": STEP_S / 2} if at_half else {"seed": int(name)}
     whole = planning.make(read_json(REFERENCE / "plan.json")["suite"], laws, **drawn)
     wanted = STEPPED if at_half else DRAWN
-    return dataclasses.replace(whole, units=tuple(one for one in whole.units if _is_in(wanted, one)))
-
-
-def _is_in(wanted: dict[str, Callable[[Unit], bool]], unit: Unit) -> bool:
-    return unit.experiment in wanted and wanted[unit.experiment](unit)
+    units = (one for one in whole.units if one.experiment in wanted and wanted[one.experiment](one))
+    return dataclasses.replace(whole, units=tuple(units))
 
 
 def judged(name: str, workers: int) -> dict:
@@ -99,41 +94,32 @@ def words_of(results: Results) -> dict[str, str]:
 
 def at_other_gains() -> list[dict]:
     """Return the gains of each run of results/gains, and the words of the claims that its tables decide."""
-    runs = [Results(path.parent) for path in sorted(GAINS.glob("*/episodes.parquet"))]
-    return [
-        {**run.gains()._asdict(), "words": words_of(Results(run.folder, {"traces": traces_at(run.gains())}))}
-        for run in runs
-    ]
+    units, found = [one for one in plan_of(HALF_STEP).units if one.experiment == "traces"], []
+    for path in sorted(GAINS.glob("*/episodes.parquet")):
+        gains = Results(path.parent).gains()
+        # results/gains has no traces: those that claims look at are made
+        traces = pd.concat([rows_of(Settings(gains=gains), one) for one in units], ignore_index=True)
+        found.append({**gains._asdict(), "words": words_of(Results(path.parent, {"traces": traces}))})
+    return found
 
 
-def traces_at(gains: Gains) -> pd.DataFrame:
-    """Return the traces that claims look at, by other gains: results/gains has none."""
-    units = [one for one in plan_of(HALF_STEP).units if one.experiment == "traces"]
-    return pd.concat([rows_of(Settings(gains=gains), one) for one in units], ignore_index=True)
-
-
-def study(names: tuple[str, ...], workers: int, out: Path, again: bool) -> dict:
-    """Judge the runs that the file lacks, or that other sources made; the file's content."""
-    runs = read_json(out)["runs"] if out.is_file() else {}
-    lacking = [one for one in names if again or runs.get(one, {}).get("sources") != source_digest()]
-    runs |= make_parts(out, {one: functools.partial(judged, one, workers) for one in lacking})
+def main() -> None:
+    """Judge the runs that the file lacks, that other sources made, or that are named; exit with 1 if a word changes."""
+    words = make_parser("verdicts", __doc__, RUNS, STORED, workers=2).parse_args()
+    out, runs = words.out, read_json(words.out)["runs"] if words.out.is_file() else {}
+    lacking = words.only or [one for one in RUNS if runs.get(one, {}).get("sources") != source_digest()]
+    runs |= make_parts(out, {one: functools.partial(judged, one, words.workers) for one in lacking})
     content: dict[str, Any] = {
         "runs": {one: runs[one] for one in RUNS if one in runs},
         "reference": {one.id: str(one.word) for one in claims.judge_all(REFERENCE)},
         "gains": at_other_gains(),
-        "provenance": {**describe(), "command": "python -P -m bench.studies.verdicts"},
+        "provenance": describe_study("verdicts"),
     }
     write_json(out, content)
-    for id, words in turned(content["runs"], content["reference"]).items():
-        print(f"{id}: {words}, on the reference: {content['reference'].get(id)}")
-    return content
-
-
-def main() -> None:
-    """Run the study; exit with 1 if a word changes."""
-    words = make_parser("verdicts", __doc__, RUNS, STORED, workers=2).parse_args()
-    content = study(tuple(words.only or RUNS), words.workers, words.out, again=bool(words.only))
-    raise SystemExit(1 if turned(content["runs"], content["reference"]) else 0)
+    changed = turned(content["runs"], content["reference"])
+    for id, others in changed.items():
+        print(f"{id}: {others}, on the reference: {content['reference'].get(id)}")
+    raise SystemExit(1 if changed else 0)
 
 
 if __name__ == "__main__":

@@ -12,8 +12,8 @@ from support.command_line import bench
 from support.in_contact import IMPEDANCES
 from support.states import directions, of_scipy
 
+from bench.law.contender import bind
 from bench.law.contenders import registry
-from bench.law.control import impedance
 from bench.law.inputs import Gains, Goal
 from bench.law.kinds import POSITION, TORQUE, VELOCITY
 from bench.law.scalar import KERNELS
@@ -63,7 +63,7 @@ def test_functions_of_a_contender_are_kernels(kind, one):
 
 def test_laws_and_impedances_in_coordinates_are_kernels():
     assert [one.name for one in registry.all_contenders() if one.law not in KERNELS] == []
-    made = {one.name: impedance.law_of(one.impedance, one.representation) for one in IMPEDANCES}
+    made = {one.name: bind(one.impedance, one.representation) for one in IMPEDANCES}
     assert [name for name, law in made.items() if law not in KERNELS] == []
 
 

@@ -15,8 +15,8 @@ from support.in_contact import GAINS, IMPEDANCES, TOUCH
 from support.springs import STILL, B_at, command, free_body, margin, seen
 from support.states import of_scipy, rotations, vector
 
+from bench.law.contender import bind
 from bench.law.contenders.registry import contenders
-from bench.law.control.impedance import law_of
 from bench.law.inputs import Gains
 from bench.law.so3 import IDENTITY
 
@@ -146,7 +146,7 @@ def test_energy_balance_closes(one):
 
     From a turned and spinning hand, which its damper alone would bring to rest.
     """
-    draw, law, goal = np.random.default_rng(47), law_of(one.impedance, one.representation), goals(one)[0]
+    draw, law, goal = np.random.default_rng(47), bind(one.impedance, one.representation), goals(one)[0]
     turn, spin = ScipyRotation.from_rotvec((0.2, -0.3, 0.1)) * goal, np.array((0.5, 1.0, -0.8))
     times, turns, omega, work = free_body(law, turn, spin, goal, 1.5, pushing(draw), 1501)
     damping = [squared_rate(one, turn, w, goal) for turn, w in zip(turns, omega, strict=True)]
@@ -180,7 +180,7 @@ def calls() -> list[tuple]:
 
 @pytest.mark.parametrize("one", IMPEDANCES)
 def test_counted_and_compiled_commands_are_the_plain_one_bit_for_bit(one):
-    law = law_of(one.impedance, one.representation)
+    law = bind(one.impedance, one.representation)
     assert different_calls(law, calls()) == []
     with np.errstate(all="ignore"):
         assert np.isfinite([law(*given) for given in calls()]).all(axis=1).mean() > 0.5

@@ -33,7 +33,7 @@ over_arms = pytest.mark.parametrize("arm", ARMS)
 def pairs_on(arm: str) -> dict:
     """Return (law, Jacobian) -> the contenders on that arm, one for each inverse."""
     by: dict = {}
-    for one in combinations.every(LAWS, tasks.arm(arm).joints):
+    for one in combinations.chosen((), LAWS, tasks.arm(arm).joints):
         by.setdefault((one.on_free_body, one.jacobian.name), []).append(one)
     return by
 
@@ -80,7 +80,7 @@ def test_the_compared_runs_cover_every_part_and_integrator():
     for kind, known in (("jacobian", contenders("jacobians")), ("inverse", contenders("inverses"))):
         assert {getattr(case.values[1], kind).name for case in CASES} == set(known)
     met = {(case.values[1].on_free_body, case.values[1].jacobian.name) for case in CASES}
-    assert met == {(one.on_free_body, one.jacobian.name) for one in combinations.every(LAWS, 6)}
+    assert met == {(one.on_free_body, one.jacobian.name) for one in combinations.chosen((), LAWS, 6)}
     used = {one.representation.name for one in (case.values[1] for case in CASES) if one.representation}
     assert used == set(contenders("representations"))
     for arm in ARMS:

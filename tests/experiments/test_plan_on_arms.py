@@ -54,7 +54,7 @@ def test_plan_of_a_named_combination_is_that_one_alone_or_refused_with_its_reaso
                 planning.make("quick", [law], choice, count=2)
             assert reason in str(refused_with.value)
             assert "try:" in str(refused_with.value) or "use " in str(refused_with.value)
-    assert planned == len(combinations.every(LAWS, tasks.arm(arm).joints))
+    assert planned == len(combinations.chosen((), LAWS, tasks.arm(arm).joints))
 
 
 def test_arm_alone_is_the_suite_on_that_arm():
@@ -102,7 +102,7 @@ def test_full_suite_runs_every_compatible_combination():
     for arm in ON_BOTH:
         planned = {unit.contender for unit in plan.of("arm") if unit.arm == arm and unit.variation == IDEAL_MOTORS}
         beside = combinations.baselines(tasks.arm(arm).joints)
-        assert planned == {one.name for one in (*combinations.every(LAWS, tasks.arm(arm).joints), *beside)}
+        assert planned == {one.name for one in (*combinations.chosen((), LAWS, tasks.arm(arm).joints), *beside)}
 
 
 def test_baselines_are_run_where_the_goals_joints_are_known_and_no_law_is_named():

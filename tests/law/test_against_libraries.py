@@ -79,7 +79,8 @@ def asked(library, name):
     """Return one function, from a turn to an error; the libraries are imported when it is first called."""
 
     def called(turn):
-        found = find().function(library, name)
+        functions = {(one.name, each.name): each for one in find().libraries for each in one.functions}
+        found = functions[library, name]
         return np.array(found.call(turn.R if found.takes == MATRIX else turn.quat_wxyz))
 
     return called

@@ -24,9 +24,8 @@ from support.in_contact import (
 from support.states import vector
 
 import tasks
-from bench.law.contender import axes_of
+from bench.law.contender import axes_of, bind
 from bench.law.control.contact_controller import PAPERS_FORM
-from bench.law.control.impedance import law_of
 from bench.law.control.setpoint import TOUCH as TOUCHING
 from tasks.contact import Specification
 
@@ -139,7 +138,7 @@ def test_perfect_model_gives_the_hand_the_acceleration_of_the_impedance(arm, one
     compared = 0
     for state, setpoint in drawn(arm):
         at = hand(*state)
-        law = law_of(one.impedance, one.representation)
+        law = bind(one.impedance, one.representation)
         f_d, m_d = np.array(setpoint.f_d), np.array(setpoint.m_d)
         u = law(at.chain.R, vector(at.velocity[3:]), vector(at.F[3:] + m_d), setpoint.R_d, GAINS, TOUCH.m_o)
         if np.linalg.norm(u) > 1e3:

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.spatial.transform import Rotation as ScipyRotation
 
-from bench.law.control.impedance import law_of
+from bench.law.contender import bind
 from support.bodies import path
 from support.exact import exact_B
 from support.in_contact import GAINS, IMPEDANCES, TOUCH
@@ -26,7 +26,7 @@ def called(law, turn, omega, m, goal, gains=GAINS) -> np.ndarray:
 
 def command(one, turn, omega, m, goal, gains=GAINS) -> np.ndarray:
     """u of a controller's law."""
-    return called(law_of(one.impedance, one.representation), turn, omega, m, goal, gains)
+    return called(bind(one.impedance, one.representation), turn, omega, m, goal, gains)
 
 
 def seen(one, turn: ScipyRotation, goal: ScipyRotation) -> ScipyRotation:

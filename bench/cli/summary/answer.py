@@ -21,7 +21,7 @@ def paragraphs(found: Measured | None) -> list[Paragraph]:
         found: what a run measured; None of a run that cannot compare laws.
     """
     default = regions.find_regions()[0]
-    said = [Paragraph("Which law", _default(found)), Paragraph("Elsewhere", _elsewhere(default.law))]
+    said = [Paragraph("Which law", _default(found, default)), Paragraph("Elsewhere", _elsewhere(default.law))]
     said += [Paragraph("Ours", (_ours(law, found, default.law),)) for law in regions.list_ours()]
     own = [law for law in (found.laws if found else ()) if found and found.tables.contenders[law].regulator.origin]
     said += [Paragraph("Yours", (f"{law}: {_compared(found, law, default.law)}",)) for law in own]
@@ -33,8 +33,7 @@ def paragraphs(found: Measured | None) -> list[Paragraph]:
     return [*said, Paragraph("Other rules", (text,))]
 
 
-def _default(found: Measured | None) -> tuple[str, ...]:
-    region = regions.find_regions()[0]
+def _default(found: Measured | None, region: regions.Region) -> tuple[str, ...]:
     rows = regions.read_map()
     [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == region.law)].to_dict("records")
     drawn = sum(map(regions.is_drawn, regions.decide_all()))

@@ -52,11 +52,6 @@ def _of_word(word: str, laws: dict[str, Contender], joints: int) -> Contender | 
     return next((one for one in fitting if not refusal(one, joints)), None)
 
 
-def every(laws: dict[str, Contender], joints: int) -> list[Contender]:
-    """All that go together on so many joints."""
-    return chosen((), laws, joints)
-
-
 def chosen(
     words: tuple[str, ...],
     laws: dict[str, Contender],

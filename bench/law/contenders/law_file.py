@@ -8,7 +8,9 @@ import sys
 import tempfile
 import traceback
 import types
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from bench import law
 from bench.base.errors import BadLaw
@@ -127,58 +129,46 @@ TRIAL = Rotation((0.36, 0.48, -0.8), (-0.8, 0.6, 0.0), (0.48, 0.64, 0.6))
 
 def check_fields(own: Law, path: Path) -> None:
     """Check the fields of a user's law before anything is made of them."""
-    on_matrix = own.coordinates == ON_MATRIX
-    needed = "law" if on_matrix else "law_in"
-    memory, shown = own.memory or (), own.display
-    coordinates = own.coordinates if isinstance(own.coordinates, tuple) else ()
-    problems = (
-        (
-            not (isinstance(own.name, str) and WORD.fullmatch(own.name) and len(own.name) <= LONGEST_NAME),
-            f"its name {_shown(own.name)} is no word of a-z, 0-9 and dashes, such as 'my-law', of up to "
-            f"{LONGEST_NAME} letters",
-        ),
-        (
-            not all(isinstance(text, str) for text in (own.title, own.source, own.formula, own.property)),
-            "title, source, formula and property must be texts",
-        ),
-        (
-            not all(isinstance(text, str) and SHORT.fullmatch(text) for text in (shown.short, shown.family)),
-            f"its short name and family are {_shown((shown.short, shown.family))}; give texts of at most {LONGEST} "
-            "letters, digits, spaces and , . ' -",
-        ),
-        (
-            not (shown.look is None or (isinstance(shown.look, Look) and shown.look.is_known)),
-            f"its look is {_shown(shown.look)}; give a bench.law.Look of a colour ({', '.join(COLOURS)}), a marker "
-            f"({' '.join(MARKERS)}) and a line ({', '.join(LINES)})",
-        ),
-        (
-            not (shown.equation is None or isinstance(shown.equation, Equation) or callable(shown.equation)),
-            f"its equation is {_shown(shown.equation)}; give a bench.law.Equation(formula, spring)",
-        ),
-        (
-            not (on_matrix or own.coordinates == "any" or coordinates),
-            f"its coordinates are {own.coordinates!r}; allowed: '{ON_MATRIX}', 'any', a tuple of names",
-        ),
-        (
-            not callable(getattr(own, needed)),
-            f"its {needed} is {_shown(getattr(own, needed))}; on {own.coordinates!r} coordinates give a function",
-        ),
-        (
-            not (
-                isinstance(memory, tuple)
-                and len(memory) <= len(NO_MEMORY)
-                and all(isinstance(x, float) for x in memory)
-            ),
-            f"its memory is {own.memory!r}; give None or a tuple of up to {len(NO_MEMORY)} floats",
-        ),
-        (own.in_engine is not False, "it has in_engine; MuJoCo's own actuator would run in its place: omit it"),
-        (bool(own.state or own.shipped), "it has a state or is shipped, which only files in contenders/ may: omit it"),
-    )
-    for is_wrong, problem in problems:
-        if is_wrong:
-            raise BadLaw(f"--law {path}: {problem}")
-    for word in coordinates:
+    for problem in _problems(own):
+        raise BadLaw(f"--law {path}: {problem}")
+    for word in own.coordinates if isinstance(own.coordinates, tuple) else ():
         representation(word)
+
+
+def _problems(own: Law) -> Iterator[str]:
+    """Yield what is wrong with the fields of a law."""
+    on_matrix, memory = own.coordinates == ON_MATRIX, own.memory or ()
+    shown: Any = own.display
+    needed = "law" if on_matrix else "law_in"
+    if not (isinstance(own.name, str) and WORD.fullmatch(own.name) and len(own.name) <= LONGEST_NAME):
+        yield (
+            f"its name {_shown(own.name)} is no word of a-z, 0-9 and dashes, such as 'my-law', of up to "
+            f"{LONGEST_NAME} letters"
+        )
+    if not all(isinstance(text, str) for text in (own.title, own.source, own.formula, own.property)):
+        yield "title, source, formula and property must be texts"
+    if not all(isinstance(text, str) and SHORT.fullmatch(text) for text in (shown.short, shown.family)):
+        yield (
+            f"its short name and family are {_shown((shown.short, shown.family))}; give texts of at most {LONGEST} "
+            "letters, digits, spaces and , . ' -"
+        )
+    if not (shown.look is None or (isinstance(shown.look, Look) and shown.look.is_known)):
+        yield (
+            f"its look is {_shown(shown.look)}; give a bench.law.Look of a colour ({', '.join(COLOURS)}), a marker "
+            f"({' '.join(MARKERS)}) and a line ({', '.join(LINES)})"
+        )
+    if not (shown.equation is None or isinstance(shown.equation, Equation) or callable(shown.equation)):
+        yield f"its equation is {_shown(shown.equation)}; give a bench.law.Equation(formula, spring)"
+    if not (own.coordinates in (ON_MATRIX, "any") or (own.coordinates and isinstance(own.coordinates, tuple))):
+        yield f"its coordinates are {own.coordinates!r}; allowed: '{ON_MATRIX}', 'any', a tuple of names"
+    if not callable(getattr(own, needed)):
+        yield f"its {needed} is {_shown(getattr(own, needed))}; on {own.coordinates!r} coordinates give a function"
+    if not (isinstance(memory, tuple) and len(memory) <= len(NO_MEMORY) and all(isinstance(x, float) for x in memory)):
+        yield f"its memory is {own.memory!r}; give None or a tuple of up to {len(NO_MEMORY)} floats"
+    if own.in_engine is not False:
+        yield "it has in_engine; MuJoCo's own actuator would run in its place: omit it"
+    if own.state or own.shipped:
+        yield "it has a state or is shipped, which only files in contenders/ may: omit it"
 
 
 MISTAKES = (TypeError, NameError, AttributeError, ImportError)
@@ -221,9 +211,8 @@ def _check_shape(one: Contender, path: Path) -> None:
     except Exception:
         return  # a law that raises in an episode is a row, not a mistake of the caller
     if has_memory:
-        if not (
-            isinstance(answer, tuple) and len(answer) == 2 and isinstance(answer[1], tuple) and len(answer[1]) == 4
-        ):
+        memory = answer[1] if isinstance(answer, tuple) and len(answer) == 2 else None
+        if not (isinstance(memory, tuple) and len(memory) == 4):
             raise BadLaw(
                 f"--law {path}: the law of '{one.name}' has memory and returned {_shown(answer)}; it must return "
                 "(command, memory) with a memory of four floats"

@@ -7,6 +7,7 @@ constant's name. A folder whose contenders may be declared by TOML files has `re
 import functools
 import importlib
 import pkgutil
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -84,38 +85,26 @@ def papers_coordinates() -> Coordinates:
 
 def regulator(word: str, extra: tuple[Law, ...] = ()) -> Law:
     """Return the regulator of that name, the user's own among them."""
-    return _named("regulator", "regulators", word, extra)
+    return _named("regulator", word, extra)
 
 
 def regulator_in(file: Path) -> Law | None:
     """Return the regulator of a file in bench/law/contenders/regulators/; None for a file elsewhere."""
-    is_here = (
-        file.is_file()
-        and file.resolve().parent == Path(importlib.import_module(f"{__package__}.regulators").__path__[0]).resolve()
-    )
+    is_here = file.is_file() and file.resolve().parent == Path(__file__).resolve().with_name("regulators")
     return contenders("regulators").get(file.stem.replace("_", "-")) if is_here else None
 
 
-def representation(word: str) -> Coordinates:
-    """Return the representation of that name."""
-    return _named("representation", "representations", word)
-
-
-def jacobian(word: str) -> Jacobian:
-    """Return the Jacobian of that name."""
-    return _named("Jacobian", "jacobians", word)
-
-
-def inverse(word: str) -> Inverse:
-    """Return the inverse of that name."""
-    return _named("inverse", "inverses", word)
-
-
-def _named(kind: str, folder: str, word: str, own: tuple = ()) -> Any:
-    every = contenders(folder) | {one.name: one for one in own}
+def _named(kind: str, word: str, own: tuple = ()) -> Any:
+    every = contenders(f"{kind.lower()}s") | {one.name: one for one in own}
     if word not in every:
         raise UnknownWord(kind, word, sorted(every))
     return every[word]
+
+
+representation: Callable[[str], Coordinates] = functools.partial(_named, "representation")
+jacobian: Callable[[str], Jacobian] = functools.partial(_named, "Jacobian")
+inverse: Callable[[str], Inverse] = functools.partial(_named, "inverse")
+"""Each returns the contender of a name, or raises UnknownWord."""
 
 
 def find_contender(word: str, extra: tuple[Law, ...] = ()) -> Contender:

@@ -15,10 +15,10 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from bench.base.errors import BadNumber, Incompatible
-from bench.law.contender import axes_of
+from bench.law.contender import axes_of, bind
 from bench.law.contenders.registry import papers_coordinates
 from bench.law.control import hybrid as hybrid_control
-from bench.law.control.impedance import assembly, law_of
+from bench.law.control.impedance import assembly
 from bench.law.control.setpoint import TOUCH, ContactParameters
 from bench.law.inputs import PAPERS_GAINS, Gains
 from bench.law.kinds import Coordinates, Impedance
@@ -67,7 +67,7 @@ class ContactController(NamedTuple):
     def assemble(self) -> Callable:
         """Its rows: assemble(chain, setpoint, f, m, gains, touch, J, rows)."""
         if self.impedance is not None:
-            return assembly(law_of(self.impedance, self.representation))
+            return assembly(bind(self.impedance, self.representation))
         if self.representation is not None:
             return hybrid_control.in_coordinates(self.representation, self.converts)
         return ALONG_AXES[self.law]

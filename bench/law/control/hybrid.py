@@ -38,6 +38,8 @@ from collections.abc import Callable
 from bench.law.chain import bias_acceleration, twist
 from bench.law.contender import axes_of
 from bench.law.contenders.inverses.dynamically_consistent import resolve as by_least_energy
+from bench.law.contenders.inverses.pseudo_inverse import resolve as by_least_squares
+from bench.law.contenders.inverses.solve import resolve as by_elimination
 from bench.law.contenders.jacobians import analytic
 from bench.law.contenders.jacobians.geometric import fill
 from bench.law.contenders.regulators import feedback_linearized
@@ -45,10 +47,9 @@ from bench.law.contenders.regulators.rotation_matrix import law as regulate
 from bench.law.control.resolved_acceleration import damp, relax
 from bench.law.inputs import AT_REST, Goal
 from bench.law.kinds import Coordinates
-from bench.law.linalg import multiply, multiply_transposed, solve
+from bench.law.linalg import multiply, multiply_transposed
 from bench.law.scalar import kernel
 from bench.law.so3 import rotate, rotate_back
-from bench.law.weighting import smaller_gram, solve_gram
 
 
 @kernel
@@ -210,13 +211,9 @@ def comply(form, held, chain, D, fg, J, rows, gains, touch, room, tau):
             y[i] = 0.0
         damp(y, chain, gains)
     else:
-        for i in range(6):
-            for j in range(6):
-                scratch.A[i, j] = J[i, j]
-        solve(scratch.A, y, 6)
+        by_elimination(J, y, D, y, 6, n, scratch)
     if count > 0:
-        smaller_gram(room.held, scratch.A, count, n)
-        solve_gram(room.held, b, scratch.A, scratch.t, count, n)
+        by_least_squares(room.held, b, D, scratch.t, count, n, scratch)
         for i in range(n):
             y[i] = y[i] + scratch.t[i]
     for i in range(6):

@@ -13,7 +13,6 @@ Source: Hogan 1985; Caccavale, Natale, Siciliano, Villani 1999.
 from collections.abc import Callable
 
 from bench.law.control.hybrid import hold_moving, measure, write
-from bench.law.kinds import Coordinates, Impedance
 from bench.law.scalar import kernel
 
 
@@ -34,11 +33,3 @@ def assembly(law: Callable) -> Callable:
         write(rows.a, pressed, law(chain.R, omega, moment, setpoint.R_d, gains, touch.m_o))
 
     return assemble
-
-
-def law_of(impedance: Impedance, representation: Coordinates | None) -> Callable:
-    """Return the law, in a representation if it is one in coordinates."""
-    if impedance.law_in is not None and representation is not None:
-        return impedance.law_in(representation)
-    assert impedance.law is not None
-    return impedance.law

@@ -16,7 +16,8 @@ Source: Hogan 1985; Albu-Schaeffer et al. 2003; frankaemika/libfranka@155ddac8, 
 """
 
 from bench.law.kinds import Impedance
-from bench.law.linalg import factor, gram, multiply, multiply_transposed, orthogonalize, solve_factored, solve_lower
+from bench.law.linalg import dot_rows, factor, gram, multiply, multiply_transposed, orthogonalize, solve_factored
+from bench.law.operational_space import whiten
 from bench.law.scalar import kernel, sqrt
 
 NULL_RATE = 10.0
@@ -26,18 +27,9 @@ NULL_RATE = 10.0
 @kernel
 def apparent_inertia(J, M, Lambda, n, scratch):
     """Lambda = (J M^-1 J^T)^-1, 6 x 6, both halves."""
-    L, Y, S, column = scratch.B, scratch.V, scratch.A, scratch.t
-    for i in range(n):
-        for j in range(i + 1):
-            L[i, j] = M[i, j]
-    factor(L, n)
-    for i in range(6):
-        for j in range(n):
-            column[j] = J[i, j]
-        solve_lower(L, column, n)
-        for j in range(n):
-            Y[i, j] = column[j]
-    gram(Y, S, 6, n)
+    S, column = scratch.A, scratch.t
+    whiten(J, M, 6, n, scratch)
+    gram(scratch.V, S, 6, n)
     factor(S, 6)
     for i in range(6):
         for j in range(6):
@@ -97,14 +89,9 @@ def damp_modes(K, Lambda, zeta, D, scratch):
     orthogonalize(rows, k, 6, 6)  # to Sigma V^T
     for i in range(6):
         for j in range(6):
-            total = L[i, 0] * rows[j, 0]
-            for m in range(1, 6):
-                total = total + L[i, m] * rows[j, m]
-            B[i, j] = total
+            B[i, j] = dot_rows(L, i, rows, j, 6)
     for j in range(6):
-        square = rows[j, 0] * rows[j, 0]
-        for m in range(1, 6):
-            square = square + rows[j, m] * rows[j, m]
+        square = dot_rows(rows, j, rows, j, 6)
         scratch.t[j] = 1.0 / (square * sqrt(square))
     for i in range(6):
         for j in range(6):

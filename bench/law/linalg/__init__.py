@@ -1,6 +1,6 @@
 """Small dense kernels on buffers, of any element type: float64, or counting scalars in an object array.
 
-    products.py     J x, J^T y, and the symmetric J J^T, J^T J
+    products.py     J x, J^T y, a row times a row, and the symmetric J J^T, J^T J
     elimination.py  solve, determinant: Gauss with partial pivoting
     cholesky.py     factor, solve_factored, and the parts of them; exceeds: how small its eigenvalues are
     rotations.py    orthogonalize: one-sided Jacobi, the singular value decomposition
@@ -12,5 +12,5 @@ numbers that are not finite, and those that are not finite in any number, but ne
 
 from bench.law.linalg.cholesky import exceeds, factor, solve_factored, solve_lower, solve_upper
 from bench.law.linalg.elimination import determinant, solve
-from bench.law.linalg.products import gram, gram_transposed, multiply, multiply_transposed
+from bench.law.linalg.products import dot_rows, gram, gram_transposed, multiply, multiply_transposed
 from bench.law.linalg.rotations import orthogonalize

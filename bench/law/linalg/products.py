@@ -30,14 +30,20 @@ def multiply_transposed(A, y, x, rows, n):
 
 
 @kernel
+def dot_rows(A, i, B, j, n):
+    """Row i of A times row j of B."""
+    total = A[i, 0] * B[j, 0]
+    for k in range(1, n):
+        total = total + A[i, k] * B[j, k]
+    return total
+
+
+@kernel
 def gram(A, S, rows, n):
     """S = A A^T (rows x rows): its lower half, i >= j; the upper one is left as it is."""
     for i in range(rows):
         for j in range(i + 1):
-            total = A[i, 0] * A[j, 0]
-            for k in range(1, n):
-                total = total + A[i, k] * A[j, k]
-            S[i, j] = total
+            S[i, j] = dot_rows(A, i, A, j, n)
 
 
 @kernel

@@ -81,24 +81,16 @@ def errors(library: Library) -> Iterable[Function]:
 
 def closed_loops(library: Library) -> pd.DataFrame:
     """One library's rows of closed_loop.parquet."""
+    found = []
+    for one in errors(library):
+        kind = "restated" if library.is_restated else kind_of(one)
+        found += [(one.name, kind, "", one.name, "acceleration", row) for row in rows_of(one)]
+    for loop in library.controllers:
+        kind = "our-loop" if loop.is_our_loop else "controller"
+        found += [(loop.name, kind, loop.title, loop.error, loop.command, row) for row in rows_of_controller(loop)]
     whose = {"library": library.name, "version": version_of(library)}
-    of_functions = [
-        whose
-        | {"function": one.name, "kind": "restated" if library.is_restated else kind_of(one), "title": ""}
-        | {"error": one.name, "command": "acceleration"}
-        | row
-        for one in errors(library)
-        for row in rows_of(one)
-    ]
-    of_controllers = [
-        whose
-        | {"function": one.name, "kind": "our-loop" if one.is_our_loop else "controller", "title": one.title}
-        | {"error": one.error, "command": one.command}
-        | row
-        for one in library.controllers
-        for row in rows_of_controller(one)
-    ]
-    return pd.DataFrame(of_functions + of_controllers)
+    names = ("function", "kind", "title", "error", "command")
+    return pd.DataFrame(whose | dict(zip(names, words, strict=True)) | row for *words, row in found)
 
 
 def verdicts(library: Library) -> pd.DataFrame:
@@ -134,9 +126,8 @@ def keep(tables: dict[str, pd.DataFrame], about: dict[str, dict]) -> None:
             if name == "verdicts":
                 new = marked(new, earlier)
             new = pd.concat([earlier[~earlier["library"].isin(new["library"])], new])
-        order = new["library"].str.lower()
-        new = new.assign(order=order).sort_values("order", kind="stable").drop(columns="order")
-        write_table(FOLDER / f"{name}.parquet", new.reset_index(drop=True), name)
+        new = new.sort_values("library", key=lambda names: names.str.lower(), kind="stable", ignore_index=True)
+        write_table(FOLDER / f"{name}.parquet", new, name)
         print(f"wrote {name}: {len(new)} rows, {new['library'].nunique()} libraries")
     if (FOLDER / "provenance.json").is_file():
         about = read_json(FOLDER / "provenance.json")["libraries"] | about
@@ -157,17 +148,12 @@ def marked(new: pd.DataFrame, earlier: pd.DataFrame) -> pd.DataFrame:
             if old["version"] == row["version"]:
                 row |= {"fixed": old["fixed"], "fixed_since": old["fixed_since"]}
             else:
-                gone = sorted(set(words(old["faults"])) - set(words(row["faults"])))
+                gone = sorted({*old["faults"].split(", ")} - {*row["faults"].split(", "), ""})
                 row |= {"fixed": ", ".join(gone), "fixed_since": old["version"] if gone else ""}
                 if gone:
                     print(f"fixed in {row['library']} {row['version']}: {row['function']}: {row['fixed']}")
         rows.append(row)
     return pd.DataFrame(rows)
-
-
-def words(text: str) -> list[str]:
-    """Names between commas."""
-    return [one for one in text.split(", ") if one]
 
 
 if __name__ == "__main__":

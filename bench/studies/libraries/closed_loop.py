@@ -17,9 +17,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bench.engines.ideal import held_turn, plus
-from bench.law.inputs import PAPERS_GAINS
+from bench.law.inputs import AT_REST, PAPERS_GAINS
 from bench.studies.libraries import turns
 from bench.studies.libraries.library import QUATERNION, Controller, Function, answer, quiet
+from tasks.base import Quat
 from tasks.rules import RULES, ticks
 
 DT_S = 1e-3
@@ -150,12 +151,7 @@ def stiffness_ratio(function: Function) -> float:
     return min(ratios)
 
 
-Quaternion = tuple[float, float, float, float]
-
-AT_REST = (0.0, 0.0, 0.0)
-
-
-def accelerated(function: Function, kp: float, kv: float, dt_s: float, quat_wxyz: Quaternion) -> Iterator[Quaternion]:
+def accelerated(function: Function, kp: float, kv: float, dt_s: float, quat_wxyz: Quat) -> Iterator[Quat]:
     """T tick by tick under u = kp e - kv omega, from rest; ends at once where nothing can ever move.
 
     Args:
@@ -172,7 +168,7 @@ def accelerated(function: Function, kp: float, kv: float, dt_s: float, quat_wxyz
         omega = plus(omega, dt_s, u)
 
 
-def driven(velocity: Callable, dt_s: float, quat_wxyz: Quaternion) -> Iterator[Quaternion]:
+def driven(velocity: Callable, dt_s: float, quat_wxyz: Quat) -> Iterator[Quat]:
     """T tick by tick under a commanded angular velocity, velocity(T as 3 x 3) [rad/s, base frame], that is held."""
     while True:
         yield quat_wxyz
@@ -182,7 +178,7 @@ def driven(velocity: Callable, dt_s: float, quat_wxyz: Quaternion) -> Iterator[Q
         quat_wxyz = after(quat_wxyz, tuple(dt_s * part for part in omega))
 
 
-def after(quat_wxyz: Quaternion, turn: tuple) -> Quaternion:
+def after(quat_wxyz: Quat, turn: tuple) -> Quat:
     """T exp(-[turn]x): what is left to go once the body has turned by the base-frame vector `turn`."""
     angle = math.hypot(*turn)
     if angle == 0.0:
@@ -200,7 +196,7 @@ def after(quat_wxyz: Quaternion, turn: tuple) -> Quaternion:
     return (product[0] / length, product[1] / length, product[2] / length, product[3] / length)
 
 
-def matrix(quat_wxyz: Quaternion) -> np.ndarray:
+def matrix(quat_wxyz: Quat) -> np.ndarray:
     """R (3 x 3) of a unit quaternion; exactly symmetric where w = 0."""
     w, x, y, z = quat_wxyz
     return np.array(
@@ -212,13 +208,13 @@ def matrix(quat_wxyz: Quaternion) -> np.ndarray:
     )
 
 
-def angle(quat_wxyz: Quaternion) -> float:
+def angle(quat_wxyz: Quat) -> float:
     """Return the angle of a rotation in [0, pi] rad, of either sign of its quaternion."""
     w, x, y, z = quat_wxyz
     return 2.0 * math.atan2(math.hypot(x, y, z), abs(w))
 
 
-def conjugate(quat_wxyz: Any) -> Quaternion:
+def conjugate(quat_wxyz: Any) -> Quat:
     """Return the opposite rotation: the body's orientation of what is left to go, and the reverse."""
     w, x, y, z = quat_wxyz
     return (w, -x, -y, -z)

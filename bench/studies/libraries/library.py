@@ -36,6 +36,12 @@ class Function(NamedTuple):
     thread: str = ""
 
 
+def vector_part(name: str, call: Callable[[np.ndarray], Any], fix: str = "", is_logarithm: bool = False) -> Function:
+    """Return the idiom that doubles the vector part of a matrix's quaternion, or of a quaternion's logarithm."""
+    takes, form = (QUATERNION, "rotation-vector") if is_logarithm else (MATRIX, "sine-of-half")
+    return Function(f"2 {name}, vector part", takes, call, form, is_idiom=True, fix=fix)
+
+
 class Controller(NamedTuple):
     """A controller as its users run it, with its own plant or command.
 

@@ -11,6 +11,8 @@ from typing import Any, NamedTuple
 import mpmath
 import numpy as np
 
+from bench.law.so3 import from_quaternion
+
 DIGITS = mpmath.mp.clone()
 DIGITS.dps = 60
 
@@ -43,16 +45,11 @@ def of_quaternion(w: Any, x: Any, y: Any, z: Any) -> Turn:
     length = DIGITS.sqrt(w * w + x * x + y * y + z * z)
     w, x, y, z = (DIGITS.mpf(part) / length for part in (w, x, y, z))
     sine = DIGITS.sqrt(x * x + y * y + z * z)
-    R = (
-        (w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)),
-        (2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)),
-        (2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z),
-    )
     return Turn(
         axis=np.array([float(part / sine) for part in (x, y, z)]),
         angle=float(2 * DIGITS.atan2(sine, w)),
         quat_wxyz=np.array([float(part) for part in (w, x, y, z)]),
-        R=np.array([[float(element) for element in row] for row in R]),
+        R=np.array([*zip(*from_quaternion((w, x, y, z)), strict=True)], dtype=float),
     )
 
 

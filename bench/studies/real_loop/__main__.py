@@ -14,21 +14,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
 
 import tasks
 from bench.base.bisection import bisect
-from bench.base.files import write_json
-from bench.base.provenance import describe, source_digest
 from bench.experiments import starts
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.experiments.suites import NOMINAL
 from bench.experiments.tables.schema import RESULTS
-from bench.experiments.tables.store import write_table
 from bench.findings.theory.late_torques import GREATEST, LAST, find_greatest_kv
 from bench.law.inputs import PAPERS_GAINS, Gains
 from bench.studies.real_loop.loop import PERIOD_S, SUBSTEPS, TASK, Course, Loop, build_controller
-from bench.studies.study import make_parser, make_parts
+from bench.studies.study import make_table
 from tasks.base import Start, angle
 from tasks.kinematics import Kinematics
 from tasks.rotations import multiply
@@ -71,8 +67,8 @@ def is_shrinking(loop: Loop, start: Start, kv: float) -> bool:
     return bool(course.haversine[-round(LAST * len(course.haversine)) :].max() <= course.haversine[0])
 
 
-def measure(arm: str, law: str) -> dict[str, Any]:
-    """Return the row of an arm and a law."""
+def measure(arm: str, law: str) -> list[dict[str, Any]]:
+    """Return the row of an arm and a law, alone in a list."""
     some = starts.on_arm("uniform", STARTS, 0, arm)
     with (
         tempfile.TemporaryDirectory(prefix="orientation-bench-") as folder,
@@ -88,7 +84,7 @@ def measure(arm: str, law: str) -> dict[str, Any]:
     has_settled, both = np.isfinite(real), np.isfinite(real) & np.isfinite(simulated)
     late = np.concatenate([delays(course) for course in courses])
     predicted = [find_greatest_kv(course.answered, SUBSTEPS, PERIOD_S) for course in courses]
-    return {
+    row = {
         **{"arm": arm, "regulator": law, "starts": STARTS, "settled": int(has_settled.sum())},
         "simulated": int(np.isfinite(simulated).sum()),
         "agreeing": int((has_settled == np.isfinite(simulated)).sum()),
@@ -99,17 +95,14 @@ def measure(arm: str, law: str) -> dict[str, Any]:
         "kv_predicted": float(np.median(predicted)),
         **{"kv_lowest": min(predicted), "kv_highest": max(predicted), "kv_measured": float(np.median(limits))},
     }
+    return [row]
 
 
 def main() -> None:
     """Run the study, or go on."""
-    parser = make_parser("real_loop", __doc__, out=STORED)
-    out = parser.parse_args().out
     pairs = itertools.product(tasks.arm_names(), LAWS)
-    rows = make_parts(out, {f"{arm} {law}": functools.partial(measure, arm, law) for arm, law in pairs})
-    write_table(out, pd.DataFrame([*rows.values()]), "real_loop")
-    about = {**describe(), "sources": source_digest(), "command": "python -P -m bench.studies.real_loop"}
-    write_json(out.with_name("provenance.json"), about)
+    parts = {f"{arm} {law}": functools.partial(measure, arm, law) for arm, law in pairs}
+    make_table("real_loop", __doc__, STORED, parts)
 
 
 if __name__ == "__main__":

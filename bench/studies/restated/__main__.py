@@ -24,11 +24,10 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from bench.base.files import read_json, write_json
-from bench.base.provenance import describe
 from bench.experiments.tables.schema import RESULTS
 from bench.law.contenders.registry import contenders
 from bench.law.kinds import Law
-from bench.studies.study import make_parser
+from bench.studies.study import describe_study, make_parser
 
 STORED = RESULTS / "libraries" / "restated.json"
 SOURCES = Path(__file__).parent / "sources"
@@ -157,8 +156,7 @@ def main() -> None:
     rows = [
         kept(compare(one, files[name], asked.folder, options), earlier) for name, one in contenders("shipped").items()
     ]
-    about = describe() | {"command": "python -P -m bench.studies.restated FOLDER"}
-    write_json(STORED, {"controllers": rows, "provenance": about})
+    write_json(STORED, {"controllers": rows, "provenance": describe_study("restated FOLDER")})
 
 
 if __name__ == "__main__":

@@ -31,12 +31,7 @@ def resolve(J, a, D, x, rows, n, scratch):
         x[i] = J[i, i] * a[i]
 
 
-def kernels_in(representation):
-    """None: there is no Jacobian."""
-    return None, None
-
-
-JOINTS = Jacobian("joints", "The joints themselves", "", r"\dot q", "joints", kernels_in)
+JOINTS = Jacobian("joints", "The joints themselves", "", r"\dot q", "joints", lambda representation: (None, None))
 INERTIA = Inverse("inertia-at-home", "Inertia at home", "", r"\tau = M a", resolve, "joint-torque")
 
 BASELINE = Law(

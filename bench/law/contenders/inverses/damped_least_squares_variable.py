@@ -12,6 +12,8 @@ Limitations: as damped-least-squares does, but only within epsilon of a singular
 near epsilon the estimate may lie between them.
 """
 
+from functools import partial
+
 from bench.law import (
     GREATEST_GAIN,
     Inverse,
@@ -19,6 +21,7 @@ from bench.law import (
     exceeds,
     factor,
     kernel,
+    refuse_seven,
     smaller_gram,
     solve_factored,
     solve_gram,
@@ -89,16 +92,6 @@ def damp(S, A, y, before, n):
             S[i, i] += damping
 
 
-def refuses(rows: int, n: int) -> str:
-    """Seven rows on seven joints: their least singular value is 0 everywhere."""
-    if rows > 6 and n > 6:
-        return (
-            f"a {rows} x {n} Jacobian has rank 6, as a rigid body has six freedoms: its least singular value is 0 at "
-            "every pose and says nothing; use damped-least-squares or truncated-svd"
-        )
-    return ""
-
-
 INVERSE = Inverse(
     name="damped-least-squares-variable",
     title="Damped least squares, variable",
@@ -106,5 +99,5 @@ INVERSE = Inverse(
     formula=r"\lambda^2 = \lambda_{\max}^2 \max\bigl(0,\; 1 - \sigma_{\min}^2 / \epsilon^2\bigr)",
     resolve=resolve,
     gives="acceleration",
-    refuses=refuses,
+    refuses=partial(refuse_seven, ": its least singular value is 0 at every pose and says nothing"),
 )

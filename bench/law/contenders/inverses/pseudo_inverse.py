@@ -7,7 +7,9 @@ Limitations: as `solve` does where J loses rank, and sooner: the equations squar
 1e8 nothing is left of the digits.
 """
 
-from bench.law import Inverse, kernel, smaller_gram, solve_gram
+from functools import partial
+
+from bench.law import Inverse, kernel, refuse_seven, smaller_gram, solve_gram
 
 
 @kernel
@@ -19,16 +21,6 @@ def resolve(J, a, D, x, rows, n, scratch):
     solve_gram(J, scratch.s, scratch.A, x, rows, n)
 
 
-def refuses(rows: int, n: int) -> str:
-    """Seven rows on seven joints: their rank is 6 everywhere."""
-    if rows > 6 and n > 6:
-        return (
-            f"a {rows} x {n} Jacobian has rank 6, as a rigid body has six freedoms: both J J^T and J^T J are singular; "
-            "use damped-least-squares or truncated-svd"
-        )
-    return ""
-
-
 INVERSE = Inverse(
     name="pseudo-inverse",
     title="Pseudo-inverse",
@@ -36,5 +28,5 @@ INVERSE = Inverse(
     formula=r"\ddot q = J^{+} a, \quad J^{+} = J^\top (J J^\top)^{-1} \text{ or } (J^\top J)^{-1} J^\top",
     resolve=resolve,
     gives="acceleration",
-    refuses=refuses,
+    refuses=partial(refuse_seven, ": both J J^T and J^T J are singular"),
 )

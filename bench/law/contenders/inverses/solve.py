@@ -3,7 +3,7 @@
 Limitations: where J is singular x is not finite, and towards it x grows like 1 / sigma_min(J) without bound.
 """
 
-from bench.law import Inverse, kernel, solve
+from bench.law import Inverse, kernel, refuse_seven, solve
 
 
 @kernel
@@ -19,14 +19,9 @@ def resolve(J, a, D, x, rows, n, scratch):
 
 def refuses(rows: int, n: int) -> str:
     """Anything but 6 x 6: a Jacobian has six rows, or seven."""
-    if rows > 6 and n > 6:
-        return (
-            f"a {rows} x {n} Jacobian has rank 6, as a rigid body has six freedoms, and no inverse; "
-            "use damped-least-squares or truncated-svd"
-        )
     if rows != n:
         return f"a {rows} x {n} Jacobian is not square; use pseudo-inverse, damped-least-squares or truncated-svd"
-    return ""
+    return refuse_seven(", and no inverse", rows, n)
 
 
 INVERSE = Inverse(

@@ -11,6 +11,7 @@ directions left out is not done at all.
 from bench.law import (
     GREATEST_GAIN,
     Inverse,
+    dot_rows,
     exceeds,
     kernel,
     multiply_transposed,
@@ -43,9 +44,7 @@ def solve_truncated(J_W, a_W, x, rows, n):
     """x = sum over sigma_i > TOLERANCE of (u_i . W a) / sigma_i^2 times row i of U^T W J; J_W and a_W change."""
     orthogonalize(J_W, a_W, rows, n)
     for i in range(rows):
-        square = J_W[i, 0] * J_W[i, 0]
-        for j in range(1, n):
-            square = square + J_W[i, j] * J_W[i, j]
+        square = dot_rows(J_W, i, J_W, i, n)
         if square > TOLERANCE * TOLERANCE:
             a_W[i] = a_W[i] / square
         else:

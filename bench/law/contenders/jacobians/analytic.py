@@ -8,7 +8,8 @@ Limitations: where the coordinates are singular, B^-1 and with it J_E are not fi
 singular.
 """
 
-from bench.law import AT_REST, Jacobian, cross, kernel
+from bench.law import AT_REST, Jacobian, kernel
+from bench.law.contenders.jacobians.geometric import fill as fill_geometric
 
 STILL_QUATERNION = (0.0, 0.0, 0.0, 0.0)
 
@@ -22,13 +23,9 @@ def kernels_in(representation):
     @kernel
     def fill(J, chain, at):
         """J_i = [z_i x (p - p_i); B^-1 z_i] (Murphy 1988, 3.3)."""
-        axes, anchors, p = chain.axes, chain.anchors, chain.p
+        fill_geometric(J, chain)
         for i in range(chain.n):
-            z = (axes[i, 0], axes[i, 1], axes[i, 2])
-            swept = cross(z, (p[0] - anchors[i, 0], p[1] - anchors[i, 1], p[2] - anchors[i, 2]))
-            turned = rates(at, z)
-            for k in range(3):
-                J[k, i] = swept[k]
+            turned = rates(at, (J[3, i], J[4, i], J[5, i]))
             for k in range(count):
                 J[3 + k, i] = turned[k]
 

@@ -8,6 +8,7 @@ Limitations: as `analytic` does.
 """
 
 from bench.law import Jacobian, Rotation, cross, kernel
+from bench.law.contenders.jacobians.geometric import fill as fill_geometric
 
 
 @kernel
@@ -31,13 +32,9 @@ def kernels_in(representation):
     @kernel
     def fill(J, chain, at):
         """J_i = [z_i x (p - p_i); dE/dR along [z_i]x R]; `at` is not needed."""
-        axes, anchors, p = chain.axes, chain.anchors, chain.p
+        fill_geometric(J, chain)
         for i in range(chain.n):
-            z = (axes[i, 0], axes[i, 1], axes[i, 2])
-            swept = cross(z, (p[0] - anchors[i, 0], p[1] - anchors[i, 1], p[2] - anchors[i, 2]))
-            turned = differentiate(chain.R, turning(z, chain.R))
-            for k in range(3):
-                J[k, i] = swept[k]
+            turned = differentiate(chain.R, turning((J[3, i], J[4, i], J[5, i]), chain.R))
             for k in range(count):
                 J[3 + k, i] = turned[k]
 

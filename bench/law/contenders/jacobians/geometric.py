@@ -24,16 +24,11 @@ def express(chain, a):
     return a
 
 
-def kernels_in(representation):
-    """fill and express; it acts on no coordinates of orientation."""
-    return fill, express
-
-
 JACOBIAN = Jacobian(
     name="geometric",
     title="Geometric",
     source="Whitney 1972; Murphy 1988, (2.2)",
     formula=r"J_i = \begin{pmatrix} z_i \times (p - p_i) \\ z_i \end{pmatrix}",
     takes="angular-acceleration",
-    kernels_in=kernels_in,
+    kernels_in=lambda representation: (fill, express),
 )

@@ -29,16 +29,11 @@ def express(chain, a):
     return (linear[0], linear[1], linear[2], angular[0], angular[1], angular[2])
 
 
-def kernels_in(representation):
-    """fill and express; it acts on no coordinates of orientation."""
-    return fill, express
-
-
 JACOBIAN = Jacobian(
     name="geometric-body",
     title="Geometric, tool frame",
     source="Whitney 1972; Craig 1986",
     formula=r"\operatorname{diag}(R^\top, R^\top)\, J",
     takes="angular-acceleration",
-    kernels_in=kernels_in,
+    kernels_in=lambda representation: (fill, express),
 )

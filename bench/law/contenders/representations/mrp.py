@@ -18,6 +18,7 @@ from bench.law import (
     quaternion_direction,
     sqrt,
 )
+from bench.law.contenders.representations.rotation_vector import combined
 
 
 class Chart(NamedTuple):
@@ -57,12 +58,7 @@ def mapped(at, v, swept):
 
     Forward with swept = sigma x v, as B turns it; back with v x sigma, as B^-1 does.
     """
-    E, along = at.E, dot(at.E, v)
-    return (
-        at.scalar * v[0] + swept[0] + E[0] * along,
-        at.scalar * v[1] + swept[1] + E[1] * along,
-        at.scalar * v[2] + swept[2] + E[2] * along,
-    )
+    return combined(at.scalar, v, swept, dot(at.E, v), at.E)
 
 
 @kernel
@@ -73,16 +69,16 @@ def rates(at, omega):
 
 
 @kernel
-def lifted(at, stretch, Edot):
-    """B Edot, with stretch = 2/(1 + sigma^2)."""
-    part, scale = mapped(at, Edot, cross(at.E, Edot)), 2.0 * stretch * stretch
+def lifted(at, stretch, v, swept):
+    """`mapped` times 8/(1 + sigma^2)^2, with stretch = 2/(1 + sigma^2): B v or B^T v by what is swept."""
+    part, scale = mapped(at, v, swept), 2.0 * stretch * stretch
     return (scale * part[0], scale * part[1], scale * part[2])
 
 
 @kernel
 def angular_velocity(at, Edot):
     """omega = B Edot."""
-    return lifted(at, 1.0 / (1.0 - at.scalar), Edot)
+    return lifted(at, 1.0 / (1.0 - at.scalar), Edot, cross(at.E, Edot))
 
 
 @kernel
@@ -98,15 +94,13 @@ def accelerate(at, Edot, Eddot):
         Eddot[1] + inward * E[1] - against * Edot[1],
         Eddot[2] + inward * E[2] - against * Edot[2],
     )
-    return lifted(at, stretch, straight)
+    return lifted(at, stretch, straight, cross(E, straight))
 
 
 @kernel
 def generalized(at, moment):
     """B^T m, the generalised forces of a moment (Murphy 1988, 3.12)."""
-    stretch = 1.0 / (1.0 - at.scalar)
-    part, scale = mapped(at, moment, cross(moment, at.E)), 2.0 * stretch * stretch
-    return (scale * part[0], scale * part[1], scale * part[2])
+    return lifted(at, 1.0 / (1.0 - at.scalar), moment, cross(moment, at.E))
 
 
 @kernel

@@ -31,12 +31,6 @@ def chart_of(E):
 
 
 @kernel
-def to_matrix(E):
-    """R of a unit quaternion."""
-    return from_quaternion(E)
-
-
-@kernel
 def spread(E, v):
     """(0, v) E, the quaternion product: Xi v, perpendicular to E."""
     w, x, y, z = E
@@ -98,7 +92,7 @@ REPRESENTATION = Coordinates(
     symbols=("w", "x", "y", "z"),
     chart=chart,
     chart_of=chart_of,
-    to_matrix=to_matrix,
+    to_matrix=from_quaternion,
     rates=rates,
     accelerate=accelerate,
     angular_velocity=angular_velocity,

@@ -5,16 +5,12 @@ B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
 """
 
 from bench.law import Coordinates, Display, Look, Rotation, atan2, cos, kernel, sin, sqrt
-from bench.law.euler import EulerChart, derivatives_of, first_angle
+from bench.law.euler import EulerChart, fields_of, first_angle
 
 
 @kernel
 def chart(R):
-    """Angles of R; alpha, gamma in [-pi, pi], beta in [-pi/2, pi/2].
-
-    gamma is measured in the frame already turned by alpha, so R is rebuilt to rounding however close the pole is,
-    where alpha itself is lost.
-    """
+    """Angles of R; alpha, gamma in [-pi, pi], beta in [-pi/2, pi/2]."""
     cos_beta, alpha, sin_alpha, cos_alpha = first_angle(R.a[2], -R.a[1])
     beta = atan2(R.a[0], cos_beta)
     gamma = atan2(cos_alpha * R.n[1] + sin_alpha * R.n[2], cos_alpha * R.o[1] + sin_alpha * R.o[2])
@@ -99,7 +95,6 @@ REPRESENTATION = Coordinates(
     title="X-Y-Z Euler angles",
     source="Craig 1986",
     formula=r"R = R_x(\alpha)\, R_y(\beta)\, R_z(\gamma), \quad E = (\alpha, \beta, \gamma)",
-    symbols=("alpha", "beta", "gamma"),
     chart=chart,
     chart_of=chart_of,
     to_matrix=to_matrix,
@@ -108,6 +103,6 @@ REPRESENTATION = Coordinates(
     angular_velocity=angular_velocity,
     generalized=generalized,
     margin=margin,
-    **derivatives_of(elements),
+    **fields_of(elements),
     display=Display("X-Y-Z angles", Look("orange", "v", "dashed")),
 )

@@ -5,16 +5,12 @@ determined, and B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
 """
 
 from bench.law import Coordinates, Display, Look, Rotation, atan2, cos, kernel, sin, sqrt
-from bench.law.euler import EulerChart, accelerate, angular_velocity, derivatives_of, first_angle, generalized, rates
+from bench.law.euler import ABOUT_Z, EulerChart, fields_of, first_angle
 
 
 @kernel
 def chart(R):
-    """Angles of R; alpha, gamma in [-pi, pi], beta in [0, pi].
-
-    gamma is measured in the frame already turned by alpha, so R is rebuilt to rounding however close the pole is,
-    where alpha itself is lost.
-    """
+    """Angles of R; alpha, gamma in [-pi, pi], beta in [0, pi]."""
     sin_beta, alpha, sin_alpha, cos_alpha = first_angle(R.a[0], R.a[1])
     beta = atan2(sin_beta, R.a[2])
     gamma = atan2(cos_alpha * R.n[1] - sin_alpha * R.n[0], cos_alpha * R.o[1] - sin_alpha * R.o[0])
@@ -55,16 +51,11 @@ REPRESENTATION = Coordinates(
     title="Z-Y-Z Euler angles",
     source="Murphy 1988, 2.2; Craig 1986",
     formula=r"R = R_z(\alpha)\, R_y(\beta)\, R_z(\gamma), \quad E = (\alpha, \beta, \gamma)",
-    symbols=("alpha", "beta", "gamma"),
     chart=chart,
     chart_of=chart_of,
     to_matrix=to_matrix,
-    rates=rates,
-    accelerate=accelerate,
-    angular_velocity=angular_velocity,
-    generalized=generalized,
     margin=margin,
-    about=(2, 1, 0),
-    **derivatives_of(elements),
+    **ABOUT_Z,
+    **fields_of(elements),
     display=Display("Z-Y-Z angles", Look("green", "^", "dash-dot")),
 )

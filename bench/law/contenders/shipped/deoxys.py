@@ -28,16 +28,16 @@ def error(q):
 
 
 SHIPPED = as_shipped(
-    "deoxys",
-    "deoxys_control, OSC_POSE",
-    "UT-Austin-RPL/deoxys_control@49e63283db98c2217294a788404474192cc151eb",
-    "deoxys/franka-interface/src/controllers/osc_impedance.cpp, deoxys/config/osc-pose-controller.yml",
-    TORQUE,
-    r"e_i = \operatorname{sgn}(\eta)\,\epsilon_i \text{ or } 0 \text{ within } 0.005",
-    error,
-    250.0,
-    2.0 * 250.0**0.5,
-    "osc-pose-controller.yml; 2√K",
+    name="deoxys",
+    title="deoxys_control, OSC_POSE",
+    source="UT-Austin-RPL/deoxys_control@49e63283db98c2217294a788404474192cc151eb",
+    path="deoxys/franka-interface/src/controllers/osc_impedance.cpp, deoxys/config/osc-pose-controller.yml",
+    level=TORQUE,
+    formula=r"e_i = \operatorname{sgn}(\eta)\,\epsilon_i \text{ or } 0 \text{ within } 0.005",
+    error=error,
+    stiffness=250.0,
+    damping=2.0 * 250.0**0.5,
+    set_by="osc-pose-controller.yml; 2√K",
     shapes_inertia=True,
     thread="UT-Austin-RPL/deoxys_control#40",
 )

@@ -21,15 +21,15 @@ def error(q):
 
 
 SHIPPED = as_shipped(
-    "isaac-gym",
-    "Isaac Gym Preview 4, Franka OSC example",
-    "notAnyrobot/isaacgym@87649bb8d53cd085594c0255d146e3570c9b750c",
-    "python/examples/franka_cube_ik_osc.py",
-    TORQUE,
-    r"e = \operatorname{sign}(\eta)\,\epsilon,\ \operatorname{sign}(0) = 0",
-    error,
-    150.0,
-    2.0 * 150.0**0.5,
-    "in the source; 2√K",
+    name="isaac-gym",
+    title="Isaac Gym Preview 4, Franka OSC example",
+    source="notAnyrobot/isaacgym@87649bb8d53cd085594c0255d146e3570c9b750c",
+    path="python/examples/franka_cube_ik_osc.py",
+    level=TORQUE,
+    formula=r"e = \operatorname{sign}(\eta)\,\epsilon,\ \operatorname{sign}(0) = 0",
+    error=error,
+    stiffness=150.0,
+    damping=2.0 * 150.0**0.5,
+    set_by="in the source; 2√K",
     shapes_inertia=True,
 )

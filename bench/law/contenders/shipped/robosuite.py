@@ -16,16 +16,16 @@ def error(q):
 
 
 SHIPPED = as_shipped(
-    "robosuite",
-    "robosuite, OSC_POSE",
-    "ARISE-Initiative/robosuite@v1.5.2",
-    "robosuite/utils/control_utils.py, robosuite/controllers/parts/arm/osc.py, robosuite/controllers/config/robots/"
-    "default_panda.json",
-    TORQUE,
-    r"e = \tfrac12 (n \times n_d + o \times o_d + a \times a_d) = \sin\theta\,k",
-    error,
-    150.0,
-    2.0 * 150.0**0.5,
-    "default_panda.json; damping ratio 1",
+    name="robosuite",
+    title="robosuite, OSC_POSE",
+    source="ARISE-Initiative/robosuite@v1.5.2",
+    path="robosuite/utils/control_utils.py, robosuite/controllers/parts/arm/osc.py, "
+    "robosuite/controllers/config/robots/default_panda.json",
+    level=TORQUE,
+    formula=r"e = \tfrac12 (n \times n_d + o \times o_d + a \times a_d) = \sin\theta\,k",
+    error=error,
+    stiffness=150.0,
+    damping=2.0 * 150.0**0.5,
+    set_by="default_panda.json; damping ratio 1",
     shapes_inertia=True,
 )

@@ -5,15 +5,21 @@ A library that is not installed here is left out, with a line that says why.
 
 import functools
 import importlib.metadata
+import inspect
 import subprocess
 from typing import NamedTuple
 
 from bench.base.errors import UnknownWord
 from bench.studies.libraries.asked import compiled, controllers, ours, rotations, simulators
-from bench.studies.libraries.library import Function, Library
+from bench.studies.libraries.library import Library
 
-ASKED = {one.__name__: one for module in (rotations, compiled, controllers, simulators, ours) for one in module.ASKED}
-"""Word of the command line -> function that returns libraries."""
+ASKED = {
+    name: one
+    for module in (rotations, compiled, controllers, simulators, ours)
+    for name, one in inspect.getmembers(module, inspect.isfunction)
+    if inspect.signature(one).return_annotation == list[Library]
+}
+"""Word of the command line -> function of these modules that returns libraries."""
 
 
 class Found(NamedTuple):
@@ -21,12 +27,6 @@ class Found(NamedTuple):
 
     libraries: tuple[Library, ...]
     missing: dict[str, str]
-
-    def function(self, library: str, name: str) -> Function:
-        """Return one function by the names it has in the table."""
-        (one,) = (one for one in self.libraries if one.name == library)
-        (found,) = (function for function in one.functions if function.name == name)
-        return found
 
 
 @functools.cache

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
+from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library, vector_part
 
 SOURCES = Path(__file__).parent / "cpp"
 NUMBERS = ctypes.POINTER(ctypes.c_double)
@@ -22,14 +22,7 @@ def eigen() -> list[Library]:
     functions = (
         Function("AngleAxisd, of a matrix", MATRIX, made("angle_axis_of_matrix")),
         Function("AngleAxisd, of a quaternion", QUATERNION, made("angle_axis_of_quaternion")),
-        Function(
-            "2 Quaterniond, vector part",
-            MATRIX,
-            made("vector_part_of_matrix"),
-            "sine-of-half",
-            is_idiom=True,
-            fix="`AngleAxisd`",
-        ),
+        vector_part("Quaterniond", made("vector_part_of_matrix"), "`AngleAxisd`"),
         Function("eulerAngles(2, 1, 0)", MATRIX, made("euler_angles"), "z-y-x"),
     )
     return [Library("eigen", "libeigen3-dev", functions, is_debian=True)]
@@ -44,14 +37,7 @@ def kdl() -> list[Library]:
         Function("Rotation::GetRotAngle", MATRIX, made("get_rot_angle"), thread=thread),
         Function("diff", MATRIX, made("diff"), thread=thread),
         Function("Rotation::Quaternion, GetRot", QUATERNION, made("of_quaternion"), thread=thread),
-        Function(
-            "2 GetQuaternion, vector part",
-            MATRIX,
-            made("get_quaternion"),
-            "sine-of-half",
-            is_idiom=True,
-            fix="`-q` where w < 0",
-        ),
+        vector_part("GetQuaternion", made("get_quaternion"), "`-q` where w < 0"),
         Function("Rotation::GetRPY", MATRIX, made("get_rpy"), "z-y-x"),
     )
     return [Library("kdl", "liborocos-kdl-dev", functions, is_debian=True)]
@@ -105,6 +91,3 @@ def compiled(name: str, *options: str) -> Callable[[str], Callable]:
         return call
 
     return function
-
-
-ASKED = (eigen, kdl, tf2)

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from bench.studies.libraries.closed_loop import accelerated, conjugate, driven
-from bench.studies.libraries.library import MATRIX, QUATERNION, Controller, Function, Library
+from bench.studies.libraries.library import MATRIX, QUATERNION, Controller, Function, Library, vector_part
 
 LINK = """<robot name="body"><link name="body"><inertial><mass value="1"/>
 <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link></robot>"""
@@ -52,13 +52,7 @@ def drake() -> list[Library]:
     functions = (
         of_matrix,
         Function("AngleAxis, of a quaternion", QUATERNION, lambda q: vector(AngleAxis(unit(q)))),
-        Function(
-            "2 RotationMatrix.ToQuaternion, vector part",
-            MATRIX,
-            lambda R: 2.0 * RotationMatrix(R).ToQuaternion().xyz(),
-            "sine-of-half",
-            is_idiom=True,
-        ),
+        vector_part("RotationMatrix.ToQuaternion", lambda R: 2.0 * RotationMatrix(R).ToQuaternion().xyz()),
         Function("RollPitchYaw", MATRIX, lambda R: RollPitchYaw(RotationMatrix(R)).vector(), "z-y-x"),
     )
     title, motion = "time step 10 ms, no limits", partial(driven, solved, dt_s)
@@ -188,6 +182,3 @@ def robosuite() -> list[Library]:
     motion, name = partial(accelerated, error, kp, kv, dt_s), "OSC_POSE, rotation decoupled"
     loop = Controller(name, error.name, "acceleration", title, dt_s, motion, is_our_loop=True)
     return [Library("robosuite", "robosuite", functions, (loop,))]
-
-
-ASKED = (drake, pink, placo, roboticstoolbox, robosuite)

@@ -62,6 +62,3 @@ def shipped() -> list[Library]:
 def _restated(error: Callable, quat_wxyz: np.ndarray) -> Any:
     """Return what an error on a tuple of floats says of a quaternion."""
     return error(tuple(quat_wxyz.tolist()))
-
-
-ASKED = (orientation_bench, shipped)

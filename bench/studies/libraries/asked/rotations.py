@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
+from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library, vector_part
 
 
 def scipy() -> list[Library]:
@@ -20,14 +20,7 @@ def scipy() -> list[Library]:
         Function(
             "as_rotvec, of a quaternion", QUATERNION, lambda q: Rotation.from_quat(q, scalar_first=True).as_rotvec()
         ),
-        Function(
-            "2 as_quat, vector part",
-            MATRIX,
-            lambda R: 2.0 * from_matrix(R).as_quat()[:3],
-            "sine-of-half",
-            is_idiom=True,
-            fix="`as_quat(canonical=True)`",
-        ),
+        vector_part("as_quat", lambda R: 2.0 * from_matrix(R).as_quat()[:3], "`as_quat(canonical=True)`"),
         Function("4 as_mrp", MATRIX, lambda R: 4.0 * from_matrix(R).as_mrp(), "mrp"),
         Function('as_euler("ZYX")', MATRIX, lambda R: from_matrix(R).as_euler("ZYX")[::-1], "z-y-x"),
     )
@@ -62,13 +55,7 @@ def pyquaternion() -> list[Library]:
     functions = (
         Function("angle, axis", QUATERNION, lambda q: vector(Quaternion(*q))),
         Function("angle, axis, of a matrix", MATRIX, lambda R: vector(Quaternion(matrix=R))),
-        Function(
-            "2 log, vector part",
-            QUATERNION,
-            lambda q: 2.0 * Quaternion.log(Quaternion(*q)).vector,
-            is_idiom=True,
-            fix="`angle * axis`",
-        ),
+        vector_part("log", lambda q: 2.0 * Quaternion.log(Quaternion(*q)).vector, "`angle * axis`", is_logarithm=True),
     )
     return [Library("pyquaternion", "pyquaternion", functions)]
 
@@ -181,13 +168,7 @@ def dm_control() -> list[Library]:
     logging.set_verbosity(logging.ERROR)  # rmat_to_euler warns of every pole that it gets
     functions = (
         Function("quat_to_axisangle", QUATERNION, its.quat_to_axisangle),
-        Function(
-            "2 quat_log, vector part",
-            QUATERNION,
-            lambda q: 2.0 * its.quat_log(q)[1:],
-            is_idiom=True,
-            fix="`quat_to_axisangle`",
-        ),
+        vector_part("quat_log", lambda q: 2.0 * its.quat_log(q)[1:], "`quat_to_axisangle`", is_logarithm=True),
         Function("mat_to_quat, quat_to_axisangle", MATRIX, lambda R: its.quat_to_axisangle(its.mat_to_quat(R))),
         Function(
             'rmat_to_euler("ZYX")',
@@ -198,17 +179,3 @@ def dm_control() -> list[Library]:
         ),
     )
     return [Library("dm_control", "dm-control", functions)]
-
-
-ASKED = (
-    scipy,
-    numpy_quaternion,
-    pyquaternion,
-    pytransform3d,
-    transforms3d,
-    jaxlie,
-    spatialmath,
-    gtsam,
-    pinocchio,
-    dm_control,
-)

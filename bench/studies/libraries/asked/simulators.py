@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from bench.studies.libraries.closed_loop import conjugate
-from bench.studies.libraries.library import MATRIX, QUATERNION, Controller, Function, Library
+from bench.studies.libraries.library import MATRIX, QUATERNION, Controller, Function, Library, vector_part
 
 BALL = """
 <body name="body"><joint type="ball"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/><site name="body"/></body>
@@ -77,40 +77,23 @@ def mujoco() -> list[Library]:
         Function("mju_subQuat", QUATERNION, lambda q: filled(3, mujoco.mju_subQuat, q, identity)),
         Function("mju_quat2Vel", QUATERNION, quat_to_vel),
         Function("mju_mat2Quat, mju_quat2Vel", MATRIX, lambda R: quat_to_vel(mat_to_quat(R))),
-        Function(
-            "2 mju_mat2Quat, vector part",
-            MATRIX,
-            lambda R: 2.0 * mat_to_quat(R)[1:],
-            "sine-of-half",
-            is_idiom=True,
-            fix="`mju_quat2Vel` of it",
-        ),
+        vector_part("mju_mat2Quat", lambda R: 2.0 * mat_to_quat(R)[1:], "`mju_quat2Vel` of it"),
         actuator,
     )
 
     def numbers(values: Any) -> str:
         return " ".join(f"{value:g}" for value in values)
 
-    (held, _), (weld, _) = load_model("held"), load_model("welded")
-    dt_s, title = weld.opt.timestep, f"solref {numbers(weld.eq_solref[0])}, solimp {numbers(weld.eq_solimp[0])}, "
+    def stepping(model: str, name: str, error: str, title: str, **more: Any) -> Controller:
+        dt_s = load_model(model)[0].opt.timestep
+        return Controller(name, error, "acceleration", title, dt_s, partial(stepped, model), **more)
+
+    weld, _ = load_model("welded")
+    title = f"solref {numbers(weld.eq_solref[0])}, solimp {numbers(weld.eq_solimp[0])}, "
+    title += f"timestep {1e3 * weld.opt.timestep:g} ms"
     controllers = (
-        Controller(
-            "<orientation> actuators",
-            actuator.name,
-            "acceleration",
-            "kp 100, kv 20, timestep 1 ms",
-            held.opt.timestep,
-            partial(stepped, "held"),
-        ),
-        Controller(
-            "<weld>, by default",
-            "",
-            "acceleration",
-            f"{title}timestep {1e3 * dt_s:g} ms",
-            dt_s,
-            partial(stepped, "welded"),
-            lambda q: place_body("welded", q).qacc.copy(),
-        ),
+        stepping("held", "<orientation> actuators", actuator.name, "kp 100, kv 20, timestep 1 ms"),
+        stepping("welded", "<weld>, by default", "", title, pull=lambda q: place_body("welded", q).qacc.copy()),
     )
     return [Library("mujoco", "mujoco", functions, controllers)]
 
@@ -198,10 +181,8 @@ def newton() -> list[Library]:
     model = builder.finalize(device="cpu")
     goal = on_cpu([warp.vec4(0.0, 0.0, 0.0, 1.0)], warp.vec4)
     objective = newton.ik.IKObjectiveRotation(0, warp.quat_identity(), goal)
-    residuals, first = (
-        warp.zeros((1, 3), dtype=warp.float32, device="cpu"),
-        warp.zeros(1, dtype=warp.int32, device="cpu"),
-    )
+    residuals = warp.zeros((1, 3), dtype=warp.float32, device="cpu")
+    first = warp.zeros(1, dtype=warp.int32, device="cpu")
     objective.set_batch_layout(3, 0, 1)
     objective.bind_device(model.device)
     objective.init_buffers(model, newton.ik.IKJacobianType.ANALYTIC)
@@ -221,6 +202,3 @@ def newton() -> list[Library]:
         Function(by_matrix, MATRIX, lambda R: launched(of_matrix, [on_cpu([R], warp.mat33)])),
     )
     return [Library("newton", "newton", functions, is_single=True)]
-
-
-ASKED = (mujoco, mink, newton)
