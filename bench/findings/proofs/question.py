@@ -46,7 +46,7 @@ class Question:
         seconds = 0.0
         for part in self.parts:
             if part.side in sides:
-                self.body.symbols.enter(part.tick.path)
+                self.body.symbols.path = part.tick.path
                 answer, state, lasted = self.body.solver.find(*part.known, fault(part.taken, part.side))
                 seconds += lasted
                 if answer != "unsat":

@@ -67,7 +67,7 @@ def trace_on_axis(law: Law, gains: Gains) -> Any:
     symbols = Symbols(("z", "w", "rate", "half"), ("z", "w", "rate", "half"))
     z, w, rate = symbols["z", "w", "rate"]
     symbols.relate("z", 1 - w**2)
-    symbols.know_angle("half", z, w)
+    symbols.angles[z, w] = symbols.of["half"]
     zero = symbols.number(0)
     R = from_quaternion((w, zero, zero, -z))
     one = tuple(tuple(symbols.number(part) for part in column) for column in IDENTITY)

@@ -24,13 +24,19 @@ class Lemma(NamedTuple):
     counterexample: dict[str, float] | None = None
 
 
-def decide(statement: str, known: list[Any], fault: Any) -> Lemma:
-    """Return the lemma that no numbers for which something is known have a fault."""
+def ask(*conditions: Any) -> tuple[str, Any, float]:
+    """Return Z3's answer to some conditions, a model if it has one, and its seconds."""
     solver, began = z3.Solver(), time.perf_counter()
     solver.set("timeout", 1000 * PATIENCE_S)
-    solver.add(*known, fault)
-    is_proved = solver.check() == z3.unsat
-    return Lemma(statement, is_proved, "Z3", time.perf_counter() - began)
+    solver.add(*conditions)
+    answer = solver.check()
+    return str(answer), solver.model() if answer == z3.sat else None, time.perf_counter() - began
+
+
+def decide(statement: str, known: list[Any], fault: Any) -> Lemma:
+    """Return the lemma that no numbers for which something is known have a fault."""
+    answer, _, seconds = ask(*known, fault)
+    return Lemma(statement, answer == "unsat", "Z3", seconds)
 
 
 class Solver:
@@ -60,12 +66,11 @@ class Solver:
         return self.sign(value) < 0 if strictly else self.sign(value) <= 0
 
     def condition(self, path: Path) -> list[Any]:
-        """Return what a path knows, and the relations of its symbols."""
+        """Return what a path knows, the relations of its symbols, and that atan2(y, x) has the sign of y."""
         known = [self.term(one) == 0 for one in [*self.symbols.relations, *path.relations]]
-        known += [self.term(one) < 0 if sign == "<" else self.term(one) >= 0 for one, sign in path.decisions]
-        for y, angle in path.signs:
-            known += [z3.Implies(self.term(y) > 0, self.term(angle) > 0)]
-            known += [z3.Implies(self.term(y) < 0, self.term(angle) < 0)]
+        known += [self.term(one) < 0 if is_negative else self.term(one) >= 0 for one, is_negative in path.decisions]
+        for (y, _), angle in path.angles.items():
+            known += [z3.Implies(self.sign(one * y) > 0, self.sign(one * angle) > 0) for one in (1, -1)]
         return known
 
     def never(self, statement: str, known: list[Any], fault: Any) -> Lemma:
@@ -74,23 +79,12 @@ class Solver:
 
     def find(self, *contradictions: Any) -> tuple[str, dict[str, float] | None, float]:
         """Return ("unsat", None, s), ("sat", a solution, s) or ("unknown", None, s)."""
-        solver = z3.Solver()
-        solver.set("timeout", 1000 * PATIENCE_S)
-        solver.add(*self.given, *contradictions)
-        began = time.perf_counter()
-        answer = str(solver.check())
-        seconds = time.perf_counter() - began
-        if answer != "sat":
-            return answer, None, seconds
-        solver.push()
-        papers = zip(("kp", "kv"), map(z3.RealVal, PAPERS_GAINS), strict=True)  # if they show it too
-        solver.add(*(self.of[name] == value for name, value in papers if name in self.of))
-        if solver.check() != z3.sat:
-            solver.pop()
-            if solver.check() != z3.sat:
-                return answer, None, seconds
-        model = solver.model()
-        return answer, {name: _number(model.eval(one, model_completion=True)) for name, one in self.of.items()}, seconds
+        answer, model, seconds = ask(*self.given, *contradictions)
+        if model is not None:  # one with the paper's gains, if there is one
+            papers = [self.of[name] == z3.RealVal(value) for name, value in PAPERS_GAINS._asdict().items() if name in self.of]
+            model = ask(*self.given, *contradictions, *papers)[1] or model
+            return answer, {name: _number(model.eval(one, model_completion=True)) for name, one in self.of.items()}, seconds
+        return answer, None, seconds
 
 
 def _number(value: Any) -> float:

@@ -78,7 +78,7 @@ def prove(law: Law) -> Proof:
     gaps = [is_the_gap(body, potentials, memory, decision.polynomial, gap) for memory, _, decision in switches]
     entries = [Fraction(int(one.p), int(one.q)) for one in M.diagonal()]
     lower = [exact(entries[i + 1]) - enclose(entries, i, squares, kappa) for i in range(3)]
-    changes = all((decision.sign == "<") == (q != memory) for memory, q, decision in switches)
+    changes = all(decision.is_negative == (q != memory) for memory, q, decision in switches)
     slope = kappa * (max(entries) - min(entries)) / 2
     lemmas = [
         by_algebra("u = -Kp grad U_q - Kv omega", forces),
