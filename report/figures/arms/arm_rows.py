@@ -92,8 +92,3 @@ def title(controller: str) -> str:
         word = families.word(law)
         name = word[:1].upper() + word[1:]
     return f"(2.2) {name}, {where}" if where and one and one.coordinate_law_in is not None else f"(2.2) {name}"
-
-
-def settled(rows: pd.DataFrame) -> pd.Series:
-    """Whether each episode settled."""
-    return rows["outcome"] == "settled"

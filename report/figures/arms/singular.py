@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import pandas as pd
 
 from bench.experiments.suites import IDEAL_MOTORS, LISTS, NOMINAL
+from bench.findings.claims.tables import settled
 from bench.law.contenders.registry import contenders
 from report.figures.arms import arm_rows
 from report.figures.kit.page import NotInRun, Run, in_run
@@ -55,7 +56,7 @@ def find_rows(run: Run) -> pd.DataFrame:
     rows = rows[rows["way"].isin(LISTS["OPERATIONAL"]) & (rows["start_set"] == START_SET)]
     if rows.empty:
         raise NotInRun("no operational-space torque beside a singularity")
-    return rows.assign(settled=arm_rows.settled(rows), is_redundant=rows["arm"] == "panda")
+    return rows.assign(settled=settled(rows), is_redundant=rows["arm"] == "panda")
 
 
 def name_rule(word: str) -> str:

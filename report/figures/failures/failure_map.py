@@ -6,11 +6,12 @@ import numpy as np
 
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
+from bench.findings.claims.tables import settled
 from bench.findings.maps import counted, lost_share
 from report.figures.failures import hero
 from report.figures.kit import html
 from report.figures.kit.page import Run, in_run
-from report.figures.kit.rows import LINEARIZED, SHORT, lost, of
+from report.figures.kit.rows import LINEARIZED, SHORT, of
 
 
 def facts(run: Run) -> dict:
@@ -34,12 +35,12 @@ def count_mapped() -> dict[str, str]:
 def on_the_map(run: Run) -> dict:
     """Return what the uniform starts of the run say, on the continuous plant, whose end no shorter step moves."""
     episodes = read.converged(run.rows("episodes", task="free-body", engine="ideal-rk4"))
-    linearized = of(episodes, LINEARIZED)
-    failed, others = lost(linearized), [len(lost(of(episodes, SHORT[letter]))) for letter in "mf"]
+    linearized, *others = (of(episodes, SHORT[letter]) for letter in "lmf")
+    failed, *lost = (own[~settled(own)] for own in (linearized, *others))
     return {
         "n": len(linearized),
         "failed_l": len(failed),
-        "failed_others": " and ".join(map(str, others)) if any(others) else "none",
+        "failed_others": " and ".join(str(len(own)) for own in lost) if any(map(len, lost)) else "none",
         "least": f"{np.floor(np.degrees(failed['alpha0'].abs().min())):.0f}",
         "least_gamma": f"{np.degrees(failed['gamma0'].abs().min()):.0f}",
     }

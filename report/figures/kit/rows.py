@@ -13,6 +13,6 @@ def of(frame: pd.DataFrame, contender: str, start_set: str = "uniform") -> pd.Da
     return frame[(frame["contender"] == contender) & (frame["start_set"] == start_set)]
 
 
-def lost(rows: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows that did not settle."""
-    return rows[rows["outcome"] != "settled"]
+def gains(rows: pd.DataFrame) -> tuple[float, float]:
+    """(kp, kv) of the rows."""
+    return float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0])

@@ -6,13 +6,12 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from bench.findings.claims.probes import euler_angles_along
 from bench.findings.theory import closed_form
-from bench.law.contenders.representations.zyx_euler import chart
-from bench.law.so3 import Rotation
 from report.figures.kit import laws, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
-from report.figures.kit.rows import SHORT
+from report.figures.kit.rows import SHORT, gains
 from report.figures.kit.spelling import power
 
 ANGLES = (
@@ -34,20 +33,16 @@ def drawn(run: Run) -> tuple[pd.DataFrame, pd.DataFrame]:
     return run.rows("traces", **words), run.rows("episodes", **words)
 
 
-def gains(episodes: pd.DataFrame) -> dict[str, float]:
-    """Return the gains of the closed form."""
-    return {name: float(episodes[name].iloc[0]) for name in ("kp", "kv")}
-
-
 def facts(run: Run) -> dict:
     """Return the start of each figure, and how far, how long and how straight its law goes from there."""
     traces, episodes = drawn(run)
-    values: dict = gains(episodes)
+    kp, kv = gains(episodes)
+    values: dict = {"kp": kp, "kv": kv}
     for end, letter in FIGURES.items():
         at = {"start_id": f"figure-2.{end}", "contender": SHORT[letter]}
         followed, row = find(traces, at), find(episodes, at).iloc[0]
         values[f"start_{end}"] = ", ".join(f"{row[f'{angle}0']:.3g}" for angle, *_ in ANGLES).replace("-", "\u2212")
-        bend = float(bend_deg(followed, **gains(episodes)).max())
+        bend = float(bend_deg(followed, kp, kv).max())
         values[f"bend_{end}"] = f"{bend:.0f}" if bend > 1.0 else power(bend)
         values[f"time_{end}"], values[f"path_{end}"] = f"{row['settling_time_s']:.3f}", f"{row['path_ratio']:.2f}"
     angles = np.degrees(followed["angle_rad"])
@@ -62,15 +57,12 @@ def find(rows: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:
 def figures(run: Run) -> dict:
     """Return the paper's figures 2.3 to 2.5 as one."""
     traces, episodes = drawn(run)
-    return {"figures": responses(traces, **gains(episodes))}
+    return {"figures": responses(traces, *gains(episodes))}
 
 
 def euler_deg(trace: pd.DataFrame) -> np.ndarray:
     """Z-Y-X Euler angles [deg] of every sample, one row each, unwrapped from the first."""
-    columns = [[f"{c}_{x}" for x in "xyz"] for c in "noa"]
-    samples = zip(*(trace[names].itertuples(index=False, name=None) for names in columns), strict=True)
-    angles = np.array([chart(Rotation(*columns)).E for columns in samples])
-    return np.degrees(np.unwrap(angles, axis=0))
+    return np.degrees(np.unwrap(euler_angles_along(trace), axis=0))
 
 
 @responsive_picture

@@ -10,8 +10,7 @@ from report.figures.kit import families
 from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
 from report.figures.robustness.half_turn_noise import regulator_of
-from report.figures.robustness.robustness import counted
-from report.figures.robustness.rows import along, laws
+from report.figures.robustness.robustness import along, counted, laws
 
 KEPT, RESET = "goal-jump", "goal-jump-reset"
 SOON_S = 0.2

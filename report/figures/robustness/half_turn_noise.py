@@ -17,7 +17,8 @@ from bench.law.kinds import Law
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
-from report.figures.robustness.rows import along, gains, laws, starts
+from report.figures.kit.rows import gains
+from report.figures.robustness.robustness import along, laws, starts
 
 FOOT, TOP = 1e-4, 1.6
 

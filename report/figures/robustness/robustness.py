@@ -9,20 +9,41 @@ from matplotlib.patches import Rectangle
 
 import tasks
 from bench.experiments.tables.read import with_contender
-from bench.findings.perturbed import FOLLOWED_RAD, LOST, Threshold, Way, by_level, studied, thresholds
+from bench.findings.perturbed import FOLLOWED_RAD, LOST, Threshold, Way, by_level, studied, thresholds, went_well
 from bench.findings.theory import robustness_theory
+from bench.findings.theory.thresholds import HALF_TURN
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import NotInRun, Run, in_run
-from report.figures.robustness.rows import along, gains, laws, starts
+from report.figures.kit.rows import gains
 
 AXES = tuple(tasks.axis_names())
-HALF_TURN = "half-turn-noise"
-"""Drawn in the chapter on what an error must do."""
 
 FAULT, FINE = "#d55e00", "#b9c3cf"
 
 Found = dict[str, dict[Way, Threshold]]
+
+
+@functools.cache
+def along(run: Run, name: str) -> pd.DataFrame:
+    """Return rows of one perturbation, by family, with `good`."""
+    rows = run.rows("robustness", axis=name)
+    names = families.in_order(rows["contender"].unique())
+    return rows.assign(
+        contender=pd.Categorical(rows["contender"].astype(str), names, ordered=True),
+        good=went_well(rows),
+    )
+
+
+def laws(rows: pd.DataFrame, controls: bool = True) -> list[str]:
+    """Return the laws of the rows, family by family; without the negative controls if so asked."""
+    names = [name for name in rows["contender"].cat.categories if (rows["contender"] == name).any()]
+    return names if controls else [name for name in names if name not in families.CONTROLS]
+
+
+def starts(rows: pd.DataFrame) -> int:
+    """Return the starts of a law at a level."""
+    return int(rows.groupby(["contender", "level"], observed=True).size().max())
 
 
 @functools.cache
@@ -94,7 +115,7 @@ def figures(run: Run) -> dict:
 @responsive_picture
 def threshold_map(each: Found, narrow: bool) -> Drawing:
     """Return a cell for each threshold, pale where it is the last level tried; laws that are alike share a row."""
-    ways = [way for way in differing(each)[0] if way.axis != HALF_TURN]
+    ways = [way for way in differing(each)[0] if way.axis != HALF_TURN]  # drawn on the page on what an error must do
     rows = group_alike(each, ways)
     figure, axes = style.panels(height=0.26 * len(rows) + 1.5, narrow=narrow)
     for place, laws_alike in enumerate(rows):
