@@ -17,22 +17,21 @@ if (matchMedia("(prefers-reduced-motion: no-preference)").matches)
 
 
 def facts(run: Run) -> dict[str, Any]:
-    """Return the default and what it does, what leads to another law, and how ours compares."""
+    """Return the default and what it does, what leads to another law, and how ours compares.
+
+    And the loop of three fates, which plays at once unless the reader wants less motion, with its words.
+    """
+    episodes = media.facts()["fates"]["episodes"]
+    said = "; ".join(f"from {one['start']} {families.word(one['contender'])} {one['says']}" for one in episodes)
+    loop = media.loop(f"A gripper under three laws: {said}.", "fates-loop", "_static/media", 313)
     return {
+        "fates": html.Html(loop + PLAY),
         "default": families.word(find_default()),
         "does": which_law.describe_default(),
         "bounds": describe_bounds(find_bounds(find_default())),
         "needs": list_needs(run),
         "ours": which_law.describe_ours(),
     }
-
-
-def tables(_: Run) -> dict[str, Any]:
-    """Return the loop of three fates, which plays at once unless the reader wants less motion, with its words."""
-    episodes = media.facts()["fates"]["episodes"]
-    said = "; ".join(f"from {one['start']} {families.word(one['contender'])} {one['says']}" for one in episodes)
-    loop = media.loop(f"A gripper under three laws: {said}.", "fates-loop", "_static/media", 313)
-    return {"fates": html.Html(loop + PLAY)}
 
 
 def list_needs(run: Run) -> str:

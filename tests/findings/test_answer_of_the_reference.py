@@ -79,7 +79,7 @@ def test_front_page_lead_and_table_name_the_advised_law_and_its_bounds():
     assert shown["default"] == families.word(law)
     assert shown["bounds"] == describe_bounds(find_bounds(law))
     assert f"Use **{families.word(law)}**" in which_law.lead()
-    lines = str(which_law.tables(RUN)["regions"]).splitlines()[2:]
+    lines = str(which_law.facts(RUN)["regions"]).splitlines()[2:]
     for one, line in zip(find_regions(), lines, strict=False):  # the smallest regions have no line
         assert f"laws/{families.anchor(one.law)}.html" in line
         assert describe_bounds(find_bounds(one.law)) in line

@@ -24,7 +24,7 @@ ROBOTS_TABLE = Table("If | use | Tied with | Laws compared | Rows")
 
 
 def facts(run: Run) -> dict[str, Any]:
-    """Return the advice in a few sentences, and the numbers about it."""
+    """Return the advice in a few sentences, the numbers about it, and regions, rules, tuned laws and other robots."""
     verdicts = decide_all()
     beaten, left = sensitivity.correct()
     halves, of = sensitivity.count_halves()
@@ -48,6 +48,22 @@ def facts(run: Run) -> dict[str, Any]:
         "unbeaten": f"{100 * held['unbeaten']:.0f}",
         "later": f"{100 * held['half']:.1f}",
         **{name: f"{100 * held[name]:.0f}" for name in ("most", "always_unbeaten", "always_most")},
+        "regions": REGIONS(_region(one) for one in find_regions() if one.advised >= LEAST),
+        "rules": RULES(
+            (one.words, _link(one.law), 100 * one.advised, 100 * one.unbeaten, 100 * one.changed)
+            for one in sensitivity.vary()
+        ),
+        "tuned": TUNED((", ".join(map(_link, laws)), *numbers) for numbers, laws in _tuned().items()),
+        "robots": ROBOTS_TABLE(
+            (
+                one.words,
+                _link(one.law),
+                together([families.word(law) for law in one.tied]) if one.tied else "",
+                str(one.compared or ""),
+                f'<a href="{one.page}.html">rows</a>',
+            )
+            for one in list_elsewhere(run.folder)
+        ),
     }
 
 
@@ -85,28 +101,6 @@ def lead() -> str:
         else ""
     )
     return f"Use **{families.word(first.law)}**, a published law. {describe_default()}{where} {describe_ours()}"
-
-
-def tables(run: Run) -> dict[str, Any]:
-    """Return regions, rules, tuned laws, and other robots."""
-    return {
-        "regions": REGIONS(_region(one) for one in find_regions() if one.advised >= LEAST),
-        "rules": RULES(
-            (one.words, _link(one.law), 100 * one.advised, 100 * one.unbeaten, 100 * one.changed)
-            for one in sensitivity.vary()
-        ),
-        "tuned": TUNED((", ".join(map(_link, laws)), *numbers) for numbers, laws in _tuned().items()),
-        "robots": ROBOTS_TABLE(
-            (
-                one.words,
-                _link(one.law),
-                together([families.word(law) for law in one.tied]) if one.tied else "",
-                str(one.compared or ""),
-                f'<a href="{one.page}.html">rows</a>',
-            )
-            for one in list_elsewhere(run.folder)
-        ),
-    }
 
 
 def _tuned() -> dict[tuple, list[str]]:

@@ -17,12 +17,16 @@ HOMES = (
 
 
 def facts(run: Run) -> dict:
-    """Return which law to take, and what a wrong model leaves."""
+    """Return where the arms are from, which law to take, what limits the laws, and what a wrong model leaves."""
     one = word_of(ARM, run.folder)
     return {
+        "arms-at-home": media.still(HOMES, "arms"),
+        "sources": "\n".join(f"- `{name}`: {prose(tasks.arm(name).source)}" for name in tasks.arm_names()),
         "lead": in_run(lambda: arm_ranking.lead(arm_ranking.of_laws(arm_rows.episodes(run), "uniform"))),
         "advised": families.word(one.law) if one and one.law else "none, for this run does not tell",
         "joint_pd": in_run(lambda: joint_pd(arm_rows.episodes(run))),
+        "tab_ranked": in_run(lambda: arm_ranking.RANKED(arm_ranking.ranked(arm_rows.episodes(run)))),
+        "tab_limited": in_run(lambda: arm_ranking.LIMITED(arm_ranking.limited(arm_rows.every(run)))),
         "model_errors": in_run(lambda: describe_model_errors(run)),
     }
 
@@ -30,20 +34,6 @@ def facts(run: Run) -> dict:
 def joint_pd(rows: pd.DataFrame) -> str:
     """Return what joint PD settles from evenly spread starts."""
     return arm_ranking.describe_share(rows[rows["start_set"] == "uniform"], "joint-pd@joints", "settled")
-
-
-def tables(run: Run) -> dict:
-    """Return where the arms are from, which laws settle on them, and what limits them."""
-    return {
-        "sources": "\n".join(f"- `{name}`: {prose(tasks.arm(name).source)}" for name in tasks.arm_names()),
-        "tab_ranked": in_run(lambda: arm_ranking.RANKED(arm_ranking.ranked(arm_rows.episodes(run)))),
-        "tab_limited": in_run(lambda: arm_ranking.LIMITED(arm_ranking.limited(arm_rows.every(run)))),
-    }
-
-
-def figures(_: Run) -> dict:
-    """Return the arms at home."""
-    return {"arms-at-home": media.still(HOMES, "arms")}
 
 
 def describe_model_errors(run: Run) -> str:

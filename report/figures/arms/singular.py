@@ -8,7 +8,7 @@ from bench.experiments.suites import IDEAL_MOTORS, LISTS, NOMINAL
 from bench.findings.claims.tables import settled
 from bench.law.contenders.registry import contenders
 from report.figures.arms import arm_rows
-from report.figures.kit.page import NotInRun, Run, in_run
+from report.figures.kit.page import NotInRun, Run
 from report.figures.kit.spelling import listed
 from report.figures.kit.tables import Table
 
@@ -20,14 +20,10 @@ START_SET, INVERSE = "wrist", "dynamically-consistent"
 REDUNDANT = {False: "six joints", True: "Panda"}
 
 
-def tables(run: Run) -> dict:
-    """Return the rules."""
-    return {"rules": in_run(lambda: RULES(compare_rules(find_rows(run))))}
-
-
 def facts(run: Run) -> dict:
-    """Return what the rules do."""
-    return {"said": in_run(lambda: describe_rules(find_rows(run)))}
+    """Return what the rules do, in words and in a table."""
+    rows = find_rows(run)
+    return {"said": describe_rules(rows), "rules": RULES(compare_rules(rows))}
 
 
 def describe_rules(rows: pd.DataFrame) -> str:

@@ -15,7 +15,7 @@ EVIDENCE = "appendix-claims.html"
 
 
 def facts(_: Run) -> dict:
-    """Return how many are decided, how, and how many by a criterion that is not the first."""
+    """Return how many are decided, how, and how many by a criterion that is not the first; and a row a claim."""
     every = claims.judge_all()
     changed = [one for one in every if one.claim.earlier]
     return {
@@ -24,12 +24,8 @@ def facts(_: Run) -> dict:
         "first_words": claims.told(one.first for one in every),
         "changed": len(changed),
         "turned": sum(one.word != one.first for one in changed),
+        "verdicts": table(every),
     }
-
-
-def tables(_: Run) -> dict:
-    """Return a row a claim."""
-    return {"verdicts": table(claims.judge_all())}
 
 
 def table(every: list[Verdict]) -> html.Markdown | None:

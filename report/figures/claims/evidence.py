@@ -20,26 +20,20 @@ SLIPS = Table("Slip | Where | Printed | Should be | Checked")
 
 
 def facts(_: Run) -> dict:
-    """Return the rules of all criteria, how steady the verdicts are, and how many slips were computed and read."""
+    """Return the rules of all criteria, how steady the verdicts are, and how many slips were computed and read.
+
+    And what decided each claim, folded, and the tables of sentences, slips and parts of the paper.
+    """
+    every = claims.judge_all()
     return {
         "rule": typeset(claims.RULE),
         "n_computed": sum(one.check is not None for one in ERRATA),
         "n_read": sum(one.check is None for one in ERRATA),
         "misprints": typeset(" ".join(MISPRINTS.split())),
-        "steady": steadiness.describe(
-            read_json(steadiness.STORED), {one.id: str(one.word) for one in claims.judge_all()}
-        ),
-    }
-
-
-def tables(_: Run) -> dict:
-    """Return what decided each claim, folded, and the tables of sentences, slips and parts of the paper."""
-    sentences = SENTENCES((one.section, f"“{prose(one.quote)}”", prose(one.why)) for one in UNTESTABLE)
-    slips = SLIPS(map(describe_slip, sorted(ERRATA, key=lambda one: one.check is None)))
-    return {
-        "sections": html.Html("".join(map(section, claims.judge_all()))),
-        "untestable": sentences,
-        "slips": slips,
+        "steady": steadiness.describe(read_json(steadiness.STORED), {one.id: str(one.word) for one in every}),
+        "sections": html.Html("".join(map(section, every))),
+        "untestable": SENTENCES((one.section, f"“{prose(one.quote)}”", prose(one.why)) for one in UNTESTABLE),
+        "slips": SLIPS(map(describe_slip, sorted(ERRATA, key=lambda one: one.check is None))),
         "coverage": PARTS(map(describe_item, COVERAGE)),
     }
 

@@ -33,7 +33,7 @@ def uniform(run: Run) -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """Return the numbers of the laws that are not negative controls."""
+    """Return the numbers of the laws that are not negative controls, and the table of all laws."""
     rows, tried = uniform(run), cells.directed_starts(ideal(run))
     times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
     laws = [name for name in times if name not in families.CONTROLS]
@@ -51,6 +51,7 @@ def facts(run: Run) -> dict:
         **near(rows[rows["contender"].isin(laws)]),
         "left": len(left),
         "directed": int(tried.groupby("contender", observed=True).size().max()),
+        "all_laws": ALL_LAWS(compare_laws(run)),
     }
 
 
@@ -63,11 +64,6 @@ def near(rows: pd.DataFrame) -> dict:
         apart = f"{math.ceil(100.0 * (middles.max() / middles.min() - 1.0) - 1e-9)}"  # "or less"
         found |= {f"within_{angle}": own["start_id"].nunique(), f"apart_{angle}": apart}
     return found
-
-
-def tables(run: Run) -> dict:
-    """Return all laws."""
-    return {"all_laws": ALL_LAWS(compare_laws(run))}
 
 
 def compare_laws(run: Run) -> Iterator[tuple]:

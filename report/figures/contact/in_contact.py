@@ -67,10 +67,11 @@ def all_rows(run: Run) -> pd.DataFrame:
     return pd.concat(found, ignore_index=True)
 
 
-def facts(run: Run) -> dict[str, str]:
-    """Return how episodes end."""
+def facts(run: Run) -> dict:
+    """Return how episodes end, and one table of all tasks."""
     rows = all_rows(run)
     return {
+        "outcomes": OUTCOMES(compare_tasks(rows)),
         **plate(rows),
         "betas": ", ".join(f"{beta:.0f}°" for beta in sorted(set(rows["beta_deg"]))),
         "flat": flat(rows),
@@ -125,11 +126,6 @@ def flat(rows: pd.DataFrame) -> str:
         f"at the end it lay flat in {euler.sum()} of {len(euler)} simulations with the Euler Jacobian, and in "
         f"{plain.sum()} of {len(plain)} with Cartesian compliance."
     )
-
-
-def tables(run: Run) -> dict:
-    """Return one table of all tasks."""
-    return {"outcomes": OUTCOMES(compare_tasks(all_rows(run)))}
 
 
 def compare_tasks(rows: pd.DataFrame) -> Iterator[tuple]:

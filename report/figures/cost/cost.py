@@ -30,12 +30,13 @@ def costs(run: Run) -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """Return the literal form against the lean one, shares of a controller's time, and where it was measured."""
+    """Return operations, the literal form against the lean, shares of a controller's time, and the machine of times."""
     return {
         **(in_run(lambda: compare_forms(totals(costs(run)))) or {}),
         **(in_run(lambda: share_of_time(run)) or {}),
         "measurable": f"{100 * MEASURABLE:g}",
         "timed_on": describe_machine(run),
+        "operations": in_run(lambda: operations.operations(costs(run))),
     }
 
 
@@ -81,11 +82,6 @@ def describe_machine(run: Run) -> str:
     table = read_arrow(paths[0], "timings")
     about, passes = json.loads(table.schema.metadata[b"about"]), max(table["passes"].to_pylist())
     return f"Measured on {about['cpu']}, {about['cores']} cores, {about['date'][:10]}, {passes} passes."
-
-
-def figures(run: Run) -> dict:
-    """Draw operations by kind."""
-    return {"operations": operations.operations(costs(run))}
 
 
 def totals(counted: pd.DataFrame) -> pd.DataFrame:

@@ -15,11 +15,12 @@ from report.figures.kit.rows import LINEARIZED, SHORT, of
 
 
 def facts(run: Run) -> dict:
-    """Return how much each law loses, and where the linearized law's failures begin."""
+    """Return how much each law loses, the paper's three laws from every angle, and where the failures begin."""
     return {
         **count_mapped(),
         # |Edot| over |omega| half a degree off a pole
         "gain": f"{1.0 / math.sqrt(1.0 - math.cos(math.radians(0.5))):.0f}",
+        "hero": in_run(lambda: hero.hero(run.rows("episodes", engine="ideal-rk4"))),
         **(in_run(lambda: on_the_map(run)) or {}),
     }
 
@@ -44,8 +45,3 @@ def on_the_map(run: Run) -> dict:
         "least": f"{np.floor(np.degrees(failed['alpha0'].abs().min())):.0f}",
         "least_gamma": f"{np.degrees(failed['gamma0'].abs().min()):.0f}",
     }
-
-
-def figures(run: Run) -> dict:
-    """Return the paper's three laws from every angle."""
-    return {"hero": hero.hero(run.rows("episodes", engine="ideal-rk4"))}

@@ -1,10 +1,11 @@
 """A page's modules pasted into it, and the words where the run does not hold what the page shows.
 
 The page pages/08-libraries.md has the module libraries/libraries.py (the front page, `index`), whose functions
-facts(run), tables(run) and figures(run) give what it pastes, key by key; a page may do without any of them. Further
-modules on a page give what it pastes under their own word: `spread` of responses.responses is pasted as
-`responses.spread`. A value that is None, a key that is left out, and what needs a table that the run lacks (NotInRun,
-and the claims' NoEvidence) are not in this run, and the page says so. A key that the page does not paste is an error.
+facts(run), tables(run) and figures(run) give what it pastes, key by key; a page may do without any of them, and what is
+made of the same rows, and so is missing together, comes from one of them. Further modules on a page give what it pastes
+under their own word: `spread` of responses.responses is pasted as `responses.spread`. A value that is None, a key that
+is left out, and what needs a table that the run lacks (NotInRun, and the claims' NoEvidence) are not in this run, and
+the page says so. A key that the page does not paste is an error.
 """
 
 import functools

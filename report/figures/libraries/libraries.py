@@ -33,7 +33,10 @@ def errors(every: pd.DataFrame, kind: str = "function") -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """Return every number that the text takes; ours are not counted among other libraries'."""
+    """Return every number that the text takes, what fails and its fix, and shipped controllers and theirs.
+
+    Ours are not counted among other libraries'.
+    """
     rows, every = answers.table(), lines()
     others = every[every["library"] != OURS]
     functions, idioms = errors(others), errors(others, "idiom")
@@ -53,6 +56,8 @@ def facts(run: Run) -> dict:
         "turns": int(rows.groupby(["library", "function"])["turns"].sum().max()),
         "known": int(functions.loc[~functions["is_right"], "thread"].ne("").sum()),
         **loop_facts(),
+        "tab_faults": FAULTS(faults(every)),
+        "tab_shipped": in_run(as_shipped.list_fixes, run),
         **(in_run(shipped_facts, run) or {}),
     }
 
@@ -76,15 +81,6 @@ def loop_facts() -> dict:
         "loops_dead": int((every["dead"] == every["at_180"]).sum()),
         "loops_away": int((every["away"] > 0).sum()),
         "axes_180": int(every["at_180"].min()),
-    }
-
-
-def tables(run: Run) -> dict:
-    """Return what fails and its fix, and shipped controllers and theirs."""
-    every = lines()
-    return {
-        "tab_faults": FAULTS(faults(every)),
-        "tab_shipped": in_run(as_shipped.list_fixes, run),
     }
 
 

@@ -34,10 +34,10 @@ def drawn(run: Run) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 def facts(run: Run) -> dict:
-    """Return the start of each figure, and how far, how long and how straight its law goes from there."""
+    """Return the paper's figures as one, the start of each, and how far, how long and how straight its law goes."""
     traces, episodes = drawn(run)
     kp, kv = gains(episodes)
-    values: dict = {"kp": kp, "kv": kv}
+    values: dict = {"kp": kp, "kv": kv, "figures": responses(traces, kp, kv)}
     for end, letter in FIGURES.items():
         at = {"start_id": f"figure-2.{end}", "contender": SHORT[letter]}
         followed, row = find(traces, at), find(episodes, at).iloc[0]
@@ -52,12 +52,6 @@ def facts(run: Run) -> dict:
 def find(rows: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:
     """Return the rows that have these words."""
     return rows[(rows[list(words)].astype(str) == pd.Series(words)).all(axis=1)]
-
-
-def figures(run: Run) -> dict:
-    """Return the paper's figures 2.3 to 2.5 as one."""
-    traces, episodes = drawn(run)
-    return {"figures": responses(traces, *gains(episodes))}
 
 
 def euler_deg(trace: pd.DataFrame) -> np.ndarray:

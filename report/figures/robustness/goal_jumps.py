@@ -42,13 +42,11 @@ def compare_paths(run: Run) -> list[tuple]:
     return found
 
 
-def tables(run: Run) -> dict:
-    """Return the paths of each law with memory that always settles."""
-    return {"paths": PATHS(compare_paths(run))}
-
-
 def facts(run: Run) -> dict:
-    """Return how many starts jump, when, which ratio counts, and the share of long paths of the default [%]."""
+    """Return how many starts jump, when, which ratio counts, and the share of long paths of the default [%].
+
+    And the paths of each law with memory that always settles.
+    """
     kept, reset = soon(run, KEPT), soon(run, RESET)
     long = [measure(rows[rows["contender"] == find_default()])[0] for rows in (kept, reset)]
     return {
@@ -56,5 +54,6 @@ def facts(run: Run) -> dict:
         "times": " or ".join(f"{1000.0 * level:g}" for level in sorted(kept["level"].unique())),
         "detour": f"{DETOUR:g}",
         "near": f"{FAR_RAD:g}",
+        "paths": PATHS(compare_paths(run)),
         **dict(zip(("kept", "reset"), (f"{share:.1f}" for share in long), strict=True)),
     }

@@ -74,7 +74,7 @@ def regulator_of(law: str) -> Law:
 
 
 def facts(run: Run) -> dict:
-    """Whom noise holds, by theory and in the episodes; laws with memory and without."""
+    """Whom noise holds, by theory and in the episodes, in numbers and drawn; laws with memory and without."""
     rows = along(run, HALF_TURN)
     kp, kv = gains(rows)
     shares = leaving(rows)
@@ -97,9 +97,5 @@ def facts(run: Run) -> dict:
         "most": f"{max(jumping):.2g}",
         **{law: f"{keeps(law):.3f}" for law in ("hybrid", "late-braking", "mrp-linearized")},
         "delta": f"{DELTA:g}",
+        HALF_TURN: strips(rows),
     }
-
-
-def figures(run: Run) -> dict:
-    """Draw which laws leave 180° at which noise."""
-    return {HALF_TURN: strips(along(run, HALF_TURN))}
