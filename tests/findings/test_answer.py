@@ -17,13 +17,13 @@ from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.criteria import BY_NAME, CRITERIA, jump
 from bench.findings.selection.measured import GENERAL, Measured, dominates, front, measured
-from bench.findings.selection.needs import Fact, Need, decide
+from bench.findings.selection.needs import Need, decide
 from bench.findings.selection.robots import (
     POSITION,
     ROBOTS,
     VELOCITY,
+    decide_for,
     measure_velocities,
-    word_of,
 )
 from bench.findings.selection.tables import Tables, ticks
 from bench.findings.selection.words import together
@@ -33,7 +33,6 @@ from bench.law.contenders.registry import contenders_of, find_contender
 CHEAP, MIDDLE, DEAR = "quaternion-shortest", "mrp", "hybrid"
 """The simplest first: the last has memory."""
 
-ANY = Fact("is a law", lambda found, law: True)
 FLOPS = {CHEAP: 60, MIDDLE: 70, DEAR: 50}
 
 
@@ -74,13 +73,12 @@ def test_circle_of_laws_of_which_each_dominates_the_next_is_kept_whole():
     ],
 )
 def test_situation_names_the_best_and_its_equals(by, values, law, tied, best):
-    found = decide(Need("", (ANY,), (by,)), made_up(**{by: values}))
+    found = decide(Need((), (by,)), made_up(**{by: values}))
     assert (found.law, found.tied, found.best) == (law, tied, best)
 
 
 def test_situation_that_no_law_meets_names_none():
-    never = Fact("", lambda found, law: False)
-    assert decide(Need("", (never,), ("peak",)), made_up(peak=alone(3.0, 1.0, 2.0))).law is None
+    assert decide(Need((lambda found, law: False,), ("peak",)), made_up(peak=alone(3.0, 1.0, 2.0))).law is None
 
 
 @pytest.mark.parametrize(("times", "is_better"), [((1.0, 4.9), False), ((1.0, 5.1), True), ((1.0, math.nan), False)])
@@ -165,7 +163,7 @@ def test_position_is_judged_by_servos_that_lag():
 
 
 def test_every_robot_has_a_word_of_the_reference():
-    words = [word_of(robot, REFERENCE) for robot in ROBOTS.values()]
+    words = [decide_for(robot, REFERENCE) for robot in ROBOTS.values()]
     assert all(one is not None and one.law for one in words)
 
 

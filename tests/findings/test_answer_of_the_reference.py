@@ -13,7 +13,7 @@ from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import Results
 from bench.findings.on_arms import best
 from bench.findings.selection.measured import measured
-from bench.findings.selection.needs import EVERYWHERE, UNHELD, has_all
+from bench.findings.selection.needs import is_unheld, settles_everywhere
 from bench.findings.selection.regions import decide_all, find_bounds, find_default, find_regions
 from bench.findings.selection.robots import ARM, VELOCITY, decide_for
 from bench.findings.selection.words import describe_bounds
@@ -36,8 +36,7 @@ def found():
 
 @pytest.mark.parametrize(("robot", "again"), [(ARM, advised.accelerations), (VELOCITY, advised.velocities)])
 def test_robot_is_advised_as_by_the_rule_written_again(robot, again):
-    _, *decision = decide_for(robot, FOLDER)
-    assert again().decide(robot.need) == tuple(decision)
+    assert again().decide(robot.need) == decide_for(robot, FOLDER)
 
 
 def test_map_is_decided_as_by_the_rule_written_again():
@@ -55,7 +54,7 @@ def test_no_law_without_memory_settles_everywhere_and_is_not_held(found):
     # Bhat and Bernstein 2000; Mayhew, Sanfelice and Teel 2011
     forgetful = [law for law in found.laws if not found.number("memory", law) and law in found.values["held"]]
     assert len(forgetful) > 5
-    assert not [law for law in forgetful if has_all(found, law, (EVERYWHERE, UNHELD))]
+    assert not [law for law in forgetful if settles_everywhere(found, law) and is_unheld(found, law)]
 
 
 def test_time_of_laws_alone_is_what_tells_whole_controllers_apart():

@@ -57,7 +57,7 @@ def plant_thresholds(*held):
 
 def plant_decision(tied, asked):
     """State whether the advised law is alone."""
-    return standing(needs.Decision(needs.Need("", ()), "a", tied, ("a", *tied), asked), str)
+    return standing(needs.Decision("a", tied, ("a", *tied), asked), str)
 
 
 def plant_loops(**columns):

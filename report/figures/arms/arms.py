@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 import tasks
-from bench.findings.selection.robots import ARM, word_of
+from bench.findings.selection.robots import ARM, decide_for
 from report.figures.arms import arm_ranking, arm_rows
 from report.figures.kit import families, media
 from report.figures.kit.page import NotInRun, Run, in_run
@@ -18,7 +18,7 @@ HOMES = (
 
 def facts(run: Run) -> dict:
     """Return where the arms are from, which law to take, what limits the laws, and what a wrong model leaves."""
-    one = word_of(ARM, run.folder)
+    one = decide_for(ARM, run.folder)
     return {
         "arms-at-home": media.still(HOMES, "arms"),
         "sources": "\n".join(f"- `{name}`: {prose(tasks.arm(name).source)}" for name in tasks.arm_names()),

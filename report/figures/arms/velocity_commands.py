@@ -47,9 +47,9 @@ def named(laws: Iterable[str]) -> str:
     return ", ".join(families.word(name) for name in families.in_order(laws)) or "none"
 
 
-def lead(one: Decision) -> str:
+def lead(one: Decision | None) -> str:
     """Return what is advised, and with whom it ties."""
-    if one.law is None:
+    if one is None or one.law is None:
         return "No law of this run settles from every start when it commands velocities."
     said = standing(one, families.word)
     return f"{families.word(one.law)}. {said[0].upper()}{said[1:]}"
