@@ -47,7 +47,7 @@ def measure_velocities(results: Results) -> Measured:
     tables = tables._replace(contenders=known, uniform=uniform, directed=exact, robustness=pd.DataFrame())
     at_once, late = (by_standard_inverse(rows[is_late]) for is_late in (rows["lag_s"] == 0.0, rows["lag_s"] > 0.0))
     at_once = at_once[at_once["start_set"] == "uniform"]
-    as_ever = ("unsettled", "lost", "detour", "time", "worst", "tick", "memory", "jump")
+    as_ever = ("unsettled", "lost", "detour", "time", "worst", "tick", "memory")
     values = {one.name: one.measure(tables) if one.name in as_ever else {} for one in CRITERIA}
     return Measured(
         tables,
@@ -63,11 +63,9 @@ def measure_velocities(results: Results) -> Measured:
 class Robot(NamedTuple):
     """A kind of robot.
 
-    name: in a command. takes: what commands it. rows: what was run. page: its file in the book. measure: how laws are
-    measured on it.
+    takes: what commands it. rows: what was run. page: its file in the book. measure: how laws are measured on it.
     """
 
-    name: str
     takes: str
     rows: str
     page: str
@@ -81,7 +79,7 @@ def read_robots() -> dict[str, Robot]:
     for name, said in tomllib.loads(Path(__file__).with_name("robots.toml").read_text(encoding="utf-8")).items():
         one: dict[str, Any] = dict(said)
         need = Need(tuple(FACTS[word] for word in one.pop("facts")), tuple(one.pop("by", ())))
-        found[name] = Robot(name, **one, need=need, measure=measure if name == "arm" else measure_velocities)
+        found[name] = Robot(**one, need=need, measure=measure if name == "arm" else measure_velocities)
     return found
 
 
