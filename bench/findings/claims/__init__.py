@@ -66,15 +66,14 @@ def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
     found = keep(results.folder, "claims", lambda: _as_json(*_judge_possible(results)))
     claims = {one.id: one for one in all_claims()}
     decided = [
-        Verdict(claims[id], Word(word), Evidence(sentence, rows, tuple(tables), parts))
-        for id, word, sentence, rows, tables, parts in found["decided"]
+        Verdict(claims[id], Word(word), Evidence(sentence, rows, tuple(tables)))
+        for id, word, sentence, rows, tables in found["decided"]
     ]
     return decided, found["lacks"]
 
 
 def _as_json(decided: list[Verdict], lacks: dict[str, str]) -> dict:
-    said = [[one.id, one.word, *one.evidence._replace(parts=dict(one.evidence.parts))] for one in decided]
-    return {"decided": said, "lacks": lacks}
+    return {"decided": [[one.id, one.word, *one.evidence] for one in decided], "lacks": lacks}
 
 
 def _judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
