@@ -53,7 +53,7 @@ def _sum(found: object) -> str:
 
 
 def _digest(folder: Path) -> str:
-    """Return the digest of a run, of what it is compared with (other gains, maps, timings, reference), and of source."""
+    """Return the digest of a run, of what it is compared with (gains, maps, timings, reference), and of source."""
     digest = hashlib.sha256(everything_digest().encode())
     committed = ((RESULTS / name, "**/*") for name in ("gains", "maps", "timings", "reference"))
     for root, pattern in ((folder, "*"), *committed):

@@ -99,9 +99,8 @@ def test_cards_say_in_how_many_situations_a_law_is_advised():
 
 def test_open_question_has_the_advised_law_among_the_later_laws_that_were_judged():
     evidence, law = claims.judge("C27", Results(FOLDER)).evidence, find_default()
-    assert law in str(evidence).partition(" All eight tests: ")[2].partition(" What each ")[0] or f"{law} (b)" in str(
-        evidence
-    )  # few laws run from all starts of (b)
+    answers = str(evidence).partition(" All eight tests: ")[2].partition(" What each ")[0]
+    assert law in answers or f"{law} (b)" in str(evidence)  # few laws run from all starts of (b)
 
 
 # ---------------------------------------------------------------------------------------------- the page

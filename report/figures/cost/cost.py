@@ -12,12 +12,12 @@ from bench.experiments.tables.store import read_arrow
 from bench.findings.claims import Results
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.selection.tables import ticks
-from bench.law.contenders.registry import all_contenders
+from bench.law.contenders.registry import all_contenders, contenders
 from report.figures.cost import operations
 from report.figures.cost.operations import CALLS
-from report.figures.kit import families, html, laws
+from report.figures.kit import families, html
+from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX
 from report.figures.kit.page import Run, in_run
-from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX
 
 LEAN = {"lean": FEEDBACK, "literal": next(one.name for one in all_contenders() if one.regulator.costing_only)}
 """The linearizing law as we write it and as it is printed."""
@@ -26,7 +26,8 @@ LEAN = {"lean": FEEDBACK, "literal": next(one.name for one in all_contenders() i
 @functools.cache
 def costs(run: Run) -> pd.DataFrame:
     """Operations of the paper's laws and the user's own."""
-    return laws.without_later(run.rows("costs", **read.FREE_BODY))
+    rows = run.rows("costs", **read.FREE_BODY)
+    return rows[~rows["regulator"].isin([name for name, one in contenders("regulators").items() if one.later])]
 
 
 def facts(run: Run) -> dict:

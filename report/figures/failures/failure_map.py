@@ -10,8 +10,8 @@ from bench.findings.claims.tables import settled
 from bench.findings.maps import counted, lost_share
 from report.figures.failures import hero
 from report.figures.kit import html
+from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX
 from report.figures.kit.page import Run, in_run
-from report.figures.kit.rows import LINEARIZED, SHORT, of
 
 
 def facts(run: Run) -> dict:
@@ -35,8 +35,8 @@ def count_mapped() -> dict[str, str]:
 
 def on_the_map(run: Run) -> dict:
     """Return what the uniform starts of the run say, on the continuous plant, whose end no shorter step moves."""
-    episodes = read.converged(run.rows("episodes", task="free-body", engine="ideal-rk4"))
-    linearized, *others = (of(episodes, SHORT[letter]) for letter in "lmf")
+    rows = read.converged(run.rows("episodes", task="free-body", engine="ideal-rk4", start_set="uniform"))
+    linearized, *others = (rows[rows["contender"] == name] for name in (LINEARIZED, MATRIX, FEEDBACK))
     failed, *lost = (own[~settled(own)] for own in (linearized, *others))
     return {
         "n": len(linearized),

@@ -11,7 +11,7 @@ from report.figures.kit import html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import listed, power
 from report.figures.kit.tables import Table
-from report.figures.libraries import answers, as_shipped, loops
+from report.figures.libraries import answers, as_shipped
 
 OURS = "orientation-bench"
 """Our own laws in results/libraries, asked like the libraries."""
@@ -75,7 +75,7 @@ def shipped_facts(run: Run) -> dict:
 
 def loop_facts() -> dict:
     """Return how many closed loops are run, how many stay at 180°, and how many turn away first."""
-    every = loops.responses().query("library != @OURS and kind == 'function'")
+    every = answers.responses().query("library != @OURS and kind == 'function'")
     return {
         "loops": len(every),
         "loops_dead": int((every["dead"] == every["at_180"]).sum()),
@@ -87,7 +87,8 @@ def loop_facts() -> dict:
 def faults(every: pd.DataFrame) -> Iterator[tuple]:
     """Return a row for the functions of a library that fail alike and for which the same thread is known."""
     own = errors(every[every["library"] != OURS]).query("not is_right")
-    own = own.merge(loops.verdicts()[["library", "function", "replacement"]], how="left").fillna({"replacement": ""})
+    audited = answers.table("verdicts")[["library", "function", "replacement"]]
+    own = own.merge(audited, how="left").fillna({"replacement": ""})
     own = own.assign(
         said=own["objections"].map(lambda found: "; ".join(found.values())),
         first=own["objections"].map(lambda found: min(map(ORDER.index, found))),

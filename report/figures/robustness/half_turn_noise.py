@@ -16,8 +16,8 @@ from bench.law.contenders.registry import find_contender
 from bench.law.kinds import Law
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
+from report.figures.kit.laws import gains
 from report.figures.kit.page import Run
-from report.figures.kit.rows import gains
 from report.figures.robustness.robustness import along, laws, starts
 
 FOOT, TOP = 1e-4, 1.6

@@ -14,8 +14,8 @@ from bench.findings.theory import robustness_theory
 from bench.findings.theory.thresholds import HALF_TURN
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
+from report.figures.kit.laws import gains
 from report.figures.kit.page import NotInRun, Run, in_run
-from report.figures.kit.rows import gains
 
 AXES = tuple(tasks.axis_names())
 
