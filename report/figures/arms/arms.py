@@ -4,10 +4,11 @@ import numpy as np
 import pandas as pd
 
 import tasks
+from bench.findings.claims.tables import some
 from bench.findings.selection.robots import ARM, decide_for
 from report.figures.arms import arm_ranking, arm_rows
 from report.figures.kit import families, media
-from report.figures.kit.page import NotInRun, Run, in_run
+from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import prose
 
 HOMES = (
@@ -40,9 +41,7 @@ def describe_model_errors(run: Run) -> str:
     """State how far apart controllers end on a plant that is not their model, and what the variations leave."""
     believed = [name for name in tasks.variation_names() if tasks.variation(name).believed]
     rows = arm_rows.with_standard(arm_rows.every(run))
-    rows = rows[rows["variation"].isin(believed) & rows["controller"].isin(arm_rows.COMPARED)]
-    if rows.empty:
-        raise NotInRun("no variation")
+    rows = some(rows[rows["variation"].isin(believed) & rows["controller"].isin(arm_rows.COMPARED)], "variation")
     key = ["arm", "start_id", "variation"]
     angles = rows.pivot_table("final_angle_rad", key, "controller", observed=True).dropna()
     apart = np.degrees(np.ptp(angles.to_numpy(), axis=1))

@@ -5,10 +5,10 @@ from collections.abc import Iterator
 import pandas as pd
 
 from bench.experiments.suites import IDEAL_MOTORS, LISTS, NOMINAL
-from bench.findings.claims.tables import settled
+from bench.findings.claims.tables import settled, some
 from bench.law.contenders.registry import contenders
 from report.figures.arms import arm_rows
-from report.figures.kit.page import NotInRun, Run
+from report.figures.kit.page import Run
 from report.figures.kit.spelling import listed
 from report.figures.kit.tables import Table
 
@@ -49,9 +49,8 @@ def describe_rules(rows: pd.DataFrame) -> str:
 def find_rows(run: Run) -> pd.DataFrame:
     """Return the episodes that begin beside a singularity, by every rule."""
     rows = arm_rows.every(run)
-    rows = rows[rows["way"].isin(LISTS["OPERATIONAL"]) & (rows["start_set"] == START_SET)]
-    if rows.empty:
-        raise NotInRun("no operational-space torque beside a singularity")
+    own = rows[rows["way"].isin(LISTS["OPERATIONAL"]) & (rows["start_set"] == START_SET)]
+    rows = some(own, "operational-space torque beside a singularity")
     return rows.assign(settled=settled(rows), is_redundant=rows["arm"] == "panda")
 
 

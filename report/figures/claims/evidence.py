@@ -45,20 +45,16 @@ def describe_item(one: Item) -> tuple:
     return prose(one.paper), prose(one.says), ids, pages
 
 
-def checked(one: Erratum) -> str:
-    """Return how it was checked, the computed ones just now.
+def describe_slip(one: Erratum) -> tuple:
+    """Return the row of a slip, and in it how it was checked, the computed ones just now.
 
     Errors:
         ValueError: the check no longer confirms its erratum, and the page must not say that it does.
     """
     if one.check and not one.check():
         raise ValueError(f"erratum {one.id}: its check '{one.how}' does not confirm it (cure: mend it in errata.py)")
-    return f"{'computed: ' if one.check else ''}{prose(one.how)}"
-
-
-def describe_slip(one: Erratum) -> tuple:
-    """Return the row of a slip."""
-    return one.id, prose(one.where), f"“{prose(one.printed)}”", prose(one.right), checked(one)
+    checked = f"{'computed: ' if one.check else ''}{prose(one.how)}"
+    return one.id, prose(one.where), f"“{prose(one.printed)}”", prose(one.right), checked
 
 
 def quoted(one: Verdict) -> str:

@@ -9,9 +9,10 @@ import pandas as pd
 from scipy.stats import fisher_exact
 
 import tasks
+from bench.findings.claims.tables import some
 from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER, of, of_task
 from report.figures.kit import html, media
-from report.figures.kit.page import ABSENT, NotInRun, Run
+from report.figures.kit.page import ABSENT, Run
 from report.figures.kit.spelling import spell_powers
 from report.figures.kit.tables import Table
 
@@ -62,9 +63,7 @@ OUTCOMES = Table(
 def all_rows(run: Run) -> pd.DataFrame:
     """Return the rows of every task in contact that the run has."""
     found = [of_task(run, name) for name in MEASURES if len(run.any_rows("compliance", task=name))]
-    if not found:
-        raise NotInRun("no task in contact")
-    return pd.concat(found, ignore_index=True)
+    return pd.concat(some(found, "task in contact"), ignore_index=True)
 
 
 def facts(run: Run) -> dict:

@@ -9,7 +9,6 @@ import pandas as pd
 
 from bench.experiments.tables import read
 from bench.experiments.tables.store import read_arrow
-from bench.findings.claims import Results
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.selection.tables import ticks
 from bench.law.contenders.registry import all_contenders, contenders
@@ -53,7 +52,7 @@ def compare_forms(counted: pd.DataFrame) -> dict[str, int]:
 
 def share_of_time(run: Run) -> dict[str, str]:
     """Return the shares of a whole controller's time that the cheapest law, late braking and the dearest take."""
-    share = {law: value for law, value in ticks(Results(run.folder)).items() if not law.endswith("literal/zyx-euler")}
+    share = {law: value for law, value in ticks(run).items() if not law.endswith("literal/zyx-euler")}
     most = max(share, key=lambda law: share[law])
     shown = {"time_matrix": MATRIX, "time_late": "late-braking", "time_most": most}
     words = {
@@ -72,7 +71,7 @@ def order_papers_laws(share: dict[str, float]) -> str:
 
 def timings(run: Run) -> list[Path]:
     """Return the files of times, one for each kind of machine."""
-    return sorted((run.studies / "timings").glob("*.parquet"))
+    return sorted(run.timings_folder.glob("*.parquet"))
 
 
 def describe_machine(run: Run) -> str:

@@ -1,4 +1,4 @@
-"""The laws as figures name them: the paper's three in its order, their rows; any law of a run, all but the later."""
+"""The laws as figures name them: the paper's three in its order, and any law of a run; and the gains of rows."""
 
 import functools
 from pathlib import Path

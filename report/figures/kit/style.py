@@ -91,15 +91,10 @@ def look(name: str) -> Look:
     word = laws.regulator_of(name)
     own = laws.regulator(word)
     if not own or not own.display.look:
-        return spare(word)
+        every = [*itertools.product(SPARE_COLOURS, SPARE_MARKERS, SPARE_LINES)]
+        return Look(*every[mark(word) % len(every)])
     words = own.display.look
     return Look(COLOURS[words.colour], words.marker, LINES[words.line])
-
-
-def spare(word: str) -> Look:
-    """Return a look chosen by a name."""
-    every = [*itertools.product(SPARE_COLOURS, SPARE_MARKERS, SPARE_LINES)]
-    return Look(*every[mark(word) % len(every)])
 
 
 def mark(text: str) -> int:

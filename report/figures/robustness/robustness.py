@@ -9,13 +9,14 @@ from matplotlib.patches import Rectangle
 
 import tasks
 from bench.experiments.tables.read import with_contender
+from bench.findings.claims.tables import some
 from bench.findings.perturbed import FOLLOWED_RAD, LOST, Threshold, Way, by_level, studied, thresholds, went_well
 from bench.findings.theory import robustness_theory
 from bench.findings.theory.thresholds import HALF_TURN
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.laws import gains
-from report.figures.kit.page import NotInRun, Run, in_run
+from report.figures.kit.page import Run, in_run
 
 AXES = tuple(tasks.axis_names())
 
@@ -64,9 +65,7 @@ def found(run: Run) -> Found:
         known = in_run(lambda axis=axis: thresholds(counted(run, axis)))
         for law in laws(along(run, axis)) if known else ():
             each.setdefault(law, {}).update(known[law])
-    if not each:
-        raise NotInRun("no perturbation")
-    return each
+    return some(each, "perturbation")
 
 
 def compared(each: Found) -> list[str]:
