@@ -52,7 +52,7 @@ def plant_arm(excess):
 def plant_thresholds(*held):
     """List the perturbations along which thresholds of laws differ."""
     each = {law: {Way("delay"): Threshold(one, np.nan, np.nan)} for law, one in zip("ab", held, strict=True)}
-    return [way.axis for way in robustness.differing(each)[0]]
+    return [way.axis for way in robustness.differing(each)]
 
 
 def plant_decision(tied, asked):

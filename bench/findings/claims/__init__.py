@@ -61,9 +61,8 @@ def judge(id: str, results: Results) -> Verdict:
 
 def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
     """Every claim that a run decides, and for each other one what the run lacks; kept for the next call."""
-    if results.folder is None or not results.is_as_stored:
-        return _judge_possible(results)
-    found = keep(results.folder, "claims", lambda: _as_json(*_judge_possible(results)))
+    find = functools.partial(_judge_possible, results)
+    found = keep(results.folder, "claims", find) if results.folder and results.is_as_stored else find()
     claims = {one.id: one for one in all_claims()}
     decided = [
         Verdict(claims[id], Word(word), Evidence(sentence, rows, tuple(tables)))
@@ -72,18 +71,16 @@ def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
     return decided, found["lacks"]
 
 
-def _as_json(decided: list[Verdict], lacks: dict[str, str]) -> dict:
-    return {"decided": [[one.id, one.word, *one.evidence] for one in decided], "lacks": lacks}
-
-
-def _judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
+def _judge_possible(results: Results) -> dict:
+    """Return what `judge_possible` does, as JSON holds it."""
     decided, lacks = [], {}
     for one in all_claims():
         try:
-            decided.append(decide(one, results))
+            _, word, evidence = decide(one, results)
+            decided.append((one.id, word, *evidence))
         except NoEvidence as error:
             lacks[one.id] = str(error)
-    return decided, lacks
+    return {"decided": decided, "lacks": lacks}
 
 
 def told(words: Iterable[Word]) -> str:

@@ -51,7 +51,9 @@ def pass_pole(run: Run) -> pd.DataFrame:
     rows = arm_rows.with_standard(arm_rows.episodes(run, IDEAL_MOTORS))
     starts = rows[rows["start_set"] == "pole"]
     columns = ["arm", "start_id", "outcome", "peak_torque_ratio"]
-    own, other = (starts.loc[starts["controller"] == name, columns] for name in reversed(arm_rows.PAPERS_TWO))
+    own, other = (
+        starts.loc[starts["controller"] == name, columns] for name in (arm_rows.ON_ANGLES, arm_rows.ON_MATRIX)
+    )
     both = own.merge(other, on=["arm", "start_id"], suffixes=("", "_matrix"))
     return both.assign(
         fails=both["outcome"] != "settled",

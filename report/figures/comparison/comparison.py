@@ -38,7 +38,7 @@ def facts(run: Run) -> dict:
     times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
     laws = [name for name in times if name not in families.CONTROLS]
     middle, spent = cells.medians(times[laws]), cells.medians(efforts[laws])
-    left = [name for name in cells.leaving_all(tried) if name not in families.CONTROLS]
+    lost = set(tried.loc[tried["outcome"] != "settled", "contender"])
     return {
         "laws": len(laws),
         "starts": len(times),
@@ -49,9 +49,9 @@ def facts(run: Run) -> dict:
         "whole": int(sum(np.isfinite(times[name]).all() for name in laws)),
         "dearer": f"{spent.max() / spent.min():.0f}",
         **near(rows[rows["contender"].isin(laws)]),
-        "left": len(left),
+        "left": len(set(tried["contender"]) - lost - set(families.CONTROLS)),
         "directed": int(tried.groupby("contender", observed=True).size().max()),
-        "all_laws": ALL_LAWS(compare_laws(run)),
+        "all_laws": ALL_LAWS(compare_laws(run, times, efforts)),
     }
 
 
@@ -66,11 +66,10 @@ def near(rows: pd.DataFrame) -> dict:
     return found
 
 
-def compare_laws(run: Run) -> Iterator[tuple]:
+def compare_laws(run: Run, times: pd.DataFrame, efforts: pd.DataFrame) -> Iterator[tuple]:
     """Return a row a law: what settles, how fast, effort, peak, a tick, lost starts, what noise holds."""
     rows, tried, counted = uniform(run), cells.directed_starts(ideal(run)), run.any_rows("costs", **read.FREE_BODY)
     held = in_run(lambda: measured(run.folder).values["held"]) or {}
-    times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
     for name in families.in_order(times):
         own = rows[rows["contender"] == name]
         yield (

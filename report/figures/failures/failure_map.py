@@ -16,21 +16,17 @@ from report.figures.kit.page import Run, in_run
 
 def facts(run: Run) -> dict:
     """Return how much each law loses, the paper's three laws from every angle, and where the failures begin."""
+    mapped = counted(read.table(RESULTS / "maps", "map"))  # the maps that came with the benchmark
+    own = mapped[(mapped["contender"] == LINEARIZED) & (mapped["most_speed"] == 0.0)]  # at rest
+    value, low, high = (100.0 * one for one in lost_share(int(own["lost"].sum()), int(own["starts"].sum())))
     return {
-        **count_mapped(),
+        "mapped": html.number(int(mapped["starts"].min())),
+        "mapped_l": f"{value:.2f} % ({low:.2f} to {high:.2f})",
         # |Edot| over |omega| half a degree off a pole
         "gain": f"{1.0 / math.sqrt(1.0 - math.cos(math.radians(0.5))):.0f}",
         "hero": in_run(lambda: hero.hero(run.rows("episodes", engine="ideal-rk4"))),
         **(in_run(lambda: on_the_map(run)) or {}),
     }
-
-
-def count_mapped() -> dict[str, str]:
-    """Return the random starts at rest of the maps that came with the benchmark, and the share the law loses."""
-    found = counted(read.table(RESULTS / "maps", "map"))
-    own = found[(found["contender"] == LINEARIZED) & (found["most_speed"] == 0.0)]
-    value, low, high = (100.0 * one for one in lost_share(int(own["lost"].sum()), int(own["starts"].sum())))
-    return {"mapped": html.number(int(found["starts"].min())), "mapped_l": f"{value:.2f} % ({low:.2f} to {high:.2f})"}
 
 
 def on_the_map(run: Run) -> dict:

@@ -75,11 +75,10 @@ def compared(each: Found) -> list[str]:
     ]
 
 
-def differing(each: Found) -> tuple[list[Way], list[Way]]:
-    """Return the ways along which thresholds of the compared laws differ, and those along which all have one."""
-    every = list(dict.fromkeys(way for own in each.values() for way in own))
-    apart = [way for way in every if len({str(each[law][way]) for law in compared(each)}) > 1]
-    return apart, [way for way in every if way not in apart]
+def differing(each: Found) -> list[Way]:
+    """Return the ways along which thresholds of the compared laws differ."""
+    every = dict.fromkeys(way for own in each.values() for way in own)
+    return [way for way in every if len({str(each[law][way]) for law in compared(each)}) > 1]
 
 
 def named(way: Way) -> str:
@@ -91,7 +90,6 @@ def named(way: Way) -> str:
 def facts(run: Run) -> dict:
     """Return how many laws and perturbations there are, how they differ, and limits of the linear loop."""
     each = found(run)
-    apart, _ = differing(each)
     kp, kv = gains(along(run, "delay"))
     return {
         "limit": f"{robustness_theory.least_rate(kp, kv):g}",
@@ -102,7 +100,7 @@ def facts(run: Run) -> dict:
         "held_deg": f"{np.degrees(FOLLOWED_RAD):g}",
         "starts": int(counted(run, "delay")["starts"].max()),
         "run_starts": starts(along(run, "delay")),
-        "apart": "; ".join(map(named, apart)) or "none",
+        "apart": "; ".join(map(named, differing(each))) or "none",
     }
 
 
@@ -114,7 +112,7 @@ def figures(run: Run) -> dict:
 @responsive_picture
 def threshold_map(each: Found, narrow: bool) -> Drawing:
     """Return a cell for each threshold, pale where it is the last level tried; laws that are alike share a row."""
-    ways = [way for way in differing(each)[0] if way.axis != HALF_TURN]  # drawn on the page on what an error must do
+    ways = [way for way in differing(each) if way.axis != HALF_TURN]  # drawn on the page on what an error must do
     rows = group_alike(each, ways)
     figure, axes = style.panels(height=0.26 * len(rows) + 1.5, narrow=narrow)
     for place, laws_alike in enumerate(rows):
