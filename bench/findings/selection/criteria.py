@@ -18,9 +18,6 @@ from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import from_quaternion
 from tasks.haar import axes
 
-LEAST, GREATEST = 1.0, -1.0
-"""Which is better."""
-
 NOTABLE = 0.01
 """Differences below a hundredth are no reason to choose a law."""
 
@@ -31,17 +28,22 @@ Measure = Callable[[Tables], dict[str, np.ndarray]]
 class Criterion(NamedTuple):
     """One number of a law, from one value a start (or from one value alone).
 
-    level: the quantile that is taken of the values, 1 the largest; None: their mean. sense: LEAST or GREATEST is
-    better. notable, least: relative and absolute difference up to which two laws tie.
+    level: the quantile that is taken of the values, 1 the largest; or "mean". greater: more is better. notable, least:
+    relative and absolute difference up to which two laws tie.
     """
 
     name: str
     meaning: str
     measure: Measure
-    level: float | None = 0.5
-    sense: float = LEAST
+    level: float | str = 0.5
+    greater: bool = False
     notable: float = NOTABLE
     least: float = 0.0
+
+    @property
+    def sense(self) -> float:
+        """The factor by which less is better."""
+        return -1.0 if self.greater else 1.0
 
 
 LATE_S = 0.02
@@ -140,16 +142,9 @@ MEASURES: dict[str, Measure] = {
 }
 
 
-def read_criteria() -> tuple[Criterion, ...]:
-    """Return the criteria of criteria.toml with their measures; differences in time a tick tie below MEASURABLE."""
-    found = []
-    for name, words in tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")).items():
-        least = 100.0 * MEASURABLE if name == "tick" else 0.0
-        one: dict[str, Any] = {"measure": MEASURES[name], "least": least, **words}
-        one["sense"] = GREATEST if one.pop("greater", False) else LEAST
-        found.append(Criterion(name, **one | ({"level": None} if one.get("level") == "mean" else {})))
-    return tuple(found)
-
-
-CRITERIA = read_criteria()
+CRITERIA = tuple(
+    Criterion(name, measure=MEASURES[name], least=100.0 * MEASURABLE if name == "tick" else 0.0, **words)
+    for name, words in tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")).items()
+)
+"""The criteria of criteria.toml with their measures; differences in time a tick tie below MEASURABLE."""
 BY_NAME = {one.name: one for one in CRITERIA}

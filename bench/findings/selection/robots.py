@@ -8,7 +8,7 @@ import math
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import pandas as pd
 
@@ -73,17 +73,17 @@ class Robot(NamedTuple):
     measure: Callable[[Results], Measured]
 
 
-def read_robots() -> dict[str, Robot]:
-    """Return the robots of robots.toml by name."""
-    found = {}
-    for name, said in tomllib.loads(Path(__file__).with_name("robots.toml").read_text(encoding="utf-8")).items():
-        one: dict[str, Any] = dict(said)
-        need = Need(tuple(FACTS[word] for word in one.pop("facts")), tuple(one.pop("by", ())))
-        found[name] = Robot(**one, need=need, measure=measure if name == "arm" else measure_velocities)
-    return found
-
-
-ROBOTS = read_robots()
+ROBOTS = {
+    name: Robot(
+        said["takes"],
+        said["rows"],
+        said["page"],
+        Need(tuple(FACTS[word] for word in said["facts"]), tuple(said.get("by", ()))),
+        measure if name == "arm" else measure_velocities,
+    )
+    for name, said in tomllib.loads(Path(__file__).with_name("robots.toml").read_text(encoding="utf-8")).items()
+}
+"""The robots of robots.toml by name."""
 ARM, VELOCITY, POSITION = ROBOTS.values()
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import pandas as pd
 
 import tasks
-from bench.findings.claims.tables import Share, settled, share
+from bench.findings.claims.tables import settled, share
 from bench.findings.on_arms import FULL, best, passed
 from bench.law.contenders.registry import baselines_of_arms
 from report.figures.arms import arm_rows
@@ -33,7 +33,7 @@ def of_laws(rows: pd.DataFrame, start_set: str) -> pd.DataFrame:
 
 
 def ranked(rows: pd.DataFrame) -> Iterator[tuple]:
-    """Return a row a law, best first, then the baselines; bold: shares that no other law beats.
+    """Return a row a law, best first, then the baselines: percentages with intervals; bold: what no other law beats.
 
     Args:
         rows: of `arm_rows.episodes`.
@@ -48,15 +48,12 @@ def ranked(rows: pd.DataFrame) -> Iterator[tuple]:
         cells = []
         for name, measure in COLUMNS:
             mine = own.loc[(own["controller"] == controller) & (own["start_set"] == name), measure]
-            text = in_short(share(mine)) if len(mine) else html.MISSING
+            text = html.MISSING
+            if len(mine):
+                value, low, high = (f"{100 * one:.0f}" for one in share(mine)[2:])
+                text = f"{value} ({low} to {high})".replace(" ", "\N{NO-BREAK SPACE}")
             cells.append(f"**{text}**" if controller in top[name, measure] else text)
         yield arm_rows.title(controller).removeprefix("(2.2) "), *cells
-
-
-def in_short(found: Share) -> str:
-    """Return the percentage with its interval, 55 (46 to 63), on one line."""
-    text = f"{100 * found.value:.0f} ({100 * found.low:.0f} to {100 * found.high:.0f})"
-    return text.replace(" ", "\N{NO-BREAK SPACE}")
 
 
 def limited(rows: pd.DataFrame) -> Iterator[tuple]:

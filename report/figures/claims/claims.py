@@ -32,7 +32,7 @@ def table(every: list[Verdict]) -> html.Markdown | None:
     """Return a row a claim, refuted ones first: number and section, statement, verdicts, and what is true."""
     rows = (
         (
-            f'<a href="{EVIDENCE}#{anchor(one)}">{one.claim.id}</a>',
+            f'<a href="{EVIDENCE}#{one.id.lower()}">{one.claim.id}</a>',
             prose(one.claim.sentence),
             f"{html.badge(str(one.word))}{'' if one.first == one.word else f'<br>first: {one.first}'}",
             prose(one.correction) if one.correction else "",
@@ -40,8 +40,3 @@ def table(every: list[Verdict]) -> html.Markdown | None:
         for one in sorted(every, key=lambda one: ORDER.index(one.word))
     )
     return VERDICTS(rows)
-
-
-def anchor(one: Verdict) -> str:
-    """Return what a claim's section is called in links."""
-    return one.claim.id.lower()

@@ -8,7 +8,6 @@ from bench.findings import claims
 from bench.findings.claims import Verdict, steadiness
 from bench.findings.claims.errata import COVERAGE, ERRATA, UNTESTABLE, Erratum, Item
 from bench.findings.claims.verdict import MISPRINTS
-from report.figures.claims.claims import anchor
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose, typeset
@@ -57,18 +56,13 @@ def describe_slip(one: Erratum) -> tuple:
     return one.id, prose(one.where), f"“{prose(one.printed)}”", prose(one.right), checked
 
 
-def quoted(one: Verdict) -> str:
-    """Return the paper's sentence, with its value if it gives one."""
-    claim = one.claim
-    value = "" if claim.value == "none given" else f" (Its value: {claim.value}.)"
-    return f"“{claim.quote}”{value}" if claim.quote else claim.sentence
-
-
 def section(one: Verdict) -> str:
     """Return what decided a claim, folded under its sentence; a link to it opens it, for the anchor is inside."""
     claim = one.claim
+    value = "" if claim.value == "none given" else f" (Its value: {claim.value}.)"
+    quoted = f"“{claim.quote}”{value}" if claim.quote else claim.sentence
     rows = {
-        "The paper": f"{escape.escape(claim.section)}: {marked_up(quoted(one))}",
+        "The paper": f"{escape.escape(claim.section)}: {marked_up(quoted)}",
         "What is true": marked_up(one.correction or ""),
         "Evidence": marked_up(str(one.evidence)),
         "Criterion": marked_up(f"{claim.criterion} ({written(claim.written)})" if claim.written else claim.criterion),
@@ -81,7 +75,7 @@ def section(one: Verdict) -> str:
     entries = "".join(f"<dt>{name}</dt><dd>{text}</dd>" for name, text in rows.items() if text)
     head = f"<b>{claim.id}</b> <span>{marked_up(claim.sentence)}</span> {html.badge(str(one.word))}"
     return (
-        f'<details class="claim-fold"><summary>{head}</summary><dl class="claim" id="{anchor(one)}">{entries}</dl>'
+        f'<details class="claim-fold"><summary>{head}</summary><dl class="claim" id="{one.id.lower()}">{entries}</dl>'
         "</details>"
     )
 

@@ -14,7 +14,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from scipy.spatial.transform import Rotation
 
 from bench.findings.claims.side_by_side import compliances
-from report.figures.contact.rows import PAPERS, PAPERS_EULER, level, nearest, of
+from report.figures.contact.rows import PAPERS, PAPERS_EULER, level, of
 from report.figures.kit import style
 from report.figures.kit.inline import Drawing, responsive_picture
 
@@ -49,7 +49,8 @@ def turns(rows: pd.DataFrame) -> list[dict]:
     found = []
     own = level(rows[rows["arm"] == shown_arm(rows)])
     full = float(of(own, PAPERS, ORDER)["c_xx"].median())
-    betas = nearest(of(own, PAPERS_EULER, ORDER), BETAS)
+    there = sorted(set(of(own, PAPERS_EULER, ORDER)["beta_deg"]))  # grids of suites differ: the nearest are taken
+    betas = list(dict.fromkeys(min(there, key=lambda one: abs(one - beta)) for beta in BETAS))
     for contender, beta in [(PAPERS, betas[-2]), *((PAPERS_EULER, beta) for beta in betas)]:
         at = of(own, contender, ORDER)
         C = compliances(at[at["beta_deg"] == beta])[0]

@@ -30,9 +30,3 @@ def of(rows: pd.DataFrame, contender: str, complies: str = "") -> pd.DataFrame:
 def level(rows: pd.DataFrame) -> pd.DataFrame:
     """Return the rows whose goal has no alpha and no gamma, by beta."""
     return rows[(rows["alpha_deg"] == 0.0) & (rows["gamma_deg"] == 0.0)].sort_values("beta_deg", kind="stable")
-
-
-def nearest(rows: pd.DataFrame, betas: tuple[float, ...]) -> list[float]:
-    """Return the betas [deg] of the rows that are nearest to the given ones: grids of suites differ."""
-    there = sorted(set(rows["beta_deg"]))
-    return list(dict.fromkeys(min(there, key=lambda one: abs(one - beta)) for beta in betas))

@@ -81,15 +81,10 @@ def differing(each: Found) -> list[Way]:
     return [way for way in every if len({str(each[law][way]) for law in compared(each)}) > 1]
 
 
-def named(way: Way) -> str:
-    """Return the perturbation's title, and its direction where it shrinks."""
-    title = tasks.axis(way.axis).title.lower()
-    return title if way.grows else f"{title} (downwards)"
-
-
 def facts(run: Run) -> dict:
     """Return how many laws and perturbations there are, how they differ, and limits of the linear loop."""
     each = found(run)
+    apart = [tasks.axis(way.axis).title.lower() + " (downwards)" * (not way.grows) for way in differing(each)]
     kp, kv = gains(along(run, "delay"))
     return {
         "limit": f"{robustness_theory.least_rate(kp, kv):g}",
@@ -100,7 +95,7 @@ def facts(run: Run) -> dict:
         "held_deg": f"{np.degrees(FOLLOWED_RAD):g}",
         "starts": int(counted(run, "delay")["starts"].max()),
         "run_starts": starts(along(run, "delay")),
-        "apart": "; ".join(map(named, differing(each))) or "none",
+        "apart": "; ".join(apart) or "none",
     }
 
 
