@@ -7,7 +7,7 @@ import pandas as pd
 from scipy.spatial.transform import Rotation
 
 from bench.experiments.tables.read import converged
-from bench.experiments.tables.statistics import Estimate, quantile, quantile_estimate
+from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims.tables import share
 from bench.findings.selection import tables
 from bench.findings.start_sets import AT_REST
@@ -39,11 +39,6 @@ def costs(rows: pd.DataFrame, column: str) -> pd.DataFrame:
     return rows.assign(cost=rows[column].where(settled, np.inf)).pivot(
         index="start_id", columns="contender", values="cost"
     )
-
-
-def medians(table: pd.DataFrame) -> pd.Series:
-    """Median of each column, of which some values may be infinite."""
-    return pd.Series({name: float(quantile(table[name].to_numpy(), 0.5)) for name in table})
 
 
 def settles(own: pd.DataFrame) -> str:

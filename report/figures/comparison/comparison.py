@@ -37,7 +37,7 @@ def facts(run: Run) -> dict:
     rows, tried = uniform(run), cells.directed_starts(ideal(run))
     times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
     laws = [name for name in times if name not in families.CONTROLS]
-    middle, spent = cells.medians(times[laws]), cells.medians(efforts[laws])
+    middle, spent = (table[laws].quantile(interpolation="lower") for table in (times, efforts))
     lost = set(tried.loc[tried["outcome"] != "settled", "contender"])
     return {
         "laws": len(laws),
@@ -77,7 +77,7 @@ def compare_laws(run: Run, times: pd.DataFrame, efforts: pd.DataFrame) -> Iterat
             cells.settles(own),
             cells.seconds(times[name]),
             cells.seconds(times[name], 0.99),
-            html.number(float(f"{cells.quantile(efforts[name].to_numpy(), 0.5):.3g}")),
+            html.number(float(f"{efforts[name].quantile(interpolation='lower'):.3g}")),
             cells.large(own["peak_u"].max()),
             cells.tick(counted, name),
             cells.count_lost(tried[tried["contender"] == name]),

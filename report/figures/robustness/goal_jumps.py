@@ -30,9 +30,8 @@ def measure(rows: pd.DataFrame) -> tuple[float, float]:
     return 100.0 * rows["long"].sum() / rows["far"].sum(), math.degrees(rows["path_rad"].max())
 
 
-def compare_paths(run: Run) -> list[tuple]:
+def compare_paths(run: Run, kept: pd.DataFrame, reset: pd.DataFrame) -> list[tuple]:
     """Return each law with memory that always settles: its measures, those of memory kept and reset side by side."""
-    kept, reset = soon(run, KEPT), soon(run, RESET)
     found = []
     for law in laws(along(run, KEPT), controls=False):
         own = [rows[rows["contender"] == law] for rows in (kept, reset)]
@@ -54,6 +53,6 @@ def facts(run: Run) -> dict:
         "times": " or ".join(f"{1000.0 * level:g}" for level in sorted(kept["level"].unique())),
         "detour": f"{DETOUR:g}",
         "near": f"{FAR_RAD:g}",
-        "paths": PATHS(compare_paths(run)),
+        "paths": PATHS(compare_paths(run, kept, reset)),
         **dict(zip(("kept", "reset"), (f"{share:.1f}" for share in long), strict=True)),
     }

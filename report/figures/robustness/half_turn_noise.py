@@ -24,15 +24,15 @@ FOOT, TOP = 1e-4, 1.6
 
 
 def leaving(rows: pd.DataFrame) -> pd.DataFrame:
-    """Share of starts that leave and settle: a row a level, a column a law."""
-    return rows.pivot_table(index="level", columns="contender", values="good", aggfunc="mean", observed=True)
+    """Share of starts that leave and settle under some noise: a row a level, a column a law."""
+    noisy = rows[rows["level"] > 0.0]
+    return noisy.pivot_table(index="level", columns="contender", values="good", aggfunc="mean", observed=True)
 
 
 @responsive_picture
 def strips(rows: pd.DataFrame, narrow: bool) -> Drawing:
     """Draw a row a law: in colour the noise that holds it by theory; marks: the episodes, full where all are held."""
     shares = leaving(rows)
-    shares = shares[shares.index > 0]
     own = laws(rows, controls=False)
     figure, axes = style.panels(height=0.2 * len(own) + 0.9, narrow=narrow)
     words = []
@@ -77,8 +77,7 @@ def facts(run: Run) -> dict:
     """Whom noise holds, by theory and in the episodes, in numbers and drawn; laws with memory and without."""
     rows = along(run, HALF_TURN)
     kp, kv = gains(rows)
-    shares = leaving(rows)
-    noisy = shares[shares.index > 0]
+    noisy = leaving(rows)
     own = laws(rows, controls=False)
     known = {law: least(law, kp, kv) for law in own if not math.isnan(least(law, kp, kv))}
     agree = [(level >= begin) == (noisy.loc[level, law] < 0.5) for law, begin in known.items() for level in noisy.index]
