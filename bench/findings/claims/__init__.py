@@ -84,14 +84,9 @@ def _judge_possible(results: Results) -> dict:
 
 
 def told(words: Iterable[Word]) -> str:
-    """'20 hold, 1 does not hold'."""
-    return ", ".join(f"{number} {does(word, number)}" for word, number in tally(words).items())
-
-
-def tally(words: Iterable[Word]) -> dict[Word, int]:
-    """How many claims have each word that some claim has, in the order of the words."""
+    """'20 hold, 1 does not hold': how many claims have each word that some claim has, in the order of the words."""
     counts = Counter(words)
-    return {word: counts[word] for word in Word if counts[word]}
+    return ", ".join(f"{counts[word]} {does(word, counts[word])}" for word in Word if counts[word])
 
 
 def judge_all(folder: Path | None = None) -> list[Verdict]:

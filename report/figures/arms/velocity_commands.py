@@ -5,8 +5,9 @@ from collections.abc import Iterable
 import pandas as pd
 
 from bench.findings.claims.adequacy import DETOUR
-from bench.findings.selection.needs import Decision
-from bench.findings.selection.robots import VELOCITY, decide_for
+from bench.findings.selection.measured import measured
+from bench.findings.selection.needs import Decision, decide
+from bench.findings.selection.robots import VELOCITY
 from bench.findings.selection.words import standing
 from bench.findings.theory.velocity_limits import with_theory
 from report.figures.kit import families
@@ -29,7 +30,7 @@ def facts(run: Run) -> dict:
     known = found[found["k_dt_theory"] > 0.0]
     logarithm = found.query("law == 'rotation-vector' and arm == '' and share == 1.0 and reach == 'near'")
     return {
-        "lead": lead(decide_for(VELOCITY, run.folder)),
+        "lead": lead(decide(VELOCITY.need, measured(run.folder, VELOCITY.measure))),
         "gain": float(rows["gain"].iloc[0]),
         "log_limit": f"{float(logarithm['k_dt'].iloc[0]):.3g}" if len(logarithm) else None,
         "uniform": len(uniform) // uniform["law"].nunique(),
@@ -47,9 +48,9 @@ def named(laws: Iterable[str]) -> str:
     return ", ".join(families.word(name) for name in families.in_order(laws)) or "none"
 
 
-def lead(one: Decision | None) -> str:
+def lead(one: Decision) -> str:
     """Return what is advised, and with whom it ties."""
-    if one is None or one.law is None:
+    if one.law is None:
         return "No law of this run settles from every start when it commands velocities."
     said = standing(one, families.word)
     return f"{families.word(one.law)}. {said[0].upper()}{said[1:]}"
