@@ -4,8 +4,8 @@ The page pages/08-libraries.md has the module libraries/libraries.py (the front 
 facts(run), tables(run) and figures(run) give what it pastes, key by key; a page may do without any of them, and what is
 made of the same rows, and so is missing together, comes from one of them. Further modules on a page give what it pastes
 under their own word: `spread` of responses.responses is pasted as `responses.spread`. A value that is None, a key that
-is left out, and what needs a table that the run lacks (NoEvidence) are not in this run, and
-the page says so. A key that the page does not paste is an error.
+is left out, and what needs a table that the run lacks (NoEvidence) are not in this run, and the page says so. A key
+that the page does not paste is an error.
 """
 
 import functools
