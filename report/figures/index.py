@@ -7,7 +7,7 @@ from bench.findings.selection.robots import list_elsewhere
 from bench.findings.selection.words import describe_bounds
 from report.figures.answer import which_law
 from report.figures.kit import families, html, media
-from report.figures.kit.page import Run
+from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import listed
 
 PLAY = """<script>
@@ -29,7 +29,7 @@ def facts(run: Run) -> dict[str, Any]:
         "default": families.word(find_default()),
         "does": which_law.describe_default(),
         "bounds": describe_bounds(find_bounds(find_default())),
-        "needs": list_needs(run),
+        "needs": in_run(list_needs, run),
         "ours": which_law.describe_ours(),
     }
 

@@ -5,10 +5,10 @@ from typing import Any
 from bench.experiments.situations import FIRST, MOST, NOISE_RAD
 from bench.findings.selection import regions, sensitivity
 from bench.findings.selection.regions import decide_all, facts_of, find_bounds, find_regions, is_drawn, read_map
-from bench.findings.selection.robots import list_elsewhere
+from bench.findings.selection.robots import Elsewhere, list_elsewhere
 from bench.findings.selection.words import describe_bounds, together
 from report.figures.kit import families
-from report.figures.kit.page import Run
+from report.figures.kit.page import Run, in_run
 from report.figures.kit.tables import Table
 from tasks.situation import KP, NOMINAL
 
@@ -54,16 +54,7 @@ def facts(run: Run) -> dict[str, Any]:
             for one in sensitivity.vary()
         ),
         "tuned": TUNED((", ".join(map(_link, laws)), *numbers) for numbers, laws in _tuned().items()),
-        "robots": ROBOTS_TABLE(
-            (
-                one.words,
-                _link(one.law),
-                together([families.word(law) for law in one.tied]) if one.tied else "",
-                str(one.compared or ""),
-                f'<a href="{one.page}.html">rows</a>',
-            )
-            for one in list_elsewhere(run.folder)
-        ),
+        "robots": in_run(lambda: ROBOTS_TABLE(map(describe_robot, list_elsewhere(run.folder)))),
     }
 
 
@@ -110,6 +101,12 @@ def _tuned() -> dict[tuple, list[str]]:
         numbers = one.at_one, one.zeta, one.time, one.peak_zeta, one.peak_time
         found.setdefault(tuple(round(float(number), 2) for number in numbers), []).append(one.law)
     return found
+
+
+def describe_robot(one: Elsewhere) -> tuple:
+    """Return the row of what leads to a law."""
+    tied = together([families.word(law) for law in one.tied]) if one.tied else ""
+    return one.words, _link(one.law), tied, str(one.compared or ""), f'<a href="{one.page}.html">rows</a>'
 
 
 def _region(one: regions.Region) -> tuple:

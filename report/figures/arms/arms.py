@@ -19,7 +19,7 @@ HOMES = (
 
 def facts(run: Run) -> dict:
     """Return where the arms are from, which law to take, what limits the laws, and what a wrong model leaves."""
-    one = decide_for(ARM, run.folder)
+    one = in_run(decide_for, ARM, run.folder)
     return {
         "arms-at-home": media.still(HOMES, "arms"),
         "sources": "\n".join(f"- `{name}`: {prose(tasks.arm(name).source)}" for name in tasks.arm_names()),
