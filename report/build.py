@@ -108,13 +108,6 @@ def keys(results: Path, root: Path = ROOT) -> dict[str, str]:
     return {"cells": digest(behind_cells, root), "site": digest(of_site, root)}
 
 
-def finished_keys() -> dict[str, str]:
-    """Return the keys of the build that lies in _build, empty where none finished."""
-    if not STAMP.is_file() or not (SITE / "index.html").is_file():
-        return {}
-    return json.loads(STAMP.read_text(encoding="utf-8"))
-
-
 def date_of_commit() -> str:
     """Seconds since 1970 of the last commit: the date on the pages, so that equal input gives equal bytes."""
     command = ["git", "log", "-1", "--format=%ct"]
@@ -200,7 +193,8 @@ def main() -> int:
     try:
         results = results_folder()
         print(f"report: from {os.path.relpath(results, ROOT)}", flush=True)
-        wanted, finished = keys(results), finished_keys()
+        is_built = STAMP.is_file() and (SITE / "index.html").is_file()
+        wanted, finished = keys(results), json.loads(STAMP.read_text(encoding="utf-8")) if is_built else {}
         if wanted != finished:
             build(results, wanted["cells"])
             offer_data(results)

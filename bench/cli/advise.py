@@ -106,10 +106,10 @@ def COMMAND(
 
 def _of_other_robot(robot: str) -> Paragraph:
     """Say what is advised where a robot takes velocities or positions, by the run that came with the benchmark."""
-    from bench.findings.selection.robots import ROBOTS, word_of
+    from bench.findings.selection.robots import ROBOTS, decide_for
 
     one = ROBOTS[robot]
-    found = word_of(one, options.REFERENCE)
+    found = decide_for(one, options.REFERENCE)
     if found is None or found.law is None:
         return Paragraph("Which law", (f"No law of results/reference is advised where a robot takes {one.takes}.",))
     tied = f", tied with {listed(found.tied)}" if found.tied else ""

@@ -8,7 +8,7 @@ and not in the run's folder: a folder may come from anywhere, and would bring ve
 import contextlib
 import hashlib
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 from bench.base.errors import BadResults
@@ -53,15 +53,11 @@ def _sum(found: object) -> str:
 
 
 def _digest(folder: Path) -> str:
-    """Return the digest of a run, of the committed results, and of every source."""
+    """Return the digest of a run, of what it is compared with (gains, maps, timings, reference), and of source."""
     digest = hashlib.sha256(everything_digest().encode())
-    for path in _files(folder):
-        digest.update(path.name.encode() + b"\0" + hashlib.sha256(path.read_bytes()).digest())
-    return digest.hexdigest()[:32]
-
-
-def _files(folder: Path) -> Iterator[Path]:
-    """Yield a run's files, and those that it is compared with: at other gains, maps, timings and the reference."""
     committed = ((RESULTS / name, "**/*") for name in ("gains", "maps", "timings", "reference"))
     for root, pattern in ((folder, "*"), *committed):
-        yield from sorted(one for one in root.glob(pattern) if one.suffix in (".parquet", ".json") and one.is_file())
+        for path in sorted(root.glob(pattern)):
+            if path.suffix in (".parquet", ".json") and path.is_file():
+                digest.update(path.name.encode() + b"\0" + hashlib.sha256(path.read_bytes()).digest())
+    return digest.hexdigest()[:32]

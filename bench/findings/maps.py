@@ -74,11 +74,10 @@ def by_law(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 class Spun(NamedTuple):
-    """Starts of one law at one stated speed [rad/s]: how many, lost, not converged, and the share of `lost_between`."""
+    """Starts of one law at one stated speed [rad/s]: how many, not converged, and the share lost of `lost_between`."""
 
     speed: float
     starts: int
-    lost: int
     unconverged: int
     share: Estimate
 
@@ -92,6 +91,6 @@ def spun(numbers: pd.DataFrame, law: str) -> list[Spun]:
     own = numbers[(numbers["contender"] == law) & (numbers["least_speed"] == numbers["most_speed"])]
     columns = own.sort_values("most_speed")[["most_speed", "starts", "lost", "unconverged"]]
     return [
-        Spun(speed, starts, lost, unconverged, lost_between(lost, unconverged, starts))
+        Spun(speed, starts, unconverged, lost_between(lost, unconverged, starts))
         for speed, starts, lost, unconverged in columns.itertuples(index=False, name=None)
     ]

@@ -110,16 +110,14 @@ def by_level(rows: pd.DataFrame) -> pd.DataFrame:
     times = times.assign(path_rad=angle * ratio, is_long=angle.notna() & (ratio > DETOUR))
     keys = ["axis", *(name for name in CONTENDER_KEY if name in rows), "level"]
     groups = times.groupby(keys, observed=True, sort=False)
-    return pd.DataFrame(
-        {
-            "starts": groups.size(),
-            "good": groups["good"].sum(),
-            "median_s": groups["time_s"].agg(lambda each: float(quantile(each.to_numpy(), 0.5))),
-            "longest_s": groups["time_s"].agg(lambda each: each[np.isfinite(each)].max()),
-            "far": groups["path_rad"].count(),
-            "long": groups["is_long"].sum(),
-            "path_rad": groups["path_rad"].max(),
-        }
+    return groups.agg(
+        starts=("good", "size"),
+        good=("good", "sum"),
+        median_s=("time_s", lambda each: float(quantile(each.to_numpy(), 0.5))),
+        longest_s=("time_s", lambda each: each[np.isfinite(each)].max()),
+        far=("path_rad", "count"),
+        long=("is_long", "sum"),
+        path_rad=("path_rad", "max"),
     ).reset_index()
 
 

@@ -35,7 +35,7 @@ class Fix(NamedTuple):
 def smallest_fix(one: Law) -> Fix:
     """Return the smallest fix of a controller's error, by what its error does."""
     own = one.shipped
-    free, steps = own.unbounded or own.error, []
+    free, steps, factor = own.unbounded or own.error, [], 1.0
     fixed, bound = free, own.bound
     if not any(free(about(DIRECTIONS[-1], math.pi))):
         if largest(with_sign(free), math.pi) > SMALL:
@@ -49,14 +49,14 @@ def smallest_fix(one: Law) -> Fix:
             fixed = logarithm
     if HALF[0] < np.dot(free(about(DIRECTIONS[0], NEAR_RAD)), DIRECTIONS[0]) / NEAR_RAD < HALF[1]:
         steps.append("multiply the vector part by 2" + (", before the clip" if math.isfinite(own.bound) else ""))
-        fixed = doubled(fixed)
+        factor = 2.0
     if is_bent(own.error):
         steps.append(f"to keep the direction, clip the length at {bound:g} instead of each component")
     words = f"{'; '.join(steps)}."
     before = 0.0 if one.level == VELOCITY else one.gains.kp * largest(own.error, None)
     if not steps:
         return Fix(KEEP, before, before)
-    return Fix(words[0].upper() + words[1:], before, one.gains.kp * min(bound, largest(fixed, None)))
+    return Fix(words[0].upper() + words[1:], before, one.gains.kp * min(bound, factor * largest(fixed, None)))
 
 
 def fix_of(name: str) -> Fix:
@@ -85,8 +85,3 @@ def is_bent(error: Callable) -> bool:
 def with_sign(error: Callable) -> Callable:
     """Return the error with the sign of zero taken as 1."""
     return lambda q: error((q[0] or SMALLEST, *q[1:]))
-
-
-def doubled(error: Callable) -> Callable:
-    """Return twice the error."""
-    return lambda q: tuple(2.0 * one for one in error(q))

@@ -7,7 +7,7 @@ from bench.findings.selection.robots import list_elsewhere
 from bench.findings.selection.words import describe_bounds
 from report.figures.answer import which_law
 from report.figures.kit import families, html, media
-from report.figures.kit.page import Run
+from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import listed
 
 PLAY = """<script>
@@ -17,22 +17,21 @@ if (matchMedia("(prefers-reduced-motion: no-preference)").matches)
 
 
 def facts(run: Run) -> dict[str, Any]:
-    """Return the default and what it does, what leads to another law, and how ours compares."""
-    return {
-        "default": families.word(find_default()),
-        "does": which_law.describe_default(),
-        "bounds": describe_bounds(find_bounds(find_default())),
-        "needs": list_needs(run),
-        "ours": which_law.describe_ours(),
-    }
+    """Return the default and what it does, what leads to another law, and how ours compares.
 
-
-def tables(_: Run) -> dict[str, Any]:
-    """Return the loop of three fates, which plays at once unless the reader wants less motion, with its words."""
+    And the loop of three fates, which plays at once unless the reader wants less motion, with its words.
+    """
     episodes = media.facts()["fates"]["episodes"]
     said = "; ".join(f"from {one['start']} {families.word(one['contender'])} {one['says']}" for one in episodes)
     loop = media.loop(f"A gripper under three laws: {said}.", "fates-loop", "_static/media", 313)
-    return {"fates": html.Html(loop + PLAY)}
+    return {
+        "fates": html.Html(loop + PLAY),
+        "default": families.word(find_default()),
+        "does": which_law.describe_default(),
+        "bounds": describe_bounds(find_bounds(find_default())),
+        "needs": in_run(list_needs, run),
+        "ours": which_law.describe_ours(),
+    }
 
 
 def list_needs(run: Run) -> str:

@@ -9,6 +9,7 @@ import pytest
 from support.pages import RUN, assert_is_whole
 
 from bench.experiments.tables import read
+from report.figures.kit.laws import FEEDBACK
 from report.figures.kit.page import (
     ABSENT,
     REPORT,
@@ -20,7 +21,6 @@ from report.figures.kit.page import (
     run_in,
     text_of,
 )
-from report.figures.kit.rows import FEEDBACK
 from report.figures.kit.tables import Table
 from report.figures.responses import responses
 
@@ -98,5 +98,5 @@ def test_table_writes_its_columns_in_their_order_with_their_formats():
 
 def test_response_bends_are_nothing_under_feedback_linearization():
     traces, _ = responses.drawn(RUN)
-    own = responses.find(traces, {"start_id": "figure-2.5", "contender": FEEDBACK})
+    own = read.chosen(traces, {"start_id": "figure-2.5", "contender": FEEDBACK})
     assert responses.bend_deg(own, 100.0, 20.0).max() < 1e-6

@@ -17,13 +17,13 @@ from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.criteria import BY_NAME, CRITERIA, jump
 from bench.findings.selection.measured import GENERAL, Measured, dominates, front, measured
-from bench.findings.selection.needs import Fact, Need, decide
+from bench.findings.selection.needs import Need, decide
 from bench.findings.selection.robots import (
     POSITION,
     ROBOTS,
     VELOCITY,
+    decide_for,
     measure_velocities,
-    word_of,
 )
 from bench.findings.selection.tables import Tables, ticks
 from bench.findings.selection.words import together
@@ -33,7 +33,6 @@ from bench.law.contenders.registry import contenders_of, find_contender
 CHEAP, MIDDLE, DEAR = "quaternion-shortest", "mrp", "hybrid"
 """The simplest first: the last has memory."""
 
-ANY = Fact("is a law", lambda found, law: True)
 FLOPS = {CHEAP: 60, MIDDLE: 70, DEAR: 50}
 
 
@@ -74,10 +73,9 @@ def test_circle_of_laws_of_which_each_dominates_the_next_is_kept_whole():
     ],
 )
 def test_situation_names_the_best_and_its_equals_and_none_that_does_not_meet_it(by, values, law, tied, best):
-    found = decide(Need("", (ANY,), (by,)), made_up(**{by: values}))
+    found = decide(Need((), (by,)), made_up(**{by: values}))
     assert (found.law, found.tied, found.best) == (law, tied, best)
-    never = Fact("", lambda found, law: False)
-    assert decide(Need("", (never,), (by,)), made_up(**{by: values})).law is None
+    assert decide(Need((lambda found, law: False,), (by,)), made_up(**{by: values})).law is None
 
 
 @pytest.mark.parametrize(("times", "is_better"), [((1.0, 4.9), False), ((1.0, 5.1), True), ((1.0, math.nan), False)])
@@ -163,7 +161,7 @@ def test_position_is_judged_by_servos_that_lag():
 
 @pytest.mark.parametrize("robot", ROBOTS.values())
 def test_robot_has_a_word_of_the_reference_and_names_a_page_of_the_book(robot):
-    assert word_of(robot, REFERENCE).law
+    assert decide_for(robot, REFERENCE).law
     assert (RESULTS.parent / "report" / "pages" / f"{robot.page}.md").is_file()
 
 

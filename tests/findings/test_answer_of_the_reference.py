@@ -13,7 +13,7 @@ from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import Results
 from bench.findings.on_arms import best
 from bench.findings.selection.measured import measured
-from bench.findings.selection.needs import EVERYWHERE, UNHELD, has_all
+from bench.findings.selection.needs import is_unheld, settles_everywhere
 from bench.findings.selection.regions import decide_all, find_bounds, find_default, find_regions
 from bench.findings.selection.robots import ARM, VELOCITY, decide_for
 from bench.findings.selection.words import describe_bounds
@@ -54,7 +54,7 @@ def test_no_law_without_memory_settles_everywhere_and_is_not_held(found):
     # Bhat and Bernstein 2000; Mayhew, Sanfelice and Teel 2011
     forgetful = [law for law in found.laws if not found.number("memory", law) and law in found.values["held"]]
     assert len(forgetful) > 5
-    assert not [law for law in forgetful if has_all(found, law, (EVERYWHERE, UNHELD))]
+    assert not [law for law in forgetful if settles_everywhere(found, law) and is_unheld(found, law)]
 
 
 def test_time_of_laws_alone_is_what_tells_whole_controllers_apart():
@@ -78,7 +78,7 @@ def test_front_page_lead_and_table_name_the_advised_law_and_its_bounds():
     assert shown["default"] == families.word(law)
     assert shown["bounds"] == describe_bounds(find_bounds(law))
     assert f"Use **{families.word(law)}**" in which_law.lead()
-    lines = str(which_law.tables(RUN)["regions"]).splitlines()[2:]
+    lines = str(which_law.facts(RUN)["regions"]).splitlines()[2:]
     for one, line in zip(find_regions(), lines, strict=False):  # the smallest regions have no line
         assert f"laws/{families.anchor(one.law)}.html" in line
         assert describe_bounds(find_bounds(one.law)) in line
@@ -99,4 +99,5 @@ def test_cards_say_in_how_many_situations_a_law_is_advised():
 
 def test_open_question_has_the_advised_law_among_the_later_laws_that_were_judged():
     evidence, law = claims.judge("C27", Results(FOLDER)).evidence, find_default()
-    assert law in evidence.parts["answers"] or f"{law} (b)" in str(evidence)  # few laws run from all starts of (b)
+    answers = str(evidence).partition(" All eight tests: ")[2].partition(" What each ")[0]
+    assert law in answers or f"{law} (b)" in str(evidence)  # few laws run from all starts of (b)

@@ -13,9 +13,9 @@ from report.figures.arms import arm_ranking
 from report.figures.contact import as_arms_run, in_contact
 from report.figures.cost import cost
 from report.figures.failures import failure_map
+from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX
 from report.figures.kit.page import Run
-from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX
-from report.figures.libraries import libraries, loops
+from report.figures.libraries import answers, libraries
 from report.figures.robustness import half_turn_noise, robustness
 
 FOLDER = RESULTS / "reference"
@@ -52,19 +52,19 @@ def plant_arm(excess):
 def plant_thresholds(*held):
     """List the perturbations along which thresholds of laws differ."""
     each = {law: {Way("delay"): Threshold(one, np.nan, np.nan)} for law, one in zip("ab", held, strict=True)}
-    return [way.axis for way in robustness.differing(each)[0]]
+    return [way.axis for way in robustness.differing(each)]
 
 
 def plant_decision(tied, asked):
     """State whether the advised law is alone."""
-    return standing(needs.Decision(needs.Need("", ()), "a", tied, ("a", *tied), asked), str)
+    return standing(needs.Decision("a", tied, ("a", *tied), asked), str)
 
 
 def plant_loops(**columns):
     """Count the closed loops that stay at 180° and those that turn away first."""
-    found = loops.responses().assign(**columns)
+    found = answers.responses().assign(**columns)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(loops, "responses", lambda: found)
+        patch.setattr(answers, "responses", lambda: found)
         said = libraries.loop_facts()
     return f"{said['loops_dead']} dead, {said['loops_away']} away"
 

@@ -13,16 +13,16 @@ from report.figures.kit.inline import Picture, responsive_picture
 
 
 @responsive_picture
-def two_laws():
-    figure, axes = style.panels(height=2.0)
+def two_laws(narrow):
+    figure, axes = style.panels(height=2.0, narrow=narrow)
     for name in ("rotation-matrix", "linearized-euler"):
         axes.plot([0, 1], [0, 1], color=style.look(name).colour, marker=style.look(name).marker)
     return figure, 'Two laws, "equal" & straight'
 
 
 @responsive_picture
-def undescribed():
-    figure, _ = style.panels(height=2.0)
+def undescribed(narrow):
+    figure, _ = style.panels(height=2.0, narrow=narrow)
     return figure, " "
 
 

@@ -35,7 +35,7 @@ def test_every_law_has_a_page_with_its_source_and_its_files():
 
 
 def test_page_says_so_when_nothing_was_timed(tmp_path):
-    untimed = Run(RESULTS / "reference", studies=tmp_path)
+    untimed = Run(RESULTS / "reference", timings=tmp_path / "timings")
     assert "make time" in cost.facts(untimed)["timed_on"]
 
 

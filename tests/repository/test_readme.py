@@ -9,7 +9,7 @@ from support.command_line import bench
 from bench.base.provenance import ROOT
 from bench.experiments.tables import store
 from bench.findings.selection.regions import Rule, compare_ours, find_bounds, find_default, find_regions
-from bench.findings.selection.robots import ARM, word_of
+from bench.findings.selection.robots import ARM, decide_for
 from bench.findings.selection.words import describe_bounds
 from bench.law.contenders.registry import find_contender
 
@@ -75,7 +75,7 @@ def test_answer_is_the_one_that_the_map_gives():
     [answer] = re.findall(r"\*\*The answer\.\*\* (.*?)\n\n", TEXT, re.DOTALL)
     said, [widest, *_] = " ".join(answer.split()), find_regions()
     default, forgetful, continuous, arm, own = re.findall(r"`([\w-]+)`", said)
-    assert (default, arm) == (widest.law, word_of(ARM, ROOT / "results" / "reference").law)
+    assert (default, arm) == (widest.law, decide_for(ARM, ROOT / "results" / "reference").law)
     assert forgetful == find_default(rule=Rule(forgetful=True))
     assert continuous == find_default(rule=Rule(continuous=True))
     assert find_contender(own).regulator.is_ours()

@@ -15,7 +15,7 @@ from bench.studies.libraries.__main__ import FOLDER, rows
 from bench.studies.libraries.asked import find, version_of
 from bench.studies.libraries.judge import COUNT_RAD, FORMS, KINDS, SINGLE_RAD, judge
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
-from report.figures.libraries import answers, libraries, loops
+from report.figures.libraries import answers, libraries
 
 SOME = turns.drawn()._replace(turns=turns.drawn().turns[:50])
 HALF_TURNS = turns.half_turns()
@@ -196,8 +196,8 @@ def test_page_says_what_is_wrong_with_a_function(call, form, said):
 def test_verdict_of_the_page_agrees_with_the_check_and_the_closed_loops():
     """A sine is right by its form and zero at 180°; single precision is a design. All else must agree."""
     every = libraries.lines()[libraries.lines()["form"] != answers.ANGLES]
-    both = every.merge(loops.verdicts(), on=["library", "function"], validate="one_to_one")
-    both = both.merge(loops.responses(), on=["library", "function", "kind"], validate="one_to_one")
+    both = every.merge(answers.table("verdicts"), on=["library", "function"], validate="one_to_one")
+    both = both.merge(answers.responses(), on=["library", "function", "kind"], validate="one_to_one")
     assert len(both) == len(every)
     for one in both[both["precision"] == "double"].itertuples():
         is_wrong = bool(one.faults) or (one.form == answers.SINE and one.dead > 0)

@@ -81,9 +81,9 @@ class Asked:
         """Return law -> whether it has one of the facts of `needs`."""
         number = self.number
         return {
-            needs.EVERYWHERE: lambda: (number("unsettled") + number("lost") == 0) & (number("detour") < 1.5),
-            needs.NEARLY: lambda: number("unsettled") <= 0.1 + 1e-9,
-            needs.TRIED: lambda: number("variation").notna(),
+            needs.FACTS["everywhere"]: lambda: (number("unsettled") + number("lost") == 0) & (number("detour") < 1.5),
+            needs.FACTS["nearly"]: lambda: number("unsettled") <= 0.1 + 1e-9,
+            needs.FACTS["tried"]: lambda: number("variation").notna(),
         }[fact]()
 
     def decide(self, need):

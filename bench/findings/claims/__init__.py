@@ -61,41 +61,32 @@ def judge(id: str, results: Results) -> Verdict:
 
 def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
     """Every claim that a run decides, and for each other one what the run lacks; kept for the next call."""
-    if results.folder is None or not results.is_as_stored:
-        return _judge_possible(results)
-    found = keep(results.folder, "claims", lambda: _as_json(*_judge_possible(results)))
+    find = functools.partial(_judge_possible, results)
+    found = keep(results.folder, "claims", find) if results.folder and results.is_as_stored else find()
     claims = {one.id: one for one in all_claims()}
     decided = [
-        Verdict(claims[id], Word(word), Evidence(sentence, rows, tuple(tables), parts))
-        for id, word, sentence, rows, tables, parts in found["decided"]
+        Verdict(claims[id], Word(word), Evidence(sentence, rows, tuple(tables)))
+        for id, word, sentence, rows, tables in found["decided"]
     ]
     return decided, found["lacks"]
 
 
-def _as_json(decided: list[Verdict], lacks: dict[str, str]) -> dict:
-    said = [[one.id, one.word, *one.evidence._replace(parts=dict(one.evidence.parts))] for one in decided]
-    return {"decided": said, "lacks": lacks}
-
-
-def _judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
+def _judge_possible(results: Results) -> dict:
+    """Return what `judge_possible` does, as JSON holds it."""
     decided, lacks = [], {}
     for one in all_claims():
         try:
-            decided.append(decide(one, results))
+            _, word, evidence = decide(one, results)
+            decided.append((one.id, word, *evidence))
         except NoEvidence as error:
             lacks[one.id] = str(error)
-    return decided, lacks
+    return {"decided": decided, "lacks": lacks}
 
 
 def told(words: Iterable[Word]) -> str:
-    """'20 hold, 1 does not hold'."""
-    return ", ".join(f"{number} {does(word, number)}" for word, number in tally(words).items())
-
-
-def tally(words: Iterable[Word]) -> dict[Word, int]:
-    """How many claims have each word that some claim has, in the order of the words."""
+    """'20 hold, 1 does not hold': how many claims have each word that some claim has, in the order of the words."""
     counts = Counter(words)
-    return {word: counts[word] for word in Word if counts[word]}
+    return ", ".join(f"{counts[word]} {does(word, counts[word])}" for word in Word if counts[word])
 
 
 def judge_all(folder: Path | None = None) -> list[Verdict]:

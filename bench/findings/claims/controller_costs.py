@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 
@@ -54,16 +53,6 @@ def controller_costs(results: Results, controller: str, joints: int) -> pd.DataF
     return some(rows[rows["joints"] == joints], f"cost of {controller} on {joints} joints")
 
 
-class Bend(NamedTuple):
-    """How far an arm is from double integrators: [rad] at the step, the halved one's share, at step zero; [m]."""
-
-    full: float
-    share: float
-    limit: float
-    drift: float
-    samples: int
-
-
 @claim("C20")
 def c20(results: Results) -> tuple[Word, Evidence]:
     """Curves at two steps; outcomes at the poles against the law on R; stages and totals."""
@@ -97,15 +86,19 @@ def c20(results: Results) -> tuple[Word, Evidence]:
 
 
 @functools.cache
-def bend(arm: str, gains: Gains, dt_s: float, curves: Callable = probes.curves) -> Bend:
-    """Compare curves at a step and at half of it."""
+def bend(arm: str, gains: Gains, dt_s: float, curves: Callable = probes.curves) -> tuple[float, ...]:
+    """Compare curves at a step and at half of it: how far an arm is from double integrators.
+
+    Returns:
+        the bend at the step [rad], the halved one's share of it, that at step zero [rad], the drift [m], samples.
+    """
     word = f"{BY_EULER}+{INVERSES[tasks.arm(arm).joints]}"
     full, half = (curves(word, arm, gains, step, LIMIT.CURVES) for step in (dt_s, dt_s / 2))
     both = full.merge(half, on=["start_id", "time_s"], suffixes=("", "_half"))
     limits = [2 * both[f"{name}_half"] - both[name] for name in probes.BENDS]
     drift = 2 * both["position_error_m_half"] - both["position_error_m"]
     whole, at_half = map(probes.largest, (full, half))
-    return Bend(whole, at_half / whole, float(np.abs(limits).max()), float(np.abs(drift.to_numpy()).max()), len(both))
+    return whole, at_half / whole, float(np.abs(limits).max()), float(np.abs(drift.to_numpy()).max()), len(both)
 
 
 def _pairs(results: Results, found: pd.DataFrame, arm: str, start_set: str, controller: str = BY_EULER) -> pd.DataFrame:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 import math
 from collections.abc import Sequence
 from typing import Any
@@ -101,25 +102,19 @@ def c15(results: Results) -> tuple[Word, Evidence]:
     """R at both poles as alpha and gamma move against and with each other."""
     to_matrix = representation("zyx-euler").to_matrix
     grid = np.linspace(-3.0, 3.0, 8).tolist()
-    moved = {
-        (sign, word): max(
-            np.abs(
-                np.subtract(
-                    to_matrix((a, sign * math.pi / 2, g)),
-                    to_matrix((a + LIMIT.SHIFT, sign * math.pi / 2, g + direction * LIMIT.SHIFT)),
-                )
-            ).max()
-            for a in grid
-            for g in grid
-        )
-        for sign in (1, -1)
-        for word, direction in (("sum", -1), ("difference", 1))
-    }
+    moved = {}
+    for sign, (word, direction) in itertools.product((1, -1), (("sum", -1), ("difference", 1))):
+        beta = sign * math.pi / 2
+        apart = [
+            np.subtract(to_matrix((a, beta, g)), to_matrix((a + LIMIT.SHIFT, beta, g + direction * LIMIT.SHIFT)))
+            for a, g in itertools.product(grid, repeat=2)
+        ]
+        moved[sign, word] = np.abs(apart).max()
     by_sum = [moved[sign, "sum"] <= LIMIT.SAME < moved[sign, "difference"] for sign in (1, -1)]
     sums = [pole for pole, is_sum in zip(("+90", "-90"), by_sum, strict=True) if is_sum]
-    word = {2: Word.HOLDS, 1: Word.CORRECTED, 0: Word.FAILS}[sum(by_sum)]
+    verdict = {2: Word.HOLDS, 1: Word.CORRECTED, 0: Word.FAILS}[sum(by_sum)]
     so = f"Only the sum is determined at {' and '.join(sums) or 'neither pole'}"
-    return word, evidence(
+    return verdict, evidence(
         f"""With the sum kept R changes by {moved[1, "sum"]:.1g} at +90 and {moved[-1, "sum"]:.0e} at -90 degrees, with
         the difference kept by {moved[1, "difference"]:.0e} and {moved[-1, "difference"]:.1g}. {so}.""",
         4 * len(grid) ** 2,

@@ -7,9 +7,9 @@ the others are by reading.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -52,8 +52,7 @@ class Item(NamedTuple):
     pages: tuple[str, ...]
 
 
-def _to_matrix(E: Sequence) -> Any:
-    return representation("zyx-euler").to_matrix(E)
+ZYX = representation("zyx-euler")
 
 
 def check_E01() -> bool:
@@ -63,13 +62,13 @@ def check_E01() -> bool:
 
 def check_E02() -> bool:
     """At beta = +pi/2 R does not change if alpha and gamma grow together."""
-    one, other = (np.array(_to_matrix((0.4 + x, math.pi / 2, -0.9 + x))) for x in (0.0, 0.7))
+    one, other = (np.array(ZYX.to_matrix((0.4 + x, math.pi / 2, -0.9 + x))) for x in (0.0, 0.7))
     return bool(np.abs(one - other).max() < TINY)
 
 
 def check_E03() -> bool:
     """beta = +pi/2 has n = (0, 0, -1), and -pi/2 has (0, 0, +1)."""
-    return all(abs(_to_matrix((0.4, sign * math.pi / 2, -0.9)).n[2] + sign) < TINY for sign in (1, -1))
+    return all(abs(ZYX.to_matrix((0.4, sign * math.pi / 2, -0.9)).n[2] + sign) < TINY for sign in (1, -1))
 
 
 def check_E04() -> bool:
@@ -94,15 +93,14 @@ def check_E06() -> bool:
     """(dB/dt)^-1 never exists, for a column of B is constant; d(B^-1)/dt does."""
     step = 1e-6
     E = np.array((0.4, 0.6, -0.9))
-    B = [probes.euler_B(_to_matrix(tuple((E + sign * step * np.array(RATES)).tolist()))) for sign in (1, -1)]
+    B = [probes.euler_B(ZYX.to_matrix(tuple((E + sign * step * np.array(RATES)).tolist()))) for sign in (1, -1)]
     return abs(np.linalg.det((B[0] - B[1]) / (2 * step))) < 1e-9  # rounding of the difference is 1e-10
 
 
 def check_E07() -> bool:
     """Edot = B^-1 omega of (2.9) undoes (2.8)."""
-    zyx = representation("zyx-euler")
-    at = zyx.chart_of((0.4, 0.6, -0.9))
-    return bool(np.allclose(zyx.rates(at, zyx.angular_velocity(at, RATES)), RATES, atol=TINY))
+    at = ZYX.chart_of((0.4, 0.6, -0.9))
+    return bool(np.allclose(ZYX.rates(at, ZYX.angular_velocity(at, RATES)), RATES, atol=TINY))
 
 
 ERRATA = tuple(

@@ -105,17 +105,15 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
         for one in later
         if not lacks[one.name]
     ]
-    parts: dict[str, Any] = {"adequate": ", ".join(adequate) or "none", "answers": "; ".join(answers) or "none"}
     lacking = "; ".join(f"{name} ({', '.join(missed)})" for name, missed in lacks.items() if missed) or "nothing"
     untimed = [one.name for one in later if not any(one.name in times for times in known.times)]
     return Word.ANSWERED if answers else Word.HOLDS, evidence(
-        f"""Of {len(later)} later laws adequate in both cost and performance: {parts["adequate"]}. All eight tests:
-        {parts["answers"]}. What each other lacks: {lacking}. The paper's laws on angles take
+        f"""Of {len(later)} later laws adequate in both cost and performance: {", ".join(adequate) or "none"}. All eight
+        tests: {"; ".join(answers) or "none"}. What each other lacks: {lacking}. The paper's laws on angles take
         {" and ".join(known.over(name, THREE[0]) for name in THREE[1:])} times the rotation matrix's time; not timed,
         so that operations decide: {", ".join(untimed) or "none"}. In these times a call takes {known.price:.0f} flops.
         A small error settles in {small:.3f} s, and {adequacy.SLOW * small:.3f} s is the slowest that is adequate.""",
         sum(one.rows + held.get(one.name, (0, 0))[1] for one in later),
-        **parts,
     )
 
 

@@ -88,10 +88,11 @@ class Ledger(NamedTuple):
     def stand(self, cheap: str, dear: str) -> Standing:
         """How a pair stands, the cheaper by the claim first."""
         pairs = [(one[cheap], one[dear]) for one in self.accountings]
+        sums = (other.weighed(self.price) - one.weighed(self.price) for one, other in pairs)
         return Standing(
             agreed(by_times(one[cheap], one[dear], self.least) for one in self.times if cheap in one and dear in one),
             tuple(by_columns(*pair) for pair in pairs),
-            tuple(by_price(*pair, self.price) for pair in pairs),
+            tuple(int(np.nan_to_num(np.sign(more))) for more in sums),  # undecided where the price is not known
         )
 
     def over(self, name: str, other: str) -> str:
@@ -116,11 +117,6 @@ def by_times(cheap: Estimate, dear: Estimate, least: float = 0.0) -> int:
 def by_columns(cheap: Operations, dear: Operations) -> int:
     """Compare by columns: in order if none falls and one rises, reversed if none rises, undecided otherwise."""
     return agreed(np.sign(np.subtract(dear, cheap)).astype(int).tolist())
-
-
-def by_price(cheap: Operations, dear: Operations, price: float) -> int:
-    """Return the order of both sums; undecided where the price is not known."""
-    return int(np.nan_to_num(np.sign(dear.weighed(price) - cheap.weighed(price))))
 
 
 def times_of(rows: pd.DataFrame) -> Times:

@@ -241,6 +241,6 @@ def settled_of(frame: pd.DataFrame) -> str:
     return f"{int(settled(frame).sum())} of {len(frame)}"
 
 
-def evidence(sentence: str, rows: int, tables: tuple[str, ...] = (), **parts: str) -> Evidence:
+def evidence(sentence: str, rows: int, tables: tuple[str, ...] = ()) -> Evidence:
     """Evidence whose sentence may be broken into lines as the file likes."""
-    return Evidence(" ".join(sentence.split()), int(rows), tables, parts)
+    return Evidence(" ".join(sentence.split()), int(rows), tables)

@@ -9,10 +9,10 @@ import functools
 import importlib
 import inspect
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from enum import StrEnum
 from pathlib import Path
-from types import MappingProxyType, ModuleType, SimpleNamespace
+from types import ModuleType, SimpleNamespace
 from typing import Any, NamedTuple
 
 from bench.base.errors import BenchError
@@ -41,11 +41,9 @@ PLURAL = {
 
 def does(word: Word, number: int) -> str:
     """Return what so many statements with a word do."""
-    return (
-        "was open in 1988 and is answered since"
-        if (word, number) == (Word.ANSWERED, 1)
-        else (str(word) if number == 1 else PLURAL[word])
-    )
+    if (word, number) == (Word.ANSWERED, 1):
+        return "was open in 1988 and is answered since"
+    return str(word) if number == 1 else PLURAL[word]
 
 
 MISPRINTS = """
@@ -68,14 +66,12 @@ class Evidence(NamedTuple):
     """Why the word is what it is.
 
     sentence: plain prose, every number in it computed. rows: table rows, states and episodes looked at. tables: where
-    they come from, if not those that the claim's texts name; "experiment" for what the claim computes itself. parts: of
-    the sentence, by name, for the book.
+    they come from, if not those that the claim's texts name; "experiment" for what the claim computes itself.
     """
 
     sentence: str
     rows: int
     tables: tuple[str, ...] = ()
-    parts: Mapping[str, str] = MappingProxyType({})
 
     def __str__(self) -> str:
         return self.sentence

@@ -18,9 +18,6 @@ from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import from_quaternion
 from tasks.haar import axes
 
-LEAST, GREATEST = 1.0, -1.0
-"""Which is better."""
-
 NOTABLE = 0.01
 """Differences below a hundredth are no reason to choose a law."""
 
@@ -31,25 +28,26 @@ Measure = Callable[[Tables], dict[str, np.ndarray]]
 class Criterion(NamedTuple):
     """One number of a law, from one value a start (or from one value alone).
 
-    level: the quantile that is taken of the values, 1 the largest; None: their mean. sense: LEAST or GREATEST is
-    better. notable, least: relative and absolute difference up to which two laws tie. form: how the number is written.
+    level: the quantile that is taken of the values, 1 the largest; or "mean". greater: more is better. notable, least:
+    relative and absolute difference up to which two laws tie.
     """
 
     name: str
-    title: str
-    unit: str
     meaning: str
     measure: Measure
-    level: float | None = 0.5
-    sense: float = LEAST
+    level: float | str = 0.5
+    greater: bool = False
     notable: float = NOTABLE
     least: float = 0.0
-    form: str = "{:.3g}"
+
+    @property
+    def sense(self) -> float:
+        """The factor by which less is better."""
+        return -1.0 if self.greater else 1.0
 
 
-LATE_S, BOUND = 0.02, 10.0
-"""The level of each perturbation at which laws are compared: the largest delay [s], the smallest bound [rad/s^2]."""
-LATE_MS = 1e3 * LATE_S
+LATE_S = 0.02
+"""The delay at which laws are compared, the largest [s]."""
 
 
 def of_one_law(measure: Callable[[Tables, str], float]) -> Measure:
@@ -131,35 +129,22 @@ MEASURES: dict[str, Measure] = {
     "unsettled": lambda tables: {name: 100.0 * lost for name, lost in by_law(tables.uniform, "lost").items()},
     "lost": lambda tables: {name: np.array([lost.sum()]) for name, lost in by_law(tables.directed, "lost").items()},
     "detour": longest_path,
-    **dict.fromkeys(("time", "median", "worst"), over_uniform("settling_time_s")),
+    **dict.fromkeys(("time", "worst"), over_uniform("settling_time_s")),
     "tick": of_one_law(lambda tables, name: tables.ticks.get(name, math.nan)),
     "memory": of_one_law(Tables.memory),
-    "jump": of_one_law(lambda tables, name: jump(tables.contenders[name])),
     "held": held_by_noise_from,
     "effort": over_uniform("effort"),
     "peak": over_uniform("peak_u"),
-    "chatter": over_uniform("rest_change"),
     "variation": perturbed("delay", 0.0, "variation"),
-    "overshoot": lambda tables: {
-        name: np.degrees(angles) for name, angles in perturbed("saturation", BOUND, "overshoot_rad")(tables).items()
-    },
     "late": perturbed("delay", LATE_S, "settling_time_s"),
     "arms": on_arms("settled"),
     "within": on_arms("range"),
 }
 
 
-def read_criteria() -> tuple[Criterion, ...]:
-    """Return the criteria of criteria.toml with their measures; differences in time a tick tie below MEASURABLE."""
-    found = []
-    for name, words in tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")).items():
-        one: dict[str, Any] = {"measure": MEASURES[name], "least": 100.0 * MEASURABLE if name == "tick" else 0.0}
-        for part, value in words.items():
-            one[part] = value.format(**globals()) if part in ("title", "meaning") else value
-        one["sense"] = GREATEST if one.pop("greater", False) else LEAST
-        found.append(Criterion(name, **one | ({"level": None} if one.get("level") == "mean" else {})))
-    return tuple(found)
-
-
-CRITERIA = read_criteria()
+CRITERIA = tuple(
+    Criterion(name, measure=MEASURES[name], least=100.0 * MEASURABLE if name == "tick" else 0.0, **words)
+    for name, words in tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")).items()
+)
+"""The criteria of criteria.toml with their measures; differences in time a tick tie below MEASURABLE."""
 BY_NAME = {one.name: one for one in CRITERIA}

@@ -81,9 +81,10 @@ def _drawn(criterion: str, values: bytes) -> np.ndarray:
 
 def statistic(one: Criterion) -> Any:
     """Return what is made of a law's values: statistic(values, axis=-1) -> numbers."""
-    if one.level is None:
+    level = one.level
+    if isinstance(level, str):
         return np.mean
-    return lambda values, axis=-1: quantile(values, one.level, axis)
+    return lambda values, axis=-1: quantile(values, level, axis)
 
 
 def measure(results: Results) -> Measured:

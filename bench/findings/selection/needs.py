@@ -15,17 +15,13 @@ that has just come to rest from 180 degrees changes by (Kp w + Kv (Kp b + Kv w))
 the band and w = b/0.25 s."""
 
 
-class Fact(NamedTuple):
-    """Hold a requirement in words, and the test whether a law meets it."""
-
-    words: str
-    has: Callable[[Measured, str], bool]
+Fact = Callable[[Measured, str], bool]
+"""A test whether a law meets a requirement."""
 
 
 class Need(NamedTuple):
     """What a robot asks of a law: facts, and the criteria that decide; none: what counts everywhere."""
 
-    words: str
     facts: tuple[Fact, ...]
     by: tuple[str, ...] = ()
 
@@ -38,35 +34,28 @@ class Decision(NamedTuple):
     facts and were measured.
     """
 
-    need: Need
     law: str | None
     tied: tuple[str, ...]
     best: tuple[str, ...]
     asked: tuple[str, ...]
 
 
-def _settles(found: Measured, law: str) -> bool:
+def settles_everywhere(found: Measured, law: str) -> bool:
+    """Tell whether a law settles from every start of the run, without unwinding."""
     return not found.number("lost", law) and not found.number("unsettled", law) and found.number("detour", law) < DETOUR
 
 
-EVERYWHERE = Fact("settles from every start of the run, without unwinding", _settles)
-UNHELD = Fact(
-    f"no worst-case noise up to {HELD_RAD:g} rad can trap it at a 180° rotation",
-    lambda found, law: found.number("held", law) > HELD_RAD,
-)
-NEARLY = Fact(
-    f"settles from {SETTLED_SHARE:.1%} of evenly spread starts",
-    lambda found, law: found.number("unsettled", law) <= 100.0 * (1.0 - SETTLED_SHARE) + 1e-9,
-)
-TRIED = Fact("was perturbed in this run", lambda found, law: law in found.values["variation"])
+def is_unheld(found: Measured, law: str) -> bool:
+    """Tell whether no worst-case noise up to HELD_RAD can trap a law at a 180° rotation."""
+    return found.number("held", law) > HELD_RAD
 
-FACTS = {"tried": TRIED, "everywhere": EVERYWHERE, "nearly": NEARLY}
+
+FACTS: dict[str, Fact] = {
+    "tried": lambda found, law: law in found.values["variation"],  # it was perturbed in this run
+    "everywhere": settles_everywhere,
+    "nearly": lambda found, law: found.number("unsettled", law) <= 100.0 * (1.0 - SETTLED_SHARE) + 1e-9,
+}
 """The facts by their words in robots.toml."""
-
-
-def has_all(found: Measured, law: str, facts: tuple[Fact, ...]) -> bool:
-    """Whether a law has every one of the facts."""
-    return all(fact.has(found, law) for fact in facts)
 
 
 def decide(need: Need, found: Measured) -> Decision:
@@ -75,12 +64,12 @@ def decide(need: Need, found: Measured) -> Decision:
         law
         for law in found.laws
         if not found.tables.contenders[law].regulator.is_ours()
-        and has_all(found, law, need.facts)
+        and all(has(found, law) for has in need.facts)
         and all(len(found.values[one].get(law, ())) for one in need.by)
     )
     if not asked:
-        return Decision(need, None, (), (), ())
+        return Decision(None, (), (), ())
     best = front(found, asked, need.by)
     kept = front(found, best, GENERAL)
     law = min(kept, key=lambda one: (*found.tables.simplicity(one), one))  # the simplest; of two alike, by name
-    return Decision(need, law, tuple(one for one in kept if one != law), tuple(best), asked)
+    return Decision(law, tuple(one for one in kept if one != law), tuple(best), asked)

@@ -112,8 +112,8 @@ def with_words(rows: pd.DataFrame) -> pd.DataFrame:
 def decide(rows: pd.DataFrame, rule: Rule = RULE) -> Verdict:
     """Apply the rule to the rows of one situation, a law each."""
     laws = rows["contender"].astype(str).to_numpy()
-    facts = [facts_of(law) for law in laws]
-    has = np.ones(len(rows), bool)
+    memory, is_continuous, is_ours = np.array([facts_of(law) for law in laws]).T
+    has = np.isfinite(rows[rule.by].to_numpy(dtype=float))
     if rule.everywhere:
         has &= (rows["lost"] == 0).to_numpy() & (rule.continuous | (rows["stuck"] == 0).to_numpy())
     if rule.direct:
@@ -121,20 +121,17 @@ def decide(rows: pd.DataFrame, rule: Rule = RULE) -> Verdict:
     if rule.adversary and not (rule.forgetful or rule.continuous):
         has &= (rows["trapped"] == 0).to_numpy()
     if rule.forgetful or rule.continuous:
-        has &= np.array([one.memory == 0 for one in facts])
+        has &= memory == 0
     if rule.continuous:
-        has &= np.array([one.is_continuous for one in facts])
-    has &= np.isfinite(rows[rule.by].to_numpy(dtype=float))
-    asked = rows[has].assign(memory=[one.memory for one, kept in zip(facts, has, strict=True) if kept])
-    is_ours = np.array([one.is_ours for one, kept in zip(facts, has, strict=True) if kept], bool)
-    if not len(asked) or is_ours.all():
-        return Verdict(None, ours=tuple(asked["contender"].astype(str)))
+        has &= is_continuous == 1
+    asked, own, is_ours = rows[has].assign(memory=memory[has]), laws[has], is_ours[has] == 1
+    if is_ours.all():  # or none is left
+        return Verdict(None, ours=tuple(own))
     beaten = find_beaten(asked, rule)
     by_published = beaten[:, ~is_ours].any(axis=1)
     order = ["peak"] if rule.least_peak else []
     kept = asked[~is_ours & ~by_published].sort_values([*order, "memory", "operations", "contender"])
     law, *tied = kept["contender"].astype(str)
-    own = asked["contender"].astype(str).to_numpy()
     return Verdict(
         law,
         tuple(tied),

@@ -8,9 +8,8 @@ import math
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-import numpy as np
 import pandas as pd
 
 from bench.base.errors import BadResults
@@ -46,16 +45,14 @@ def measure_velocities(results: Results) -> Measured:
     uniform, exact = (common(free[free["start_set"] == name]) for name in ("uniform", "half-turn"))
     known = {name: one for name, one in tables.contenders.items() if name in set(uniform["contender"])}
     tables = tables._replace(contenders=known, uniform=uniform, directed=exact, robustness=pd.DataFrame())
-    ways = [by_law(part, "path_ratio") for part in (uniform, exact)]
     at_once, late = (by_standard_inverse(rows[is_late]) for is_late in (rows["lag_s"] == 0.0, rows["lag_s"] > 0.0))
     at_once = at_once[at_once["start_set"] == "uniform"]
-    as_ever = ("unsettled", "lost", "time", "worst", "tick", "memory", "jump")
+    as_ever = ("unsettled", "lost", "detour", "time", "worst", "tick", "memory")
     values = {one.name: one.measure(tables) if one.name in as_ever else {} for one in CRITERIA}
     return Measured(
         tables,
         values
         | {
-            "detour": {name: np.array([np.nanmax([way[name].max() for way in ways])]) for name in known},
             "peak": by_law(uniform, "peak_omega", math.inf),
             "arms": by_law(at_once.assign(passed=100.0 * ~at_once["lost"]), "passed"),
             "late": by_law(late, "settling_time_s", math.inf),
@@ -66,11 +63,9 @@ def measure_velocities(results: Results) -> Measured:
 class Robot(NamedTuple):
     """A kind of robot.
 
-    name: in a command. takes: what commands it. rows: what was run. page: its file in the book. measure: how laws are
-    measured on it.
+    takes: what commands it. rows: what was run. page: its file in the book. measure: how laws are measured on it.
     """
 
-    name: str
     takes: str
     rows: str
     page: str
@@ -78,33 +73,24 @@ class Robot(NamedTuple):
     measure: Callable[[Results], Measured]
 
 
-def read_robots() -> dict[str, Robot]:
-    """Return the robots of robots.toml by name."""
-    found = {}
-    for name, said in tomllib.loads(Path(__file__).with_name("robots.toml").read_text(encoding="utf-8")).items():
-        one: dict[str, Any] = dict(said)
-        need = Need(one.pop("words"), tuple(FACTS[word] for word in one.pop("facts")), tuple(one.pop("by", ())))
-        found[name] = Robot(name, **one, need=need, measure=measure if name == "arm" else measure_velocities)
-    return found
-
-
-ROBOTS = read_robots()
+ROBOTS = {
+    name: Robot(
+        said["takes"],
+        said["rows"],
+        said["page"],
+        Need(tuple(FACTS[word] for word in said["facts"]), tuple(said.get("by", ()))),
+        measure if name == "arm" else measure_velocities,
+    )
+    for name, said in tomllib.loads(Path(__file__).with_name("robots.toml").read_text(encoding="utf-8")).items()
+}
+"""The robots of robots.toml by name."""
 ARM, VELOCITY, POSITION = ROBOTS.values()
 
 
-def decide_for(robot: Robot, folder: Path) -> Decision:
-    """Return what is advised for a robot by the run in a folder.
-
-    Errors:
-        NoEvidence: the run has no rows of such robots.
-    """
-    return decide(robot.need, measured(folder, robot.measure))
-
-
-def word_of(robot: Robot, folder: Path) -> Decision | None:
+def decide_for(robot: Robot, folder: Path) -> Decision | None:
     """Return what is advised for a robot by the run in a folder; None where the run has no such rows."""
     try:
-        return decide_for(robot, folder)
+        return decide(robot.need, measured(folder, robot.measure))
     except NoEvidence:
         return None
 
@@ -128,7 +114,7 @@ def list_elsewhere(folder: Path) -> list[Elsewhere]:
         Elsewhere("the command must be continuous", find_default(rule=Rule(continuous=True))),
     ]
     for robot in ROBOTS.values():
-        one = word_of(robot, folder)
+        one = decide_for(robot, folder)
         if one and one.law:
             found.append(Elsewhere(f"your robot takes {robot.takes}", one.law, one.tied, len(one.asked), robot.page))
     return found

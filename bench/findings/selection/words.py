@@ -26,11 +26,11 @@ def standing(one: Decision, called: Called) -> str:
     return f"It ties with {together([called(law) for law in one.tied])} and is the simplest of these."
 
 
-def together(words: Sequence[str]) -> str:
-    """Join names as "a, b and c"; of many, the first NAMED and how many more."""
-    more = len(words) - NAMED
+def together(words: Sequence[str], named: int = NAMED) -> str:
+    """Join names as "a, b and c"; of many, the first so many and how many more."""
+    more = len(words) - named
     if more > 1:
-        return f"{', '.join(words[:NAMED])} and {more} more"
+        return f"{', '.join(words[:named])} and {more} more"
     *first, last = words or ("",)
     return f"{', '.join(first)} and {last}" if first else last
 
@@ -76,8 +76,7 @@ def describe_bounds(bounds: dict[str, list[tuple[float, bool]]]) -> str:
         elif spans:
             parts.append(f"{NAMES[name]} {together([_span(COORDINATES[name], span[0], span[-1]) for span in spans])}")
     if free:
-        *first, last = free
-        parts.append(f"every {', '.join(first)}{' and ' if first else ''}{last} that was tried")
+        parts.append(f"every {together(free, len(free))} that was tried")
     return "; ".join(parts) or "nowhere"
 
 

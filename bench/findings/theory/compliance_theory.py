@@ -37,7 +37,6 @@ from tasks.arm_model import Arm
 from tasks.contact import Specification
 from tasks.hand_frames import posture
 
-UNITS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 NOWHERE = 1e-12
 """Smallest singular value of B, over its largest, at which there is no B^-1: rounding of an angle of pi/2."""
 
@@ -77,7 +76,7 @@ def compliance(
     K = np.eye(3)  # what the controller takes of a moment
     if controller.representation is not None:
         convert, at = conversion(controller.representation, controller.converts), controller.representation.chart(goal)
-        K = np.array([convert(at, unit) for unit in UNITS]).T
+        K = np.array([convert(at, unit) for unit in np.eye(3).tolist()]).T
     held, as_unit = np.array(controller.selection(specification)[3:]), touch._replace(m_o=1.0)
     kept = (
         free(time_s, as_unit._replace(kc=gains.kv)) if controller.law == "hybrid-rate" else sprung(time_s, gains, 1.0)

@@ -18,7 +18,7 @@ FAULTS = Table("Fault | What it is | What it does | Cure | Law")
 
 
 def facts(_: Run) -> dict[str, Any]:
-    """Return the numbers and names in the text."""
+    """Return the numbers and names in the text, and a row a fault."""
     pairs = every_pair()
     return {
         "languages": listed([find_language(word).title for word in language_words()]),
@@ -30,10 +30,7 @@ def facts(_: Run) -> dict[str, Any]:
         "pairs": len(pairs.angle),
         "smallest": power(pairs.angle[pairs.place == NEAR_IDENTITY].min()),
         "count": power(COUNT_RAD),
+        "tab_faults": FAULTS(
+            (f"`{one.name}`", one.title, one.effect, one.cure, html.law(one.law)) for one in every_fault()
+        ),
     }
-
-
-def tables(_: Run) -> dict[str, Any]:
-    """Return a row a fault."""
-    rows = ((f"`{one.name}`", one.title, one.effect, one.cure, html.law(one.law)) for one in every_fault())
-    return {"tab_faults": FAULTS(rows)}

@@ -2,7 +2,7 @@
 
 from bench.experiments.situations import NOISE_RAD
 from bench.findings.selection.measured import measured
-from bench.findings.selection.needs import EVERYWHERE, UNHELD, has_all
+from bench.findings.selection.needs import is_unheld, settles_everywhere
 from report.figures.kit import families
 from report.figures.kit.page import Run
 
@@ -14,13 +14,13 @@ def facts(run: Run) -> dict[str, object]:
     """Count laws by what they have: starts that all settle, no noise that holds them at 180°, no memory."""
     found = measured(run.folder)
     shown = [law for law in found.laws if law not in (*families.CONTROLS, MUJOCOS)]
-    whole = [law for law in shown if EVERYWHERE.has(found, law)]
+    whole = [law for law in shown if settles_everywhere(found, law)]
     forgetful = [law for law in shown if not found.number("memory", law) and law in found.values["held"]]
     return {
         "laws": len(shown),
         "whole": len(whole),
-        "unheld": sum(UNHELD.has(found, law) for law in whole),
+        "unheld": sum(is_unheld(found, law) for law in whole),
         "noise": f"{NOISE_RAD:g}",
         "forgetful": len(forgetful),
-        "forgetful_both": sum(has_all(found, law, (EVERYWHERE, UNHELD)) for law in forgetful) or "none",
+        "forgetful_both": sum(settles_everywhere(found, law) and is_unheld(found, law) for law in forgetful) or "none",
     }

@@ -5,10 +5,10 @@ from typing import Any
 from bench.experiments.situations import FIRST, MOST, NOISE_RAD
 from bench.findings.selection import regions, sensitivity
 from bench.findings.selection.regions import decide_all, facts_of, find_bounds, find_regions, is_drawn, read_map
-from bench.findings.selection.robots import list_elsewhere
+from bench.findings.selection.robots import Elsewhere, list_elsewhere
 from bench.findings.selection.words import describe_bounds, together
 from report.figures.kit import families
-from report.figures.kit.page import Run
+from report.figures.kit.page import Run, in_run
 from report.figures.kit.tables import Table
 from tasks.situation import KP, NOMINAL
 
@@ -24,7 +24,7 @@ ROBOTS_TABLE = Table("If | use | Tied with | Laws compared | Rows")
 
 
 def facts(run: Run) -> dict[str, Any]:
-    """Return the advice in a few sentences, and the numbers about it."""
+    """Return the advice in a few sentences, the numbers about it, and regions, rules, tuned laws and other robots."""
     verdicts = decide_all()
     beaten, left = sensitivity.correct()
     halves, of = sensitivity.count_halves()
@@ -48,6 +48,13 @@ def facts(run: Run) -> dict[str, Any]:
         "unbeaten": f"{100 * held['unbeaten']:.0f}",
         "later": f"{100 * held['half']:.1f}",
         **{name: f"{100 * held[name]:.0f}" for name in ("most", "always_unbeaten", "always_most")},
+        "regions": REGIONS(_region(one) for one in find_regions() if one.advised >= LEAST),
+        "rules": RULES(
+            (one.words, _link(one.law), 100 * one.advised, 100 * one.unbeaten, 100 * one.changed)
+            for one in sensitivity.vary()
+        ),
+        "tuned": TUNED((", ".join(map(_link, laws)), *numbers) for numbers, laws in _tuned().items()),
+        "robots": in_run(lambda: ROBOTS_TABLE(map(describe_robot, list_elsewhere(run.folder)))),
     }
 
 
@@ -87,28 +94,6 @@ def lead() -> str:
     return f"Use **{families.word(first.law)}**, a published law. {describe_default()}{where} {describe_ours()}"
 
 
-def tables(run: Run) -> dict[str, Any]:
-    """Return regions, rules, tuned laws, and other robots."""
-    return {
-        "regions": REGIONS(_region(one) for one in find_regions() if one.advised >= LEAST),
-        "rules": RULES(
-            (one.words, _link(one.law), 100 * one.advised, 100 * one.unbeaten, 100 * one.changed)
-            for one in sensitivity.vary()
-        ),
-        "tuned": TUNED((", ".join(map(_link, laws)), *numbers) for numbers, laws in _tuned().items()),
-        "robots": ROBOTS_TABLE(
-            (
-                one.words,
-                _link(one.law),
-                together([families.word(law) for law in one.tied]) if one.tied else "",
-                str(one.compared or ""),
-                f'<a href="{one.page}.html">rows</a>',
-            )
-            for one in list_elsewhere(run.folder)
-        ),
-    }
-
-
 def _tuned() -> dict[tuple, list[str]]:
     """Return the laws that have the same numbers, as the table rounds them."""
     found: dict[tuple, list[str]] = {}
@@ -116,6 +101,12 @@ def _tuned() -> dict[tuple, list[str]]:
         numbers = one.at_one, one.zeta, one.time, one.peak_zeta, one.peak_time
         found.setdefault(tuple(round(float(number), 2) for number in numbers), []).append(one.law)
     return found
+
+
+def describe_robot(one: Elsewhere) -> tuple:
+    """Return the row of what leads to a law."""
+    tied = together([families.word(law) for law in one.tied]) if one.tied else ""
+    return one.words, _link(one.law), tied, str(one.compared or ""), f'<a href="{one.page}.html">rows</a>'
 
 
 def _region(one: regions.Region) -> tuple:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import pandas as pd
 
 import tasks
-from bench.findings.claims.tables import Share, share
+from bench.findings.claims.tables import settled, share
 from bench.findings.on_arms import FULL, best, passed
 from bench.law.contenders.registry import baselines_of_arms
 from report.figures.arms import arm_rows
@@ -33,7 +33,7 @@ def of_laws(rows: pd.DataFrame, start_set: str) -> pd.DataFrame:
 
 
 def ranked(rows: pd.DataFrame) -> Iterator[tuple]:
-    """Return a row a law, best first, then the baselines; bold: shares that no other law beats.
+    """Return a row a law, best first, then the baselines: percentages with intervals; bold: what no other law beats.
 
     Args:
         rows: of `arm_rows.episodes`.
@@ -48,15 +48,12 @@ def ranked(rows: pd.DataFrame) -> Iterator[tuple]:
         cells = []
         for name, measure in COLUMNS:
             mine = own.loc[(own["controller"] == controller) & (own["start_set"] == name), measure]
-            text = in_short(share(mine)) if len(mine) else html.MISSING
+            text = html.MISSING
+            if len(mine):
+                value, low, high = (f"{100 * one:.0f}" for one in share(mine)[2:])
+                text = f"{value} ({low} to {high})".replace(" ", "\N{NO-BREAK SPACE}")
             cells.append(f"**{text}**" if controller in top[name, measure] else text)
         yield arm_rows.title(controller).removeprefix("(2.2) "), *cells
-
-
-def in_short(found: Share) -> str:
-    """Return the percentage with its interval, 55 (46 to 63), on one line."""
-    text = f"{100 * found.value:.0f} ({100 * found.low:.0f} to {100 * found.high:.0f})"
-    return text.replace(" ", "\N{NO-BREAK SPACE}")
 
 
 def limited(rows: pd.DataFrame) -> Iterator[tuple]:
@@ -70,7 +67,7 @@ def limited(rows: pd.DataFrame) -> Iterator[tuple]:
     for arm, motors in itertools.product(rows["arm"].unique(), MOTORS):
         every = rows[(rows["arm"] == arm) & (rows["variation"] == motors)]
         for kp, own in every.groupby("kp"):
-            counts = arm_rows.settled(own).sum(), (own["peak_torque_ratio"] > FULL).sum(), count_stopped(own)
+            counts = settled(own).sum(), (own["peak_torque_ratio"] > FULL).sum(), count_stopped(own)
             shares = (f"{100 * one / len(own):.0f}" for one in (*counts, len(own) - counts[0] - counts[2]))
             yield arm, MOTORS[motors], f"{kp:g}", *shares
 
@@ -83,7 +80,7 @@ def compare_settings(rows: pd.DataFrame, settings: list[str]) -> pd.DataFrame:
 
 def count_stopped(rows: pd.DataFrame) -> int:
     """Return how many episodes did not settle and had a joint at the end of its range."""
-    return int((~arm_rows.settled(rows) & (rows["range_excess_rad"] > 0.0)).sum())
+    return int((~settled(rows) & (rows["range_excess_rad"] > 0.0)).sum())
 
 
 def describe_share(rows: pd.DataFrame, controller: str, measure: str) -> str:
@@ -95,14 +92,14 @@ def describe_share(rows: pd.DataFrame, controller: str, measure: str) -> str:
 
 def lead(uniform: pd.DataFrame) -> str:
     """State who settles most on arms as they are, what gains do, and what stops the others; uniform: of `of_laws`."""
-    settled, by_arm = arm_rows.settled(uniform), arm_rows.settled(uniform).groupby(uniform["arm"]).mean()
+    is_settled, by_arm = settled(uniform), settled(uniform).groupby(uniform["arm"]).mean()
     is_shipped = uniform["kp"] == uniform["arm"].map(lambda arm: (*tasks.arm(arm).gains, 0.0)[0])
     kinds = uniform["kp"].map("kp = {:g} 1/s²".format).mask(is_shipped, "shipped gains")
-    both = uniform.assign(kind=kinds, settled=settled)
+    both = uniform.assign(kind=kinds, settled=is_settled)
     both = compare_settings(both[both.groupby("arm")["kp"].transform("nunique") > 2], ["kp"])
     levels = [f"{100 * own['settled'].mean():.0f} % at {kind}" for kind, own in both.groupby("kind")]
     ends = [f"{arm_rows.name_arm(arm)} ({100 * by_arm[arm]:.0f} %)" for arm in (by_arm.idxmin(), by_arm.idxmax())]
-    stopped = count_stopped(uniform) / max(1, (~settled).sum())
+    stopped = count_stopped(uniform) / max(1, (~is_settled).sum())
     return (
         "Motors are cut at their rated torque, and joints stop at the ends of their ranges. From evenly spread starts, "
         f"{leading(uniform, 'settled').replace('(2.2) ', '')}. On the arms that run with three pairs of gains, all "

@@ -21,7 +21,6 @@ from report.figures.kit.page import Run
 STANDARD = "standard"
 WORDS = ("arm", "variation", "regulator", "representation", "jacobian", "inverse", "start_set", "start_id", "outcome")
 ON_MATRIX, ON_ANGLES = "rotation-matrix@geometric", "feedback-linearized/zyx-euler@analytic"
-PAPERS_TWO = ON_MATRIX, ON_ANGLES
 """The law on R by (2.2), and the paper's (3.7)."""
 COMPARED = (ON_MATRIX, "feedback-linearized/zyx-euler@geometric", ON_ANGLES)
 """The law on R, and that of (3.7) by the geometric Jacobian and by its own."""
@@ -92,8 +91,3 @@ def title(controller: str) -> str:
         word = families.word(law)
         name = word[:1].upper() + word[1:]
     return f"(2.2) {name}, {where}" if where and one and one.coordinate_law_in is not None else f"(2.2) {name}"
-
-
-def settled(rows: pd.DataFrame) -> pd.Series:
-    """Whether each episode settled."""
-    return rows["outcome"] == "settled"

@@ -36,18 +36,14 @@ def papers(run: Run, **words: str) -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """Return the first example, the poses that J_E spoils, and the film."""
-    of_poses = {
-        "first": lambda: describe_first(papers(run, **FIRST_EXAMPLE)),
-        "spoilt": lambda: count_spoilt(papers(run, pose_set="random")),
+    """Return the first example, the poses that J_E spoils, the film, and what the pole does to each arm."""
+    return {
+        "first": in_run(lambda: describe_first(papers(run, **FIRST_EXAMPLE))),
+        "spoilt": in_run(lambda: count_spoilt(papers(run, pose_set="random"))),
+        "pole-loop": media.loop(FILM),
+        **describe_film(),
+        **(in_run(lambda: count_at_pole(pass_pole(run))) or {}),
     }
-    found = {key: in_run(say) for key, say in of_poses.items()}
-    return describe_film() | found | (in_run(lambda: count_at_pole(pass_pole(run))) or {})
-
-
-def tables(run: Run) -> dict:
-    """Return what the pole does to each arm."""
-    return {"pole": POLE(compare_at_pole(pass_pole(run)))}
 
 
 def pass_pole(run: Run) -> pd.DataFrame:
@@ -55,7 +51,9 @@ def pass_pole(run: Run) -> pd.DataFrame:
     rows = arm_rows.with_standard(arm_rows.episodes(run, IDEAL_MOTORS))
     starts = rows[rows["start_set"] == "pole"]
     columns = ["arm", "start_id", "outcome", "peak_torque_ratio"]
-    own, other = (starts.loc[starts["controller"] == name, columns] for name in reversed(arm_rows.PAPERS_TWO))
+    own, other = (
+        starts.loc[starts["controller"] == name, columns] for name in (arm_rows.ON_ANGLES, arm_rows.ON_MATRIX)
+    )
     both = own.merge(other, on=["arm", "start_id"], suffixes=("", "_matrix"))
     return both.assign(
         fails=both["outcome"] != "settled",
@@ -65,8 +63,9 @@ def pass_pole(run: Run) -> pd.DataFrame:
 
 
 def count_at_pole(both: pd.DataFrame) -> dict:
-    """Return how many starts fail, and how much more torque the Euler Jacobian needs."""
+    """Return how many starts fail, and how much more torque the Euler Jacobian needs; and a row an arm."""
     return {
+        "pole": POLE(compare_at_pole(both)),
         "pole_n": len(both),
         "pole_fails": int(both["fails"].sum()),
         "pole_fails_m": int(both["fails_matrix"].sum()),
@@ -84,11 +83,6 @@ def compare_at_pole(both: pd.DataFrame) -> Iterator[tuple]:
             torque = float(f"{own[f'peak_torque_ratio{end}'].median():.2g}")
             cells += [f"{(~own[f'fails{end}']).sum()} of {len(own)}", torque]
         yield name_arm(arm), len(own), *cells
-
-
-def figures(_: Run) -> dict:
-    """Return the film."""
-    return {"pole-loop": media.loop(FILM)}
 
 
 def describe_first(rows: pd.DataFrame) -> str:

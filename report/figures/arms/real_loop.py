@@ -29,7 +29,7 @@ def rows() -> pd.DataFrame:
 
 
 def facts(_: Run) -> dict:
-    """Return what it was measured on, and how far the simulated loop and theory are off."""
+    """Return what it was measured on, what the loops did, and how far the simulated loop and theory are off."""
     about, found = read_json(STUDY / "provenance.json"), rows()
     gaps = (found["kv_predicted"] / found["kv_measured"] - 1.0).abs()
     return {
@@ -38,6 +38,7 @@ def facts(_: Run) -> dict:
         "apart_ms": f"{1e3 * found['time_difference_s'].max():.0f}",
         "gap": f"{100 * gaps.max():.1g}",
         **{name: predict(late) for name, late in (("undelayed", 0), ("eighth", 1), ("half", 4))},
+        "loops": LOOPS(describe(row) for _, row in found.iterrows()),
     }
 
 
@@ -45,11 +46,6 @@ def predict(late: int) -> str:
     """Return the greatest stable Kv of a loop whose torques all come so many eighths of a period late."""
     answered = (np.arange(STEPS * 2000) - late) // STEPS + 1
     return f"{find_greatest_kv(answered, STEPS, 1e-3):.0f}"
-
-
-def tables(_: Run) -> dict:
-    """Return what the loops did."""
-    return {"loops": LOOPS(describe(row) for _, row in rows().iterrows())}
 
 
 def describe(row: pd.Series) -> tuple:

@@ -5,9 +5,10 @@ from collections.abc import Iterator
 import pandas as pd
 
 from bench.experiments.suites import IDEAL_MOTORS, LISTS, NOMINAL
+from bench.findings.claims.tables import settled, some
 from bench.law.contenders.registry import contenders
 from report.figures.arms import arm_rows
-from report.figures.kit.page import NotInRun, Run, in_run
+from report.figures.kit.page import Run
 from report.figures.kit.spelling import listed
 from report.figures.kit.tables import Table
 
@@ -19,14 +20,10 @@ START_SET, INVERSE = "wrist", "dynamically-consistent"
 REDUNDANT = {False: "six joints", True: "Panda"}
 
 
-def tables(run: Run) -> dict:
-    """Return the rules."""
-    return {"rules": in_run(lambda: RULES(compare_rules(find_rows(run))))}
-
-
 def facts(run: Run) -> dict:
-    """Return what the rules do."""
-    return {"said": in_run(lambda: describe_rules(find_rows(run)))}
+    """Return what the rules do, in words and in a table."""
+    rows = find_rows(run)
+    return {"said": describe_rules(rows), "rules": RULES(compare_rules(rows))}
 
 
 def describe_rules(rows: pd.DataFrame) -> str:
@@ -52,10 +49,9 @@ def describe_rules(rows: pd.DataFrame) -> str:
 def find_rows(run: Run) -> pd.DataFrame:
     """Return the episodes that begin beside a singularity, by every rule."""
     rows = arm_rows.every(run)
-    rows = rows[rows["way"].isin(LISTS["OPERATIONAL"]) & (rows["start_set"] == START_SET)]
-    if rows.empty:
-        raise NotInRun("no operational-space torque beside a singularity")
-    return rows.assign(settled=arm_rows.settled(rows), is_redundant=rows["arm"] == "panda")
+    own = rows[rows["way"].isin(LISTS["OPERATIONAL"]) & (rows["start_set"] == START_SET)]
+    rows = some(own, "operational-space torque beside a singularity")
+    return rows.assign(settled=settled(rows), is_redundant=rows["arm"] == "panda")
 
 
 def name_rule(word: str) -> str:

@@ -5,8 +5,9 @@ from collections.abc import Iterable
 import pandas as pd
 
 from bench.findings.claims.adequacy import DETOUR
-from bench.findings.selection.needs import Decision
-from bench.findings.selection.robots import VELOCITY, decide_for
+from bench.findings.selection.measured import measured
+from bench.findings.selection.needs import Decision, decide
+from bench.findings.selection.robots import VELOCITY
 from bench.findings.selection.words import standing
 from bench.findings.theory.velocity_limits import with_theory
 from report.figures.kit import families
@@ -29,7 +30,7 @@ def facts(run: Run) -> dict:
     known = found[found["k_dt_theory"] > 0.0]
     logarithm = found.query("law == 'rotation-vector' and arm == '' and share == 1.0 and reach == 'near'")
     return {
-        "lead": lead(decide_for(VELOCITY, run.folder)),
+        "lead": lead(decide(VELOCITY.need, measured(run.folder, VELOCITY.measure))),
         "gain": float(rows["gain"].iloc[0]),
         "log_limit": f"{float(logarithm['k_dt'].iloc[0]):.3g}" if len(logarithm) else None,
         "uniform": len(uniform) // uniform["law"].nunique(),

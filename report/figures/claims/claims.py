@@ -15,7 +15,7 @@ EVIDENCE = "appendix-claims.html"
 
 
 def facts(_: Run) -> dict:
-    """Return how many are decided, how, and how many by a criterion that is not the first."""
+    """Return how many are decided, how, and how many by a criterion that is not the first; and a row a claim."""
     every = claims.judge_all()
     changed = [one for one in every if one.claim.earlier]
     return {
@@ -24,19 +24,15 @@ def facts(_: Run) -> dict:
         "first_words": claims.told(one.first for one in every),
         "changed": len(changed),
         "turned": sum(one.word != one.first for one in changed),
+        "verdicts": table(every),
     }
-
-
-def tables(_: Run) -> dict:
-    """Return a row a claim."""
-    return {"verdicts": table(claims.judge_all())}
 
 
 def table(every: list[Verdict]) -> html.Markdown | None:
     """Return a row a claim, refuted ones first: number and section, statement, verdicts, and what is true."""
     rows = (
         (
-            f'<a href="{EVIDENCE}#{anchor(one)}">{one.claim.id}</a>',
+            f'<a href="{EVIDENCE}#{one.id.lower()}">{one.claim.id}</a>',
             prose(one.claim.sentence),
             f"{html.badge(str(one.word))}{'' if one.first == one.word else f'<br>first: {one.first}'}",
             prose(one.correction) if one.correction else "",
@@ -44,8 +40,3 @@ def table(every: list[Verdict]) -> html.Markdown | None:
         for one in sorted(every, key=lambda one: ORDER.index(one.word))
     )
     return VERDICTS(rows)
-
-
-def anchor(one: Verdict) -> str:
-    """Return what a claim's section is called in links."""
-    return one.claim.id.lower()

@@ -8,7 +8,6 @@ from bench.findings import claims
 from bench.findings.claims import Verdict, steadiness
 from bench.findings.claims.errata import COVERAGE, ERRATA, UNTESTABLE, Erratum, Item
 from bench.findings.claims.verdict import MISPRINTS
-from report.figures.claims.claims import anchor
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose, typeset
@@ -20,26 +19,20 @@ SLIPS = Table("Slip | Where | Printed | Should be | Checked")
 
 
 def facts(_: Run) -> dict:
-    """Return the rules of all criteria, how steady the verdicts are, and how many slips were computed and read."""
+    """Return the rules of all criteria, how steady the verdicts are, and how many slips were computed and read.
+
+    And what decided each claim, folded, and the tables of sentences, slips and parts of the paper.
+    """
+    every = claims.judge_all()
     return {
         "rule": typeset(claims.RULE),
         "n_computed": sum(one.check is not None for one in ERRATA),
         "n_read": sum(one.check is None for one in ERRATA),
         "misprints": typeset(" ".join(MISPRINTS.split())),
-        "steady": steadiness.describe(
-            read_json(steadiness.STORED), {one.id: str(one.word) for one in claims.judge_all()}
-        ),
-    }
-
-
-def tables(_: Run) -> dict:
-    """Return what decided each claim, folded, and the tables of sentences, slips and parts of the paper."""
-    sentences = SENTENCES((one.section, f"“{prose(one.quote)}”", prose(one.why)) for one in UNTESTABLE)
-    slips = SLIPS(map(describe_slip, sorted(ERRATA, key=lambda one: one.check is None)))
-    return {
-        "sections": html.Html("".join(map(section, claims.judge_all()))),
-        "untestable": sentences,
-        "slips": slips,
+        "steady": steadiness.describe(read_json(steadiness.STORED), {one.id: str(one.word) for one in every}),
+        "sections": html.Html("".join(map(section, every))),
+        "untestable": SENTENCES((one.section, f"“{prose(one.quote)}”", prose(one.why)) for one in UNTESTABLE),
+        "slips": SLIPS(map(describe_slip, sorted(ERRATA, key=lambda one: one.check is None))),
         "coverage": PARTS(map(describe_item, COVERAGE)),
     }
 
@@ -51,34 +44,25 @@ def describe_item(one: Item) -> tuple:
     return prose(one.paper), prose(one.says), ids, pages
 
 
-def checked(one: Erratum) -> str:
-    """Return how it was checked, the computed ones just now.
+def describe_slip(one: Erratum) -> tuple:
+    """Return the row of a slip, and in it how it was checked, the computed ones just now.
 
     Errors:
         ValueError: the check no longer confirms its erratum, and the page must not say that it does.
     """
     if one.check and not one.check():
         raise ValueError(f"erratum {one.id}: its check '{one.how}' does not confirm it (cure: mend it in errata.py)")
-    return f"{'computed: ' if one.check else ''}{prose(one.how)}"
-
-
-def describe_slip(one: Erratum) -> tuple:
-    """Return the row of a slip."""
-    return one.id, prose(one.where), f"“{prose(one.printed)}”", prose(one.right), checked(one)
-
-
-def quoted(one: Verdict) -> str:
-    """Return the paper's sentence, with its value if it gives one."""
-    claim = one.claim
-    value = "" if claim.value == "none given" else f" (Its value: {claim.value}.)"
-    return f"“{claim.quote}”{value}" if claim.quote else claim.sentence
+    checked = f"{'computed: ' if one.check else ''}{prose(one.how)}"
+    return one.id, prose(one.where), f"“{prose(one.printed)}”", prose(one.right), checked
 
 
 def section(one: Verdict) -> str:
     """Return what decided a claim, folded under its sentence; a link to it opens it, for the anchor is inside."""
     claim = one.claim
+    value = "" if claim.value == "none given" else f" (Its value: {claim.value}.)"
+    quoted = f"“{claim.quote}”{value}" if claim.quote else claim.sentence
     rows = {
-        "The paper": f"{escape.escape(claim.section)}: {marked_up(quoted(one))}",
+        "The paper": f"{escape.escape(claim.section)}: {marked_up(quoted)}",
         "What is true": marked_up(one.correction or ""),
         "Evidence": marked_up(str(one.evidence)),
         "Criterion": marked_up(f"{claim.criterion} ({written(claim.written)})" if claim.written else claim.criterion),
@@ -91,7 +75,7 @@ def section(one: Verdict) -> str:
     entries = "".join(f"<dt>{name}</dt><dd>{text}</dd>" for name, text in rows.items() if text)
     head = f"<b>{claim.id}</b> <span>{marked_up(claim.sentence)}</span> {html.badge(str(one.word))}"
     return (
-        f'<details class="claim-fold"><summary>{head}</summary><dl class="claim" id="{anchor(one)}">{entries}</dl>'
+        f'<details class="claim-fold"><summary>{head}</summary><dl class="claim" id="{one.id.lower()}">{entries}</dl>'
         "</details>"
     )
 

@@ -7,8 +7,9 @@ import pandas as pd
 from scipy.spatial.transform import Rotation
 
 from bench.experiments.tables.read import converged
-from bench.experiments.tables.statistics import Estimate, quantile, quantile_estimate
+from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims.tables import share
+from bench.findings.selection import tables
 from bench.findings.start_sets import AT_REST
 from report.figures.cost.cost import totals
 from report.figures.cost.operations import CALLS
@@ -26,9 +27,7 @@ def common(episodes: pd.DataFrame) -> pd.DataFrame:
     Args:
         episodes: rows of one engine. The paper's laws ran more starts than the later ones.
     """
-    uniform = episodes[(episodes["start_set"] == "uniform") & (episodes["arm"] == "")]
-    ran = uniform.groupby("start_id", observed=True)["contender"].nunique()
-    rows = uniform[uniform["start_id"].isin(ran.index[ran == uniform["contender"].nunique()])]
+    rows = tables.common(episodes[(episodes["start_set"] == "uniform") & (episodes["arm"] == "")])
     names = families.in_order(rows["contender"].unique())
     ordered = rows.assign(contender=pd.Categorical(rows["contender"].astype(str), names, ordered=True))
     return ordered.sort_values(["contender", "start_id"], ignore_index=True)
@@ -40,11 +39,6 @@ def costs(rows: pd.DataFrame, column: str) -> pd.DataFrame:
     return rows.assign(cost=rows[column].where(settled, np.inf)).pivot(
         index="start_id", columns="contender", values="cost"
     )
-
-
-def medians(table: pd.DataFrame) -> pd.Series:
-    """Median of each column, of which some values may be infinite."""
-    return pd.Series({name: float(quantile(table[name].to_numpy(), 0.5)) for name in table})
 
 
 def settles(own: pd.DataFrame) -> str:
@@ -108,9 +102,3 @@ def count_lost(rows: pd.DataFrame) -> str:
     """Return how many of a law's starts that converge do not settle: 26 of 726."""
     sure = converged(rows)
     return f"{int((sure['outcome'] != 'settled').sum())} of {len(sure)}"
-
-
-def leaving_all(rows: pd.DataFrame) -> list[str]:
-    """Return the laws that leave every directed start, family by family."""
-    failed = set(rows.loc[rows["outcome"] != "settled", "contender"])
-    return [name for name in families.in_order(rows["contender"].unique()) if name not in failed]

@@ -33,12 +33,12 @@ def uniform(run: Run) -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """Return the numbers of the laws that are not negative controls."""
+    """Return the numbers of the laws that are not negative controls, and the table of all laws."""
     rows, tried = uniform(run), cells.directed_starts(ideal(run))
     times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
     laws = [name for name in times if name not in families.CONTROLS]
-    middle, spent = cells.medians(times[laws]), cells.medians(efforts[laws])
-    left = [name for name in cells.leaving_all(tried) if name not in families.CONTROLS]
+    middle, spent = (table[laws].quantile(interpolation="lower") for table in (times, efforts))
+    lost = set(tried.loc[tried["outcome"] != "settled", "contender"])
     return {
         "laws": len(laws),
         "starts": len(times),
@@ -49,8 +49,9 @@ def facts(run: Run) -> dict:
         "whole": int(sum(np.isfinite(times[name]).all() for name in laws)),
         "dearer": f"{spent.max() / spent.min():.0f}",
         **near(rows[rows["contender"].isin(laws)]),
-        "left": len(left),
+        "left": len(set(tried["contender"]) - lost - set(families.CONTROLS)),
         "directed": int(tried.groupby("contender", observed=True).size().max()),
+        "all_laws": ALL_LAWS(compare_laws(run, times, efforts)),
     }
 
 
@@ -65,16 +66,10 @@ def near(rows: pd.DataFrame) -> dict:
     return found
 
 
-def tables(run: Run) -> dict:
-    """Return all laws."""
-    return {"all_laws": ALL_LAWS(compare_laws(run))}
-
-
-def compare_laws(run: Run) -> Iterator[tuple]:
+def compare_laws(run: Run, times: pd.DataFrame, efforts: pd.DataFrame) -> Iterator[tuple]:
     """Return a row a law: what settles, how fast, effort, peak, a tick, lost starts, what noise holds."""
     rows, tried, counted = uniform(run), cells.directed_starts(ideal(run)), run.any_rows("costs", **read.FREE_BODY)
     held = in_run(lambda: measured(run.folder).values["held"]) or {}
-    times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
     for name in families.in_order(times):
         own = rows[rows["contender"] == name]
         yield (
@@ -82,7 +77,7 @@ def compare_laws(run: Run) -> Iterator[tuple]:
             cells.settles(own),
             cells.seconds(times[name]),
             cells.seconds(times[name], 0.99),
-            html.number(float(f"{cells.quantile(efforts[name].to_numpy(), 0.5):.3g}")),
+            html.number(float(f"{efforts[name].quantile(interpolation='lower'):.3g}")),
             cells.large(own["peak_u"].max()),
             cells.tick(counted, name),
             cells.count_lost(tried[tried["contender"] == name]),

@@ -15,13 +15,14 @@ PROBE = "wrench-probe"
 
 
 def facts(run: Run) -> dict:
-    """Return the numbers of the probe."""
+    """Return the numbers of the probe, and the axes of turning."""
     rows = controllers.of_task(run, PROBE)
     return {
         "axes_arm": name_arm(shown_arm(rows)),
         **measured(turns(rows)),
         "off_by_accelerations": off_by_accelerations(rows),
         **(in_run(lambda: damping(run)) or {}),
+        "compliance-axes": axes_of_turning(rows),
     }
 
 
@@ -36,8 +37,3 @@ def off_by_accelerations(rows: pd.DataFrame) -> str:
     own = level(of(rows, controllers.EULER, ORDER))
     own = own[own["outcome"] == "done"]
     return power(float((np.degrees(own["misalignment_rad"]) - own["beta_deg"].abs()).abs().max()))
-
-
-def figures(run: Run) -> dict:
-    """Return the axes of turning."""
-    return {"compliance-axes": axes_of_turning(controllers.of_task(run, PROBE))}

@@ -16,7 +16,7 @@ STILLS = (
 
 
 def facts(run: Run) -> dict:
-    """Return what each task is and lets comply, when it ends, and the gain of the force."""
+    """Return what each task is and lets comply, when it ends, and the gain of the force; with real motors, too."""
     arm = tasks.arm(media.facts()["contact"]["arm"])
     parts = [
         f"{task.title} (complies: {task.trials(arm)[0].specification.name})"
@@ -24,18 +24,10 @@ def facts(run: Run) -> dict:
     ]
     return {
         **limits.facts(run),
+        "settings": limits.LIMITS(limits.compare_settings()),
+        "contact-tasks": media.still(STILLS, "contact-tasks"),
         "orders": f"{'. '.join(parts)}.",
         "rest_rule": f"{1e3 * REST.speed:g} mm/s and {REST.rate:g} rad/s for {REST.hold_s:g} s",
         "rest_horizon": f"{HORIZON_S:g}",
         "kf": in_run(lambda: f"{of(of_task(run, PROBE), PAPERS_EULER)['kf'].iloc[0]:g}"),
     }
-
-
-def tables(_: Run) -> dict:
-    """Return the tasks with real motors and sensors."""
-    return {"settings": limits.LIMITS(limits.compare_settings())}
-
-
-def figures(_: Run) -> dict:
-    """Return the tasks."""
-    return {"contact-tasks": media.still(STILLS, "contact-tasks")}

@@ -13,7 +13,8 @@ import pandas as pd
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from scipy.spatial.transform import Rotation
 
-from report.figures.contact.rows import PAPERS, PAPERS_EULER, compliance, level, nearest, of
+from bench.findings.claims.side_by_side import compliances
+from report.figures.contact.rows import PAPERS, PAPERS_EULER, level, of
 from report.figures.kit import style
 from report.figures.kit.inline import Drawing, responsive_picture
 
@@ -48,10 +49,11 @@ def turns(rows: pd.DataFrame) -> list[dict]:
     found = []
     own = level(rows[rows["arm"] == shown_arm(rows)])
     full = float(of(own, PAPERS, ORDER)["c_xx"].median())
-    betas = nearest(of(own, PAPERS_EULER, ORDER), BETAS)
+    there = sorted(set(of(own, PAPERS_EULER, ORDER)["beta_deg"]))  # grids of suites differ: the nearest are taken
+    betas = list(dict.fromkeys(min(there, key=lambda one: abs(one - beta)) for beta in BETAS))
     for contender, beta in [(PAPERS, betas[-2]), *((PAPERS_EULER, beta) for beta in betas)]:
         at = of(own, contender, ORDER)
-        C = compliance(at[at["beta_deg"] == beta].iloc[0])
+        C = compliances(at[at["beta_deg"] == beta])[0]
         for pushed, turn in zip(PUSHED, (C[:, 0], C[:, 2]), strict=True):
             share, along = float(np.linalg.norm(turn)) / full, abs(turn @ unit(pushed))
             off = math.degrees(math.acos(min(along / (share * full), 1.0))) if share > STILL else math.nan

@@ -9,9 +9,10 @@ import pandas as pd
 from scipy.stats import fisher_exact
 
 import tasks
+from bench.findings.claims.tables import some
 from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER, of, of_task
 from report.figures.kit import html, media
-from report.figures.kit.page import ABSENT, NotInRun, Run
+from report.figures.kit.page import ABSENT, Run
 from report.figures.kit.spelling import spell_powers
 from report.figures.kit.tables import Table
 
@@ -62,15 +63,14 @@ OUTCOMES = Table(
 def all_rows(run: Run) -> pd.DataFrame:
     """Return the rows of every task in contact that the run has."""
     found = [of_task(run, name) for name in MEASURES if len(run.any_rows("compliance", task=name))]
-    if not found:
-        raise NotInRun("no task in contact")
-    return pd.concat(found, ignore_index=True)
+    return pd.concat(some(found, "task in contact"), ignore_index=True)
 
 
-def facts(run: Run) -> dict[str, str]:
-    """Return how episodes end."""
+def facts(run: Run) -> dict:
+    """Return how episodes end, and one table of all tasks."""
     rows = all_rows(run)
     return {
+        "outcomes": OUTCOMES(compare_tasks(rows)),
         **plate(rows),
         "betas": ", ".join(f"{beta:.0f}°" for beta in sorted(set(rows["beta_deg"]))),
         "flat": flat(rows),
@@ -125,11 +125,6 @@ def flat(rows: pd.DataFrame) -> str:
         f"at the end it lay flat in {euler.sum()} of {len(euler)} simulations with the Euler Jacobian, and in "
         f"{plain.sum()} of {len(plain)} with Cartesian compliance."
     )
-
-
-def tables(run: Run) -> dict:
-    """Return one table of all tasks."""
-    return {"outcomes": OUTCOMES(compare_tasks(all_rows(run)))}
 
 
 def compare_tasks(rows: pd.DataFrame) -> Iterator[tuple]:

@@ -1,10 +1,6 @@
-"""What the pages on compliance read of compliance.parquet: rows of a task, and what was measured.
-
-C, 3 x 3, is a row's rotation per moment [rad/(N m)]: C[i, j] about i per moment about j.
-"""
+"""What the pages on compliance read of compliance.parquet: rows of a task, of a controller, and of a frame."""
 
 import functools
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -34,14 +30,3 @@ def of(rows: pd.DataFrame, contender: str, complies: str = "") -> pd.DataFrame:
 def level(rows: pd.DataFrame) -> pd.DataFrame:
     """Return the rows whose goal has no alpha and no gamma, by beta."""
     return rows[(rows["alpha_deg"] == 0.0) & (rows["gamma_deg"] == 0.0)].sort_values("beta_deg", kind="stable")
-
-
-def nearest(rows: pd.DataFrame, betas: tuple[float, ...]) -> list[float]:
-    """Return the betas [deg] of the rows that are nearest to the given ones: grids of suites differ."""
-    there = sorted(set(rows["beta_deg"]))
-    return list(dict.fromkeys(min(there, key=lambda one: abs(one - beta)) for beta in betas))
-
-
-def compliance(row: Any) -> np.ndarray:
-    """C of one row; NaN where the hand did not get to the end."""
-    return np.array([[float(row[f"c_{i}{j}"]) for j in "xyz"] for i in "xyz"])

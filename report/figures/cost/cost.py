@@ -9,15 +9,14 @@ import pandas as pd
 
 from bench.experiments.tables import read
 from bench.experiments.tables.store import read_arrow
-from bench.findings.claims import Results
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.selection.tables import ticks
-from bench.law.contenders.registry import all_contenders
+from bench.law.contenders.registry import all_contenders, contenders
 from report.figures.cost import operations
 from report.figures.cost.operations import CALLS
-from report.figures.kit import families, html, laws
+from report.figures.kit import families, html
+from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX
 from report.figures.kit.page import Run, in_run
-from report.figures.kit.rows import FEEDBACK, LINEARIZED, MATRIX
 
 LEAN = {"lean": FEEDBACK, "literal": next(one.name for one in all_contenders() if one.regulator.costing_only)}
 """The linearizing law as we write it and as it is printed."""
@@ -26,16 +25,18 @@ LEAN = {"lean": FEEDBACK, "literal": next(one.name for one in all_contenders() i
 @functools.cache
 def costs(run: Run) -> pd.DataFrame:
     """Operations of the paper's laws and the user's own."""
-    return laws.without_later(run.rows("costs", **read.FREE_BODY))
+    rows = run.rows("costs", **read.FREE_BODY)
+    return rows[~rows["regulator"].isin([name for name, one in contenders("regulators").items() if one.later])]
 
 
 def facts(run: Run) -> dict:
-    """Return the literal form against the lean one, shares of a controller's time, and where it was measured."""
+    """Return operations, the literal form against the lean, shares of a controller's time, and the machine of times."""
     return {
         **(in_run(lambda: compare_forms(totals(costs(run)))) or {}),
         **(in_run(lambda: share_of_time(run)) or {}),
         "measurable": f"{100 * MEASURABLE:g}",
         "timed_on": describe_machine(run),
+        "operations": in_run(lambda: operations.operations(costs(run))),
     }
 
 
@@ -51,7 +52,7 @@ def compare_forms(counted: pd.DataFrame) -> dict[str, int]:
 
 def share_of_time(run: Run) -> dict[str, str]:
     """Return the shares of a whole controller's time that the cheapest law, late braking and the dearest take."""
-    share = {law: value for law, value in ticks(Results(run.folder)).items() if not law.endswith("literal/zyx-euler")}
+    share = {law: value for law, value in ticks(run).items() if not law.endswith("literal/zyx-euler")}
     most = max(share, key=lambda law: share[law])
     shown = {"time_matrix": MATRIX, "time_late": "late-braking", "time_most": most}
     words = {
@@ -70,7 +71,7 @@ def order_papers_laws(share: dict[str, float]) -> str:
 
 def timings(run: Run) -> list[Path]:
     """Return the files of times, one for each kind of machine."""
-    return sorted((run.studies / "timings").glob("*.parquet"))
+    return sorted(run.timings_folder.glob("*.parquet"))
 
 
 def describe_machine(run: Run) -> str:
@@ -81,11 +82,6 @@ def describe_machine(run: Run) -> str:
     table = read_arrow(paths[0], "timings")
     about, passes = json.loads(table.schema.metadata[b"about"]), max(table["passes"].to_pylist())
     return f"Measured on {about['cpu']}, {about['cores']} cores, {about['date'][:10]}, {passes} passes."
-
-
-def figures(run: Run) -> dict:
-    """Draw operations by kind."""
-    return {"operations": operations.operations(costs(run))}
 
 
 def totals(counted: pd.DataFrame) -> pd.DataFrame:

@@ -7,12 +7,12 @@ share a page.
 
 import functools
 import html
-import inspect
 import io
 import re
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from matplotlib import rc_context
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
@@ -39,25 +39,20 @@ class Picture(NamedTuple):
 
     wide: str
     alt: str
-    narrow: str = ""
-    clashes: tuple[str, ...] = ()
+    narrow: str
+    clashes: tuple[str, ...]
 
     def _repr_html_(self) -> str:
-        if not self.narrow:
-            return f'<div class="picture">{self.wide}</div>'
         return f'<div class="picture wide">{self.wide}</div><div class="picture narrow">{self.narrow}</div>'
 
 
 def responsive_picture(draw: Callable[..., Drawing]) -> Callable[..., Picture]:
-    """Decorate a function that draws; with a keyword `narrow` it draws a second time, for a phone."""
+    """Decorate a function that draws: it draws twice, with the keyword `narrow` for a phone."""
 
     @functools.wraps(draw)
     def drawn(*args: Any, **kwargs: Any) -> Picture:
         name = draw.__name__
-        with style.paper_style():
-            if "narrow" not in inspect.signature(draw).parameters:
-                figure, alt = draw(*args, **kwargs)
-                return Picture(svg(figure, alt, name), alt, clashes=tuple(find_clashes(figure)))
+        with rc_context(fname=style.PAPER_STYLE):
             figure, alt = draw(*args, narrow=False, **kwargs)
             phone, _ = draw(*args, narrow=True, **kwargs)
             texts = svg(figure, alt, name), alt, svg(phone, alt, f"{name}-narrow")

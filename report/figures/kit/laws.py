@@ -1,4 +1,4 @@
-"""The laws as figures name them: the paper's three in its order, their rows; any law of a run, all but the later."""
+"""The laws as figures name them: the paper's three in its order, and any law of a run; and the gains of rows."""
 
 import functools
 from pathlib import Path
@@ -12,12 +12,12 @@ from bench.law.kinds import Law
 
 TITLES = {one.name: one.regulator.title.partition(" (")[0] for one in papers_laws()}
 """contender -> how it is called in a figure."""
+MATRIX, LINEARIZED, FEEDBACK = TITLES
 
 
-def without_later(frame: pd.DataFrame) -> pd.DataFrame:
-    """Return the rows of the paper's laws in any coordinates and of the user's own."""
-    later = {name for name, one in contenders("regulators").items() if one.later}
-    return frame[~frame["regulator"].isin(later)].reset_index(drop=True)
+def gains(rows: pd.DataFrame) -> tuple[float, float]:
+    """(kp, kv) of the rows."""
+    return float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0])
 
 
 def regulator(word: str) -> Law | None:

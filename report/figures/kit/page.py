@@ -1,10 +1,11 @@
 """A page's modules pasted into it, and the words where the run does not hold what the page shows.
 
 The page pages/08-libraries.md has the module libraries/libraries.py (the front page, `index`), whose functions
-facts(run), tables(run) and figures(run) give what it pastes, key by key; a page may do without any of them. Further
-modules on a page give what it pastes under their own word: `spread` of responses.responses is pasted as
-`responses.spread`. A value that is None, a key that is left out, and what needs a table that the run lacks (NotInRun,
-and the claims' NoEvidence) are not in this run, and the page says so. A key that the page does not paste is an error.
+facts(run), tables(run) and figures(run) give what it pastes, key by key; a page may do without any of them, and what is
+made of the same rows, and so is missing together, comes from one of them. Further modules on a page give what it pastes
+under their own word: `spread` of responses.responses is pasted as `responses.spread`. A value that is None, a key that
+is left out, and what needs a table that the run lacks (NoEvidence) are not in this run, and the page says so. A key
+that the page does not paste is an error.
 """
 
 import functools
@@ -19,7 +20,8 @@ import pandas as pd
 
 from bench.base.errors import NoTable
 from bench.experiments.tables import read
-from bench.experiments.tables.schema import RESULTS, table_of
+from bench.experiments.tables.schema import table_of
+from bench.findings.claims.tables import Results, some
 from bench.findings.claims.verdict import NoEvidence
 from report.figures.kit import html, style
 from report.figures.kit.inline import Drawing, responsive_picture
@@ -32,32 +34,24 @@ INLINE = re.compile(r"\{glue:(text|md)\}`([^`:]+)")
 BLOCK = re.compile(r"^\s*(?:`{3,}|:{3,})\{glue:?(md|figure|)\}\s+(\S+)", re.MULTILINE)
 
 
-class NotInRun(NoEvidence):
-    """The run lacks a table, or every row with the given words."""
-
-
-class Run:
+class Run(Results):
     """The run that is shown, beside the timings that are committed."""
 
-    def __init__(self, folder: Path, studies: Path = RESULTS):
-        self.folder, self.studies = folder, studies
+    folder: Path
 
     def rows(self, table: str, **words: str) -> pd.DataFrame:
         """Return rows of one of its tables that have these words.
 
         Errors:
-            NotInRun: there are none.
+            NoEvidence: there are none.
         """
-        found = self.any_rows(table, **words)
-        if found.empty:
-            raise NotInRun(f"{self.folder} has no rows of {table} with {words}")
-        return found
+        return some(self.any_rows(table, **words), f"rows of {table} with {words} in {self.folder}")
 
     def any_rows(self, table: str, **words: str) -> pd.DataFrame:
         """Return the same, maybe none."""
         if not (self.folder / f"{table}.parquet").is_file():
             return pd.DataFrame(columns=[*(one.name for one in table_of(table).columns()), "contender"])
-        return read.chosen(read.table(self.folder, table), words)
+        return self.table(table, **words)
 
 
 @functools.cache

@@ -4,14 +4,13 @@ Colours are Okabe and Ito's eight, distinguished with any colour vision, each wi
 Colour never stands alone: the marker and the line differ too, so that a print in grey still reads.
 """
 
-import functools
 import itertools
 import zlib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from matplotlib import font_manager, rc_context
+from matplotlib import font_manager
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -19,7 +18,7 @@ from report.figures.kit import laws
 
 FONTS = Path(__file__).parent / "fonts"
 PAPER_STYLE = Path(__file__).parent / "paper.mplstyle"
-"""The colours of words, axes and grid are INK, MUTED and GRID."""
+"""The style all figures are drawn in; the colours of its words, axes and grid are INK, MUTED and GRID."""
 TEXT_WIDTH_IN = 7.5  # the column of a page at 1280 pixels, 720 of CSS's 96 to the inch
 PHONE_WIDTH_IN = 3.7  # the column of a page at 390 pixels, so that words keep their size there
 
@@ -92,15 +91,10 @@ def look(name: str) -> Look:
     word = laws.regulator_of(name)
     own = laws.regulator(word)
     if not own or not own.display.look:
-        return spare(word)
+        every = [*itertools.product(SPARE_COLOURS, SPARE_MARKERS, SPARE_LINES)]
+        return Look(*every[mark(word) % len(every)])
     words = own.display.look
     return Look(COLOURS[words.colour], words.marker, LINES[words.line])
-
-
-def spare(word: str) -> Look:
-    """Return a look chosen by a name."""
-    every = [*itertools.product(SPARE_COLOURS, SPARE_MARKERS, SPARE_LINES)]
-    return Look(*every[mark(word) % len(every)])
 
 
 def mark(text: str) -> int:
@@ -108,17 +102,8 @@ def mark(text: str) -> int:
     return zlib.crc32(text.encode())
 
 
-@functools.cache
-def register_fonts() -> None:
-    """Make the bundled faces known to matplotlib, once a process."""
-    for face in sorted(FONTS.glob("*.ttf")):
-        font_manager.fontManager.addfont(str(face))
-
-
-def paper_style() -> Any:
-    """Return the style all figures are drawn in, as a context."""
-    register_fonts()
-    return rc_context(fname=PAPER_STYLE)
+for face in sorted(FONTS.glob("*.ttf")):  # the bundled faces are made known to matplotlib
+    font_manager.fontManager.addfont(str(face))
 
 
 def panels(rows: int = 1, cols: int = 1, *, height: float = 3.2, narrow: bool = False, **subplots: Any) -> Any:

@@ -1,4 +1,4 @@
-"""What other libraries answered, as the page reads it: a line a function, and what may be said against it.
+"""What other libraries answered, and how they do in closed loop, as the page reads it: a line a function.
 
 Read from results/libraries, which is committed: it does not change with the run that a report is built from.
 """
@@ -90,3 +90,22 @@ def where(row: pd.Series) -> str:
 def _of(rows: pd.DataFrame, name: str) -> str:
     count, every = rows[name].sum(), rows["turns"].sum()
     return "all" if count == every else f"{count} of {every}"
+
+
+@functools.cache
+def responses() -> pd.DataFrame:
+    """Return a row a function or controller: its starts below 180° and at it.
+
+    Columns: library, function, kind; unsettled, away: of the starts below 180°; at_180, dead: of the starts at 180°,
+    how many and how many of them never move.
+    """
+    rows = table("closed_loop")
+    is_at = rows["angle_deg"] == 180.0
+    below, at = (rows[chosen].groupby(["library", "function", "kind"], sort=False) for chosen in (~is_at, is_at))
+    counts = {
+        "unsettled": below[["dead", "lost", "failed"]].sum().sum(axis=1),
+        "away": below["away"].sum(),
+        "at_180": at["starts"].sum(),
+        "dead": at["dead"].sum(),
+    }
+    return pd.DataFrame(counts).reset_index()

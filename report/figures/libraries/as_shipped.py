@@ -53,8 +53,9 @@ FACTS: dict[str, Callable[[pd.DataFrame], object]] = {
     "unsettled": lambda own: named(own[own["settling_1_s"].isna() & (own["starts"] > 0)]),
     "away": lambda own: int((own["away"] > 0).sum()) or "none",
     "starts": lambda own: int(own["starts"].max()),
+    "measured": lambda own: MEASURED(in_lines(own)),
 }
-"""What the text says, of one line a controller."""
+"""What the text says, of one line a controller; and what is measured, equals in one line."""
 
 
 def facts(run: Run) -> dict:
@@ -81,11 +82,6 @@ def held() -> dict:
 def named(rows: pd.DataFrame) -> str:
     """Names, or none."""
     return ", ".join(rows["shipped"]) or "none"
-
-
-def tables(run: Run) -> dict:
-    """Return what is measured, equals in one line."""
-    return {"measured": in_run(lambda: MEASURED(in_lines(shipped(run))))}
 
 
 def list_fixes(run: Run) -> html.Markdown | None:

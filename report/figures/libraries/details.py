@@ -13,7 +13,7 @@ ASKED = Table("Question | Cause | Cure | Measured | Without the cure:.3g | With 
 
 
 def facts(_: Run) -> dict:
-    """Return at which rotations the functions were tested, and what is no fault."""
+    """Return at which rotations the functions were tested, what is no fault, what passed, and questions of users."""
     rows = answers.table()
     small, near = (rows[rows[name] > 0.0] for name in ("angle_rad", "distance_rad"))
     return {
@@ -23,12 +23,9 @@ def facts(_: Run) -> dict:
         "drawn": int(rows[rows["turn_set"] == "drawn"]["turns"].max()),
         "smallest": power(small["angle_rad"].min()),
         "nearest": power(near["distance_rad"].min()),
+        "passed": PASSED(passed(lines())),
+        "asked": ASKED(map(describe_question, QUESTIONS)),
     }
-
-
-def tables(_: Run) -> dict:
-    """Return the functions that passed, and questions of users."""
-    return {"passed": PASSED(passed(lines())), "asked": ASKED(map(describe_question, QUESTIONS))}
 
 
 def describe_question(one: Question) -> tuple:

@@ -11,7 +11,7 @@ from report.figures.kit import html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import listed, power
 from report.figures.kit.tables import Table
-from report.figures.libraries import answers, as_shipped, loops
+from report.figures.libraries import answers, as_shipped
 
 OURS = "orientation-bench"
 """Our own laws in results/libraries, asked like the libraries."""
@@ -33,7 +33,10 @@ def errors(every: pd.DataFrame, kind: str = "function") -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """Return every number that the text takes; ours are not counted among other libraries'."""
+    """Return every number that the text takes, what fails and its fix, and shipped controllers and theirs.
+
+    Ours are not counted among other libraries'.
+    """
     rows, every = answers.table(), lines()
     others = every[every["library"] != OURS]
     functions, idioms = errors(others), errors(others, "idiom")
@@ -53,6 +56,8 @@ def facts(run: Run) -> dict:
         "turns": int(rows.groupby(["library", "function"])["turns"].sum().max()),
         "known": int(functions.loc[~functions["is_right"], "thread"].ne("").sum()),
         **loop_facts(),
+        "tab_faults": FAULTS(faults(every)),
+        "tab_shipped": in_run(as_shipped.list_fixes, run),
         **(in_run(shipped_facts, run) or {}),
     }
 
@@ -70,7 +75,7 @@ def shipped_facts(run: Run) -> dict:
 
 def loop_facts() -> dict:
     """Return how many closed loops are run, how many stay at 180°, and how many turn away first."""
-    every = loops.responses().query("library != @OURS and kind == 'function'")
+    every = answers.responses().query("library != @OURS and kind == 'function'")
     return {
         "loops": len(every),
         "loops_dead": int((every["dead"] == every["at_180"]).sum()),
@@ -79,19 +84,11 @@ def loop_facts() -> dict:
     }
 
 
-def tables(run: Run) -> dict:
-    """Return what fails and its fix, and shipped controllers and theirs."""
-    every = lines()
-    return {
-        "tab_faults": FAULTS(faults(every)),
-        "tab_shipped": in_run(as_shipped.list_fixes, run),
-    }
-
-
 def faults(every: pd.DataFrame) -> Iterator[tuple]:
     """Return a row for the functions of a library that fail alike and for which the same thread is known."""
     own = errors(every[every["library"] != OURS]).query("not is_right")
-    own = own.merge(loops.verdicts()[["library", "function", "replacement"]], how="left").fillna({"replacement": ""})
+    audited = answers.table("verdicts")[["library", "function", "replacement"]]
+    own = own.merge(audited, how="left").fillna({"replacement": ""})
     own = own.assign(
         said=own["objections"].map(lambda found: "; ".join(found.values())),
         first=own["objections"].map(lambda found: min(map(ORDER.index, found))),

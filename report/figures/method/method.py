@@ -17,10 +17,10 @@ JUDGED = ["outcome", "settling_time_s", "failure_time_s", "final_angle_rad", "ef
 
 
 def facts(run: Run) -> dict[str, Any]:
-    """Return whether engines agree, how many episodes asked for shorter steps, and the rules of counting."""
+    """Return whether engines agree, how many episodes asked for shorter steps, the gains, and the rules of counting."""
     runs = run.rows("episodes", task="free-body")
     both, equal = count_equal(runs, "reference", "native")
-    asked = runs[runs["converged"] != ""]
+    asked, pairs = runs[runs["converged"] != ""], sorted(set(zip(runs["kp"], runs["kv"], strict=True)))
     return {
         "both": both,
         "equal": equal,
@@ -28,7 +28,7 @@ def facts(run: Run) -> dict[str, Any]:
         "shorter": int((asked["step_s"] < asked["dt_s"]).sum()),
         "unconverged": int((asked["converged"] == "no").sum()),
         "engines": runs["engine"].nunique(),
-        "gains": describe_gains(runs),
+        "gains": " and ".join(f"kp = {kp:g} 1/s², kv = {kv:g} 1/s" for kp, kv in pairs),
         "small": f"{linear_settling(*runs[['kp', 'kv', 'tolerance']].iloc[0]):.3f}",
         "later_ms": describe_ends(compute_lateness_ms(runs, "native")),
         "hold_s": f"{RULES.hold_s:g}",
@@ -54,12 +54,6 @@ def compute_lateness_ms(runs: pd.DataFrame, other: str) -> pd.Series:
     uniform = runs[runs["start_set"] == "uniform"]
     times = uniform.pivot_table(index=KEY, columns="engine", values="settling_time_s", observed=True)
     return 1e3 * (times[other] - times["ideal-rk4"]).groupby("contender", observed=True).mean()
-
-
-def describe_gains(runs: pd.DataFrame) -> str:
-    """List the pairs of gains that the episodes ran with."""
-    pairs = sorted(set(zip(runs["kp"], runs["kv"], strict=True)))
-    return " and ".join(f"kp = {kp:g} 1/s², kv = {kv:g} 1/s" for kp, kv in pairs)
 
 
 def describe_ends(late: pd.Series) -> str:

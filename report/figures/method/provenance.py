@@ -24,25 +24,18 @@ FACTS = Table("Fact | Value")
 FILES = Table("File | Rows | Size [kB]:.0f")
 
 
-def facts(_: Run) -> dict[str, str]:
-    """Return the title and the version that are cited, with its date."""
+def facts(run: Run) -> dict[str, Any]:
+    """Return the title and the version that are cited, with its date; the run and its files."""
     said = cited()
     version = f"{said['version']} ({said['date-released']})" if "date-released" in said else said["version"]
-    return {"title": said["title"], "version": version}
+    files = FILES(map(describe_file, list_files(run)))
+    return {"title": said["title"], "version": version, "run": describe_run(read.provenance()), "tables": files}
 
 
 def cited() -> dict[str, str]:
     """Return title, version and date of CITATION.cff."""
     text = CITATION.read_text(encoding="utf-8")
     return dict(re.findall(r"^(title|version|date-released): *[\"']?([^\"'\n]+)", text, re.MULTILINE))
-
-
-def tables(run: Run) -> dict[str, Any]:
-    """Return the run and its files."""
-    return {
-        "run": describe_run(read.provenance()),
-        "tables": FILES(map(describe_file, list_files(run))),
-    }
 
 
 def describe_run(given: dict[str, Any]) -> html.Markdown | None:

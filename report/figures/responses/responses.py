@@ -6,13 +6,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from bench.experiments.tables.read import chosen
+from bench.findings.claims.probes import euler_angles_along
 from bench.findings.theory import closed_form
-from bench.law.contenders.representations.zyx_euler import chart
-from bench.law.so3 import Rotation
 from report.figures.kit import laws, style
 from report.figures.kit.inline import Drawing, responsive_picture
+from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX, gains
 from report.figures.kit.page import Run
-from report.figures.kit.rows import SHORT
 from report.figures.kit.spelling import power
 
 ANGLES = (
@@ -23,8 +23,8 @@ ANGLES = (
 SHOWN_S = 1.2
 """Two settling times of a small error: all there is to see."""
 
-FIGURES = {"3": "m", "4": "l", "5": "f"}
-"""Last digit of the paper's figure and of its start -> the letter of its law."""
+FIGURES = {"3": MATRIX, "4": LINEARIZED, "5": FEEDBACK}
+"""Last digit of the paper's figure and of its start -> its law."""
 
 
 @functools.cache
@@ -34,43 +34,25 @@ def drawn(run: Run) -> tuple[pd.DataFrame, pd.DataFrame]:
     return run.rows("traces", **words), run.rows("episodes", **words)
 
 
-def gains(episodes: pd.DataFrame) -> dict[str, float]:
-    """Return the gains of the closed form."""
-    return {name: float(episodes[name].iloc[0]) for name in ("kp", "kv")}
-
-
 def facts(run: Run) -> dict:
-    """Return the start of each figure, and how far, how long and how straight its law goes from there."""
+    """Return the paper's figures as one, the start of each, and how far, how long and how straight its law goes."""
     traces, episodes = drawn(run)
-    values: dict = gains(episodes)
-    for end, letter in FIGURES.items():
-        at = {"start_id": f"figure-2.{end}", "contender": SHORT[letter]}
-        followed, row = find(traces, at), find(episodes, at).iloc[0]
+    kp, kv = gains(episodes)
+    values: dict = {"kp": kp, "kv": kv, "figures": responses(traces, kp, kv)}
+    for end, law in FIGURES.items():
+        at = {"start_id": f"figure-2.{end}", "contender": law}
+        followed, row = chosen(traces, at), chosen(episodes, at).iloc[0]
         values[f"start_{end}"] = ", ".join(f"{row[f'{angle}0']:.3g}" for angle, *_ in ANGLES).replace("-", "\u2212")
-        bend = float(bend_deg(followed, **gains(episodes)).max())
+        bend = float(bend_deg(followed, kp, kv).max())
         values[f"bend_{end}"] = f"{bend:.0f}" if bend > 1.0 else power(bend)
         values[f"time_{end}"], values[f"path_{end}"] = f"{row['settling_time_s']:.3f}", f"{row['path_ratio']:.2f}"
     angles = np.degrees(followed["angle_rad"])
     return values | {"first_5": f"{angles.iloc[0]:.0f}", "peak_5": f"{angles.max():.0f}"}
 
 
-def find(rows: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:
-    """Return the rows that have these words."""
-    return rows[(rows[list(words)].astype(str) == pd.Series(words)).all(axis=1)]
-
-
-def figures(run: Run) -> dict:
-    """Return the paper's figures 2.3 to 2.5 as one."""
-    traces, episodes = drawn(run)
-    return {"figures": responses(traces, **gains(episodes))}
-
-
 def euler_deg(trace: pd.DataFrame) -> np.ndarray:
     """Z-Y-X Euler angles [deg] of every sample, one row each, unwrapped from the first."""
-    columns = [[f"{c}_{x}" for x in "xyz"] for c in "noa"]
-    samples = zip(*(trace[names].itertuples(index=False, name=None) for names in columns), strict=True)
-    angles = np.array([chart(Rotation(*columns)).E for columns in samples])
-    return np.degrees(np.unwrap(angles, axis=0))
+    return np.degrees(np.unwrap(euler_angles_along(trace), axis=0))
 
 
 @responsive_picture
@@ -84,8 +66,8 @@ def responses(traces: pd.DataFrame, kp: float, kv: float, narrow: bool) -> Drawi
     figure, grid = style.panels(*shape, height=8.4 if narrow else 4.6, narrow=narrow, sharex=True)
     pairs = grid if narrow else grid.T
     said = [
-        draw_response(pair, find(traces, {"start_id": f"figure-2.{end}", "contender": SHORT[letter]}), end, kp, kv)
-        for pair, (end, letter) in zip(pairs, FIGURES.items(), strict=True)
+        draw_response(pair, chosen(traces, {"start_id": f"figure-2.{end}", "contender": law}), end, kp, kv)
+        for pair, (end, law) in zip(pairs, FIGURES.items(), strict=True)
     ]
     for axes in grid[-1]:
         axes.set_xlabel("time [s]")

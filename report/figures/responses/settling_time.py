@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 
 from bench.findings.theory import closed_form
+from report.figures.kit.laws import MATRIX
 from report.figures.kit.page import Run
-from report.figures.kit.rows import MATRIX, of
 from report.figures.kit.spelling import power
 
 DECADE = re.compile(r"-k(\d+)$")  # of a start that is 10^-k rad from 180°
@@ -17,7 +17,7 @@ FITTED = (3, 10)
 
 def facts(run: Run) -> dict:
     """Return the time a decade, by theory and as measured, and what becomes of exact 180° rotations."""
-    rows = of(run.rows("episodes", engine="ideal-rk4"), MATRIX, "half-turn")
+    rows = run.rows("episodes", engine="ideal-rk4", contender=MATRIX, start_set="half-turn")
     rows = rows.assign(k=rows["start_id"].astype(str).str.extract(DECADE, expand=False).astype(float))
     near, exact = rows[rows["k"].notna()], rows[rows["k"].isna()]
     return {

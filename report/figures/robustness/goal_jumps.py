@@ -10,8 +10,7 @@ from report.figures.kit import families
 from report.figures.kit.page import Run
 from report.figures.kit.tables import Table
 from report.figures.robustness.half_turn_noise import regulator_of
-from report.figures.robustness.robustness import counted
-from report.figures.robustness.rows import along, laws
+from report.figures.robustness.robustness import along, counted, laws
 
 KEPT, RESET = "goal-jump", "goal-jump-reset"
 SOON_S = 0.2
@@ -31,9 +30,8 @@ def measure(rows: pd.DataFrame) -> tuple[float, float]:
     return 100.0 * rows["long"].sum() / rows["far"].sum(), math.degrees(rows["path_rad"].max())
 
 
-def compare_paths(run: Run) -> list[tuple]:
+def compare_paths(run: Run, kept: pd.DataFrame, reset: pd.DataFrame) -> list[tuple]:
     """Return each law with memory that always settles: its measures, those of memory kept and reset side by side."""
-    kept, reset = soon(run, KEPT), soon(run, RESET)
     found = []
     for law in laws(along(run, KEPT), controls=False):
         own = [rows[rows["contender"] == law] for rows in (kept, reset)]
@@ -43,13 +41,11 @@ def compare_paths(run: Run) -> list[tuple]:
     return found
 
 
-def tables(run: Run) -> dict:
-    """Return the paths of each law with memory that always settles."""
-    return {"paths": PATHS(compare_paths(run))}
-
-
 def facts(run: Run) -> dict:
-    """Return how many starts jump, when, which ratio counts, and the share of long paths of the default [%]."""
+    """Return how many starts jump, when, which ratio counts, and the share of long paths of the default [%].
+
+    And the paths of each law with memory that always settles.
+    """
     kept, reset = soon(run, KEPT), soon(run, RESET)
     long = [measure(rows[rows["contender"] == find_default()])[0] for rows in (kept, reset)]
     return {
@@ -57,5 +53,6 @@ def facts(run: Run) -> dict:
         "times": " or ".join(f"{1000.0 * level:g}" for level in sorted(kept["level"].unique())),
         "detour": f"{DETOUR:g}",
         "near": f"{FAR_RAD:g}",
+        "paths": PATHS(compare_paths(run, kept, reset)),
         **dict(zip(("kept", "reset"), (f"{share:.1f}" for share in long), strict=True)),
     }

@@ -16,22 +16,23 @@ from bench.law.contenders.registry import find_contender
 from bench.law.kinds import Law
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
+from report.figures.kit.laws import gains
 from report.figures.kit.page import Run
-from report.figures.robustness.rows import along, gains, laws, starts
+from report.figures.robustness.robustness import along, laws, starts
 
 FOOT, TOP = 1e-4, 1.6
 
 
 def leaving(rows: pd.DataFrame) -> pd.DataFrame:
-    """Share of starts that leave and settle: a row a level, a column a law."""
-    return rows.pivot_table(index="level", columns="contender", values="good", aggfunc="mean", observed=True)
+    """Share of starts that leave and settle under some noise: a row a level, a column a law."""
+    noisy = rows[rows["level"] > 0.0]
+    return noisy.pivot_table(index="level", columns="contender", values="good", aggfunc="mean", observed=True)
 
 
 @responsive_picture
 def strips(rows: pd.DataFrame, narrow: bool) -> Drawing:
     """Draw a row a law: in colour the noise that holds it by theory; marks: the episodes, full where all are held."""
     shares = leaving(rows)
-    shares = shares[shares.index > 0]
     own = laws(rows, controls=False)
     figure, axes = style.panels(height=0.2 * len(own) + 0.9, narrow=narrow)
     words = []
@@ -73,11 +74,10 @@ def regulator_of(law: str) -> Law:
 
 
 def facts(run: Run) -> dict:
-    """Whom noise holds, by theory and in the episodes; laws with memory and without."""
+    """Whom noise holds, by theory and in the episodes, in numbers and drawn; laws with memory and without."""
     rows = along(run, HALF_TURN)
     kp, kv = gains(rows)
-    shares = leaving(rows)
-    noisy = shares[shares.index > 0]
+    noisy = leaving(rows)
     own = laws(rows, controls=False)
     known = {law: least(law, kp, kv) for law in own if not math.isnan(least(law, kp, kv))}
     agree = [(level >= begin) == (noisy.loc[level, law] < 0.5) for law, begin in known.items() for level in noisy.index]
@@ -96,9 +96,5 @@ def facts(run: Run) -> dict:
         "most": f"{max(jumping):.2g}",
         **{law: f"{keeps(law):.3f}" for law in ("hybrid", "late-braking", "mrp-linearized")},
         "delta": f"{DELTA:g}",
+        HALF_TURN: strips(rows),
     }
-
-
-def figures(run: Run) -> dict:
-    """Draw which laws leave 180° at which noise."""
-    return {HALF_TURN: strips(along(run, HALF_TURN))}

@@ -9,20 +9,42 @@ from matplotlib.patches import Rectangle
 
 import tasks
 from bench.experiments.tables.read import with_contender
-from bench.findings.perturbed import FOLLOWED_RAD, LOST, Threshold, Way, by_level, studied, thresholds
+from bench.findings.claims.tables import some
+from bench.findings.perturbed import FOLLOWED_RAD, LOST, Threshold, Way, by_level, studied, thresholds, went_well
 from bench.findings.theory import robustness_theory
+from bench.findings.theory.thresholds import HALF_TURN
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
-from report.figures.kit.page import NotInRun, Run, in_run
-from report.figures.robustness.rows import along, gains, laws, starts
+from report.figures.kit.laws import gains
+from report.figures.kit.page import Run, in_run
 
 AXES = tuple(tasks.axis_names())
-HALF_TURN = "half-turn-noise"
-"""Drawn in the chapter on what an error must do."""
 
 FAULT, FINE = "#d55e00", "#b9c3cf"
 
 Found = dict[str, dict[Way, Threshold]]
+
+
+@functools.cache
+def along(run: Run, name: str) -> pd.DataFrame:
+    """Return rows of one perturbation, by family, with `good`."""
+    rows = run.rows("robustness", axis=name)
+    names = families.in_order(rows["contender"].unique())
+    return rows.assign(
+        contender=pd.Categorical(rows["contender"].astype(str), names, ordered=True),
+        good=went_well(rows),
+    )
+
+
+def laws(rows: pd.DataFrame, controls: bool = True) -> list[str]:
+    """Return the laws of the rows, family by family; without the negative controls if so asked."""
+    names = [name for name in rows["contender"].cat.categories if (rows["contender"] == name).any()]
+    return names if controls else [name for name in names if name not in families.CONTROLS]
+
+
+def starts(rows: pd.DataFrame) -> int:
+    """Return the starts of a law at a level."""
+    return int(rows.groupby(["contender", "level"], observed=True).size().max())
 
 
 @functools.cache
@@ -43,9 +65,7 @@ def found(run: Run) -> Found:
         known = in_run(lambda axis=axis: thresholds(counted(run, axis)))
         for law in laws(along(run, axis)) if known else ():
             each.setdefault(law, {}).update(known[law])
-    if not each:
-        raise NotInRun("no perturbation")
-    return each
+    return some(each, "perturbation")
 
 
 def compared(each: Found) -> list[str]:
@@ -55,23 +75,16 @@ def compared(each: Found) -> list[str]:
     ]
 
 
-def differing(each: Found) -> tuple[list[Way], list[Way]]:
-    """Return the ways along which thresholds of the compared laws differ, and those along which all have one."""
-    every = list(dict.fromkeys(way for own in each.values() for way in own))
-    apart = [way for way in every if len({str(each[law][way]) for law in compared(each)}) > 1]
-    return apart, [way for way in every if way not in apart]
-
-
-def named(way: Way) -> str:
-    """Return the perturbation's title, and its direction where it shrinks."""
-    title = tasks.axis(way.axis).title.lower()
-    return title if way.grows else f"{title} (downwards)"
+def differing(each: Found) -> list[Way]:
+    """Return the ways along which thresholds of the compared laws differ."""
+    every = dict.fromkeys(way for own in each.values() for way in own)
+    return [way for way in every if len({str(each[law][way]) for law in compared(each)}) > 1]
 
 
 def facts(run: Run) -> dict:
     """Return how many laws and perturbations there are, how they differ, and limits of the linear loop."""
     each = found(run)
-    apart, _ = differing(each)
+    apart = [tasks.axis(way.axis).title.lower() + " (downwards)" * (not way.grows) for way in differing(each)]
     kp, kv = gains(along(run, "delay"))
     return {
         "limit": f"{robustness_theory.least_rate(kp, kv):g}",
@@ -82,7 +95,7 @@ def facts(run: Run) -> dict:
         "held_deg": f"{np.degrees(FOLLOWED_RAD):g}",
         "starts": int(counted(run, "delay")["starts"].max()),
         "run_starts": starts(along(run, "delay")),
-        "apart": "; ".join(map(named, apart)) or "none",
+        "apart": "; ".join(apart) or "none",
     }
 
 
@@ -94,7 +107,7 @@ def figures(run: Run) -> dict:
 @responsive_picture
 def threshold_map(each: Found, narrow: bool) -> Drawing:
     """Return a cell for each threshold, pale where it is the last level tried; laws that are alike share a row."""
-    ways = [way for way in differing(each)[0] if way.axis != HALF_TURN]
+    ways = [way for way in differing(each) if way.axis != HALF_TURN]  # drawn on the page on what an error must do
     rows = group_alike(each, ways)
     figure, axes = style.panels(height=0.26 * len(rows) + 1.5, narrow=narrow)
     for place, laws_alike in enumerate(rows):
