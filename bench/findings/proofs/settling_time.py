@@ -10,24 +10,22 @@ u is traced from the law's own source on the axis. Its cosine and sine of theta/
 
 so that what a linear spring does cancels before anything is rounded. With a = Kv/2, xi = exp(a t) x and
 upsilon = exp(a t) (v + a x) the linear system stands still, and xi' = upsilon, upsilon' = exp(a t) N with
-N = -u/p + Kv v + a^2 x. Each step is a Taylor polynomial with its remainder over an enclosure of the whole step.
+N = -u/p + Kv v + a^2 x (`flow`).
 
 After the last crossing V = v^2/2 + Kp U/p^2 is below what it is at the edge of the band; the descent theorem does the
 rest. The greatest time over p in [0, pi] is found by bisection of p, the intervals with the latest end first.
 """
 
-import functools
 import heapq
 import itertools
 import math
-import operator
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import sympy as sp
-from flint import arb, arb_series, ctx
+from flint import arb
 
-from bench.base.bisection import bisect
+from bench.findings.proofs.flow import Equation, Unenclosed, enclose, turned_by
 from bench.findings.proofs.solver import Solver
 from bench.findings.proofs.theorem import DoesNotFit
 from bench.findings.proofs.trace import Symbols, Traced
@@ -36,8 +34,7 @@ from bench.law.kinds import Law
 from bench.law.so3 import IDENTITY, Rotation, from_quaternion
 from tasks.rules import RULES
 
-ORDER, TERMS, PARTS, ACCURACY = 9, 14, 16, 1e-5
-STEP_S, SHORTEST_S, LONGEST_S, WIDTH_S, NARROWEST_RAD = 0.02, 0.001, 1.2, 5e-4, 1e-4
+PARTS, WIDTH_S, NARROWEST_RAD = 16, 5e-4, 1e-4
 Z, V, C, S, P = sp.symbols("z v c s P")
 
 
@@ -47,15 +44,6 @@ class Bound(NamedTuple):
     lower: float
     upper: float
     intervals: int
-
-
-class Equation(NamedTuple):
-    """N(z, v, c, s, P), its partial derivatives, and bounds of the spring's slope within the band."""
-
-    N: Callable[..., Any]
-    slopes: list[Callable[..., Any]]
-    softest: float
-    hardest: float
 
 
 def trace_on_axis(law: Law, gains: Gains) -> Any:
@@ -123,150 +111,6 @@ def gather(polynomial: sp.Poly) -> Any:
     """Return a polynomial by powers of z and v, what each is multiplied with as a product of factors."""
     by_power = sp.Poly(polynomial.as_expr(), Z, V)
     return sum(sp.factor(factor) * Z**i * V**j for (i, j), factor in by_power.terms())
-
-
-def turned_by(x: arb, P: arb) -> tuple[arb, arb, arb, arb]:
-    """Return c, s and their derivatives by P at x, by their series, since P may hold zero.
-
-    c = (1 - cos(p x/2))/P = (x^2/4) (1/2! - u/4! + ...), s = (x/2 - sin(p x/2)/p)/P = (x^3/8) (1/3! - u/5! + ...) with
-    u = P x^2/4.
-    """
-    u, found = P * x * x / 4, []
-    for power in (2, 3):
-        terms = [arb((-1) ** k) / math.factorial(2 * k + power) for k in range(TERMS + 1)]
-        value, slope = arb(0, abs(terms[-1] * u**TERMS).upper()), arb(0, abs(TERMS * terms[-1] * u ** (TERMS - 1)).upper())
-        for k in reversed(range(TERMS)):
-            value, slope = value + terms[k] * u**k, slope + (k * terms[k] * u ** (k - 1) if k else 0)
-        found.append(((x / 2) ** power * value, (x / 2) ** (power + 2) * slope))
-    (c, c_P), (s, s_P) = found
-    return c, s, c_P, s_P
-
-
-class Polynomials(NamedTuple):
-    """xi and upsilon over one step as Taylor polynomials, whose last coefficients hold the remainders."""
-
-    xi: list[arb]
-    upsilon: list[arb]
-
-    def at(self, time: arb, a: arb) -> tuple[arb, arb]:
-        """Return x and y = v + a x at a time from the step's beginning."""
-        shrinks = (-a * time).exp()
-        x, y = (shrinks * functools.reduce(lambda sum_, one: sum_ * time + one, reversed(part)) for part in self)
-        return x, y
-
-
-class Flow:
-    """Motions for every P of an interval, and their derivatives by P."""
-
-    def __init__(self, equation: Equation, a: arb, P: arb) -> None:
-        self.N, self.slopes, self.a, self.P = equation.N, equation.slopes, a, P
-
-    def rates(self, state: Sequence[Any], grows: Any) -> list[Any]:
-        """Return the derivatives of xi, upsilon, c and s, with grows = exp(a t); and, where given, of theirs by P."""
-        (xi, upsilon, c, s), P = state[:4], self.P
-        x, v = xi / grows, (upsilon - self.a * xi) / grows
-        z = x / 2 - P * s
-        found = [upsilon, grows * self.N(z, v, c, s, P), z * v / 2, c * v / 2]
-        if len(state) > 4:
-            dxi, dupsilon, dc, ds = state[4:]
-            dx, dv = dxi / grows, (dupsilon - self.a * dxi) / grows
-            dz = dx / 2 - P * ds - s
-            parts = zip(self.slopes, (dz, dv, dc, ds, 1), strict=True)
-            push = functools.reduce(operator.add, (slope(z, v, c, s, P) * change for slope, change in parts))
-            found += [dupsilon, grows * push, (dz * v + z * dv) / 2, (dc * v + c * dv) / 2]
-        return found
-
-    def complete(self, begin: Sequence[arb], grows: arb) -> list[arb]:
-        """Return xi, upsilon and, where given, their derivatives by P, with c and s beside them."""
-        x = begin[0] / grows
-        c, s, c_P, s_P = turned_by(x, self.P)
-        dx = begin[2] / grows if len(begin) > 2 else 0
-        more = [*begin[2:], c_P + (x / 2 - self.P * s) / 2 * dx, s_P + c / 2 * dx] if len(begin) > 2 else []
-        return [*begin[:2], c, s, *more]
-
-    def expand(self, begin: Sequence[arb], grows: arb) -> list[Polynomials]:
-        """Return the Taylor polynomials from there: of xi and upsilon, and of their derivatives by P where given."""
-        first = [arb_series([one]) for one in self.complete(begin, grows)]
-        state, growing = first, (arb_series([0, 1]) * self.a).exp() * grows
-        for _ in range(ORDER):
-            rates = self.rates(state, growing)
-            state = [one + arb_series(rate).integral() for one, rate in zip(first, rates, strict=True)]
-        coefficients = [[one[k] for k in range(ORDER + 1)] for one in state]
-        return [Polynomials(*coefficients[k : k + 2]) for k in range(0, len(state), 4)]
-
-    def step(self, begin: Sequence[arb], h: arb) -> tuple[list[Polynomials], arb]:
-        """Return the polynomials of one step of [0, h], and an enclosure of v over it.
-
-        Errors:
-            Unenclosed: no enclosure of the step was found, or a wide one: shorten the step.
-        """
-        during = arb(0).union(h)
-        grows = (self.a * during).exp()
-        box = list(begin)
-        for _ in range(12):
-            rates = self.rates(self.complete(box, grows), grows)
-            rates = [*rates[:2], *rates[4:6]]
-            image = [one + during * rate for one, rate in zip(begin, rates, strict=True)]
-            if all(outer.contains(inner) for outer, inner in zip(box, image, strict=True)):
-                break
-            box = [one.union(other) for one, other in zip(box, image, strict=True)]
-            box = [one + arb(0, 0.2 * float(one.rad()) + 1e-12) for one in box]
-        else:
-            raise Unenclosed
-        box = image  # tighter, and an enclosure too
-        near, over = self.expand(begin, arb(1)), self.expand(box, grows)
-        joined = [
-            Polynomials(*([*part[:-1], rest[-1]] for part, rest in zip(one, whole, strict=True)))
-            for one, whole in zip(near, over, strict=True)
-        ]
-        if any(float((one.upsilon[-1] * h**ORDER).rad()) > ACCURACY for one in joined):
-            raise Unenclosed
-        return joined, (box[1] - self.a * box[0]) / grows
-
-
-class Unenclosed(Exception):
-    """A motion that is not known well enough."""
-
-
-def enclose(equation: Equation, a: arb, p: tuple[float, float], tolerance: arb) -> tuple[float, float]:
-    """Return times before and after which the angle comes to stay below the tolerance, for every p of an interval.
-
-    A motion is the one of the middle P, and its derivative by P over the interval times what P is away.
-    """
-    ctx.cap = ORDER + 1
-    ends = [arb(one) if one < math.pi else arb.pi() for one in p]
-    P = (ends[0] ** 2).union(ends[1] ** 2)
-    middle, away, h = P.mid(), P - P.mid(), STEP_S
-    one, all_ = Flow(equation, a, middle), Flow(equation, a, P)
-    centre, change = (arb(1), a), (arb(0), arb(0))
-    lower = upper = None
-    x, began = arb(1), 0.0
-    while began < LONGEST_S:
-        begin = [at + by * away for at, by in zip(centre, change, strict=True)]
-        try:
-            (path,), _ = one.step(centre, arb(h))
-            (_, drift), v = all_.step([*begin, *change], arb(h))
-        except (Unenclosed, ValueError):  # flint's ValueError: it would divide by an interval that holds zero
-            h = h / 2
-            if h < SHORTEST_S:
-                raise Unenclosed from None
-            continue
-
-        def angle(t: float, path: Polynomials = path, drift: Polynomials = drift) -> arb:
-            return path.at(arb(t), a)[0] + drift.at(arb(t), a)[0] * away
-
-        before, centre, change = x, path.at(arb(h), a), drift.at(arb(h), a)
-        x, y = (at + by * away for at, by in zip(centre, change, strict=True))
-        if lower is None and not x > tolerance:
-            lower = began + bisect(lambda t: angle(t) > tolerance, 0.0, h, 20)[0]
-        if upper is None and x < tolerance and v < 0:
-            upper = began + bisect(lambda t: not angle(t) < tolerance, 0.0, h, 20)[1]
-        elif upper is not None and not (v < 0 and before < tolerance and x > -tolerance):
-            upper = None  # it may have left the band again
-        if upper is not None and (y - a * x) ** 2 + x**2 * equation.hardest < tolerance**2 * equation.softest:
-            return lower or 0.0, upper
-        began, h = began + h, min(2 * h, STEP_S)
-    raise Unenclosed
 
 
 def bound(law: Law, gains: Gains = PAPERS_GAINS) -> Bound:
