@@ -137,19 +137,9 @@ def start_set_names(arm: bool = False) -> list[str]:
     return sorted(_start_sets(arm))
 
 
-def start_set_title(name: str, arm: bool = False) -> str:
-    """Return what a start set is, in a few words."""
-    return _find_set(name, arm).title
-
-
-def start_set_size(name: str, arm: bool = False) -> int:
-    """How many starts a set has if no number is asked for; an arm that cannot do so many has fewer."""
-    return _find_set(name, arm).size
-
-
 def knows_joints(name: str) -> bool:
     """Whether the starts of a set of arms say at which joint angles the tool is at its goal."""
-    chosen = _find_set(name, True)
+    chosen = find_start_set(name, True)
     return isinstance(chosen, ArmStartSet) and chosen.knows_joints
 
 
@@ -165,7 +155,7 @@ def start_set(name: str, count: int | None = None, seed: int = 0, arm: str = "")
     """
     if count is not None and count < 1:
         raise BadValue(f"count {count} starts of '{name}': a start set needs at least 1 (try: count=10)")
-    chosen = _find_set(name, bool(arm))
+    chosen = find_start_set(name, bool(arm))
     wanted = chosen.size if count is None else count
     if isinstance(chosen, ArmStartSet):
         return list(_starts_on(_find_arm(arm), chosen, max(wanted, chosen.size), seed)[:wanted])
@@ -180,7 +170,7 @@ def _starts_on(arm: Arm, chosen: ArmStartSet, count: int, seed: int) -> tuple[St
 
 def start_set_length(name: str, count: int | None = None, seed: int = 0, arm: str = "") -> int:
     """How many starts `start_set` has with the same arguments; none of a sampled set is made to know it."""
-    chosen = _find_set(name, bool(arm))
+    chosen = find_start_set(name, bool(arm))
     if isinstance(chosen, StartSet) and chosen.between:
         return chosen.size if count is None else count
     return len(start_set(name, count, seed, arm))
@@ -191,7 +181,7 @@ def starts_between(name: str, first: int, end: int, seed: int = 0) -> list[Start
 
     Of a sampled set no other is made, so that a stretch of a million costs what it costs of a thousand.
     """
-    chosen = _find_set(name, False)
+    chosen = find_start_set(name, False)
     if isinstance(chosen, StartSet) and chosen.between:
         return chosen.between(first, end, seed)
     return start_set(name, end, seed)[first:]
@@ -241,5 +231,6 @@ def _start_sets(arm: bool) -> dict[str, StartSet | ArmStartSet]:
     return constants(arm_starts if arm else starts, "STARTS")
 
 
-def _find_set(name: str, arm: bool) -> StartSet | ArmStartSet:
+def find_start_set(name: str, arm: bool = False) -> StartSet | ArmStartSet:
+    """Return the start set of this name, of the free body or of arms; UnknownName lists the known ones."""
     return pick("start set", name, _start_sets(arm), "tasks/arm_starts" if arm else "tasks/starts")

@@ -13,7 +13,6 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 
 import tasks
 from bench.engines.contact_episode import room, rows, wrench
-from bench.experiments.contact import can_do
 from bench.law.chain import Chain
 from bench.law.contenders.registry import contenders
 from bench.law.control.contact_controller import FORMS
@@ -25,7 +24,7 @@ from support.bits import EPS
 from support.buffers import bias_of, chain_of, inertia_of, jacobian_of
 from support.on_arms import Here
 from support.states import as_rotation, vector
-from tasks.contact import Specification, Trial, prepare
+from tasks.contact import Specification, Trial, can_do, prepare
 from tasks.contact_model import model_xml
 from tasks.domains.wrench_probe import TASK
 
