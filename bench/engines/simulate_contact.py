@@ -100,7 +100,7 @@ def _episode(
         noise = conditions.sensor.draw_noise(task.horizon_s, conditions.dt_s)
         world = in_contact.World(**scene.world, shape=shape, touch=touch, record=record, noise=noise)
         limits = in_contact.limits(shape, conditions.gains)
-        simulate(_loop(), (pointer(controller),), world, NO_MEMORY, start, limits, row[None])
+        simulate(_loop(), (_pointer(controller._replace(form="")),), world, NO_MEMORY, start, limits, row[None])
     failure = GOING if row[FAILURE_TICK] == NEVER else int(row[OUTCOME])
     if failure == BROKEN:
         message = message or trapped.batch().error()
@@ -116,14 +116,10 @@ def _loop() -> Callable:
 def prepare_contact(controller: ContactController) -> None:
     """Compile what `run_contact` will need, or take it from the disk cache."""
     _loop()
-    pointer(controller)
-
-
-def pointer(controller: ContactController) -> Callable:
-    """Return the rows of a controller, compiled or taken from the disk cache."""
-    return _pointer(controller._replace(form=""))
+    _pointer(controller._replace(form=""))
 
 
 @made_once
-def _pointer(controller: ContactController) -> Callable:
-    return compile_function(controller.assemble, TOUCH)
+def _pointer(law: ContactController) -> Callable:
+    """Return the rows of a controller, whatever its form, compiled or taken from the disk cache."""
+    return compile_function(law.assemble, TOUCH)

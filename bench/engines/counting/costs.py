@@ -154,7 +154,11 @@ def checked(name: str, state: Any, tally: Tally, plain: Callable, counting: Call
 
 
 def counted(numbers: Any, tally: Tally) -> Any:
-    """Return the nested tuples with every number replaced by a counting scalar."""
+    """Return nested tuples and arrays with every float replaced by a counting scalar; counts of things stay ints."""
+    if isinstance(numbers, int):
+        return numbers
+    if isinstance(numbers, np.ndarray):
+        return np.frompyfunc(lambda number: Counted(number, tally), 1, 1)(numbers)
     if not isinstance(numbers, tuple):
         return Counted(numbers, tally)
     inside = [counted(number, tally) for number in numbers]

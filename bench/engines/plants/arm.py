@@ -153,7 +153,7 @@ def command(laws, body, sensed, now, gains, memory, numbers):
         cut(work.buffers.tau, body.joints.rated, n)
     if work.sent.shape[0] > 0:
         drive(work.buffers.tau, work.sent, controls.share, controls.change, now.tick, work.fg, n)
-    total = load(seven(work.buffers.tau, n), body.joints.rated)
+    total, _ = load(work.buffers.tau, body.joints.rated, n)
     failure = check_command(total, controls.torque_limit_squared)
     return Act(u, u, dot(u, u), laws.third(sensed.R, sensed.goal.R), failure, ()), memory
 
