@@ -39,7 +39,6 @@ from tasks.velocity import servo
 IDEAL_MOTORS = "ideal-motors"
 """The variation of the plant that the paper assumes."""
 ARM_TASK = "arm-regulation"
-ENGINES = ("native", "reference")
 
 
 def run_arm(

@@ -1,7 +1,7 @@
 """Episodes of arms in contact: a controller on trials of a task and an arm, one record an episode back."""
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any, NamedTuple
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -26,14 +26,6 @@ from tasks.contact_rest import has_left
 from tasks.verdict import GOING
 
 ENGINES = ("native", "reference")
-
-
-class Scene(NamedTuple):
-    """A model and its data, and of the loop's world what is no trial's."""
-
-    model: mujoco.MjModel
-    data: mujoco.MjData
-    world: dict
 
 
 def run_contact(
@@ -70,8 +62,8 @@ def _check(
         check_trial(trial, arm)
 
 
-def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: ContactModel = STANDARD) -> Scene:
-    """Return a fresh model of a task on an arm."""
+def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: ContactModel = STANDARD) -> tuple:
+    """Return a fresh model of a task on an arm, its data, and of the loop's world what is no trial's."""
     model = skip_constraints(model_of(model_xml(task, arm, conditions.dt_s, contact), conditions.integrator))
     data = mujoco.MjData(model)
     asked = np.array((model._address, data._address, 0), np.int64)
@@ -81,7 +73,7 @@ def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: Con
         **{"gap": gap, "turned": turned, "work": in_contact.work(arm.joints, model.nv)},
         **{"batch": trapped.batch().address, "callback": trapped.CALLBACK, "asked": asked},
     }
-    return Scene(model, data, world)
+    return model, data, world
 
 
 def _episode(
@@ -92,13 +84,13 @@ def _episode(
     if scene is None:
         row, message, data = reference.run_contact(controller, task, arm, trial, conditions, contact, shape, record)
     else:
-        data, row, message = scene.data, np.zeros(FIRST_METRIC), ""
-        mujoco.mj_resetData(scene.model, data)
-        prepare(scene.model, data, trial)
-        scene.world["work"].legs[: len(trial.pushes)] = trial.pushes
+        (model, data, parts), row, message = scene, np.zeros(FIRST_METRIC), ""
+        mujoco.mj_resetData(model, data)
+        prepare(model, data, trial)
+        parts["work"].legs[: len(trial.pushes)] = trial.pushes
         touch, start = conditions.touch, np.zeros((1, START_WIDTH))
         noise = conditions.sensor.draw_noise(task.horizon_s, conditions.dt_s)
-        world = in_contact.World(**scene.world, shape=shape, touch=touch, record=record, noise=noise)
+        world = in_contact.World(**parts, shape=shape, touch=touch, record=record, noise=noise)
         limits = in_contact.limits(shape, conditions.gains)
         simulate(_loop(), (_pointer(controller._replace(form="")),), world, NO_MEMORY, start, limits, row[None])
     failure = GOING if row[FAILURE_TICK] == NEVER else int(row[OUTCOME])

@@ -5,8 +5,8 @@ Every counted call is checked against the plain call, so that a cost is never th
 
 import functools
 import math
+import statistics
 import struct
-from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple
 
@@ -52,11 +52,14 @@ def cost(contender: Contender) -> Cost:
         OutsideDialect: the law uses what cannot be counted.
         BadLaw: the counted law does not return what the plain law returns.
     """
-    calls = list(counted_calls(contender))
-    sampled = Counter(call.counts for call in calls if call.is_typical)
-    typical, times = sampled.most_common(1)[0]
-    worst = max(calls, key=lambda call: size(call.counts))
-    return Cost(contender, typical, worst.counts, times / sampled.total(), worst.state.id)
+    return cost_of(contender, list(counted_calls(contender)), statistics.mode)
+
+
+def cost_of(one: Any, calls: list[Call], choose: Callable[[list[Counts]], Counts]) -> Cost:
+    """Return the cost that calls show; choose: the typical one of what was counted in sampled states."""
+    sampled = [call.counts for call in calls if call.is_typical]
+    typical, worst = choose(sampled), max(calls, key=lambda call: size(call.counts))
+    return Cost(one, typical, worst.counts, sampled.count(typical) / len(sampled), worst.state.id)
 
 
 def rows(contenders: Iterable[Contender]) -> list[dict]:

@@ -6,7 +6,6 @@ depends on anything else of an arm.
 """
 
 import functools
-from collections import Counter
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -14,14 +13,13 @@ import numpy as np
 
 import tasks
 from bench.engines.arm_episode import buffers
-from bench.engines.counting.costs import Call, Cost, checked, contender_words, counted, rows_of, size
-from bench.engines.counting.counted import Tally
+from bench.engines.counting.costs import Call, Cost, checked, contender_words, cost_of, counted, rows_of, size
+from bench.engines.counting.counted import Counts, Tally
 from bench.engines.counting.staged import in_stage, law_of, staged
 from bench.engines.counting.states import GAINS, goal_of
 from bench.engines.episode import vector
 from bench.law.chain import Chain
 from bench.law.contender import Contender
-from bench.law.control.contact_controller import ContactController
 from bench.law.control.resolved_acceleration import Parts, assembly, control, parts_of
 from bench.law.inputs import NO_MEMORY, Goal
 from bench.law.so3 import Rotation
@@ -88,15 +86,12 @@ def cost_on_arm(contender: Contender, arm: str) -> Cost:
     counting = _controller(contender, _staged_parts(contender, tally), tally)
     with np.errstate(all="ignore"):
         calls = [_call(contender, plain, counting, tally, state) for state in arm_states(arm)]
-    return median_and_worst(contender, calls)
+    return cost_of(contender, calls, median)
 
 
-def median_and_worst(one: Contender | ContactController, calls: list[Call]) -> Cost:
-    """Return the cost that these calls show."""
-    ranked = sorted((call.counts for call in calls if call.is_typical), key=size)
-    typical = ranked[len(ranked) // 2]
-    worst = max(calls, key=lambda call: size(call.counts))
-    return Cost(one, typical, worst.counts, Counter(ranked)[typical] / len(ranked), worst.state.id)
+def median(counts: list[Counts]) -> Counts:
+    """Return the upper median by size."""
+    return sorted(counts, key=size)[len(counts) // 2]
 
 
 def rows_on_arm(contender: Contender, joints: int) -> list[dict]:
