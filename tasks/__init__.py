@@ -51,7 +51,7 @@ _find_arm = arm  # several functions below have an argument of that name
 
 def names() -> list[str]:
     """Names of all tasks, sorted."""
-    return sorted(_tasks())
+    return sorted(_tasks(Task, ArmTask))
 
 
 def is_for_arms(task: str) -> bool:
@@ -66,7 +66,7 @@ def pairs() -> list[tuple[str, str]]:
 
 def described(name: str) -> Task | ArmTask:
     """Return what the file of a task says of it, whether or not it needs an arm; UnknownName lists the known ones."""
-    if name in _contact_tasks():
+    if name in _tasks(ContactTask):
         raise UnknownName(f"task '{name}' is one in contact (try: tasks.load('{name}', arm='ur5e'))")
     return pick("task", name, constants(domains, "TASK"), "tasks/domains")
 
@@ -81,7 +81,7 @@ def task(name: str, arm: str = "") -> Task:
     if isinstance(found, ArmTask):
         return found.on(_needed(arm, name))
     if arm:
-        with_arms = ", ".join(word for word, one in _tasks().items() if isinstance(one, ArmTask))
+        with_arms = ", ".join(_tasks(ArmTask))
         raise BadValue(
             f"task '{name}' has no arm, but '{arm}' was named (leave it out, or choose a task for arms: {with_arms})"
         )
@@ -122,7 +122,7 @@ def load(
     from tasks import contact_episode  # dm_control takes a second to import; listing names must not
     from tasks.episode import environment
 
-    if isinstance(task, str) and task in _contact_tasks():
+    if isinstance(task, str) and task in _tasks(ContactTask):
         one = contact_task(task)
         one = one._replace(horizon_s=one.horizon_s if horizon is None else horizon)
         return contact_episode.environment(one, _needed(arm, task), start, dt, integrator or "implicitfast", vary=vary)
@@ -210,21 +210,16 @@ def variation(name: str) -> Variation:
 
 def contact_names() -> list[str]:
     """Names of all tasks in contact, sorted."""
-    return sorted(_contact_tasks())
+    return sorted(_tasks(ContactTask))
 
 
 def contact_task(name: str) -> ContactTask:
     """Return the task in contact of this name; UnknownName lists the known ones."""
-    return pick("task in contact", name, _contact_tasks(), "tasks/domains")
+    return pick("task in contact", name, _tasks(ContactTask), "tasks/domains")
 
 
-def _tasks() -> dict[str, Task | ArmTask]:
-    found = constants(domains, "TASK")
-    return {name: one for name, one in found.items() if isinstance(one, (Task, ArmTask))}
-
-
-def _contact_tasks() -> dict[str, ContactTask]:
-    return {name: one for name, one in constants(domains, "TASK").items() if isinstance(one, ContactTask)}
+def _tasks(*kinds: type) -> dict[str, Any]:
+    return {name: one for name, one in constants(domains, "TASK").items() if isinstance(one, kinds)}
 
 
 def _start_sets(arm: bool) -> dict[str, StartSet | ArmStartSet]:

@@ -186,11 +186,6 @@ def made(record: np.ndarray, failure: int, ticks: int, message: str, data: Any) 
     return Ended(OUTCOMES[GOING if failure == RESTED else failure], record[:ticks], message, failure == RESTED)
 
 
-def blank(shape: Numbers) -> np.ndarray:
-    """Return a record to be filled."""
-    return np.full((shape.ticks, WIDTH), np.nan)
-
-
 def sensors_of(model: Any) -> tuple[int, int]:
     """Return the places of the gap and of the scene's joint among the sensor values; -1 if the task has none."""
     names = [model.sensor(i).name for i in range(model.nsensor)]

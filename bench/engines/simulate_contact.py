@@ -22,7 +22,6 @@ from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Trial, leg, prepare, refuse
 from tasks.contact_checks import check_contact, check_trial
 from tasks.contact_model import STANDARD, ContactModel, model_xml
-from tasks.contact_rest import has_left
 from tasks.verdict import GOING
 
 ENGINES = ("native", "reference")
@@ -80,7 +79,7 @@ def _episode(
     scene: Any, controller: ContactController, task: ContactTask, arm: Arm, trial: Trial, conditions: Any, contact: Any
 ) -> Ended:
     shape = contact_episode.numbers(controller, task, trial, arm.rated, conditions)
-    record = contact_episode.blank(shape)
+    record = np.full((shape.ticks, contact_episode.WIDTH), np.nan)
     if scene is None:
         row, message, data = reference.run_contact(controller, task, arm, trial, conditions, contact, shape, record)
     else:
@@ -100,8 +99,7 @@ def _episode(
 
 
 def _loop() -> Callable:
-    for function in (leg, has_left):
-        register(function)
+    register(leg)
     return compiled_loop("contact")
 
 

@@ -171,10 +171,9 @@ def _run(
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loop and the law."""
-    from bench.engines.simulate import compiled_loop, evaluation
+    from bench.engines import simulate
 
-    compiled_loop("perturbed", metrics())
-    evaluation(settings.contender(unit.contender))
+    simulate.prepare("perturbed", settings.contender(unit.contender), metrics())
 
 
 EXPERIMENT = Experiment(

@@ -179,10 +179,9 @@ def values(answer: Any) -> Any:
 
 def bits(answer: Any) -> bytes:
     """Return the numbers of an answer, bit by bit: NaN equals NaN, and 0.0 is not -0.0."""
+    answer = values(answer)
     if isinstance(answer, tuple):
-        return b"".join(bits(number) for number in answer)
-    if isinstance(answer, Counted):
-        answer = answer.value
-    if not isinstance(answer, int | float):
+        return b"".join(map(bits, answer))
+    if not isinstance(answer, float):
         return repr(answer).encode()
     return struct.pack("<d", answer if answer == answer else math.nan)
