@@ -1,8 +1,8 @@
 """A rigid body whose inertia is not the controller's model of it, moved by a torque that is held."""
 
-from bench.engines.ideal import held_step, rk4_step
+from bench.engines.ideal import held_step, moved, plus, rotation_rate, weighted
 from bench.law.scalar import kernel, sqrt
-from bench.law.so3 import cross, dot, rotate, rotate_back
+from bench.law.so3 import Rotation, cross, dot, rotate, rotate_back
 
 
 @kernel
@@ -16,22 +16,29 @@ def bounded(u, bound):
 
 
 @kernel
-def uneven_acceleration(R, omega, u, inertia, memory):
-    """omegadot = R J^-1 (R^T u - W x J W), W = R^T omega: Euler's equations under the torque u, base frame.
-
-    In the form of a law, as `rk4_step` asks one: the torque stands for the goal, and the moments of inertia for gains.
-    """
+def uneven_acceleration(R, omega, u, inertia):
+    """omegadot = R J^-1 (R^T u - W x J W), W = R^T omega: Euler's equations under the torque u, base frame."""
     W = rotate_back(R, omega)
     x, y, z = rotate_back(R, u)
     gx, gy, gz = cross(W, (inertia[0] * W[0], inertia[1] * W[1], inertia[2] * W[2]))
-    return rotate(R, ((x - gx) / inertia[0], (y - gy) / inertia[1], (z - gz) / inertia[2])), memory, 0.0
+    return rotate(R, ((x - gx) / inertia[0], (y - gy) / inertia[1], (z - gz) / inertia[2]))
 
 
 @kernel
 def uneven_step(R, omega, u, inertia, h):
     """Return the body one Runge-Kutta step on under a torque held in the base frame."""
-    acceleration, memory, _ = uneven_acceleration(R, omega, u, inertia, 0.0)
-    return rk4_step(uneven_acceleration, R, omega, acceleration, u, inertia, memory, h)
+    half = 0.5 * h
+    a1, R1 = uneven_acceleration(R, omega, u, inertia), rotation_rate(R, omega)
+    omega2, at2 = plus(omega, half, a1), moved(R, half, R1)
+    a2, R2 = uneven_acceleration(at2, omega2, u, inertia), rotation_rate(at2, omega2)
+    omega3, at3 = plus(omega, half, a2), moved(R, half, R2)
+    a3, R3 = uneven_acceleration(at3, omega3, u, inertia), rotation_rate(at3, omega3)
+    omega4, at4 = plus(omega, h, a3), moved(R, h, R3)
+    a4, R4 = uneven_acceleration(at4, omega4, u, inertia), rotation_rate(at4, omega4)
+    n = weighted(R1.n, R2.n, R3.n, R4.n)
+    o = weighted(R1.o, R2.o, R3.o, R4.o)
+    a = weighted(R1.a, R2.a, R3.a, R4.a)
+    return moved(R, h / 6.0, Rotation(n, o, a)), plus(omega, h / 6.0, weighted(a1, a2, a3, a4))
 
 
 @kernel

@@ -22,8 +22,8 @@ from bench.engines.simulate_bodies import draw_noise
 from bench.engines.simulate_bodies import run_disturbed as run
 from bench.law.contenders.registry import find_contender
 from tasks.base import Start
-from tasks.condition import NO_FEEDFORWARD, RATE, Condition
-from tasks.moving_goal import reference_rates
+from tasks.condition import Condition
+from tasks.moving_goal import NO_FEEDFORWARD, RATE, reference_rates
 from tasks.rotations import about, short_of_180_degrees
 from tasks.rules import RULES
 from tasks.verdict import SETTLED
@@ -124,9 +124,8 @@ def test_small_noise_adds_up_as_it_does_in_the_linear_loop():
     """About the goal each axis is theta' = theta + h w + h^2/2 u, w' = w + h u, u = -Kp (theta + n) - Kv (w + m)."""
     condition, size, h = Condition(attitude_noise=1e-6, rate_noise=1e-5), 1e-6, 1e-3
     rows = ended("rotation-matrix", [Start("at the goal", (1.0, 0.0, 0.0, 0.0))], condition, horizon_s=2.0)
-    noise = draw_noise(0, 1, 2001, 0)[0]
     theta, rate, squares = np.zeros(3), np.zeros(3), []
-    for n in noise[:2000]:
+    for n in draw_noise(0, 1, 2001, 0)[0, :2000]:
         u = -KP * (theta + size * n[:3]) - KV * (rate + 10.0 * size * n[3:])
         theta, rate = theta + h * rate + 0.5 * h * h * u, rate + h * u
         squares.append(theta @ theta)

@@ -26,8 +26,8 @@ from bench.law.contenders.registry import all_contenders, contenders, find_conte
 from bench.law.display import Equation
 from bench.law.inputs import AT_REST, Gains, Goal
 from tasks.base import Start
-from tasks.condition import NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION
 from tasks.kinematics import kinematics
+from tasks.moving_goal import NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION
 from tasks.rotations import about, multiply
 from tasks.rules import RULES
 from tasks.verdict import SETTLED
