@@ -51,7 +51,7 @@ _find_arm = arm  # several functions below have an argument of that name
 
 def names() -> list[str]:
     """Names of all tasks, sorted."""
-    return sorted(_tasks())
+    return sorted(_tasks(Task, ArmTask))
 
 
 def is_for_arms(task: str) -> bool:
@@ -66,7 +66,7 @@ def pairs() -> list[tuple[str, str]]:
 
 def described(name: str) -> Task | ArmTask:
     """Return what the file of a task says of it, whether or not it needs an arm; UnknownName lists the known ones."""
-    if name in _contact_tasks():
+    if name in _tasks(ContactTask):
         raise UnknownName(f"task '{name}' is one in contact (try: tasks.load('{name}', arm='ur5e'))")
     return pick("task", name, constants(domains, "TASK"), "tasks/domains")
 
@@ -81,7 +81,7 @@ def task(name: str, arm: str = "") -> Task:
     if isinstance(found, ArmTask):
         return found.on(_needed(arm, name))
     if arm:
-        with_arms = ", ".join(word for word, one in _tasks().items() if isinstance(one, ArmTask))
+        with_arms = ", ".join(_tasks(ArmTask))
         raise BadValue(
             f"task '{name}' has no arm, but '{arm}' was named (leave it out, or choose a task for arms: {with_arms})"
         )
@@ -122,7 +122,7 @@ def load(
     from tasks import contact_episode  # dm_control takes a second to import; listing names must not
     from tasks.episode import environment
 
-    if isinstance(task, str) and task in _contact_tasks():
+    if isinstance(task, str) and task in _tasks(ContactTask):
         one = contact_task(task)
         one = one._replace(horizon_s=one.horizon_s if horizon is None else horizon)
         return contact_episode.environment(one, _needed(arm, task), start, dt, integrator or "implicitfast", vary=vary)
@@ -137,19 +137,9 @@ def start_set_names(arm: bool = False) -> list[str]:
     return sorted(_start_sets(arm))
 
 
-def start_set_title(name: str, arm: bool = False) -> str:
-    """Return what a start set is, in a few words."""
-    return _find_set(name, arm).title
-
-
-def start_set_size(name: str, arm: bool = False) -> int:
-    """How many starts a set has if no number is asked for; an arm that cannot do so many has fewer."""
-    return _find_set(name, arm).size
-
-
 def knows_joints(name: str) -> bool:
     """Whether the starts of a set of arms say at which joint angles the tool is at its goal."""
-    chosen = _find_set(name, True)
+    chosen = find_start_set(name, True)
     return isinstance(chosen, ArmStartSet) and chosen.knows_joints
 
 
@@ -165,7 +155,7 @@ def start_set(name: str, count: int | None = None, seed: int = 0, arm: str = "")
     """
     if count is not None and count < 1:
         raise BadValue(f"count {count} starts of '{name}': a start set needs at least 1 (try: count=10)")
-    chosen = _find_set(name, bool(arm))
+    chosen = find_start_set(name, bool(arm))
     wanted = chosen.size if count is None else count
     if isinstance(chosen, ArmStartSet):
         return list(_starts_on(_find_arm(arm), chosen, max(wanted, chosen.size), seed)[:wanted])
@@ -180,7 +170,7 @@ def _starts_on(arm: Arm, chosen: ArmStartSet, count: int, seed: int) -> tuple[St
 
 def start_set_length(name: str, count: int | None = None, seed: int = 0, arm: str = "") -> int:
     """How many starts `start_set` has with the same arguments; none of a sampled set is made to know it."""
-    chosen = _find_set(name, bool(arm))
+    chosen = find_start_set(name, bool(arm))
     if isinstance(chosen, StartSet) and chosen.between:
         return chosen.size if count is None else count
     return len(start_set(name, count, seed, arm))
@@ -191,7 +181,7 @@ def starts_between(name: str, first: int, end: int, seed: int = 0) -> list[Start
 
     Of a sampled set no other is made, so that a stretch of a million costs what it costs of a thousand.
     """
-    chosen = _find_set(name, False)
+    chosen = find_start_set(name, False)
     if isinstance(chosen, StartSet) and chosen.between:
         return chosen.between(first, end, seed)
     return start_set(name, end, seed)[first:]
@@ -220,26 +210,22 @@ def variation(name: str) -> Variation:
 
 def contact_names() -> list[str]:
     """Names of all tasks in contact, sorted."""
-    return sorted(_contact_tasks())
+    return sorted(_tasks(ContactTask))
 
 
 def contact_task(name: str) -> ContactTask:
     """Return the task in contact of this name; UnknownName lists the known ones."""
-    return pick("task in contact", name, _contact_tasks(), "tasks/domains")
+    return pick("task in contact", name, _tasks(ContactTask), "tasks/domains")
 
 
-def _tasks() -> dict[str, Task | ArmTask]:
-    found = constants(domains, "TASK")
-    return {name: one for name, one in found.items() if isinstance(one, (Task, ArmTask))}
-
-
-def _contact_tasks() -> dict[str, ContactTask]:
-    return {name: one for name, one in constants(domains, "TASK").items() if isinstance(one, ContactTask)}
+def _tasks(*kinds: type) -> dict[str, Any]:
+    return {name: one for name, one in constants(domains, "TASK").items() if isinstance(one, kinds)}
 
 
 def _start_sets(arm: bool) -> dict[str, StartSet | ArmStartSet]:
     return constants(arm_starts if arm else starts, "STARTS")
 
 
-def _find_set(name: str, arm: bool) -> StartSet | ArmStartSet:
+def find_start_set(name: str, arm: bool = False) -> StartSet | ArmStartSet:
+    """Return the start set of this name, of the free body or of arms; UnknownName lists the known ones."""
     return pick("start set", name, _start_sets(arm), "tasks/arm_starts" if arm else "tasks/starts")

@@ -46,7 +46,7 @@ def arm(name: str, folder: Path = ARMS) -> Arm:
             f"arm '{name}' is not in tasks/arms; known: {', '.join(sorted(files))} (use one, or add a file there)"
         )
     if len(files[name]) > 1:
-        raise BadArm(f"arm '{name}' has several files, {_listed(files[name])} (keep one)")
+        raise BadArm(f"arm '{name}' has several files, {' and '.join(path.name for path in files[name])} (keep one)")
     if not WORD.fullmatch(name):
         raise BadArm(f"arm '{name}': its file name is no word of a-z, 0-9 and _ (rename it, as in my_arm.xml)")
     path = files[name][0]
@@ -75,10 +75,6 @@ def _files(folder: Path) -> dict[str, list[Path]]:
         if path.suffix in (".xml", ".py") and not path.name.startswith("_") and path.is_file():
             found.setdefault(path.stem.replace("_", "-"), []).append(path)
     return found
-
-
-def _listed(paths: list[Path]) -> str:
-    return " and ".join(path.name for path in paths)
 
 
 @lru_cache(maxsize=64)

@@ -34,8 +34,7 @@ MODEL_TOLERANCE = 1e-6
 
 def checked(name: str, xml: str) -> Arm:
     """Return the Arm of an MJCF text, or BadArm."""
-    found = _compiled(name, xml)
-    model, root = found
+    model, root = _compiled(name, xml)
     _check_chain(name, model)
     _check_motors(name, model)
     poses = tuple((model.key(i).name, tuple(map(float, model.key_qpos[i]))) for i in range(model.nkey))

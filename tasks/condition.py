@@ -14,9 +14,6 @@ from tasks import conditions
 from tasks.axis import Axis, Field
 from tasks.discovery import constants
 from tasks.errors import BadValue
-from tasks.moving_goal import NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION
-
-__all__ = ["FIELDS", "NO_FEEDFORWARD", "RATE", "RATE_AND_ACCELERATION", "Condition", "condition_at", "known_axes"]
 
 
 @functools.cache

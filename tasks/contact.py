@@ -127,6 +127,15 @@ def refuse(task: ContactTask, arm: Arm) -> None:
         )
 
 
+def can_do(task: ContactTask, arm: Arm) -> bool:
+    """Tell whether the arm can be set the task."""
+    try:
+        refuse(task, arm)
+    except BadValue:
+        return False
+    return True
+
+
 def leg(count: int, tick: int, ticks: int) -> int:
     """Which of so many pushes acts at a tick of an episode of so many ticks."""
     return tick * count // ticks

@@ -31,12 +31,8 @@ with warnings.catch_warnings():
     from dm_control.mujoco import engine
     from dm_control.rl import control
 
-INTEGRATORS = {
-    "euler": mujoco.mjtIntegrator.mjINT_EULER,
-    "rk4": mujoco.mjtIntegrator.mjINT_RK4,
-    "implicit": mujoco.mjtIntegrator.mjINT_IMPLICIT,
-    "implicitfast": mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
-}
+_WORDS = ("euler", "rk4", "implicit", "implicitfast")
+INTEGRATORS = {word: getattr(mujoco.mjtIntegrator, f"mjINT_{word.upper()}") for word in _WORDS}
 
 # A quaternion written with sixteen digits has a norm within 4e-16 of one; one with eight digits does not
 # pass.
@@ -69,18 +65,6 @@ class Physics(engine.Physics):
         return np.array(self.data.sensordata[16:19])
 
 
-def motors(physics: Physics) -> Any:
-    """One number a motor within its ctrlrange, on an arm the rated torque: for agents to draw from, nothing cuts there.
-
-    Limitations: arms have no joint limits. At full torque for half a second, or at random for some, a Panda turns too
-    fast for a step of 1 ms: PhysicsError.
-    """
-    spec = engine.action_spec(physics)
-    low, high = physics.model.actuator_ctrlrange.T
-    stated = low < high
-    return spec.replace(minimum=np.where(stated, low, spec.minimum), maximum=np.where(stated, high, spec.maximum))
-
-
 class Driven(control.Task):
     """Take the model's ctrl as the action; on an arm the motors' torques [N m]."""
 
@@ -89,8 +73,15 @@ class Driven(control.Task):
         physics.set_control(action)
 
     def action_spec(self, physics: Physics) -> Any:
-        """See `motors`; [N m] on an arm."""
-        return motors(physics)
+        """One number a motor within its ctrlrange, on an arm the rated torque [N m].
+
+        It is for agents to draw from, nothing cuts there. Limitations: arms have no joint limits. At full torque for
+        half a second, or at random for some, a Panda turns too fast for a step of 1 ms: PhysicsError.
+        """
+        spec = engine.action_spec(physics)
+        low, high = physics.model.actuator_ctrlrange.T
+        stated = low < high
+        return spec.replace(minimum=np.where(stated, low, spec.minimum), maximum=np.where(stated, high, spec.maximum))
 
 
 class Regulation(Driven):

@@ -8,11 +8,15 @@ to the Haar measure. The angle of such a rotation has the density (1 - cos theta
 
 from __future__ import annotations
 
+import itertools
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
 from tasks.base import Quat, Vector
+
+BLOCK = 256  # points that `endless` makes together
 
 
 def halton(count: int, dimensions: int, seed: int, first: int = 0) -> list[list[float]]:
@@ -22,6 +26,12 @@ def halton(count: int, dimensions: int, seed: int, first: int = 0) -> list[list[
     sequence = qmc.Halton(d=dimensions, scramble=True, rng=seed)
     sequence.num_generated = first  # a point follows from its number alone; fast_forward would make all those before
     return sequence.random(count).tolist()
+
+
+def endless(dimensions: int, seed: int) -> Iterator[list[float]]:
+    """Yield the points of this seed's sequence one after the other."""
+    for first in itertools.count(0, BLOCK):
+        yield from halton(BLOCK, dimensions, seed, first)
 
 
 def orientation(u: float, v: float, w: float) -> Quat:

@@ -48,20 +48,20 @@ class Kinematics:
     def __init__(self, arm: Arm, site: str = "tool"):
         self.arm = arm
         self.model = mujoco.MjModel.from_xml_string(model_xml(arm, 1e-3))
-        self._data = mujoco.MjData(self.model)
-        self._site = self.model.site(site).id
-        self._body = int(self.model.site_bodyid[self._site])
+        self.data = mujoco.MjData(self.model)
+        self.site = self.model.site(site).id
+        self._body = int(self.model.site_bodyid[self.site])
         self._J = np.zeros((6, self.model.nv))
         self._quat = np.zeros(4)
 
     def pose(self, q: Sequence[float] | np.ndarray) -> tuple[np.ndarray, Quat]:
         """Return the tool's position [m] and orientation, as the sensors of an episode give them."""
-        data = self._data
+        data = self.data
         data.qpos[:] = q
         mujoco.mj_kinematics(self.model, data)
-        mujoco.mju_mulQuat(self._quat, data.xquat[self._body], self.model.site_quat[self._site])
+        mujoco.mju_mulQuat(self._quat, data.xquat[self._body], self.model.site_quat[self.site])
         w, x, y, z = self._quat.tolist()
-        return data.site_xpos[self._site].copy(), (w, x, y, z)
+        return data.site_xpos[self.site].copy(), (w, x, y, z)
 
     def jacobian(self, q: Sequence[float] | np.ndarray) -> np.ndarray:
         """J, 6 x n: (pdot, omega) = J qdot."""
@@ -75,10 +75,10 @@ class Kinematics:
 
     def inertia_matrix(self, q: Sequence[float] | np.ndarray) -> np.ndarray:
         """D, n x n [kg m^2]."""
-        self._data.qpos[:], self._data.qvel[:] = q, 0.0
-        mujoco.mj_forward(self.model, self._data)
+        self.data.qpos[:], self.data.qvel[:] = q, 0.0
+        mujoco.mj_forward(self.model, self.data)
         D = np.zeros((self.model.nv, self.model.nv))
-        mujoco.mj_fullM(self.model, self._data, D)
+        mujoco.mj_fullM(self.model, self.data, D)
         return D
 
     def mobility(self, q: Sequence[float] | np.ndarray) -> np.ndarray:
@@ -106,7 +106,7 @@ class Kinematics:
         """Return the joint angles of a pose, by Newton's method from nearby ones; None if it does not converge."""
         q = np.array(q, dtype=float)
         for _ in range(NEWTON_STEPS):
-            error = self._error(q, p, quat)
+            error = self.error(q, p, quat)
             if length(error) <= REACHED:
                 return q
             step = least_norm(self._jacobian_here(), error)
@@ -123,7 +123,7 @@ class Kinematics:
         """
         q = np.array(q, dtype=float)
         for _ in range(SEARCH_STEPS):
-            error = self._error(q, p, quat)
+            error = self.error(q, p, quat)
             distance = length(error)
             if distance <= NEAR:
                 return self.reach(q, p, quat)
@@ -175,21 +175,21 @@ class Kinematics:
         _, quat = self.pose(angles)
         omega = (0.0, 0.0, 0.0)
         if any(rates):
-            self._data.qvel[:] = rates
-            mujoco.mj_forward(self.model, self._data)
-            x, y, z = self._data.sensordata[9:12].tolist()
+            self.data.qvel[:] = rates
+            mujoco.mj_forward(self.model, self.data)
+            x, y, z = self.data.sensordata[9:12].tolist()
             omega = (x, y, z)
         return Start(name, quat, omega, goal, angles, rates, **more)
 
-    def _error(self, q: np.ndarray, p: np.ndarray, quat: Quat) -> np.ndarray:
+    def error(self, q: np.ndarray, p: np.ndarray, quat: Quat) -> np.ndarray:
         """(p_d - p, log(R_d R^T)) [m, rad]."""
         here, orientation = self.pose(q)
         return np.array((*(p - here), *rotation_vector(quat, orientation)))
 
     def _jacobian_here(self) -> np.ndarray:
         """J where `pose` was last called."""
-        mujoco.mj_comPos(self.model, self._data)
-        mujoco.mj_jacSite(self.model, self._data, self._J[:3], self._J[3:], self._site)
+        mujoco.mj_comPos(self.model, self.data)
+        mujoco.mj_jacSite(self.model, self.data, self._J[:3], self._J[3:], self.site)
         return self._J
 
 

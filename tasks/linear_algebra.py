@@ -34,7 +34,6 @@ WEIGHT = 0.7
 
 def least_norm(A: np.ndarray, b: np.ndarray) -> np.ndarray | None:
     """Return the shortest x with A x = b. A: m x n, m <= n; None if its rows are dependent to rounding."""
-    A = np.ascontiguousarray(A)
     gram = _gram(A)
     if mujoco.mju_cholFactor(gram, PIVOT) < len(A):
         return None
@@ -46,8 +45,7 @@ def least_norm(A: np.ndarray, b: np.ndarray) -> np.ndarray | None:
 
 def damped(A: np.ndarray, b: np.ndarray, lambda_: float) -> np.ndarray:
     """(A^T A + lambda I)^-1 A^T b, for lambda > 0."""
-    A = np.ascontiguousarray(A)
-    gram = _gram(np.ascontiguousarray(A.T))
+    gram = _gram(A.T)
     gram.flat[:: len(gram) + 1] += lambda_
     mujoco.mju_cholFactor(gram, PIVOT)
     return _solved(gram, transposed_product(A, b))
@@ -58,7 +56,6 @@ def of_lost_rank(A: np.ndarray, u: np.ndarray, b: np.ndarray) -> np.ndarray:
 
     A A^T + u u^T is regular, and on all that A reaches it is A A^T.
     """
-    A = np.ascontiguousarray(A)
     gram = _gram(A) + np.multiply.outer(u, u)
     mujoco.mju_cholFactor(gram, PIVOT)
     return transposed_product(A, _solved(gram, b))
@@ -70,7 +67,6 @@ def smallest(A: np.ndarray) -> tuple[float, np.ndarray]:
     Inverse iteration on A A^T. Where the next singular value is some hundredths of |A|, sigma = |A^T u| is right to
     about 1e-14 |A|.
     """
-    A = np.ascontiguousarray(A)
     gram = _gram(A)
     mujoco.mju_cholFactor(gram, PIVOT)  # a smaller pivot becomes PIVOT: what that magnifies is the vector sought
     u = np.ones(len(A))
@@ -81,7 +77,7 @@ def smallest(A: np.ndarray) -> tuple[float, np.ndarray]:
 
 def largest(A: np.ndarray) -> np.ndarray:
     """Return the right singular vector of the largest singular value of A, `signed`, by power iteration on A^T A."""
-    gram = _gram(np.ascontiguousarray(A.T))
+    gram = _gram(A.T)
     v = gram[gram.diagonal().argmax()]
     for _ in range(POWER_ITERATIONS):
         v = unit(product(gram, v))
@@ -105,23 +101,21 @@ def signed(v: np.ndarray) -> np.ndarray:
 
 def product(A: np.ndarray, v: np.ndarray) -> np.ndarray:
     """Return a v."""
-    A = np.ascontiguousarray(A)
     result = np.empty(len(A))
-    mujoco.mju_mulMatVec(result, A, np.ascontiguousarray(v))
+    mujoco.mju_mulMatVec(result, np.ascontiguousarray(A), np.ascontiguousarray(v))
     return result
 
 
 def transposed_product(A: np.ndarray, v: np.ndarray) -> np.ndarray:
     """A^T v."""
-    A = np.ascontiguousarray(A)
     result = np.empty(A.shape[1])
-    mujoco.mju_mulMatTVec(result, A, np.ascontiguousarray(v))
+    mujoco.mju_mulMatTVec(result, np.ascontiguousarray(A), np.ascontiguousarray(v))
     return result
 
 
 def _gram(A: np.ndarray) -> np.ndarray:
     """Return a A^T."""
-    result = np.empty((len(A), len(A)))
+    A, result = np.ascontiguousarray(A), np.empty((len(A), len(A)))
     mujoco.mju_mulMatMatT(result, A, A)
     return result
 

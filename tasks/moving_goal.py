@@ -38,7 +38,3 @@ def reference_rates(time, amplitude):
     omega = (qdot * cos_p, qdot * sin_p, pdot)
     alpha = (qddot * cos_p - pdot * qdot * sin_p, qddot * sin_p + pdot * qdot * cos_p, pddot)
     return omega, alpha
-
-
-COMPILABLE = (reference_column, reference_rates)
-"""What a compiled loop needs of this module."""

@@ -40,8 +40,8 @@ def columns(q: Quat) -> tuple[Vector, Vector, Vector]:
 
 def to_body(q: Quat, v: Vector) -> Vector:
     """R(q)^T v: base coordinates to body coordinates."""
-    n, o, a = columns(q)
-    return (_dot(n, v), _dot(o, v), _dot(a, v))
+    x, y, z = (column[0] * v[0] + column[1] * v[1] + column[2] * v[2] for column in columns(q))
+    return (x, y, z)
 
 
 def to_base(q: Quat, v: Vector) -> Vector:
@@ -131,7 +131,3 @@ def _neighbours(x: float, places: int) -> list[float]:
     """Return the doubles within so many last places of x, nearest first; zero has none but itself."""
     offsets = sorted(range(-places, places + 1), key=abs) if x else [0]
     return [x + i * math.ulp(x) for i in offsets]
-
-
-def _dot(p: Vector, q: Vector) -> float:
-    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]

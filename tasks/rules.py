@@ -17,10 +17,6 @@ def band_rad(angle0: float, tolerance: float, floor_rad: float, at_goal_rad: flo
     return floor_rad if angle0 < at_goal_rad else tolerance * angle0
 
 
-COMPILABLE = (band_rad,)
-"""What a compiled loop needs of this module."""
-
-
 class Rules(NamedTuple):
     """When an episode is settled, stuck, or has failed."""
 

@@ -6,8 +6,9 @@ Time is counted in 1/sqrt(kp), commands in kp: at equal numbers every kp gives t
 from __future__ import annotations
 
 import math
+from collections import namedtuple
 from collections.abc import Iterable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from tasks.axis import spread
 from tasks.base import Start
@@ -69,17 +70,14 @@ COORDINATES = {
 """The numbers of a situation, in order."""
 
 
-class Situation(NamedTuple):
+_record: Any = namedtuple  # which a type checker cannot follow
+_VALUES: Any = _record("_VALUES", COORDINATES, defaults=[one.nominal for one in COORDINATES.values()])
+
+
+class Situation(_VALUES):
     """A value of each of COORDINATES."""
 
-    zeta: float = 1.0
-    bound: float = math.inf
-    delay: float = 0.0
-    period: float = 0.01
-    inertia: float = 1.0
-    unevenness: float = 0.0
-    spin: float = 0.0
-    jump: float = 0.0
+    __slots__ = ()
 
     @property
     def word(self) -> str:

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import tasks
-from tasks.errors import BadValue
+from tasks.contact import can_do
 
 if TYPE_CHECKING:
     from dm_control.rl.control import Environment
@@ -21,18 +21,9 @@ WORDS = {"time_limit": "horizon", "control_timestep": "dt"}
 
 def list_tasks() -> tuple[tuple[str, str], ...]:
     """Return every (domain_name, task_name), as ALL_TASKS of dm_control.suite."""
-    contact = ((name, arm) for name in tasks.contact_names() for arm in tasks.arm_names() if _can_do(name, arm))
+    every = map(tasks.contact_task, tasks.contact_names())
+    contact = ((one.name, arm) for one in every for arm in tasks.arm_names() if can_do(one, tasks.arm(arm)))
     return (*((name, arm or NO_ARM) for name, arm in tasks.pairs()), *contact)
-
-
-def _can_do(task: str, arm: str) -> bool:
-    from tasks.contact import refuse  # imports MuJoCo
-
-    try:
-        refuse(tasks.contact_task(task), tasks.arm(arm))
-    except BadValue:
-        return False
-    return True
 
 
 def load(

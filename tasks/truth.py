@@ -49,7 +49,3 @@ def angle(quat, goal):
     y = goal[0] * quat[2] - goal[2] * quat[0] - goal[3] * quat[1] + goal[1] * quat[3]
     z = goal[0] * quat[3] - goal[3] * quat[0] - goal[1] * quat[2] + goal[2] * quat[1]
     return 2.0 * math.atan2(math.sqrt(x * x + y * y + z * z), math.fabs(s))
-
-
-COMPILABLE = (haversine, angle)
-"""What a compiled loop needs of this module."""

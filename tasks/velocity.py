@@ -55,7 +55,3 @@ def followed(rate, command, servo):
     """(angle turned, rate at the end) of a joint over a tick; rate: at its beginning [rad/s]."""
     behind = rate - command
     return servo.dt * command + servo.coast * behind, command + servo.decay * behind
-
-
-COMPILABLE = (turned, followed)
-"""What a compiled loop needs of this module."""

@@ -81,7 +81,3 @@ def verdict(failure, watch, tick, rest_ticks, speed_squared, command_squared, re
     if watch.entries > 1 or tick - watch.settled_since + 1 >= rest_ticks:
         return OSCILLATING
     return CREEPING if watch.slow else TIMED_OUT
-
-
-COMPILABLE = (first_watch, watched, check_command, check_state, verdict)
-"""What a compiled loop needs of this module."""

@@ -16,7 +16,6 @@ import tasks
 from bench.base.provenance import describe_project
 from bench.cli.screen import console, examples, shown_path
 from bench.engines.metrics.registry import metrics_of
-from bench.experiments.contact import can_do
 from bench.experiments.experiment import Settings
 from bench.experiments.tables.schema import RESULTS
 from bench.law.contenders import combinations
@@ -24,6 +23,7 @@ from bench.law.contenders.registry import all_contenders, papers_laws
 from bench.law.control.registry import find_controller
 from tasks.arm import arms
 from tasks.arm_model import Arm
+from tasks.contact import can_do
 from tasks.errors import BadArm
 
 PAIR = ("reference", "native")

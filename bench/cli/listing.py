@@ -12,13 +12,13 @@ from bench.base.errors import UnknownWord
 from bench.cli import options
 from bench.cli.screen import console, examples, word_table
 from bench.engines.metrics.registry import known_contact_metrics, known_metrics
-from bench.experiments.contact import can_do
 from bench.experiments.experiment import known_experiments
 from bench.experiments.suites import SUITES
 from bench.law.contenders import registry
 from bench.law.control.contact_controller import HYBRIDS
 from bench.law.control.registry import all_controllers
 from tasks.arm import arms
+from tasks.contact import can_do
 from tasks.errors import BadArm
 
 
@@ -81,10 +81,8 @@ def describe_arm(one: Any) -> Any:
 
 def find_starts(of_arms: bool) -> Mapping[str, Any]:
     """Return the start sets with their numbers of starts."""
-    return {
-        name: SimpleNamespace(starts=tasks.start_set_size(name, of_arms), title=tasks.start_set_title(name, of_arms))
-        for name in tasks.start_set_names(of_arms)
-    }
+    every = by_name(lambda name: tasks.find_start_set(name, of_arms), tasks.start_set_names(of_arms))
+    return {name: SimpleNamespace(starts=one.size, title=one.title) for name, one in every.items()}
 
 
 def find_engines() -> Mapping[str, Any]:

@@ -5,20 +5,20 @@ A row of numbers is that of `episode` with eight columns more at its end: where 
 
 import functools
 import math
+from collections import namedtuple
 from typing import Any, NamedTuple
 
 import numpy as np
 
 import tasks
 from bench.engines.arrays import Seven
-from bench.engines.episode import Metrics, Starts, blank
+from bench.engines.episode import Metrics, Sample, Starts, blank
 from bench.law.chain import Scratch
 from bench.law.contender import Contender
 from bench.law.contenders.jacobians.geometric import fill
 from bench.law.control.resolved_acceleration import BY_JOINT, Buffers
 from bench.law.linalg import determinant, gram
 from bench.law.scalar import kernel
-from bench.law.so3 import Rotation
 from tasks.arm_model import Arm
 
 MOST = 7
@@ -31,32 +31,14 @@ POSE = -1 - MOST
 """First of a row's last columns: the smallest det(J J^T), then the joint angles there."""
 
 
-class ArmSample(NamedTuple):
-    """What a metric sees of an arm at one tick, before it moves: what `Sample` has, and the joints.
+_record: Any = namedtuple  # which a type checker cannot follow
+ArmSample = _record("ArmSample", (*Sample._fields, "p", "p_d", "q", "qdot", "tau", "lower", "upper", "rated"))
+"""What a metric sees of an arm at one tick, before it moves: what `Sample` has, and the joints.
 
-    p, p_d: the tool's position and its goal [m]; q [rad], qdot [rad/s], tau [N m], and of each joint its
-    range [rad] and its motor's rated torque [N m]: seven numbers each, filled up with zeros (ranges with infinities,
-    rated torques with ones) on fewer joints. Tuples, because compiled code counts references to arrays.
-    """
-
-    time: float
-    dt: float
-    R: Rotation
-    haversine: float
-    entered: bool
-    at_rest: bool
-    omega: tuple
-    u: tuple
-    before: tuple
-    margin: float
-    p: tuple
-    p_d: tuple
-    q: tuple
-    qdot: tuple
-    tau: tuple
-    lower: tuple
-    upper: tuple
-    rated: tuple
+p, p_d: the tool's position and its goal [m]; q [rad], qdot [rad/s], tau [N m], and of each joint its range [rad] and
+its motor's rated torque [N m]: seven numbers each, filled up with zeros (ranges with infinities, rated torques with
+ones) on fewer joints. Tuples, because compiled code counts references to arrays.
+"""
 
 
 GIVES = {"acceleration": 0, "torque": 1, "joint-torque": BY_JOINT}
@@ -135,9 +117,13 @@ def joints(arm: Arm, variation: str) -> Joints:
 
 def buffers(n: int, dtype: Any = float) -> Buffers:
     """Fresh buffers for an arm of n joints."""
-    A, B, V, J = (np.zeros((MOST, MOST), dtype) for _ in range(4))
-    s, t, a, x = (np.zeros(MOST, dtype) for _ in range(4))
-    return Buffers(J, a, x, np.zeros(n, dtype), Scratch(A, B, V, s, t))
+    J, (a, x) = np.zeros((MOST, MOST), dtype), np.zeros((2, MOST), dtype)
+    return Buffers(J, a, x, np.zeros(n, dtype), scratch(dtype))
+
+
+def scratch(dtype: Any = float) -> Scratch:
+    """Fresh buffers for the inverse of a matrix of an arm."""
+    return Scratch(*np.zeros((3, MOST, MOST), dtype), *np.zeros((2, MOST), dtype))
 
 
 def blank_arm(count: int, metrics: Metrics) -> np.ndarray:
@@ -201,13 +187,14 @@ def seven(b, n):
 
 
 @kernel
-def load(tau, rated):
-    """Sum of (tau_i / rated_i)^2: what the rule on torques is about; not finite if a torque is not."""
-    total = 0.0
-    for i in range(MOST):
+def load(tau, rated, n):
+    """(Sum of (tau_i / rated_i)^2, the largest of them): what the rule on torques is about; NaN if a torque is."""
+    total, largest = 0.0, 0.0
+    for i in range(n):
         ratio = tau[i] / rated[i]
-        total = total + ratio * ratio
-    return total
+        square = ratio * ratio
+        total, largest = total + square, max(largest, square)
+    return total, largest
 
 
 @kernel

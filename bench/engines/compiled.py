@@ -9,6 +9,7 @@ import os
 import secrets
 import threading
 from collections.abc import Callable, Iterator
+from inspect import isfunction
 from typing import Any
 
 import numba
@@ -31,7 +32,7 @@ from bench.law.chain import Chain, Scratch
 from bench.law.control.setpoint import ContactParameters, Rows, Setpoint
 from bench.law.inputs import Gains, Goal
 from bench.law.so3 import Rotation
-from tasks import moving_goal, rules, truth, velocity, verdict
+from tasks import contact_rest, moving_goal, rules, truth, velocity, verdict
 
 
 def _count_from_a_random_place() -> None:
@@ -144,8 +145,9 @@ def register_kernels() -> None:
         for function in scalar.PRIMITIVES:
             if function not in _registered:
                 _register_primitive(function)
-        judges = (verdict, truth, rules, moving_goal, velocity)
-        for function in (*scalar.KERNELS, *(one for module in judges for one in module.COMPILABLE)):
+        judges = (verdict, truth, rules, moving_goal, velocity, contact_rest)
+        plain = (one for module in judges for one in vars(module).values() if isfunction(one))
+        for function in (*scalar.KERNELS, *plain):
             register(function)
 
 

@@ -5,9 +5,8 @@ from typing import Any, NamedTuple
 import mujoco
 import numpy as np
 
-from bench.engines.arm_episode import MOST
+from bench.engines.arm_episode import MOST, scratch
 from bench.engines.arrays import Four, Seven, Six, Three
-from bench.law.chain import Scratch
 from bench.law.control.contact_controller import FORMS, ContactController
 from bench.law.control.setpoint import TOUCH, ContactBuffers, ContactParameters, Rows, Setpoint
 from bench.law.inputs import PAPERS_GAINS, Gains
@@ -132,14 +131,13 @@ def numbers(
 
 def rows(dtype: Any = float) -> Rows:
     """Fresh buffers for a controller's rows."""
-    return Rows(*(np.zeros(6, dtype) for _ in Rows._fields))
+    return Rows(*np.zeros((len(Rows._fields), 6), dtype))
 
 
 def room(dtype: Any = float) -> ContactBuffers:
     """Fresh buffers for `hybrid.comply`."""
-    A, B, V = (np.zeros((MOST, MOST), dtype) for _ in range(3))
-    y, b, x, s, t = (np.zeros(MOST, dtype) for _ in range(5))
-    return ContactBuffers(y, b, x, np.zeros((6, MOST), dtype), Scratch(A, B, V, s, t))
+    y, b, x = np.zeros((3, MOST), dtype)
+    return ContactBuffers(y, b, x, np.zeros((6, MOST), dtype), scratch(dtype))
 
 
 @kernel
@@ -160,19 +158,6 @@ def setpoint(R_d, p_0, numbers, time):
     v_d = numbers.v_d
     p_d = (p_0[0] + moved * v_d[0], p_0[1] + moved * v_d[1], p_0[2] + moved * v_d[2])
     return Setpoint(R_d, p_d, v, numbers.f_d, numbers.m_d)
-
-
-@kernel
-def overload(tau, rated, n):
-    """(Sum of (tau_i / rated_i)^2, the largest of them): what the rule on torques is about; NaN if a torque is."""
-    total, largest = 0.0, 0.0
-    for i in range(n):
-        ratio = tau[i] / rated[i]
-        square = ratio * ratio
-        total = total + square
-        if square > largest:
-            largest = square
-    return total, largest
 
 
 @kernel
@@ -199,11 +184,6 @@ def made(record: np.ndarray, failure: int, ticks: int, message: str, data: Any) 
     if failure != BROKEN and left_out:
         failure, message = BROKEN, ", ".join(left_out)
     return Ended(OUTCOMES[GOING if failure == RESTED else failure], record[:ticks], message, failure == RESTED)
-
-
-def blank(shape: Numbers) -> np.ndarray:
-    """Return a record to be filled."""
-    return np.full((shape.ticks, WIDTH), np.nan)
 
 
 def sensors_of(model: Any) -> tuple[int, int]:

@@ -7,6 +7,7 @@ import numpy as np
 from bench.engines.arm_episode import MOST
 from bench.engines.arrays import Cube
 from bench.law.scalar import kernel, sqrt
+from bench.law.so3 import dot, minus
 
 _VECTORS = ("n", "o", "a", "omega", "u")
 NUMBERS = ("time_s", *(f"{vector}_{axis}" for vector in _VECTORS for axis in "xyz"), "haversine")
@@ -44,8 +45,8 @@ def keep_on_arm(curves, k, tick, sample):
     if tick < curves.every * curves.samples.shape[1] and tick % curves.every < 1:
         kept = curves.samples[k, tick // curves.every]
         store(kept, sample)
-        x, y, z = sample.p[0] - sample.p_d[0], sample.p[1] - sample.p_d[1], sample.p[2] - sample.p_d[2]
-        kept[WIDTH] = sqrt(x * x + y * y + z * z)
+        away = minus(sample.p, sample.p_d)
+        kept[WIDTH] = sqrt(dot(away, away))
         for i in range(MOST):
             kept[WIDTH + 1 + i] = sample.q[i]
 

@@ -171,22 +171,17 @@ def _once(
     engine: str, contender: Contender, begun: np.ndarray, settings: Settings, metrics: tuple, total: int, curves: Curves
 ) -> np.ndarray:
     rows = blank(len(begun), metrics)
-    if curves.samples.shape[1] or not is_in_lanes(max(total, len(begun))):
+    if curves.samples.shape[1] or max(total, len(begun)) < WORTH_LANES:
         return by_law(engine, contender, begun, numbers(settings), rows, metrics, curves)
     loop_in_lanes(engine, contender, metrics)(memory_of(contender), begun, numbers(settings), rows)
     return rows
-
-
-def is_in_lanes(total: int) -> bool:
-    """Whether so many episodes of a law are worth a loop of its own."""
-    return total >= WORTH_LANES
 
 
 def prepare(engine: str, contender: Contender, metrics: Metrics, total: int = 0) -> None:
     """Compile what `run` will need for so many episodes, or take it from the disk cache."""
     is_continuous, metrics = engine == CONTINUOUS, tuple(metrics)
     for observed in dict.fromkeys((metrics, () if is_continuous else metrics)):
-        if engine.startswith("ideal") and is_in_lanes(total):
+        if engine.startswith("ideal") and total >= WORTH_LANES:
             loop_in_lanes(engine, contender, observed)
         else:
             compiled_loop(engine, observed)

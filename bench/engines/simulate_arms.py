@@ -39,7 +39,6 @@ from tasks.velocity import servo
 IDEAL_MOTORS = "ideal-motors"
 """The variation of the plant that the paper assumes."""
 ARM_TASK = "arm-regulation"
-ENGINES = ("native", "reference")
 
 
 def run_arm(
@@ -166,9 +165,8 @@ def run_impedance(
     return rows, world.ends
 
 
-def prepare_impedance(law: Contender, dampings: Iterable[Impedance]) -> None:
+def prepare_impedance(law: Contender, damping: Impedance) -> None:
     """Compile what `run_impedance` will need, or take it from the disk cache."""
     evaluation(law)
-    for one in dampings:
-        part(one.design, DESIGN)
+    part(damping.design, DESIGN)
     compiled_loop("impedance")

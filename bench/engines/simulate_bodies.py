@@ -53,24 +53,16 @@ def run_disturbed(
     law, memory, loop = (evaluation(contender),), memory_of(contender), compiled_loop("perturbed", tuple(metrics))
     for first in range(0, len(starts), block):
         some = slice(first, first + block)
-        noise = drawn(len(begun[some]), periods, seed, condition.is_noisy, first)
+        noise = draw_noise(first, len(begun[some]), periods, seed) if condition.is_noisy else np.zeros((1, 1, 6))
         simulate(loop, law, perturbed.world(condition, noise, rows[some]), memory, begun[some], limits, rows[some])
     has_settled = rows[:, SETTLING_TICK] != NEVER
     rows[has_settled, SETTLING_TICK] -= perturbed.timing(condition).jump
     return rows
 
 
-def drawn(count: int, periods: int, seed: int, is_noisy: bool, first: int = 0) -> np.ndarray:
-    """Six numbers of unit standard deviation for every start and period; of a condition without noise, zeros.
-
-    Args:
-        first: the number of the first start.
-    """
-    return _normal(first, count, periods, seed) if is_noisy else np.zeros((1, 1, 6))
-
-
 @functools.lru_cache(maxsize=1)
-def _normal(first: int, count: int, periods: int, seed: int) -> np.ndarray:
+def draw_noise(first: int, count: int, periods: int, seed: int) -> np.ndarray:
+    """Draw six numbers of unit standard deviation for every period of some starts; first: the number of the first."""
     noise = np.empty((count, periods, 6))
     for k in range(count):
         np.random.default_rng((seed, first + k)).standard_normal(out=noise[k])

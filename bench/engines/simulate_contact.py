@@ -1,7 +1,7 @@
 """Episodes of arms in contact: a controller on trials of a task and an arm, one record an episode back."""
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any, NamedTuple
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -22,18 +22,9 @@ from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Trial, leg, prepare, refuse
 from tasks.contact_checks import check_contact, check_trial
 from tasks.contact_model import STANDARD, ContactModel, model_xml
-from tasks.contact_rest import has_left
 from tasks.verdict import GOING
 
 ENGINES = ("native", "reference")
-
-
-class Scene(NamedTuple):
-    """A model and its data, and of the loop's world what is no trial's."""
-
-    model: mujoco.MjModel
-    data: mujoco.MjData
-    world: dict
 
 
 def run_contact(
@@ -70,8 +61,8 @@ def _check(
         check_trial(trial, arm)
 
 
-def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: ContactModel = STANDARD) -> Scene:
-    """Return a fresh model of a task on an arm."""
+def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: ContactModel = STANDARD) -> tuple:
+    """Return a fresh model of a task on an arm, its data, and of the loop's world what is no trial's."""
     model = skip_constraints(model_of(model_xml(task, arm, conditions.dt_s, contact), conditions.integrator))
     data = mujoco.MjData(model)
     asked = np.array((model._address, data._address, 0), np.int64)
@@ -81,26 +72,26 @@ def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: Con
         **{"gap": gap, "turned": turned, "work": in_contact.work(arm.joints, model.nv)},
         **{"batch": trapped.batch().address, "callback": trapped.CALLBACK, "asked": asked},
     }
-    return Scene(model, data, world)
+    return model, data, world
 
 
 def _episode(
     scene: Any, controller: ContactController, task: ContactTask, arm: Arm, trial: Trial, conditions: Any, contact: Any
 ) -> Ended:
     shape = contact_episode.numbers(controller, task, trial, arm.rated, conditions)
-    record = contact_episode.blank(shape)
+    record = np.full((shape.ticks, contact_episode.WIDTH), np.nan)
     if scene is None:
         row, message, data = reference.run_contact(controller, task, arm, trial, conditions, contact, shape, record)
     else:
-        data, row, message = scene.data, np.zeros(FIRST_METRIC), ""
-        mujoco.mj_resetData(scene.model, data)
-        prepare(scene.model, data, trial)
-        scene.world["work"].legs[: len(trial.pushes)] = trial.pushes
+        (model, data, parts), row, message = scene, np.zeros(FIRST_METRIC), ""
+        mujoco.mj_resetData(model, data)
+        prepare(model, data, trial)
+        parts["work"].legs[: len(trial.pushes)] = trial.pushes
         touch, start = conditions.touch, np.zeros((1, START_WIDTH))
         noise = conditions.sensor.draw_noise(task.horizon_s, conditions.dt_s)
-        world = in_contact.World(**scene.world, shape=shape, touch=touch, record=record, noise=noise)
+        world = in_contact.World(**parts, shape=shape, touch=touch, record=record, noise=noise)
         limits = in_contact.limits(shape, conditions.gains)
-        simulate(_loop(), (pointer(controller),), world, NO_MEMORY, start, limits, row[None])
+        simulate(_loop(), (_pointer(controller._replace(form="")),), world, NO_MEMORY, start, limits, row[None])
     failure = GOING if row[FAILURE_TICK] == NEVER else int(row[OUTCOME])
     if failure == BROKEN:
         message = message or trapped.batch().error()
@@ -108,22 +99,17 @@ def _episode(
 
 
 def _loop() -> Callable:
-    for function in (leg, has_left):
-        register(function)
+    register(leg)
     return compiled_loop("contact")
 
 
 def prepare_contact(controller: ContactController) -> None:
     """Compile what `run_contact` will need, or take it from the disk cache."""
     _loop()
-    pointer(controller)
-
-
-def pointer(controller: ContactController) -> Callable:
-    """Return the rows of a controller, compiled or taken from the disk cache."""
-    return _pointer(controller._replace(form=""))
+    _pointer(controller._replace(form=""))
 
 
 @made_once
-def _pointer(controller: ContactController) -> Callable:
-    return compile_function(controller.assemble, TOUCH)
+def _pointer(law: ContactController) -> Callable:
+    """Return the rows of a controller, whatever its form, compiled or taken from the disk cache."""
+    return compile_function(law.assemble, TOUCH)

@@ -70,24 +70,9 @@ def cut(experiment: str, places: list[Place], asked: Asked, most: dict[str, int]
     """Return the units of places, of at most so many episodes each by engine."""
     number = functools.cache(lambda word, size, arm: starts.count_of(word, size, asked.seed, arm))
     for part, one, task, arm, variation, gains in places:
-        total, step = number(part.start_set, asked.count or part.size, arm), most[part.engine]
-        for first in range(0, total, step):
-            count = min(step, total - first)
-            yield Unit(
-                experiment,
-                one.name,
-                task,
-                arm,
-                part.engine,
-                part.start_set,
-                variation,
-                first,
-                count,
-                total,
-                count,
-                asked.horizon_s or part.horizon_s,
-                *gains,
-            )
+        total, horizon_s = number(part.start_set, asked.count or part.size, arm), asked.horizon_s or part.horizon_s
+        where = experiment, one.name, task, arm, part.engine, part.start_set, variation
+        yield from Unit(*where, 0, 0, total, 0, horizon_s, *gains).cut(total, most[part.engine])
 
 
 def refuse_if_none(asked: Asked, units: tuple[Unit, ...]) -> None:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
@@ -103,6 +103,10 @@ class Unit:
     def part(self, first: int, count: int) -> Unit:
         """Return a unit of some of its starts, an episode each."""
         return dataclasses.replace(self, first=first, count=count, episodes=count)
+
+    def cut(self, count: int, most: int) -> Iterator[Unit]:
+        """Yield units of so many starts together, of at most so many each."""
+        return (self.part(first, min(most, count - first)) for first in range(0, count, most))
 
 
 @dataclass(frozen=True)

@@ -116,7 +116,7 @@ def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loop, the error and the design."""
     from bench.engines.simulate_arms import prepare_impedance
 
-    prepare_impedance(find_contender(LAW), (DAMPINGS[unit.selector],))
+    prepare_impedance(find_contender(LAW), DAMPINGS[unit.selector])
 
 
 EXPERIMENT = Experiment(

@@ -11,6 +11,7 @@ of z by 16 of the azimuth; the axis is that of the turn from the goal to the sta
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -60,22 +61,12 @@ def plan_of(
     gains: Gains = PAPERS_GAINS,
 ) -> Plan:
     """Plan a map of each law from the same orientations, at speeds between the numbers of each pair [rad/s]."""
+    whole = Unit("map", task="free-body", engine=engine, total=starts * len(speeds), horizon_s=horizon_s)
     units = (
-        Unit(
-            "map",
-            one.name,
-            "free-body",
-            engine=engine,
-            selector=f"speed-{least:g}to{most:g}",
-            first=first,
-            count=min(UNIT, starts - first),
-            total=starts * len(speeds),
-            episodes=min(UNIT, starts - first),
-            horizon_s=horizon_s,
-        )
+        unit
         for one in laws
         for least, most in speeds
-        for first in range(0, starts, UNIT)
+        for unit in replace(whole, contender=one.name, selector=f"speed-{least:g}to{most:g}").cut(starts, UNIT)
     )
     own = tuple(dict.fromkeys(one.regulator for one in laws if one.regulator.origin))
     return Plan(Settings("map", gains, dt_s, seed=seed, own=own), tuple(units))

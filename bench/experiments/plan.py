@@ -59,12 +59,9 @@ class Plan:
             "sources": source_digest(),
         }
 
+    @functools.cached_property
     def digest(self) -> str:
         """Sixteen hex digits of the identity."""
-        return self._digest
-
-    @functools.cached_property
-    def _digest(self) -> str:
         return digest_of(self.identity())
 
 

@@ -145,10 +145,9 @@ def _rows(settings: Settings, starts: list, condition: Condition, limits: Limits
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loop and the law."""
-    from bench.engines.simulate import compiled_loop, evaluation
+    from bench.engines import simulate
 
-    compiled_loop("perturbed", tuple(metrics_of(on_arm=False)))
-    evaluation(settings.contender(unit.contender))
+    simulate.prepare("perturbed", settings.contender(unit.contender), metrics_of(on_arm=False))
 
 
 EXPERIMENT = Experiment(

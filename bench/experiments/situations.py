@@ -8,6 +8,7 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,7 +23,7 @@ from bench.experiments.costs import count_operations
 from bench.experiments.episode_rows import contender_columns
 from bench.experiments.experiment import Experiment, Settings, Unit
 from bench.experiments.plan import Plan
-from bench.experiments.tables.statistics import quantile
+from bench.experiments.tables.statistics import order_interval, quantile
 from bench.law.contender import Contender
 from bench.law.contenders.registry import all_contenders
 from bench.law.inputs import Gains
@@ -75,19 +76,8 @@ def mapped_laws() -> list[Contender]:
 def plan_of(pairs: Iterable[tuple[Contender, Situation]], seed: int = 0) -> Plan:
     """Plan laws, each in its situations."""
     every = list(pairs)
-    units = tuple(
-        Unit(
-            "situations",
-            one.name,
-            "free-body",
-            selector=at.word,
-            count=FIRST,
-            total=FIRST,
-            episodes=FIRST,
-            horizon_s=HORIZON_S,
-        )
-        for one, at in every
-    )
+    whole = Unit("situations", task="free-body", total=FIRST, horizon_s=HORIZON_S).part(0, FIRST)
+    units = tuple(replace(whole, contender=one.name, selector=at.word) for one, at in every)
     own = tuple(dict.fromkeys(one.regulator for one, _ in every if one.regulator.origin))
     return Plan(Settings("situations", seed=seed, own=own), units)
 
@@ -149,17 +139,6 @@ def summarize(ended: dict[str, np.ndarray], is_moving: bool) -> dict[str, Any]:
     }
 
 
-def order_interval(count: int, level: float) -> tuple[int, int]:
-    """Return the places in order, from 0, of the ends of a quantile's 95 % interval.
-
-    The number of values below the quantile is binomial (W. Conover, Practical Nonparametric Statistics, 1999, 3.2).
-    """
-    from scipy.stats import binom
-
-    low, high = binom.ppf((0.025, 0.975), count, level)
-    return max(0, int(low) - 1), min(count - 1, int(high))
-
-
 def _run(
     settings: Settings, one: Contender, at: Situation, starts: list[Start], condition: Condition
 ) -> dict[str, np.ndarray]:
@@ -192,10 +171,9 @@ def _run(
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loop and the law."""
-    from bench.engines.simulate import compiled_loop, evaluation
+    from bench.engines import simulate
 
-    compiled_loop("perturbed", metrics())
-    evaluation(settings.contender(unit.contender))
+    simulate.prepare("perturbed", settings.contender(unit.contender), metrics())
 
 
 EXPERIMENT = Experiment(

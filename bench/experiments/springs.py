@@ -90,17 +90,11 @@ def in_tool(spring: Spring, name: str, K: np.ndarray) -> Moment:
 
 def compute_felt_stiffness(moment: Moment, K: np.ndarray) -> tuple[float, float]:
     """Compute least and greatest stiffness at the goal over that of K, over K's axes, by central differences."""
-    ratios = []
-    for k, e in eigenpairs(K):
+    ratios, (values, vectors) = [], np.linalg.eigh(K)
+    for k, e in zip(values.tolist(), vectors.T, strict=True):
         ahead, behind = (moment(turn(sign * STEP * e)) for sign in (1.0, -1.0))
         ratios.append(float(-(ahead - behind) @ e / (2.0 * STEP) / k))
     return min(ratios), max(ratios)
-
-
-def eigenpairs(K: np.ndarray) -> list[tuple[float, np.ndarray]]:
-    """Return (eigenvalue, eigenvector) of a symmetric matrix."""
-    values, vectors = np.linalg.eigh(K)
-    return list(zip(values.tolist(), vectors.T, strict=True))
 
 
 def turn(phi: np.ndarray) -> np.ndarray:

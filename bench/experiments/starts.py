@@ -15,7 +15,7 @@ def count_of(start_set: str, count: int | None, seed: int, arm: str = "") -> int
 
 def on_arm(start_set: str, count: int | None, seed: int, arm: str) -> list[Start]:
     """tasks.start_set(start_set, count, seed, arm)."""
-    size = tasks.start_set_size(start_set, arm=True)
+    size = tasks.find_start_set(start_set, arm=True).size
     wanted = size if count is None else count
     text = hashlib.sha256(tasks.arm(arm).xml.encode()).hexdigest()[:16]
     return list(found(start_set, max(wanted, size), seed, arm, text)[:wanted])

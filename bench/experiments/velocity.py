@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -21,6 +21,7 @@ from bench.experiments.columns import read_table
 from bench.experiments.episode_rows import contender_columns, episode_columns
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.limiters import LIMITERS, NONE
+from bench.experiments.rounding import NUDGE, nudged
 from bench.experiments.suites import AT_VELOCITIES, BY_EVERY_INVERSE, SUITES, WITHOUT_FACTOR
 from bench.experiments.traces import laws
 from bench.law.contender import Contender, refusal
@@ -41,8 +42,6 @@ EPISODE_S = {"": 2e-4, "arm": 3e-3}
 LAGS_S = (0.0, 0.05)
 """Time constants of servos: none, and one that with K = 10/s makes K T = 1/2, twice what does not overshoot."""
 
-BESIDE_RAD = 1e-12
-
 PLACED = ("share", "limiter", "lag_s", "start_set")
 
 
@@ -60,13 +59,15 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     """Return a unit a law on the free body, and one a law, inverse and arm; a user's last."""
     part, some = asked.suite.velocity, velocity_laws(asked)
     made = [Unit(NAME, one.name, "free-body", count=part.starts, horizon_s=HORIZON_S) for one in some]
-    for name in dict.fromkeys(unit.arm for unit in arm.units(asked)):
-        made += [
-            Unit(NAME, one.name, "arm-regulation", name, count=part.on_arms, horizon_s=HORIZON_S)
-            for law in some
-            for one in on_joints(law, tasks.arm(name).joints)
-        ]
+    made += units_on_arms(asked, some, NAME, count=part.on_arms, horizon_s=HORIZON_S)
     return own_last(made, asked.own)
+
+
+def units_on_arms(asked: Asked, laws: list[Contender], experiment: str, **more: Any) -> Iterator[Unit]:
+    """Yield a unit a law and inverse on each arm of the plan."""
+    for name in dict.fromkeys(unit.arm for unit in arm.units(asked)):
+        for one in (one for law in laws for one in on_joints(law, tasks.arm(name).joints)):
+            yield Unit(experiment, one.name, "arm-regulation", name, **more)
 
 
 def velocity_laws(asked: Asked) -> list[Contender]:
@@ -113,7 +114,7 @@ def rows(settings: Settings, unit: Unit) -> dict:
     }
     if unit.arm:
         changed = [OUTCOME, PATH, FURTHEST, PEAK, RATE, OFF]
-        beside = np.vstack([_run(settings, unit, part, list(map(_turned, part.starts))) for part in every])
+        beside = np.vstack([_run(settings, unit, part, [nudged(one, NUDGE) for one in part.starts]) for part in every])
         found |= compare_beside(made[:, changed], beside[:, changed])
     else:
         found |= {"rounding_change": np.nan, "outcome_beside": ""}
@@ -147,11 +148,6 @@ def _run(settings: Settings, unit: Unit, part: Part, some: list[Start]) -> np.nd
     one, limit = settings.contender(unit.contender), LIMITERS[part.limiter].limit
     K = part.share * gain(settings)
     return run(one, limit, K, some, settings.limits(unit.horizon_s), unit.arm, part.lag_s)
-
-
-def _turned(start: Start) -> Start:
-    """Return the start with every joint 1e-12 rad further."""
-    return start._replace(q=tuple(x + BESIDE_RAD for x in start.q))
 
 
 def compare_beside(numbers: np.ndarray, beside: np.ndarray) -> dict:

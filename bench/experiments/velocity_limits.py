@@ -19,7 +19,7 @@ import numpy as np
 import tasks
 from bench.base.bisection import bisect
 from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, NEVER
-from bench.experiments import arm, velocity
+from bench.experiments import velocity
 from bench.experiments.columns import read_table
 from bench.experiments.episode_rows import contender_columns
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
@@ -55,13 +55,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     """Return a unit a law on the free body; on each arm one for each inverse of one law."""
     some = velocity.velocity_laws(asked)
     made = [Unit(NAME, one.name, "free-body") for one in some]
-    for name in dict.fromkeys(unit.arm for unit in arm.units(asked)):
-        made += [
-            Unit(NAME, one.name, "arm-regulation", name)
-            for law in some
-            if law.name == BY_EVERY_INVERSE
-            for one in velocity.on_joints(law, tasks.arm(name).joints)
-        ]
+    made += velocity.units_on_arms(asked, [one for one in some if one.name == BY_EVERY_INVERSE], NAME)
     return own_last(made, asked.own)
 
 
@@ -92,14 +86,8 @@ def _on_arm(name: str) -> Start:
     """Return the arm at home, its goal NEAR_RAD off about an axis of no kind."""
     from tasks.kinematics import kinematics
 
-    judge = kinematics(tasks.arm(name))
-    q = pose(name)
+    judge, q = kinematics(tasks.arm(name)), tasks.arm(name).home
     return judge.start("", q, multiply(about(FAR_AXIS, NEAR_RAD), judge.pose(q)[1]))
-
-
-def pose(name: str) -> tuple[float, ...]:
-    """Return the joint angles at which an arm's limits are measured: its home."""
-    return tasks.arm(name).home
 
 
 def near(settings: Settings, unit: Unit, begun: list[Start], lag_ticks: float, share: float = 1.0) -> float:

@@ -38,7 +38,7 @@ def finish(plan: Plan, out: Path, lost: list[str], again: set[str], by: dict, be
         {
             **describe(),
             "suite": plan.settings.suite,
-            "plan": plan.digest(),
+            "plan": plan.digest,
             "episodes": plan.episodes("free-body", "arm", "map"),
             "trials": plan.episodes("contact"),
             "troubled": plan.episodes("robustness"),

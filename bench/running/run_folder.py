@@ -73,7 +73,7 @@ def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
     if found is None:
         raise BadResults(f"{out}: its plan.json is none of ours; choose another folder with --out")
     is_whole = found == digest_of(content)
-    if not is_whole or found != plan.digest():
+    if not is_whole or found != plan.digest:
         if replace:
             return State(False, frozenset())
         is_other = f"holds another plan ({describe_difference(content, plan.identity())})"
@@ -113,7 +113,7 @@ SEAL = hashlib.sha256().digest_size
 
 
 def _seal(plan: Plan, unit: Unit, content: bytes) -> bytes:
-    words = f"{plan.digest()} {dataclasses.astuple(unit)!r} "
+    words = f"{plan.digest} {dataclasses.astuple(unit)!r} "
     return hashlib.sha256(words.encode() + content).digest()
 
 
@@ -156,7 +156,7 @@ def _content(out: Path) -> list[Path]:
 def begin(plan: Plan, out: Path) -> None:
     """Make the folder this plan's, whatever of ours it held."""
     _clear(out)
-    write_json(out / "plan.json", {"digest": plan.digest(), **plan.identity()})
+    write_json(out / "plan.json", {"digest": plan.digest, **plan.identity()})
     for own in plan.settings.own:  # so that its rows can be read, and its report written, with what made them
         copy = out / "laws" / f"{own.name.replace('-', '_')}.py"
         write_atomically(copy, lambda temporary, own=own: Path(temporary).write_bytes(own.text.encode()))

@@ -20,7 +20,7 @@ import numpy as np
 from tasks.arm_model import Arm
 from tasks.base import ArmStartSet, Quat, Start, Vector
 from tasks.clearance import CONDITION, RANGE, clear_path, is_clear_of_pole, is_clear_of_wraps, steps_for
-from tasks.haar import direction, halton
+from tasks.haar import direction, endless
 from tasks.kinematics import Kinematics, kinematics
 from tasks.paths import geodesic, straight_zyx
 
@@ -74,12 +74,9 @@ def _turn(model: Kinematics, q: np.ndarray, axis: Vector, angle: float) -> tuple
 
 def around_home(arm: Arm, seed: int, width: float = AROUND_HOME) -> Iterator[tuple[np.ndarray, Vector]]:
     """Joint angles within `width` [rad] of home and an axis, evenly spread, without end."""
-    n, drawn, home = arm.joints, 0, np.array(arm.home)
-    while True:
-        points = halton(2 * drawn or 256, n + 2, seed)
-        for point in points[drawn:]:
-            yield home + width * (2.0 * np.array(point[:n]) - 1.0), direction(*point[n:])
-        drawn = len(points)
+    n, home = arm.joints, np.array(arm.home)
+    for point in endless(n + 2, seed):
+        yield home + width * (2.0 * np.array(point[:n]) - 1.0), direction(*point[n:])
 
 
 def van_der_corput(i: int) -> float:

@@ -19,7 +19,7 @@ from tasks.arm_model import Arm
 from tasks.arm_starts.clear import AROUND_HOME
 from tasks.base import ArmStartSet, Vector
 from tasks.clearance import CONDITION, RANGE, is_clear_of_pole, is_clear_of_wraps, steps_for
-from tasks.haar import halton
+from tasks.haar import endless
 from tasks.kinematics import Kinematics, kinematics, rotation_vector
 from tasks.linear_algebra import length
 from tasks.paths import geodesic
@@ -50,13 +50,10 @@ def build(arm: Arm, count: int, seed: int) -> list:
 
 def _pairs(arm: Arm, seed: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Two sets of joint angles around home, evenly spread together, without end."""
-    home, drawn = np.array(arm.home), 0
-    while True:
-        points = np.array(halton(2 * drawn or 256, 2 * arm.joints, seed))
-        for point in points[drawn:]:
-            q, aim = (home + AROUND_HOME * (2.0 * half - 1.0) for half in np.split(point, 2))
-            yield q, aim
-        drawn = len(points)
+    home = np.array(arm.home)
+    for point in endless(2 * arm.joints, seed):
+        q, aim = (home + AROUND_HOME * (2.0 * half - 1.0) for half in np.split(np.array(point), 2))
+        yield q, aim
 
 
 def _moved(model: Kinematics, q: np.ndarray, aim: np.ndarray) -> np.ndarray | None:

@@ -9,20 +9,21 @@ that it finds are the goal's. A goal that no search found may still be reachable
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
 
 from tasks.arm_model import Arm
 from tasks.base import ArmStartSet, Quat, Start
-from tasks.haar import halton, orientation
+from tasks.haar import endless, halton, orientation
 from tasks.kinematics import Kinematics, kinematics
 
 SIZE = 200
 SEEDS = 6
 SEED_OF_SEEDS = 1988
 # Candidates a start at most; an arm that reaches one goal in so many is no arm to turn a tool with.
-MOST_TRIES = 50
+MOST_TRIES = 62
 
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:
@@ -30,17 +31,13 @@ def build(arm: Arm, count: int, seed: int) -> list[Start]:
     model, n = kinematics(arm), arm.joints
     seeds = [spread(arm, point) for point in halton(SEEDS, n, SEED_OF_SEEDS)]
     starts: list[Start] = []
-    drawn = 0
-    while len(starts) < count and drawn < MOST_TRIES * count:
-        points = halton(2 * (drawn + count), n + 3, seed)
-        for point in points[drawn:]:
-            q, goal = spread(arm, point[:n]), orientation(*point[n:])
-            there = _reached(model, q, goal, [q, np.array(arm.home), *seeds])
-            if there:
-                starts.append(model.start(f"uniform-{len(starts):04d}", q, goal, goal_q=there))
-                if len(starts) == count:
-                    break
-        drawn = len(points)
+    for point in itertools.islice(endless(n + 3, seed), MOST_TRIES * count):
+        q, goal = spread(arm, point[:n]), orientation(*point[n:])
+        there = _reached(model, q, goal, [q, np.array(arm.home), *seeds])
+        if there:
+            starts.append(model.start(f"uniform-{len(starts):04d}", q, goal, goal_q=there))
+        if len(starts) == count:
+            break
     return starts
 
 

@@ -82,7 +82,7 @@ def _rotation(at: Singularity) -> float:
 
 def _family(model: Kinematics, at: Singularity, drawn: list[Vector]) -> list[Turn] | None:
     """Return the turn through the singularity, then those past it at every distance; None if any cannot be made."""
-    turns = [_first(_through(model, at, axis) for axis in _across(at.u[3:], drawn))]
+    turns = [next(filter(None, (_through(model, at, axis) for axis in _across(at.u[3:], drawn))), None)]
     for k in DECADES:
         if turns[-1]:
             turns.append(_past(model, at, 10.0**-k, drawn))
@@ -141,10 +141,6 @@ def _turn(model: Kinematics, q: np.ndarray, axis: Vector, paths: Iterable[np.nda
             return None
         ends.append(path[-1])
     return ends[0], beyond(model.pose(ends[0])[1], middle)
-
-
-def _first(found: Iterable[Turn | None]) -> Turn | None:
-    return next(filter(None, found), None)
 
 
 STARTS = ArmStartSet("wrist", "Turns through and past kinematic singularities, the tool off its pole", SIZE, build)

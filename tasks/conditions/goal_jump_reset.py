@@ -1,14 +1,10 @@
 """A goal that jumps while the body moves, as in goal_jump, and the law's memory is reset at the jump."""
 
-from tasks.axis import Axis
-from tasks.conditions.goal_jump import starts
+from tasks.conditions import goal_jump
 
-AXIS = Axis(
-    "goal-jump-reset",
-    "Goal that jumps, memory reset",
-    "s",
-    (0.0, 0.05, 0.1, 0.2, 0.5, 1.0),
-    0.0,
+AXIS = goal_jump.AXIS._replace(
+    name="goal-jump-reset",
+    title="Goal that jumps, memory reset",
+    fields=(),
     sets=lambda level: {"jump_s": level, "jump_resets": int(level > 0.0)},
-    starts=starts,
 )

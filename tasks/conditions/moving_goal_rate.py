@@ -1,13 +1,11 @@
 """A goal oscillating about two axes, at a peak rate of the level; its rate is feedforward, its acceleration is not."""
 
-from tasks.axis import Axis
+from tasks.conditions import moving_goal
 from tasks.moving_goal import RATE
 
-AXIS = Axis(
-    "moving-goal-rate",
-    "Moving goal, feedforward of its rate",
-    "rad/s",
-    (0.0, 0.5, 1.0, 2.0, 5.0, 10.0),
-    0.0,
+AXIS = moving_goal.AXIS._replace(
+    name="moving-goal-rate",
+    title="Moving goal, feedforward of its rate",
+    fields=(),
     sets=lambda level: {"reference_amplitude": level, "feedforward": RATE},
 )

@@ -1,13 +1,11 @@
 """A goal oscillating about two axes, at a peak rate of the level; the law is given where it is, without feedforward."""
 
-from tasks.axis import Axis
+from tasks.conditions import moving_goal
 from tasks.moving_goal import NO_FEEDFORWARD
 
-AXIS = Axis(
-    "moving-goal-untold",
-    "Moving goal, no feedforward",
-    "rad/s",
-    (0.0, 0.5, 1.0, 2.0, 5.0, 10.0),
-    0.0,
+AXIS = moving_goal.AXIS._replace(
+    name="moving-goal-untold",
+    title="Moving goal, no feedforward",
+    fields=(),
     sets=lambda level: {"reference_amplitude": level, "feedforward": NO_FEEDFORWARD},
 )

@@ -15,16 +15,11 @@ from __future__ import annotations
 import functools
 
 from tasks.arm_model import Arm, model_xml
-from tasks.base import ArmTask, Start, Task
+from tasks.base import ArmTask, Task
 
 NAME = "arm-regulation"
 TITLE = "Hold the tool's position, turn it to the goal"
 START_SETS = ("clear", "wrist", "pole", "half-turn", "uniform", "tumbling", "reach")
-
-
-def state(start: Start) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """State of the joints: (q, qdot)."""
-    return start.q, start.qdot
 
 
 @functools.cache
@@ -35,7 +30,7 @@ def on(arm: Arm) -> Task:
         title=TITLE,
         source=arm.source,
         xml=lambda dt: model_xml(arm, dt),
-        state=state,
+        state=lambda start: (start.q, start.qdot),
         start_sets=START_SETS,
         arm=arm.name,
     )

@@ -6,12 +6,10 @@ so that R is symmetric bit for bit and the error is exactly zero whatever the ax
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from tasks.base import Start, StartSet, Vector
-from tasks.rotations import short_of_180_degrees
+from tasks.rotations import short_of_180_degrees, unit
 
 AXES: dict[str, Vector] = {
     "x": (1.0, 0.0, 0.0),
@@ -48,13 +46,8 @@ def build(seed: int) -> list[Start]:
 
 def _random_axes(seed: int) -> dict[str, Vector]:
     """Draw generic axes, uniform on the sphere: no element is zero and no two are equal."""
-    generator = np.random.default_rng(seed)
-    axes = {}
-    for i in range(RANDOM_AXES):
-        x, y, z = generator.normal(size=3).tolist()
-        length = math.hypot(x, y, z)
-        axes[f"random{i}"] = (x / length, y / length, z / length)
-    return axes
+    drawn = np.random.default_rng(seed).normal(size=(RANDOM_AXES, 3)).tolist()
+    return {f"random{i}": unit((x, y, z)) for i, (x, y, z) in enumerate(drawn)}
 
 
 STARTS = StartSet(

@@ -17,12 +17,12 @@ from bench.engines.episode import FINAL_ANGLE, FIRST_METRIC, OUTCOME, SETTLING_T
 from bench.engines.plants import perturbed
 from bench.engines.simulate import run as run_unperturbed
 from bench.engines.simulate import simulate
-from bench.engines.simulate_bodies import drawn
+from bench.engines.simulate_bodies import draw_noise
 from bench.engines.simulate_bodies import run_disturbed as run
 from bench.law.contenders.registry import find_contender
 from tasks.base import Start
-from tasks.condition import NO_FEEDFORWARD, RATE, Condition
-from tasks.moving_goal import reference_rates
+from tasks.condition import Condition
+from tasks.moving_goal import NO_FEEDFORWARD, RATE, reference_rates
 from tasks.rotations import about, short_of_180_degrees
 from tasks.rules import RULES
 from tasks.verdict import SETTLED
@@ -58,7 +58,7 @@ def test_compiled_and_plain_loops_agree_bit_for_bit(word):
     starts = [*tasks.start_set("tumbling", 3), *tasks.start_set("half-turn")[:2]]
     rows = blank(len(starts), METRICS, (0.0,) * perturbed.EXTRA)
     given = perturbed.in_steps(numbers(settings()), EVERYTHING, RULES.hold_s, horizon_s)
-    noise = drawn(len(starts), given.ticks, 0, True)
+    noise = draw_noise(0, len(starts), given.ticks, 0)
     plain, world = perturbed.loop_of(observer(METRICS)), perturbed.world(EVERYTHING, noise, rows)
     with np.errstate(all="ignore"):
         simulate(plain, (evaluation_of(one),), world, memory_of(one), start_rows(starts), given, rows)
@@ -122,9 +122,8 @@ def test_small_noise_adds_up_as_it_does_in_the_linear_loop():
     """About the goal each axis is theta' = theta + h w + h^2/2 u, w' = w + h u, u = -Kp (theta + n) - Kv (w + m)."""
     condition, size, h = Condition(attitude_noise=1e-6, rate_noise=1e-5), 1e-6, 1e-3
     rows = ended("rotation-matrix", [Start("at the goal", (1.0, 0.0, 0.0, 0.0))], condition, horizon_s=2.0)
-    noise = drawn(1, 2001, 0, True)[0]
     theta, rate, squares = np.zeros(3), np.zeros(3), []
-    for n in noise[:2000]:
+    for n in draw_noise(0, 1, 2001, 0)[0, :2000]:
         u = -KP * (theta + size * n[:3]) - KV * (rate + 10.0 * size * n[3:])
         theta, rate = theta + h * rate + 0.5 * h * h * u, rate + h * u
         squares.append(theta @ theta)
@@ -142,10 +141,10 @@ def test_starts_in_blocks_of_noise_give_the_same_rows():
 
 
 def test_noise_is_that_of_its_seed_and_start_alone():
-    few, many = drawn(2, 50, 3, True), drawn(4, 50, 3, True)
+    few, many = draw_noise(0, 2, 50, 3), draw_noise(0, 4, 50, 3)
     assert same_bits(few, many[:2])
-    assert not same_bits(drawn(2, 50, 4, True), few)
-    assert abs(drawn(4, 5000, 0, True).std() - 1.0) < 0.01
+    assert not same_bits(draw_noise(0, 2, 50, 4), few)
+    assert abs(draw_noise(0, 4, 5000, 0).std() - 1.0) < 0.01
 
 
 AXES = (X, AXIS, (1.0, 1.0, 1.0), (-0.3, 0.2, 0.9))

@@ -67,7 +67,7 @@ CONTROLLERS = ["hybrid-base+inverse", "hybrid/zyx-euler+projected", "impedance-g
 
 
 def test_contender_in_contact_is_the_word_of_the_command_line():
-    names = read.with_controller(IN_CONTACT)["contender"]
+    names = read.with_contender(IN_CONTACT)["contender"]
     assert list(names.drop_duplicates()) == CONTROLLERS
     assert [find_controller(name).name for name in CONTROLLERS] == CONTROLLERS
 

@@ -18,7 +18,7 @@ from bench.experiments import plan
 from bench.experiments.choice import Choice
 from bench.experiments.experiment import rows_of
 from bench.experiments.tables.read import with_contender
-from bench.experiments.velocity_limits import LAG_TICKS, pose
+from bench.experiments.velocity_limits import LAG_TICKS
 from bench.findings.theory import robustness_theory, thresholds
 from bench.findings.theory.held_goals import held_share, least_cosine
 from bench.findings.theory.velocity_limits import by_eigenvalues, derivative, lagged, near, on_arm, with_theory
@@ -26,8 +26,8 @@ from bench.law.contenders.registry import all_contenders, contenders, find_conte
 from bench.law.display import Equation
 from bench.law.inputs import AT_REST, Gains, Goal
 from tasks.base import Start
-from tasks.condition import NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION
 from tasks.kinematics import kinematics
+from tasks.moving_goal import NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION
 from tasks.rotations import about, multiply
 from tasks.rules import RULES
 from tasks.verdict import SETTLED
@@ -178,7 +178,7 @@ def test_limit_behind_servos_is_where_a_root_leaves_the_circle(lag):
 
 @pytest.mark.parametrize("arm", tasks.arm_names())
 def test_limit_of_exact_inverses_is_two_and_of_the_transpose_that_of_its_largest_singular_value(arm):
-    q, joints = pose(arm), tasks.arm(arm).joints
+    q, joints = tasks.arm(arm).home, tasks.arm(arm).joints
     for word in EXACT:
         if not contenders("inverses")[word].refuses(6, joints):
             assert on_arm(arm, q, inverse(word)) == pytest.approx(2.0, rel=1e-6)

@@ -22,7 +22,7 @@ from bench.law.scalar import kernel, sqrt
 from bench.running import timing
 from bench.running.timing import benchmarks, controller, law, on_arms, reference_kernel
 from bench.running.timing.benchmark import ENGINE, KERNEL, LAW, LOOP, Benchmark
-from bench.running.timing.ratios import ranks, ratio
+from bench.running.timing.ratios import order_interval, ratio
 from bench.running.timing.rows import QUICK_PASSES, frame
 from bench.running.timing.session import measure, order
 
@@ -115,7 +115,7 @@ def test_ratio_is_taken_within_a_pass_whatever_the_machine_does_between():
 
 @pytest.mark.parametrize("passes", [6, 7, 20, 31, 61, 400])
 def test_interval_of_the_median_covers_95_percent_and_no_more_than_needed(passes):
-    low, high = ranks(passes)
+    low, high = order_interval(passes, 0.5)
     assert low + high == passes - 1
     assert 1 - 2 * binom.cdf(low, passes, 0.5) >= 0.95
     assert 1 - 2 * binom.cdf(low + 1, passes, 0.5) < 0.95

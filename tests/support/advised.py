@@ -94,7 +94,7 @@ class Asked:
         best = self.front(asked, need.by) if need.by else asked
         kept = self.front(best, GENERAL)
         law = min(kept, key=lambda law: (*self.simplicity(law), law))
-        return needs.Decision(need, law, tuple(one for one in kept if one != law), tuple(best), tuple(asked))
+        return needs.Decision(law, tuple(one for one in kept if one != law), tuple(best), tuple(asked))
 
 
 def is_ours(law):

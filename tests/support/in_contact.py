@@ -13,7 +13,6 @@ from scipy.spatial.transform import Rotation as ScipyRotation
 
 import tasks
 from bench.engines.contact_episode import room, rows, wrench
-from bench.experiments.contact import can_do
 from bench.law.contenders.registry import contenders
 from bench.law.control.contact_controller import FORMS
 from bench.law.control.hybrid import comply
@@ -23,7 +22,7 @@ from bench.law.inputs import Gains
 from support.bits import EPS
 from support.on_arms import GAINS, Here, at_site
 from support.states import as_rotation, vector
-from tasks.contact import Specification, Trial, prepare
+from tasks.contact import Specification, Trial, can_do, prepare
 from tasks.contact_model import model_xml
 from tasks.domains.wrench_probe import TASK
 

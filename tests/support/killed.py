@@ -126,7 +126,7 @@ def while_clearing(wanted: Undisturbed, folder: Path) -> list[dict]:
 
     def is_new(out: Path) -> bool:
         path = out / "plan.json"
-        return path.is_file() and json.loads(path.read_text())["digest"] == wanted.plan.digest()
+        return path.is_file() and json.loads(path.read_text())["digest"] == wanted.plan.digest
 
     return at_every_file_operation(wanted, template, is_new)
 

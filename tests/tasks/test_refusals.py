@@ -70,7 +70,7 @@ def test_start_set_types_are_named_as_their_files():
     for name, found in constants(starts, "STARTS").items():
         assert isinstance(found, StartSet)
         assert found.name == name
-    assert all(tasks.start_set_title(name, arm=True) for name in tasks.start_set_names(arm=True))
+    assert all(tasks.find_start_set(name, arm=True).title for name in tasks.start_set_names(arm=True))
 
 
 def test_loading_writes_nothing_to_stderr():

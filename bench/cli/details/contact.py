@@ -27,7 +27,7 @@ def summary(rows: pd.DataFrame) -> pd.DataFrame:
     at rest: of the poses that have an end.
     """
     lines = []
-    for name, part in results.with_controller(rows).groupby("contender", observed=True, sort=False):
+    for name, part in results.with_contender(rows).groupby("contender", observed=True, sort=False):
         done = part[part["outcome"] == "done"]
         line = {"controller": str(name), "done": f"{len(done)}/{len(part)}"}
         if "rest" in done:  # not in a run of before there was an end

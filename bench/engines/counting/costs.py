@@ -5,8 +5,8 @@ Every counted call is checked against the plain call, so that a cost is never th
 
 import functools
 import math
+import statistics
 import struct
-from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple
 
@@ -52,11 +52,14 @@ def cost(contender: Contender) -> Cost:
         OutsideDialect: the law uses what cannot be counted.
         BadLaw: the counted law does not return what the plain law returns.
     """
-    calls = list(counted_calls(contender))
-    sampled = Counter(call.counts for call in calls if call.is_typical)
-    typical, times = sampled.most_common(1)[0]
-    worst = max(calls, key=lambda call: size(call.counts))
-    return Cost(contender, typical, worst.counts, times / sampled.total(), worst.state.id)
+    return cost_of(contender, list(counted_calls(contender)), statistics.mode)
+
+
+def cost_of(one: Any, calls: list[Call], choose: Callable[[list[Counts]], Counts]) -> Cost:
+    """Return the cost that calls show; choose: the typical one of what was counted in sampled states."""
+    sampled = [call.counts for call in calls if call.is_typical]
+    typical, worst = choose(sampled), max(calls, key=lambda call: size(call.counts))
+    return Cost(one, typical, worst.counts, sampled.count(typical) / len(sampled), worst.state.id)
 
 
 def rows(contenders: Iterable[Contender]) -> list[dict]:
@@ -154,7 +157,11 @@ def checked(name: str, state: Any, tally: Tally, plain: Callable, counting: Call
 
 
 def counted(numbers: Any, tally: Tally) -> Any:
-    """Return the nested tuples with every number replaced by a counting scalar."""
+    """Return nested tuples and arrays with every float replaced by a counting scalar; counts of things stay ints."""
+    if isinstance(numbers, int):
+        return numbers
+    if isinstance(numbers, np.ndarray):
+        return np.frompyfunc(lambda number: Counted(number, tally), 1, 1)(numbers)
     if not isinstance(numbers, tuple):
         return Counted(numbers, tally)
     inside = [counted(number, tally) for number in numbers]
@@ -172,10 +179,9 @@ def values(answer: Any) -> Any:
 
 def bits(answer: Any) -> bytes:
     """Return the numbers of an answer, bit by bit: NaN equals NaN, and 0.0 is not -0.0."""
+    answer = values(answer)
     if isinstance(answer, tuple):
-        return b"".join(bits(number) for number in answer)
-    if isinstance(answer, Counted):
-        answer = answer.value
-    if not isinstance(answer, int | float):
+        return b"".join(map(bits, answer))
+    if not isinstance(answer, float):
         return repr(answer).encode()
     return struct.pack("<d", answer if answer == answer else math.nan)

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from bench.engines.contact_episode import room, rows
-from bench.engines.counting.costs import Call, Cost, rows_of
+from bench.engines.counting.costs import Call, Cost, cost_of, rows_of
 from bench.engines.counting.counted import Tally
-from bench.engines.counting.on_arms import ARM_OF, ArmState, arm_states, call_on_arm, median_and_worst
+from bench.engines.counting.on_arms import ARM_OF, ArmState, arm_states, call_on_arm, median
 from bench.engines.counting.states import GAINS
 from bench.law.chain import Chain
 from bench.law.control.contact_controller import FORMS, ContactController
@@ -36,7 +36,7 @@ def cost_in_contact(controller: ContactController, specification: Specification 
     held, draw = controller.selection(specification), np.random.default_rng(SEED)
     with np.errstate(all="ignore"):
         calls = [_call(controller, held, state, draw) for state in arm_states(ARM_OF[joints])]
-    return median_and_worst(controller, calls)
+    return cost_of(controller, calls, median)
 
 
 def rows_in_contact(controller: ContactController) -> Iterator[dict]:

@@ -6,7 +6,6 @@ depends on anything else of an arm.
 """
 
 import functools
-from collections import Counter
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -14,17 +13,16 @@ import numpy as np
 
 import tasks
 from bench.engines.arm_episode import buffers
-from bench.engines.counting.costs import Call, Cost, checked, contender_words, counted, rows_of, size
-from bench.engines.counting.counted import Counted, Tally
+from bench.engines.counting.costs import Call, Cost, checked, contender_words, cost_of, counted, rows_of, size
+from bench.engines.counting.counted import Counts, Tally
 from bench.engines.counting.staged import in_stage, law_of, staged
-from bench.engines.counting.states import GAINS
+from bench.engines.counting.states import GAINS, goal_of
 from bench.engines.episode import vector
 from bench.law.chain import Chain
 from bench.law.contender import Contender
-from bench.law.control.contact_controller import ContactController
 from bench.law.control.resolved_acceleration import Parts, assembly, control, parts_of
-from bench.law.inputs import AT_REST, NO_MEMORY, Goal
-from bench.law.so3 import Rotation, from_quaternion
+from bench.law.inputs import NO_MEMORY, Goal
+from bench.law.so3 import Rotation
 from tasks.base import Start
 
 ARM_OF = {6: "ur5e", 7: "panda"}
@@ -73,11 +71,8 @@ def _state(model: Any, data: Any, start: Start, is_sampled: bool) -> ArmState:
     s = data.sensordata
     R = Rotation(vector(s[0:3]), vector(s[3:6]), vector(s[6:9]))
     chain = Chain(model.nv, data.xaxis.copy(), data.xanchor.copy(), data.qvel.copy(), vector(s[16:19]), R)
-    at_rest = vector(np.array(AT_REST))
-    R_d = Rotation(*(vector(np.array(column)) for column in from_quaternion(start.goal_wxyz)))
-    return ArmState(
-        start.id, chain, D, data.qfrc_bias - data.qfrc_passive, Goal(R_d, at_rest, at_rest), chain.p, is_sampled
-    )
+    goal = goal_of(start.goal_wxyz)
+    return ArmState(start.id, chain, D, data.qfrc_bias - data.qfrc_passive, goal, chain.p, is_sampled)
 
 
 def cost_on_arm(contender: Contender, arm: str) -> Cost:
@@ -91,15 +86,12 @@ def cost_on_arm(contender: Contender, arm: str) -> Cost:
     counting = _controller(contender, _staged_parts(contender, tally), tally)
     with np.errstate(all="ignore"):
         calls = [_call(contender, plain, counting, tally, state) for state in arm_states(arm)]
-    return median_and_worst(contender, calls)
+    return cost_of(contender, calls, median)
 
 
-def median_and_worst(one: Contender | ContactController, calls: list[Call]) -> Cost:
-    """Return the cost that these calls show."""
-    ranked = sorted((call.counts for call in calls if call.is_typical), key=size)
-    typical = ranked[len(ranked) // 2]
-    worst = max(calls, key=lambda call: size(call.counts))
-    return Cost(one, typical, worst.counts, Counter(ranked)[typical] / len(ranked), worst.state.id)
+def median(counts: list[Counts]) -> Counts:
+    """Return the upper median by size."""
+    return sorted(counts, key=size)[len(counts) // 2]
 
 
 def rows_on_arm(contender: Contender, joints: int) -> list[dict]:
@@ -164,22 +156,6 @@ def _call(contender: Contender, plain: Callable, counting: Callable, tally: Tall
 
 def call_on_arm(name: str, state: ArmState, tally: Tally, given: tuple, plain: Callable, counting: Callable) -> Call:
     """Return a counted call of what takes the type of its buffers last."""
-
-    def counted_call() -> Any:
-        return counting(*(as_counted(one, tally) for one in given), object)
-
-    return checked(name, state, tally, lambda: plain(*given, float), counted_call)[0]
-
-
-def as_counted(numbers: Any, tally: Tally) -> Any:
-    """Tuples and arrays with every float a counting scalar; counts of things stay ints."""
-    if isinstance(numbers, int):
-        return numbers
-    if isinstance(numbers, np.ndarray):
-        filled = np.empty(numbers.shape, object)
-        for place in np.ndindex(numbers.shape):
-            filled[place] = Counted(numbers[place], tally)
-        return filled
-    if isinstance(numbers, Chain):
-        return Chain(*(as_counted(one, tally) for one in numbers))
-    return counted(numbers, tally)
+    return checked(name, state, tally, lambda: plain(*given, float), lambda: counting(*counted(given, tally), object))[
+        0
+    ]

@@ -66,12 +66,17 @@ def _near_identity() -> Iterator[tuple[str, tuple[float, ...]]]:
 def _at_rest_and_spinning(
     name: str, quat_wxyz: tuple[float, ...], goal_wxyz: tuple[float, ...], is_sampled: bool = False
 ) -> list[State]:
-    R, at_rest = _rotation(quat_wxyz), _doubles(AT_REST)
-    goal = Goal(_rotation(goal_wxyz), at_rest, at_rest)
+    R, goal = _rotation(quat_wxyz), goal_of(goal_wxyz)
     return [
-        State(f"{name} at rest", R, at_rest, goal, is_sampled),
+        State(f"{name} at rest", R, goal.omega, goal, is_sampled),
         State(f"{name} spinning", R, _doubles(SPIN), goal, is_sampled),
     ]
+
+
+def goal_of(quat_wxyz: tuple[float, ...]) -> Goal:
+    """Return a goal that stands still."""
+    at_rest = _doubles(AT_REST)
+    return Goal(_rotation(quat_wxyz), at_rest, at_rest)
 
 
 def _rotation(quat_wxyz: tuple[float, ...]) -> Rotation:

@@ -5,6 +5,8 @@
 The hand has no mass, so that F is exactly zero before the first touch. Base frame, N, N m.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
 from bench.engines.metrics.contact_metric import Pose, Response, once_a_pose
@@ -50,11 +52,12 @@ def _error(pose: Pose, felt: np.ndarray, kind: slice) -> np.ndarray:
     return (felt[touched] + np.array(specification.desired_wrench[kind])) * complies
 
 
-def rms(pose: Pose, error: np.ndarray) -> float:
+def rms(pose: Pose, error_of: Callable[[Pose], np.ndarray]) -> float:
     """Root of the mean square of the lengths of N vectors, N x 3, over WINDOW_S; NaN if there is none.
 
     What ended at rest before is taken to stay as it was.
     """
+    error = error_of(pose)
     if not len(error):
         return np.nan
     squares, one = (error**2).sum(axis=1), pose.first
@@ -64,8 +67,9 @@ def rms(pose: Pose, error: np.ndarray) -> float:
     return float(np.sqrt(total / (min(count, len(squares)) + missing)))
 
 
-def peak(error: np.ndarray) -> float:
+def peak(pose: Pose, error_of: Callable[[Pose], np.ndarray]) -> float:
     """Return the greatest length of N vectors, N x 3; NaN if there is none."""
+    error = error_of(pose)
     return float(np.linalg.norm(error, axis=1).max()) if len(error) else np.nan
 
 

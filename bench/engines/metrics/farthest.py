@@ -7,9 +7,7 @@ from bench.law import kernel
 @kernel
 def largest_haversine(value, sample):
     """Largest haversine of the angle to the goal."""
-    if sample.haversine > value:
-        return sample.haversine
-    return value
+    return max(value, sample.haversine)
 
 
 FARTHEST = Metric("farthest", "1", "largest haversine of the angle to the goal", 0.0, largest_haversine, as_it_is)

@@ -20,12 +20,8 @@ library = ctypes.CDLL(_LIBRARY)
 ctypes.c_void_p.in_dll(library, "mjcb_time").value = None
 """The bindings' clock, which MuJoCo asks again and again in a step for timers that nobody reads: 14 to 34 % of it."""
 
-MUJOCO_INTEGRATORS = {
-    "euler": mujoco.mjtIntegrator.mjINT_EULER,
-    "implicit": mujoco.mjtIntegrator.mjINT_IMPLICIT,
-    "implicitfast": mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
-    "rk4": mujoco.mjtIntegrator.mjINT_RK4,
-}
+_WORDS = ("euler", "implicit", "implicitfast", "rk4")
+MUJOCO_INTEGRATORS = {word: getattr(mujoco.mjtIntegrator, f"mjINT_{word.upper()}") for word in _WORDS}
 
 
 def library_function(name: str, *arguments: types.Type) -> types.ExternalFunction:

@@ -80,17 +80,12 @@ class Batch:
 
     def __init__(self) -> None:
         self._model = mujoco.MjModel.from_xml_string("<mujoco/>")
-        self._made = library.mjb_makeBatch(self._model._address, 1, ctypes.byref(_Config(1, False)), None, 0)
-        weakref.finalize(self, library.mjb_deleteBatch, self._made)
-
-    @property
-    def address(self) -> int:
-        """Return the address of the batch."""
-        return self._made
+        self.address = library.mjb_makeBatch(self._model._address, 1, ctypes.byref(_Config(1, False)), None, 0)
+        weakref.finalize(self, library.mjb_deleteBatch, self.address)
 
     def error(self) -> str:
         """Return what MuJoCo said in the last step that failed."""
-        return library.mjb_error(self._made, 0).decode()
+        return library.mjb_error(self.address, 0).decode()
 
 
 def batch() -> Batch:

@@ -28,13 +28,14 @@ from bench.engines.arm_episode import (
 from bench.engines.arrays import Matrix, Vector
 from bench.engines.curve import keep_on_arm
 from bench.engines.loop import Act, Controller, Plant, Record, Sensed, begin, episodes_of
+from bench.engines.plants.free_body import measure, quaternion
 from bench.engines.simulated import Simulated, compute, fill_inertia, place, step
 from bench.law.chain import Chain
 from bench.law.control.resolved_acceleration import BY_JOINT, Buffers, control
 from bench.law.inputs import AT_REST, Goal
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation, dot, from_quaternion
-from tasks.truth import angle, haversine
+from tasks.truth import haversine
 from tasks.verdict import GOING, check_command
 
 
@@ -107,7 +108,7 @@ def sense(body, state, tick, numbers):
     R, omega = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8])), (s[9], s[10], s[11])
     p, speed = (s[16], s[17], s[18]), squared(sim.qvel, sim.n)
     tool = Tool(p, state.p_d, Chain(sim.n, sim.xaxis, sim.xanchor, sim.qvel, p, R))
-    hav = haversine((s[12], s[13], s[14], s[15]), state.quat_d)
+    hav = haversine(quaternion(s), state.quat_d)
     return Sensed(R, omega, state.goal, hav, dot(omega, omega), speed, speed, GOING, tool)
 
 
@@ -118,13 +119,6 @@ def advance(laws, body, state, act, gains, memory, numbers):
         body.sim.ctrl[i] = body.work.buffers.tau[i]
     step(body.sim)
     return state, memory
-
-
-@kernel
-def measure(body, state, sensed):
-    """Measure the tool's angle to its goal."""
-    s = body.sim.sensordata
-    return angle((s[12], s[13], s[14], s[15]), state.quat_d)
 
 
 ARM = Plant(reset, sense, advance, measure)
@@ -153,7 +147,7 @@ def command(laws, body, sensed, now, gains, memory, numbers):
         cut(work.buffers.tau, body.joints.rated, n)
     if work.sent.shape[0] > 0:
         drive(work.buffers.tau, work.sent, controls.share, controls.change, now.tick, work.fg, n)
-    total = load(seven(work.buffers.tau, n), body.joints.rated)
+    total, _ = load(work.buffers.tau, body.joints.rated, n)
     failure = check_command(total, controls.torque_limit_squared)
     return Act(u, u, dot(u, u), laws.third(sensed.R, sensed.goal.R), failure, ()), memory
 

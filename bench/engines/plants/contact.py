@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.engines import contact_episode
-from bench.engines.arm_episode import MOST, cut
+from bench.engines.arm_episode import MOST, cut, load, squared
 from bench.engines.arrays import Integers, Matrix, Vector
-from bench.engines.contact_episode import BROKEN, RESTED, Numbers, overload, setpoint, wrench, write_record
+from bench.engines.contact_episode import BROKEN, RESTED, Numbers, setpoint, wrench, write_record
 from bench.engines.episode import Numbers as Limits
 from bench.engines.loop import NO_ACT, Act, Controller, Plant, Record, Sensed, episodes_of
 from bench.engines.native.trapped import BEGIN, RUNGE_KUTTA, STEP, advance_trapped
@@ -127,11 +127,9 @@ def read_wrench(body, state, R):
 @kernel
 def sense(body, state, tick, numbers):
     """Read the sensors; no angle counts."""
-    sim, s, speed = body.sim, body.sim.sensordata, 0.0
+    sim, s, speed = body.sim, body.sim.sensordata, squared(body.sim.qvel, body.sim.n)
     R, omega = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8])), (s[9], s[10], s[11])
     p, (f, m) = (s[16], s[17], s[18]), read_wrench(body, state, R)
-    for i in range(sim.n):
-        speed = speed + sim.qvel[i] * sim.qvel[i]
     hand = Hand(p, f, m, Chain(body.n, sim.xaxis, sim.xanchor, sim.qvel, p, R), state.p_0)
     return Sensed(R, omega, Goal(state.R_d, AT_REST, AT_REST), 1.0, 0.0, speed, 0.0, state.fate, hand)
 
@@ -156,7 +154,7 @@ def command(laws, body, sensed_now, now, gains, memory, numbers):
     )
     if shape.is_cut > 0:
         cut(work.tau, shape.rated, n)
-    total, largest = overload(work.tau, shape.rated, n)
+    total, largest = load(work.tau, shape.rated, n)
     failure = check_command(total, shape.torque_limit_squared)
     if has_left(shape.rest, now.tick, hand.p, sensed_now.R, memory.place, memory.frame):
         memory = Rest(hand.p, sensed_now.R, now.tick)

@@ -42,7 +42,7 @@ def reset(body, k, start):
 
 @kernel
 def quaternion(s):
-    """Return the body's quaternion as MuJoCo has it."""
+    """Return the quaternion of the body, or the tool, as MuJoCo has it."""
     return (s[12], s[13], s[14], s[15])
 
 

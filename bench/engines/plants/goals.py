@@ -10,8 +10,7 @@ from bench.engines.ideal import angle_between
 from bench.law.inputs import AT_REST
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation
-from tasks.condition import RATE, RATE_AND_ACCELERATION
-from tasks.moving_goal import reference_column, reference_rates
+from tasks.moving_goal import RATE, RATE_AND_ACCELERATION, reference_column, reference_rates
 from tasks.rules import RULES, band_rad
 
 NO_BAND = -1.0

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.engines.arm_episode import MOST
+from bench.engines.arm_episode import MOST, load
 from bench.engines.arrays import Matrix, Vector
 from bench.engines.episode import FIRST_METRIC
 from bench.engines.loop import Act, Controller, Record, episodes_of
@@ -109,14 +109,13 @@ def command(laws, body, sensed, now, gains, memory, numbers):
     multiply_transposed(J, body.e, tau, 6, n)
     if n > 6:
         damp_elbow(J, work.D, work.G, sim.qvel, body.v, n, w, x, body.elbow)
-    total = 0.0
     for i in range(n):
         gravity, passive = still.qfrc_bias[i], sim.qfrc_passive[i]
         beside = sim.qfrc_bias[i] - passive - gravity
         body.added[i] = beside + passive if springs.is_whole > 0 else passive
         tau[i] += gravity + body.elbow[i] - body.damp[i] + (beside if springs.is_whole > 0 else 0.0)
-        ratio, body.before[i] = tau[i] / body.rated[i], sim.qvel[i]
-        total = total + ratio * ratio
+        body.before[i] = sim.qvel[i]
+    total, _ = load(tau, body.rated, n)
     failure, first = check_command(total, numbers.command_limit_squared), u if now.tick == 0 else memory[1]
     return Act(u, u, dot(u, u), math.nan, failure, first), (law, first)
 
@@ -124,16 +123,14 @@ def command(laws, body, sensed, now, gains, memory, numbers):
 @kernel
 def see(row, curves, now, body, sensed, act, before, numbers):
     """Keep the greatest strain, overshoot and distance."""
-    for i in range(body.sim.n):
-        ratio = body.work.buffers.tau[i] / body.rated[i]
-        size = sqrt(ratio * ratio)
-        row[STRAIN] = size if size > row[STRAIN] else row[STRAIN]
+    _, largest = load(body.work.buffers.tau, body.rated, body.sim.n)
+    row[STRAIN] = max(row[STRAIN], sqrt(largest))
     against, square = -dot(act.u, act.more), dot(act.more, act.more)
     if against > row[OVERSHOOT] * square:
         row[OVERSHOOT] = against / square
     away = minus(sensed.more.p_d, sensed.more.p)
     off = sqrt(dot(away, away))
-    row[OFF] = off if off > row[OFF] else row[OFF]
+    row[OFF] = max(row[OFF], off)
 
 
 @kernel

@@ -91,9 +91,9 @@ def see(row, curves, now, body, sensed, act, before, numbers):
     turned_off, along = cross(asked, omega), dot(asked, omega)
     bend = atan2(sqrt(dot(turned_off, turned_off)), along)
     speed = sqrt(dot(omega, omega))
-    row[FURTHEST] = hav if hav > row[FURTHEST] else row[FURTHEST]
+    row[FURTHEST] = max(row[FURTHEST], hav)
     row[BENT] = bend if bend > row[BENT] and speed > 0.0 else row[BENT]
-    row[PEAK] = speed if speed > row[PEAK] else row[PEAK]
+    row[PEAK] = max(row[PEAK], speed)
 
 
 @kernel
@@ -108,7 +108,7 @@ def see_arm(row, curves, now, body, sensed, act, before, numbers):
     """Keep the greatest of what is seen of an arm."""
     see(row, curves, now, body, sensed, act, before, numbers)
     off, rate = act.more.off, sqrt(act.more.rate)
-    row[OFF] = off if off > row[OFF] else row[OFF]
+    row[OFF] = max(row[OFF], off)
     row[RATE] = rate if act.failure == GOING and rate > row[RATE] else row[RATE]
 
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 import tasks
 from bench.base.errors import Incompatible
@@ -17,11 +16,8 @@ from bench.experiments.contact.poses import TABLE, frame
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.control.contact_controller import ContactController
 from bench.law.control.registry import all_controllers, find_controller
-from tasks.errors import BadValue
-
-if TYPE_CHECKING:
-    from tasks.arm_model import Arm
-    from tasks.contact import ContactTask, Trial
+from tasks.arm_model import Arm
+from tasks.contact import ContactTask, Trial, can_do, refuse
 
 LONGEST_S = 300.0
 """Simulated time of a unit [s], if it has more than one pose: two seconds in free space, some five in contact."""
@@ -81,26 +77,9 @@ def _controllers(words: tuple[str, ...], choice: Choice) -> list[ContactControll
 
 
 def _arms(task: ContactTask, choice: Choice) -> list[Arm]:
-    is_named = bool(choice.arms) and choice.is_about_contact
-    every = map(tasks.arm, choice.arms or tasks.arm_names())
-    return [one for one in every if can_do(task, one, or_refuse=is_named)]
-
-
-def can_do(task: ContactTask, arm: Arm, or_refuse: bool = False) -> bool:
-    """Tell whether an arm can be set a task.
-
-    Errors:
-        BadValue: it cannot, and `or_refuse` asks for the reason.
-    """
-    from tasks.contact import refuse  # MuJoCo takes a moment to import; what comes before must not
-
-    try:
-        refuse(task, arm)
-    except BadValue:
-        if or_refuse:
-            raise
-        return False
-    return True
+    for name in choice.arms if choice.is_about_contact else ():
+        refuse(task, tasks.arm(name))
+    return [one for one in map(tasks.arm, choice.arms or tasks.arm_names()) if can_do(task, one)]
 
 
 def cut(

@@ -163,15 +163,15 @@ def _det_gap(J: np.ndarray, J_E: np.ndarray, cos_beta: np.ndarray) -> np.ndarray
 
 def _differences(eye: Eye, one: Coordinates, qs: np.ndarray, margin: np.ndarray) -> np.ndarray:
     """Compute central differences of position and coordinates, N x rows x n; NaN beside a jump of the coordinates."""
-    ends = np.empty((2, len(qs), 3 + len(one.symbols), eye.n))
-    steps = np.empty((2, len(qs), eye.n))
+    n = eye.arm.joints
+    ends, steps = np.empty((2, len(qs), 3 + len(one.symbols), n)), np.empty((2, len(qs), n))
     for place, (q, h) in enumerate(zip(qs, STEP * margin, strict=True)):
-        for i in range(eye.n):
+        for i in range(n):
             for end, moved in enumerate((q[i] + h, q[i] - h)):
                 there = q.copy()
                 there[i] = steps[end, place, i] = moved
-                E = one.chart(eye.rotation(there)).E
-                ends[end, place, :3, i], ends[end, place, 3:, i] = eye.position(), E
+                p, R = eye.place(there)
+                ends[end, place, :3, i], ends[end, place, 3:, i] = p, one.chart(R).E
     change = ends[0] - ends[1]
     change = np.where(abs(change) > JUMP, np.remainder(change + math.pi, math.tau) - math.pi, change)
     change = np.where(abs(change).max(axis=(1, 2), keepdims=True) > JUMP, np.nan, change)

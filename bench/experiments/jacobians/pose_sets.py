@@ -19,7 +19,7 @@ from tasks.arm_model import Arm
 from tasks.arm_starts.uniform import spread
 from tasks.base import Quat
 from tasks.haar import halton
-from tasks.kinematics import Kinematics, rotation_vector
+from tasks.kinematics import Kinematics
 from tasks.linear_algebra import least_norm
 from tasks.paths import cos_beta, zyx_angles
 from tasks.rotations import zyx
@@ -133,7 +133,5 @@ def towards_pole(kin: Kinematics, q: np.ndarray, sign: float) -> list[tuple[floa
 
 def polished(kin: Kinematics, q: np.ndarray, p: np.ndarray, quat: Quat) -> np.ndarray:
     """One more step of Newton's method: from the 1e-12 at which `reach` is content to rounding."""
-    here, orientation = kin.pose(q)
-    error = np.concatenate((p - here, rotation_vector(quat, orientation)))
-    step = least_norm(kin.jacobian(q), error)
+    step = least_norm(kin.jacobian(q), kin.error(q, p, quat))
     return q if step is None else q + step

@@ -14,7 +14,6 @@ from __future__ import annotations
 import functools
 import operator
 import os
-from collections.abc import Callable
 from pathlib import Path
 
 from bench.base.errors import BadResults
@@ -28,6 +27,9 @@ VARIABLE = "ORIENTATION_BENCH_RESULTS"
 
 FREE_BODY = {"jacobian": ""}
 """The words of every row about the body that turns freely, whatever the table: only an arm has a Jacobian."""
+
+MARKS = {"controller": "", "regulator": "", "representation": "/", "jacobian": "@", "inverse": "+", "form": "+"}
+"""Columns that name a contender -> what stands before each word but the first."""
 
 
 def folder() -> Path:
@@ -76,42 +78,22 @@ def table(path: Path, name: str) -> pd.DataFrame:
         is_word = column.name in frame and isinstance(frame[column.name].dtype, pd.CategoricalDtype)
         if is_word != str(column.type).startswith("dictionary"):
             raise BadResults(f"{path}: table {name} has no column {column.name} as ours is; run again")
-    if "controller" in frame:
-        return with_controller(frame)
-    return with_contender(frame) if "regulator" in frame else frame
+    return with_contender(frame) if {"controller", "regulator"} & {*frame} else frame
 
 
 def with_contender(frame: pd.DataFrame) -> pd.DataFrame:
-    """Return the frame with `contender` added, as the command line writes it."""
-    columns = ["regulator", "representation", *(("jacobian", "inverse") if "jacobian" in frame else ())]
+    """Return the frame with `contender` added, a law or a controller in contact as the command line writes it.
 
-    def named(few: pd.DataFrame) -> pd.Series:
-        names = few["regulator"].where(few["representation"] == "", few["regulator"] + "/" + few["representation"])
-        if "jacobian" not in few:  # in a table of times
-            return names
-        return names.where(few["jacobian"] == "", names + "@" + few["jacobian"] + "+" + few["inverse"])
-
-    return _with_names(frame, columns, named)
-
-
-def with_controller(frame: pd.DataFrame) -> pd.DataFrame:
-    """Return rows of compliance.parquet with `contender` added, as the command line writes it."""
-
-    def named(few: pd.DataFrame) -> pd.Series:
-        names = few["controller"]
-        for mark, column in (("/", "representation"), ("+", "form")):
-            names = names.where(few[column] == "", names + mark + few[column])
-        return names
-
-    return _with_names(frame, ["controller", "representation", "form"], named)
-
-
-def _with_names(frame: pd.DataFrame, columns: list[str], named: Callable[[pd.DataFrame], pd.Series]) -> pd.DataFrame:
-    """`contender` from some columns of words, each combination of them named once however many rows have it."""
+    Each combination of words is named once however many rows have it.
+    """
+    columns = [name for name in MARKS if name in frame]
     words = frame[columns]
-    names = named(words.drop_duplicates().astype(str)).astype("category")
+    few = words.drop_duplicates().astype(str)
+    names = few[columns[0]]
+    for name in columns[1:]:
+        names = names.where(few[name] == "", names + MARKS[name] + few[name])
     number = words.groupby(columns, observed=True, sort=False).ngroup()
-    return frame.assign(contender=names.array.take(number.to_numpy()))
+    return frame.assign(contender=names.astype("category").array.take(number.to_numpy()))
 
 
 def chosen(frame: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:

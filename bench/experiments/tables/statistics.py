@@ -33,6 +33,17 @@ def quantile(values: np.ndarray, level: float, axis: int = -1) -> np.ndarray:
     return np.take(np.partition(values, place, axis=axis), place, axis=axis)
 
 
+def order_interval(count: int, level: float) -> tuple[int, int]:
+    """Return the places in order, from 0, of the ends of a quantile's 95 % interval; of few values the whole range.
+
+    The number of values below the quantile is binomial (W. Conover, Practical Nonparametric Statistics, 1999, 3.2).
+    """
+    from scipy.stats import binom
+
+    low, high = binom.ppf((TAIL, 1.0 - TAIL), count, level)
+    return max(0, int(low) - 1), min(count - 1, int(high))
+
+
 def bootstrap(values: np.ndarray, statistic: Callable[..., np.ndarray], seed: int = SEED) -> Estimate:
     """Percentile interval of a statistic over resamples with replacement (Efron 1979).
 

@@ -12,8 +12,7 @@ from scipy.linalg import solve_discrete_lyapunov
 from scipy.signal import lsim
 
 from bench.findings.theory.isotropic import Equation
-from tasks.condition import NO_FEEDFORWARD, RATE
-from tasks.moving_goal import reference_rates
+from tasks.moving_goal import NO_FEEDFORWARD, RATE, reference_rates
 
 STEP_S = 1e-3
 """Longest step of the plant [s], as in the episodes."""

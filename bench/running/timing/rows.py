@@ -1,5 +1,6 @@
 """From seconds to rows: results/timings/<machine>.parquet, a row for everything timed."""
 
+import functools
 import json
 import time
 from collections.abc import Callable
@@ -9,8 +10,9 @@ import numpy as np
 import pandas as pd
 
 from bench.base.provenance import describe, machine_key
+from bench.experiments.columns import CONTENDER_KEY
 from bench.experiments.episode_rows import contender_columns
-from bench.experiments.tables.store import read_arrow, write_table
+from bench.experiments.tables import store
 from bench.law.contender import Contender
 from bench.running.timing.benchmark import KERNEL, Benchmark
 from bench.running.timing.benchmarks import benchmarks
@@ -41,7 +43,7 @@ def run(
     rows = frame(measured, seconds)
     path = Path(folder) / f"{machine_key()}.parquet"
     about = {**describe(), "date": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()), "quick": quick}
-    write_table(path, rows, "timings", about)
+    store.write_table(path, rows, "timings", about)
     return path
 
 
@@ -58,15 +60,12 @@ def frame(measured: list[Benchmark], seconds: np.ndarray) -> pd.DataFrame:
     return pd.DataFrame([_row(one, times, kernel) for one, times in columns if one.what != KERNEL])
 
 
-NO_LAW = {"regulator": "", "representation": "", "jacobian": "", "inverse": ""}
-
-
 def _row(one: Benchmark, times: np.ndarray, kernel: np.ndarray) -> dict:
     found = ratio(times, kernel)
     return {
         "what": one.what,
         "arm": one.arm,
-        **(contender_columns(one.contender) if one.contender else NO_LAW),
+        **(contender_columns(one.contender) if one.contender else dict.fromkeys(CONTENDER_KEY, "")),
         "engine": one.engine,
         "ns_per_tick": float(np.median(times)),
         "ns_reference_kernel": float(np.median(kernel)),
@@ -78,13 +77,8 @@ def _row(one: Benchmark, times: np.ndarray, kernel: np.ndarray) -> dict:
     }
 
 
-def read(path: Path) -> pd.DataFrame:
-    """Return the rows of a machine's file.
-
-    Errors:
-        BadResults: missing, truncated, or of another schema.
-    """
-    return read_arrow(path, "timings").to_pandas()
+read = functools.partial(store.frame, table="timings")
+"""Return the rows of a machine's file; BadResults: missing, truncated, or of another schema."""
 
 
 def about(path: Path) -> dict:
@@ -93,4 +87,4 @@ def about(path: Path) -> dict:
     Errors:
         BadResults: missing, truncated, or of another schema.
     """
-    return json.loads(read_arrow(path, "timings").schema.metadata[b"about"])
+    return json.loads(store.read_arrow(path, "timings").schema.metadata[b"about"])

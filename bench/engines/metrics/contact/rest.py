@@ -3,6 +3,8 @@
 For tasks that have an end (tasks/contact_rest.py has the rule); NaN for others, and where an episode broke off.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 
 from bench.engines.metrics.contact.scene import FLAT, angle_to_plate
@@ -30,31 +32,23 @@ def time_to_align(pose: Pose) -> float:
     return float(time[aligned] - time[0]) if aligned < len(time) else np.nan
 
 
-def _late(pose: Pose) -> tuple[Response, slice, float] | None:
-    """Return the one response, its ticks of the last REST.hold_s, and how long [s] they last."""
+def _remaining(pose: Pose, moved: Callable[[Response, int], np.ndarray]) -> float:
+    """Return the length of the motion from the tick REST.hold_s before the end to it, over the time between them."""
     one = last(pose)
     if one is None or not pose.task.rests or len(one.time) < 2:
-        return None
-    late = slice(int(np.searchsorted(one.time, one.time[-1] - REST.hold_s)), None)
-    return one, late, float(one.time[-1] - one.time[late][0])
+        return np.nan
+    late = int(np.searchsorted(one.time, one.time[-1] - REST.hold_s))
+    return float(np.linalg.norm(moved(one, late)) / (one.time[-1] - one.time[late]))
 
 
 def remaining_speed(pose: Pose) -> float:
     """Distance over time [m/s] between the hand's place REST.hold_s before the end and at it."""
-    found = _late(pose)
-    if found is None:
-        return np.nan
-    one, late, lasts = found
-    return float(np.linalg.norm(one.p[-1] - one.p[late][0]) / lasts)
+    return _remaining(pose, lambda one, late: one.p[-1] - one.p[late])
 
 
 def remaining_rate(pose: Pose) -> float:
     """Angle over time [rad/s] between the hand's orientation REST.hold_s before the end and at it."""
-    found = _late(pose)
-    if found is None:
-        return np.nan
-    one, late, lasts = found
-    return float(np.linalg.norm(turned(one.R[late])) / lasts)
+    return _remaining(pose, lambda one, late: turned(one.R[late:]))
 
 
 METRICS = (

@@ -4,6 +4,9 @@ A moment about e turns the hand by C e. A hand that follows its setpoint turns a
 that complies, and as springs do: C = c I. With Z-Y-X angles kp I becomes kp B^-T B^-1.
 """
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 
 from bench.engines.metrics.contact_metric import ContactMetric, Pose
@@ -14,16 +17,17 @@ from bench.engines.metrics.measured_compliance import among_complying, complianc
 ALIKE = 1e-3
 
 
-def misalignment(pose: Pose) -> float:
-    """Return the largest angle [rad] between e and C e over the axes e that comply; NaN if a moment turns nothing."""
+def misalignment(pose: Pose, of: Callable[[np.ndarray], float] = np.max) -> float:
+    """Return the largest angle [rad] between e and C e over the axes e that comply; NaN if a moment turns nothing.
+
+    Args:
+        of: what is made of the angles instead, as their mean.
+    """
     angles = misaligned(compliance(pose), complying(pose))
-    return float(angles.max()) if len(angles) else np.nan
+    return float(of(angles)) if len(angles) else np.nan
 
 
-def mean_misalignment(pose: Pose) -> float:
-    """Return the mean angle [rad] between e and C e over the axes e that comply; NaN if a moment turns nothing."""
-    angles = misaligned(compliance(pose), complying(pose))
-    return float(angles.mean()) if len(angles) else np.nan
+mean_misalignment = partial(misalignment, of=np.mean)
 
 
 def least_yield(pose: Pose) -> float:

@@ -3,6 +3,8 @@
 Errors are f + h and m + h along and about the axes that comply, from the first touch on (`contact_force`).
 """
 
+from functools import partial
+
 import numpy as np
 
 from bench.engines.metrics.contact_force import (
@@ -41,27 +43,12 @@ def normal_force_error(pose: Pose) -> float:
     if touched is None or pose.task.name != SLIDING:
         return np.nan
     error = (one.force[touched] + np.array(one.trial.specification.desired_wrench[:3])) @ scene_normal(one.trial)
-    return rms(pose, error[:, None])
+    return rms(pose, lambda _: error[:, None])
 
 
-def force_error_peak(pose: Pose) -> float:
-    """max |f + h| [N]; NaN without touch, or if no axis complies."""
-    return peak(force_error(pose))
-
-
-def force_error_rms(pose: Pose) -> float:
-    """Root mean square of |f + h| [N]; NaN without touch, or if no axis complies."""
-    return rms(pose, force_error(pose))
-
-
-def moment_error_peak(pose: Pose) -> float:
-    """max |m + h| [N m]; NaN without touch, or if no axis complies."""
-    return peak(moment_error(pose))
-
-
-def moment_error_rms(pose: Pose) -> float:
-    """Root mean square of |m + h| [N m]; NaN without touch, or if no axis complies."""
-    return rms(pose, moment_error(pose))
+force_error_peak, force_error_rms = partial(peak, error_of=force_error), partial(rms, error_of=force_error)
+moment_error_peak, moment_error_rms = partial(peak, error_of=moment_error), partial(rms, error_of=moment_error)
+"""max and root mean square of |f + h| [N] and |m + h| [N m]; NaN without touch, or if no axis complies."""
 
 
 def force_overshoot(pose: Pose) -> float:
@@ -75,23 +62,16 @@ def force_overshoot(pose: Pose) -> float:
     return float((-pose.first.force[touched] @ ordered).max() / (ordered @ ordered) - 1.0)
 
 
-def peak_force(pose: Pose) -> float:
-    """max |f| over all ticks [N], whatever its direction; NaN if nothing was recorded."""
-    return _largest([np.linalg.norm(one.force, axis=1) for one in pose.responses])
+def largest(pose: Pose, field: str) -> float:
+    """Return the largest length of a field of the records over all ticks; NaN if nothing was recorded."""
+    seen = np.concatenate([getattr(one, field) for one in pose.responses])
+    return float(np.fmax.reduce(np.linalg.norm(seen, axis=1) if seen.ndim > 1 else seen, initial=np.nan))
 
 
-def peak_moment(pose: Pose) -> float:
-    """max |m| over all ticks [N m], whatever its direction; NaN if nothing was recorded."""
-    return _largest([np.linalg.norm(one.moment, axis=1) for one in pose.responses])
-
-
-def peak_torque_ratio(pose: Pose) -> float:
-    """max |tau_i| / rated_i over all ticks: above 1, a real arm could not have done it; NaN if nothing was recorded."""
-    return _largest([one.load for one in pose.responses])
-
-
-def _largest(sizes: list[np.ndarray]) -> float:
-    return float(np.fmax.reduce(np.concatenate(sizes), initial=np.nan))
+peak_force, peak_moment = partial(largest, field="force"), partial(largest, field="moment")
+"""max |f| [N] and max |m| [N m], whatever the direction."""
+peak_torque_ratio = partial(largest, field="load")
+"""max |tau_i| / rated_i: above 1, a real arm could not have done it."""
 
 
 METRICS = (

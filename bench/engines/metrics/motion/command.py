@@ -3,7 +3,7 @@
 import math
 
 from bench.engines.metrics.metric import Metric, as_it_is, root
-from bench.law import dot, kernel
+from bench.law import dot, kernel, minus
 
 
 @kernel
@@ -15,10 +15,7 @@ def add_square(value, sample):
 @kernel
 def largest_square(value, sample):
     """max |u|^2; a command that is not a number changes nothing."""
-    squared = dot(sample.u, sample.u)
-    if squared > value:
-        return squared
-    return value
+    return max(value, dot(sample.u, sample.u))
 
 
 @kernel
@@ -26,11 +23,8 @@ def largest_change(value, sample):
     """max |u - u before|^2 since the body is at rest for good."""
     if not sample.at_rest:
         return 0.0
-    x, y, z = sample.u[0] - sample.before[0], sample.u[1] - sample.before[1], sample.u[2] - sample.before[2]
-    squared = x * x + y * y + z * z
-    if squared > value:
-        return squared
-    return value
+    change = minus(sample.u, sample.before)
+    return max(value, dot(change, change))
 
 
 def if_settled(value, ending):

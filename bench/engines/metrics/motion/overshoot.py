@@ -14,9 +14,7 @@ from bench.law import kernel
 @kernel
 def largest_haversine(value, sample):
     """Largest haversine since the band was first entered."""
-    if sample.entered and sample.haversine > value:
-        return sample.haversine
-    return value
+    return max(value, sample.haversine) if sample.entered else value
 
 
 def angle_outside(value, ending):

@@ -9,9 +9,7 @@ from bench.law import dot, kernel, sqrt
 @kernel
 def smallest_margin(value, sample):
     """Smallest margin; a law on R has none (NaN), which changes nothing."""
-    if sample.margin < value:
-        return sample.margin
-    return value
+    return min(value, sample.margin)
 
 
 @kernel

@@ -1,16 +1,14 @@
 """What an episode asks of an arm: torques, a place to hold, the joints' ranges."""
 
 from bench.engines.metrics.metric import Metric, if_finite, root
-from bench.law import kernel
+from bench.law import dot, kernel, minus
 
 
 @kernel
 def largest_torque(value, sample):
     """max tau_i^2; a torque that is not a number changes nothing."""
     for i in range(7):
-        squared = sample.tau[i] * sample.tau[i]
-        if squared > value:
-            value = squared
+        value = max(value, sample.tau[i] * sample.tau[i])
     return value
 
 
@@ -19,37 +17,28 @@ def largest_ratio(value, sample):
     """max (tau_i / rated_i)^2; a torque that is not a number changes nothing."""
     for i in range(7):
         ratio = sample.tau[i] / sample.rated[i]
-        if ratio * ratio > value:
-            value = ratio * ratio
+        value = max(value, ratio * ratio)
     return value
 
 
 @kernel
 def farthest(value, sample):
     """max |p - p_d|^2."""
-    x, y, z = sample.p[0] - sample.p_d[0], sample.p[1] - sample.p_d[1], sample.p[2] - sample.p_d[2]
-    squared = x * x + y * y + z * z
-    if squared > value:
-        return squared
-    return value
+    return max(value, last_distance(value, sample))
 
 
 @kernel
 def last_distance(value, sample):
     """|p - p_d|^2 now."""
-    x, y, z = sample.p[0] - sample.p_d[0], sample.p[1] - sample.p_d[1], sample.p[2] - sample.p_d[2]
-    return x * x + y * y + z * z
+    away = minus(sample.p, sample.p_d)
+    return dot(away, away)
 
 
 @kernel
 def largest_excess(value, sample):
     """max over joints of q - upper or lower - q [rad], if positive; stops are soft."""
     for i in range(7):
-        above, below = sample.q[i] - sample.upper[i], sample.lower[i] - sample.q[i]
-        if above > value:
-            value = above
-        if below > value:
-            value = below
+        value = max(value, sample.q[i] - sample.upper[i], sample.lower[i] - sample.q[i])
     return value
 
 
