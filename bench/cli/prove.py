@@ -77,7 +77,7 @@ def list_faults(one: dict[str, Any]) -> list[str]:
     """Return what keeps a certificate from being one: false lemmas, and where an episode shows it."""
     said = [f"not proved: {lemma['statement']}" for lemma in one.get("lemmas", ()) if not lemma["is_proved"]]
     if one["theorem"] and not said and not one["is_proved"]:
-        said.append(f"its file declares '{one['declared']}', and what is proved is '{one['property']}'")
+        said.append(f"its file declares '{one['declared']}', and what is proved is '{one['stands']}'")
     if found := one.get("counterexample"):
         place = ", ".join(f"{part:.3g}" for part in found["quat_wxyz"])
         rates = ", ".join(f"{part:.3g}" for part in found["omega"])

@@ -10,24 +10,21 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from bench.findings.proofs.solver import Solver
+from bench.findings.proofs.theorem import DoesNotFit
 from bench.findings.proofs.trace import Path, Symbols, Traced
 from bench.law.inputs import Gains, Goal
-from bench.law.kinds import Law
+from bench.law.kinds import ON_MATRIX, Law
 from bench.law.so3 import Rotation, cross, dot, from_quaternion, rotate, rotate_back
 
 QUATERNION, RATES, GOAL = ("w", "x", "y", "z"), ("omega_x", "omega_y", "omega_z"), ("a", "b", "c", "d")
 
 
 class Tick(NamedTuple):
-    """A law's answer on one path: u at rest and as the body turns, and, with memory, after = kept q.
-
-    kept is positive on the side of the memory; None of a law without memory.
-    """
+    """A law's answer on one path: u at rest and as the body turns, and its memory afterwards, kept q, if it has one."""
 
     at_rest: tuple
     u: tuple
     kept: Traced | None
-    after: tuple | None
     path: Path
 
 
@@ -67,24 +64,32 @@ class FreeBody:
             return answer
         return (rotate_back(self.R_d, answer[0]), answer[1]) if memory else rotate_back(self.R_d, answer)
 
-    def ticks(self, law: Law, memory: tuple | None = None) -> Iterator[Tick]:
-        """Return what a law answers on every path, by default with a memory (w, v) on q's side where Z3 finds a state."""
-        held = memory or tuple(self.symbols.of["size"] * one for one in self.q)
-        given = (held,) if law.memory is not None else ()
+    def ticks(self, law: Law) -> Iterator[Tick]:
+        """Yield what a law on R answers on every path on which Z3 finds a state; a memory is a quaternion on q's side.
+
+        Errors:
+            DoesNotFit: the law acts on coordinates, has a state, or another memory.
+        """
+        if law.law is None or law.state is not None or law.coordinates != ON_MATRIX:
+            raise DoesNotFit("it is no law on the rotation matrix without a state")
+        given = () if law.memory is None else (tuple(self.symbols.of["size"] * one for one in self.q),)
         rest = tuple(self.symbols.number(0) for _ in range(3))
 
         def call() -> tuple:
             return self.command(law.law, rest, *given), self.command(law.law, self.omega, *given)  # type: ignore[arg-type]
 
         for path in self.symbols.paths(call):
-            if not memory and self.solver.find(*self.solver.condition(path), self.is_turned())[0] == "unsat":
+            if self.solver.find(*self.solver.condition(path), self.is_turned())[0] == "unsat":
                 continue
             still, moving = path.answer
             if law.memory is None:
-                yield Tick(still, moving, None, None, path)
+                yield Tick(still, moving, None, path)
             else:
                 u, after = moving
-                yield Tick(still[0], u, after[0] / self.eta, after, path)
+                kept = after[0] / self.eta
+                if any(one != kept * other for one, other in zip(after, self.q, strict=True)):
+                    raise DoesNotFit("its memory is not the quaternion of the turn")
+                yield Tick(still[0], u, kept, path)
 
     def is_turned(self) -> Any:
         """Return Z3's condition that the body is not at its goal: eta^2 < 1."""

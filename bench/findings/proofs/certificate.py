@@ -65,8 +65,8 @@ def certify(law: Law) -> dict[str, Any]:
         "declared": law.property,
         **proof._asdict(),
         "lemmas": [one._asdict() for one in proof.lemmas],
-        "is_proved": proof.is_proved and proof.property == law.property,
-        "settling": bound_settling(law) if proof.is_proved and proof.theorem == WITH_TIME else {},
+        "is_proved": proof.is_proved() and proof.stands == law.property,
+        "settling": bound_settling(law) if proof.is_proved() and proof.theorem == WITH_TIME else {},
         "counterexample": replay(law, false.counterexample) if false and false.counterexample else None,
     }
 

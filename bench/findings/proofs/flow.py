@@ -42,7 +42,10 @@ def turned_by(x: arb, P: arb) -> tuple[arb, arb, arb, arb]:
     u, found = P * x * x / 4, []
     for power in (2, 3):
         terms = [arb((-1) ** k) / math.factorial(2 * k + power) for k in range(TERMS + 1)]
-        value, slope = arb(0, abs(terms[-1] * u**TERMS).upper()), arb(0, abs(TERMS * terms[-1] * u ** (TERMS - 1)).upper())
+        value, slope = (
+            arb(0, abs(terms[-1] * u**TERMS).upper()),
+            arb(0, abs(TERMS * terms[-1] * u ** (TERMS - 1)).upper()),
+        )
         for k in reversed(range(TERMS)):
             value, slope = value + terms[k] * u**k, slope + (k * terms[k] * u ** (k - 1) if k else 0)
         found.append(((x / 2) ** power * value, (x / 2) ** (power + 2) * slope))

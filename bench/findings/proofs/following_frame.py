@@ -12,7 +12,7 @@ Source: Lizarralde & Wen 1996; Tayebi 2008.
 """
 
 from bench.findings.proofs.body import GOAL, FreeBody
-from bench.findings.proofs.solver import Lemma
+from bench.findings.proofs.solver import by_algebra
 from bench.findings.proofs.theorem import Proof, Theorem
 from bench.law.kinds import Law
 from bench.law.so3 import dot, rotate_back
@@ -49,10 +49,16 @@ def prove(law: Law) -> Proof:
     moved = tuple(one / symbol["size"] for one in multiply(conjugate(goal), rate))
     turning = tuple(2 * one for one in multiply(moved, conjugate(p))[1:])
     following = sum((one * other for one, other in zip(p, conjugate(body.q), strict=True)), body.symbols.number(0))
-    V = 2 * kp * (1 - body.eta**2) + 4 * kv**2 * (1 - following**2) + body.symbols.number(0.5) * dot(body.omega, body.omega)
+    V = (
+        2 * kp * (1 - body.eta**2)
+        + 4 * kv**2 * (1 - following**2)
+        + body.symbols.number(0.5) * dot(body.omega, body.omega)
+    )
     falls = body.derive(V, u, dict(zip(FRAME, moved, strict=True)))
     ratio = (-falls / (kv * dot(turning, turning))).value
-    lemmas = [Lemma("V' = -c Kv |omega_F|^2, c constant and positive", ratio.numer.is_ground and ratio.numer.LC > 0, "algebra", 0.0)]
+    lemmas = [
+        by_algebra("V' = -c Kv |omega_F|^2, c constant and positive", ratio.numer.is_ground and ratio.numer.LC > 0)
+    ]
     shown = r"V = 2 K_p (1 - \eta^2) + 4 K_v^2 (1 - \eta_F^2) + \tfrac12|\omega|^2"
     return Proof(THEOREM.name, "almost global", lemmas, shown, "every 180° rotation")
 

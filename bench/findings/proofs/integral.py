@@ -11,7 +11,8 @@ Source: Goodarzi, Lee, Lee 2013.
 from fractions import Fraction
 
 from bench.findings.proofs.body import FreeBody
-from bench.findings.proofs.theorem import Proof, Theorem, by_algebra
+from bench.findings.proofs.solver import by_algebra, decide
+from bench.findings.proofs.theorem import Proof, Theorem
 from bench.law.contenders.compensators.integral import INTEGRAL, LEAD
 from bench.law.kinds import Law
 from bench.law.so3 import dot
@@ -49,12 +50,19 @@ def prove(law: Law) -> Proof:
     bound = sum((short * factor for _, short, factor in terms), body.symbols.number(0))
     energy = 2 * kp * square - 2 * c * body.eta * s + half * S
     solver = body.solver
-    known = [solver.of["kv"] * solver.of["kv"] < RATIO * solver.of["kp"], body.is_turned(), solver.of["S"] >= 0]
+    known = [
+        *solver.given,
+        solver.of["kv"] * solver.of["kv"] < RATIO * solver.of["kp"],
+        body.is_turned(),
+        solver.of["S"] >= 0,
+    ]
     known += [solver.is_below(s**2 - square * S, strictly=False), solver.is_below(-(S + body.eta**2))]
     lemmas = [
-        by_algebra("V' = (c eta^2 - Kv) S - c s^2 + 2 c Kv eta s - c Kp |e|^2, s = eps . omega, S = |omega|^2", falls - written),
-        solver.never("V > 0 away from the goal", known, solver.is_below(energy, strictly=False)),
-        solver.never("V' < 0 but at rest at the goal or on a 180° rotation", known, solver.is_below(-bound, strictly=False)),
+        by_algebra(
+            "V' = (c eta^2 - Kv) S - c s^2 + 2 c Kv eta s - c Kp |e|^2, s = eps . omega, S = |omega|^2", falls - written
+        ),
+        decide("V > 0 away from the goal", known, solver.is_below(energy, strictly=False)),
+        decide("V' < 0 but at rest at the goal or on a 180° rotation", known, solver.is_below(-bound, strictly=False)),
     ]
     shown = r"V = 2 K_p (1 - \eta^2) - c\,e \cdot \omega + \tfrac12|\omega|^2 + \tfrac12 h |x - x_d|^2"
     return Proof(THEOREM.name, f"almost global where Kv^2 < {RATIO} Kp", lemmas, shown, "every 180° rotation")

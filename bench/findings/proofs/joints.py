@@ -8,7 +8,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from bench.findings.proofs.theorem import Proof, Theorem, by_algebra
+from bench.findings.proofs.solver import by_algebra
+from bench.findings.proofs.theorem import Proof, Theorem
 from bench.findings.proofs.trace import Symbols
 from bench.law.inputs import Gains
 from bench.law.kinds import Law

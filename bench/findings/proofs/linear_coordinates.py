@@ -9,17 +9,15 @@ Source: Paielli & Bach 1993; Schaub, Akella, Junkins 2001.
 
 from bench.findings.proofs.body import FreeBody, Tick
 from bench.findings.proofs.question import Question
-from bench.findings.proofs.solver import Lemma
-from bench.findings.proofs.theorem import DoesNotFit, Proof, Theorem, by_algebra
+from bench.findings.proofs.solver import by_algebra
+from bench.findings.proofs.theorem import DoesNotFit, Proof, Theorem
 from bench.findings.proofs.trace import Traced
-from bench.law.kinds import ON_MATRIX, Law
+from bench.law.kinds import Law
 from bench.law.so3 import dot
 
 
 def prove(law: Law) -> Proof:
     """Prove that eps or sigma is linear, and where a body stays."""
-    if law.law is None or law.state is not None or law.coordinates != ON_MATRIX:
-        raise DoesNotFit("it is no law on the rotation matrix without a state")
     has_memory = law.memory is not None
     body = FreeBody(positive=() if has_memory else ("w",))
     (kp, kv), omega = body.gains, body.omega
@@ -43,7 +41,7 @@ def prove(law: Law) -> Proof:
     x = r"\sigma" if has_memory else r"\epsilon"
     V = rf"V = \tfrac12|\dot x|^2 + \tfrac12 K_p |x|^2, \quad x = {x}"
     lemmas = [
-        Lemma("x'' + Kv x' + Kp x = 0", all(part.side in part.taken for part in ask.parts), "algebra", 0.0),
+        by_algebra("x'' + Kv x' + Kp x = 0", all(part.side in part.taken for part in ask.parts)),
     ]
     if not has_memory:
         return Proof(THEOREM.name, "almost global from rest", lemmas, V, "not defined at 180°", 1.0)

@@ -14,10 +14,10 @@ from fractions import Fraction
 import sympy as sp
 
 from bench.findings.proofs.body import QUATERNION, FreeBody
-from bench.findings.proofs.solver import Lemma
-from bench.findings.proofs.theorem import DoesNotFit, Proof, Theorem, by_algebra
+from bench.findings.proofs.solver import by_algebra
+from bench.findings.proofs.theorem import DoesNotFit, Proof, Theorem
 from bench.findings.proofs.trace import Traced
-from bench.law.kinds import ON_MATRIX, Law
+from bench.law.kinds import Law
 from bench.law.so3 import dot
 
 
@@ -47,8 +47,8 @@ def find_quadratic(body: FreeBody, slope: Traced) -> sp.Matrix:
 
 def prove(law: Law) -> Proof:
     """Prove descent and equilibria of a law of this form."""
-    if law.law is None or law.state is not None or law.memory is not None or law.coordinates != ON_MATRIX:
-        raise DoesNotFit("it is no law on the rotation matrix without a state or a memory")
+    if law.memory is not None:
+        raise DoesNotFit("it has a memory")
     body = FreeBody(goal_frame=True)
     tick, *others = body.ticks(law)
     if others:
@@ -57,14 +57,16 @@ def prove(law: Law) -> Proof:
     M = find_quadratic(body, -dot(body.omega, tick.at_rest) / kp)
     entries = [Fraction(int(one.p), int(one.q)) for one in M.diagonal()]
     lemmas = [
-        Lemma("U' = -u . omega/Kp at rest, U = q^T M q", True, "algebra", 0.0),
+        by_algebra("U' = -u . omega/Kp at rest, U = q^T M q", True),  # or find_quadratic would have refused it
         by_algebra("u - u at rest = -Kv omega", [tick.u[i] - tick.at_rest[i] + kv * body.omega[i] for i in range(3)]),
-        Lemma("M is diagonal with four different entries", M.is_diagonal() and len(set(entries)) == 4, "algebra", 0.0),
-        Lemma("the least entry is the goal's", entries[0] == min(entries), "algebra", 0.0),
+        by_algebra("M is diagonal with four different entries", M.is_diagonal() and len(set(entries)) == 4),
+        by_algebra("the least entry is the goal's", entries[0] == min(entries)),
     ]
     listed = ", ".join(f"{float(one):g}" for one in entries)
     V = rf"V = K_p\, q^\top M q + \tfrac12|\omega|^2, \quad M = \operatorname{{diag}}({listed})"
     return Proof(THEOREM.name, "almost global", lemmas, V, "180° rotations about n_d, o_d and a_d", 1.0)
 
 
-THEOREM = Theorem("quadratic-potential", "A potential that is quadratic in the quaternion, and a damper", prove, order=1)
+THEOREM = Theorem(
+    "quadratic-potential", "A potential that is quadratic in the quaternion, and a damper", prove, order=1
+)

@@ -40,11 +40,21 @@ def prove_loops() -> list[Lemma]:
     known = [*positive, a < 1, a * h < coast, coast < h]
     bounds = z3.And(K_ * (coast - a * h) < 1 - a, K_ * ((1 + a) * h - 2 * coast) < 2 * (1 + a))
     return [
-        decide("held loop: stable where and only where Kv h < 2 and Kp h < 2 Kv", positive, _jury(held_loop(), of) != z3.And(kv * h < 2, kp * h < 2 * kv)),
-        decide("behind a lag: stable where and only where K is below both bounds", known, _jury(lagged_loop(), of) != bounds),
+        decide(
+            "held loop: stable where and only where Kv h < 2 and Kp h < 2 Kv",
+            positive,
+            _jury(held_loop(), of) != z3.And(kv * h < 2, kp * h < 2 * kv),
+        ),
+        decide(
+            "behind a lag: stable where and only where K is below both bounds",
+            known,
+            _jury(lagged_loop(), of) != bounds,
+        ),
     ]
 
 
 def _jury(polynomial: sp.Poly, of: dict[str, z3.ArithRef]) -> z3.BoolRef:
-    _, p, q = (sp.lambdify((KP, KV, H, A, K, T), sp.expand(one), modules=[{}])(*of.values()) for one in polynomial.all_coeffs())
+    _, p, q = (
+        sp.lambdify((KP, KV, H, A, K, T), sp.expand(one), modules=[{}])(*of.values()) for one in polynomial.all_coeffs()
+    )
     return z3.And(q < 1, 1 + p + q > 0, 1 - p + q > 0)

@@ -145,4 +145,3 @@ def bound(law: Law, gains: Gains = PAPERS_GAINS) -> Bound:
                 upper = math.inf
             heapq.heappush(waiting, (-upper, *part))
     return Bound(lower, -waiting[0][0], count)
-

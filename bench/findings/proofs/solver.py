@@ -39,6 +39,12 @@ def decide(statement: str, known: list[Any], fault: Any) -> Lemma:
     return Lemma(statement, answer == "unsat", "Z3", seconds)
 
 
+def by_algebra(statement: str, holds: Any) -> Lemma:
+    """Return a lemma on exact numbers: that something holds, or that expressions are zero in normal form."""
+    parts = holds if isinstance(holds, tuple | list) else (holds,)
+    return Lemma(statement, all(part is True or (part is not False and part == 0) for part in parts), "algebra", 0.0)
+
+
 class Solver:
     """Z3, which knows the relations of a trace's symbols."""
 
@@ -73,17 +79,19 @@ class Solver:
             known += [z3.Implies(self.sign(one * y) > 0, self.sign(one * angle) > 0) for one in (1, -1)]
         return known
 
-    def never(self, statement: str, known: list[Any], fault: Any) -> Lemma:
-        """Return the lemma that no state has a fault."""
-        return decide(statement, [*self.given, *known], fault)
-
     def find(self, *contradictions: Any) -> tuple[str, dict[str, float] | None, float]:
         """Return ("unsat", None, s), ("sat", a solution, s) or ("unknown", None, s)."""
         answer, model, seconds = ask(*self.given, *contradictions)
         if model is not None:  # one with the paper's gains, if there is one
-            papers = [self.of[name] == z3.RealVal(value) for name, value in PAPERS_GAINS._asdict().items() if name in self.of]
+            papers = [
+                self.of[name] == z3.RealVal(value) for name, value in PAPERS_GAINS._asdict().items() if name in self.of
+            ]
             model = ask(*self.given, *contradictions, *papers)[1] or model
-            return answer, {name: _number(model.eval(one, model_completion=True)) for name, one in self.of.items()}, seconds
+            return (
+                answer,
+                {name: _number(model.eval(one, model_completion=True)) for name, one in self.of.items()},
+                seconds,
+            )
         return answer, None, seconds
 
 

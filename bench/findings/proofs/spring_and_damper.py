@@ -22,12 +22,12 @@ from typing import Any, NamedTuple
 
 import sympy as sp
 
-from bench.findings.proofs.body import QUATERNION, RATES, FreeBody, Tick
+from bench.findings.proofs.body import GOAL, QUATERNION, RATES, FreeBody, Tick
 from bench.findings.proofs.question import Question, find_least
-from bench.findings.proofs.solver import Lemma
+from bench.findings.proofs.solver import Lemma, by_algebra
 from bench.findings.proofs.theorem import DoesNotFit, Proof, Theorem
 from bench.findings.proofs.trace import Traced
-from bench.law.kinds import ON_MATRIX, Law
+from bench.law.kinds import Law
 from bench.law.so3 import IDENTITY, cross, dot
 
 ETA = sp.Symbol("w")
@@ -55,7 +55,7 @@ def take_apart(body: FreeBody, tick: Tick) -> Command:
     for i in range(3):
         if tick.u[i] != kp * f * eps[i] - a * omega[i] + b * across * eps[i] + g * turned[i]:
             raise DoesNotFit(f"its command is not of the form {FORM}")
-    if any(body.mentions(one, *QUATERNION[1:], "b", "c", "d") for one in (f, a, b)) or body.mentions(f, *RATES):
+    if any(body.mentions(one, *QUATERNION[1:], *GOAL) for one in (f, a, b)) or body.mentions(f, *RATES):
         raise DoesNotFit(f"f, a or b of {FORM} depend on the axis or on the goal")
     return Command(f, a, b)
 
@@ -78,19 +78,19 @@ def find_rate(body: FreeBody, ask: Question) -> Fraction:
 
 def prove(law: Law) -> Proof:
     """Prove descent, equilibria and changes of side of a law of this form."""
-    if law.law is None or law.state is not None or law.coordinates != ON_MATRIX:
-        raise DoesNotFit("it is no law on the rotation matrix without a state")
     body = FreeBody(positive=() if law.memory is not None else ("w",))
     ask = Question(body, law, take_apart)
     c = find_rate(body, ask)
     least = f">= {float(c):g} Kv" if c else "> 0"
     lemmas = [
-        Lemma(FORM, True, "algebra", 0.0),
+        by_algebra(FORM, True),  # or take_apart would have refused it
         ask.never("f > 0 but at the goal", lambda one, side: body.solver.is_below(side * one.f, strictly=False)),
         turn(ask.never(f"a {least}", lambda one, _: is_damped_less(body, one, c, False)), is_along=False),
         turn(ask.never(f"a - (1 - eta^2) b {least}", lambda one, _: is_damped_less(body, one, c, True)), is_along=True),
     ]
-    springs = {body.symbols.as_function(one.f, part.tick.path) for part in ask.parts if part.side > 0 for one in [part.taken]}
+    springs = {
+        body.symbols.as_function(one.f, part.tick.path) for part in ask.parts if part.side > 0 for one in [part.taken]
+    }
     delta, drop, equilibria = None, None, "none"
     if law.memory is not None:
         delta = float(ask.delta)

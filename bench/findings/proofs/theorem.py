@@ -18,13 +18,13 @@ class DoesNotFit(Exception):
 class Proof(NamedTuple):
     """What a theorem says of one law.
 
-    property: what its lemmas prove if all hold, as a law's file writes it. lemmas: in order. V: the function that falls,
+    stands: the property that its lemmas prove if all hold, as a law's file writes it. lemmas: in order. V: the function that falls,
     in TeX. equilibria: away from the goal. rate: the greatest found c, to 0.01, of V' <= -c Kv |omega|^2; None if V
     falls otherwise. delta: -eta where a side that is kept ends; drop: what a change of side takes from V, over Kp.
     """
 
     theorem: str
-    property: str
+    stands: str
     lemmas: list[Lemma]
     V: str
     equilibria: str = "none"
@@ -33,7 +33,6 @@ class Proof(NamedTuple):
     drop: float | None = None
     seconds: float = 0.0
 
-    @property
     def is_proved(self) -> bool:
         """Whether every lemma holds."""
         return all(one.is_proved for one in self.lemmas)
@@ -42,7 +41,7 @@ class Proof(NamedTuple):
 class Theorem(NamedTuple):
     """prove(law) -> Proof; raises DoesNotFit.
 
-    laws: the names for which it is made; empty if it fits by form alone. order: in which those are tried, the cheap first.
+    laws: for which it is made, by name; empty if it fits by form. order: in which those are tried, the cheap first.
     """
 
     name: str
@@ -54,7 +53,9 @@ class Theorem(NamedTuple):
 
 def list_theorems() -> list[Theorem]:
     """Return the THEOREM of every file beside this one that has one."""
-    modules = (importlib.import_module(f"{proofs.__name__}.{one.name}") for one in pkgutil.iter_modules(proofs.__path__))
+    modules = (
+        importlib.import_module(f"{proofs.__name__}.{one.name}") for one in pkgutil.iter_modules(proofs.__path__)
+    )
     found = [module.THEOREM for module in modules if hasattr(module, "THEOREM")]
     return sorted(found, key=lambda one: one.order)
 
@@ -70,13 +71,7 @@ def prove(law: Law) -> Proof | None:
         except DoesNotFit:
             continue
         proof = proof._replace(seconds=time.perf_counter() - began)
-        if proof.is_proved:
+        if proof.is_proved():
             return proof
         first = first or proof
     return first
-
-
-def by_algebra(statement: str, difference: Any) -> Lemma:
-    """Return a lemma that two expressions are equal: their difference is zero in normal form."""
-    parts = difference if isinstance(difference, tuple | list) else (difference,)
-    return Lemma(statement, all(part == 0 for part in parts), "algebra", 0.0)

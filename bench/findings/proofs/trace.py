@@ -54,7 +54,10 @@ class Symbols:
     """
 
     def __init__(
-        self, names: tuple[str, ...], positive: tuple[str, ...] = (), constants: Mapping[float, str | Fraction] | None = None
+        self,
+        names: tuple[str, ...],
+        positive: tuple[str, ...] = (),
+        constants: Mapping[float, str | Fraction] | None = None,
     ) -> None:
         self.field = FracField((*ROOTS, *ANGLES, *COSINES, *SINES, *names), QQ, lex)
         self.of = {str(one): Traced(one, self) for one in self.field.gens}

@@ -18,8 +18,8 @@ from flint import arb
 
 from bench.findings.proofs.body import FreeBody
 from bench.findings.proofs.quadratic_potential import find_quadratic
-from bench.findings.proofs.solver import Lemma
-from bench.findings.proofs.theorem import Proof, Theorem, by_algebra
+from bench.findings.proofs.solver import by_algebra
+from bench.findings.proofs.theorem import Proof, Theorem
 from bench.findings.proofs.trace import Traced
 from bench.law.kinds import Law
 
@@ -72,7 +72,9 @@ def prove(law: Law) -> Proof:
             more = {"cosine0": -symbol["sine0"] * turning, "sine0": symbol["cosine0"] * turning}
             inside, scale = symbol["root0"] ** 2, symbol["root1"]
             power = sum((omega[i] * (u[i] + kv * omega[i]) for i in range(3)), still[0])
-            forces.append(power * symbol["root0"] * scale / kp - body.symbols.number(top) * body.derive(inside, still, more))
+            forces.append(
+                power * symbol["root0"] * scale / kp - body.symbols.number(top) * body.derive(inside, still, more)
+            )
             potentials[q] = body.symbols.number(top) * (1 - inside / scale**2)
             switches.append((memory, q, path.decisions[0]))
     gaps = [is_the_gap(body, potentials, memory, decision.polynomial, gap) for memory, _, decision in switches]
@@ -82,11 +84,11 @@ def prove(law: Law) -> Proof:
     slope = kappa * (max(entries) - min(entries)) / 2
     lemmas = [
         by_algebra("u = -Kp grad U_q - Kv omega", forces),
-        Lemma("V = q^T M q, M diagonal with four different entries", M.is_diagonal() and len(set(entries)) == 4, "algebra", 0.0),
-        Lemma("V < V_0", max(entries) < top, "algebra", 0.0),
-        Lemma("kappa |grad V| <= kappa (max M - min M)/2 < 1", slope < 1, "algebra", 0.0),
-        Lemma("q changes where V_q - V_{-q} > gap, and there alone", changes and all(gaps), "algebra", 0.0),
-        Lemma("V_q - V_{-q} > gap where X_q is a 180° rotation at rest", all(one > exact(gap) for one in lower), "Arb", 0.0),
+        by_algebra("V = q^T M q, M diagonal with four different entries", M.is_diagonal() and len(set(entries)) == 4),
+        by_algebra("V < V_0", max(entries) < top),
+        by_algebra("kappa |grad V| <= kappa (max M - min M)/2 < 1", slope < 1),
+        by_algebra("q changes where V_q - V_{-q} > gap, and there alone", changes and all(gaps)),
+        by_algebra("V_q - V_{-q} > gap where X_q is a 180° rotation at rest", all(one > exact(gap) for one in lower)),
     ]
     shown = r"V = 2 K_p V_0 \bigl(1 - \sqrt{1 - V_q/V_0}\bigr) + \tfrac12|\omega|^2"
     return Proof(THEOREM.name, "global with memory", lemmas, shown, "none", 1.0, None, float(gap))
