@@ -82,7 +82,7 @@ def list_faults(one: dict[str, Any]) -> list[str]:
         place = ", ".join(f"{part:.3g}" for part in found["quat_wxyz"])
         rates = ", ".join(f"{part:.3g}" for part in found["omega"])
         said.append(
-            f"counterexample: quaternion ({place}), omega ({rates}) rad/s; an episode from there ends {found['outcome']}"
-            f" after {found['path_ratio']:.3g} times the shortest path"
+            f"counterexample: quaternion ({place}), omega ({rates}) rad/s; an episode from there ends "
+            f"{found['outcome']} after {found['path_ratio']:.3g} times the shortest path"
         )
     return said

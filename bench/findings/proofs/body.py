@@ -1,9 +1,10 @@
-"""A free body under a law, in symbols: q = (w, (x, y, z)) of the turn from R to R_d, omega, gains, and any goal R_d.
+"""A free body under a law, in symbols: the quaternion q of the turn from R to R_d, omega, gains, and any goal R_d.
 
-    q = (eta, eps),   E = R_d R^T = E(q),   eta' = (1/2) eps . omega,   eps' = -(1/2)(eta omega + eps x omega),   omega' = u
+    q = (eta, eps) = (w, (x, y, z)),   E(q) = R_d R^T
+    eta' = (1/2) eps . omega,   eps' = -(1/2)(eta omega + eps x omega),   omega' = u
 
-A law is called with R = E^T R_d. Where its answer, in normal form, does not mention the goal, what is proved of it holds
-for every goal.
+A law is called with R = E^T R_d. Where its answer, in normal form, does not mention the goal, a proof holds for every
+goal.
 """
 
 from collections.abc import Callable, Iterator, Mapping
@@ -29,9 +30,9 @@ class Tick(NamedTuple):
 
 
 class FreeBody:
-    """The symbols of a body and its goal. more: symbols of a law's own state; goal_frame: rates and q in the goal's axes.
+    """The symbols of a body and its goal.
 
-    In the goal's axes R = R_d X, and what a law answers must not mention the goal either once it is turned back.
+    more: symbols of a law's own state. goal_frame: q, rates and answers are in the goal's axes, where R = R_d X.
     """
 
     def __init__(
@@ -47,7 +48,7 @@ class FreeBody:
         self.symbols.relate("x", 1 - symbol["w"] ** 2 - symbol["y"] ** 2 - symbol["z"] ** 2)
         self.symbols.relate("a", 1 - symbol["b"] ** 2 - symbol["c"] ** 2 - symbol["d"] ** 2)
         self.q, self.omega = self.symbols[QUATERNION], self.symbols[RATES]
-        self.eta, self.eps, self.gains = self.q[0], self.q[1:], Gains(symbol["kp"], symbol["kv"])
+        self.eta, self.eps, self.gains = self.q[0], self.q[1:], Gains(*self.symbols["kp", "kv"])
         self.R_d, E = from_quaternion(self.symbols[GOAL]), from_quaternion(self.q)
         self.goal_frame, self.goal = goal_frame, Goal(self.R_d)
         if goal_frame:

@@ -1,4 +1,4 @@
-"""What is proved of one law, in a process of its own: `bench prove` prints it, and results/proofs/proofs.json keeps it."""
+"""What is proved of one law, in a process of its own: for `bench prove`, and for results/proofs/proofs.json."""
 
 import json
 import sys

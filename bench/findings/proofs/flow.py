@@ -16,7 +16,7 @@ from flint import arb, arb_series, ctx
 from bench.base.bisection import bisect
 
 ORDER, TERMS, ACCURACY = 9, 14, 1e-5
-"""Of Taylor polynomials in time, terms of the series of c and s, and the widest remainder of a step."""
+"""The order of Taylor polynomials in time, the terms of the series of c and s, and the widest remainder of a step."""
 STEP_S, SHORTEST_S, LONGEST_S = 0.02, 0.001, 1.2
 
 

@@ -2,9 +2,10 @@
 
 With e = sin(theta) k = 2 eta eps, the law's state x, x' = omega - c e, and x_d where its integral balances d,
 
-    V = 2 Kp (1 - eta^2) - c e . omega + |omega|^2/2 + h |x - x_d|^2/2 > 0        V' < 0 but where omega = 0 and e = 0
+    V = 2 Kp (1 - eta^2) - c e . omega + |omega|^2/2 + h |x - x_d|^2/2 > 0
+    V' < 0 but where omega = 0 and e = 0
 
-c and h = -du/dx are what the law's own source gives. Where V' stays zero the body rests at the goal or on a 180° rotation.
+The law's own source gives c and h = -du/dx. Where V' stays zero the body rests at the goal or on a 180° rotation.
 Source: Goodarzi, Lee, Lee 2013.
 """
 

@@ -1,7 +1,7 @@
 """Joint PD with gravity compensation: D qddot + C qdot = M (Kp e - Kv qdot), e = q_d - q, M diagonal and constant.
 
-V = qdot^T D qdot/2 + Kp e^T M e/2. Since D' - 2 C is skew, V' = qdot^T tau - Kp e^T M qdot = -Kv qdot^T M qdot, and where
-it stays zero M e = 0. Source: Takegaki & Arimoto 1981.
+V = qdot^T D qdot/2 + Kp e^T M e/2. Since D' - 2 C is skew, V' = qdot^T tau - Kp e^T M qdot = -Kv qdot^T M qdot, and
+where that stays zero M e = 0. Source: Takegaki & Arimoto 1981.
 """
 
 from types import SimpleNamespace

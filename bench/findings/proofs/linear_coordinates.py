@@ -1,8 +1,8 @@
 """Coordinates x of the turn that obey x'' + Kv x' + Kp x = 0 exactly: eps, or with memory sigma = eps/(1 + eta).
 
-V = |x'|^2/2 + Kp |x|^2/2 falls as -Kv |x'|^2. A law that is not defined at eta = 0 must not come there: from rest V < Kp/2
-and |eps| < 1 for ever, but a body that spins fast enough comes there. With memory the side changes at eta <= -delta, and
-the two sides have |x'| = (1 + |sigma|^2) |omega|/4 with the smaller |sigma| after the change: V falls.
+V = |x'|^2/2 + Kp |x|^2/2 falls as -Kv |x'|^2. A law that is not defined at eta = 0 must not come there. From rest it
+does not, since V < Kp/2 and so |eps| < 1; a body that spins fast enough comes there. With memory the side changes at
+eta <= -delta. There |x| and |x'| = (1 + |sigma|^2) |omega|/4 are smaller on the new side: V falls.
 
 Source: Paielli & Bach 1993; Schaub, Akella, Junkins 2001.
 """

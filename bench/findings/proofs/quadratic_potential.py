@@ -13,7 +13,7 @@ from fractions import Fraction
 
 import sympy as sp
 
-from bench.findings.proofs.body import QUATERNION, FreeBody
+from bench.findings.proofs.body import FreeBody
 from bench.findings.proofs.solver import by_algebra
 from bench.findings.proofs.theorem import DoesNotFit, Proof, Theorem
 from bench.findings.proofs.trace import Traced

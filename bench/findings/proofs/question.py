@@ -1,4 +1,4 @@
-"""What is asked of all paths of a law: is there a state with a fault? A law with memory has two sides."""
+"""Questions to all paths of a law: is there a state with a fault? A law with memory has two sides."""
 
 import functools
 from collections.abc import Callable
@@ -13,8 +13,8 @@ from bench.law.kinds import Law
 class Part(NamedTuple):
     """One path on which Z3 finds states.
 
-    side: 1 where q is the side on which the law acts after the tick, -1 where that is -q. taken: what a theorem makes of
-    the tick. known: conditions for Z3.
+    side: 1 where the law acts on q after the tick, -1 where it acts on -q. taken: what a theorem makes of the tick.
+    known: conditions for Z3.
     """
 
     tick: Tick

@@ -61,7 +61,8 @@ def trace_on_axis(law: Law, gains: Gains) -> Any:
     one = tuple(tuple(symbols.number(part) for part in column) for column in IDENTITY)
     memory = () if law.memory is None else (tuple(symbols.number(part) for part in law.memory),)
     solver, found = Solver(symbols), list[Traced]()
-    given = (R, (zero, zero, rate), Goal(Rotation(*one)), Gains(*map(symbols.number, gains)), *memory)
+    kp_kv: Any = map(symbols.number, gains)
+    given = (R, (zero, zero, rate), Goal(Rotation(*one)), Gains(*kp_kv), *memory)
     for path in symbols.paths(lambda: law.law(*given)):  # type: ignore[misc]
         if solver.find(*solver.condition(path), solver.of["w"] < 1)[0] == "unsat":
             continue
@@ -127,7 +128,8 @@ def bound(law: Law, gains: Gains = PAPERS_GAINS) -> Bound:
         is_dead = from_180.is_finite()
         raise DoesNotFit("a 180° rotation is an equilibrium" if is_dead else "its command has no bound at 180°")
     ends = [k * math.pi / PARTS for k in range(PARTS)] + [math.pi]
-    lower, waiting, count = 0.0, [], 0
+    lower, count = 0.0, 0
+    waiting: list[tuple[float, float, float]] = []
     for begin, end in itertools.pairwise(ends):
         heapq.heappush(waiting, (-math.inf, begin, end))
     while -waiting[0][0] > lower + WIDTH_S:

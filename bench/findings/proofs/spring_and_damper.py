@@ -4,8 +4,8 @@ With dU/deta = -2 f and V = Kp U + |omega|^2/2 the terms of the spring cancel, a
 
     V' = -a |omega|^2 + b (eps . omega)^2 <= -min(a, a - (1 - eta^2) b) |omega|^2
 
-so that V falls where both are positive. A body that stays where V' = 0 has omega = 0 and f eps = 0: where f > 0, the goal
-alone (LaSalle). At eta = 0 a law without memory is at rest if f(0) = 0, and leaves it if f grows there; where f(0) > 0
+so that V falls where both are positive. A body that stays where V' = 0 has omega = 0 and f eps = 0: where f > 0, it is
+at the goal (LaSalle). At eta = 0 a law without memory is at rest if f(0) = 0, and U is greatest there; where f(0) > 0
 the command points to the goal on both sides.
 
 A law with memory acts on a side, q, of any eta; q changes to -q at eta <= -delta and is kept at eta >= -delta. A change
@@ -16,7 +16,6 @@ Teel 2011.
 """
 
 import math
-from collections.abc import Callable
 from fractions import Fraction
 from typing import Any, NamedTuple
 

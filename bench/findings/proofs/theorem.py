@@ -4,7 +4,7 @@ import importlib
 import pkgutil
 import time
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from bench.findings import proofs
 from bench.findings.proofs.solver import Lemma
@@ -18,9 +18,9 @@ class DoesNotFit(Exception):
 class Proof(NamedTuple):
     """What a theorem says of one law.
 
-    stands: the property that its lemmas prove if all hold, as a law's file writes it. lemmas: in order. V: the function that falls,
-    in TeX. equilibria: away from the goal. rate: the greatest found c, to 0.01, of V' <= -c Kv |omega|^2; None if V
-    falls otherwise. delta: -eta where a side that is kept ends; drop: what a change of side takes from V, over Kp.
+    stands: the property that its lemmas prove if all hold, as a law's file writes it. V: the function that falls, in
+    TeX. equilibria: away from the goal. rate: the greatest c, to 0.01, of V' <= -c Kv |omega|^2; None if V falls
+    otherwise. delta: -eta where a side that is kept ends; drop: what a change of side takes from V, over Kp.
     """
 
     theorem: str

@@ -1,8 +1,8 @@
 """A law's own source, read as rational functions: it is called with symbols, once for each path through its branches.
 
 A value is a quotient of polynomials with rational coefficients, in normal form by relations g^2 = polynomial of its
-symbols (|q| = 1, say). Decimal constants are taken as they are written: 0.8 is 4/5. A square root that is no polynomial,
-an arc tangent, a cosine and a sine become symbols of their own. A comparison is a decision: a path has a list of them.
+symbols (|q| = 1, say). Decimal constants are taken as they are written: 0.8 is 4/5. A square root that is no
+polynomial, an arc tangent, a cosine and a sine become symbols. A comparison is a decision: a path has a list of them.
 """
 
 import math
@@ -112,7 +112,7 @@ class Symbols:
         return value.value.as_expr().subs(path.meanings)
 
     def is_negative(self, value: "Traced") -> bool:
-        """Decide whether a value is below zero: by itself if it is a number, else as this path has it."""
+        """Decide whether a value is below zero: a number has a sign, else the path decides."""
         polynomial = value.value.numer * value.value.denom
         for one in self.positive:
             while polynomial and not polynomial.rem([one]):

@@ -1,16 +1,17 @@
 """Two potentials, of which one is in force: V_q(X) = V(X_q), X_q = X exp(q kappa V(X) [b]x), q = 1 or -1.
 
-In the goal's axes X is R seen from R_d, and V = q^T M q of its quaternion, M diagonal. The law's force is the gradient of
-U_q = -mu sqrt(1 - V_q/V_0), which falls with |omega|^2/2 as -Kv |omega|^2. Where it is zero, X_q is at rest under V, for
-kappa |b . grad V| < 1 lets no turn of X leave X_q where it is: X_q is the goal or one of three 180° rotations. The goal
-as X_q is X = I alone. Of each 180° rotation there is one X, and there V_{-q} is lower by more than the gap at which q
-changes. A change of q lowers V_q by the gap, and U_q by more.
+X is R in the goal's axes, and V = q^T M q of its quaternion, M diagonal. The force is the gradient of
+U_q = 2 V_0 (1 - sqrt(1 - V_q/V_0)), and Kp U_q + |omega|^2/2 falls as -Kv |omega|^2. Where the force is zero X_q is at
+rest under V: because kappa |b . grad V| < 1, X_q turns whenever X does. So X_q is the goal, and X is too, or X_q is one
+of three 180° rotations. Each comes of one X, at which V_{-q} is lower by more than the gap at which q changes. A change
+of q takes the gap from V_q, and more from U_q.
 
-Everything is what the law's own source gives; the six X are enclosed by interval arithmetic (Arb).
+All of it is what the law's own source gives; the X are enclosed by interval arithmetic (Arb).
 Source: Mayhew & Teel 2013; Berkane & Tayebi, arXiv:1502.07386 (abstracts).
 """
 
 import sys
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -26,7 +27,7 @@ from bench.law.kinds import Law
 AXIS = ("axis_1", "axis_2", "axis_3")
 
 
-def enclose(M: list[Fraction], i: int, squares: list[Fraction], kappa: Fraction) -> arb:
+def enclose(M: list[Fraction], i: int, squares: Sequence[Any], kappa: Fraction) -> arb:
     """Enclose V_{-q} where X_q is the 180° rotation H_i, X = H_i exp(-q phi [b]x) with phi = kappa V(X), |b_i|^2 given.
 
     The quaternion of H_i exp(phi [b]x) has the squares s b_i^2, c on axis i, s b_k^2 on j and s b_j^2 on k, with
