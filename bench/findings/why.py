@@ -52,7 +52,7 @@ def sentences(rows: pd.DataFrame, declared: str) -> list[Said]:
         known = SENTENCES[finding].get(what) or SENTENCES[finding].get("*" if what != "none" else "")
         if known is not None:
             is_excused = finding in ("dead-half-turns", "no-number-half-turns") and what != "between"
-            is_declared = is_excused and declared == "almost global"
+            is_declared = is_excused and declared.startswith("almost global")
             fault = "" if is_declared else known.get("fault", "")
             said.append(Said(known["text"].format(**describe_row(row)), known["page"], fault))
     return said
@@ -63,7 +63,7 @@ def ends(rows: pd.DataFrame, declared: str) -> list[Said]:
     is_settled, sets = rows["outcome"] == "settled", rows["start_set"].astype(str)
     each = (f"{name} {own.sum():,} of {len(own):,}" for name, own in is_settled.groupby(sets, sort=False))
     said = [Said(f"Settled: {', '.join(each)}.", ENDS)]
-    is_known = (rows["angle0_rad"] > math.pi - NEAR_RAD) & (declared == "almost global")
+    is_known = (rows["angle0_rad"] > math.pi - NEAR_RAD) & declared.startswith("almost global")
     lost = rows[~is_settled]
     for (known, outcome), own in lost.groupby([is_known, lost["outcome"].astype(str)], sort=False):
         text = f"Not settled, {outcome}: {_counts(own)}."

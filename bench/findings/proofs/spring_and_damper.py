@@ -94,8 +94,9 @@ def prove(law: Law) -> Proof:
     if law.memory is not None:
         delta = float(ask.delta)
         drop = float(2 * sp.Integral(min(springs, key=str), (ETA, -ask.delta, ask.delta)).evalf())
-    elif any(one.subs(ETA, 0) == 0 for one in springs):
-        equilibria = "every 180° rotation"
+    else:
+        pulls = [one.subs(ETA, 0) for one in springs]
+        equilibria = "every 180° rotation" if 0 in pulls else "not defined at 180°" if sp.zoo in pulls else "none"
     f = ", ".join(sorted(sp.latex(sp.simplify(one.subs(ETA, sp.Symbol("eta")))) for one in springs))
     V = rf"V = K_p U + \tfrac12|\omega|^2, \quad \mathrm dU/\mathrm d\eta = -2 f, \quad f = {f}"
     stands = "almost global" if law.memory is None else "global with memory"

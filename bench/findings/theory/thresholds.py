@@ -6,20 +6,16 @@ import math
 import tasks
 from bench.base.bisection import bisect
 from bench.findings.perturbed import FOLLOWED_RAD
+from bench.findings.proofs.certificate import read_certificates
 from bench.findings.theory import robustness_theory
 from bench.findings.theory.isotropic import EQUATIONS
-from bench.law import DELTA
 from bench.law.contenders.registry import all_contenders
 from tasks.condition import condition_at
 
 HALF_TURN = "half-turn-noise"
 
-DELTAS = {
-    **dict.fromkeys(("hybrid", "mrp-memory", "rotation-vector-memory", "sliding-memory"), DELTA),
-    "mrp-linearized": 0.2,
-    "late-braking": 0.5,
-}
-"""Law -> -eta where it leaves the side that it keeps in memory, eta = cos(theta/2)."""
+DELTAS = {law: one["delta"] for law, one in read_certificates().items() if one["delta"]}
+"""Law -> -eta where it leaves the side that it keeps in memory, eta = cos(theta/2), proved from its source."""
 
 STEPS = 16
 """Halvings of the interval that holds the least noise: to 1e-4 of it on a scale of factors."""

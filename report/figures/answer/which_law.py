@@ -3,6 +3,7 @@
 from typing import Any
 
 from bench.experiments.situations import FIRST, MOST, NOISE_RAD
+from bench.findings.proofs.certificate import read_certificates
 from bench.findings.selection import regions, sensitivity
 from bench.findings.selection.regions import decide_all, facts_of, find_bounds, find_regions, is_drawn, read_map
 from bench.findings.selection.robots import Elsewhere, list_elsewhere
@@ -44,6 +45,8 @@ def facts(run: Run) -> dict[str, Any]:
         "slower": f"{100 * sensitivity.bound_slower(FIRST):.1f}",
         "noise": f"{NOISE_RAD:g}",
         "held": held["of"],
+        "proved": sum(one["is_proved"] for one in read_certificates().values()),
+        "provable": len(read_certificates()),
         "same": f"{100 * held['same']:.0f}",
         "unbeaten": f"{100 * held['unbeaten']:.0f}",
         "later": f"{100 * held['half']:.1f}",

@@ -13,6 +13,8 @@ from pygments.lexers import PythonLexer
 
 from bench.export.language import find_language, language_words
 from bench.export.subject import find_subject
+from bench.findings.proofs.certificate import read_certificates
+from bench.law.kinds import Law
 from report.figures.kit import html
 from report.figures.kit.spelling import LETTERS, marked_up
 
@@ -26,6 +28,7 @@ PROPERTIES = {
     "local": "Stable near the goal, by linearization.",
     "almost global": "Stable from all starts but a set of measure zero. No continuous law without memory can do more "
     "(Bhat & Bernstein 2000).",
+    "almost global from rest": "Stable from all starts at rest but a set of measure zero.",
     "global with memory": "Stable from every start, with memory. No continuous law is without (Bhat & Bernstein 2000).",
     "none": "Nothing.",
     "": "",
@@ -87,9 +90,16 @@ def make_card(record: Any, title: str, said: tuple[str, Mapping[str, str]], look
     )
 
 
-def say_property(name: str) -> str:
-    """Return what is proved of a law, in a sentence."""
-    return PROPERTIES.get(name, f"{name[:1].upper()}{name[1:]}.")
+def say_property(law: Law) -> dict[str, str]:
+    """Return the property of a law: as proved from its source, with V and by what, or as not proved."""
+    one, text = read_certificates().get(law.name), PROPERTIES.get(law.property, f"{law.property.capitalize()}.")
+    if not one or not one["is_proved"]:
+        return {"Not proved from its source" if law.property != "none" else "Proved": text}
+    by = " and ".join(sorted({lemma["by"] for lemma in one["lemmas"]}))
+    text += f" Proved from its source by {by} in {one['seconds']:.1f} s; equilibria away from the goal: {one['equilibria']}."
+    if "upper" in one["settling"]:
+        text += f" From rest it settles within {one['settling']['upper']:.4f} s at the paper's gains, proved by Arb."
+    return {"Proved": html.Html(f"{html.foreign(text)} {html.formula(one['V'])}")}
 
 
 def docstring(file: Path) -> tuple[str, str]:

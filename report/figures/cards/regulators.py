@@ -9,6 +9,7 @@ from bench.experiments.tables import read
 from bench.export.heading import RESET, SIDE
 from bench.findings import why
 from bench.findings.claims.tables import share
+from bench.findings.proofs.certificate import read_certificates
 from bench.findings.selection.regions import compare_ours, find_regions, list_ours
 from bench.law.contender import Contender
 from bench.law.contenders import regulators
@@ -23,7 +24,7 @@ UNTRUSTED = (
     "A law of somebody else, by its rows alone: its file came with these results and was not run. If you have read it, "
     "bench trust FILE lets it run, and its card then says what it is."
 )
-LAWS = Table("Law | Proved | Settles | On the command line", {"Settles": lambda share: f"{100 * share:.1f} %"})
+LAWS = Table("Law | Property | Settles | On the command line", {"Settles": lambda share: f"{100 * share:.1f} %"})
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 EXAMPLE = re.compile(r" Shown by |, as from |, as at ")
 
@@ -73,7 +74,7 @@ def card(one: Contender, run: Run) -> str:
         "Limitations": set_words(fails),
         "Memory": f"{RESET} {SIDE}" if one.regulator.memory else "",
         "Acts on": f"{acts[:1].upper()}{acts[1:]}.",
-        "Proved": say_property(one.regulator.property),
+        **say_property(one.regulator),
         "Measured": measured(episodes, one.regulator),
         "Its command": set_words(found_of(one, run)),
         "Advised": advised(one.name),
@@ -132,12 +133,18 @@ def tables(run: Run) -> dict:
     return {"laws": LAWS(line(one, run) for one in every_law())}
 
 
+def say_whether_proved(law: Law) -> str:
+    """Return the property of a law, and whether it is proved from its source."""
+    one = read_certificates().get(law.name)
+    return f"{law.property}, {'proved' if one and one['is_proved'] else 'not proved'}"
+
+
 def line(one: Contender, run: Run) -> tuple:
-    """Return a link to a law's card, what is proved, what was measured, its word on the command line."""
+    """Return a link to a law's card, its property, what was measured, its word on the command line."""
     uniform = run.any_rows("episodes", contender=one.name, engine=engine_of(one.regulator), start_set="uniform")
     return (
         families.link(one.name, laws.title_of(one)),
-        html.together(html.foreign(one.regulator.property)),
+        html.together(html.foreign(say_whether_proved(one.regulator))),
         (uniform["outcome"] == "settled").mean() if len(uniform) else None,
         f"`{one.name}`",
     )

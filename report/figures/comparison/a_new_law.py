@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from bench.experiments.tables import read
+from bench.findings.proofs.certificate import read_certificates
 from bench.findings.selection.sensitivity import tune
 from bench.findings.theory.closed_form import linear_settling
 from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, settling
@@ -28,11 +29,15 @@ SHOWN = ("rotation-matrix", "mrp-memory", NEW)
 def facts(run: Run) -> dict:
     """Return by the equations how slow and strong this law is against the straight spring; and operations a tick."""
     counted = run.any_rows("costs", **read.FREE_BODY)
+    proved = read_certificates()[NEW]
     spent = counted[counted["stage"] == "total"].set_index(["contender", "branch"])
     return {
         "at_peak": compare_at_equal_peak(),
-        "slowest": f"{longest(LATE, *PAPERS_GAINS):.3f}",
-        "linear": f"{linear_settling(*PAPERS_GAINS):.3f}",
+        "slowest": f"{proved['settling']['upper']:.4f}",
+        "linear": f"{linear_settling(*PAPERS_GAINS):.4f}",
+        **{name: f"{proved[name]:g}" for name in ("rate", "delta")},
+        "drop": f"{proved['drop']:.3f}",
+        "seconds": f"{proved['seconds']:.0f}",
         "later": ", ".join(f"{ratio:g}" for ratio in RATIOS if is_later(ratio)) or "none",
         "later_of": f"{', '.join(map('{:g}'.format, RATIOS))}",
         **(count_calls(spent.loc[NEW, "typical"]) if (NEW, "typical") in spent.index else {}),

@@ -2,6 +2,7 @@
 
 With a fixed goal epsddot = -Kv epsdot - Kp eps; for it eps must be divided by eta: eps/eta = s/(1 + t).
 
+From rest |eps| only shrinks, and the body reaches the goal. One that spins fast enough comes to 180° all the same.
 Limitations: the command, 2 Kp tan(theta/2) at rest, grows without bound towards 180 degrees and is not finite there.
 Starts that the maps count as lost exceed the judge's limit on the command: their share depends on that limit.
 """
