@@ -87,37 +87,6 @@ def starts():
     return list(zip(*pairs, draw.normal(scale=4.0, size=(count, 3)), strict=True))
 
 
-def chord(R, R_d):
-    """1 - cos(theta) between two scipy rotations or stacks of them."""
-    return 1.0 - np.cos((R_d * R.inv()).magnitude())
-
-
-def test_energy_without_a_rate_never_rises_and_ends_at_zero():
-    """V = Kp (1 - cos theta) + 2 Kv^2 (1 - cos theta_F) + omega^2/2; its fall is 2 Kv^2 gamma |z|^2."""
-    for R, R_d, omega in starts():
-        turned, rate, q = motion(known("velocity-free"), R, R_d, Gains(), np.linspace(0.0, 6.0, 400), omega)
-        F = ScipyRotation.from_quat(q, scalar_first=True)
-        V = KP * chord(turned, R_d) + 2.0 * KV**2 * chord(F, turned) + 0.5 * np.sum(rate * rate, axis=1)
-        assert np.diff(V).max() <= 1e-8 * V[0]
-        assert V[-1] < 1e-6 * V[0]
-
-
-def test_energy_with_an_integral_never_rises_under_a_constant_disturbance():
-    """V = Kp (1 - cos theta) - c e . omega + omega^2/2 + (Kp/6)|x - 3 d/Kp|^2, c = (4/9) Kv."""
-    d, c = np.array((6.0, -8.0, 3.0)), 4.0 * KV / 9.0
-    for R, R_d, omega in starts():
-        turned, rate, x = motion(known("integral"), R, R_d, Gains(), np.linspace(0.0, 6.0, 400), omega, d)
-        k = left(turned, R_d)
-        theta = np.linalg.norm(k, axis=1)
-        e = k * np.sinc(theta / np.pi)[:, None]
-        lead = c * np.sum(e * rate, axis=1)
-        stored = KP / 6.0 * np.sum((x[:, :3] - 3.0 * d / KP) ** 2, axis=1)
-        V = KP * chord(turned, R_d) - lead + 0.5 * np.sum(rate * rate, axis=1) + stored
-        assert V.min() > -1e-9
-        assert np.diff(V).max() <= 1e-8 * V[0]
-        assert V[-1] < 1e-6 * V[0]
-
-
 def test_filter_begins_with_no_command_of_its_own_and_the_length_of_its_quaternion_does_not_matter():
     """At rest its first command is the spring alone: nothing is felt of where the frame was switched on."""
     one, q = known("velocity-free"), np.array((0.3, -0.8, 0.1, 0.5))

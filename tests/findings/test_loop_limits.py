@@ -141,13 +141,6 @@ def test_law_whose_command_vanishes_at_the_half_turn_is_held_by_any_noise():
     assert thresholds.least("rotation-matrix", KP, KV) == 0.0
 
 
-def test_memory_ends_where_its_hysteresis_does():
-    # eta = cos(theta/2) at -delta; the trace at 0; |sigma| = tan(theta/4) at sqrt(switch)
-    assert math.cos((math.pi + thresholds.keeps("hybrid")) / 2.0) == pytest.approx(-0.4)
-    assert 1.0 + 2.0 * math.cos(math.pi + thresholds.keeps("late-braking")) == pytest.approx(0.0)
-    assert math.tan((math.pi + thresholds.keeps("mrp-linearized")) / 4.0) ** 2 == pytest.approx(1.5)
-
-
 EXACT = ("solve", "pseudo-inverse", "truncated-svd", "damped-least-squares-variable")
 
 

@@ -52,9 +52,9 @@ def trace_on_axis(law: Law, gains: Gains) -> Any:
     Errors:
         DoesNotFit: it has a corner on its way, or turns about another axis too.
     """
-    symbols = Symbols(("z", "w", "rate", "half"), ("z", "w", "rate", "half"))
+    symbols = Symbols(("w", "z", "rate", "half"), ("w", "z", "rate", "half"))
     z, w, rate = symbols["z", "w", "rate"]
-    symbols.relate("z", 1 - w**2)
+    symbols.relate("w", 1 - z**2)
     symbols.angles[z, w] = symbols.of["half"]
     zero = symbols.number(0)
     R = from_quaternion((w, zero, zero, -z))
@@ -75,14 +75,8 @@ def trace_on_axis(law: Law, gains: Gains) -> Any:
             raise DoesNotFit("its command has a corner between 0 and 180°")
         found.append(u[2])
     p = sp.Symbol("p", positive=True)
-    z_, w_ = sp.symbols("z w")
-    numer, denom = sp.fraction(sp.together(found[0].value.as_expr()))
-    even, odd = (sp.expand(numer).coeff(z_, power) for power in (0, 1))
-    shown = even / denom + odd * z_ / denom
-    if denom.has(z_):  # (even + odd z)/(z d), with z^2 = 1 - w^2
-        shown = sp.cancel(even / (1 - w_**2)) * z_ * z_ / denom + odd * z_ / denom
     turned = {"w": 1 - p**2 * C, "z": p * Z, "rate": -p * V, "half": p * (Z + p**2 * S)}
-    command = sp.cancel(sp.cancel(shown).subs(turned, simultaneous=True) / p)
+    command = sp.cancel(found[0].value.as_expr().subs(turned, simultaneous=True) / p)
     return sp.cancel(command.subs(p, sp.sqrt(P)))
 
 
