@@ -1,15 +1,14 @@
 """The export of a user's law, made in this process of its own, which gives back names of files and their texts."""
 
-import json
 import re
 import sys
-from multiprocessing.connection import Connection
+from pathlib import Path
 
-from bench.base.errors import BadLaw, BenchError
+from bench.base.errors import BadLaw
 from bench.export.language import find_language
 from bench.export.subject import find_subject
-from bench.law.contenders.law_file import keep_text, load_law
-from bench.law.contenders.law_process import ask, limit
+from bench.law.contenders.law_file import load_law
+from bench.law.contenders.law_process import answer, ask
 from bench.law.kinds import Law
 
 LIMIT_S, WAITS_S = 60.0, 300.0
@@ -35,20 +34,11 @@ def files_apart(own: Law, word: str, language: str) -> dict[str, str]:
     return files
 
 
-def main(descriptor: int) -> None:
-    """Load the law, translate it, and say the files."""
-    with Connection(descriptor) as line:
-        asked = json.loads(line.recv_bytes())
-        path = keep_text(asked["text"])
-        try:
-            limit(LIMIT_S)
-            own = load_law(path, asked["text"].encode())
-            files = find_language(asked["language"]).files(find_subject(asked["word"], (own,)))
-            line.send_bytes(json.dumps({"files": files}).encode())
-        except BenchError as error:
-            mistake = str(error).replace(str(path), asked["origin"])
-            line.send_bytes(json.dumps({"mistake": mistake}).encode())
+def translate(asked: dict, path: Path | None) -> dict:
+    """Load the law and return its files."""
+    own = load_law(path or Path(), asked["text"].encode())
+    return {"files": find_language(asked["language"]).files(find_subject(asked["word"], (own,)))}
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]))
+    answer(int(sys.argv[1]), LIMIT_S, translate)

@@ -1,15 +1,13 @@
 """What is proved of one law, in a process of its own: for `bench prove`, and for results/proofs/proofs.json."""
 
-import json
 import sys
-from multiprocessing.connection import Connection
+from pathlib import Path
 from typing import Any
 
-from bench.base.errors import BenchError
 from bench.base.files import read_json
 from bench.experiments.tables.schema import RESULTS
-from bench.law.contenders.law_file import keep_text, load_law
-from bench.law.contenders.law_process import ask, limit
+from bench.law.contenders.law_file import load_law
+from bench.law.contenders.law_process import answer, ask
 from bench.law.contenders.registry import contenders, contenders_of
 from bench.law.kinds import Law
 
@@ -104,20 +102,11 @@ def replay(law: Law, state: dict[str, float]) -> dict[str, Any]:
     return kept | {"path_ratio": measured["path_ratio"]}
 
 
-def main(descriptor: int) -> None:
-    """Load the law that is named or given as a text, and say its certificate."""
-    with Connection(descriptor) as line:
-        asked = json.loads(line.recv_bytes())
-        path = keep_text(asked["text"]) if asked["text"] else None
-        try:
-            limit(LIMIT_S)
-            ours = {one.name: one for one in list_laws()} | contenders("regulators")
-            law = load_law(path, asked["text"].encode()) if path else ours[asked["name"]]
-            line.send_bytes(json.dumps(certify(law)).encode())
-        except BenchError as error:
-            mistake = str(error).replace(str(path), asked["origin"])
-            line.send_bytes(json.dumps({"mistake": mistake}).encode())
+def certify_asked(asked: dict, path: Path | None) -> dict[str, Any]:
+    """Return the certificate of the law that is named, or whose text is given."""
+    ours = {one.name: one for one in list_laws()} | contenders("regulators")
+    return certify(load_law(path, asked["text"].encode()) if path else ours[asked["name"]])
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]))
+    answer(int(sys.argv[1]), LIMIT_S, certify_asked)

@@ -22,14 +22,15 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from math import ceil
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import NoReturn
 
-from bench.base.errors import BadLaw
+from bench.base.errors import BadLaw, BenchError
 from bench.base.processes import module_command
+from bench.law.contenders.law_file import keep_text
 
 TOKEN, FOLDER = "ORIENTATION_BENCH_LAW_PROCESS", "orientation-bench-law-"
 PROCESSES = Path("/proc")
@@ -127,6 +128,23 @@ def ask(module: str, asked: dict, silent_s: float, files: str) -> Iterator[dict]
         raise BadLaw(f"--law {files}: its process did not give back an answer; correct what runs on import") from error
     finally:
         process.end()
+
+
+def answer(descriptor: int, processor_s: float, make: Callable[[dict, Path | None], dict]) -> None:
+    """In a law's own process, say what is made of a message, or the caller's mistake, which names the user's own file.
+
+    Args:
+        make: of the message and the file that holds the law's text, if there is one.
+    """
+    with Connection(descriptor) as line:
+        asked = json.loads(line.recv_bytes())
+        path = keep_text(asked["text"]) if asked["text"] else None
+        try:
+            limit(processor_s)
+            said = make(asked, path)
+        except BenchError as error:
+            said = {"mistake": str(error).replace(str(path), asked["origin"])}
+        line.send_bytes(json.dumps(said).encode())
 
 
 def end_all(token: str) -> None:
