@@ -20,13 +20,13 @@ from bench.cli.screen import console, examples, frame_table
 
 
 @click.command("prove", epilog=examples("prove"))
-@click.argument("laws", nargs=-1, metavar="[LAW]...")
+@click.argument("laws", nargs=-1)
 @options.numbered("--workers", os.cpu_count() or 1, "Laws at a time.", show_default="cores")
 @click.option("--out", type=options.PATH, help="Write what is proved to this file, as JSON.")
 def COMMAND(laws: tuple[str, ...], workers: int, out: Path | None) -> None:
-    """Prove what a law's file declares of it, from the law's source (default: all that are global or almost global).
+    """Prove what laws' files declare of them, from the source (default: all that are global or almost global).
 
-    LAW is the name of a law, or a file of yours with a constant REGULATOR; it runs in a process of its own.
+    LAWS are names of laws, or files of yours with a constant REGULATOR, which run in processes of their own.
 
     The source is called with symbols in place of numbers. Algebra and Z3 then prove for all orientations, rates and
     gains that a Lyapunov function falls, where it stays, and where a law with memory changes its side; intervals (Arb)

@@ -35,11 +35,10 @@ def readme() -> str:
         "last, `maps/` what millions of random starts say (`bench map`), `situations/` the map of `bench advise`.",
         "`timings/` holds one file for each kind of machine, `libraries/` what other robot libraries answer and do",
         "(`make libraries`), `contact/` what tasks in contact depend on, `robustness/` shares of hundreds of starts a",
-        "level (CONTRIBUTING.md lists the studies). Every table is parquet, its units are in the columns' metadata",
-        "(which pandas does not keep: they are below), and `provenance.json` says where a run comes from. In",
-        "`episodes` a start has a row for each `engine` that ran it: choose one, as `ideal-rk4` on the free body,",
-        "before you count",
-        "starts.",
+        "level (CONTRIBUTING.md lists the studies), `proofs/` what is proved of laws from their source (`make prove`).",
+        "Every table is parquet, its units are in the columns' metadata (which pandas does not keep: they are below),",
+        "and `provenance.json` says where a run comes from. In `episodes` a start has a row for each `engine` that",
+        "ran it: choose one, as `ideal-rk4` on the free body, before you count starts.",
     ]
     for table in all_tables().values():
         lines += ["", f"## {table.name}.parquet", "", table.about, ""]

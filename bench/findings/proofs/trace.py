@@ -107,10 +107,6 @@ class Symbols:
         """Return the partial derivative by a symbol; roots and angles count as constants."""
         return self.reduce(value.value.diff(self.of[name].value))
 
-    def as_function(self, value: "Traced", path: Path) -> Any:
-        """Return a value as sympy has it, roots and angles written out."""
-        return value.value.as_expr().subs(path.meanings)
-
     def is_negative(self, value: "Traced") -> bool:
         """Decide whether a value is below zero: a number has a sign, else the path decides."""
         polynomial = value.value.numer * value.value.denom
