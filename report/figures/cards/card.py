@@ -25,7 +25,7 @@ BACK = (
     else ""
 )
 PROPERTIES = {
-    "local": "Stable near the goal, by linearization.",
+    "local": "Stable near the goal: its stiffness and damping there are those of the gains.",
     "almost global": "Stable from all starts but a set of measure zero. No continuous law without memory can do more "
     "(Bhat & Bernstein 2000).",
     "almost global from rest": "Stable from all starts at rest but a set of measure zero.",
@@ -94,12 +94,12 @@ def say_property(law: Law) -> dict[str, str]:
     """Return the property of a law: as proved from its source, with V and by what, or as not proved."""
     one, text = read_certificates().get(law.name), PROPERTIES.get(law.property, f"{law.property.capitalize()}.")
     if not one or not one["is_proved"]:
-        return {"Not proved from its source" if law.property != "none" else "Proved": text}
+        return {"Proved" if law.property == "none" else "Measured, not proved": text}
     by = " and ".join(sorted({lemma["by"] for lemma in one["lemmas"]}))
     text += f" Proved from its source by {by} in {one['seconds']:.1f} s; equilibria away from the goal: {one['equilibria']}."
     if "upper" in one["settling"]:
         text += f" From rest it settles within {one['settling']['upper']:.4f} s at the paper's gains, proved by Arb."
-    return {"Proved": html.Html(f"{html.foreign(text)} {html.formula(one['V'])}")}
+    return {"Proved": html.Html(f"{set_words(text)} {html.formula(one['V'])}")}
 
 
 def docstring(file: Path) -> tuple[str, str]:

@@ -136,7 +136,8 @@ def tables(run: Run) -> dict:
 def say_whether_proved(law: Law) -> str:
     """Return the property of a law, and whether it is proved from its source."""
     one = read_certificates().get(law.name)
-    return f"{law.property}, {'proved' if one and one['is_proved'] else 'not proved'}"
+    word = "proved" if one and one["is_proved"] else "measured"
+    return f"{law.property}, {word}" if law.property != "none" else "none"
 
 
 def line(one: Contender, run: Run) -> tuple:
