@@ -96,7 +96,8 @@ def say_property(law: Law) -> dict[str, str]:
     if not one or not one["is_proved"]:
         return {"Proved" if law.property == "none" else "Measured, not proved": text}
     by = " and ".join(sorted({lemma["by"] for lemma in one["lemmas"]}))
-    text += f" Proved from its source by {by} in {one['seconds']:.1f} s; equilibria away from the goal: {one['equilibria']}."
+    text += f" Proved from its source by {by} in {one['seconds']:.1f} s."
+    text += f" Equilibria away from the goal: {one['equilibria']}."
     if "upper" in one["settling"]:
         text += f" From rest it settles within {one['settling']['upper']:.4f} s at the paper's gains, proved by Arb."
     return {"Proved": html.Html(f"{set_words(text)} {html.formula(one['V'])}")}
