@@ -33,8 +33,8 @@ def facts(run: Run) -> dict:
     spent = counted[counted["stage"] == "total"].set_index(["contender", "branch"])
     return {
         "at_peak": compare_at_equal_peak(),
-        "slowest": f"{proved['settling']['upper']:.5f}",
-        "linear": f"{linear_settling(*PAPERS_GAINS):.5f}",
+        "slowest": f"{proved['settling']['upper']:.3f}",
+        "linear": f"{linear_settling(*PAPERS_GAINS):.3f}",
         **{name: f"{proved[name]:g}" for name in ("rate", "delta")},
         "drop": f"{proved['drop']:.3f}",
         "seconds": f"{proved['seconds']:.0f}",
