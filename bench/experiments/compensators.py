@@ -5,13 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 import tasks
-from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.contenders.registry import contenders, papers_laws
 from bench.law.kinds import Law
 from tasks.rules import ticks
-
-NAME = "compensators"
 
 DISTURBANCES = (0.0, 5.0, 20.0)
 """Lengths [rad/s^2]; over the paper's Kp they are the sine of what a law without an integral leaves: 2.9 and 11.5
@@ -31,7 +28,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     """Return a unit for each law."""
     each = asked.count or STARTS
     return tuple(
-        Unit(NAME, selector=name, count=each, total=each, horizon_s=asked.horizon_s or HORIZON_S)
+        Unit("compensators", selector=name, count=each, total=each, horizon_s=asked.horizon_s or HORIZON_S)
         for name in ("", *contenders("compensators"))
     )
 
@@ -83,10 +80,9 @@ def prepare(settings: Settings, unit: Unit) -> None:
     parts_of(law_of(unit.selector))
 
 
-EXPERIMENT = Experiment(
-    NAME,
+EXPERIMENT = Experiment.of(
+    __file__,
     "laws with a state of their own",
-    read_table(__file__, NAME),
     units,
     rows,
     cost_s=lambda unit: LEVEL_S * len(DISTURBANCES),

@@ -22,10 +22,9 @@ from bench.engines.episode import (
 )
 from bench.engines.metrics.metric import Ending, Metric
 from bench.engines.metrics.registry import known_metrics, metrics_of
-from bench.experiments.columns import CONTENDER_KEY, of_metrics, read_table
+from bench.experiments.columns import of_metrics, read_table
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.rounding import BESIDE, CHANGE
-from bench.law.contender import Contender
 from bench.law.contenders.representations.zyx_euler import chart
 from bench.law.so3 import from_quaternion
 from tasks.base import Start
@@ -41,12 +40,6 @@ TABLE = read_table(__file__, "episodes", METRICS=lambda: of_metrics(known_metric
 """The table of `free_body` and `arm`."""
 
 
-def contender_columns(one: Contender) -> dict:
-    """Return the values of the columns CONTENDER."""
-    coordinates = one.representation.name if one.representation else ""
-    return dict(zip(CONTENDER_KEY, (one.regulator.name, coordinates, *one.way), strict=True))
-
-
 def frame(settings: Settings, unit: Unit, starts: list[Start], numbers: np.ndarray) -> pd.DataFrame:
     """Return the rows of one unit from these starts."""
     angles = np.array([chart(from_quaternion(start.quat_wxyz)).E for start in starts])
@@ -59,7 +52,7 @@ def frame(settings: Settings, unit: Unit, starts: list[Start], numbers: np.ndarr
         "task": unit.task,
         "arm": unit.arm,
         "variation": unit.variation,
-        **contender_columns(settings.contender(unit.contender)),
+        **settings.contender(unit.contender).words,
         "engine": unit.engine,
         "start_set": unit.selector,
         **{f"quat_{axis}": quats[:, i] for i, axis in enumerate("wxyz")},

@@ -13,13 +13,14 @@ import dataclasses
 import functools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from bench import experiments
 from bench.base.errors import BadLaw
 from bench.base.on_first_use import pd
 from bench.experiments.choice import IN_CONTACT, WITHOUT, Choice
-from bench.experiments.columns import Table
+from bench.experiments.columns import Table, read_table
 from bench.experiments.suites import Suite
 from bench.law.contender import Contender
 from bench.law.contenders.registry import find_contender
@@ -188,6 +189,15 @@ class Experiment(NamedTuple):
     fold: Callable[[pd.DataFrame, pd.DataFrame], pd.DataFrame] | None = None
     in_suites: bool = True
     rank: int = 9
+
+    @classmethod
+    def of(
+        cls, file: str, title: str, units: Callable[[Asked], tuple[Unit, ...]], rows: Callable[[Settings, Unit], Rows],
+        **more: Any,
+    ) -> Experiment:  # fmt: skip
+        """Return the experiment of a file, which gives its name and the table of its TOML file."""
+        name = Path(file).stem.replace("_", "-")
+        return cls(name, title, read_table(file, name), units, rows, **more)
 
 
 @functools.cache

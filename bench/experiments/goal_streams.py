@@ -7,14 +7,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.suites import STREAMED
 from bench.law.contenders.registry import contenders, find_contender
 from tasks.goal_stream import LENGTH_S, STREAMS, goals, true_goal
 from tasks.truth import angle
-
-NAME = "goal-streams"
 
 SIGNED = "quaternion,"
 """Streams that arrive so are also run by the spring on the quaternion as it came."""
@@ -22,7 +19,7 @@ SIGNED = "quaternion,"
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """Return one unit."""
-    return (Unit(NAME, count=len(STREAMS), total=len(STREAMS), horizon_s=LENGTH_S),)
+    return (Unit("goal-streams", count=len(STREAMS), total=len(STREAMS), horizon_s=LENGTH_S),)
 
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
@@ -49,10 +46,9 @@ def compute_steps(q: np.ndarray) -> np.ndarray:
     return np.array([angle(before, after) for before, after in zip(q[:-1].tolist(), q[1:].tolist(), strict=True)])
 
 
-EXPERIMENT = Experiment(
-    NAME,
+EXPERIMENT = Experiment.of(
+    __file__,
     "goals that arrive as a stream",
-    read_table(__file__, NAME),
     units,
     rows,
     cost_s=lambda unit: 1.0,

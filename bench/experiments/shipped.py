@@ -18,7 +18,6 @@ from bench.engines.curve import NUMBERS, blank_curves
 from bench.engines.episode import OUTCOME, SETTLING_TICK, blank, start_rows
 from bench.engines.episode import numbers as numbers_of
 from bench.engines.metrics.registry import metrics_of
-from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.field import ENGINE, ZERO, Field, about, size
 from bench.experiments.suites import BEST, LONG
@@ -30,8 +29,6 @@ from tasks.base import Start
 from tasks.haar import axes
 from tasks.rotations import multiply
 from tasks.verdict import SETTLED
-
-NAME = "shipped"
 
 CONTROLLER_S = 0.7
 """CPU seconds a controller, most of them for the audit and for compiling."""
@@ -58,7 +55,7 @@ HAVERSINE = NUMBERS.index("haversine")
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """Return a unit for each controller."""
-    return tuple(Unit(NAME, selector=name, count=1, total=1, horizon_s=LONG) for name in contenders("shipped"))
+    return tuple(Unit("shipped", selector=name, count=1, total=1, horizon_s=LONG) for name in contenders("shipped"))
 
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
@@ -154,10 +151,9 @@ def motion(contender: Contender, memories: tuple, settings: Settings, horizon_s:
     }
 
 
-EXPERIMENT = Experiment(
-    NAME,
+EXPERIMENT = Experiment.of(
+    __file__,
     "controllers as they are shipped",
-    read_table(__file__, NAME),
     units,
     rows,
     cost_s=lambda unit: CONTROLLER_S,

@@ -17,8 +17,7 @@ import numpy as np
 import tasks
 from bench.engines.episode import FINAL_ANGLE, OUTCOME
 from bench.experiments import arm, starts
-from bench.experiments.columns import read_table
-from bench.experiments.episode_rows import contender_columns, episode_columns
+from bench.experiments.episode_rows import episode_columns
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.limiters import LIMITERS, NONE
 from bench.experiments.rounding import NUDGE, nudged
@@ -102,7 +101,7 @@ def rows(settings: Settings, unit: Unit) -> dict:
     found = {
         **ran,
         "arm": unit.arm,
-        **contender_columns(one),
+        **one.words,
         **{name: np.repeat([getattr(part, name) for part in every], lengths) for name in PLACED},
         "gain": gain(settings),
         "path_ratio": made[:, PATH] / ran["angle0_rad"],
@@ -173,10 +172,9 @@ def prepare(settings: Settings, unit: Unit) -> None:
     prepare_velocity(settings.contender(unit.contender), [one.limit for one in LIMITERS.values()])
 
 
-EXPERIMENT = Experiment(
-    NAME,
+EXPERIMENT = Experiment.of(
+    __file__,
     "first-order laws: robots commanded in velocity",
-    read_table(__file__, NAME),
     units,
     rows,
     takes=(*OF_LAWS, "arms"),

@@ -28,9 +28,14 @@ class Contender(NamedTuple):
         return f"{self.regulator.name}/{self.representation.name}" if self.representation else self.regulator.name
 
     @property
+    def words(self) -> dict[str, str]:
+        """Return the names of its parts, by the columns of tables that name a contender; empty where it has none."""
+        return {kind: part.name if part else "" for kind, part in self._asdict().items()}
+
+    @property
     def way(self) -> tuple[str, str]:
         """Names of the Jacobian and the inverse; empty on the free body."""
-        return (self.jacobian.name if self.jacobian else "", self.inverse.name if self.inverse else "")
+        return self.words["jacobian"], self.words["inverse"]
 
     @property
     def is_beyond_the_paper(self) -> bool:

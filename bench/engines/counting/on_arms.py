@@ -13,7 +13,7 @@ import numpy as np
 
 import tasks
 from bench.engines.arm_episode import buffers
-from bench.engines.counting.costs import Call, Cost, checked, contender_words, cost_of, counted, rows_of, size
+from bench.engines.counting.costs import Call, Cost, checked, cost_of, counted, rows_of, size
 from bench.engines.counting.counted import Counts, Tally
 from bench.engines.counting.staged import in_stage, law_of, staged
 from bench.engines.counting.states import GAINS, goal_of
@@ -96,7 +96,7 @@ def median(counts: list[Counts]) -> Counts:
 
 def rows_on_arm(contender: Contender, joints: int) -> list[dict]:
     """Rows of costs.parquet of a contender on so many joints."""
-    return list(rows_of(cost_on_arm(contender, ARM_OF[joints]), contender_words(contender, joints)))
+    return list(rows_of(cost_on_arm(contender, ARM_OF[joints]), contender.words | {"joints": joints}))
 
 
 def _command(contender: Contender, tally: Tally | None) -> Any:
