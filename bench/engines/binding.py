@@ -28,10 +28,8 @@ def command_of(contender: Contender):
         return _coordinate_command_of(contender)
     if contender.regulator.through:
         return None  # a baseline on the joints has no law of an orientation
-    law = contender.law
-    if contender.regulator.memory is not None:
-        return _guarded_memory(law) if contender.regulator.origin else law
-    return _memoryless(_guarded_three(law) if contender.regulator.origin else law)
+    law = contender.law if contender.regulator.memory is not None else _memoryless(contender.law)
+    return _guarded_memory(law) if contender.regulator.origin else law
 
 
 def parts_for(contender: Contender) -> Parts:
@@ -129,29 +127,18 @@ def margin_of(contender: Contender):
     """Return the margin of the coordinates the law acts on; of a law on R its own, or NaN if it is singular nowhere."""
     if contender.representation is None:
         return contender.regulator.margin or _no_margin
-    at = contender.representation.margin
-    return _margin_from_goal(at) if contender.regulator.relative else _margin_from_base(at)
+    at, is_relative = contender.representation.margin, contender.regulator.relative
+
+    @kernel
+    def margin(R, R_d):
+        return at(relative(R_d, R) if is_relative else R)
+
+    return margin
 
 
 @kernel
 def _no_margin(R, R_d):
     return math.nan
-
-
-def _margin_from_base(at):
-    @kernel
-    def margin(R, R_d):
-        return at(R)
-
-    return margin
-
-
-def _margin_from_goal(at):
-    @kernel
-    def margin(R, R_d):
-        return at(relative(R_d, R))
-
-    return margin
 
 
 def evaluation_of(contender: Contender):

@@ -45,7 +45,7 @@ LOOPS = {
     "perturbed": ("perturbed", "loop_of", (EVALUATE,), "World"),
     "stream": ("quaternion", "streamed", (EVALUATE,), "Stream"),
     "state": ("quaternion", "with_state", (STATEFUL, BEGIN_STATE), "Disturbance"),
-    "velocity": ("velocity", "of_body", (EVALUATE, LIMIT), "World"),
+    "velocity": ("velocity", "of_body", (EVALUATE, LIMIT), "Pace"),
     "velocity-arm": ("velocity", "of_arm", (EVALUATE, LIMIT, RESOLVE), "ArmWorld"),
     "arm": ("arm", "loop_of", (ASSEMBLE, RESOLVE, MARGIN), "World"),
     "impedance": ("impedance", "of_arm", (EVALUATE, DESIGN), "World"),

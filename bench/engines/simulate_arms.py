@@ -126,7 +126,7 @@ def run_velocity(
     given = memory_of(law), start_rows(starts), numbers(settings), rows
     functions = evaluation(law), part(limit, LIMIT)
     if not arm:
-        return simulate(compiled_loop("velocity"), functions, velocity.World(pace), *given)
+        return simulate(compiled_loop("velocity"), functions, pace, *given)
     n, (model, data) = tasks.arm(arm).joints, _simulation(ARM_TASK, tasks.arm(arm), settings.dt_s)
     still, work = states([one._replace(qdot=(0.0,) * n) for one in starts], n), on_arm.work(n)
     work.D[:] = np.eye(n)

@@ -37,12 +37,6 @@ class Pace(NamedTuple):
     coast: float
 
 
-class World(NamedTuple):
-    """The pace of a free body."""
-
-    pace: Pace
-
-
 class ArmWorld(NamedTuple):
     """An arm, of each start its state, buffers with the identity for D, and the pace."""
 
@@ -70,7 +64,7 @@ def begin(laws, memory0, sensed):
 def command(laws, body, sensed, now, gains, memory, numbers):
     """Command an angular velocity: laws are the law and its limiter, limit(omega, K) -> omega."""
     u, memory, _ = laws.law(sensed.R, AT_REST, sensed.goal, gains, memory)
-    asked, omega = velocity(laws.second, u, body.pace.K, gains.kp)
+    asked, omega = velocity(laws.second, u, body.K, gains.kp)
     speed = dot(omega, omega)
     failure = check_command(speed, numbers.speed_limit_squared)
     return Act(omega, u, speed, math.nan, failure, Told(asked, 0.0, 0.0)), memory
