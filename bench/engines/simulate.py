@@ -144,8 +144,8 @@ def on_ideal(
         return _once(engine, contender, begun, chosen, (), total, blank_curves(len(begun)))
 
     def again(level: Level, which: np.ndarray) -> np.ndarray:
-        rows, some = blank(len(which), metrics), Curves(curves.every, np.full_like(curves.samples[which], np.nan))
-        by_law(REFINED, contender, begun[which], at_level(numbers(settings), level), rows, metrics, some)
+        some = Curves(curves.every, np.full_like(curves.samples[which], np.nan))
+        rows = by_law(REFINED, contender, begun[which], at_level(numbers(settings), level), metrics, some)
         curves.samples[which] = some.samples
         return rows
 
@@ -157,22 +157,21 @@ def by_law(
     contender: Contender,
     begun: np.ndarray,
     limits: Numbers,
-    rows: np.ndarray,
     metrics: tuple = (),
     curves: Curves | None = None,
     memory: tuple | None = None,
 ) -> np.ndarray:
     """Run the loop of an ideal plant, one start at a time; memory: another than the law's own."""
-    law, loop = (evaluation(contender),), compiled_loop(engine, metrics)
+    law, loop, rows = (evaluation(contender),), compiled_loop(engine, metrics), blank(len(begun), metrics)
     return simulate(loop, law, None, memory or memory_of(contender), begun, limits, rows, curves)
 
 
 def _once(
     engine: str, contender: Contender, begun: np.ndarray, settings: Settings, metrics: tuple, total: int, curves: Curves
 ) -> np.ndarray:
-    rows = blank(len(begun), metrics)
     if curves.samples.shape[1] or max(total, len(begun)) < WORTH_LANES:
-        return by_law(engine, contender, begun, numbers(settings), rows, metrics, curves)
+        return by_law(engine, contender, begun, numbers(settings), metrics, curves)
+    rows = blank(len(begun), metrics)
     loop_in_lanes(engine, contender, metrics)(memory_of(contender), begun, numbers(settings), rows)
     return rows
 

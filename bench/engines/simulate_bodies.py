@@ -69,14 +69,6 @@ def draw_noise(first: int, count: int, periods: int, seed: int) -> np.ndarray:
     return noise
 
 
-class Seen(NamedTuple):
-    """Greatest |u| [rad/s^2], greatest angle to the true goal [rad], path turned [rad]."""
-
-    peak_u: float
-    off_rad: float
-    way_rad: float
-
-
 class Ended(NamedTuple):
     """What became of each start, as arrays.
 
@@ -96,8 +88,10 @@ def _unlimited(gains: Gains, dt: float, ticks: int) -> Numbers:
 
 def run_stream(
     contender: Contender, goals: np.ndarray, truth: np.ndarray, gains: Gains, dt: float, is_raw: bool = False
-) -> Seen:
-    """One episode from rest at the first true goal, as long as the stream lasts, whatever becomes of it.
+) -> tuple[float, float, float]:
+    """Return greatest |u| [rad/s^2], greatest angle to the true goal [rad] and path turned [rad] of one episode.
+
+    From rest at the first true goal, as long as the stream lasts, whatever becomes of it.
 
     Args:
         goals, truth: one a tick (n x 4). is_raw: the spring on the quaternion as it came, in the law's place.
@@ -106,7 +100,8 @@ def run_stream(
     start[0, 0:4], start[0, 7:11] = truth[0], goals[0]
     stream, limits = quaternion.Stream(goals, truth, int(is_raw)), _unlimited(gains, dt, len(goals))
     simulate(compiled_loop("stream"), (evaluation(contender),), stream, memory_of(contender), start, limits, rows)
-    return Seen(*rows[0, quaternion.PEAK :].tolist())
+    peak, off, way = rows[0, quaternion.PEAK :].tolist()
+    return peak, off, way
 
 
 def parts_of(one: Law) -> tuple:

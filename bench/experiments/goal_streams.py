@@ -35,8 +35,9 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
         made = compute_steps(filled)
         goal = {"goal_rate_ratio": made.max() / steps.max(), "goal_way_ratio": made.sum() / steps.sum()}
         for law in (*laws, *[""] * stream.arrives.startswith(SIGNED)):
-            seen = run_stream(find_contender(law or laws[0]), filled, truth, settings.gains, dt, is_raw=not law)
-            loop = {"peak_u": seen.peak_u, "off_rad": seen.off_rad, "way_ratio": seen.way_rad / steps.sum()}
+            one = find_contender(law or laws[0])
+            peak, off, way = run_stream(one, filled, truth, settings.gains, dt, is_raw=not law)
+            loop = {"peak_u": peak, "off_rad": off, "way_ratio": way / steps.sum()}
             found.append({"stream": stream.name, "law": law, **goal, **loop})
     return found
 

@@ -15,7 +15,7 @@ import numpy as np
 from bench.audit import audit
 from bench.engines.binding import memory_of
 from bench.engines.curve import NUMBERS, blank_curves
-from bench.engines.episode import OUTCOME, SETTLING_TICK, blank, start_rows
+from bench.engines.episode import OUTCOME, SETTLING_TICK, start_rows
 from bench.engines.episode import numbers as numbers_of
 from bench.engines.metrics.registry import metrics_of
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
@@ -135,8 +135,8 @@ def motion(contender: Contender, memories: tuple, settings: Settings, horizon_s:
     metrics, limits, episodes = tuple(metrics_of(on_arm=False)), numbers_of(settings.limits(horizon_s)), []
     every = round(SAMPLE_S / settings.dt_s)
     for memory in memories:
-        made, curves = blank(len(begun), metrics), blank_curves(len(begun), limits.ticks // every, every)
-        by_law(ENGINE, contender, begun, limits, made, metrics, curves, memory)
+        curves = blank_curves(len(begun), limits.ticks // every, every)
+        made = by_law(ENGINE, contender, begun, limits, metrics, curves, memory)
         farthest = np.nanmax(curves.samples[:, :, HAVERSINE], axis=1)
         allowed = np.sin(0.5 * np.minimum(np.repeat([*angles.values()], len(AXES)) + AWAY_RAD, math.pi)) ** 2
         episodes.append(np.column_stack((made[:, [OUTCOME, SETTLING_TICK]], farthest > allowed)))

@@ -81,10 +81,10 @@ def velocity_laws(asked: Asked) -> list[Contender]:
 
 def on_joints(law: Contender, joints: int) -> list[Contender]:
     """Return a law by the geometric Jacobian and the standard inverse, or by every one that fits."""
+    standard = combinations.on((f"{law.name}@geometric+standard",), {law.name: law}, joints)
     if law.name != BY_EVERY_INVERSE:
-        return combinations.on((f"{law.name}@geometric+standard",), {law.name: law}, joints)
-    (by, *_) = combinations.on((f"{law.name}@geometric+standard",), {law.name: law}, joints)
-    every = (by._replace(inverse=one) for one in contenders("inverses").values() if not one.uses_inertia)
+        return standard
+    every = (standard[0]._replace(inverse=one) for one in contenders("inverses").values() if not one.uses_inertia)
     return [one for one in every if not refusal(one, joints)]
 
 
