@@ -41,8 +41,9 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
     found = []
     for level in DISTURBANCES:
         lasting, push = ticks(unit.horizon_s, settings.dt_s), tuple(level * x for x in DIRECTION)
-        ended = run_compensated(one, starts, settings.gains, settings.dt_s, lasting, float(BAND_RAD), push)
-        times = ended.settling_s[np.isfinite(ended.settling_s)]
+        given = settings.gains, settings.dt_s, lasting, float(BAND_RAD), push
+        settling_s, left_rad, peak_u = run_compensated(one, starts, *given)
+        times = settling_s[np.isfinite(settling_s)]
         found.append(
             {
                 "law": one.name,
@@ -55,8 +56,8 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
                 "settled": len(times),
                 "settling_median_s": float(np.median(times)) if len(times) else None,
                 "settling_worst_s": float(np.max(times)) if len(times) else None,
-                "left_rad": float(np.max(ended.left_rad)),
-                "peak_u": float(np.max(ended.peak_u)),
+                "left_rad": float(np.max(left_rad)),
+                "peak_u": float(np.max(peak_u)),
             }
         )
     return found

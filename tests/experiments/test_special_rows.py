@@ -106,9 +106,9 @@ def test_end_of_an_episode_is_scipys(name):
     quat_wxyz, goal_wxyz = (tuple(turn.as_quat(scalar_first=True)) for turn in (first, goal))
     start = Start("one", quat_wxyz, (1.0, -2.0, 0.5), goal_wxyz)
     for seconds in (0.05, 0.2, 0.6):
-        ended = pushed(one, [start], Gains(), round(1e3 * seconds))
+        _, left_rad, _ = pushed(one, [start], Gains(), round(1e3 * seconds))
         R, _, _ = motion(one, first, goal, Gains(), np.array((0.0, seconds)), start.omega, PUSHED)
-        assert ended.left_rad[0] == pytest.approx(np.linalg.norm(left(R[-1], goal)), abs=1e-6)
+        assert left_rad[0] == pytest.approx(np.linalg.norm(left(R[-1], goal)), abs=1e-6)
 
 
 @functools.cache
