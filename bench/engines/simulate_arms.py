@@ -24,7 +24,7 @@ from bench.law.contender import Contender
 from bench.law.control.resolved_acceleration import assembly
 from bench.law.kinds import Impedance
 from tasks.arm_model import Arm
-from tasks.velocity import Servo, servo
+from tasks.velocity import servo
 
 IDEAL_MOTORS = "ideal-motors"
 """The variation of the plant that the paper assumes."""
@@ -108,7 +108,7 @@ def run_velocity(
         starts: tasks.Start, in order, whose omega and joint rates are not used: nothing moves before a command.
         lag_s: time constant of the joints' servos [s]; 0: none. Those of the free body have none.
     """
-    pace = velocity.Pace(float(K), Servo(*map(float, servo(settings.dt_s, lag_s))))
+    pace = velocity.Pace(float(K), servo(float(settings.dt_s), float(lag_s)))
     law, rows = (
         contender._replace(jacobian=None, inverse=None),
         blank(len(starts), more=(*[0.0] * 5, 0.0 if arm else math.nan)),

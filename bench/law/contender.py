@@ -73,10 +73,14 @@ class Contender(NamedTuple):
         return equation(self.representation) if callable(equation) else equation
 
     @property
+    def is_by_coordinates(self) -> bool:
+        """Whether its Jacobian takes an acceleration of coordinates (Murphy 1988, 3.7)."""
+        return self.jacobian is not None and self.jacobian.takes == "coordinates"
+
+    @property
     def rows(self) -> int:
         """Rows of the Jacobian: three of position, and one a coordinate of orientation."""
-        by_coordinates = self.jacobian is not None and self.jacobian.takes == "coordinates"
-        return 3 + len(self.representation.symbols) if by_coordinates and self.representation else 6
+        return 3 + len(self.representation.symbols) if self.is_by_coordinates and self.representation else 6
 
     @property
     def law(self) -> Callable:

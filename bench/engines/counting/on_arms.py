@@ -100,7 +100,7 @@ def rows_on_arm(contender: Contender, joints: int) -> list[dict]:
 
 def _command(contender: Contender, tally: Tally | None) -> Any:
     """Return the law as `resolved_acceleration.Parts` takes it; staged if there is a tally."""
-    if contender.jacobian is not None and contender.jacobian.takes == "coordinates":
+    if contender.is_by_coordinates:
         return contender.coordinate_law
     if contender.regulator.through:
         return None
