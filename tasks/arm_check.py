@@ -38,13 +38,15 @@ def checked(name: str, xml: str) -> Arm:
     _check_chain(name, model)
     _check_motors(name, model)
     poses = tuple((model.key(i).name, tuple(map(float, model.key_qpos[i]))) for i in range(model.nkey))
+    if "home" not in dict(poses):
+        _refuse(name, 'it has no keyframe "home"', 'add <keyframe><key name="home" qpos="..."/></keyframe>')
     limited = model.jnt_limited.astype(bool)
     arm = Arm(
         name=name,
         title=_text(name, root, "title"),
         source=_text(name, root, "source"),
         xml=xml,
-        home=_home(name, dict(poses)),
+        home=dict(poses)["home"],
         lower=tuple(map(float, np.where(limited, model.jnt_range[:, 0], -math.inf))),
         upper=tuple(map(float, np.where(limited, model.jnt_range[:, 1], math.inf))),
         rated=tuple(map(float, model.actuator_ctrlrange[:, 1])),
@@ -144,12 +146,6 @@ def _check_motors(name: str, model: mujoco.MjModel) -> None:
             _refuse(name, f"the motor of joint '{joint}' has ctrlrange {low:g} to {high:g}, no rated torque", cure)
         if model.actuator_ctrllimited[i] or model.actuator_forcelimited[i] or model.jnt_actfrclimited[i]:
             _refuse(name, f"the motor of joint '{joint}' is limited: the plant never clips", f"give {cure}")
-
-
-def _home(name: str, poses: dict[str, tuple[float, ...]]) -> tuple[float, ...]:
-    if "home" not in poses:
-        _refuse(name, 'it has no keyframe "home"', 'add <keyframe><key name="home" qpos="..."/></keyframe>')
-    return poses["home"]
 
 
 def _check_dynamics(arm: Arm) -> None:

@@ -48,11 +48,8 @@ def declared_fields(axes: dict[str, Axis]) -> tuple[Field, ...]:
 FIELDS = declared_fields(known_axes())
 
 
-def _record(fields: tuple[Field, ...]) -> Any:
-    return namedtuple("_record", [one.name for one in fields], defaults=[one.default for one in fields])
-
-
-_VALUES: Any = _record(FIELDS)
+_record: Any = namedtuple  # which a type checker cannot follow
+_VALUES: Any = _record("_record", [one.name for one in FIELDS], defaults=[one.default for one in FIELDS])
 
 
 class Condition(_VALUES):

@@ -92,15 +92,27 @@ def by_log(q: np.ndarray, s: np.ndarray) -> np.ndarray:
     return np.concatenate(made)
 
 
+def by_quaternion(q: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """Interpolate the components of quaternions, and scale to length 1."""
+    return normalized(componentwise(q, s))
+
+
+def by_vector(q: np.ndarray, s: np.ndarray) -> np.ndarray:
+    """Interpolate the components of rotation vectors."""
+    return of_rotation_vector(componentwise(rotation_vector(q), s))
+
+
 class Stream(NamedTuple):
     """How goals are sent and filled in.
 
-    filled(q, s) -> goals: of the quaternions that are sent (n x 4) and the shares s (m x 1), those of (n - 1) m ticks.
+    signed(q) -> the quaternions that are sent (n x 4), of the signs with which they arrive. filled(q, s) -> goals: of
+    these and the shares s (m x 1), those of (n - 1) m ticks.
     """
 
     name: str
     arrives: str
     between: str
+    signed: Callable[[np.ndarray], np.ndarray]
     filled: Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 
@@ -110,29 +122,14 @@ def held(q: np.ndarray, s: np.ndarray) -> np.ndarray:
 
 
 STREAMS = (
-    Stream("held", "matrix", "held", lambda q, s: held(canonical(q), s)),
-    Stream("log", "matrix", "log", lambda q, s: by_log(canonical(q), s)),
-    Stream(
-        "rotation-vector",
-        "rotation vector, up to 180°",
-        "componentwise",
-        lambda q, s: of_rotation_vector(componentwise(rotation_vector(canonical(q)), s)),
-    ),
-    Stream(
-        "rotation-vector-continued",
-        "rotation vector, continued",
-        "componentwise",
-        lambda q, s: of_rotation_vector(componentwise(rotation_vector(continued(q)), s)),
-    ),
-    Stream("quaternion", "quaternion, w ≥ 0", "componentwise", lambda q, s: normalized(componentwise(canonical(q), s))),
-    Stream(
-        "quaternion-continued",
-        "quaternion, nearer sign",
-        "componentwise",
-        lambda q, s: normalized(componentwise(continued(q), s)),
-    ),
-    Stream("slerp", "quaternion, w ≥ 0", "slerp", lambda q, s: slerp(canonical(q), s)),
-    Stream("slerp-continued", "quaternion, nearer sign", "slerp", lambda q, s: slerp(continued(q), s)),
+    Stream("held", "matrix", "held", canonical, held),
+    Stream("log", "matrix", "log", canonical, by_log),
+    Stream("rotation-vector", "rotation vector, up to 180°", "componentwise", canonical, by_vector),
+    Stream("rotation-vector-continued", "rotation vector, continued", "componentwise", continued, by_vector),
+    Stream("quaternion", "quaternion, w ≥ 0", "componentwise", canonical, by_quaternion),
+    Stream("quaternion-continued", "quaternion, nearer sign", "componentwise", continued, by_quaternion),
+    Stream("slerp", "quaternion, w ≥ 0", "slerp", canonical, slerp),
+    Stream("slerp-continued", "quaternion, nearer sign", "slerp", continued, slerp),
 )
 """From what cannot go wrong to what is written in earnest and does."""
 
@@ -149,4 +146,4 @@ def goals(stream: Stream, dt: float) -> np.ndarray:
         dt: control period [s], of which PERIOD_S is a multiple.
     """
     count = round(PERIOD_S / dt)
-    return stream.filled(sent(), np.arange(count)[:, None] / count)
+    return stream.filled(stream.signed(sent()), np.arange(count)[:, None] / count)

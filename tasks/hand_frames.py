@@ -1,4 +1,7 @@
-"""How a hand's frame is drawn on the hand, where trials of contact tasks begin, and what stands askew before them."""
+"""How a hand's frame is drawn on the hand, and what stands askew before it.
+
+Trials in contact begin at home, where our arms point the wrist down and are well conditioned.
+"""
 
 from __future__ import annotations
 
@@ -16,11 +19,6 @@ BETAS, DENSE_BETAS = (0, 45, 75), (-60, 0, 30, 45, 60, 75)
 
 Stands = Callable[[Quat, float], tuple[Specification, Vector, Quat]]
 """Specification of a hand, and place and orientation of surroundings that lean by a rotation and an angle [rad]."""
-
-
-def posture(arm: Arm) -> tuple[float, ...]:
-    """Joint angles at which trials begin: home, where our arms point the wrist down and are well conditioned."""
-    return arm.home
 
 
 def wrist(arm: Arm, q: tuple[float, ...]) -> tuple[Vector, Quat]:
@@ -62,7 +60,7 @@ def leaning_trials(
 
     Those that differ in beta alone are the same mechanics.
     """
-    q, found = posture(arm), []
+    q, found = arm.home, []
     for (tilt, azimuth), beta in itertools.product(leans, betas):
         goal = zyx(0.0, math.radians(beta), 0.0)
         specification, place, quat = stands(leaning(tilt, azimuth), math.radians(tilt))

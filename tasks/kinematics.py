@@ -25,7 +25,6 @@ from tasks.arm_model import Arm, model_xml
 from tasks.base import Quat, Start, Vector
 from tasks.errors import BadValue
 from tasks.linear_algebra import damped, least_norm, length
-from tasks.paths import geodesic
 
 # |(p_d - p, log(R_d R^T))| at which a pose is reached [m, rad]. Rounding of a chain of seven transformations is about
 # 1e-15; Newton's last step squares what is left, so the joints are better than this by as much.
@@ -145,10 +144,6 @@ class Kinematics:
         """All of `walk`, len(quats) x n; None if it ended early."""
         path = list(self.walk(q, quats))
         return np.array(path) if len(path) == len(quats) else None
-
-    def turn(self, q: Sequence[float] | np.ndarray, axis: Vector, angle: float, steps: int) -> np.ndarray | None:
-        """Return the joint path, (steps + 1) x n, that turns the tool by `angle` [rad] about a base-frame axis."""
-        return self.follow(q, geodesic(self.pose(q)[1], axis, angle, steps))
 
     def rates(self, q: Sequence[float] | np.ndarray, omega: Vector) -> np.ndarray:
         """Return the least joint rates [rad/s] at which the tool turns with omega [rad/s] in place.

@@ -68,10 +68,6 @@ def numbers_of(model: mujoco.MjModel, name: str) -> np.ndarray | None:
     return None if found < 0 else np.array(model.numeric(found).data)
 
 
-def _nothing(model: mujoco.MjModel, rated: Sequence[float]) -> None:
-    pass
-
-
 def _scale_all(factor: float, model: mujoco.MjModel, rated: Sequence[float]) -> None:
     _scale(model, [factor] * model.nv)
 
@@ -133,7 +129,7 @@ VARIATIONS = {
     variation.name: variation
     for variation in (
         Variation("nominal", "Motors cut at their rating, joints with stops; exact model", partial(_build, USUAL)),
-        Variation("ideal-motors", "No torque is too large, no joint ends: the paper's assumption", _nothing),
+        Variation("ideal-motors", "No torque is too large, no joint ends: the paper's assumption", lambda *_: None),
         Variation("motors-low", "The least motor inertia of the arm's file", partial(_build, LOW), needs_range=True),
         Variation(
             "motors-high", "The greatest motor inertia of the arm's file", partial(_build, HIGH), needs_range=True

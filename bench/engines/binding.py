@@ -24,14 +24,13 @@ def command_of(contender: Contender):
 
     So it does for one that returns anything but three numbers in some state. Times 1.0 keeps every bit of a number.
     """
-    if _takes_coordinates(contender):
-        return _coordinate_command_of(contender)
+    if contender.is_by_coordinates:
+        guarded = _guarded_four if contender.rows == 7 else _guarded_three
+        return guarded(contender.coordinate_law) if contender.regulator.origin else contender.coordinate_law
     if contender.regulator.through:
         return None  # a baseline on the joints has no law of an orientation
-    law = contender.law
-    if contender.regulator.memory is not None:
-        return _guarded_memory(law) if contender.regulator.origin else law
-    return _memoryless(_guarded_three(law) if contender.regulator.origin else law)
+    law = contender.law if contender.regulator.memory is not None else _memoryless(contender.law)
+    return _guarded_memory(law) if contender.regulator.origin else law
 
 
 def parts_for(contender: Contender) -> Parts:
@@ -42,22 +41,11 @@ def parts_for(contender: Contender) -> Parts:
     return parts
 
 
-def _takes_coordinates(contender: Contender) -> bool:
-    return contender.jacobian is not None and contender.jacobian.takes == "coordinates"
-
-
-def _coordinate_command_of(contender: Contender):
-    law = contender.coordinate_law
-    if not contender.regulator.origin:
-        return law
-    return _guarded_four(law) if contender.rows == 7 else _guarded_three(law)
-
-
 def _guarded_three(law):
     @kernel
-    def command(at, second, third, gains):
+    def command(at, E_d, Edot, gains):
         try:
-            x, y, z = law(at, second, third, gains)
+            x, y, z = law(at, E_d, Edot, gains)
             u = (1.0 * x, 1.0 * y, 1.0 * z)
         except Exception:
             u = CRASHED_COMMAND
@@ -129,29 +117,18 @@ def margin_of(contender: Contender):
     """Return the margin of the coordinates the law acts on; of a law on R its own, or NaN if it is singular nowhere."""
     if contender.representation is None:
         return contender.regulator.margin or _no_margin
-    at = contender.representation.margin
-    return _margin_from_goal(at) if contender.regulator.relative else _margin_from_base(at)
+    at, is_relative = contender.representation.margin, contender.regulator.relative
+
+    @kernel
+    def margin(R, R_d):
+        return at(relative(R_d, R) if is_relative else R)
+
+    return margin
 
 
 @kernel
 def _no_margin(R, R_d):
     return math.nan
-
-
-def _margin_from_base(at):
-    @kernel
-    def margin(R, R_d):
-        return at(R)
-
-    return margin
-
-
-def _margin_from_goal(at):
-    @kernel
-    def margin(R, R_d):
-        return at(relative(R_d, R))
-
-    return margin
 
 
 def evaluation_of(contender: Contender):

@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 import mujoco
 import numpy as np
 
+from bench.engines import episode
 from bench.engines.arm_episode import MOST, scratch
 from bench.engines.arrays import Four, Seven, Six, Three
 from bench.law.control.contact_controller import FORMS, ContactController
@@ -35,17 +36,13 @@ scene [m], angle of the scene's joint [rad], largest torque over its rated one. 
 
 
 class Numbers(NamedTuple):
-    """What a loop needs of an episode besides the models; see `Specification`, `ContactParameters`.
+    """What a loop needs of an episode besides the models and its limits; see `Specification`, `ContactParameters`.
 
     rated: seven numbers, filled up with ones on fewer joints; is_cut: 1 if motors give no more. moves_s: until when the
     place moves [s]. legs: pushes. rest: when it is over. sensor_ticks: between two readings of the wrench.
     """
 
-    dt: float
-    ticks: int
     form: int
-    speed_limit_squared: float
-    torque_limit_squared: float
     held: Six
     quat_d: Four
     v_d: Three
@@ -110,11 +107,7 @@ def numbers(
     specification = trial.specification
     f_d, m_d = tuple(map(float, specification.desired_wrench[:3])), tuple(map(float, specification.desired_wrench[3:]))
     return Numbers(
-        conditions.dt_s,
-        ticks(task.horizon_s, conditions.dt_s),
         FORMS.index(controller.form) if controller.form else 0,
-        RULES.speed_limit**2,
-        RULES.torque_limit**2,
         controller.selection(specification),
         tuple(map(float, trial.goal_wxyz)),
         tuple(map(float, specification.velocity)),
@@ -127,6 +120,12 @@ def numbers(
         int(conditions.is_cut),
         ticks(conditions.sensor.period_s, conditions.dt_s),
     )
+
+
+def limits(task: ContactTask, conditions: Conditions) -> episode.Numbers:
+    """Return the loop's numbers of a trial: no angle ends it, and torques over rated ones are its command."""
+    dt, count = conditions.dt_s, ticks(task.horizon_s, conditions.dt_s)
+    return episode.numbers(episode.Settings(conditions.gains, dt, count, count + 1, RULES.torque_limit))
 
 
 def rows(dtype: Any = float) -> Rows:

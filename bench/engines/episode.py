@@ -137,11 +137,6 @@ def finish(row, failure, watch, tick, angle, speed_squared, command_squared, num
     row[FINAL_ANGLE] = angle
 
 
-def vector(three: Any) -> tuple:
-    """Three numbers of an array, numpy.float64 as they are."""
-    return (three[0], three[1], three[2])
-
-
 def start_rows(starts: Starts) -> np.ndarray:
     """Return the judge's starts as rows: quaternion, omega, goal, haversine of the settling band."""
     rows = np.empty((len(starts), START_WIDTH))

@@ -6,7 +6,7 @@ over the tick, omega is then linear in time and R moves by exp([Omega]x), Omega 
 """
 
 from bench.law.scalar import atan2, cos, kernel, sin, sqrt
-from bench.law.so3 import Rotation, cross, dot
+from bench.law.so3 import Rotation, cross, dot, double_sine, trace
 
 SMALL_TURN_SQUARED = 1e-2
 """Below 0.1 rad a tick the series of sin(x)/x and (1 - cos x)/x^2 to x^8 err by under 3e-18."""
@@ -112,9 +112,8 @@ def haversine(R, R_d):
 @kernel
 def angle_between(R, R_d):
     """theta in [0, pi] from its sine, |sum r_di x r_i| / 2, and its cosine, (tr(R_d^T R) - 1) / 2."""
-    n, o, a = cross(R_d.n, R.n), cross(R_d.o, R.o), cross(R_d.a, R.a)
-    s = (n[0] + o[0] + a[0], n[1] + o[1] + a[1], n[2] + o[2] + a[2])
-    return atan2(sqrt(dot(s, s)), dot(R_d.n, R.n) + dot(R_d.o, R.o) + dot(R_d.a, R.a) - 1.0)
+    s = double_sine(R_d, R)
+    return atan2(sqrt(dot(s, s)), trace(R_d, R) - 1.0)
 
 
 @kernel

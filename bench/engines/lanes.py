@@ -13,19 +13,9 @@ An episode that ends gives its lane to the next start; when there is none, to th
 import numpy as np
 from numba import types
 
+from bench.engines import ideal
 from bench.engines.compiled import FOUR, MATRIX, NUMBERS, compile_function
 from bench.engines.episode import FIRST_METRIC, Sample, blamed, finish
-from bench.engines.ideal import (
-    SMALL_TURN_SQUARED,
-    angle_between,
-    haversine,
-    held_turn,
-    large_turn,
-    plus,
-    rk4_step,
-    small_turn,
-    turned_by,
-)
 from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation, dot, from_quaternion
@@ -109,7 +99,7 @@ def begin(x, n, i, k, start, memory0, numbers):
     at = from_quaternion((start[0], start[1], start[2], start[3]))
     omega = (start[4], start[5], start[6])
     R_d = from_quaternion((start[7], start[8], start[9], start[10]))
-    hav = haversine(at, R_d)
+    hav = ideal.haversine(at, R_d)
     set_state(x, i, at, omega, hav)
     set_three(x, R_D, i, R_d.n)
     set_three(x, R_D + 3, i, R_d.o)
@@ -125,7 +115,7 @@ def begin(x, n, i, k, start, memory0, numbers):
 def end(x, n, i, row, measured, numbers):
     """Write the row of the episode on lane i."""
     omega, u = three(x, OMEGA, i), three(x, U, i)
-    angle, failure = angle_between(rotation(x, R, i), rotation(x, R_D, i)), blamed(n[FAILURE, i], u)
+    angle, failure = ideal.angle_between(rotation(x, R, i), rotation(x, R_D, i)), blamed(n[FAILURE, i], u)
     finish(row, failure, watch_of(n, i), n[TICK, i], angle, dot(omega, omega), dot(u, u), numbers)
     for column in range(FIRST_METRIC, len(row)):
         row[column] = measured[column, i]
@@ -144,24 +134,24 @@ def _series(x, lanes, dt):
     """Compute the two coefficients of each lane's rotation: by series, and of large rotations one by one."""
     large = 0
     for i in range(lanes):
-        turn = held_turn(three(x, OMEGA, i), three(x, U, i), dt)
+        turn = ideal.held_turn(three(x, OMEGA, i), three(x, U, i), dt)
         squared = dot(turn, turn)
-        x[FIRST, i], x[SECOND, i] = small_turn(squared)
-        large += not squared < SMALL_TURN_SQUARED
+        x[FIRST, i], x[SECOND, i] = ideal.small_turn(squared)
+        large += not squared < ideal.SMALL_TURN_SQUARED
     if large > 0:
         for i in range(lanes):
-            turn = held_turn(three(x, OMEGA, i), three(x, U, i), dt)
+            turn = ideal.held_turn(three(x, OMEGA, i), three(x, U, i), dt)
             squared = dot(turn, turn)
-            if not squared < SMALL_TURN_SQUARED:
-                x[FIRST, i], x[SECOND, i] = large_turn(squared)
+            if not squared < ideal.SMALL_TURN_SQUARED:
+                x[FIRST, i], x[SECOND, i] = ideal.large_turn(squared)
 
 
 @kernel
 def _held(evaluate, x, i, goal, gains, dt):
     """`ideal.held_step` with these coefficients."""
     omega, u = three(x, OMEGA, i), three(x, U, i)
-    at = turned_by(rotation(x, R, i), held_turn(omega, u, dt), x[FIRST, i], x[SECOND, i])
-    return at, plus(omega, dt, u)
+    at = ideal.turned_by(rotation(x, R, i), ideal.held_turn(omega, u, dt), x[FIRST, i], x[SECOND, i])
+    return at, ideal.plus(omega, dt, u)
 
 
 @kernel
@@ -172,7 +162,7 @@ def _nothing(x, lanes, dt):
 @kernel
 def _rk4(evaluate, x, i, goal, gains, dt):
     omega, u = three(x, OMEGA, i), three(x, U, i)
-    return rk4_step(evaluate, rotation(x, R, i), omega, u, goal, gains, memory_at(x, i), dt)
+    return ideal.rk4_step(evaluate, rotation(x, R, i), omega, u, goal, gains, memory_at(x, i), dt)
 
 
 STEPS = {"ideal-rk4": (_nothing, _rk4), "ideal-held": (_series, _held)}
@@ -237,7 +227,7 @@ def episodes_of(engine, evaluate, observe, metrics: int, cache: bool = True):
             for i in range(lanes):
                 R_d = rotation(x, R_D, i)
                 at, omega = step(evaluate, x, i, Goal(R_d, AT_REST, AT_REST), gains, dt)
-                speed, hav, tick = dot(omega, omega), haversine(at, R_d), n[TICK, i] + 1
+                speed, hav, tick = dot(omega, omega), ideal.haversine(at, R_d), n[TICK, i] + 1
                 failure = check_state(speed, numbers.speed_limit_squared)
                 watch = watched(watch_of(n, i), tick, hav, x[BAND, i], speed, numbers.slow_squared)
                 set_state(x, i, at, omega, hav)

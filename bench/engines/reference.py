@@ -106,6 +106,6 @@ def run_contact(
         asked, push = np.zeros(3, np.int64), np.zeros(6)
         noise = conditions.sensor.draw_noise(task.horizon_s, conditions.dt_s)
         world = contact.World(sim, arm.joints, push, gap, turned, 0, 0, asked, work, shape, touch, record, noise)
-        limits = contact.limits(shape, conditions.gains)
+        limits = contact_episode.limits(task, conditions)
         _run(contact.loop(), (controller.assemble,), world, None, np.zeros(12), limits, row)
     return row, said(), data

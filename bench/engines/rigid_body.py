@@ -1,18 +1,8 @@
 """A rigid body whose inertia is not the controller's model of it, moved by a torque that is held."""
 
 from bench.engines.ideal import held_step, moved, plus, rotation_rate, weighted
-from bench.law.scalar import kernel, sqrt
-from bench.law.so3 import Rotation, cross, dot, rotate, rotate_back
-
-
-@kernel
-def bounded(u, bound):
-    """u, shortened to the bound if it is longer."""
-    squared = dot(u, u)
-    if squared > bound * bound:
-        scale = bound / sqrt(squared)
-        return (scale * u[0], scale * u[1], scale * u[2])
-    return u
+from bench.law.scalar import kernel
+from bench.law.so3 import Rotation, cross, rotate, rotate_back
 
 
 @kernel

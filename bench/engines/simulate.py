@@ -9,23 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from bench.engines import lanes
+from bench.engines import compiled, lanes
 from bench.engines.binding import evaluation_of, memory_of, observer, plant_of
-from bench.engines.compiled import (
-    ASSEMBLE,
-    BEGIN_STATE,
-    DESIGN,
-    EVALUATE,
-    LIMIT,
-    MARGIN,
-    RESOLVE,
-    STATEFUL,
-    TOUCH,
-    compile_function,
-    compile_loop,
-    made_once,
-    own_law,
-)
+from bench.engines.compiled import compile_function, compile_loop, made_once, own_law
 from bench.engines.convergence import Level, at_level, converged
 from bench.engines.curve import Curves, blank_curves
 from bench.engines.episode import Metrics, Numbers, Settings, Starts, blank, numbers, start_rows
@@ -41,15 +27,15 @@ WORTH_LANES = 100_000
 1,000 ticks."""
 
 LOOPS = {
-    "native": ("free_body", "loop_of", (EVALUATE,), "World"),
-    "perturbed": ("perturbed", "loop_of", (EVALUATE,), "World"),
-    "stream": ("quaternion", "streamed", (EVALUATE,), "Stream"),
-    "state": ("quaternion", "with_state", (STATEFUL, BEGIN_STATE), "Disturbance"),
-    "velocity": ("velocity", "of_body", (EVALUATE, LIMIT), "World"),
-    "velocity-arm": ("velocity", "of_arm", (EVALUATE, LIMIT, RESOLVE), "ArmWorld"),
-    "arm": ("arm", "loop_of", (ASSEMBLE, RESOLVE, MARGIN), "World"),
-    "impedance": ("impedance", "of_arm", (EVALUATE, DESIGN), "World"),
-    "contact": ("contact", "loop", (TOUCH,), "World"),
+    "native": ("free_body", "loop_of", (compiled.EVALUATE,), "World"),
+    "perturbed": ("perturbed", "loop_of", (compiled.EVALUATE,), "World"),
+    "stream": ("quaternion", "streamed", (compiled.EVALUATE,), "Stream"),
+    "state": ("quaternion", "with_state", (compiled.STATEFUL, compiled.BEGIN_STATE), "Disturbance"),
+    "velocity": ("velocity", "of_body", (compiled.EVALUATE, compiled.LIMIT), "Pace"),
+    "velocity-arm": ("velocity", "of_arm", (compiled.EVALUATE, compiled.LIMIT, compiled.RESOLVE), "ArmWorld"),
+    "arm": ("arm", "loop_of", (compiled.ASSEMBLE, compiled.RESOLVE, compiled.MARGIN), "World"),
+    "impedance": ("impedance", "of_arm", (compiled.EVALUATE, compiled.DESIGN), "World"),
+    "contact": ("contact", "loop", (compiled.TOUCH,), "World"),
 }
 """Beside the ideal ones: the file in `plants`, what makes the loop (`loop_of` of the metrics), the signatures of the
 functions that it calls, and its world."""
@@ -59,7 +45,7 @@ functions that it calls, and its world."""
 def compiled_loop(kind: str, metrics: tuple = ()) -> Callable:
     """Return a loop, for all laws, compiled or taken from the disk cache."""
     if kind in ideal.STEPS:
-        return compile_loop(ideal.loop_of(kind, observer(metrics)), (EVALUATE,))
+        return compile_loop(ideal.loop_of(kind, observer(metrics)), (compiled.EVALUATE,))
     file, make, laws, world = LOOPS[kind]
     plant = importlib.import_module(f"bench.engines.plants.{file}")  # MuJoCo takes a moment; the ideal plants need none
     made = getattr(plant, make)(*[observer(metrics)] * (make == "loop_of"))
@@ -144,8 +130,8 @@ def on_ideal(
         return _once(engine, contender, begun, chosen, (), total, blank_curves(len(begun)))
 
     def again(level: Level, which: np.ndarray) -> np.ndarray:
-        rows, some = blank(len(which), metrics), Curves(curves.every, np.full_like(curves.samples[which], np.nan))
-        by_law(REFINED, contender, begun[which], at_level(numbers(settings), level), rows, metrics, some)
+        some = Curves(curves.every, np.full_like(curves.samples[which], np.nan))
+        rows = by_law(REFINED, contender, begun[which], at_level(numbers(settings), level), metrics, some)
         curves.samples[which] = some.samples
         return rows
 
@@ -157,22 +143,21 @@ def by_law(
     contender: Contender,
     begun: np.ndarray,
     limits: Numbers,
-    rows: np.ndarray,
     metrics: tuple = (),
     curves: Curves | None = None,
     memory: tuple | None = None,
 ) -> np.ndarray:
     """Run the loop of an ideal plant, one start at a time; memory: another than the law's own."""
-    law, loop = (evaluation(contender),), compiled_loop(engine, metrics)
+    law, loop, rows = (evaluation(contender),), compiled_loop(engine, metrics), blank(len(begun), metrics)
     return simulate(loop, law, None, memory or memory_of(contender), begun, limits, rows, curves)
 
 
 def _once(
     engine: str, contender: Contender, begun: np.ndarray, settings: Settings, metrics: tuple, total: int, curves: Curves
 ) -> np.ndarray:
-    rows = blank(len(begun), metrics)
     if curves.samples.shape[1] or max(total, len(begun)) < WORTH_LANES:
-        return by_law(engine, contender, begun, numbers(settings), rows, metrics, curves)
+        return by_law(engine, contender, begun, numbers(settings), metrics, curves)
+    rows = blank(len(begun), metrics)
     loop_in_lanes(engine, contender, metrics)(memory_of(contender), begun, numbers(settings), rows)
     return rows
 
@@ -206,4 +191,4 @@ def evaluation(contender: Contender) -> Callable:
         BadLaw: a user's law that the compiler cannot take.
     """
     with own_law(contender.regulator.origin) as cache:
-        return compile_function(evaluation_of(contender), EVALUATE, cache)
+        return compile_function(evaluation_of(contender), compiled.EVALUATE, cache)

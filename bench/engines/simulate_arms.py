@@ -8,20 +8,10 @@ import mujoco
 import numpy as np
 
 import tasks
-from bench.engines import reference
+from bench.engines import compiled, reference
 from bench.engines.arm_episode import blank_arm, controls, joints, states
 from bench.engines.binding import margin_of, memory_of, parts_for
-from bench.engines.compiled import (
-    ASSEMBLE,
-    DESIGN,
-    LIMIT,
-    MARGIN,
-    RESOLVE,
-    compile_function,
-    made_once,
-    own_law,
-    part,
-)
+from bench.engines.compiled import compile_function, made_once, own_law, part
 from bench.engines.curve import Curves
 from bench.engines.episode import Metrics, Settings, Starts, blank, numbers, start_rows
 from bench.engines.native.libmujoco import model_of, skip_constraints
@@ -92,19 +82,19 @@ def _model(task: str, arm: Arm, dt_s: float, integrator: str, variation: str) ->
 def pointers(contender: Contender) -> tuple:
     """Compile a contender's three functions, or take them from the disk cache; a user's law is compiled every time."""
     law = contender._replace(jacobian=None, inverse=None)
-    return _assemble(contender._replace(inverse=None)), _resolve(contender), part(margin_of(law), MARGIN)
+    return _assemble(contender._replace(inverse=None)), _resolve(contender), part(margin_of(law), compiled.MARGIN)
 
 
 def _resolve(contender: Contender) -> Callable:
     """Return the inverse of a contender that has one."""
     assert contender.inverse is not None
-    return part(contender.inverse.resolve, RESOLVE)
+    return part(contender.inverse.resolve, compiled.RESOLVE)
 
 
 @made_once
 def _assemble(contender: Contender) -> Callable:
     with own_law(contender.regulator.origin) as cache:
-        return compile_function(assembly(parts_for(contender)), ASSEMBLE, cache)
+        return compile_function(assembly(parts_for(contender)), compiled.ASSEMBLE, cache)
 
 
 def run_velocity(
@@ -118,15 +108,15 @@ def run_velocity(
         starts: tasks.Start, in order, whose omega and joint rates are not used: nothing moves before a command.
         lag_s: time constant of the joints' servos [s]; 0: none. Those of the free body have none.
     """
-    pace = velocity.Pace(float(K), *map(float, servo(settings.dt_s, lag_s)))
+    pace = velocity.Pace(float(K), servo(float(settings.dt_s), float(lag_s)))
     law, rows = (
         contender._replace(jacobian=None, inverse=None),
         blank(len(starts), more=(*[0.0] * 5, 0.0 if arm else math.nan)),
     )
     given = memory_of(law), start_rows(starts), numbers(settings), rows
-    functions = evaluation(law), part(limit, LIMIT)
+    functions = evaluation(law), part(limit, compiled.LIMIT)
     if not arm:
-        return simulate(compiled_loop("velocity"), functions, velocity.World(pace), *given)
+        return simulate(compiled_loop("velocity"), functions, pace, *given)
     n, (model, data) = tasks.arm(arm).joints, _simulation(ARM_TASK, tasks.arm(arm), settings.dt_s)
     still, work = states([one._replace(qdot=(0.0,) * n) for one in starts], n), on_arm.work(n)
     work.D[:] = np.eye(n)
@@ -138,7 +128,7 @@ def prepare_velocity(contender: Contender, limits: Iterable[Callable]) -> None:
     """Compile what `run_velocity` will need, or take it from the disk cache."""
     evaluation(contender._replace(jacobian=None, inverse=None))
     for one in limits:
-        part(one, LIMIT)
+        part(one, compiled.LIMIT)
     if contender.inverse:
         _resolve(contender)
     compiled_loop("velocity-arm" if contender.inverse else "velocity")
@@ -159,7 +149,7 @@ def run_impedance(
     kept = [_simulation(ARM_TASK, one, settings.dt_s, variation=variation) for _ in range(2)]
     plant, still = (compiled_view(*sim) for sim in kept)
     world = impedance.world(plant, still, states(starts, one.joints), springs, one.rated)
-    rows, laws = blank(len(starts), more=impedance.COLUMNS), (evaluation(law), part(damping.design, DESIGN))
+    rows, laws = blank(len(starts), more=impedance.COLUMNS), (evaluation(law), part(damping.design, compiled.DESIGN))
     simulate(compiled_loop("impedance"), laws, world, memory_of(law), start_rows(starts), limits, rows)
     del kept
     return rows, world.ends
@@ -168,5 +158,5 @@ def run_impedance(
 def prepare_impedance(law: Contender, damping: Impedance) -> None:
     """Compile what `run_impedance` will need, or take it from the disk cache."""
     evaluation(law)
-    part(damping.design, DESIGN)
+    part(damping.design, compiled.DESIGN)
     compiled_loop("impedance")

@@ -2,25 +2,14 @@
 
 import functools
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
+from bench.engines import episode
 from bench.engines.binding import memory_of
 from bench.engines.compiled import BEGIN_STATE, STATEFUL, made_once, part
-from bench.engines.episode import (
-    FINAL_ANGLE,
-    NEVER,
-    SETTLING_TICK,
-    START_WIDTH,
-    Metrics,
-    Numbers,
-    Settings,
-    Starts,
-    blank,
-    numbers,
-    start_rows,
-)
+from bench.engines.episode import Metrics, Numbers, Settings, Starts, blank, numbers, start_rows
 from bench.engines.plants import perturbed, quaternion
 from bench.engines.simulate import compiled_loop, evaluation, simulate
 from bench.law.contender import Contender
@@ -55,8 +44,8 @@ def run_disturbed(
         some = slice(first, first + block)
         noise = draw_noise(first, len(begun[some]), periods, seed) if condition.is_noisy else np.zeros((1, 1, 6))
         simulate(loop, law, perturbed.world(condition, noise, rows[some]), memory, begun[some], limits, rows[some])
-    has_settled = rows[:, SETTLING_TICK] != NEVER
-    rows[has_settled, SETTLING_TICK] -= perturbed.timing(condition).jump
+    has_settled = rows[:, episode.SETTLING_TICK] != episode.NEVER
+    rows[has_settled, episode.SETTLING_TICK] -= perturbed.timing(condition).jump
     return rows
 
 
@@ -69,26 +58,6 @@ def draw_noise(first: int, count: int, periods: int, seed: int) -> np.ndarray:
     return noise
 
 
-class Seen(NamedTuple):
-    """Greatest |u| [rad/s^2], greatest angle to the true goal [rad], path turned [rad]."""
-
-    peak_u: float
-    off_rad: float
-    way_rad: float
-
-
-class Ended(NamedTuple):
-    """What became of each start, as arrays.
-
-    settling_s: time after which the angle stays in the band [s], NaN if it does not; left_rad: angle at the end [rad];
-    peak_u: greatest |u| [rad/s^2].
-    """
-
-    settling_s: np.ndarray
-    left_rad: np.ndarray
-    peak_u: np.ndarray
-
-
 def _unlimited(gains: Gains, dt: float, ticks: int) -> Numbers:
     """Return a loop's numbers of so many ticks that no limit ends, nor does rest."""
     return Numbers(*gains, dt, ticks, ticks + 1, 1, *(math.inf,) * 3, 0.0, 0.0)
@@ -96,17 +65,20 @@ def _unlimited(gains: Gains, dt: float, ticks: int) -> Numbers:
 
 def run_stream(
     contender: Contender, goals: np.ndarray, truth: np.ndarray, gains: Gains, dt: float, is_raw: bool = False
-) -> Seen:
-    """One episode from rest at the first true goal, as long as the stream lasts, whatever becomes of it.
+) -> tuple[float, float, float]:
+    """Return greatest |u| [rad/s^2], greatest angle to the true goal [rad] and path turned [rad] of one episode.
+
+    From rest at the first true goal, as long as the stream lasts, whatever becomes of it.
 
     Args:
         goals, truth: one a tick (n x 4). is_raw: the spring on the quaternion as it came, in the law's place.
     """
-    start, rows = np.zeros((1, START_WIDTH)), np.zeros((1, quaternion.PATH + 1))
+    start, rows = np.zeros((1, episode.START_WIDTH)), np.zeros((1, quaternion.PATH + 1))
     start[0, 0:4], start[0, 7:11] = truth[0], goals[0]
     stream, limits = quaternion.Stream(goals, truth, int(is_raw)), _unlimited(gains, dt, len(goals))
     simulate(compiled_loop("stream"), (evaluation(contender),), stream, memory_of(contender), start, limits, rows)
-    return Seen(*rows[0, quaternion.PEAK :].tolist())
+    peak, off, way = rows[0, quaternion.PEAK :].tolist()
+    return peak, off, way
 
 
 def parts_of(one: Law) -> tuple:
@@ -116,8 +88,11 @@ def parts_of(one: Law) -> tuple:
 
 def run_compensated(
     one: Law, starts: Starts, gains: Gains, dt: float, ticks: int, band: float, push: tuple, is_plain: bool = False
-) -> Ended:
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Simulate starts, from their orientation and angular velocity.
+
+    Return of each the time after which the angle stays in the band [s], NaN if it does not, the angle at the end [rad]
+    and the greatest |u| [rad/s^2].
 
     Args:
         band: half its width [rad]. push: constant disturbance [rad/s^2], base frame. is_plain: by the loop in Python.
@@ -127,8 +102,8 @@ def run_compensated(
     begun, rows = start_rows(starts), np.zeros((len(starts), quaternion.PEAK + 1))
     begun[:, 11] = math.sin(0.5 * band) ** 2
     simulate(loop, parts, quaternion.Disturbance(push), NO_MEMORY, begun, _unlimited(gains, dt, ticks), rows)
-    left = rows[:, FINAL_ANGLE]
-    return Ended(np.where(left <= band, rows[:, SETTLING_TICK] * dt, math.nan), left, rows[:, quaternion.PEAK])
+    left = rows[:, episode.FINAL_ANGLE]
+    return np.where(left <= band, rows[:, episode.SETTLING_TICK] * dt, math.nan), left, rows[:, quaternion.PEAK]
 
 
 @kernel

@@ -79,7 +79,8 @@ def _episode(
     scene: Any, controller: ContactController, task: ContactTask, arm: Arm, trial: Trial, conditions: Any, contact: Any
 ) -> Ended:
     shape = contact_episode.numbers(controller, task, trial, arm.rated, conditions)
-    record = np.full((shape.ticks, contact_episode.WIDTH), np.nan)
+    limits = contact_episode.limits(task, conditions)
+    record = np.full((limits.ticks, contact_episode.WIDTH), np.nan)
     if scene is None:
         row, message, data = reference.run_contact(controller, task, arm, trial, conditions, contact, shape, record)
     else:
@@ -90,7 +91,6 @@ def _episode(
         touch, start = conditions.touch, np.zeros((1, START_WIDTH))
         noise = conditions.sensor.draw_noise(task.horizon_s, conditions.dt_s)
         world = in_contact.World(**parts, shape=shape, touch=touch, record=record, noise=noise)
-        limits = in_contact.limits(shape, conditions.gains)
         simulate(_loop(), (_pointer(controller._replace(form="")),), world, NO_MEMORY, start, limits, row[None])
     failure = GOING if row[FAILURE_TICK] == NEVER else int(row[OUTCOME])
     if failure == BROKEN:

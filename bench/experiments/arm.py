@@ -40,11 +40,9 @@ def units(asked: Asked) -> tuple[Unit, ...]:
         is_meant = any(part.start_set in fitting for part in slices)
         for arm in (asked.choice.arms or tasks.arm_names()) if is_meant else ():  # one is read by MuJoCo
             for part, one, *way in _on_arm(asked, tasks.arm(arm)):
-                if (
-                    part.start_set in fitting
-                    and episodes.runs_on(part.engine, task, one)
-                    and _knows(one, part.start_set)
-                ):
+                # only joint-space baselines need the goal's joints
+                is_known = one.regulator.assemble is None or tasks.knows_joints(part.start_set)
+                if part.start_set in fitting and is_known and episodes.runs_on(part.engine, task, one):
                     places.append(episodes.Place(part, one, task, arm, *way))
     if every_task and not places and asked.choice.is_about_arms:
         _check_combinations(asked)
@@ -94,11 +92,6 @@ def _as_it_is(asked: Asked, by_name: dict[str, Contender], arm: Arm) -> Iterator
         for part in on_arms.other_slices:
             yield from ((part, one, NOMINAL, gains) for gains in levels)
             yield from ((part, one, name) for name in motors)
-
-
-def _knows(one: Contender, start_set: str) -> bool:
-    """Tell whether a start set has what a controller needs: only joint-space baselines need the goal's joints."""
-    return one.regulator.assemble is None or tasks.knows_joints(start_set)
 
 
 def _check_combinations(asked: Asked) -> None:

@@ -12,8 +12,6 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.engines.episode import OUTCOME, start_rows
-from bench.experiments.columns import read_table
-from bench.experiments.episode_rows import contender_columns
 from bench.experiments.episodes import prepare, simulate
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.suites import SHORT
@@ -58,7 +56,7 @@ def rows(settings: Settings, unit: Unit) -> dict:
     if again.any():
         settled[again], fails[again], outcome[again] = _search(settings, unit, directions[again])
     return {
-        **contender_columns(settings.contender(unit.contender)),
+        **settings.contender(unit.contender).words,
         **{f"axis_{axis}": directions[:, i] for i, axis in enumerate("xyz")},
         "settled_to_rad": settled,
         "fails_from_rad": fails,
@@ -113,10 +111,9 @@ def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
     return np.array_equal(rows[["axis_x", "axis_y", "axis_z"]], axes(unit.count))
 
 
-EXPERIMENT = Experiment(
-    "boundaries",
+EXPERIMENT = Experiment.of(
+    __file__,
     "where a law first fails, along geodesics",
-    read_table(__file__, "boundaries"),
     units,
     rows,
     takes=OF_LAWS,

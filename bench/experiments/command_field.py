@@ -17,8 +17,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.experiments.columns import read_table
-from bench.experiments.episode_rows import contender_columns
 from bench.experiments.episodes import prepare
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.field import ZERO, Field, about, size
@@ -29,8 +27,6 @@ from bench.law.so3 import from_quaternion
 from tasks.base import IDENTITY, Quat
 from tasks.haar import axes
 from tasks.rotations import multiply
-
-NAME = "command-field"
 
 LAW_S, CALLS = 0.4, 150_000
 """CPU seconds and, at most, calls of a law."""
@@ -68,14 +64,14 @@ class Finding(NamedTuple):
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """Return a unit for each law on the free body, a user's last."""
-    made = [Unit(NAME, one.name, "free-body", engine="ideal-held", count=1, total=1) for one in laws(asked)]
+    made = [Unit("command-field", one.name, "free-body", engine="ideal-held", count=1, total=1) for one in laws(asked)]
     return own_last(made, asked.own)
 
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
     """Return one row a finding."""
     one = settings.contender(unit.contender)
-    return [contender_columns(one) | flattened(each) for each in findings(one, settings.gains)]
+    return [one.words | flattened(each) for each in findings(one, settings.gains)]
 
 
 def flattened(one: Finding) -> dict:
@@ -212,10 +208,9 @@ FINDINGS = (
 """Every law has a row of each, in this order."""
 
 
-EXPERIMENT = Experiment(
-    NAME,
+EXPERIMENT = Experiment.of(
+    __file__,
     "commands over all states",
-    read_table(__file__, NAME),
     units,
     rows,
     cost_s=lambda unit: LAW_S,

@@ -5,13 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 import tasks
-from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.contenders.registry import contenders, papers_laws
 from bench.law.kinds import Law
 from tasks.rules import ticks
-
-NAME = "compensators"
 
 DISTURBANCES = (0.0, 5.0, 20.0)
 """Lengths [rad/s^2]; over the paper's Kp they are the sine of what a law without an integral leaves: 2.9 and 11.5
@@ -31,7 +28,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     """Return a unit for each law."""
     each = asked.count or STARTS
     return tuple(
-        Unit(NAME, selector=name, count=each, total=each, horizon_s=asked.horizon_s or HORIZON_S)
+        Unit("compensators", selector=name, count=each, total=each, horizon_s=asked.horizon_s or HORIZON_S)
         for name in ("", *contenders("compensators"))
     )
 
@@ -44,8 +41,9 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
     found = []
     for level in DISTURBANCES:
         lasting, push = ticks(unit.horizon_s, settings.dt_s), tuple(level * x for x in DIRECTION)
-        ended = run_compensated(one, starts, settings.gains, settings.dt_s, lasting, float(BAND_RAD), push)
-        times = ended.settling_s[np.isfinite(ended.settling_s)]
+        given = settings.gains, settings.dt_s, lasting, float(BAND_RAD), push
+        settling_s, left_rad, peak_u = run_compensated(one, starts, *given)
+        times = settling_s[np.isfinite(settling_s)]
         found.append(
             {
                 "law": one.name,
@@ -58,8 +56,8 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
                 "settled": len(times),
                 "settling_median_s": float(np.median(times)) if len(times) else None,
                 "settling_worst_s": float(np.max(times)) if len(times) else None,
-                "left_rad": float(np.max(ended.left_rad)),
-                "peak_u": float(np.max(ended.peak_u)),
+                "left_rad": float(np.max(left_rad)),
+                "peak_u": float(np.max(peak_u)),
             }
         )
     return found
@@ -83,10 +81,9 @@ def prepare(settings: Settings, unit: Unit) -> None:
     parts_of(law_of(unit.selector))
 
 
-EXPERIMENT = Experiment(
-    NAME,
+EXPERIMENT = Experiment.of(
+    __file__,
     "laws with a state of their own",
-    read_table(__file__, NAME),
     units,
     rows,
     cost_s=lambda unit: LEVEL_S * len(DISTURBANCES),

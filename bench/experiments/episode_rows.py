@@ -8,24 +8,13 @@ import numpy as np
 
 import tasks
 from bench.base.on_first_use import pd
+from bench.engines import episode
 from bench.engines.arm_episode import POSE, blank_arm
-from bench.engines.episode import (
-    FAILURE_TICK,
-    FINAL_ANGLE,
-    FIRST_METRIC,
-    NEVER,
-    OUTCOME,
-    SETTLING_TICK,
-    STEP,
-    TICKS,
-    blank,
-)
 from bench.engines.metrics.metric import Ending, Metric
 from bench.engines.metrics.registry import known_metrics, metrics_of
-from bench.experiments.columns import CONTENDER_KEY, of_metrics, read_table
+from bench.experiments.columns import of_metrics, read_table
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.rounding import BESIDE, CHANGE
-from bench.law.contender import Contender
 from bench.law.contenders.representations.zyx_euler import chart
 from bench.law.so3 import from_quaternion
 from tasks.base import Start
@@ -41,12 +30,6 @@ TABLE = read_table(__file__, "episodes", METRICS=lambda: of_metrics(known_metric
 """The table of `free_body` and `arm`."""
 
 
-def contender_columns(one: Contender) -> dict:
-    """Return the values of the columns CONTENDER."""
-    coordinates = one.representation.name if one.representation else ""
-    return dict(zip(CONTENDER_KEY, (one.regulator.name, coordinates, *one.way), strict=True))
-
-
 def frame(settings: Settings, unit: Unit, starts: list[Start], numbers: np.ndarray) -> pd.DataFrame:
     """Return the rows of one unit from these starts."""
     angles = np.array([chart(from_quaternion(start.quat_wxyz)).E for start in starts])
@@ -59,7 +42,7 @@ def frame(settings: Settings, unit: Unit, starts: list[Start], numbers: np.ndarr
         "task": unit.task,
         "arm": unit.arm,
         "variation": unit.variation,
-        **contender_columns(settings.contender(unit.contender)),
+        **settings.contender(unit.contender).words,
         "engine": unit.engine,
         "start_set": unit.selector,
         **{f"quat_{axis}": quats[:, i] for i, axis in enumerate("wxyz")},
@@ -72,7 +55,7 @@ def frame(settings: Settings, unit: Unit, starts: list[Start], numbers: np.ndarr
         **_steps(numbers, settings.dt_s),
         "tolerance": RULES.tolerance,
         "hold_s": RULES.hold_s,
-        "ticks": numbers[:, TICKS].astype(np.int64),
+        "ticks": numbers[:, episode.TICKS].astype(np.int64),
     }
     found |= measured_columns(numbers, metrics_of(on_arm=bool(unit.arm)), ran)
     seen = _seen_on_arm(unit.arm, numbers) if unit.arm else np.full(len(starts), np.nan)
@@ -92,15 +75,16 @@ def frame(settings: Settings, unit: Unit, starts: list[Start], numbers: np.ndarr
 def lost_frame(settings: Settings, unit: Unit, starts: list[Start], outcome: str) -> pd.DataFrame:
     """Return rows of episodes that a user's law never came back from: the settings and the outcome, no measure."""
     metrics = metrics_of(on_arm=bool(unit.arm))
-    numbers = lost_numbers((blank_arm if unit.arm else blank)(len(starts), metrics), outcome)
+    numbers = lost_numbers((blank_arm if unit.arm else episode.blank)(len(starts), metrics), outcome)
     made = frame(settings, unit, starts, numbers)
     return made.assign(**dict.fromkeys((metric.column for metric in metrics), np.nan), cond_jacobian_max=np.nan)
 
 
 def lost_numbers(numbers: np.ndarray, outcome: str) -> np.ndarray:
     """Turn blank rows of `engines.episode` into those of episodes that a user's law never came back from."""
-    numbers[:, [OUTCOME, SETTLING_TICK, FAILURE_TICK]] = OUTCOMES.index(outcome), NEVER, NEVER
-    numbers[:, FINAL_ANGLE] = np.nan
+    numbers[:, episode.OUTCOME] = OUTCOMES.index(outcome)
+    numbers[:, [episode.SETTLING_TICK, episode.FAILURE_TICK]] = episode.NEVER
+    numbers[:, episode.FINAL_ANGLE] = np.nan
     return numbers
 
 
@@ -121,10 +105,10 @@ def episode_columns(
 def judged_columns(numbers: np.ndarray, dt_s: float) -> dict:
     """Return the values of the columns JUDGED, from rows of `engines.episode`."""
     return {
-        "outcome": [OUTCOMES[int(code)] for code in numbers[:, OUTCOME]],
-        "settling_time_s": _time(numbers[:, SETTLING_TICK], dt_s),
-        "failure_time_s": _time(numbers[:, FAILURE_TICK], dt_s),
-        "final_angle_rad": numbers[:, FINAL_ANGLE],
+        "outcome": [OUTCOMES[int(code)] for code in numbers[:, episode.OUTCOME]],
+        "settling_time_s": _time(numbers[:, episode.SETTLING_TICK], dt_s),
+        "failure_time_s": _time(numbers[:, episode.FAILURE_TICK], dt_s),
+        "final_angle_rad": numbers[:, episode.FINAL_ANGLE],
     }
 
 
@@ -138,13 +122,13 @@ def measured_columns(numbers: np.ndarray, metrics: tuple[Metric, ...], ran: dict
     ]
     return {
         metric.column: [metric.finish(value, ending) for value, ending in zip(column.tolist(), endings, strict=True)]
-        for metric, column in zip(metrics, numbers[:, FIRST_METRIC:].T, strict=False)
+        for metric, column in zip(metrics, numbers[:, episode.FIRST_METRIC :].T, strict=False)
     }
 
 
 def _steps(numbers: np.ndarray, dt_s: float) -> dict:
     """Return the step of integration, and whether it was short enough where that was asked (`engines.convergence`)."""
-    step_s = numbers[:, STEP]
+    step_s = numbers[:, episode.STEP]
     return {
         "step_s": np.where(step_s == 0.0, dt_s, np.abs(step_s)),
         "converged": np.select([step_s > 0.0, step_s < 0.0], ["yes", "no"], ""),
@@ -161,4 +145,4 @@ def _seen_on_arm(arm: str, numbers: np.ndarray) -> list[float]:
 
 
 def _time(ticks: np.ndarray, dt_s: float) -> np.ndarray:
-    return np.where(ticks == NEVER, np.nan, ticks * dt_s)
+    return np.where(ticks == episode.NEVER, np.nan, ticks * dt_s)

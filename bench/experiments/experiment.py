@@ -13,13 +13,14 @@ import dataclasses
 import functools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from bench import experiments
 from bench.base.errors import BadLaw
 from bench.base.on_first_use import pd
 from bench.experiments.choice import IN_CONTACT, WITHOUT, Choice
-from bench.experiments.columns import Table
+from bench.experiments.columns import Table, read_table
 from bench.experiments.suites import Suite
 from bench.law.contender import Contender
 from bench.law.contenders.registry import find_contender
@@ -143,11 +144,6 @@ def no_rows(settings: Settings, unit: Unit, outcome: str = "") -> Rows:
     return []
 
 
-def usual_ticks(settings: Settings, unit: Unit) -> float:
-    """Return the control periods of every episode to its horizon."""
-    return unit.episodes * unit.horizon_s / settings.dt_s
-
-
 Rows: TypeAlias = "pd.DataFrame | list[dict] | dict[str, Any]"
 """Rows as a data frame, as one dict a row, or as columns."""
 
@@ -161,8 +157,9 @@ class Experiment(NamedTuple):
     prepare(settings, unit): compile, import and build what its rows need, for all processes that are forked then.
     lost(settings, unit, outcome) -> what is left of a unit whose law crashed or hung. is_whole(settings, unit, rows):
     whether rows of a user's law can be all of the unit's, by their number and place. ticks(settings, unit) -> control
-    periods that it takes at most, which a user's law has its time by. is_divisible: whether `Unit.part` of it is a unit
-    too. is_tried_first: whether a user's law goes through it before a run begins, so that a mistake leaves no folder.
+    periods that it takes at most, which a user's law has its time by; usually all of its episodes' to their horizon.
+    is_divisible: whether `Unit.part` of it is a unit too. is_tried_first: whether a user's law goes through it before a
+    run begins, so that a mistake leaves no folder.
     compiles: whether its contender is compiled.
     takes: the kinds of words, fields of Choice, that narrow its units. Where a word of another kind is named, the
     experiment is not run.
@@ -181,13 +178,22 @@ class Experiment(NamedTuple):
     prepare: Callable[[Settings, Unit], None] = lambda settings, unit: None
     lost: Callable[[Settings, Unit, str], Rows] = no_rows
     is_whole: Callable[[Settings, Unit, pd.DataFrame], bool] = lambda settings, unit, rows: len(rows) > 0
-    ticks: Callable[[Settings, Unit], float] = usual_ticks
+    ticks: Callable[[Settings, Unit], float] = lambda settings, unit: unit.episodes * unit.horizon_s / settings.dt_s
     is_divisible: bool = False
     is_tried_first: bool = False
     compiles: bool = True
     fold: Callable[[pd.DataFrame, pd.DataFrame], pd.DataFrame] | None = None
     in_suites: bool = True
     rank: int = 9
+
+    @classmethod
+    def of(
+        cls, file: str, title: str, units: Callable[[Asked], tuple[Unit, ...]], rows: Callable[[Settings, Unit], Rows],
+        **more: Any,
+    ) -> Experiment:  # fmt: skip
+        """Return the experiment of a file, which gives its name and the table of its TOML file."""
+        name = Path(file).stem.replace("_", "-")
+        return cls(name, title, read_table(file, name), units, rows, **more)
 
 
 @functools.cache

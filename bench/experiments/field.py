@@ -3,7 +3,7 @@
 import numpy as np
 
 from bench.engines.curve import NUMBERS, blank_curves
-from bench.engines.episode import Settings, blank, numbers
+from bench.engines.episode import Settings, numbers
 from bench.engines.metrics.registry import metrics_of
 from bench.law.contender import Contender
 from bench.law.inputs import Gains
@@ -28,7 +28,7 @@ class Field:
         starts, curves = np.ones((len(quats), 12)), blank_curves(len(quats), 1)
         starts[:, :4], starts[:, 4:7], starts[:, 7:11] = quats, omegas, goal
         given = numbers(Settings(self.gains, 0.001, 1, 2))
-        by_law(ENGINE, self.one, starts, given, blank(len(quats), self.metrics), self.metrics, curves)
+        by_law(ENGINE, self.one, starts, given, self.metrics, curves)
         return curves.samples[:, 0, U : U + 3] / self.gains.kp
 
 

@@ -7,14 +7,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.suites import STREAMED
 from bench.law.contenders.registry import contenders, find_contender
 from tasks.goal_stream import LENGTH_S, STREAMS, goals, true_goal
 from tasks.truth import angle
-
-NAME = "goal-streams"
 
 SIGNED = "quaternion,"
 """Streams that arrive so are also run by the spring on the quaternion as it came."""
@@ -22,7 +19,7 @@ SIGNED = "quaternion,"
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """Return one unit."""
-    return (Unit(NAME, count=len(STREAMS), total=len(STREAMS), horizon_s=LENGTH_S),)
+    return (Unit("goal-streams", count=len(STREAMS), total=len(STREAMS), horizon_s=LENGTH_S),)
 
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
@@ -38,8 +35,9 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
         made = compute_steps(filled)
         goal = {"goal_rate_ratio": made.max() / steps.max(), "goal_way_ratio": made.sum() / steps.sum()}
         for law in (*laws, *[""] * stream.arrives.startswith(SIGNED)):
-            seen = run_stream(find_contender(law or laws[0]), filled, truth, settings.gains, dt, is_raw=not law)
-            loop = {"peak_u": seen.peak_u, "off_rad": seen.off_rad, "way_ratio": seen.way_rad / steps.sum()}
+            one = find_contender(law or laws[0])
+            peak, off, way = run_stream(one, filled, truth, settings.gains, dt, is_raw=not law)
+            loop = {"peak_u": peak, "off_rad": off, "way_ratio": way / steps.sum()}
             found.append({"stream": stream.name, "law": law, **goal, **loop})
     return found
 
@@ -49,10 +47,9 @@ def compute_steps(q: np.ndarray) -> np.ndarray:
     return np.array([angle(before, after) for before, after in zip(q[:-1].tolist(), q[1:].tolist(), strict=True)])
 
 
-EXPERIMENT = Experiment(
-    NAME,
+EXPERIMENT = Experiment.of(
+    __file__,
     "goals that arrive as a stream",
-    read_table(__file__, NAME),
     units,
     rows,
     cost_s=lambda unit: 1.0,

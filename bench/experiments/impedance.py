@@ -13,14 +13,11 @@ import numpy as np
 from bench.base.on_first_use import pd
 from bench.engines.episode import FINAL_ANGLE
 from bench.experiments import arm, starts
-from bench.experiments.columns import read_table
 from bench.experiments.episode_rows import episode_columns
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.suites import BY_EVERY_INVERSE, ON_ARM
 from bench.law.contenders.registry import find_contender
 from bench.law.control.unshaped import DAMPINGS
-
-NAME = "impedance"
 
 LAW = BY_EVERY_INVERSE
 """The law whose command at rest is the error of orientation: near the goal all are alike."""
@@ -58,7 +55,7 @@ def units_on_arms(asked: Asked, name: str, **more: Any) -> tuple[Unit, ...]:
 def units(asked: Asked) -> tuple[Unit, ...]:
     """Return the designs on arms, with as many starts as velocity-commanded robots get."""
     count = asked.suite.velocity.on_arms
-    return units_on_arms(asked, NAME, count=count, total=count, horizon_s=ON_ARM)
+    return units_on_arms(asked, "impedance", count=count, total=count, horizon_s=ON_ARM)
 
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
@@ -119,10 +116,9 @@ def prepare(settings: Settings, unit: Unit) -> None:
     prepare_impedance(find_contender(LAW), DAMPINGS[unit.selector])
 
 
-EXPERIMENT = Experiment(
-    NAME,
+EXPERIMENT = Experiment.of(
+    __file__,
     "impedance without inertia shaping, in free motion",
-    read_table(__file__, NAME),
     units,
     rows,
     takes=("tasks", "arms"),

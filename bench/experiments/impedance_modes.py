@@ -15,13 +15,10 @@ import numpy as np
 
 import tasks
 from bench.base.bisection import bisect
-from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.impedance import LAW, STIFFNESSES, ZETA, Stiffness, prepare, setting_columns, units_on_arms
 from bench.law.contenders.registry import find_contender
 from bench.law.control.unshaped import DAMPINGS
-
-NAME = "impedance-modes"
 
 STEP = 1e-4
 """Steps of the differences [rad, rad/s]: they err by its square, 1e-8, and by rounding over it and the tick, 1e-9."""
@@ -42,7 +39,7 @@ DESIGN_S = 0.02
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """Return the designs on arms."""
-    return units_on_arms(asked, NAME)
+    return units_on_arms(asked, "impedance-modes")
 
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
@@ -121,10 +118,9 @@ def compute_tick_radius(P: np.ndarray, Q: np.ndarray, dt: float) -> float:
     return float(np.abs(np.linalg.eigvals(tick)).max())
 
 
-EXPERIMENT = Experiment(
-    NAME,
+EXPERIMENT = Experiment.of(
+    __file__,
     "modes of impedance without inertia shaping",
-    read_table(__file__, NAME),
     units,
     rows,
     takes=("tasks", "arms"),

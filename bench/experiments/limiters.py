@@ -6,7 +6,8 @@ omega is in the base frame [rad/s]. K is the law's gain [1/s], for what a limite
 from collections.abc import Callable
 from typing import NamedTuple
 
-from bench.law import dot, kernel, sqrt
+from bench.law import kernel
+from bench.law.shipped import clipped, shortened
 
 GREATEST_RATE = 2.0
 """[rad/s]. What limiters pass at most: robot arms turn their tools at 1 to 3 rad/s; a 180° rotation takes 1.6 s."""
@@ -23,16 +24,6 @@ class Limiter(NamedTuple):
 
 
 @kernel
-def cut(x):
-    """Return x in [-GREATEST_RATE, GREATEST_RATE]."""
-    if x > GREATEST_RATE:
-        return GREATEST_RATE
-    if x < -GREATEST_RATE:
-        return -GREATEST_RATE
-    return x
-
-
-@kernel
 def clamp_axes(omega, K):
     """Cut each component that exceeds the bound; the others stay, so that the command turns off its direction.
 
@@ -42,7 +33,7 @@ def clamp_axes(omega, K):
     Limitations: the path is longer.
     Source: utiasDSL/crisp_controllers 5075de9, src/cartesian_controller.cpp, which cuts the error so (limit_error).
     """
-    return (cut(omega[0]), cut(omega[1]), cut(omega[2]))
+    return clipped(omega, GREATEST_RATE)
 
 
 @kernel
@@ -79,11 +70,7 @@ def clamp_norm(omega, K):
     Source: fzi-forschungszentrum-informatik/cartesian_controllers 520baf4, computeMotionError, which shortens the error
     so, at 1 rad whatever the gain.
     """
-    squared = dot(omega, omega)
-    if squared > GREATEST_RATE * GREATEST_RATE:
-        scale = GREATEST_RATE / sqrt(squared)
-        return (scale * omega[0], scale * omega[1], scale * omega[2])
-    return omega
+    return shortened(omega, GREATEST_RATE)
 
 
 NONE = "none"

@@ -17,8 +17,7 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.engines.episode import OUTCOME, SETTLING_TICK, START_WIDTH, STEP
-from bench.experiments.columns import CONTENDER_KEY, read_table
-from bench.experiments.episode_rows import contender_columns
+from bench.experiments.columns import CONTENDER_KEY
 from bench.experiments.experiment import Experiment, Settings, Unit
 from bench.experiments.plan import Plan
 from bench.experiments.suites import SHORT
@@ -109,7 +108,7 @@ def _of_block(settings: Settings, unit: Unit, number: int) -> pd.DataFrame:
     )
     every = pd.concat([starts.assign(row=row) for row in (CELL, SLOWEST, LOST)], ignore_index=True)
     law = {
-        **contender_columns(one),
+        **one.words,
         "engine": unit.engine,
         "seed": settings.seed,
         "least_speed": least,
@@ -174,10 +173,9 @@ def prepare(settings: Settings, unit: Unit) -> None:
     simulate.prepare(unit.engine, settings.contender(unit.contender), (), unit.total)
 
 
-EXPERIMENT = Experiment(
-    "map",
+EXPERIMENT = Experiment.of(
+    __file__,
     "laws from millions of random starts",
-    read_table(__file__, "map"),
     units=lambda asked: (),
     rows=rows,
     cost_s=lambda unit: unit.count * START_S,

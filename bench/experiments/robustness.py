@@ -92,9 +92,8 @@ def simulated(settings: Settings, unit: Unit, simulate: Callable) -> pd.DataFram
         some, limits = axis.starts(unit.count, seed, level), _limits(settings.gains, unit.horizon_s)
         rows = _rows(settings, some, condition, limits, simulate(one, some, condition, limits, metrics, seed))
         parts.append(pd.DataFrame({"axis": axis.name, "level": level, **rows}))
-    coordinates = one.representation.name if one.representation else ""
-    whole = pd.concat(parts, ignore_index=True)
-    return whole.assign(regulator=one.regulator.name, representation=coordinates)
+    words = {name: one.words[name] for name in ("regulator", "representation")}
+    return pd.concat(parts, ignore_index=True).assign(**words)
 
 
 def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:

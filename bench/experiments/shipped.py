@@ -15,10 +15,9 @@ import numpy as np
 from bench.audit import audit
 from bench.engines.binding import memory_of
 from bench.engines.curve import NUMBERS, blank_curves
-from bench.engines.episode import OUTCOME, SETTLING_TICK, blank, start_rows
+from bench.engines.episode import OUTCOME, SETTLING_TICK, start_rows
 from bench.engines.episode import numbers as numbers_of
 from bench.engines.metrics.registry import metrics_of
-from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.experiments.field import ENGINE, ZERO, Field, about, size
 from bench.experiments.suites import BEST, LONG
@@ -30,8 +29,6 @@ from tasks.base import Start
 from tasks.haar import axes
 from tasks.rotations import multiply
 from tasks.verdict import SETTLED
-
-NAME = "shipped"
 
 CONTROLLER_S = 0.7
 """CPU seconds a controller, most of them for the audit and for compiling."""
@@ -58,7 +55,7 @@ HAVERSINE = NUMBERS.index("haversine")
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """Return a unit for each controller."""
-    return tuple(Unit(NAME, selector=name, count=1, total=1, horizon_s=LONG) for name in contenders("shipped"))
+    return tuple(Unit("shipped", selector=name, count=1, total=1, horizon_s=LONG) for name in contenders("shipped"))
 
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
@@ -138,8 +135,8 @@ def motion(contender: Contender, memories: tuple, settings: Settings, horizon_s:
     metrics, limits, episodes = tuple(metrics_of(on_arm=False)), numbers_of(settings.limits(horizon_s)), []
     every = round(SAMPLE_S / settings.dt_s)
     for memory in memories:
-        made, curves = blank(len(begun), metrics), blank_curves(len(begun), limits.ticks // every, every)
-        by_law(ENGINE, contender, begun, limits, made, metrics, curves, memory)
+        curves = blank_curves(len(begun), limits.ticks // every, every)
+        made = by_law(ENGINE, contender, begun, limits, metrics, curves, memory)
         farthest = np.nanmax(curves.samples[:, :, HAVERSINE], axis=1)
         allowed = np.sin(0.5 * np.minimum(np.repeat([*angles.values()], len(AXES)) + AWAY_RAD, math.pi)) ** 2
         episodes.append(np.column_stack((made[:, [OUTCOME, SETTLING_TICK]], farthest > allowed)))
@@ -154,10 +151,9 @@ def motion(contender: Contender, memories: tuple, settings: Settings, horizon_s:
     }
 
 
-EXPERIMENT = Experiment(
-    NAME,
+EXPERIMENT = Experiment.of(
+    __file__,
     "controllers as they are shipped",
-    read_table(__file__, NAME),
     units,
     rows,
     cost_s=lambda unit: CONTROLLER_S,

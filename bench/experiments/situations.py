@@ -18,9 +18,7 @@ from bench.base.on_first_use import pd
 from bench.engines.metrics.farthest import FARTHEST
 from bench.engines.metrics.metric import Metric
 from bench.engines.metrics.registry import known_metrics
-from bench.experiments.columns import read_table
 from bench.experiments.costs import count_operations
-from bench.experiments.episode_rows import contender_columns
 from bench.experiments.experiment import Experiment, Settings, Unit
 from bench.experiments.plan import Plan
 from bench.experiments.tables.statistics import order_interval, quantile
@@ -97,7 +95,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
         ended, count = {name: np.concatenate((ended[name], more[name])) for name in more}, 2 * count
     found = summarize(ended, is_moving)
     facts = {"stuck": stuck, "trapped": trapped, "operations": count_typical(one)}
-    return pd.DataFrame([{**contender_columns(one), **at._asdict(), **found, **facts}])
+    return pd.DataFrame([{**one.words, **at._asdict(), **found, **facts}])
 
 
 @functools.lru_cache(maxsize=64)
@@ -176,10 +174,9 @@ def prepare(settings: Settings, unit: Unit) -> None:
     simulate.prepare("perturbed", settings.contender(unit.contender), metrics())
 
 
-EXPERIMENT = Experiment(
-    "situations",
+EXPERIMENT = Experiment.of(
+    __file__,
     "laws on the free body in situations of dimensionless numbers",
-    read_table(__file__, "situations"),
     units=lambda asked: (),
     rows=rows,
     cost_s=lambda unit: unit.episodes * START_S,

@@ -14,15 +14,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bench.base.on_first_use import Turn
-from bench.experiments.columns import read_table
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.contenders.registry import contenders
 from tasks.rotations import columns as columns_of
 
 if TYPE_CHECKING:
     from bench.law.kinds import Spring
-
-NAME = "springs"
 
 STIFFNESSES = (30.0, 10.0, 3.0)
 """Eigenvalues of K [N m/rad]; its axes are drawn."""
@@ -41,7 +38,7 @@ SPRINGS = tuple(contenders("springs").values())
 
 def units(asked: Asked) -> tuple[Unit, ...]:
     """Return one unit."""
-    return (Unit(NAME, count=len(SPRINGS), total=len(SPRINGS), horizon_s=2.0),)
+    return (Unit("springs", count=len(SPRINGS), total=len(SPRINGS), horizon_s=2.0),)
 
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
@@ -163,10 +160,9 @@ def compute_energy_error(spring: Spring, moment: Moment, K: np.ndarray) -> float
     return float(np.max(np.abs(total - total[0])) / scale)
 
 
-EXPERIMENT = Experiment(
-    NAME,
+EXPERIMENT = Experiment.of(
+    __file__,
     "rotational springs with a stiffness matrix",
-    read_table(__file__, NAME),
     units,
     rows,
     cost_s=lambda unit: 1.0,

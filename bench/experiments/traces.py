@@ -13,7 +13,7 @@ from bench.base.on_first_use import pd
 from bench.engines.curve import ARM_NUMBERS, NUMBERS, blank_curves
 from bench.experiments import free_body
 from bench.experiments.columns import SHARED, Column, read_table
-from bench.experiments.episode_rows import contender_columns, judged_columns
+from bench.experiments.episode_rows import judged_columns
 from bench.experiments.episodes import prepare, simulate
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.starts import on_arm
@@ -68,7 +68,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return the samples of all curves of a unit."""
     every = max(1, round(EVERY_S / settings.dt_s))
     sets = ((unit.selector, unit.count),) if unit.arm else (("paper", None), ("uniform", unit.count))
-    place = {"task": unit.task, "arm": unit.arm, **contender_columns(settings.contender(unit.contender))}
+    place = {"task": unit.task, "arm": unit.arm, **settings.contender(unit.contender).words}
     frames = []
     for name, count in sets:
         starts = (on_arm if unit.arm else tasks.start_set)(name, count, settings.seed, unit.arm)

@@ -17,8 +17,7 @@ import numpy as np
 import tasks
 from bench.engines.episode import FINAL_ANGLE, OUTCOME
 from bench.experiments import arm, starts
-from bench.experiments.columns import read_table
-from bench.experiments.episode_rows import contender_columns, episode_columns
+from bench.experiments.episode_rows import episode_columns
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.limiters import LIMITERS, NONE
 from bench.experiments.rounding import NUDGE, nudged
@@ -82,10 +81,10 @@ def velocity_laws(asked: Asked) -> list[Contender]:
 
 def on_joints(law: Contender, joints: int) -> list[Contender]:
     """Return a law by the geometric Jacobian and the standard inverse, or by every one that fits."""
+    standard = combinations.on((f"{law.name}@geometric+standard",), {law.name: law}, joints)
     if law.name != BY_EVERY_INVERSE:
-        return combinations.on((f"{law.name}@geometric+standard",), {law.name: law}, joints)
-    (by, *_) = combinations.on((f"{law.name}@geometric+standard",), {law.name: law}, joints)
-    every = (by._replace(inverse=one) for one in contenders("inverses").values() if not one.uses_inertia)
+        return standard
+    every = (standard[0]._replace(inverse=one) for one in contenders("inverses").values() if not one.uses_inertia)
     return [one for one in every if not refusal(one, joints)]
 
 
@@ -102,7 +101,7 @@ def rows(settings: Settings, unit: Unit) -> dict:
     found = {
         **ran,
         "arm": unit.arm,
-        **contender_columns(one),
+        **one.words,
         **{name: np.repeat([getattr(part, name) for part in every], lengths) for name in PLACED},
         "gain": gain(settings),
         "path_ratio": made[:, PATH] / ran["angle0_rad"],
@@ -173,10 +172,9 @@ def prepare(settings: Settings, unit: Unit) -> None:
     prepare_velocity(settings.contender(unit.contender), [one.limit for one in LIMITERS.values()])
 
 
-EXPERIMENT = Experiment(
-    NAME,
+EXPERIMENT = Experiment.of(
+    __file__,
     "first-order laws: robots commanded in velocity",
-    read_table(__file__, NAME),
     units,
     rows,
     takes=(*OF_LAWS, "arms"),

@@ -20,8 +20,6 @@ import tasks
 from bench.base.bisection import bisect
 from bench.engines.episode import FAILURE_TICK, FINAL_ANGLE, NEVER
 from bench.experiments import velocity
-from bench.experiments.columns import read_table
-from bench.experiments.episode_rows import contender_columns
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.limiters import pass_all
 from bench.experiments.suites import BY_EVERY_INVERSE, WITHOUT_FACTOR
@@ -71,7 +69,7 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
         found = [("near", 1.0, 0.0, limit), ("far", 1.0, 0.0, far(settings, unit))]
         if unit.contender == WITHOUT_FACTOR:
             found += [("near", 0.5, 0.0, near(settings, unit, begun, 0.0, 0.5))]
-    place, names = {"arm": unit.arm, **contender_columns(one)}, ("reach", "share", "lag_ticks", "k_dt")
+    place, names = {"arm": unit.arm, **one.words}, ("reach", "share", "lag_ticks", "k_dt")
     return [place | dict(zip(names, each, strict=True)) for each in found]
 
 
@@ -124,10 +122,9 @@ def _run(settings: Settings, unit: Unit, begun: list, k_dt: float, ticks: int, l
     return made
 
 
-EXPERIMENT = Experiment(
-    NAME,
+EXPERIMENT = Experiment.of(
+    __file__,
     "the largest K dt of first-order laws",
-    read_table(__file__, NAME),
     units,
     rows,
     takes=(*OF_LAWS, "arms"),

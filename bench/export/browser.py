@@ -10,13 +10,14 @@ import json
 from collections.abc import Callable, Iterable, Iterator
 
 from bench.engines.ideal import angle_between, haversine, turned
-from bench.engines.rigid_body import bounded, step
+from bench.engines.rigid_body import step
 from bench.export.languages.js import COPYSIGN, write_function
 from bench.export.program import REAL, TRUTH, Kind, Tuple, Typed, numbers
 from bench.export.reading import Program
 from bench.export.subject import GAINS, MATRIX
 from bench.law.contender import Contender
 from bench.law.inputs import Goal
+from bench.law.shipped import shortened
 from bench.law.so3 import from_quaternion, turn_quaternion
 from tasks.verdict import OUTCOMES, Watch, check_command, check_state, first_watch, verdict, watched
 
@@ -28,7 +29,7 @@ PLANT: dict[Callable, tuple[Kind, ...]] = {
     from_quaternion: (FOUR,),
     turn_quaternion: (MATRIX, MATRIX),
     turned: (MATRIX, THREE),
-    bounded: (THREE, REAL),
+    shortened: (THREE, REAL),
     step: (MATRIX, THREE, THREE, THREE, REAL),
     haversine: (MATRIX, MATRIX),
     angle_between: (MATRIX, MATRIX),

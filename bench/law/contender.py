@@ -28,9 +28,14 @@ class Contender(NamedTuple):
         return f"{self.regulator.name}/{self.representation.name}" if self.representation else self.regulator.name
 
     @property
+    def words(self) -> dict[str, str]:
+        """Return the names of its parts, by the columns of tables that name a contender; empty where it has none."""
+        return {kind: part.name if part else "" for kind, part in self._asdict().items()}
+
+    @property
     def way(self) -> tuple[str, str]:
         """Names of the Jacobian and the inverse; empty on the free body."""
-        return (self.jacobian.name if self.jacobian else "", self.inverse.name if self.inverse else "")
+        return self.words["jacobian"], self.words["inverse"]
 
     @property
     def is_beyond_the_paper(self) -> bool:
@@ -68,10 +73,14 @@ class Contender(NamedTuple):
         return equation(self.representation) if callable(equation) else equation
 
     @property
+    def is_by_coordinates(self) -> bool:
+        """Whether its Jacobian takes an acceleration of coordinates (Murphy 1988, 3.7)."""
+        return self.jacobian is not None and self.jacobian.takes == "coordinates"
+
+    @property
     def rows(self) -> int:
         """Rows of the Jacobian: three of position, and one a coordinate of orientation."""
-        by_coordinates = self.jacobian is not None and self.jacobian.takes == "coordinates"
-        return 3 + len(self.representation.symbols) if by_coordinates and self.representation else 6
+        return 3 + len(self.representation.symbols) if self.is_by_coordinates and self.representation else 6
 
     @property
     def law(self) -> Callable:

@@ -8,7 +8,6 @@ import numpy as np
 import pandas as pd
 
 from bench.experiments.columns import Table
-from bench.experiments.episode_rows import contender_columns
 from bench.experiments.experiment import Settings, Unit, experiment_of, no_rows
 from bench.experiments.tables.store import lost_table
 from tasks.cause import CAUSES
@@ -38,7 +37,7 @@ def check_rows(settings: Settings, unit: Unit, rows: pd.DataFrame) -> None:
     """
     experiment = experiment_of(unit)
     place = {"suite": settings.suite, "seed": settings.seed, "task": unit.task, "arm": unit.arm, "engine": unit.engine}
-    for name, value in (contender_columns(settings.contender(unit.contender)) | place).items():
+    for name, value in (settings.contender(unit.contender).words | place).items():
         if name in rows and not (rows[name] == value).all():
             raise ValueError(f"a row says {name} {next(iter(rows.loc[rows[name] != value, name]))!r}, not {value!r}")
     key = rows[list(experiment.table.key)]

@@ -57,7 +57,7 @@
       const answer = law.law(about, rate, goal, gains, memory);
       if (law.memory) [u, memory] = answer;
       else u = answer;
-      u = plant.bounded(u, bound);
+      u = plant.shortened(u, bound);
       failure = judge.check_command(dot(u, u), commandLimit);
       sent[period % slots] = u;
       period += 1;

@@ -18,7 +18,7 @@ import numpy as np
 
 from tasks.arm_model import Arm
 from tasks.arm_starts.clear import around_home
-from tasks.base import ArmStartSet, Quat, Start, Vector
+from tasks.base import ArmStartSet, Start, Vector
 from tasks.clearance import clear_path, steps_for
 from tasks.haar import direction, halton
 from tasks.kinematics import Kinematics, kinematics
@@ -41,7 +41,9 @@ def build(arm: Arm, count: int, seed: int) -> list[Start]:
     axes = AXES | {f"drawn{i}": direction(*point) for i, point in enumerate(halton(AXES_DRAWN, 2, seed))}
     found = {name: _pose(model, axis, seed) for name, axis in axes.items()}
     return [
-        model.start(f"half-turn-{name}-{word}", q, _goal(model.pose(q)[1], axis, delta))
+        model.start(
+            f"half-turn-{name}-{word}", q, normal(multiply(short_of_180_degrees(axis, delta), model.pose(q)[1]))
+        )
         for word, delta in (("exact", 0.0), *((f"k{k}", 10.0**-k) for k in DECADES))
         for name, (q, axis) in ((name, one) for name, one in found.items() if one)
     ]
@@ -57,10 +59,6 @@ def _pose(model: Kinematics, axis: Vector, seed: int) -> tuple[np.ndarray, Vecto
             if clear_path(model, q, geodesic(quat, axis, sign * math.pi, steps_for(math.pi))) is not None:
                 return q, (sign * axis[0], sign * axis[1], sign * axis[2])
     return None
-
-
-def _goal(quat: Quat, axis: Vector, delta: float) -> Quat:
-    return normal(multiply(short_of_180_degrees(axis, delta), quat))
 
 
 STARTS = ArmStartSet("half-turn", "Turns by exactly pi and by pi - 10^-k with the arm in good condition", SIZE, build)

@@ -17,29 +17,25 @@ import functools
 from tasks.arm_model import Arm, model_xml
 from tasks.base import ArmTask, Task
 
-NAME = "arm-regulation"
-TITLE = "Hold the tool's position, turn it to the goal"
-START_SETS = ("clear", "wrist", "pole", "half-turn", "uniform", "tumbling", "reach")
-
 
 @functools.cache
 def on(arm: Arm) -> Task:
     """Return the task on one arm."""
     return Task(
-        name=NAME,
-        title=TITLE,
+        name=TASK.name,
+        title=TASK.title,
         source=arm.source,
         xml=lambda dt: model_xml(arm, dt),
         state=lambda start: (start.q, start.qdot),
-        start_sets=START_SETS,
+        start_sets=TASK.start_sets,
         arm=arm.name,
     )
 
 
 TASK = ArmTask(
-    name=NAME,
-    title=TITLE,
+    name="arm-regulation",
+    title="Hold the tool's position, turn it to the goal",
     source="Murphy 1988, equations 2.1 to 2.3 and 3.7",
     on=on,
-    start_sets=START_SETS,
+    start_sets=("clear", "wrist", "pole", "half-turn", "uniform", "tumbling", "reach"),
 )

@@ -16,7 +16,7 @@ import math
 from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Specification, Trial
 from tasks.domains import wrench_probe
-from tasks.hand_frames import mounts, posture
+from tasks.hand_frames import mounts
 from tasks.rotations import zyx
 
 # N m: with the controllers' usual constants a quarter of the horizon turns the hand by about 0.25 rad.
@@ -30,7 +30,7 @@ DENSE_BETAS = tuple(range(-80, 81, 5))
 @functools.cache
 def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
     """Both ways round, for several frames of the hand, or for many."""
-    q, found = posture(arm), []
+    q, found = arm.home, []
     for beta in DENSE_BETAS if dense else BETAS:
         goal = zyx(0.0, math.radians(beta), 0.0)
         for word, way in LOOPS.items():

@@ -21,7 +21,7 @@ import math
 from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Specification, Surroundings, Trial, attribute
 from tasks.contact_rest import HORIZON_S
-from tasks.hand_frames import BETAS, DENSE_BETAS, at, mounts, posture, wrist
+from tasks.hand_frames import BETAS, DENSE_BETAS, at, mounts, wrist
 from tasks.rotations import columns, multiply, zyx
 
 RADIUS = 0.12  # of the crank [m]
@@ -76,7 +76,7 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
 
 def _turned(arm: Arm, azimuth: float) -> tuple[float, ...]:
     """Return the posture with the wrist's x axis turned to this azimuth by the last joint, whose axis points down."""
-    q = posture(arm)
+    q = arm.home
     x = columns(wrist(arm, q)[1])[0]
     return (*q[:-1], q[-1] - math.remainder(azimuth - math.atan2(x[1], x[0]), math.tau))
 

@@ -17,7 +17,7 @@ import itertools
 from tasks.arm_model import Arm
 from tasks.base import Quat, Vector
 from tasks.contact import ContactTask, Specification, Surroundings, Trial
-from tasks.hand_frames import BETAS, DENSE_BETAS, at, leaning_trials, posture
+from tasks.hand_frames import BETAS, DENSE_BETAS, at, leaning_trials
 from tasks.rotations import columns
 
 RADIUS = 0.01  # of the tip [m]
@@ -45,7 +45,7 @@ def surroundings(arm: Arm) -> Surroundings:
 @functools.cache
 def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
     """Every plane with every frame of the hand, on a coarse grid or a dense one."""
-    x, y, z = at(arm, posture(arm), TIP)
+    x, y, z = at(arm, arm.home, TIP)
 
     def stands(plane: Quat, tilt: float) -> tuple[Specification, Vector, Quat]:
         return SPECIFICATION, (x, y, z - (RADIUS + CLEARANCE) / columns(plane)[2][2]), plane

@@ -22,7 +22,7 @@ from tasks.arm_model import Arm
 from tasks.base import Quat, Vector
 from tasks.contact import ContactTask, Specification, Surroundings, Trial, attribute
 from tasks.contact_rest import HORIZON_S
-from tasks.hand_frames import BETAS, DENSE_BETAS, at, leaning_trials, plus, posture, wrist
+from tasks.hand_frames import BETAS, DENSE_BETAS, at, leaning_trials, plus, wrist
 from tasks.rotations import about, multiply, to_base
 
 PEG = 0.0125  # half its side [m]
@@ -81,7 +81,7 @@ def _box(name: str, size: Vector, pos: Vector, quarters: int, lean: float = 0.0)
 @functools.cache
 def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
     """Every hole with every frame of the hand, on a coarse grid or a dense one."""
-    upright, tip = multiply(wrist(arm, posture(arm))[1], UP), at(arm, posture(arm), TIP)
+    upright, tip = multiply(wrist(arm, arm.home)[1], UP), at(arm, arm.home, TIP)
 
     def stands(lean: Quat, tilt: float) -> tuple[Specification, Vector, Quat]:
         hole = multiply(lean, upright)

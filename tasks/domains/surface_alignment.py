@@ -21,7 +21,7 @@ from tasks.arm_model import Arm
 from tasks.base import Quat, Vector
 from tasks.contact import ContactTask, Specification, Surroundings, Trial
 from tasks.contact_rest import HORIZON_S
-from tasks.hand_frames import BETAS, DENSE_BETAS, at, leaning_trials, posture, wrist
+from tasks.hand_frames import BETAS, DENSE_BETAS, at, leaning_trials, wrist
 from tasks.rotations import columns
 
 SIDE = 0.1  # of the face [m]
@@ -55,7 +55,7 @@ def surroundings(arm: Arm) -> Surroundings:
 @functools.cache
 def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
     """Every plate with every frame of the hand, on a coarse grid or a dense one."""
-    q = posture(arm)
+    q = arm.home
 
     def stands(plate: Quat, tilt: float) -> tuple[Specification, Vector, Quat]:
         place = _below(arm, q, columns(plate)[2])

@@ -20,7 +20,7 @@ from typing import NamedTuple
 from tasks.arm_model import Arm
 from tasks.base import AT_REST
 from tasks.contact import ContactTask, Specification, Surroundings, Trial
-from tasks.hand_frames import mounts, posture
+from tasks.hand_frames import mounts
 from tasks.rotations import zyx
 
 # N m. Small: the hand turns by some milliradians, and the coordinates' B hardly changes on the way. Each moment comes
@@ -84,13 +84,13 @@ def push(arm: Arm) -> float:
     """How large a moment is on this arm [N m]."""
     from tasks.kinematics import kinematics  # MuJoCo takes a moment to import; listing names must not
 
-    return LIGHT_PUSH if kinematics(arm).least_inertia(posture(arm)) < LIGHT else PUSH
+    return LIGHT_PUSH if kinematics(arm).least_inertia(arm.home) < LIGHT else PUSH
 
 
 @functools.cache
 def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
     """Six moments, about x, y and z both ways, for every selection and frame of the hand, on coarse or dense grids."""
-    q, size = posture(arm), push(arm)
+    q, size = arm.home, push(arm)
     return tuple(
         trial
         for grid in (DENSE_GRIDS if dense else GRIDS)

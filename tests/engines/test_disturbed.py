@@ -20,6 +20,7 @@ from bench.engines.simulate import simulate
 from bench.engines.simulate_bodies import draw_noise
 from bench.engines.simulate_bodies import run_disturbed as run
 from bench.law.contenders.registry import find_contender
+from bench.law.shipped import shortened
 from tasks.base import Start
 from tasks.condition import Condition
 from tasks.moving_goal import NO_FEEDFORWARD, RATE, reference_rates
@@ -115,7 +116,7 @@ def test_a_bound_is_never_exceeded_and_keeps_the_direction():
     rows = ended("rotation-matrix", tasks.start_set("tumbling", 20), Condition(bound=30.0))
     peak = FIRST_METRIC + [one.column for one in METRICS].index("peak_u")
     np.testing.assert_allclose(rows[:, peak], 30.0**2, rtol=1e-14)  # all of them reach it; kept squared
-    assert rigid_body.bounded((3.0, 0.0, 4.0), 1.0) == pytest.approx((0.6, 0.0, 0.8), rel=1e-15)
+    assert shortened((3.0, 0.0, 4.0), 1.0) == pytest.approx((0.6, 0.0, 0.8), rel=1e-15)
 
 
 def test_small_noise_adds_up_as_it_does_in_the_linear_loop():

@@ -8,10 +8,16 @@ from scipy.spatial.transform import Rotation, Slerp
 import tasks
 from support.states import rotation
 from tasks.kinematics import kinematics
+from tasks.paths import geodesic as evenly_turned
 
 ARMS = tasks.arm_names()
 BETWEEN = 1.05
 """A bound was looked at every five degrees; between these points a condition number can be a little larger."""
+
+
+def turned_in_place(model, q, axis, angle, steps):
+    """Joint path, (steps + 1) x n, that turns the tool by an angle about a base-frame axis; None if it ends early."""
+    return model.follow(q, evenly_turned(model.pose(q)[1], axis, angle, steps))
 
 
 def geodesic(start, points):

@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support.arm_paths import turned_in_place
 from support.states import rotation
 
 import tasks
@@ -59,7 +60,7 @@ def test_turn_holds_the_position_and_goes_evenly_about_the_axis(model):
     axis = np.array((2.0, -1.0, 2.0)) / 3.0
     done = 0
     for q in poses(model):
-        path = model.turn(q, tuple(axis.tolist()), 0.5, 10)
+        path = turned_in_place(model, q, tuple(axis.tolist()), 0.5, 10)
         if path is not None:
             done += 1
             p, quat = model.pose(q)
@@ -75,7 +76,9 @@ def test_turn_that_leaves_the_workspace_is_none():
     """A UR5e stretched out cannot turn its tool by a right angle against its reach."""
     model = kinematics(tasks.arm("ur5e"))
     q = (0.3, -1.4, 0.02, -0.4, -0.9, 0.0)
-    turns = [model.turn(q, axis, math.pi / 2, 18) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
+    turns = [
+        turned_in_place(model, q, axis, math.pi / 2, 18) for axis in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    ]
     assert any(path is None for path in turns)
 
 
@@ -86,7 +89,7 @@ def test_path_of_seven_joints_takes_the_least_rates():
         null = np.linalg.svd(model.jacobian(q))[2][6]
         along = []
         for angle in (1e-2, 1e-3):
-            path = model.turn(q, (0.0, 0.6, 0.8), angle, 1)
+            path = turned_in_place(model, q, (0.0, 0.6, 0.8), angle, 1)
             along.append(abs(null @ (path[1] - path[0])))
         assert along[1] < 2e-2 * along[0] + 1e-12
 

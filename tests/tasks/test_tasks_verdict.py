@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from support.arm_paths import turned_in_place
 from support.driving import ARM_METRICS, settings
 from support.on_arms import named
 
@@ -226,7 +227,7 @@ def test_pole_is_the_representations_fault_where_the_arm_is_well_conditioned():
     for start in (one for one in tasks.start_set("pole", arm=ARM) if one.id.endswith("exact")):
         turn = np.array(rotation_vector(start.goal_wxyz, start.quat_wxyz))
         angle = float(np.linalg.norm(turn))
-        q = model.turn(start.q, tuple(turn / angle), angle / 2.0, 40)[-1]
+        q = turned_in_place(model, start.q, tuple(turn / angle), angle / 2.0, 40)[-1]
         starts.append(model.start(start.id, q, start.goal_wxyz))
     by_angles = rows_of("feedback-linearized/zyx-euler@analytic+solve", starts)
     failed = by_angles[by_angles.outcome != "settled"]

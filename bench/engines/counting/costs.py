@@ -64,19 +64,12 @@ def cost_of(one: Any, calls: list[Call], choose: Callable[[list[Counts]], Counts
 
 def rows(contenders: Iterable[Contender]) -> list[dict]:
     """Rows of costs.parquet: contender x branch x stage, the stage "total" last."""
-    return [row for contender in contenders for row in rows_of(cost(contender), contender_words(contender))]
+    return [row for contender in contenders for row in rows_of(cost(contender), contender.words | {"joints": 0})]
 
 
 def flops(numbers: dict) -> int:
     """Floating-point operations without transcendental functions: add + mul + div + sqrt."""
     return sum(numbers[name] for name in FLOPS)
-
-
-def contender_words(one: Contender, joints: int = 0) -> dict:
-    """Return the first columns of a contender's rows; of no joints for a law alone."""
-    coordinates = one.representation.name if one.representation else ""
-    names = "regulator", "representation", "jacobian", "inverse", "joints"
-    return dict(zip(names, (one.regulator.name, coordinates, *one.way, joints), strict=True))
 
 
 def rows_of(one: Cost, words: dict, stages: tuple[str, ...] = STAGES) -> Iterator[dict]:

@@ -13,11 +13,10 @@ import numpy as np
 
 import tasks
 from bench.engines.arm_episode import buffers
-from bench.engines.counting.costs import Call, Cost, checked, contender_words, cost_of, counted, rows_of, size
+from bench.engines.counting.costs import Call, Cost, checked, cost_of, counted, rows_of, size
 from bench.engines.counting.counted import Counts, Tally
 from bench.engines.counting.staged import in_stage, law_of, staged
 from bench.engines.counting.states import GAINS, goal_of
-from bench.engines.episode import vector
 from bench.law.chain import Chain
 from bench.law.contender import Contender
 from bench.law.control.resolved_acceleration import Parts, assembly, control, parts_of
@@ -69,8 +68,8 @@ def _state(model: Any, data: Any, start: Start, is_sampled: bool) -> ArmState:
     D = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, D)
     s = data.sensordata
-    R = Rotation(vector(s[0:3]), vector(s[3:6]), vector(s[6:9]))
-    chain = Chain(model.nv, data.xaxis.copy(), data.xanchor.copy(), data.qvel.copy(), vector(s[16:19]), R)
+    R = Rotation(tuple(s[0:3]), tuple(s[3:6]), tuple(s[6:9]))
+    chain = Chain(model.nv, data.xaxis.copy(), data.xanchor.copy(), data.qvel.copy(), tuple(s[16:19]), R)
     goal = goal_of(start.goal_wxyz)
     return ArmState(start.id, chain, D, data.qfrc_bias - data.qfrc_passive, goal, chain.p, is_sampled)
 
@@ -96,12 +95,12 @@ def median(counts: list[Counts]) -> Counts:
 
 def rows_on_arm(contender: Contender, joints: int) -> list[dict]:
     """Rows of costs.parquet of a contender on so many joints."""
-    return list(rows_of(cost_on_arm(contender, ARM_OF[joints]), contender_words(contender, joints)))
+    return list(rows_of(cost_on_arm(contender, ARM_OF[joints]), contender.words | {"joints": joints}))
 
 
 def _command(contender: Contender, tally: Tally | None) -> Any:
     """Return the law as `resolved_acceleration.Parts` takes it; staged if there is a tally."""
-    if contender.jacobian is not None and contender.jacobian.takes == "coordinates":
+    if contender.is_by_coordinates:
         return contender.coordinate_law
     if contender.regulator.through:
         return None

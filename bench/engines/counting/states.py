@@ -14,6 +14,7 @@ import numpy as np
 import tasks
 from bench.law.inputs import AT_REST, Gains, Goal
 from bench.law.so3 import Rotation, from_quaternion
+from tasks.base import IDENTITY, Start
 
 SAMPLED = "uniform"
 SAMPLE = 256
@@ -44,33 +45,24 @@ GAINS = Gains(*(np.float64(gain) for gain in Gains()))
 @functools.cache
 def states() -> tuple[State, ...]:
     """All of them, always the same, the sampled ones first."""
-    found: list[State] = []
-    for start in tasks.start_set(SAMPLED, SAMPLE):
-        found += _at_rest_and_spinning(start.id, start.quat_wxyz, start.goal_wxyz, is_sampled=True)
-    for name, quat_wxyz in _near_identity():
-        found += _at_rest_and_spinning(name, quat_wxyz, (1.0, 0.0, 0.0, 0.0))
-    for start_set in DIRECTED:
-        for start in tasks.start_set(start_set):
-            found += _at_rest_and_spinning(start.id, start.quat_wxyz, start.goal_wxyz)
-    return tuple(found)
+    starts = [(start, True) for start in tasks.start_set(SAMPLED, SAMPLE)]
+    starts += [(start, False) for start in _near_identity()]
+    starts += [(start, False) for name in DIRECTED for start in tasks.start_set(name)]
+    paces = {"at rest": _doubles(AT_REST), "spinning": _doubles(SPIN)}
+    return tuple(
+        State(f"{start.id} {word}", _rotation(start.quat_wxyz), omega, goal_of(start.goal_wxyz), is_sampled)
+        for start, is_sampled in starts
+        for word, omega in paces.items()
+    )
 
 
-def _near_identity() -> Iterator[tuple[str, tuple[float, ...]]]:
-    yield "identity", (1.0, 0.0, 0.0, 0.0)
+def _near_identity() -> Iterator[Start]:
+    yield Start("identity", IDENTITY)
     for word, axis in AXES.items():
         for k in DECADES:
             half = 0.5 * 10.0**-k
-            yield f"identity-{word}-k{k:02d}", (math.cos(half), *(math.sin(half) * part for part in axis))
-
-
-def _at_rest_and_spinning(
-    name: str, quat_wxyz: tuple[float, ...], goal_wxyz: tuple[float, ...], is_sampled: bool = False
-) -> list[State]:
-    R, goal = _rotation(quat_wxyz), goal_of(goal_wxyz)
-    return [
-        State(f"{name} at rest", R, goal.omega, goal, is_sampled),
-        State(f"{name} spinning", R, _doubles(SPIN), goal, is_sampled),
-    ]
+            x, y, z = (math.sin(half) * part for part in axis)
+            yield Start(f"identity-{word}-k{k:02d}", (math.cos(half), x, y, z))
 
 
 def goal_of(quat_wxyz: tuple[float, ...]) -> Goal:

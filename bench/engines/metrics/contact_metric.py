@@ -89,20 +89,9 @@ class ContactMetric(NamedTuple):
 
 def response(trial: Trial, ended: Ended) -> Response:
     """Return the arrays of an episode's record; ticks at which it holds nothing finite stay as they are."""
-    from bench.engines.contact_episode import FORCE, GAP, LOAD, MOMENT, OMEGA, TIME, TURNED, P, R
+    from bench.engines.contact_episode import FORCE, GAP, LOAD, MOMENT, OMEGA, TURNED, P, R
 
-    record = ended.record
-    return Response(
-        trial,
-        ended.outcome,
-        record[:, TIME],
-        record[:, R : R + 9].reshape(-1, 3, 3).transpose(0, 2, 1),
-        record[:, OMEGA : OMEGA + 3],
-        record[:, P : P + 3],
-        record[:, FORCE : FORCE + 3],
-        record[:, MOMENT : MOMENT + 3],
-        record[:, GAP],
-        record[:, TURNED],
-        record[:, LOAD],
-        ended.rested,
-    )
+    ends = (R, OMEGA, P, FORCE, MOMENT, GAP, TURNED, LOAD)
+    time, columns, omega, p, force, moment, *scalars = np.split(ended.record, ends, axis=1)
+    frames, (gap, turned, load) = columns.reshape(-1, 3, 3).transpose(0, 2, 1), (one[:, 0] for one in scalars)
+    return Response(trial, ended.outcome, time[:, 0], frames, omega, p, force, moment, gap, turned, load, ended.rested)

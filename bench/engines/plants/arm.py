@@ -9,22 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.engines.arm_episode import (
-    MOST,
-    PROBE_TICKS,
-    STANDING,
-    ArmSample,
-    Controls,
-    Joints,
-    buffers,
-    cut,
-    drive,
-    face_joints,
-    load,
-    probe,
-    seven,
-    squared,
-)
+from bench.engines import arm_episode
 from bench.engines.arrays import Matrix, Vector
 from bench.engines.curve import keep_on_arm
 from bench.engines.loop import Act, Controller, Plant, Record, Sensed, begin, episodes_of
@@ -56,8 +41,8 @@ class World(NamedTuple):
     states: Matrix
     model: Simulated
     work: Work
-    controls: Controls
-    joints: Joints
+    controls: arm_episode.Controls
+    joints: arm_episode.Joints
 
 
 class State(NamedTuple):
@@ -84,9 +69,8 @@ def work(n: int, late: int = -1, change: float = math.inf) -> Work:
         change: by how much a torque changes in a tick at most [N m]; if it is finite, torques are kept.
     """
     late = max(late, 0) if change < math.inf else late
-    return Work(
-        buffers(n), np.zeros((n, n)), np.zeros(n), np.zeros((MOST, MOST)), np.zeros((2 + late if late >= 0 else 0, n))
-    )
+    G, sent = np.zeros((arm_episode.MOST,) * 2), np.zeros((2 + late if late >= 0 else 0, n))
+    return Work(arm_episode.buffers(n), np.zeros((n, n)), np.zeros(n), G, sent)
 
 
 @kernel
@@ -106,7 +90,7 @@ def sense(body, state, tick, numbers):
     """Read the sensors."""
     sim, s = body.sim, body.sim.sensordata
     R, omega = Rotation((s[0], s[1], s[2]), (s[3], s[4], s[5]), (s[6], s[7], s[8])), (s[9], s[10], s[11])
-    p, speed = (s[16], s[17], s[18]), squared(sim.qvel, sim.n)
+    p, speed = (s[16], s[17], s[18]), arm_episode.squared(sim.qvel, sim.n)
     tool = Tool(p, state.p_d, Chain(sim.n, sim.xaxis, sim.xanchor, sim.qvel, p, R))
     hav = haversine(quaternion(s), state.quat_d)
     return Sensed(R, omega, state.goal, hav, dot(omega, omega), speed, speed, GOING, tool)
@@ -131,23 +115,23 @@ def command(laws, body, sensed, now, gains, memory, numbers):
     if controls.has_own_model > 0:
         for i in range(n):
             model.qpos[i] = sim.qpos[i]
-            model.qvel[i] = sim.qvel[i] if controls.has_own_model != STANDING else 0.0
+            model.qvel[i] = sim.qvel[i] if controls.has_own_model != arm_episode.STANDING else 0.0
         compute(model)
     fill_inertia(model, work.D)
     for i in range(n):
         work.fg[i] = model.qfrc_bias[i] - model.qfrc_passive[i]
     if controls.gives_torque == BY_JOINT:
         q_d = body.states[now.k, 2 * n : 3 * n]
-        face_joints(work.buffers.J, work.buffers.a, sim.qpos, q_d, body.joints.inertia, n)
+        arm_episode.face_joints(work.buffers.J, work.buffers.a, sim.qpos, q_d, body.joints.inertia, n)
     u, memory = control(
         laws.law, laws.second, controls.gives_torque, controls.rows,
         sensed.more.chain, work.D, work.fg, sensed.goal, sensed.more.p_d, gains, memory, work.buffers,
     )  # fmt: skip
     if controls.is_cut > 0:
-        cut(work.buffers.tau, body.joints.rated, n)
+        arm_episode.cut(work.buffers.tau, body.joints.rated, n)
     if work.sent.shape[0] > 0:
-        drive(work.buffers.tau, work.sent, controls.share, controls.change, now.tick, work.fg, n)
-    total, _ = load(work.buffers.tau, body.joints.rated, n)
+        arm_episode.drive(work.buffers.tau, work.sent, controls.share, controls.change, now.tick, work.fg, n)
+    total, _ = arm_episode.load(work.buffers.tau, body.joints.rated, n)
     failure = check_command(total, controls.torque_limit_squared)
     return Act(u, u, dot(u, u), laws.third(sensed.R, sensed.goal.R), failure, ()), memory
 
@@ -159,15 +143,15 @@ def loop_of(observe):
     def see(row, curves, now, body, sensed, act, before, numbers):
         """Show the metrics a sample, and look at the conditioning."""
         sim, joints, work, n = body.sim, body.joints, body.work, body.sim.n
-        sample = ArmSample(
+        sample = arm_episode.ArmSample(
             now.tick * numbers.dt, numbers.dt, sensed.R, sensed.haversine, now.entered, now.at_rest, sensed.omega,
             act.u, before, act.margin, sensed.more.p, sensed.more.p_d,
-            seven(sim.qpos, n), seven(sim.qvel, n), seven(work.buffers.tau, n),
+            arm_episode.seven(sim.qpos, n), arm_episode.seven(sim.qvel, n), arm_episode.seven(work.buffers.tau, n),
             joints.lower, joints.upper, joints.rated,
         )  # fmt: skip
         observe(row, sample)
         keep_on_arm(curves, now.k, now.tick, sample)
-        if now.tick % PROBE_TICKS == 0 or act.failure != GOING:
-            probe(row, sensed.more.chain, sim.qpos, work.G, work.buffers.scratch)
+        if now.tick % arm_episode.PROBE_TICKS == 0 or act.failure != GOING:
+            arm_episode.probe(row, sensed.more.chain, sim.qpos, work.G, work.buffers.scratch)
 
     return episodes_of(ARM, Controller(begin, command), Record(see))

@@ -14,14 +14,13 @@ from bench.engines import contact_episode
 from bench.engines.arm_episode import MOST, cut, load, squared
 from bench.engines.arrays import Integers, Matrix, Vector
 from bench.engines.contact_episode import BROKEN, RESTED, Numbers, setpoint, wrench, write_record
-from bench.engines.episode import Numbers as Limits
 from bench.engines.loop import NO_ACT, Act, Controller, Plant, Record, Sensed, episodes_of
 from bench.engines.native.trapped import BEGIN, RUNGE_KUTTA, STEP, advance_trapped
 from bench.engines.simulated import Simulated, fill_inertia
 from bench.law.chain import Chain
 from bench.law.control.hybrid import comply
 from bench.law.control.setpoint import ContactBuffers, ContactParameters, Rows
-from bench.law.inputs import AT_REST, Gains, Goal
+from bench.law.inputs import AT_REST, Goal
 from bench.law.scalar import kernel, sqrt
 from bench.law.so3 import Rotation, from_quaternion
 from tasks.contact import MOST_LEGS, leg
@@ -155,7 +154,7 @@ def command(laws, body, sensed_now, now, gains, memory, numbers):
     if shape.is_cut > 0:
         cut(work.tau, shape.rated, n)
     total, largest = load(work.tau, shape.rated, n)
-    failure = check_command(total, shape.torque_limit_squared)
+    failure = check_command(total, numbers.command_limit_squared)
     if has_left(shape.rest, now.tick, hand.p, sensed_now.R, memory.place, memory.frame):
         memory = Rest(hand.p, sensed_now.R, now.tick)
     elif failure == GOING and shape.rest.ticks > 0 and now.tick - memory.since >= shape.rest.ticks:
@@ -199,9 +198,3 @@ def measure(body, state, sensed_now):
 def loop():
     """Return the loop, for all arms, tasks and controllers."""
     return episodes_of(Plant(reset, sense, advance, measure), Controller(begin, command), Record(see))
-
-
-def limits(shape: Numbers, gains: Gains) -> Limits:
-    """Return the loop's numbers of a trial: no angle ends it."""
-    kp, kv, ticks, speed = float(gains.kp), float(gains.kv), shape.ticks, shape.speed_limit_squared
-    return Limits(kp, kv, shape.dt, ticks, ticks + 1, 1, 0.0, 0.0, speed, 0.0, 0.0)

@@ -15,9 +15,10 @@ from bench.engines.ideal import angle_between, haversine, plus, turned
 from bench.engines.loop import Act, Controller, Plant, Sensed, episodes_of, sampled
 from bench.engines.plants.goals import NO_BAND, fed_forward, goal_at, restart
 from bench.engines.plants.ideal import measure
-from bench.engines.rigid_body import bounded, step
+from bench.engines.rigid_body import step
 from bench.law.inputs import AT_REST, Goal
 from bench.law.scalar import kernel, sqrt
+from bench.law.shipped import shortened
 from bench.law.so3 import IDENTITY, Rotation, dot, from_quaternion, minus, turn_quaternion
 from bench.law.tracking import carried_along
 from tasks.condition import Condition
@@ -178,7 +179,7 @@ def command(laws, body, sensed, now, gains, memory, numbers):
         u = given
         if condition.reference_amplitude > 0.0:
             u = carried_along(u, turning, rate, acceleration)
-        u = bounded(u, condition.bound)
+        u = shortened(u, condition.bound)
         failure = check_command(dot(u, u), numbers.command_limit_squared)
         if periods > 0 and failure == GOING:
             change = plus(u, -1.0, before)

@@ -19,7 +19,7 @@ from bench.law.inputs import AT_REST
 from bench.law.scalar import atan2, kernel, sqrt
 from bench.law.so3 import cross, dot
 from tasks.truth import angle
-from tasks.velocity import followed, turned
+from tasks.velocity import Servo, followed, turned
 from tasks.verdict import GOING, check_command
 
 PATH, FURTHEST, BENT, PEAK, RATE, OFF = range(FIRST_METRIC, FIRST_METRIC + 6)
@@ -29,18 +29,10 @@ of which the free body has none."""
 
 
 class Pace(NamedTuple):
-    """K [1/s], and the tick [s] and what it makes of a servo's lag: see tasks.velocity.Servo."""
+    """K [1/s], and what a tick makes of a servo's lag."""
 
     K: float
-    dt: float
-    decay: float
-    coast: float
-
-
-class World(NamedTuple):
-    """The pace of a free body."""
-
-    pace: Pace
+    servo: Servo
 
 
 class ArmWorld(NamedTuple):
@@ -70,7 +62,7 @@ def begin(laws, memory0, sensed):
 def command(laws, body, sensed, now, gains, memory, numbers):
     """Command an angular velocity: laws are the law and its limiter, limit(omega, K) -> omega."""
     u, memory, _ = laws.law(sensed.R, AT_REST, sensed.goal, gains, memory)
-    asked, omega = velocity(laws.second, u, body.pace.K, gains.kp)
+    asked, omega = velocity(laws.second, u, body.K, gains.kp)
     speed = dot(omega, omega)
     failure = check_command(speed, numbers.speed_limit_squared)
     return Act(omega, u, speed, math.nan, failure, Told(asked, 0.0, 0.0)), memory
@@ -148,7 +140,7 @@ def follow_with_joints(laws, body, state, act, gains, memory, numbers):
     sim, s = body.sim, body.sim.sensordata
     before = (s[12], s[13], s[14], s[15])
     for i in range(sim.n):
-        angle_turned, rate_after = followed(sim.qvel[i], body.work.buffers.x[i], body.pace)
+        angle_turned, rate_after = followed(sim.qvel[i], body.work.buffers.x[i], body.pace.servo)
         sim.qpos[i] += angle_turned
         sim.qvel[i] = rate_after
     compute(sim)

@@ -3,11 +3,14 @@
 import functools
 
 from bench.base.provenance import WORKPLACE
-from bench.experiments.columns import Table
+from bench.experiments.columns import Table, read_table
 from bench.experiments.experiment import known_experiments
-from bench.experiments.tables.studied import STUDIED
 
 RESULTS = WORKPLACE / "results"
+
+NAMES = ("perturbed", "timings", "libraries", "closed_loop", "verdicts", "real_loop", "contact_limits")
+STUDIED = tuple(read_table(__file__, name) for name in NAMES)
+"""Tables that no experiment makes: times, results of studies, and other libraries' answers."""
 
 
 @functools.cache

@@ -35,7 +35,6 @@ from bench.law.kinds import Coordinates
 from bench.law.so3 import IDENTITY, Rotation
 from tasks.arm_model import Arm
 from tasks.contact import Specification
-from tasks.hand_frames import posture
 
 NOWHERE = 1e-12
 """Smallest singular value of B, over its largest, at which there is no B^-1: rounding of an angle of pi/2."""
@@ -106,7 +105,7 @@ def mobility(arm: Arm) -> np.ndarray:
     """
     from tasks.kinematics import kinematics  # MuJoCo takes a moment to import; naming claims needs it not
 
-    return kinematics(arm).mobility(posture(arm))[3:, 3:]
+    return kinematics(arm).mobility(arm.home)[3:, 3:]
 
 
 def free(time_s: float, touch: ContactParameters = TOUCH) -> float:

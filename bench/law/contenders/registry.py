@@ -83,11 +83,6 @@ def papers_coordinates() -> Coordinates:
     return next(one for one in contenders("representations").values() if one.papers)
 
 
-def regulator(word: str, extra: tuple[Law, ...] = ()) -> Law:
-    """Return the regulator of that name, the user's own among them."""
-    return _named("regulator", word, extra)
-
-
 def regulator_in(file: Path) -> Law | None:
     """Return the regulator of a file in bench/law/contenders/regulators/; None for a file elsewhere."""
     is_here = file.is_file() and file.resolve().parent == Path(__file__).resolve().with_name("regulators")
@@ -101,10 +96,11 @@ def _named(kind: str, word: str, own: tuple = ()) -> Any:
     return every[word]
 
 
+regulator: Callable[..., Law] = functools.partial(_named, "regulator")
 representation: Callable[[str], Coordinates] = functools.partial(_named, "representation")
 jacobian: Callable[[str], Jacobian] = functools.partial(_named, "Jacobian")
 inverse: Callable[[str], Inverse] = functools.partial(_named, "inverse")
-"""Each returns the contender of a name, or raises UnknownWord."""
+"""Each returns the contender of a name, a user's own laws among regulators, or raises UnknownWord."""
 
 
 def find_contender(word: str, extra: tuple[Law, ...] = ()) -> Contender:

@@ -49,18 +49,13 @@ from bench.law.inputs import AT_REST, Goal
 from bench.law.kinds import Coordinates
 from bench.law.linalg import multiply, multiply_transposed
 from bench.law.scalar import kernel
-from bench.law.so3 import rotate, rotate_back
+from bench.law.so3 import minus, rotate, rotate_back, spring_damper
 
 
 @kernel
 def hold_moving(p, pdot, setpoint, gains):
     """u_p = Kp (p_d - p) + Kv (v_d - pdot) [m/s^2], base frame."""
-    p_d, v_d = setpoint.p_d, setpoint.v_d
-    return (
-        gains.kp * (p_d[0] - p[0]) + gains.kv * (v_d[0] - pdot[0]),
-        gains.kp * (p_d[1] - p[1]) + gains.kv * (v_d[1] - pdot[1]),
-        gains.kp * (p_d[2] - p[2]) + gains.kv * (v_d[2] - pdot[2]),
-    )
+    return spring_damper(gains.kp, minus(setpoint.p_d, p), gains.kv, minus(pdot, setpoint.v_d))
 
 
 @kernel

@@ -11,7 +11,6 @@ import pandas as pd
 
 from bench.base.provenance import describe, machine_key
 from bench.experiments.columns import CONTENDER_KEY
-from bench.experiments.episode_rows import contender_columns
 from bench.experiments.tables import store
 from bench.law.contender import Contender
 from bench.running.timing.benchmark import KERNEL, Benchmark
@@ -65,7 +64,7 @@ def _row(one: Benchmark, times: np.ndarray, kernel: np.ndarray) -> dict:
     return {
         "what": one.what,
         "arm": one.arm,
-        **(contender_columns(one.contender) if one.contender else dict.fromkeys(CONTENDER_KEY, "")),
+        **(one.contender.words if one.contender else dict.fromkeys(CONTENDER_KEY, "")),
         "engine": one.engine,
         "ns_per_tick": float(np.median(times)),
         "ns_reference_kernel": float(np.median(kernel)),
