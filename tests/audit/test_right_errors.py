@@ -6,7 +6,7 @@ from support.planted import PLANTED, audited
 from support.right_errors import RIGHT, scipy_in_base
 
 from bench.audit import audit
-from bench.audit.fault import NOTE
+from bench.audit.examined import NOTE
 from bench.audit.report import file
 from bench.base.provenance import ROOT
 
