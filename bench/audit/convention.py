@@ -3,8 +3,6 @@
 Swapped arguments are no case of their own: log(R R_d^T) = -log(R_d R^T), so that they only reverse the direction.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Ask a function, find its convention, and let every fault look at the answers."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable
 

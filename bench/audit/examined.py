@@ -1,7 +1,5 @@
 """A function with its answers to every pair, and models of answers of a function that mixes something up."""
 
-from __future__ import annotations
-
 import functools
 import warnings
 from collections.abc import Callable, Iterable

@@ -5,8 +5,6 @@ only `sin(theta) k` is zero at 180°, only 2 tan(theta/2) k is infinite there, a
 function is first judged by its own form, so that what it means is distinguished from what it gets wrong.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import NamedTuple
 

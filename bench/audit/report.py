@@ -1,7 +1,5 @@
 """Reports on a function, for people and for machines."""
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

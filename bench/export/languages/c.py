@@ -13,7 +13,8 @@ from bench.export.entries import Entry
 from bench.export.heading import BY_ROWS, RESET, UNFUSED, heading
 from bench.export.language import Language, write_arguments
 from bench.export.layout import INDENT, WIDTH, wrapped
-from bench.export.program import INDEX, REAL, TRUTH, Kind, Tuple, Typed
+from bench.export.program import INDEX, REAL, TRUTH, Kind, Tuple
+from bench.export.reading import Typed
 from bench.export.subject import MATRIX, Subject, translated
 
 WORDS = """

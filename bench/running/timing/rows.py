@@ -69,7 +69,7 @@ def _row(one: Benchmark, times: np.ndarray, kernel: np.ndarray) -> dict:
         "engine": one.engine,
         "ns_per_tick": float(np.median(times)),
         "ns_reference_kernel": float(np.median(kernel)),
-        "ratio": found.median,
+        "ratio": found.value,
         "ratio_low": found.low,
         "ratio_high": found.high,
         "passes": len(times),
