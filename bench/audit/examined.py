@@ -8,8 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.audit import convention, pairs
-from bench.audit.convention import Convention, Stated
-from bench.audit.forms import FORMS
+from bench.audit.convention import FORMS, Convention, Stated
 from bench.audit.pairs import Pairs, Place
 
 NO_THREE_NUMBERS = "it returned no three numbers, but "

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from bench.audit.convention import FORMS
 from bench.audit.faults import every_fault
-from bench.audit.forms import FORMS
 from bench.audit.pairs import every_pair
 from bench.law.contenders.registry import contenders
 

@@ -60,7 +60,7 @@ def comparing(finished, monkeypatch):
             said = tuple(Said("It shakes.", "appendix-method", fault) for fault in (faults if is_head else base_faults))
             return [Judgement("braking", said, (), False)]
 
-        monkeypatch.setattr(gates.checkouts, "run_side", lambda side, report: contextlib.nullcontext(finished))
+        monkeypatch.setattr(gates.commits, "run_side", lambda side, report: contextlib.nullcontext(finished))
         monkeypatch.setattr(gates, "compare_times", compare_times)
         monkeypatch.setattr(gates, "judged", judge)
         return gates.compare_revisions

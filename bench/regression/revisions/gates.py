@@ -7,7 +7,7 @@ from bench.base.errors import BadLaw, BadResults
 from bench.findings.judged import judged
 from bench.findings.judgement import Judgement
 from bench.law.contenders.described_law import described
-from bench.regression.revisions import checkouts, exact
+from bench.regression.revisions import commits, exact
 from bench.regression.revisions.comparison import IMPROVEMENT, REGRESSION, Comparison, Finding, Gate, make_gate
 from bench.regression.revisions.measures import compare_measures
 from bench.regression.revisions.timing import ROUNDS, SAME, SLOWER, Side, SideFailed, Timed, compare_times
@@ -26,7 +26,7 @@ def compare_revisions(
 ) -> Comparison:
     """Compare two revisions, or a revision and the files in the checkout (head None); 0 rounds leave time out."""
     judgements: tuple[Judgement, ...] = ()
-    with checkouts.check_out_both(base, head, laws) as (old, new):
+    with commits.check_out_both(base, head, laws) as (old, new):
         if new.is_new:
             raise BadResults(f"{new.name}: none of the --law files is there")
         gates, found, measures = _compare_rows(old, new, report)
@@ -48,7 +48,7 @@ def _compare_rows(old: Side, new: Side, report: Callable) -> tuple[list[Gate], l
     if old.is_new or (old.digest == new.digest and not new.only):
         return [Gate(name, state, says) for name in (EXACT, OPERATIONS)], [], []
     measures: list[dict[str, str]] = []
-    with checkouts.run_side(old, report) as before, checkouts.run_side(new, report) as after:
+    with commits.run_side(old, report) as before, commits.run_side(new, report) as after:
         try:
             found = exact.compare_runs(before, after)
             measures = compare_measures(before, after) if new.only else []

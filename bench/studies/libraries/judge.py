@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from bench.audit.convention import FORMS as SIZED
 from bench.audit.examined import COUNT_RAD as COUNT_RAD
-from bench.audit.forms import FORMS as SIZED
 from bench.law.contenders.representations.zyx_euler import to_matrix
 from bench.studies.libraries.library import QUATERNION, Function, answer, quiet
 

@@ -2,9 +2,9 @@
 
 from typing import Any
 
+from bench.audit.convention import FORMS
 from bench.audit.examined import COUNT_RAD
 from bench.audit.faults import every_fault
-from bench.audit.forms import FORMS
 from bench.audit.pairs import every_pair
 from bench.export.language import find_language, language_words
 from bench.export.subject import subject_words
