@@ -4,8 +4,6 @@ This file imports nothing of ours, and neither does the pytest plugin that loads
 package `bench` of its own.
 """
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

@@ -4,8 +4,6 @@ The parent keeps our modules, so that it can say how the child ended. The child 
 be of another package `bench`.
 """
 
-from __future__ import annotations
-
 import contextlib
 import json
 import mmap

@@ -3,15 +3,35 @@
 Swapped arguments are no case of their own: log(R R_d^T) = -log(R_d R^T), so that they only reverse the direction.
 """
 
-from __future__ import annotations
-
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
-from bench.audit.forms import FORMS
-from bench.audit.pairs import CLOSE, FINE, NEAR_IDENTITY, WIDE, Pairs
+from bench.audit.pairs import Pairs, Place
 from bench.base.errors import BadNumber, UnknownWord
+
+
+class Form(NamedTuple):
+    """A form by its closed form: size(theta), along k."""
+
+    title: str
+    size: Callable
+
+
+FORMS = {
+    "rotation-vector": Form("θ", size=lambda theta: theta),
+    "sine-of-half": Form("2 sin(θ/2)", size=lambda theta: 2.0 * np.sin(theta / 2.0)),
+    "sine": Form("sin θ", size=np.sin),
+    "mrp": Form("4 tan(θ/4)", size=lambda theta: 4.0 * np.tan(theta / 4.0)),
+    "gibbs": Form("2 tan(θ/2)", size=lambda theta: 2.0 * np.tan(theta / 2.0)),
+}
+"""What three numbers can say of a rotation by theta about k, each theta k near the identity.
+
+The rotation vector is the error itself. The others are errors of their own right, and laws have been built on each;
+only `sin(theta) k` is zero at 180°, only 2 tan(theta/2) k is infinite there, and only Euler angles have poles. A
+function is first judged by its own form, so that what it means is distinguished from what it gets wrong.
+"""
 
 TAKES = ("matrix", "wxyz", "xyzw")
 """3 x 3 matrices, or quaternions with the scalar first or last."""
@@ -48,7 +68,7 @@ ENOUGH = 0.7
 FEWEST = 0.2
 """Share of answers the right way that is enough to tell a form by."""
 
-FIT = {WIDE: 1e-5, CLOSE: 1e-6, FINE: 1e-9}
+FIT: dict[Place, float] = {"wide": 1e-5, "close": 1e-6, "fine": 1e-9}
 """Places where forms are distinguished, and how well the right one fits there, of its size.
 
 Two forms differ by a twenty-fourth of the square at least, 1e-4 at 0.05 rad and 1e-6 at 0.005 rad; forms of no name may
@@ -99,10 +119,10 @@ def find(takes: str, pairs: Pairs, e: np.ndarray) -> tuple[float, Convention | N
     for frame in FRAMES:
         angle = apart(e, directions(pairs, frame))
         for place in FIT:
-            here = angle[pairs.place == place]
+            here = angle[pairs.at(place)]
             share = float(np.mean((here < ALONG_RAD) | (here > np.pi - ALONG_RAD)))
             if share > best[0] + 1e-9:
-                best = (share, frame, way(here, np.linalg.norm(e[pairs.place == place], axis=1)))
+                best = (share, frame, way(here, np.linalg.norm(e[pairs.at(place)], axis=1)))
     share, frame, sign = best
     if share < ENOUGH:
         return share, None
@@ -120,8 +140,8 @@ def way(angle: np.ndarray, size: np.ndarray) -> int:
 def form_of(pairs: Pairs, size: np.ndarray) -> tuple[str, float]:
     """Return the form that the sizes along the axis have, where they decide one, and the slope at the goal."""
     for place, tolerance in FIT.items():
-        here = (pairs.place == place) & (size > 0.0)
-        if here.sum() < FEWEST * (pairs.place == place).sum():
+        here = pairs.at(place) & (size > 0.0)
+        if here.sum() < FEWEST * pairs.at(place).sum():
             continue
         for form, one in FORMS.items():
             ratio = size[here] / one.size(pairs.angle[here])
@@ -132,7 +152,7 @@ def form_of(pairs: Pairs, size: np.ndarray) -> tuple[str, float]:
     ratio = size[nearest] / pairs.angle[nearest]
     if len(ratio) and np.ptp(ratio) <= EVEN * ratio.min():
         return "", float(np.median(ratio))
-    fine = pairs.place == FINE
+    fine = pairs.at("fine")
     there = fine & (size > 0.0)
     if there.sum() < FEWEST * fine.sum():
         return "", 0.0
@@ -142,4 +162,4 @@ def form_of(pairs: Pairs, size: np.ndarray) -> tuple[str, float]:
 
 def is_nearest(pairs: Pairs) -> np.ndarray:
     """Return the pairs (n) at NEAREST_RAD, as a mask."""
-    return (pairs.place == NEAR_IDENTITY) & (pairs.angle >= NEAREST_RAD[0]) & (pairs.angle <= NEAREST_RAD[1])
+    return pairs.at("near-identity") & (pairs.angle >= NEAREST_RAD[0]) & (pairs.angle <= NEAREST_RAD[1])

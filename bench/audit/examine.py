@@ -1,7 +1,5 @@
 """Ask a function, find its convention, and let every fault look at the answers."""
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Callable
 
@@ -9,10 +7,8 @@ import numpy as np
 
 from bench.audit import convention, pairs
 from bench.audit.convention import TAKES, Convention, Stated
-from bench.audit.examined import NO_THREE_NUMBERS, Examined, Fresh, Lost, evaluate
-from bench.audit.fault import Evidence, Finding, Found
-from bench.audit.faults import every_fault
-from bench.audit.pairs import CLOSE, FINE, NEAR_IDENTITY, WIDE
+from bench.audit.examined import NO_THREE_NUMBERS, Evidence, Examined, Found, Fresh, Lost, evaluate, inputs
+from bench.audit.faults import Finding, every_fault
 from bench.audit.report import Report
 from bench.base.errors import BadFunction
 
@@ -68,17 +64,17 @@ def understood(function: Callable, stated: Stated, name: str) -> list[tuple[str,
         BadFunction: of nothing that it may take does it return three numbers.
     """
     every = pairs.every_pair()
-    some = every.chosen(np.isin(every.place, (WIDE, CLOSE, FINE, NEAR_IDENTITY)))
+    some = every.chosen(every.at("wide", "close", "fine", "near-identity"))
     known: list[tuple[float, str, Convention]] = []
     answered: list[tuple[str, Convention | None]] = []
     reasons = {}
     for takes in possible(stated):
-        first = evaluate(function, takes, some.chosen(slice(0, None, 90)))
+        first = evaluate(function, *inputs(takes, some.chosen(slice(0, None, 90))))
         if sum(map(bool, first.raised)) > len(first.raised) / 2:
             reasons[takes] = next(filter(None, first.raised))
             continue
         answered.append((takes, None))
-        share, found = convention.find(takes, some, evaluate(function, takes, some).e)
+        share, found = convention.find(takes, some, evaluate(function, *inputs(takes, some)).e)
         if found:
             known.append((share, takes, found))
     if not answered:

@@ -1,7 +1,5 @@
 """A function with its answers to every pair, and models of answers of a function that mixes something up."""
 
-from __future__ import annotations
-
 import functools
 import warnings
 from collections.abc import Callable, Iterable
@@ -10,10 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.audit import convention, pairs
-from bench.audit.convention import Convention, Stated
-from bench.audit.fault import FAULT, Evidence, Found
-from bench.audit.forms import FORMS
-from bench.audit.pairs import WIDE, Pairs
+from bench.audit.convention import FORMS, Convention, Stated
+from bench.audit.pairs import Pairs, Place
 
 NO_THREE_NUMBERS = "it returned no three numbers, but "
 
@@ -32,6 +28,31 @@ class Lost(BaseException):
     def __init__(self, fault: str, how: str, now: np.ndarray, goal: np.ndarray):
         super().__init__(how)
         self.fault, self.how, self.now, self.goal = fault, how, now, goal
+
+
+FAULT, NOTE = "fault", "note"
+
+
+class Evidence(NamedTuple):
+    """A pair to reproduce: what the function is given, what it said, and what would be right, if that is known."""
+
+    now: np.ndarray
+    goal: np.ndarray
+    said: np.ndarray | str
+    right: np.ndarray | str = ""
+
+
+class Found(NamedTuple):
+    """What `find` returns: how it shows, in numbers; a pair; and whether it is a property that one may want.
+
+    effect, cure: of this function, where the fault's own words are too general.
+    """
+
+    text: str
+    evidence: Evidence | None = None
+    severity: str = FAULT
+    effect: str = ""
+    cure: str = ""
 
 
 class Answers(NamedTuple):
@@ -53,13 +74,8 @@ def inputs(takes: str, pairs: Pairs) -> tuple[np.ndarray, np.ndarray]:
     return pairs.q[:, order], pairs.q_d[:, order]
 
 
-def evaluate(function: Callable, takes: str, pairs: Pairs) -> Answers:
-    """Return its answers to every pair, each from arrays of its own."""
-    return evaluate_at(function, *inputs(takes, pairs))
-
-
-def evaluate_at(function: Callable, now: np.ndarray, goal: np.ndarray) -> Answers:
-    """Return its answers to every pair of two arrays."""
+def evaluate(function: Callable, now: np.ndarray, goal: np.ndarray) -> Answers:
+    """Return its answers to every pair of two arrays, each from arrays of its own."""
     e, raised, changed = np.full((len(now), 3), np.nan), [], np.zeros(len(now), bool)
     with warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore")
@@ -115,7 +131,7 @@ class Examined:
     ):
         self.function, self.stated, self.takes, self.convention, self.fresh = function, stated, takes, found, fresh
         self.pairs = pairs.every_pair()
-        self.e, self.raised, self.changed = evaluate(function, takes, self.pairs)
+        self.e, self.raised, self.changed = self.evaluate(self.pairs)
         self.size = np.linalg.norm(self.e, axis=1)
         self.direction, self.truth = self.known(self.pairs)
 
@@ -139,13 +155,13 @@ class Examined:
             return along, np.full_like(along, np.nan)
         return along, self.slope * FORMS[self.convention.form].size(of.angle)[:, None] * along
 
-    def at(self, *places: str) -> np.ndarray:
+    def at(self, *places: Place) -> np.ndarray:
         """Return the pairs of these places, as a mask."""
-        return np.isin(self.pairs.place, places)
+        return self.pairs.at(*places)
 
     def evaluate(self, of: Pairs) -> Answers:
         """Return its answers to other pairs."""
-        return evaluate(self.function, self.takes, of)
+        return evaluate(self.function, *inputs(self.takes, of))
 
     def evidence(self, i: int, right: bool = True) -> Evidence:
         """Return the pair of this number."""
@@ -190,7 +206,7 @@ def explanation(
     """
     if examined.convention:
         return None
-    here = np.flatnonzero(examined.at(WIDE))
+    here = np.flatnonzero(examined.at("wide"))
     best, share = None, convention.ENOUGH
     for words, vectors in models(examined.pairs.chosen(here)):
         angle = convention.apart(examined.e[here], vectors)

@@ -12,8 +12,6 @@ and is given buffers of 64 numbers, so that asking it for the wrong kind reads n
 writes behind e[2] is seen.
 """
 
-from __future__ import annotations
-
 import ctypes
 import importlib
 import importlib.util
@@ -46,7 +44,7 @@ def load(target: str) -> Callable:
         raise BadFunction(f"'{target}' names no function; give FILE.py:NAME, MODULE:NAME or LIBRARY.so:SYMBOL")
     if place.endswith(LIBRARIES):
         return of_library(Path(place), name)
-    module = of_file(Path(place)) if place.endswith(".py") else of_name(place)
+    module = imported(place)
     try:
         found = getattr(module, name)
     except AttributeError:
@@ -66,29 +64,20 @@ def existing(path: Path) -> Path:
     return path
 
 
-def of_file(path: Path) -> ModuleType:
-    """Return a Python file as a module, its folder among those that it may import from."""
-    spec: Any = importlib.util.spec_from_file_location(f"audited_{path.stem}", existing(path))
-    module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)  # where dataclasses look for it
-    sys.path.insert(0, str(path.resolve().parent))
+def imported(place: str) -> ModuleType:
+    """Return a Python file or a module by its name, the file's folder or this one among those that it imports from."""
+    is_file = place.endswith(".py")
+    sys.path.insert(0, str(existing(Path(place)).resolve().parent if is_file else Path.cwd()))
     try:
+        if not is_file:
+            return importlib.import_module(place)
+        spec: Any = importlib.util.spec_from_file_location(f"audited_{Path(place).stem}", place)
+        module = sys.modules[spec.name] = importlib.util.module_from_spec(spec)  # where dataclasses look for it
         spec.loader.exec_module(module)
+        return module
     except (Exception, SystemExit) as error:
-        raise BadFunction(f"{path} does not import ({type(error).__name__}: {error}); correct the file") from error
-    finally:
-        sys.path.pop(0)
-    return module
-
-
-def of_name(name: str) -> ModuleType:
-    """Return a module that can be imported from here."""
-    sys.path.insert(0, str(Path.cwd()))
-    try:
-        return importlib.import_module(name)
-    except (Exception, SystemExit) as error:
-        raise BadFunction(
-            f"{name} does not import ({type(error).__name__}: {error}); give FILE.py:NAME, or install the package"
-        ) from error
+        cure = "correct the file" if is_file else "give FILE.py:NAME, or install the package"
+        raise BadFunction(f"{place} does not import ({type(error).__name__}: {error}); {cure}") from error
     finally:
         sys.path.pop(0)
 

@@ -9,14 +9,11 @@ from __future__ import annotations
 
 import functools
 import itertools
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
-WIDE, CLOSE, FINE = "wide", "close", "fine"
-IDENTITY, NEAR_IDENTITY, NEAR_180, AT_180 = "identity", "near-identity", "near-180", "at-180"
-POLE, CUBE = "pole", "cube"
-
+Place = Literal["wide", "close", "fine", "identity", "near-identity", "near-180", "at-180", "pole", "cube", "line"]
 Numbers = np.ndarray | float
 SEED = 7
 LARGEST = 1000
@@ -42,6 +39,10 @@ class Pairs(NamedTuple):
         """Return the pairs of a mask, of indices or of a slice."""
         return Pairs(*(field[which] for field in self))
 
+    def at(self, *places: Place) -> np.ndarray:
+        """Return the pairs of these places, as a mask."""
+        return np.isin(self.place, places)
+
 
 def matrices(q: np.ndarray) -> np.ndarray:
     """R (n x 3 x 3) of unit quaternions (n x 4)."""
@@ -60,7 +61,7 @@ def product(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     return np.hstack((w * u - (v * r).sum(axis=1, keepdims=True), w * r + u * v + np.cross(v, r)))
 
 
-def made(place: str, q: np.ndarray, axis: np.ndarray, cosine: Numbers, sine: Numbers) -> Pairs:
+def made(place: Place, q: np.ndarray, axis: np.ndarray, cosine: Numbers, sine: Numbers) -> Pairs:
     """Pairs from q (n x 4), axes of any length (n x 3), and the functions of half the angle.
 
     T = I + 2 c s K + 2 s^2 K^2 with K = [k x]: near 180° and at it every element is right to an ulp, and T symmetric.
@@ -112,7 +113,7 @@ def drawn_orientations(rng: np.random.Generator, count: int) -> np.ndarray:
     return kept / np.sqrt((kept * kept).sum(axis=1))[:, None]
 
 
-def at_angles(place: str, rng: np.random.Generator, angles: np.ndarray) -> Pairs:
+def at_angles(place: Place, rng: np.random.Generator, angles: np.ndarray) -> Pairs:
     """One pair an angle, from drawn orientations about drawn axes."""
     count = len(angles)
     return made(
@@ -120,7 +121,7 @@ def at_angles(place: str, rng: np.random.Generator, angles: np.ndarray) -> Pairs
     )
 
 
-def at_decades(place: str, rng: np.random.Generator, is_near_180: bool) -> Pairs:
+def at_decades(place: Place, rng: np.random.Generator, is_near_180: bool) -> Pairs:
     """1, 2 and 5 times every power of ten from 10^-12 to 10^-1 rad: of the angle, or of what lacks to 180°."""
     lengths = np.array([times * 10.0**-decade for decade in range(12, 0, -1) for times in (1, 2, 5)])
     axes = np.vstack((CUBE_AXES[:12], drawn_axes(rng, 4)))
@@ -132,8 +133,8 @@ def at_decades(place: str, rng: np.random.Generator, is_near_180: bool) -> Pairs
 def at_180(rng: np.random.Generator) -> Pairs:
     """Exactly 180°: about coordinate axes, axes with zero components and drawn ones; then from drawn orientations."""
     axes = np.vstack((CUBE_AXES, (3, 4, 0), (0, -5, 12), (8, 0, 15), drawn_axes(rng, 19)))
-    exact = [made(AT_180, np.tile(np.eye(4)[i], (len(axes), 1)), axes, 0.0, 1.0) for i in range(4)]
-    return joined(*exact, made(AT_180, drawn_orientations(rng, 48), drawn_axes(rng, 48), 0.0, 1.0))
+    exact = [made("at-180", np.tile(np.eye(4)[i], (len(axes), 1)), axes, 0.0, 1.0) for i in range(4)]
+    return joined(*exact, made("at-180", drawn_orientations(rng, 48), drawn_axes(rng, 48), 0.0, 1.0))
 
 
 def at_poles(rng: np.random.Generator) -> Pairs:
@@ -141,8 +142,8 @@ def at_poles(rng: np.random.Generator) -> Pairs:
     root = np.sqrt(0.5)
     axes = np.repeat(np.vstack((np.eye(3), -np.eye(3))), 12, axis=0)
     poles = np.hstack((np.full((len(axes), 1), root), root * axes))
-    goals = made(POLE, poles, drawn_axes(rng, len(axes)), np.cos(0.3), np.sin(0.3))
-    return joined(goals, made(POLE, drawn_orientations(rng, len(axes)), axes, root, root))
+    goals = made("pole", poles, drawn_axes(rng, len(axes)), np.cos(0.3), np.sin(0.3))
+    return joined(goals, made("pole", drawn_orientations(rng, len(axes)), axes, root, root))
 
 
 @functools.cache
@@ -154,14 +155,14 @@ def every_pair() -> Pairs:
     turned = np.repeat(cube[:6], len(CUBE_AXES), axis=0), np.tile(CUBE_AXES, (6, 1))
     root = np.sqrt(0.5)
     return joined(
-        at_angles(WIDE, rng, np.linspace(0.3, 2.8, 600)),
-        at_angles(CLOSE, rng, np.linspace(0.05, 0.3, 200)),
-        at_angles(FINE, rng, np.linspace(0.005, 0.05, 100)),
-        made(IDENTITY, whole, np.ones((len(whole), 3)), 1.0, 0.0),
-        at_decades(NEAR_IDENTITY, rng, is_near_180=False),
-        at_decades(NEAR_180, rng, is_near_180=True),
+        at_angles("wide", rng, np.linspace(0.3, 2.8, 600)),
+        at_angles("close", rng, np.linspace(0.05, 0.3, 200)),
+        at_angles("fine", rng, np.linspace(0.005, 0.05, 100)),
+        made("identity", whole, np.ones((len(whole), 3)), 1.0, 0.0),
+        at_decades("near-identity", rng, is_near_180=False),
+        at_decades("near-180", rng, is_near_180=True),
         at_180(rng),
         at_poles(rng),
-        made(CUBE, *turned, root, root),
-        made(CUBE, *turned, 0.5, np.sqrt(0.75)),
+        made("cube", *turned, root, root),
+        made("cube", *turned, 0.5, np.sqrt(0.75)),
     )

@@ -1,13 +1,12 @@
 """Reports on a function, for people and for machines."""
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from bench.audit.convention import Convention
-from bench.audit.fault import NOTE, Evidence, Finding
+from bench.audit.examined import NOTE, Evidence
+from bench.audit.faults import Finding
 
 
 class Report(NamedTuple):
@@ -49,11 +48,6 @@ class Report(NamedTuple):
             "convention": self.convention._asdict() if self.convention else None,
             "findings": [as_dict(one) for one in self.findings],
         }
-
-
-def file(finding: Finding) -> str:
-    """Return the file that explains it and looks for it."""
-    return f"bench/audit/faults/{finding.fault.name.replace('-', '_')}.py"
 
 
 def paragraph(name: str, finding: Finding) -> str:
@@ -99,7 +93,7 @@ def as_dict(finding: Finding) -> dict[str, Any]:
         "effect": found.effect or fault.effect,
         "cure": found.cure or fault.cure,
         "law": fault.law,
-        "file": file(finding),
+        "file": f"bench/audit/faults/{fault.name.replace('-', '_')}.py",
         "evidence": {key: plain(value) for key, value in evidence._asdict().items()} if evidence else None,
     }
 

@@ -27,21 +27,14 @@ FORMS = re.compile(r"([0-9.eE+-]+) *(|s|ms|us)")
 TORQUES = ("torque", "torque-no-model")
 
 
-class Duration(click.ParamType):
-    """A time: seconds, or a number with a unit, as 5ms."""
-
-    name = "TIME"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
-        """Return seconds."""
-        if isinstance(value, float):
-            return value
-        found, seconds = FORMS.fullmatch(str(value)), math.nan
-        with contextlib.suppress(ValueError):
-            seconds = float(found[1]) * UNITS[found[2]] if found else math.nan
-        if not 0.0 <= seconds < math.inf:
-            self.fail(f"'{value}' is no time of at least 0 (try: 5ms or 0.005)", param, ctx)
-        return seconds
+def time(word: object) -> float:
+    """Return the seconds of a time: a number of them, or one with a unit, as 5ms."""
+    found, seconds = FORMS.fullmatch(str(word)), math.nan
+    with contextlib.suppress(ValueError):
+        seconds = float(found[1]) * UNITS[found[2]] if found else math.nan
+    if not 0.0 <= seconds < math.inf:
+        raise click.BadParameter(f"'{word}' is no time of at least 0 (try: 5ms or 0.005)")
+    return seconds
 
 
 POSITIVE = click.FloatRange(0.0, min_open=True)
@@ -51,10 +44,10 @@ POSITIVE = click.FloatRange(0.0, min_open=True)
 @click.option("--kp", type=POSITIVE, default=100.0, show_default=True, help="Position gain over the inertia [1/s^2].")
 @click.option("--kv", type=POSITIVE, default=20.0, show_default=True, help="Velocity gain over the inertia [1/s].")
 @click.option("--bound", type=POSITIVE, default=math.inf, help="Greatest command [rad/s^2].", show_default="none")
-@click.option("--delay", type=Duration(), default=0.0, show_default=True, help="From measuring to the effect, as 5ms.")
+@click.option("--delay", type=time, default=0.0, show_default=True, help="From measuring to the effect, as 5ms.")
 @click.option("--rate", type=POSITIVE, default=1000.0, show_default=True, help="Control rate [Hz].")
 @click.option("--spin", type=click.FloatRange(0.0), default=0.0, show_default=True, help="Speed at the start [rad/s].")
-@click.option("--jump", type=Duration(), default=0.0, show_default="none", help="When the goal jumps, after the start.")
+@click.option("--jump", type=time, default=0.0, show_default="none", help="When the goal jumps, after the start.")
 @click.option("--inertia", type=POSITIVE, default=1.0, show_default=True, help="True inertia over the model's.")
 @click.option(
     "--unevenness",

@@ -69,9 +69,8 @@ def _compare(
         said = gates.compare_folders(*folders)
         differences = rows.compare(*folders)
     else:
-        means = gates.Means(rounds=0) if no_timing else gates.Means()
         with progress("steps", "checking out") as steps:
-            said = gates.compare_revisions(base, head, laws, steps.now, means=means)
+            said = gates.compare_revisions(base, head, laws, steps.now, 0 if no_timing else gates.ROUNDS)
         folded = " (which: --summary FILE)"
         differences = [f"{one.verdict}: {one.says}{folded * bool(one.more)}" for one in said.findings]
     if said.measures:

@@ -1,7 +1,5 @@
 """`export`: laws as code for your own controller."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import rich_click as click

@@ -6,7 +6,7 @@ program    the functions that a law calls, with every name resolved
 types      the kinds of expressions; reading infers them
 braces     the writer for languages with braces; layout: lines and comments
 heading    the heading of every file
-vectors    test vectors; c_tests: the program that runs them in C and C++
+vectors    test vectors
 language   the record of a language; languages/ has one file each
 browser    all laws, the plant and the judge as one script for the live page
 """

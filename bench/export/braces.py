@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 from bench.export.layout import INDENT, wrapped
-from bench.export.program import ARITHMETIC, COMPARISONS, INDEX, REAL, SIGNS, Kind, Tuple, Typed, arguments, place_of
+from bench.export.program import ARITHMETIC, COMPARISONS, INDEX, REAL, SIGNS, Kind, Tuple, arguments, place_of
+from bench.export.reading import Typed
 
 STRENGTH = {ast.Mult: 6, ast.Div: 6, ast.Add: 5, ast.Sub: 5}
 """How an operator binds: a call 9, a sign 7, a comparison 4, `and` 3, `or` 2, a choice 1, in every such language."""

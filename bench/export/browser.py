@@ -12,8 +12,8 @@ from collections.abc import Callable, Iterable, Iterator
 from bench.engines.ideal import angle_between, haversine, turned
 from bench.engines.rigid_body import step
 from bench.export.languages.js import COPYSIGN, write_function
-from bench.export.program import REAL, TRUTH, Kind, Tuple, Typed, numbers
-from bench.export.reading import Program
+from bench.export.program import REAL, TRUTH, Kind, Tuple, numbers
+from bench.export.reading import Program, Typed
 from bench.export.subject import GAINS, MATRIX
 from bench.law.contender import Contender
 from bench.law.inputs import Goal

@@ -131,30 +131,6 @@ def numbers(count: int) -> Tuple:
     return Tuple((REAL,) * count)
 
 
-class Typed(NamedTuple):
-    """A function for one list of kinds of its arguments: its unique name, its tree, and the kind of each expression.
-
-    calls: the function that each call calls. values: the value of each constant, by name.
-    """
-
-    name: str
-    node: ast.FunctionDef
-    summary: str
-    parameters: dict[str, Kind]
-    returns: Kind
-    kinds: dict[ast.AST, Any]
-    calls: dict[ast.Call, "Typed"]
-    values: dict[str, Any]
-    variables: dict[str, Kind]
-
-    @property
-    def identity(self) -> str | None:
-        """Return the name of the argument that the function returns as it is; None if it does anything else."""
-        last = self.node.body[-1]
-        value = last.value if isinstance(last, ast.Return) and len(self.node.body) == 1 else None
-        return value.id if isinstance(value, ast.Name) and value.id in self.parameters else None
-
-
 def arguments(node: ast.Call, names: tuple[str, ...] | list[str]) -> list[ast.expr]:
     """Return the arguments of a call in the order of the parameters."""
     named = {one.arg: one.value for one in node.keywords}

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from typing import Any
 
 from bench.base.errors import BadLaw
-from bench.export.program import INDEX, REAL, TRUTH, Function, Kind, Tuple, Typed, arguments, place_of, read_function
+from bench.export.program import INDEX, REAL, TRUTH, Function, Kind, Tuple, arguments, place_of, read_function
 from bench.law.scalar import PRIMITIVES
 
 CALLS_OF_LIBM = {"sin", "cos", "acos", "atan2"}
@@ -31,10 +31,10 @@ class Program:
         self._names: set[str] = set()
         self.read = functools.cache(read_function)
 
-    def add(self, function: Callable, kinds: tuple[Kind, ...]) -> Typed:
+    def add(self, function: Callable, kinds: tuple[Kind, ...]) -> "Typed":
         """Add a function for these kinds of its arguments, and all that it calls."""
         if (function, kinds) not in self._done:
-            self._done[function, kinds] = typed = _Reading(self, self.read(function), kinds).typed()
+            self._done[function, kinds] = typed = Typed(self, self.read(function), kinds)
             if typed.identity is None:
                 self.functions.append(typed)
         return self._done[function, kinds]
@@ -78,31 +78,35 @@ def kind_of_value(value: Any) -> Kind:
     return TRUTH if isinstance(value, bool) else REAL
 
 
-class _Reading:
-    """The inference of one function, given the kinds of its arguments."""
+class Typed:
+    """A function for one list of kinds of its arguments: its unique name, its tree, and the kind of each expression.
+
+    parameters, variables: the kind of each, by name. values: that of each constant. calls: the function that each call
+    calls. returns: the kind of the result. identity: the argument that it returns as it is; None if it does anything
+    else.
+    """
 
     def __init__(self, program: Program, function: Function, kinds: tuple[Kind, ...]):
         if len(kinds) != len(function.parameters):
             raise BadLaw(f"{function.name}: called with {len(kinds)} arguments, it takes {len(function.parameters)}")
-        self.program, self.function = program, function
+        self.program, self.function, self.summary = program, function, function.summary
         self.node = copy.deepcopy(function.node)
         self.parameters = dict(zip(function.parameters, kinds, strict=True))
         self.values = {name: value for name, value in function.names.items() if not callable(value)}
         self.variables: dict[str, Kind] = {}
-        self.kinds: dict[ast.AST, Kind] = {}
+        self.kinds: dict[ast.AST, Any] = {}
         self.calls: dict[ast.Call, Typed] = {}
-        self.returns: list[Kind] = []
-
-    def typed(self) -> Typed:
-        """Return the function with the kinds of its expressions."""
+        self.results: list[Kind] = []
         for statement in self.node.body:
-            self.statement(statement)
-        if not self.returns or any(one != self.returns[0] for one in self.returns):
-            raise BadLaw(f"{self.function.name}: every path returns the same kind of value; given: {self.returns}")
-        known = self.parameters, self.returns[0], self.kinds, self.calls, self.values, self.variables
-        return Typed(self.program.name(self.function.name), self.node, self.function.summary, *known)
+            self._statement(statement)
+        if not self.results or any(one != self.results[0] for one in self.results):
+            raise BadLaw(f"{function.name}: every path returns the same kind of value; given: {self.results}")
+        self.name, self.returns = program.name(function.name), self.results[0]
+        first = self.node.body[0]
+        value = first.value if isinstance(first, ast.Return) else None
+        self.identity = value.id if isinstance(value, ast.Name) and value.id in self.parameters else None
 
-    def statement(self, node: ast.stmt) -> None:
+    def _statement(self, node: ast.stmt) -> None:
         if isinstance(node, ast.Assign):
             kind = self.of(node.value)
             for target in node.targets:
@@ -111,19 +115,19 @@ class _Reading:
             self.of(node.value)
             self.bind(node.target, REAL)
         elif isinstance(node, ast.Return) and node.value is not None:
-            self.returns.append(self.of(node.value))
+            self.results.append(self.of(node.value))
         elif isinstance(node, ast.If):
             self.of(node.test)
             for one in (*node.body, *node.orelse):
-                self.statement(one)
+                self._statement(one)
         elif isinstance(node, ast.For) and isinstance(node.iter, ast.Call):
             for bound in node.iter.args:
                 self.index(bound)
             self.bind(node.target, INDEX)
             for one in node.body:
-                self.statement(one)
+                self._statement(one)
         elif not isinstance(node, ast.Pass | ast.Break | ast.Continue):
-            raise self.outside(node)
+            raise self._outside(node)
 
     def bind(self, target: ast.expr, kind: Kind) -> None:
         """Give a variable its kind, which it keeps."""
@@ -138,13 +142,13 @@ class _Reading:
             for one, item in zip(target.elts, kind.items, strict=True):
                 self.bind(one, item)
         else:
-            raise self.outside(target)
+            raise self._outside(target)
 
     def of(self, node: ast.expr) -> Kind:
         """Infer and record the kind of an expression."""
         kind = self.infer(node)
         if kind is None:
-            raise self.outside(node)
+            raise self._outside(node)
         self.kinds[node] = kind
         return kind
 
@@ -169,7 +173,7 @@ class _Reading:
             case ast.Tuple(elts=items):
                 return Tuple(tuple(map(self.of, items)))
             case ast.Call(func=ast.Name(id=name)):
-                return self.call(node, self.function.names.get(name))
+                return self._call(node, self.function.names.get(name))
             case ast.BinOp(left=left, right=right):
                 return REAL if {self.of(left), self.of(right)} == {REAL} else None
             case ast.UnaryOp(op=sign, operand=operand):
@@ -191,10 +195,10 @@ class _Reading:
             self.index(node.left)
             self.index(node.right)
         elif place_of(node) is None and not (isinstance(node, ast.Name) and self.of(node) == INDEX):
-            raise self.outside(node)
+            raise self._outside(node)
         self.kinds[node] = INDEX
 
-    def call(self, node: ast.Call, value: Any) -> Kind | None:
+    def _call(self, node: ast.Call, value: Any) -> Kind | None:
         if value in PRIMITIVES:
             return REAL if [self.of(one) for one in node.args] else None
         if isinstance(value, type) and value is not range:
@@ -206,6 +210,6 @@ class _Reading:
         self.calls[node] = self.program.add(value, kinds)
         return self.calls[node].returns
 
-    def outside(self, node: ast.AST) -> BadLaw:
+    def _outside(self, node: ast.AST) -> BadLaw:
         line = ast.unparse(node).splitlines()[0]
         return BadLaw(f"{self.function.name}: `{line}` cannot be translated (bench/law/scalar.py has the dialect)")

@@ -128,9 +128,9 @@ def kept(folder: Path) -> pd.DataFrame:
     return read(folder, "situations") if is_there else table_of("situations").schema().empty_table().to_pandas()
 
 
-def keep(rows: pd.DataFrame, folder: Path, **about: object) -> None:
+def keep(rows: pd.DataFrame, folder: Path, drawn: int, seed: int) -> None:
     """Write rows with their provenance, and remove the runs that they came from."""
-    keep_table("situations", folder / "situations.parquet", rows, **about)
+    keep_table("situations", folder / "situations.parquet", rows, drawn=drawn, seed=seed)
     for path in folder.glob("round-*"):
         shutil.rmtree(path)
 
@@ -140,11 +140,11 @@ def main() -> None:
     words = make_parser("situations", __doc__, ("map", "held-out"), workers=2).parse_args()
     wanted = words.only or ["map"]
     if "map" in wanted:
-        keep(make_map(words.workers, STUDY), STUDY, drawn=DRAWN, seed=SEED)
+        keep(make_map(words.workers, STUDY), STUDY, DRAWN, SEED)
     if "held-out" in wanted:
         folder = STUDY / "held-out"
         rows = run_lacking(kept(folder), draw(HELD_OUT, HELD_OUT_SEED, NAMES), folder / "round-0", words.workers)
-        keep(rows, folder, drawn=HELD_OUT, seed=HELD_OUT_SEED)
+        keep(rows, folder, HELD_OUT, HELD_OUT_SEED)
 
 
 if __name__ == "__main__":

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from bench.audit.convention import FORMS
 from bench.audit.faults import every_fault
-from bench.audit.forms import FORMS
-from bench.audit.pairs import AT_180, NEAR_180, NEAR_IDENTITY, every_pair
+from bench.audit.pairs import every_pair
 from bench.law.contenders.registry import contenders
 
 FAULTS = every_fault()
@@ -49,10 +49,10 @@ def test_relative_rotation_is_exact_where_digits_matter():
     """The product R_d R^T of a diagonal R rounds nothing: 180° rotations stay symmetric, small angles exact."""
     of = every_pair()
     exact = np.abs(of.R).max(axis=(1, 2)) == np.abs(of.R).sum(axis=(1, 2)) / 3.0
-    half = of.chosen(exact & (of.place == AT_180))
+    half = of.chosen(exact & of.at("at-180"))
     X = half.R_d @ half.R.swapaxes(1, 2)
     np.testing.assert_array_equal(X, X.swapaxes(1, 2))
-    small = of.chosen(of.place == NEAR_IDENTITY)
+    small = of.chosen(of.at("near-identity"))
     X = small.R_d @ small.R.swapaxes(1, 2)
     sine = 0.5 * np.stack((X[:, 2, 1] - X[:, 1, 2], X[:, 0, 2] - X[:, 2, 0], X[:, 1, 0] - X[:, 0, 1]), axis=1)
     error = np.linalg.norm(sine - np.sin(small.angle)[:, None] * small.axis, axis=1)
@@ -60,7 +60,7 @@ def test_relative_rotation_is_exact_where_digits_matter():
 
 
 def test_distance_to_180_keeps_its_digits():
-    of = every_pair().chosen(every_pair().place == NEAR_180)
+    of = every_pair().chosen(every_pair().at("near-180"))
     np.testing.assert_allclose(of.distance.min(), 1e-12, rtol=1e-12)
 
 

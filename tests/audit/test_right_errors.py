@@ -6,8 +6,8 @@ from support.planted import PLANTED, audited
 from support.right_errors import RIGHT, scipy_in_base
 
 from bench.audit import audit
-from bench.audit.fault import NOTE
-from bench.audit.report import file
+from bench.audit.examined import NOTE
+from bench.audit.report import as_dict
 from bench.base.provenance import ROOT
 
 NAMED = pytest.mark.parametrize(("function", "convention"), RIGHT.values(), ids=RIGHT)
@@ -55,4 +55,4 @@ def test_every_finding_names_the_file_that_looks_for_it():
     findings = [one for function, _ in list(PLANTED.values())[::4] for one in audited(function).findings]
     assert findings
     for one in findings:
-        assert one.fault.title in (ROOT / file(one)).read_text(encoding="utf-8")
+        assert one.fault.title in (ROOT / as_dict(one)["file"]).read_text(encoding="utf-8")

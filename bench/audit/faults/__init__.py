@@ -10,8 +10,45 @@ import importlib
 import inspect
 import pkgutil
 import re
+from collections.abc import Callable
+from typing import NamedTuple
 
-from bench.audit.fault import Fault
+from bench.audit.examined import FAULT, Found
+
+
+class Fault(NamedTuple):
+    """One kind of fault: what the docstring of its file says of it, and its `find`.
+
+    Args:
+        title: what it is.
+        effect: what it does to a controller.
+        cure: what to do.
+        law: the name of a regulator that has it right.
+        unless: names of faults that explain this one: with any of them it is not reported.
+        name: of the file, with dashes: word in reports and on the command line, anchor on the page.
+        find: examined -> Found, or None.
+    """
+
+    title: str
+    effect: str
+    cure: str
+    law: str = "rotation-vector"
+    unless: tuple[str, ...] = ()
+    name: str = ""
+    find: Callable = print
+
+
+class Finding(NamedTuple):
+    """A fault of a function."""
+
+    fault: Fault
+    found: Found
+    is_accepted: bool = False
+
+    @property
+    def is_fault(self) -> bool:
+        """Tell whether it makes the audit fail."""
+        return self.found.severity == FAULT and not self.is_accepted
 
 
 @functools.cache

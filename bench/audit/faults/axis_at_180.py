@@ -7,10 +7,8 @@ unless: digits-near-180, euler-angles, misaligned, axis-clip
 
 import numpy as np
 
-from bench.audit.examined import Examined
-from bench.audit.fault import Found
+from bench.audit.examined import Examined, Found
 from bench.audit.faults.dead_at_180 import ZERO
-from bench.audit.pairs import AT_180
 
 ASTRAY_RAD = 0.01
 """Angle to the axis: a hundred thousand times what a root of rounding leaves, 1e-8."""
@@ -19,7 +17,7 @@ ASTRAY_RAD = 0.01
 def find_known(examined: Examined) -> Found | None:
     """At 180° either direction along the axis is right, and nothing else."""
     alive = examined.size > ZERO * examined.slope * np.pi
-    here = examined.at(AT_180) & np.isfinite(examined.apart) & alive
+    here = examined.at("at-180") & np.isfinite(examined.apart) & alive
     bad = here & (examined.apart > ASTRAY_RAD)
-    text = f"{bad.sum()} of {examined.at(AT_180).sum()} rotations by 180° are answered with another axis"
+    text = f"{bad.sum()} of {examined.at('at-180').sum()} rotations by 180° are answered with another axis"
     return examined.first(bad, text)

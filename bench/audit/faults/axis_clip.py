@@ -6,9 +6,7 @@ cure: scale the whole vector down to the limit
 
 import numpy as np
 
-from bench.audit.examined import Examined
-from bench.audit.fault import Found
-from bench.audit.pairs import CLOSE, POLE, WIDE
+from bench.audit.examined import Examined, Found
 
 FEWEST = 10
 """Answers that share their largest component: of drawn pairs no two do."""
@@ -18,7 +16,7 @@ BENT_RAD = 1e-3
 
 def find_known(examined: Examined) -> Found | None:
     """Many answers have the same largest component, and leave the axis."""
-    here = np.flatnonzero(examined.at(WIDE, CLOSE, POLE) & np.isfinite(examined.e).all(axis=1))
+    here = np.flatnonzero(examined.at("wide", "close", "pole") & np.isfinite(examined.e).all(axis=1))
     largest = np.abs(examined.e[here]).max(axis=1)
     limit = float(largest.max(initial=0.0))
     at_limit = here[np.abs(largest - limit) <= SAME * limit]

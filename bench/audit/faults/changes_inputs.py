@@ -5,8 +5,7 @@ cure: copy what is changed inside: R = R.copy()
 law: rotation-matrix
 """
 
-from bench.audit.examined import Examined
-from bench.audit.fault import Found
+from bench.audit.examined import Examined, Found
 
 
 def find(examined: Examined) -> Found | None:

@@ -8,9 +8,7 @@ unless: not-a-number, raises
 
 import numpy as np
 
-from bench.audit.examined import Examined
-from bench.audit.fault import FAULT, NOTE, Found
-from bench.audit.pairs import AT_180
+from bench.audit.examined import FAULT, NOTE, Examined, Found
 
 ZERO = 1e-6
 """Share of slope times pi: six decades below the requested error; rounding leaves 1e-15, a scalar part of it 1e-8."""
@@ -20,7 +18,7 @@ BEFORE_RAD = 0.01
 
 def find_known(examined: Examined) -> Found | None:
     """|e| is zero at 180°; a property of its form if e dies away before, as sin(theta) does."""
-    here = examined.at(AT_180)
+    here = examined.at("at-180")
     dead = here & (examined.size <= ZERO * examined.slope * np.pi)
     near = examined.size[np.abs(examined.pairs.distance - BEFORE_RAD) < 1e-9]
     is_form = bool(np.nanmedian(near) < TWENTIETH * examined.slope * np.pi)

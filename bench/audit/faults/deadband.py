@@ -7,9 +7,7 @@ unless: single-precision
 
 import numpy as np
 
-from bench.audit.examined import Examined
-from bench.audit.fault import Found
-from bench.audit.pairs import CLOSE, FINE, NEAR_IDENTITY
+from bench.audit.examined import Examined, Found
 
 SMALLEST_RAD = 1e-7
 """A dead band below this is none to a robot; the arc cosine's zero ends at 2e-8, and is a loss of digits."""
@@ -18,7 +16,7 @@ FEWEST = 10
 
 def find_known(examined: Examined) -> Found | None:
     """e is exactly zero, or a component of it, up to an angle; beyond it is not."""
-    small = examined.at(NEAR_IDENTITY, FINE, CLOSE)
+    small = examined.at("near-identity", "fine", "close")
     zero = small & (examined.pairs.angle >= SMALLEST_RAD) & (examined.size == 0.0)
     if zero.sum() < FEWEST:
         return None

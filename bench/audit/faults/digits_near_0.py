@@ -7,9 +7,7 @@ unless: single-precision, deadband, euler-angles, norm-clip, axis-clip, long-way
 
 import numpy as np
 
-from bench.audit.examined import COUNT_RAD, Examined
-from bench.audit.fault import NOTE, Found
-from bench.audit.pairs import IDENTITY, NEAR_IDENTITY
+from bench.audit.examined import COUNT_RAD, NOTE, Examined, Found
 
 LARGEST_RAD = 0.01
 LOST = 1e-9
@@ -22,7 +20,7 @@ farther away is another fault."""
 def find_known(examined: Examined) -> Found | None:
     """|e - truth| of the smallest rotations; a note if no encoder shows it."""
     angle = examined.pairs.angle
-    here = examined.at(NEAR_IDENTITY, IDENTITY) & (angle <= LARGEST_RAD)
+    here = examined.at("near-identity", "identity") & (angle <= LARGEST_RAD)
     # Of a size of its own nothing can be said along the axis.
     off = examined.error if examined.form else examined.size * np.sin(examined.apart)
     error = np.where(here, np.nan_to_num(off), 0.0) / examined.slope

@@ -7,16 +7,14 @@ unless: single-precision, misaligned, euler-angles, axis-clip, long-way
 
 import numpy as np
 
-from bench.audit.examined import COUNT_RAD, Examined
-from bench.audit.fault import Found
-from bench.audit.pairs import NEAR_180
+from bench.audit.examined import COUNT_RAD, Examined, Found
 
 FARTHEST_RAD = 0.1
 
 
 def find_known(examined: Examined) -> Found | None:
     """Find what is across the axis; and along it, if the size is right 0.1 rad before."""
-    here = examined.at(NEAR_180) & (examined.size > 0.0)
+    here = examined.at("near-180") & (examined.size > 0.0)
     error = np.fmin(examined.size, np.pi * examined.slope) * np.sin(examined.apart)
     is_endless = examined.form == "gibbs"  # at 180°, where no digit of its size can be kept
     before = examined.error[here & (examined.pairs.distance > FARTHEST_RAD)]

@@ -5,8 +5,7 @@ cure: swap the arguments, or change the sign
 unless: transpose
 """
 
-from bench.audit.examined import Examined
-from bench.audit.fault import Found
+from bench.audit.examined import Examined, Found
 
 
 def find(examined: Examined) -> Found | None:

@@ -7,9 +7,7 @@ law: quaternion-shortest
 
 import numpy as np
 
-from bench.audit.examined import Examined, evaluate_at, inputs
-from bench.audit.fault import Evidence, Found
-from bench.audit.pairs import WIDE
+from bench.audit.examined import Evidence, Examined, Found, evaluate, inputs
 
 OTHERWISE = 1e-3
 """Least difference of angles; rounding leaves 1e-16, single precision 1e-7."""
@@ -19,10 +17,10 @@ def find(examined: Examined) -> Found | None:
     """f(q, -q_d) and f(-q, q_d) are not f(q, q_d)."""
     if examined.takes == "matrix" or not examined.convention:
         return None
-    here = np.flatnonzero(examined.at(WIDE))[::4]
+    here = np.flatnonzero(examined.at("wide"))[::4]
     now, goal = inputs(examined.takes, examined.pairs.chosen(here))
     for other, given in (("-q_d", (now, -goal)), ("-q", (-now, goal))):
-        said = evaluate_at(examined.function, *given).e
+        said = evaluate(examined.function, *given).e
         apart = np.linalg.norm(said - examined.e[here], axis=1)
         bad = ~(apart <= OTHERWISE * examined.slope * examined.pairs.angle[here])
         if bad.any():

@@ -8,8 +8,7 @@ unless: transpose
 
 from collections.abc import Iterator
 
-from bench.audit.examined import Examined, Model, explanation, rotated
-from bench.audit.fault import Found
+from bench.audit.examined import Examined, Found, Model, explanation, rotated
 from bench.audit.pairs import Pairs
 
 

@@ -7,8 +7,7 @@ unless: long-way, deadband, euler-angles
 
 import numpy as np
 
-from bench.audit.examined import Examined, inputs
-from bench.audit.fault import Evidence, Found
+from bench.audit.examined import Evidence, Examined, Found, inputs
 from bench.audit.pairs import CUBE_AXES, Pairs, diagonal, drawn_axes, drawn_orientations, made
 
 SEED = 11

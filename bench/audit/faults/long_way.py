@@ -7,10 +7,8 @@ law: quaternion-shortest
 
 import numpy as np
 
-from bench.audit.euler import SAME_RAD, find_angles
-from bench.audit.examined import Examined
-from bench.audit.fault import Found
-from bench.audit.pairs import AT_180, IDENTITY, NEAR_180, WIDE
+from bench.audit.examined import Examined, Found
+from bench.audit.faults.euler_angles import SAME_RAD, find_angles
 
 AGAINST_RAD = 0.1
 """Between an answer and the axis the wrong way; rounding bends no answer so."""
@@ -19,13 +17,13 @@ AGAINST_RAD = 0.1
 def find(examined: Examined) -> Found | None:
     """e points against the axis for some pairs, or an angle is more than pi."""
     if examined.convention:
-        here = ~examined.at(AT_180, IDENTITY, NEAR_180)
+        here = ~examined.at("at-180", "identity", "near-180")
         with np.errstate(invalid="ignore"):
             bad = here & (examined.apart > np.pi - AGAINST_RAD)
             if (here & (examined.apart > AGAINST_RAD)).sum() > 2 * bad.sum():
                 return None  # most that leave the axis point anywhere
     elif (angles := find_angles(examined)) is not None:
-        here, bad = examined.at(WIDE), np.zeros(len(examined.e), dtype=bool)
+        here, bad = examined.at("wide"), np.zeros(len(examined.e), dtype=bool)
         off = np.abs(examined.e[here] - angles.values)
         outside = (np.abs(examined.e[here]) > np.pi + SAME_RAD) & (np.minimum(off, np.abs(off - 2 * np.pi)) < SAME_RAD)
         bad[here] = outside.any(axis=1)

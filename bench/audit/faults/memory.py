@@ -7,9 +7,7 @@ law: quaternion-shortest
 
 import numpy as np
 
-from bench.audit.examined import Examined, evaluate
-from bench.audit.fault import Found
-from bench.audit.pairs import CUBE, WIDE
+from bench.audit.examined import Examined, Found, evaluate, inputs
 
 DIFFERENCE = 1e-12
 """Share of slope times a radian; one function of the same numbers has none."""
@@ -18,12 +16,12 @@ DIFFERENCE = 1e-12
 def find(examined: Examined) -> Found | None:
     """Call the function again for some pairs, in reverse order, and compare; then one that was loaded afresh.
 
-    CUBE has many goals for each R: a value that is kept for an R, and never computed again, shows there.
+    "cube" has many goals for each R: a value that is kept for an R, and never computed again, shows there.
     """
-    here = np.flatnonzero(examined.at(WIDE, CUBE))[::-10]
+    here = np.flatnonzero(examined.at("wide", "cube"))[::-10]
     first, again = examined.e[here], examined.evaluate(examined.pairs.chosen(here)).e
     if examined.fresh and np.array_equal(first, again, equal_nan=True):
-        again = evaluate(examined.fresh(), examined.takes, examined.pairs.chosen(here)).e
+        again = evaluate(examined.fresh(), *inputs(examined.takes, examined.pairs.chosen(here))).e
     differs = np.linalg.norm(again - first, axis=1) > DIFFERENCE * examined.slope
     if not differs.any():
         return None

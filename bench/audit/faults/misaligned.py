@@ -8,9 +8,7 @@ unless: quaternion-order, transpose, frame, euler-angles, raises, not-a-number, 
 
 import numpy as np
 
-from bench.audit.examined import Examined
-from bench.audit.fault import Found
-from bench.audit.pairs import CLOSE, WIDE
+from bench.audit.examined import Examined, Found
 
 BENT_RAD = 1e-3
 """Angle to the axis: half a thousandth of it is what single precision leaves nowhere in these places."""
@@ -18,7 +16,7 @@ BENT_RAD = 1e-3
 
 def find(examined: Examined) -> Found | None:
     """Away from 0 and 180° answers leave the axis."""
-    here = np.flatnonzero(examined.at(WIDE, CLOSE))
+    here = np.flatnonzero(examined.at("wide", "close"))
     if not examined.convention:
         return Found("nothing known explains its answers: they lie along no axis", examined.evidence(int(here[0])))
     angle = np.nan_to_num(examined.apart[here])

@@ -7,9 +7,7 @@ unless: raises, not-a-number, deadband, jump, memory, single-precision
 
 import numpy as np
 
-from bench.audit.examined import Examined, evaluate_at, inputs
-from bench.audit.fault import NOTE, Evidence, Found
-from bench.audit.pairs import IDENTITY, NEAR_IDENTITY, WIDE
+from bench.audit.examined import NOTE, Evidence, Examined, Found, evaluate, inputs
 
 OFF = 1e-6
 """What single precision, a sensor or an hour of integration leaves."""
@@ -19,13 +17,13 @@ AMPLIFIED = 1e-4
 
 def find_known(examined: Examined) -> Found | None:
     """Both inputs longer or shorter by a millionth: no number, or another error; a note if it refuses them."""
-    places = (examined.at(IDENTITY), examined.at(NEAR_IDENTITY, WIDE))
+    places = (examined.at("identity"), examined.at("near-identity", "wide"))
     usable = np.isfinite(examined.e).all(axis=1)
     here = np.concatenate([np.flatnonzero(which & usable)[::step] for which, step in zip(places, (1, 20), strict=True)])
     now, goal = inputs(examined.takes, examined.pairs.chosen(here))
     refused = None
     for scale in (1.0 + OFF, 1.0 - OFF):
-        said = evaluate_at(examined.function, scale * now, scale * goal)
+        said = evaluate(examined.function, scale * now, scale * goal)
         for i, reason in enumerate(said.raised):
             right = examined.e[here[i]]
             evidence = Evidence(scale * now[i], scale * goal[i], reason or said.e[i], right)

@@ -6,8 +6,7 @@ cure: divide by no length that can be zero; keep arguments of acos and sqrt in t
 
 import numpy as np
 
-from bench.audit.examined import Examined
-from bench.audit.fault import Found
+from bench.audit.examined import Examined, Found
 
 
 def find(examined: Examined) -> Found | None:

@@ -10,8 +10,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from bench.audit.examined import Examined, Model, explanation, inputs
-from bench.audit.fault import Found
+from bench.audit.examined import Examined, Found, Model, explanation, inputs
 from bench.audit.pairs import Pairs, product
 
 ORDERS = ("wxyz", "xyzw")

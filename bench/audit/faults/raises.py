@@ -6,8 +6,7 @@ cure: answer every pair of orientations: there is an error for each
 
 import numpy as np
 
-from bench.audit.examined import Examined
-from bench.audit.fault import Found
+from bench.audit.examined import Examined, Found
 
 
 def find(examined: Examined) -> Found | None:

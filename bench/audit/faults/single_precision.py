@@ -6,9 +6,7 @@ cure: compute the difference of two orientations in double precision; what follo
 
 import numpy as np
 
-from bench.audit.examined import Examined
-from bench.audit.fault import FAULT, Found
-from bench.audit.pairs import CLOSE, WIDE
+from bench.audit.examined import FAULT, Examined, Found
 
 LEAST, MOST = 1e-9, 1e-4
 """Across the axis, of the size, where double precision has 1e-16 and single precision 6e-8 times a few operations.
@@ -19,7 +17,7 @@ Along it a small constant in a denominator leaves as much. Half precision leaves
 
 def find(examined: Examined) -> Found | None:
     """Off the axis by as much as single precision leaves where nothing is difficult."""
-    here = np.flatnonzero(examined.at(WIDE, CLOSE))
+    here = np.flatnonzero(examined.at("wide", "close"))
     across = np.sin(examined.apart[here])
     fits = across < MOST
     if not examined.convention or fits.sum() < len(here) / 5 or np.median(across[fits]) < LEAST:

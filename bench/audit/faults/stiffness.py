@@ -8,9 +8,7 @@ unless: euler-angles
 
 import numpy as np
 
-from bench.audit.examined import Examined
-from bench.audit.fault import FAULT, Found
-from bench.audit.pairs import NEAR_IDENTITY
+from bench.audit.examined import FAULT, Examined, Found
 
 DEVIATION = 1e-3
 """Share of the slope: no gain is set better than to a thousandth."""
@@ -31,7 +29,7 @@ def find(examined: Examined) -> Found | None:
     if not examined.convention or abs(examined.slope / examined.stated.stiffness - 1.0) <= DEVIATION:
         return None
     if not examined.form:
-        here = examined.at(NEAR_IDENTITY) & (examined.pairs.angle >= LEAST_RAD) & (examined.pairs.angle <= MOST_RAD)
+        here = examined.at("near-identity") & (examined.pairs.angle >= LEAST_RAD) & (examined.pairs.angle <= MOST_RAD)
         felt = examined.size[here] / examined.pairs.angle[here]
         if not felt.all():
             return None  # a dead band: there is no slope to speak of
@@ -39,7 +37,7 @@ def find(examined: Examined) -> Found | None:
             text = f"|e|/theta is between {felt.min():.4g} and {felt.max():.4g} near the goal: no gain is set by it"
             return Found(text, examined.evidence(int(np.flatnonzero(here)[np.argmax(felt)]), False))
     ratio = examined.slope / examined.stated.stiffness
-    i = int(np.flatnonzero(examined.at(NEAR_IDENTITY) & (examined.pairs.angle > LARGEST_RAD))[0])
+    i = int(np.flatnonzero(examined.at("near-identity") & (examined.pairs.angle > LARGEST_RAD))[0])
     evidence = examined.evidence(i, False)._replace(right=examined.e[i] / ratio)
     effect = f"the robot is {ratio:.4g} times as stiff as set, and damped {ratio**-0.5:.2g} times as much for it"
     if abs(ratio * np.radians(1.0) - 1.0) <= DEVIATION:

@@ -7,8 +7,7 @@ law: rotation-matrix
 
 from collections.abc import Iterator
 
-from bench.audit.examined import Examined, Model, axis_of, explanation
-from bench.audit.fault import Found
+from bench.audit.examined import Examined, Found, Model, axis_of, explanation
 from bench.audit.pairs import Pairs
 
 

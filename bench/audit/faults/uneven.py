@@ -8,9 +8,7 @@ unless: norm-clip, axis-clip, deadband, jump, long-way, misaligned, euler-angles
 
 import numpy as np
 
-from bench.audit.examined import Examined
-from bench.audit.fault import Found
-from bench.audit.pairs import AT_180, IDENTITY, NEAR_180
+from bench.audit.examined import Examined, Found
 
 DEVIATION = 1e-3
 """Share of the size that the form has: single precision leaves 1e-6."""
@@ -23,7 +21,7 @@ def find(examined: Examined) -> Found | None:
     if not examined.form:
         return None
     right = np.linalg.norm(examined.truth, axis=1)
-    here = ~examined.at(AT_180, IDENTITY, NEAR_180) & (examined.pairs.angle > SMALLEST_RAD)
+    here = ~examined.at("at-180", "identity", "near-180") & (examined.pairs.angle > SMALLEST_RAD)
     with np.errstate(invalid="ignore", divide="ignore"):
         ratio = examined.size / right
         bad = here & (np.abs(ratio - 1.0) > DEVIATION)

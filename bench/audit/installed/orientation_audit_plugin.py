@@ -4,8 +4,6 @@ The wheel puts this file beside `bench`, under a name that no other project has.
 project under test may have a package `bench` of its own. Without the option it does nothing.
 """
 
-from __future__ import annotations
-
 import importlib.util
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Which law to use, from the map of situations; robots that the map does not cover, and laws compared in the run."""
 
-from __future__ import annotations
-
 from bench.cli.options import REFERENCE
 from bench.cli.paragraphs import Paragraph
 from bench.findings.selection import regions

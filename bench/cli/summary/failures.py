@@ -1,7 +1,5 @@
 """What failed in a run, part by part. Settled a of b: of b episodes a settled; in contact, done a of b poses."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import pandas as pd

@@ -1,7 +1,5 @@
 """The whole summary: the answer first, as soon as it is known, for the claims may take seconds."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 

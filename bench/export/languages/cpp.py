@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 
-from bench.export.c_tests import Calls, write_program
 from bench.export.entries import Entry
 from bench.export.heading import RESET, UNFUSED, heading
 from bench.export.language import Language, write_arguments
@@ -82,7 +81,9 @@ def write_test(subject: Subject) -> str:
         found = "result[0]" if entry.returns.kind == "number" else f"Eigen::Map<{held}>{{result}}"
         return f"{found} = {name}::{entry.name}({arguments});"
 
-    return write_program(subject, Calls(f"{subject.identifier}.hpp", passed, call, f"{name}::State", "state.reset()"))
+    return c.write_program(
+        subject, c.Calls(f"{subject.identifier}.hpp", passed, call, f"{name}::State", "state.reset()")
+    )
 
 
 COMPILE = (

@@ -10,7 +10,7 @@ from bench.export.entries import Entry
 from bench.export.heading import BY_ROWS, RESET, heading
 from bench.export.language import Language, write_arguments
 from bench.export.layout import INDENT, read_template, slashes
-from bench.export.program import Typed
+from bench.export.reading import Typed
 from bench.export.subject import Subject, translated
 
 WORDS = """

@@ -9,7 +9,7 @@ from bench.export.entries import Entry
 from bench.export.heading import RESET, WIDTH, heading
 from bench.export.language import Language, write_arguments
 from bench.export.layout import INDENT, read_template, wrapped
-from bench.export.program import Typed
+from bench.export.reading import Typed
 from bench.export.subject import Subject, translated
 from bench.law.scalar import PRIMITIVES
 

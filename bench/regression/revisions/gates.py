@@ -2,27 +2,17 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import NamedTuple
 
 from bench.base.errors import BadLaw, BadResults
 from bench.findings.judged import judged
 from bench.findings.judgement import Judgement
 from bench.law.contenders.described_law import described
-from bench.regression.revisions import checkouts, exact
+from bench.regression.revisions import commits, exact
 from bench.regression.revisions.comparison import IMPROVEMENT, REGRESSION, Comparison, Finding, Gate, make_gate
 from bench.regression.revisions.measures import compare_measures
 from bench.regression.revisions.timing import ROUNDS, SAME, SLOWER, Side, SideFailed, Timed, compare_times
 
 EXACT, OPERATIONS, TIME, FAULTS = exact.EXACT, exact.OPERATIONS, "time", "faults"
-
-
-class Means(NamedTuple):
-    """The functions that run, time and judge a side, so that tests can give others; rounds: 0 leaves time out."""
-
-    run_side: Callable = checkouts.run_side
-    compare_times: Callable = compare_times
-    judge: Callable[..., list[Judgement]] = judged
-    rounds: int = ROUNDS
 
 
 def compare_folders(base: Path, head: Path) -> Comparison:
@@ -32,27 +22,25 @@ def compare_folders(base: Path, head: Path) -> Comparison:
 
 
 def compare_revisions(
-    base: str, head: str | None, laws: tuple[Path, ...] = (), report: Callable = lambda *_: None, *, means: Means
+    base: str, head: str | None, laws: tuple[Path, ...] = (), report: Callable = lambda *_: None, rounds: int = ROUNDS
 ) -> Comparison:
-    """Compare two revisions, or a revision and the files in the checkout (head None), through every gate."""
+    """Compare two revisions, or a revision and the files in the checkout (head None); 0 rounds leave time out."""
     judgements: tuple[Judgement, ...] = ()
-    with checkouts.check_out_both(base, head, laws) as (old, new):
+    with commits.check_out_both(base, head, laws) as (old, new):
         if new.is_new:
             raise BadResults(f"{new.name}: none of the --law files is there")
-        gates, found, measures = _compare_rows(old, new, report, means)
+        gates, found, measures = _compare_rows(old, new, report)
         if new.only:
             report("judging")
-            gate, faults, judgements = _compare_faults(old, new, means.judge)
+            gate, faults, judgements = _compare_faults(old, new)
             gates, found = [*gates, gate], [*found, *faults]
-        gate, slower, times, files = _compare_times(old, new, report, means)
+        gate, slower, times, files = _compare_times(old, new, report, rounds)
     found = sorted([*found, *slower], key=lambda one: one.verdict != REGRESSION)
     made = (*gates, gate), tuple(found), tuple(times), judgements, tuple(files), tuple(measures)
     return Comparison(old.name, new.name, *made)
 
 
-def _compare_rows(
-    old: Side, new: Side, report: Callable, means: Means
-) -> tuple[list[Gate], list[Finding], list[dict[str, str]]]:
+def _compare_rows(old: Side, new: Side, report: Callable) -> tuple[list[Gate], list[Finding], list[dict[str, str]]]:
     """Compare outcomes and operations; return the measures of a user's laws too."""
     state, says = "passed", "both sides have the same sources and versions, so a run would be the same"
     if old.is_new:
@@ -60,7 +48,7 @@ def _compare_rows(
     if old.is_new or (old.digest == new.digest and not new.only):
         return [Gate(name, state, says) for name in (EXACT, OPERATIONS)], [], []
     measures: list[dict[str, str]] = []
-    with means.run_side(old, report) as before, means.run_side(new, report) as after:
+    with commits.run_side(old, report) as before, commits.run_side(new, report) as after:
         try:
             found = exact.compare_runs(before, after)
             measures = compare_measures(before, after) if new.only else []
@@ -69,14 +57,12 @@ def _compare_rows(
     return [make_gate(name, found) for name in (EXACT, OPERATIONS)], found, measures
 
 
-def _compare_faults(
-    old: Side, new: Side, judge: Callable[..., list[Judgement]]
-) -> tuple[Gate, list[Finding], tuple[Judgement, ...]]:
+def _compare_faults(old: Side, new: Side) -> tuple[Gate, list[Finding], tuple[Judgement, ...]]:
     """Judge a user's laws on both sides by this program: a fault that base has not is a regression."""
     judgements: list[list[Judgement]] = [[], []]
     for at, side in enumerate((old, new)):
         try:
-            judgements[at] = judge([described(law) for law in side.laws]) if side.laws else []
+            judgements[at] = judged([described(law) for law in side.laws]) if side.laws else []
         except BadLaw as error:
             if side is new:
                 return Gate(FAULTS, "failed", str(error)), [Finding(FAULTS, REGRESSION, "", str(error))], ()
@@ -93,14 +79,14 @@ def _compare_faults(
 
 
 def _compare_times(
-    old: Side, new: Side, report: Callable, means: Means
+    old: Side, new: Side, report: Callable, rounds: int
 ) -> tuple[Gate, list[Finding], list[Timed], list[dict]]:
     is_same = old.digest == new.digest and not new.only
-    if old.is_new or is_same or not means.rounds:
-        says = "left out on request" if not means.rounds else "the same sources" if is_same else "there is no base"
+    if old.is_new or is_same or not rounds:
+        says = "left out on request" if not rounds else "the same sources" if is_same else "there is no base"
         return Gate(TIME, "skipped", says), [], [], []
     try:
-        files, times = means.compare_times(old, new, report, means.rounds)
+        files, times = compare_times(old, new, report, rounds)
     except SideFailed as error:
         if error.at == 0:
             return Gate(TIME, "skipped", f"base is too old for it: {error}"), [], [], []

@@ -125,7 +125,7 @@ def judge_rounds(name: str, base: np.ndarray, head: np.ndarray) -> Timed:
 
     middle = ratio(head, base)
     slower, faster = (float(mannwhitneyu(head, base, alternative=side).pvalue) for side in ("greater", "less"))
-    is_slower, is_faster = slower < P and middle.median > RATIO, faster < P and middle.median < 1.0 / RATIO
+    is_slower, is_faster = slower < P and middle.value > RATIO, faster < P and middle.value < 1.0 / RATIO
     verdict = SLOWER if is_slower else FASTER if is_faster else SAME
     return Timed(name, *middle, min(slower, faster), len(base), verdict)
 

@@ -15,12 +15,11 @@ on_arms            the same of every arm: each controller of the default suite
 session            the samples, as pytest-benchmark runs them
 ratios             medians over passes, with intervals
 apart              the same beside a user's laws, in a process of its own
-rows, summary      from seconds to results/timings/<machine>.parquet, and tables for the eye
+rows               from seconds to results/timings/<machine>.parquet, and tables for the eye
 """
 
 from bench.running.timing.apart import run_apart
 from bench.running.timing.benchmarks import Progress
-from bench.running.timing.rows import about, read, run
-from bench.running.timing.summary import tables
+from bench.running.timing.rows import about, read, run, tables
 
 __all__ = ["Progress", "about", "read", "run", "run_apart", "tables"]

@@ -1,9 +1,10 @@
-"""From seconds to rows: results/timings/<machine>.parquet, a row for everything timed."""
+"""From seconds to rows, results/timings/<machine>.parquet, and to tables for the eye: a line a law or controller."""
 
 import functools
 import json
+import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -12,11 +13,14 @@ import pandas as pd
 from bench.base.provenance import describe, machine_key
 from bench.experiments.columns import CONTENDER_KEY
 from bench.experiments.tables import store
+from bench.experiments.tables.read import with_contender
 from bench.law.contender import Contender
 from bench.running.timing.benchmark import KERNEL, Benchmark
 from bench.running.timing.benchmarks import benchmarks
 from bench.running.timing.ratios import ratio
 from bench.running.timing.session import measure
+
+NOT_TIMED, EMPTY = "fails", "(empty loop)"
 
 PASSES, QUICK_PASSES = 31, 7
 """Odd, so that the median is a value. The interval covers the 10th to 22nd of 31, and all 7."""
@@ -68,7 +72,7 @@ def _row(one: Benchmark, times: np.ndarray, kernel: np.ndarray) -> dict:
         "engine": one.engine,
         "ns_per_tick": float(np.median(times)),
         "ns_reference_kernel": float(np.median(kernel)),
-        "ratio": found.median,
+        "ratio": found.value,
         "ratio_low": found.low,
         "ratio_high": found.high,
         "passes": len(times),
@@ -87,3 +91,25 @@ def about(path: Path) -> dict:
         BadResults: missing, truncated, or of another schema.
     """
     return json.loads(store.read_arrow(path, "timings").schema.metadata[b"about"])
+
+
+def tables(timings: Path | pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
+    """Yield the arm, empty for the free body, and its table: ns a tick alone and in each engine.
+
+    What is alone has its ratio to the reference kernel too. The empty loop is what the time of every law alone holds.
+
+    Args:
+        timings: a machine's file, or its rows.
+    """
+    every = with_contender(timings if isinstance(timings, pd.DataFrame) else read(timings))
+    for arm, rows in every.groupby("arm", observed=True, sort=False):
+        lines: dict[str, dict[str, str]] = {}
+        for row in rows.itertuples():
+            name = str(row.contender) if row.regulator else EMPTY
+            line = lines.setdefault(name, {"law": name})
+            time = f"{row.ns_per_tick:.1f}" if math.isfinite(row.ns_per_tick) else NOT_TIMED
+            line[f"{row.engine or 'alone'} [ns]"] = time
+            if not row.engine:
+                interval = f"{row.ratio:.3f} [{row.ratio_low:.3f}, {row.ratio_high:.3f}]"
+                line["alone / kernel"] = interval if math.isfinite(row.ratio) else NOT_TIMED
+        yield str(arm), pd.DataFrame(list(lines.values())).fillna("")

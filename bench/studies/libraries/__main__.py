@@ -54,7 +54,7 @@ def rows(library: Library, sets: tuple[TurnSet, ...]) -> pd.DataFrame:
             "library": library.name,
             "version": version_of(library),
             "function": function.name,
-            "kind": kind_of(function),
+            "kind": function.kind,
             "takes": function.takes,
             "form": function.form,
             "precision": "single" if library.is_single else "double",
@@ -69,11 +69,6 @@ def rows(library: Library, sets: tuple[TurnSet, ...]) -> pd.DataFrame:
     )
 
 
-def kind_of(function: Function) -> str:
-    """Return whether the library offers it, or users write it."""
-    return "idiom" if function.is_idiom else "function"
-
-
 def errors(library: Library) -> Iterable[Function]:
     """Its functions that are errors: all but angles; where anybody servos on those, that is a controller."""
     return (one for one in library.functions if one.form != ANGLES)
@@ -83,7 +78,7 @@ def closed_loops(library: Library) -> pd.DataFrame:
     """One library's rows of closed_loop.parquet."""
     found = []
     for one in errors(library):
-        kind = "restated" if library.is_restated else kind_of(one)
+        kind = "restated" if library.is_restated else one.kind
         found += [(one.name, kind, "", one.name, "acceleration", row) for row in rows_of(one)]
     for loop in library.controllers:
         kind = "our-loop" if loop.is_our_loop else "controller"

@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from bench.audit.convention import FORMS as SIZED
 from bench.audit.examined import COUNT_RAD as COUNT_RAD
-from bench.audit.forms import FORMS as SIZED
+from bench.law.contenders.representations.zyx_euler import to_matrix
 from bench.studies.libraries.library import QUATERNION, Function, answer, quiet
 
 if TYPE_CHECKING:
@@ -39,18 +40,9 @@ class Form(NamedTuple):
     matrix: Callable | None = None
 
 
-def _about(i: int, angle: float) -> np.ndarray:
-    """Return the turn by an angle about base axis i."""
-    c, s = math.cos(angle), math.sin(angle)
-    R = np.eye(3)
-    j, k = (i + 1) % 3, (i + 2) % 3
-    R[j, j], R[j, k], R[k, j], R[k, k] = c, -s, s, c
-    return R
-
-
 def _z_y_x(e: np.ndarray) -> np.ndarray:
     """R_z(e_z) R_y(e_y) R_x(e_x) (Murphy 1988, 2.4)."""
-    return _about(2, e[2]) @ _about(1, e[1]) @ _about(0, e[0])
+    return np.transpose(to_matrix(e[::-1]))
 
 
 ANGLES_OF = {

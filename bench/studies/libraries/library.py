@@ -22,7 +22,7 @@ class Function(NamedTuple):
     call(turn) -> three numbers: of a 3 x 3 array if it takes a matrix, else of a unit quaternion (w, x, y, z). Scaled
     so that near the identity they are theta k; angles stand as those about x, y and z.
     form: what the three numbers are, a word of `forms.FORMS`.
-    is_idiom: what users write on functions of the library, none of which promises an orientation error.
+    kind: "idiom" for what users write on functions of the library, none of which promises an orientation error.
     fix: the smallest change that cures its fault, where the library has one or its source needs one.
     thread: where the fault is known upstream, as owner/repository#number.
     """
@@ -31,7 +31,7 @@ class Function(NamedTuple):
     takes: str
     call: Callable[[np.ndarray], Any]
     form: str = "rotation-vector"
-    is_idiom: bool = False
+    kind: str = "function"
     fix: str = ""
     thread: str = ""
 
@@ -39,7 +39,7 @@ class Function(NamedTuple):
 def vector_part(name: str, call: Callable[[np.ndarray], Any], fix: str = "", is_logarithm: bool = False) -> Function:
     """Return the idiom that doubles the vector part of a matrix's quaternion, or of a quaternion's logarithm."""
     takes, form = (QUATERNION, "rotation-vector") if is_logarithm else (MATRIX, "sine-of-half")
-    return Function(f"2 {name}, vector part", takes, call, form, is_idiom=True, fix=fix)
+    return Function(f"2 {name}, vector part", takes, call, form, "idiom", fix)
 
 
 class Controller(NamedTuple):

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bench.audit import audit
-from bench.audit.forms import FORMS
+from bench.audit.convention import FORMS
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function, answer, quiet
 
 if TYPE_CHECKING:

@@ -2,10 +2,10 @@
 
 from typing import Any
 
+from bench.audit.convention import FORMS
 from bench.audit.examined import COUNT_RAD
 from bench.audit.faults import every_fault
-from bench.audit.forms import FORMS
-from bench.audit.pairs import NEAR_IDENTITY, every_pair
+from bench.audit.pairs import every_pair
 from bench.export.language import find_language, language_words
 from bench.export.subject import subject_words
 from bench.export.vectors import CLOSE
@@ -28,7 +28,7 @@ def facts(_: Run) -> dict[str, Any]:
         "faults": len(every_fault()),
         "forms": listed([f"{one.title} (`{name}`)" for name, one in FORMS.items()]),
         "pairs": len(pairs.angle),
-        "smallest": power(pairs.angle[pairs.place == NEAR_IDENTITY].min()),
+        "smallest": power(pairs.angle[pairs.at("near-identity")].min()),
         "count": power(COUNT_RAD),
         "tab_faults": FAULTS(
             (f"`{one.name}`", one.title, one.effect, one.cure, html.law(one.law)) for one in every_fault()

@@ -48,7 +48,7 @@ def tf2() -> list[Library]:
     made = compiled("tf2", "-I/usr/include/console_bridge")
 
     def idiom(name: str, takes: str, word: str) -> Function:
-        return Function(name, takes, made(word), is_idiom=True, fix="`-q` where `q.w() < 0`, before it")
+        return Function(name, takes, made(word), kind="idiom", fix="`-q` where `q.w() < 0`, before it")
 
     functions = (
         idiom("Quaternion: getAngle * getAxis", QUATERNION, "angle_axis"),
