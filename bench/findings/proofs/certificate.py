@@ -16,19 +16,12 @@ LIMIT_S, WAITS_S = 240.0, 600.0
 """Seconds of processor time for one law, several times what the slowest takes, and on the wall."""
 WITH_TIME = "spring-and-damper"
 """The theorem whose V bounds the time after the last crossing of the band."""
-PROVABLE = ("almost global", "global")
-"""How a property begins that is to be proved."""
 
 
 def list_laws() -> list[Law]:
     """Return the laws whose files call them global or almost global: regulators, laws with a state, baselines."""
     every = [law for kind in ("regulators", "compensators", "baselines") for law in contenders(kind).values()]
-    return [law for law in every if is_provable(law)]
-
-
-def is_provable(law: Law) -> bool:
-    """Whether a law's file calls it global or almost global."""
-    return law.property.startswith(PROVABLE)
+    return [law for law in every if law.property.startswith(("almost global", "global"))]
 
 
 def read_certificates() -> dict[str, dict[str, Any]]:
@@ -49,14 +42,20 @@ def certify_apart(law: Law) -> dict[str, Any]:
 def certify(law: Law) -> dict[str, Any]:
     """Return what is proved of a law, as JSON has it.
 
-    is_proved: the property that its file declares. counterexample: a state where the first false lemma is false, and
-    how an episode from there ends.
+    is_proved: the property that its file declares. settling: bounds of the settling time from rest, or why there are
+    none. counterexample: a state where the first false lemma is false, and how an episode from there ends.
     """
-    from bench.findings.proofs.theorem import prove
+    from bench.findings.proofs import settling_time
+    from bench.findings.proofs.theorem import DoesNotFit, prove
 
-    proof = prove(law)
+    proof, settling = prove(law), {}
     if proof is None:
         return {"law": law.name, "declared": law.property, "is_proved": False, "theorem": None}
+    if proof.is_proved() and proof.theorem == WITH_TIME:
+        try:
+            settling = settling_time.bound(law)._asdict()
+        except DoesNotFit as reason:
+            settling = {"reason": str(reason)}
     false = next((one for one in proof.lemmas if one.counterexample), None)
     return {
         "law": law.name,
@@ -64,20 +63,9 @@ def certify(law: Law) -> dict[str, Any]:
         **proof._asdict(),
         "lemmas": [one._asdict() for one in proof.lemmas],
         "is_proved": proof.is_proved() and proof.stands == law.property,
-        "settling": bound_settling(law) if proof.is_proved() and proof.theorem == WITH_TIME else {},
+        "settling": settling,
         "counterexample": replay(law, false.counterexample) if false and false.counterexample else None,
     }
-
-
-def bound_settling(law: Law) -> dict[str, Any]:
-    """Return the bounds of the longest settling time from rest, or why there are none."""
-    from bench.findings.proofs import settling_time
-    from bench.findings.proofs.theorem import DoesNotFit
-
-    try:
-        return settling_time.bound(law)._asdict()
-    except DoesNotFit as reason:
-        return {"reason": str(reason)}
 
 
 def replay(law: Law, state: dict[str, float]) -> dict[str, Any]:
