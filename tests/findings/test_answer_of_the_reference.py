@@ -19,7 +19,7 @@ from bench.findings.selection.robots import ARM, VELOCITY, decide_for
 from bench.findings.selection.words import describe_bounds
 from report.figures import index
 from report.figures.answer import which_law
-from report.figures.arms import arm_ranking, arm_rows
+from report.figures.arms import arm_rows, arms
 from report.figures.cards import regulators
 from report.figures.kit import families
 
@@ -86,7 +86,7 @@ def test_front_page_lead_and_table_name_the_advised_law_and_its_bounds():
 
 @pytest.mark.parametrize("measure", ["settled", "range"])
 def test_law_that_is_advised_for_an_arm_is_among_the_best_of_its_page(measure):
-    uniform = arm_ranking.of_laws(arm_rows.episodes(RUN), "uniform")
+    uniform = arms.of_laws(arm_rows.episodes(RUN), "uniform")
     assert f"{decide_for(ARM, FOLDER).law}@geometric" in best(uniform, measure, "controller")
 
 

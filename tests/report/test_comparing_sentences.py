@@ -9,7 +9,7 @@ from bench.findings.perturbed import Threshold, Way
 from bench.findings.selection import needs
 from bench.findings.selection.measured import measured
 from bench.findings.selection.words import compare, standing
-from report.figures.arms import arm_ranking
+from report.figures.arms import arms
 from report.figures.contact import as_arms_run, in_contact
 from report.figures.cost import cost
 from report.figures.failures import failure_map
@@ -46,7 +46,7 @@ def plant_arm(excess):
     """State how many of the episodes that do not settle had a joint at its end; one of two does not settle."""
     law = {"controller": "rotation-matrix@geometric", "start_set": "uniform", "outcome": ["settled", "creeping"]}
     rows = pd.DataFrame(law).assign(start_id=[1, 2], arm="panda", kp=100.0, peak_torque_ratio=1.0)
-    return arm_ranking.lead(rows.assign(range_excess_rad=excess))
+    return arms.lead(rows.assign(range_excess_rad=excess))
 
 
 def plant_thresholds(*held):
