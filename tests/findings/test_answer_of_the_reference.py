@@ -12,8 +12,7 @@ from bench.findings import claims
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import Results
 from bench.findings.on_arms import best
-from bench.findings.selection.measured import measured
-from bench.findings.selection.needs import is_unheld, settles_everywhere
+from bench.findings.selection.needs import is_unheld, measured, settles_everywhere
 from bench.findings.selection.regions import decide_all, find_bounds, find_default, find_regions
 from bench.findings.selection.robots import ARM, VELOCITY, decide_for
 from bench.findings.selection.words import describe_bounds

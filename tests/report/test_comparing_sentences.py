@@ -7,7 +7,7 @@ import pytest
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.perturbed import Threshold, Way
 from bench.findings.selection import needs
-from bench.findings.selection.measured import measured
+from bench.findings.selection.needs import measured
 from bench.findings.selection.words import compare, standing
 from report.figures.arms import arms
 from report.figures.contact import as_arms_run, in_contact

@@ -15,8 +15,7 @@ A module holds measurements alone; the TOML file of the same name holds the text
     contact.py               C25, C47
     representations.py       C40 to C43
     adequacy.py              every law by the tests of C17 and C27
-    at_gains.py              the same claim at other gains, and by the sampled engines
-    steadiness.py            what other draws, half the step and other gains do to the words
+    at_gains.py              the same claim at other gains, by sampled engines, with other draws and half the step
     standing.py              how two laws stand in cost, by time and by operations
     tables.py                what a judging function reads
     probes.py                the small experiments of claims that no table answers, on arms too
@@ -50,11 +49,6 @@ def all_claims() -> tuple[Claim, ...]:
     modules = [importlib.import_module(f"{__name__}.{info.name}") for info in pkgutil.iter_modules(__path__)]
     found = {one.id: one for module in modules for one in vars(module).values() if isinstance(one, Claim)}
     return tuple(found[id] for id in sorted(found))
-
-
-def judge(id: str, results: Results) -> Verdict:
-    """One claim on a run's tables."""
-    return decide(next(claim for claim in all_claims() if claim.id == id), results)
 
 
 def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:

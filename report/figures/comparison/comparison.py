@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from bench.experiments.tables import read
-from bench.findings.selection.measured import measured
+from bench.findings.selection.needs import measured
 from report.figures.comparison import cells
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
