@@ -10,7 +10,7 @@ from support.pages import RUN
 import tasks
 from bench.findings.claims.side_by_side import predicted
 from report.figures.arms import arm_rows, arms, jacobians
-from report.figures.contact import compliance, hand_axes, in_contact
+from report.figures.contact import compliance, in_contact
 from report.figures.contact.rows import PAPERS, PAPERS_EULER, level, of, of_task
 
 ARM = "puma560"
@@ -74,10 +74,10 @@ def test_stock_pose_is_well_conditioned_and_on_the_pole():
 def test_hand_is_drawn_turning_as_the_closed_form_of_the_papers_force_control_has_it(beta):
     """About the axis, and as far, to the percent that the hand's own way costs where it turns by ten milliradians."""
     probed = level(of_task(RUN, compliance.PROBE)).query("arm == 'ur5e'")  # goals without alpha and gamma
-    rows, plain = (of(probed, name, hand_axes.ORDER) for name in (PAPERS_EULER, PAPERS))
+    rows, plain = (of(probed, name, compliance.ORDER) for name in (PAPERS_EULER, PAPERS))
     [C] = predicted(rows[rows["beta_deg"] == beta], "zyx-euler")
     full = float(plain["c_xx"].median())
-    turns = hand_axes.turns(of_task(RUN, compliance.PROBE))
+    turns = compliance.turns(of_task(RUN, compliance.PROBE))
     drawn = [one for one in turns if one["beta"] == beta and one["contender"] == PAPERS_EULER]
     assert len(drawn) == 2
     for one in drawn:

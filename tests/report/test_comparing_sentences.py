@@ -15,7 +15,7 @@ from report.figures.cost import cost
 from report.figures.failures import failure_map
 from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX
 from report.figures.kit.page import Run
-from report.figures.libraries import answers, libraries
+from report.figures.libraries import libraries
 from report.figures.robustness import half_turn_noise, robustness
 
 FOLDER = RESULTS / "reference"
@@ -62,9 +62,9 @@ def plant_decision(tied, asked):
 
 def plant_loops(**columns):
     """Count the closed loops that stay at 180° and those that turn away first."""
-    found = answers.responses().assign(**columns)
+    found = libraries.responses().assign(**columns)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(answers, "responses", lambda: found)
+        patch.setattr(libraries, "responses", lambda: found)
         said = libraries.loop_facts()
     return f"{said['loops_dead']} dead, {said['loops_away']} away"
 

@@ -37,7 +37,7 @@ def curves(rows: pd.DataFrame, narrow: bool) -> Drawing:
     """Curves of the equations, and dots of the starts, of the first law of each.
 
     Args:
-        rows: of `cells.common`.
+        rows: of `comparison.common`.
     """
     figure, axes = style.panels(height=4.4 if narrow else 4.2, narrow=narrow)
     kp, kv, tolerance = (float(rows[column].iloc[0]) for column in ("kp", "kv", "tolerance"))
