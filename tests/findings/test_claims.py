@@ -83,7 +83,7 @@ def test_erratum_is_confirmed(one):
 def test_errata_are_numbered_and_complete():
     assert [one.id for one in ERRATA] == [f"E{i:02d}" for i in range(1, len(ERRATA) + 1)]
     assert all(one.where and one.printed and one.right and one.how for one in ERRATA)
-    assert all(one.section and one.quote and one.why for one in UNTESTABLE)
+    assert all(one["section"] and one["quote"] and one["why"] for one in UNTESTABLE)
 
 
 NUMBERED = [

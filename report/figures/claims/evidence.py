@@ -31,7 +31,7 @@ def facts(_: Run) -> dict:
         "misprints": typeset(" ".join(MISPRINTS.split())),
         "steady": at_gains.describe(read_json(at_gains.STORED), {one.id: str(one.word) for one in every}),
         "sections": html.Html("".join(map(section, every))),
-        "untestable": SENTENCES((one.section, f"“{prose(one.quote)}”", prose(one.why)) for one in UNTESTABLE),
+        "untestable": SENTENCES((one["section"], f"“{prose(one['quote'])}”", prose(one["why"])) for one in UNTESTABLE),
         "slips": SLIPS(map(describe_slip, sorted(ERRATA, key=lambda one: one.check is None))),
         "coverage": PARTS(map(describe_item, COVERAGE)),
     }

@@ -42,21 +42,16 @@ FINGERS = [((x, 0.0, -0.30), (0.06, 0.10, 0.24)) for x in (-0.25, 0.25)]
 
 
 def facts(run: Run) -> dict:
-    """Return the numbers of the probe, and the axes of turning."""
+    """Return the numbers of the probe, the damping that two designs give an impedance, and the axes of turning."""
     rows = of_task(run, PROBE)
+    damping = in_run(as_arms_run.facts, run) or {}
     return {
         "axes_arm": name_arm(shown_arm(rows)),
         **measured(turns(rows)),
         "off_by_accelerations": off_by_accelerations(rows),
-        **(in_run(lambda: damping(run)) or {}),
+        **{name: damping[name] for name in ("felt_least", "felt_most", "double") if name in damping},
         "compliance-axes": axes_of_turning(rows),
     }
-
-
-def damping(run: Run) -> dict:
-    """Return the damping that two designs give an impedance without inertia shaping."""
-    found = as_arms_run.facts(run)
-    return {name: found[name] for name in ("felt_least", "felt_most", "double")}
 
 
 def off_by_accelerations(rows: pd.DataFrame) -> str:
