@@ -20,7 +20,7 @@ def COMMAND(folder: Path | None, criteria: bool) -> None:
     """
     from bench.base.files import read_json
     from bench.experiments.tables import read
-    from bench.findings.claims import Results, judge_possible, steadiness
+    from bench.findings.claims import Results, at_gains, judge_possible
     from bench.findings.claims.tables import WHOLE
 
     results = Results(folder or read.folder())
@@ -33,9 +33,9 @@ def COMMAND(folder: Path | None, criteria: bool) -> None:
         record = _record(one) if criteria else ()
         print_paragraphs(Paragraph(one.id, (claimed, *correction, f"Evidence: {one.evidence}", *record)))
         console().print()
-    if steadiness.STORED.is_file():
-        study = read_json(steadiness.STORED)
-        said = steadiness.describe(study, study["reference"])
+    if at_gains.STORED.is_file():
+        study = read_json(at_gains.STORED)
+        said = at_gains.describe(study, study["reference"])
         print_paragraphs(Paragraph("Steady?", (f"Of results/reference: {said}",)))
     if lacks:
         reasons = ((id, reason.removesuffix(f": {WHOLE}")) for id, reason in lacks.items())

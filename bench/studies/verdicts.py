@@ -23,9 +23,8 @@ from bench.experiments.suites import IDEAL_MOTORS
 from bench.experiments.tables import read
 from bench.findings import claims
 from bench.findings.claims.adequacy import NOISE
-from bench.findings.claims.at_gains import GAINS
+from bench.findings.claims.at_gains import GAINS, HALF_STEP, STORED, turned
 from bench.findings.claims.controller_costs import BY_COMMON, BY_EULER, ON_MATRIX
-from bench.findings.claims.steadiness import HALF_STEP, STORED, turned
 from bench.findings.claims.tables import MAIN_ENGINE, Results
 from bench.law.contenders.registry import all_contenders
 from bench.running import run

@@ -8,6 +8,6 @@ kit.inline  a drawn figure becomes inline SVG that follows the page's light and 
 kit.html    what is not a drawing: verdict badges, tables, the card of a law
 ==========  ============================================================================================
 
-The page pages/08-libraries.md has the module libraries/libraries.py. A substantial drawing is a module of
-its own beside it: a function from results to `Picture`, decorated with `inline.responsive_picture`.
+The page pages/08-libraries.md has the module libraries/libraries.py. A drawing is a function from results to `Picture`,
+decorated with `inline.responsive_picture`.
 """

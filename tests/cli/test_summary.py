@@ -16,7 +16,7 @@ from bench.cli.summary import answer, failures
 from bench.cli.summary.whole import parts_in
 from bench.experiments.tables import read as results
 from bench.findings.claims import Results
-from bench.findings.selection.measured import measure
+from bench.findings.selection.needs import measure
 from bench.findings.selection.regions import find_default
 
 LINES, COLUMNS = 40, 100

@@ -16,8 +16,7 @@ from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.selection.criteria import BY_NAME, CRITERIA, jump
-from bench.findings.selection.measured import GENERAL, Measured, dominates, front, measured
-from bench.findings.selection.needs import Need, decide
+from bench.findings.selection.needs import GENERAL, Measured, Need, decide, dominates, front, measured
 from bench.findings.selection.robots import (
     POSITION,
     ROBOTS,

@@ -12,14 +12,13 @@ from bench.findings import claims
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import Results
 from bench.findings.on_arms import best
-from bench.findings.selection.measured import measured
-from bench.findings.selection.needs import is_unheld, settles_everywhere
+from bench.findings.selection.needs import is_unheld, measured, settles_everywhere
 from bench.findings.selection.regions import decide_all, find_bounds, find_default, find_regions
 from bench.findings.selection.robots import ARM, VELOCITY, decide_for
 from bench.findings.selection.words import describe_bounds
 from report.figures import index
 from report.figures.answer import which_law
-from report.figures.arms import arm_ranking, arm_rows
+from report.figures.arms import arm_rows, arms
 from report.figures.cards import regulators
 from report.figures.kit import families
 
@@ -86,7 +85,7 @@ def test_front_page_lead_and_table_name_the_advised_law_and_its_bounds():
 
 @pytest.mark.parametrize("measure", ["settled", "range"])
 def test_law_that_is_advised_for_an_arm_is_among_the_best_of_its_page(measure):
-    uniform = arm_ranking.of_laws(arm_rows.episodes(RUN), "uniform")
+    uniform = arms.of_laws(arm_rows.episodes(RUN), "uniform")
     assert f"{decide_for(ARM, FOLDER).law}@geometric" in best(uniform, measure, "controller")
 
 

@@ -16,7 +16,7 @@ from bench.base.provenance import ROOT
 from bench.cli import claims as command
 from bench.cli.summary.whole import count_verdicts
 from bench.findings import claims
-from bench.findings.claims import steadiness
+from bench.findings.claims import at_gains
 from bench.findings.claims.errata import COVERAGE, ERRATA, UNTESTABLE
 from bench.findings.claims.tables import share
 from bench.findings.claims.verdict import (
@@ -83,7 +83,7 @@ def test_erratum_is_confirmed(one):
 def test_errata_are_numbered_and_complete():
     assert [one.id for one in ERRATA] == [f"E{i:02d}" for i in range(1, len(ERRATA) + 1)]
     assert all(one.where and one.printed and one.right and one.how for one in ERRATA)
-    assert all(one.section and one.quote and one.why for one in UNTESTABLE)
+    assert all(one["section"] and one["quote"] and one["why"] for one in UNTESTABLE)
 
 
 NUMBERED = [
@@ -169,5 +169,5 @@ def test_run_of_two_starts_a_set_judges_no_claim_about_episodes(tmp_path):
 @pytest.mark.parametrize("other", [{}, {"C03": "holds"}])
 def test_words_at_other_gains_are_told_by_damping_ratio(other):
     study = {"gains": [{"kp": 100.0, "kv": 14.0, "words": other}]}
-    said = steadiness.by_gains(study, {"C03": "does not hold"})
+    said = at_gains.by_gains(study, {"C03": "does not hold"})
     assert ("damping ratio of 0.7: C03 (holds)" in said) == bool(other)

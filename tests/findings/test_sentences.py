@@ -6,7 +6,7 @@ import pytest
 from scipy.spatial.transform import Rotation as Turn
 from support.tables import decided, judged
 
-from bench.findings.claims import all_claims, linearization, representations
+from bench.findings.claims import all_claims, euler_jacobian, linearized_euler, representations
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import Word
 
@@ -83,7 +83,7 @@ def test_claim_without_tables_gets_the_same_word_from_any_draw(id, word, seed, t
 
 
 def test_torques_of_the_arms_own_model_give_the_acceleration_and_those_of_another_do_not():
-    own, other = (linearization.accelerations("puma560", plant, 3) for plant in ("", "mass-1.15"))
+    own, other = (euler_jacobian.accelerations("puma560", plant, 3) for plant in ("", "mass-1.15"))
     assert own.max() < 1e-6
     assert np.median(other) > 0.1
 
@@ -106,7 +106,7 @@ def test_acceleration_of_the_angles_is_that_of_a_body_that_spins_freely():
 
     rates = (angles(h) - angles(-h)) / (2 * h)
     expected = (angles(h) - 2 * angles(0.0) + angles(-h)) / h**2
-    assert np.allclose(linearization.angular_acceleration(E, rates, np.zeros(3)), expected, atol=1e-4)
+    assert np.allclose(linearized_euler.angular_acceleration(E, rates, np.zeros(3)), expected, atol=1e-4)
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,8 @@ from support.pages import RUN
 
 import tasks
 from bench.findings.claims.side_by_side import predicted
-from report.figures.arms import arm_ranking, arm_rows, jacobians
-from report.figures.contact import compliance, hand_axes, in_contact
+from report.figures.arms import arm_rows, arms, jacobians
+from report.figures.contact import compliance, in_contact
 from report.figures.contact.rows import PAPERS, PAPERS_EULER, level, of, of_task
 
 ARM = "puma560"
@@ -42,21 +42,21 @@ def rows_of(passing: dict[str, int], of: int = 20, **columns) -> pd.DataFrame:
 
 
 def test_lead_names_a_winner_only_where_one_is_told_apart():
-    winner = arm_ranking.leading(rows_of({"rotation-matrix": 15, "mrp": 8, "hybrid": 4}), "range")
+    winner = arms.leading(rows_of({"rotation-matrix": 15, "mrp": 8, "hybrid": 4}), "range")
     assert winner.startswith("of the laws (2.2) Rotation matrix settles most: 75 % (")
     assert winner.endswith("n = 20)")
-    tie = arm_ranking.leading(rows_of({"rotation-matrix": 15, "mrp": 12, "hybrid": 4}), "range")
+    tie = arms.leading(rows_of({"rotation-matrix": 15, "mrp": 12, "hybrid": 4}), "range")
     assert "(2.2) Rotation matrix and (2.2) MRP are not distinguished from the best of them" in tie
     assert "(2.2) Rotation matrix: 75 % (" in tie
     every = rows_of(dict.fromkeys(("rotation-matrix", "mrp", "hybrid", "late-braking", "rotation-vector"), 20))
-    assert arm_ranking.leading(every, "settled").startswith("5 laws are not distinguished from the best of them")
+    assert arms.leading(every, "settled").startswith("5 laws are not distinguished from the best of them")
 
 
 def test_baselines_are_compared_with_the_laws():
     baseline = {"regulator": "resolved-rate", "jacobian": "geometric", "way": "resolved-rate@geometric+standard"}
     law = {"regulator": "mrp", "jacobian": "geometric", "way": "mrp@geometric+standard"}
     rows = pd.concat([rows_of({"resolved-rate": 20}, **baseline), rows_of({"mrp": 5}, **law)])
-    found = {cells[0]: cells[2] for cells in arm_ranking.ranked(rows)}
+    found = {cells[0]: cells[2] for cells in arms.ranked(rows)}
     assert found["Resolved rate"].startswith("100\N{NO-BREAK SPACE}(")
     assert found["MRP"].split() == ["**25", "(11", "to", "47)**"]
 
@@ -74,10 +74,10 @@ def test_stock_pose_is_well_conditioned_and_on_the_pole():
 def test_hand_is_drawn_turning_as_the_closed_form_of_the_papers_force_control_has_it(beta):
     """About the axis, and as far, to the percent that the hand's own way costs where it turns by ten milliradians."""
     probed = level(of_task(RUN, compliance.PROBE)).query("arm == 'ur5e'")  # goals without alpha and gamma
-    rows, plain = (of(probed, name, hand_axes.ORDER) for name in (PAPERS_EULER, PAPERS))
+    rows, plain = (of(probed, name, compliance.ORDER) for name in (PAPERS_EULER, PAPERS))
     [C] = predicted(rows[rows["beta_deg"] == beta], "zyx-euler")
     full = float(plain["c_xx"].median())
-    turns = hand_axes.turns(of_task(RUN, compliance.PROBE))
+    turns = compliance.turns(of_task(RUN, compliance.PROBE))
     drawn = [one for one in turns if one["beta"] == beta and one["contender"] == PAPERS_EULER]
     assert len(drawn) == 2
     for one in drawn:

@@ -7,15 +7,15 @@ import pytest
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.perturbed import Threshold, Way
 from bench.findings.selection import needs
-from bench.findings.selection.measured import measured
+from bench.findings.selection.needs import measured
 from bench.findings.selection.words import compare, standing
-from report.figures.arms import arm_ranking
+from report.figures.arms import arms
 from report.figures.contact import as_arms_run, in_contact
 from report.figures.cost import cost
 from report.figures.failures import failure_map
 from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX
 from report.figures.kit.page import Run
-from report.figures.libraries import answers, libraries
+from report.figures.libraries import libraries
 from report.figures.robustness import half_turn_noise, robustness
 
 FOLDER = RESULTS / "reference"
@@ -46,7 +46,7 @@ def plant_arm(excess):
     """State how many of the episodes that do not settle had a joint at its end; one of two does not settle."""
     law = {"controller": "rotation-matrix@geometric", "start_set": "uniform", "outcome": ["settled", "creeping"]}
     rows = pd.DataFrame(law).assign(start_id=[1, 2], arm="panda", kp=100.0, peak_torque_ratio=1.0)
-    return arm_ranking.lead(rows.assign(range_excess_rad=excess))
+    return arms.lead(rows.assign(range_excess_rad=excess))
 
 
 def plant_thresholds(*held):
@@ -62,9 +62,9 @@ def plant_decision(tied, asked):
 
 def plant_loops(**columns):
     """Count the closed loops that stay at 180° and those that turn away first."""
-    found = answers.responses().assign(**columns)
+    found = libraries.responses().assign(**columns)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(answers, "responses", lambda: found)
+        patch.setattr(libraries, "responses", lambda: found)
         said = libraries.loop_facts()
     return f"{said['loops_dead']} dead, {said['loops_away']} away"
 

@@ -10,6 +10,7 @@ from bench.law.contenders.registry import contenders
 from bench.law.display import COLOURS, LINES
 from report.figures.kit import html, style
 from report.figures.kit.inline import Picture, responsive_picture
+from report.figures.kit.tables import Table
 
 
 @responsive_picture
@@ -93,7 +94,7 @@ def test_picture_is_the_same_bytes_every_time_and_leaves_the_style_of_others_alo
 
 def test_table_sets_numbers_right_and_words_left():
     frame = pd.DataFrame({"law": ["a|b"], "n": [5000], "time [s]": [0.58346], "rest": [float("nan")]})
-    assert html.table(frame, {"time [s]": ".3f"}).splitlines() == [
+    assert Table("law | n | time [s]:.3f | rest")(frame).splitlines() == [
         "| law | n | time [s] | rest |",
         "| :-- | --: | --: | --: |",
         "| a\\|b | 5\u202f000 | 0.583 | – |",
@@ -102,7 +103,7 @@ def test_table_sets_numbers_right_and_words_left():
 
 def test_table_refuses_a_format_for_no_column():
     with pytest.raises(ValueError, match=r"\['m'\], not columns of the table; known: \['n'\]"):
-        html.table(pd.DataFrame({"n": [1]}), {"m": ".2f"})
+        Table("n", {"m": str})
 
 
 @pytest.mark.parametrize(

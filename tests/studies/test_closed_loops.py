@@ -18,7 +18,7 @@ from bench.studies.libraries.closed_loop import accelerated, after, angle, conju
 from bench.studies.libraries.judge import judge
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function
 from bench.studies.libraries.verdict import REPLACEMENTS, left_to_go, verdict
-from report.figures.libraries import answers
+from report.figures.libraries import libraries
 from tasks.rules import RULES
 
 TICK_S = closed_loop.DT_S
@@ -121,13 +121,13 @@ def test_right_function_needs_no_replacement():
 
 def test_every_restated_controller_was_read_at_the_commit_that_its_source_names():
     named = {name: contenders("shipped")[word].source.partition("@")[2][:8] for name, word in ours.RESTATED.items()}
-    for table in (answers.table("closed_loop"), answers.table("verdicts")):
+    for table in (libraries.table("closed_loop"), libraries.table("verdicts")):
         restated = table[table["library"].isin(named)]
         assert restated.groupby("library")["version"].unique().map(list).to_dict() == {k: [v] for k, v in named.items()}
 
 
 def test_default_weld_is_stiffer_than_a_sine_and_stuck_at_180_degrees_alone():
-    rows = answers.table("closed_loop").query("function == '<weld>, by default'").set_index("angle_deg").sort_index()
+    rows = libraries.table("closed_loop").query("function == '<weld>, by default'").set_index("angle_deg").sort_index()
     assert rows["dead"].to_dict() == dict.fromkeys(closed_loop.ANGLES_DEG, 0) | {180.0: closed_loop.HALF_TURN_AXES}
     between = rows.loc[[30.0, 90.0, 150.0, 175.0, 179.0], "pull_ratio"]
     assert (between > np.sin(np.radians(between.index))).all()

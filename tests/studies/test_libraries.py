@@ -15,7 +15,7 @@ from bench.studies.libraries.__main__ import FOLDER, rows
 from bench.studies.libraries.asked import find, version_of
 from bench.studies.libraries.judge import COUNT_RAD, FORMS, KINDS, SINGLE_RAD, judge
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
-from report.figures.libraries import answers, libraries
+from report.figures.libraries import libraries
 
 SOME = turns.drawn()._replace(turns=turns.drawn().turns[:50])
 HALF_TURNS = turns.half_turns()
@@ -170,7 +170,7 @@ def test_committed_answers_are_what_the_library_says_here(library):
 def line(call, takes=MATRIX, form="rotation-vector"):
     """A function of numpy's, as the page has it."""
     library = Library("numpy", "numpy", (Function("f", takes, call, form),))
-    (found,) = answers.functions(rows(library, FEW)).to_dict("records")
+    (found,) = libraries.functions(rows(library, FEW)).to_dict("records")
     return found
 
 
@@ -195,12 +195,12 @@ def test_page_says_what_is_wrong_with_a_function(call, form, said):
 
 def test_verdict_of_the_page_agrees_with_the_check_and_the_closed_loops():
     """A sine is right by its form and zero at 180°; single precision is a design. All else must agree."""
-    every = libraries.lines()[libraries.lines()["form"] != answers.ANGLES]
-    both = every.merge(answers.table("verdicts"), on=["library", "function"], validate="one_to_one")
-    both = both.merge(answers.responses(), on=["library", "function", "kind"], validate="one_to_one")
+    every = libraries.lines()[libraries.lines()["form"] != libraries.ANGLES]
+    both = every.merge(libraries.table("verdicts"), on=["library", "function"], validate="one_to_one")
+    both = both.merge(libraries.responses(), on=["library", "function", "kind"], validate="one_to_one")
     assert len(both) == len(every)
     for one in both[both["precision"] == "double"].itertuples():
-        is_wrong = bool(one.faults) or (one.form == answers.SINE and one.dead > 0)
+        is_wrong = bool(one.faults) or (one.form == libraries.SINE and one.dead > 0)
         assert bool(one.objections) == is_wrong, (one.library, one.function)
         assert one.objections or not (one.dead or one.away or one.unsettled), (one.library, one.function)
     assert both.loc[both["precision"] == "single", "objections"].map(len).sum() == 0

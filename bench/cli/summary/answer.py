@@ -3,7 +3,7 @@
 from bench.cli.options import REFERENCE
 from bench.cli.paragraphs import Paragraph
 from bench.findings.selection import regions
-from bench.findings.selection.measured import Measured
+from bench.findings.selection.needs import Measured
 from bench.findings.selection.robots import list_elsewhere
 from bench.findings.selection.sensitivity import vary
 from bench.findings.selection.words import compare, cost, describe_bounds, together

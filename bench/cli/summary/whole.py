@@ -13,7 +13,7 @@ from bench.experiments.tables import read as results
 from bench.findings.claims import Results, judge_possible, told
 from bench.findings.claims.verdict import NoEvidence, Word
 from bench.findings.kept import keep
-from bench.findings.selection.measured import measure
+from bench.findings.selection.needs import measure
 from bench.law.contenders.registry import all_contenders
 
 

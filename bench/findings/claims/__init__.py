@@ -4,21 +4,18 @@ A module holds measurements alone; the TOML file of the same name holds the text
 
     verdict.py               what a claim, a verdict and its evidence are; history.toml: criteria that stood before
     rotation_matrix.py       C01 to C05, C32
-    linearized_euler.py      C06 to C08, C29
+    linearized_euler.py      C06 to C08, C29, C37 to C39, C45
     feedback_linearized.py   C09 to C11, C30
-    performance.py           C12, C17, C27, C31, C35
+    performance.py           C12, C17, C27, C31, C35, C36
     degeneracy.py            C13 to C16, C28
-    euler_jacobian.py        C18, C19, C34
-    controller_costs.py      C20, C26, C33
+    euler_jacobian.py        C18, C19, C34, C44
+    controller_costs.py      C20, C26, C33, C46
     force_conversion.py      C21
     compliance.py            C22 to C24
     contact.py               C25, C47
-    regions.py               C36 to C39
     representations.py       C40 to C43
-    linearization.py         C44 to C46
     adequacy.py              every law by the tests of C17 and C27
-    at_gains.py              the same claim at other gains, and by the sampled engines
-    steadiness.py            what other draws, half the step and other gains do to the words
+    at_gains.py              the same claim at other gains, by sampled engines, with other draws and half the step
     standing.py              how two laws stand in cost, by time and by operations
     tables.py                what a judging function reads
     probes.py                the small experiments of claims that no table answers, on arms too
@@ -52,11 +49,6 @@ def all_claims() -> tuple[Claim, ...]:
     modules = [importlib.import_module(f"{__name__}.{info.name}") for info in pkgutil.iter_modules(__path__)]
     found = {one.id: one for module in modules for one in vars(module).values() if isinstance(one, Claim)}
     return tuple(found[id] for id in sorted(found))
-
-
-def judge(id: str, results: Results) -> Verdict:
-    """One claim on a run's tables."""
-    return decide(next(claim for claim in all_claims() if claim.id == id), results)
 
 
 def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:

@@ -1,7 +1,11 @@
-"""Claims that are decided more than once: on the runs at other gains, and by the sampled engines too."""
+"""Claims decided more than once: at other gains, by the sampled engines too, and in the study of verdicts.
+
+The study asks which claims get another word with other draws, half the step, or other gains.
+"""
 
 import contextlib
 import functools
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -15,6 +19,11 @@ GAINS = RESULTS / "gains"
 RULE = (
     "The same is decided on every run of results/gains: where they do not all give one word, it depends on the gains."
 )
+
+STORED = RESULTS / "verdicts" / "verdicts.json"
+
+HALF_STEP = "half-step"
+"""The reference's seed, at half its control period."""
 
 
 def other_gains(results: Results) -> list[Results]:
@@ -62,3 +71,34 @@ def on_every_engine(decide: Callable) -> Callable:
         return word, found._replace(sentence=f"{found.sentence} {said}", rows=rows)
 
     return judge
+
+
+def turned(runs: dict[str, dict], reference: dict[str, str]) -> dict[str, dict[str, str]]:
+    """Claim -> run -> its word, of the claims that get another word somewhere than on the reference."""
+    found: dict[str, dict[str, str]] = {}
+    for name, one in runs.items():
+        for id in {*reference, *one["words"]}:
+            word = one["words"].get(id, "not judged")
+            if word != reference.get(id):
+                found.setdefault(id, {})[name] = word
+    return dict(sorted(found.items()))
+
+
+def describe(study: dict, words: dict[str, str]) -> str:
+    """Return what the study of seeds, of half the step and of other gains found, in a sentence or two."""
+    runs = study["runs"]
+    seeds = sum(name != HALF_STEP for name in runs)
+    other = turned(runs, words)
+    found = "every verdict stays the same" if not other else f"these change: {', '.join(other)}"
+    step = " and with half the step size" if HALF_STEP in runs else ""
+    return f"With {seeds} other random seeds{step}, {found}.{by_gains(study, words)}"
+
+
+def by_gains(study: dict, words: dict[str, str]) -> str:
+    """Which verdicts are other ones at other damping ratios; nothing where no run at other gains was judged."""
+    said = []
+    for one in study.get("gains", ()):
+        changed = (f"{id} ({word})" for id, word in one["words"].items() if word != words[id])
+        ratio = one["kv"] / (2.0 * math.sqrt(one["kp"]))
+        said.append(f"with a damping ratio of {ratio:g}: {', '.join(changed) or 'none'} of {len(one['words'])}")
+    return f" Other gains change these verdicts, of those that their runs decide: {'; '.join(said)}." if said else ""

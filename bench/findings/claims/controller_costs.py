@@ -1,4 +1,4 @@
-"""C20, C26, C33: controllers on the Euler Jacobian, what they do and what they cost (Murphy 1988, 3.2, 3.3 and 4)."""
+"""C20, C26, C33, C46: controllers on the Euler Jacobian, what they do and what they cost (Murphy 1988, 3 and 4)."""
 
 from __future__ import annotations
 
@@ -193,3 +193,23 @@ def in_contact(controller: str, joints: int) -> Operations:
 
     numbers = cost_in_contact(find_controller(controller), joints=joints).typical.of(TOTAL)
     return Operations(flops(numbers), sum(numbers[name] for name in CALLS))
+
+
+@claim("C46")
+def c46(results: Results) -> tuple[Word, Evidence]:
+    """Operations of (3.7), of what it replaces, and of what it leaves to the law."""
+    told, is_less, is_left = [], [], []
+    for joints in INVERSES:
+        rows = {one: controller_costs(results, one, joints) for one in (BY_EULER, BY_COMMON, ON_MATRIX)}
+        total = {one: tallied(own, with_goal=False) for one, own in rows.items()}
+        law = {one: of_stage(own, "regulate") for one, own in rows.items()}
+        is_less += [by_columns(total[BY_EULER], total[one]) == ORDERED for one in (BY_COMMON, ON_MATRIX)]
+        is_left.append(law[BY_EULER].flops <= LIMIT.MUCH * law[ON_MATRIX].flops)
+        told.append(
+            f"on {joints} joints (3.7) takes {total[BY_EULER]} flops and calls, (2.2) with (2.15) {total[BY_COMMON]}, "
+            f"(2.2) with the law on R {total[ON_MATRIX]}; the law alone {law[BY_EULER].flops} flops against "
+            f"{law[ON_MATRIX].flops} on R"
+        )
+    return word_of(all(is_less) and all(is_left), all(is_left)), evidence(
+        f"Typical ticks: {'; '.join(told)}.", 3 * len(told)
+    )

@@ -35,14 +35,6 @@ class Erratum(NamedTuple):
     check: Callable[[], bool] | None = None
 
 
-class Sentence(NamedTuple):
-    """A sentence of the paper that no run decides: where it stands, its words, and why it is not tested here."""
-
-    section: str
-    quote: str
-    why: str
-
-
 class Item(NamedTuple):
     """A part of the paper: its number or place, what it says, claims and errata on it, and pages that use it."""
 
@@ -108,7 +100,8 @@ ERRATA = tuple(
     for id, words in read_texts(Path(__file__).with_suffix(".toml")).items()
 )
 
-UNTESTABLE = tuple(Sentence(**words) for words in read_texts(Path(__file__).with_name("untestable.toml"))["sentences"])
+UNTESTABLE: list[dict[str, str]] = read_texts(Path(__file__).with_name("untestable.toml"))["sentences"]
+"""Sentences of the paper that no run decides: section, where it stands; quote, its words; why it is not tested here."""
 
 COVERAGE = tuple(
     Item(paper, says, tuple(on.split()), tuple(pages.split()))

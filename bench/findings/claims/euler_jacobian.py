@@ -1,11 +1,13 @@
-"""C18, C19, C34: the Euler Jacobian J_E, its singularities, derivations, and forms of angles (Murphy 1988, 3.1-3.5)."""
+"""C18, C19, C34, C44: the Euler Jacobian J_E, its singularities, derivations, forms of angles; (2.2) by J on an arm."""
 
 from __future__ import annotations
 
+import functools
 import itertools
 
 import numpy as np
 
+import tasks
 from bench.base.on_first_use import pd
 from bench.experiments.tables.read import FREE_BODY
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
@@ -164,3 +166,53 @@ def _told(found: dict[str, tuple[Share, Estimate]]) -> str:
     return ", ".join(
         f"{name} {kept.n - kept.k} of {kept.n} lost, {time.value:.3f} s" for name, (kept, time) in found.items()
     )
+
+
+@claim("C44")
+def c44(results: Results) -> tuple[Word, Evidence]:
+    """Accelerations of the hand under (2.2), with the arm's own model and with a wrong one."""
+    arms = [name for name in LIMIT.ARMS if tasks.arm(name).joints == 6]
+    right, wrong = (
+        [results.found_by(accelerations, arm, one, results.seed) for arm in arms] for one in ("", LIMIT.OFF)
+    )
+    exact, off = (max(float(gaps.max()) for gaps in found) for found in (right, wrong))
+    typical = float(np.median(np.concatenate(wrong)))
+    return word_of(exact <= LIMIT.SAME < off, False), evidence(
+        f"""At {LIMIT.POSES} random states each of {", ".join(arms)} the hand's acceleration, from MuJoCo's forward
+        dynamics and differences of its velocity, is u to {exact:.0e} of its size. With all masses
+        {LIMIT.OFF.partition("-")[2]} times the model's it misses u by {typical:.0%}, in the median.""",
+        2 * LIMIT.POSES * len(arms),
+    )
+
+
+@functools.cache
+def accelerations(name: str, variation: str, seed: int) -> np.ndarray:
+    """Compute |xddot - u| / |u| of an arm under (2.2) at random states; a variation makes the plant another one."""
+    import mujoco
+
+    from tasks.arm_model import model_xml
+    from tasks.kinematics import Kinematics
+
+    arm = tasks.arm(name)
+    judge, plant = Kinematics(arm), mujoco.MjModel.from_xml_string(model_xml(arm, 1e-3))
+    if variation:
+        tasks.variation(variation).apply(plant, arm.rated)
+    model, jacobian = judge.model, judge.jacobian
+    data, body = mujoco.MjData(model), mujoco.MjData(plant)
+    rng, gaps = np.random.default_rng(seed), []
+    for _ in range(LIMIT.POSES):
+        q = np.array(arm.home) + rng.uniform(-LIMIT.AROUND_RAD, LIMIT.AROUND_RAD, model.nv)
+        qdot, u = rng.uniform(-1.0, 1.0, model.nv), rng.uniform(-1.0, 1.0, 6)
+        J = jacobian(q)
+        Jdot = (jacobian(q + LIMIT.STEP_S * qdot) - jacobian(q - LIMIT.STEP_S * qdot)) / (2 * LIMIT.STEP_S)
+        data.qpos[:], data.qvel[:] = q, qdot
+        mujoco.mj_forward(model, data)
+        fg = data.qfrc_bias - data.qfrc_passive
+        body.qpos[:], body.qvel[:] = q, qdot
+        body.qfrc_applied[:] = judge.inertia_matrix(q) @ np.linalg.solve(J, u - Jdot @ qdot) + fg
+        mujoco.mj_forward(plant, body)
+        ends = []
+        for t in (-LIMIT.STEP_S, LIMIT.STEP_S):  # J(q) qdot along the motion that follows, to second order in t
+            ends.append(jacobian(q + t * qdot + t * t / 2 * body.qacc) @ (qdot + t * body.qacc))
+        gaps.append(np.linalg.norm((ends[1] - ends[0]) / (2 * LIMIT.STEP_S) - u) / np.linalg.norm(u))
+    return np.array(gaps)

@@ -1,18 +1,23 @@
-"""C06 to C08 and C29: PD on Z-Y-X Euler angles linearized about zero (Murphy 1988, 2.14 and 2.4)."""
+"""C06 to C08, C29, C37 to C39, C45: PD on Z-Y-X angles linearized about zero (Murphy 1988, 2.14, 2.4 and 2.5)."""
+
+from __future__ import annotations
 
 import math
 
 import numpy as np
 
+from bench.base.on_first_use import pd
 from bench.experiments.suites import SHORT
 from bench.experiments.tables.read import converged
 from bench.experiments.tables.statistics import quantile_estimate
-from bench.findings.claims import probes
-from bench.findings.claims.at_gains import on_every_engine
+from bench.findings.claims import probes, tables
+from bench.findings.claims.adequacy import THREE
+from bench.findings.claims.at_gains import at_every_gain, on_every_engine
 from bench.findings.claims.rotation_matrix import GAINS, LOOSE_SETTLING, SMALL_ANGLES
 from bench.findings.claims.tables import Results, evidence, interval, lost, settled, settled_of, share, some
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form, held_goals
+from bench.law.contenders.registry import representation
 from bench.law.inputs import Gains
 from tasks.base import IDENTITY, Start
 from tasks.haar import axes
@@ -120,3 +125,95 @@ def c29(results: Results) -> tuple[Word, Evidence]:
         up to {within:g} rad of {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} tried.""",
         LIMIT.DIRECTIONS * (small.size + len(LIMIT.LARGER_RAD)),
     )
+
+
+def _beyond(results: Results) -> pd.DataFrame:
+    """Return the linearized law's uniform starts from rest outside the linear region."""
+    rows = results.episodes(LAW, tables.MAIN_ENGINE, "uniform")
+    return some(rows[rows["angle0_rad"] >= LIMIT.BEYOND_RAD], "start outside the linear region")
+
+
+@claim("C37")
+def c37(results: Results) -> tuple[Word, Evidence]:
+    """Share of starts outside the linear region that settle within C35's time."""
+    rows, small = _beyond(results), closed_form.linear_settling(*results.gains())
+    good = share(pd.Series(tables.settling_times(rows) <= LIMIT.PACE * small))
+    return word_of(good.high <= LIMIT.FEW, good.high <= 0.5), evidence(
+        f"""Of the uniform starts at {LIMIT.BEYOND_RAD:g} rad or more {good} settle within
+        {LIMIT.PACE * small:.3f} s, {LIMIT.PACE:g} times the time of a small error.""",
+        len(rows),
+    )
+
+
+@claim("C38")
+@at_every_gain
+def c38(results: Results) -> tuple[Word, Evidence]:
+    """Settling times and losses outside the linear region, against turns of one angle alone."""
+    rows, gains = _beyond(results), results.gains()
+    small = closed_form.linear_settling(*gains)
+    off = np.abs(rows.loc[settled(rows), "settling_time_s"].to_numpy() / small - 1)
+    typical, unsettled = float(np.median(some(off, "start that settles"))), lost(rows)
+    alone = max(float(probes.off_linear(LAW, angle, np.eye(3), gains, results.dt_s).max()) for angle in LIMIT.ALONE_RAD)
+    coupled = typical >= LIMIT.OFF and alone <= LIMIT.SAME + results.dt_s / small
+    return word_of(coupled and unsettled.low > 0.0, coupled), evidence(
+        f"""Of {len(rows):,} uniform starts at {LIMIT.BEYOND_RAD:g} rad or more {unsettled.value:.2%} are lost
+        ({unsettled.low:.2%} to {unsettled.high:.2%}); the others settle {typical:.1%} off the linear time, in the
+        median. Turns of one angle alone, up to {max(LIMIT.ALONE_RAD):g} rad, settle within {alone:.2%} of it.""",
+        len(rows) + 3 * len(LIMIT.ALONE_RAD),
+    )
+
+
+@claim("C39")
+def c39(results: Results) -> tuple[Word, Evidence]:
+    """Errors under a moving goal from small starts, against the rotation-matrix law's."""
+    goals = LIMIT.AXIS, LIMIT.STARTS, LIMIT.HORIZON_S, results.gains(), results.seed
+    runs = [results.found_by(probes.perturbed, law, *goals) for law in (f"{CURE}/zyx-euler", THREE[0])]
+    near = (one[(one["angle0_rad"] <= LIMIT.SMALL_RAD) & (one["level"] > 0)] for one in runs)
+    own, other = (some(one, "small start under a moving goal") for one in near)
+    both = own.merge(other, on=["level", "start_id"], suffixes=("", "_other"))
+    ratio = (both["tail_max_rad"] / both["tail_max_rad_other"]).where(both["outcome"] == "settled", np.inf)
+    by_speed = ratio.groupby(both["level"]).max()
+    kept = [speed for speed, worst in by_speed.items() if worst <= LIMIT.AS_WELL]
+    tails = own["tail_max_rad"].groupby(own["level"]).max()
+    said = ", ".join(f"{tails[speed]:.1e} rad ({worst:.2f}) at {speed:g} rad/s" for speed, worst in by_speed.items())
+    return word_of(len(kept) == len(by_speed), min(by_speed.index) in kept), evidence(
+        f"""{both["start_id"].nunique()} starts within {LIMIT.SMALL_RAD:g} rad, goals that sway: greatest error once it
+        follows, and greatest ratio to the rotation-matrix law's, {said}.""",
+        len(both),
+    )
+
+
+@claim("C45")
+def c45(results: Results) -> tuple[Word, Evidence]:
+    """Derivatives of (2.11) at zero against (2.14)."""
+    zero, h = np.zeros(3), LIMIT.STEP
+
+    def slope(place: int) -> np.ndarray:
+        columns = []
+        for unit in np.eye(3):
+            ends = [
+                angular_acceleration(*(sign * h * unit if i == place else zero for i in range(3))) for sign in (1, -1)
+            ]
+            columns.append((ends[0] - ends[1]) / (2 * h))
+        return np.array(columns).T
+
+    by_angles, by_rates, by_input = map(slope, range(3))
+    off = float(np.abs(by_input - np.eye(3)[::-1]).max())
+    rest = float(max(np.abs(by_angles).max(), np.abs(by_rates).max()))
+    return word_of(max(off, rest) <= LIMIT.DIFFERENCED, False), evidence(
+        f"""Central differences of (2.11) at zero: by u the permutation of (2.14) to {off:.0e}; by the angles and their
+        rates zero to {rest:.0e}.""",
+        2 * 9,
+    )
+
+
+def angular_acceleration(E: np.ndarray, rates: np.ndarray, u: np.ndarray) -> np.ndarray:
+    """Compute Eddot = B^-1 (u - Bdot Edot), which is (2.11), with Bdot by differences along the motion."""
+    to_matrix = representation("zyx-euler").to_matrix
+
+    def B(angles: np.ndarray) -> np.ndarray:
+        return probes.euler_B(to_matrix(tuple(angles.tolist())))
+
+    h = LIMIT.STEP
+    Bdot = (B(E + h * rates) - B(E - h * rates)) / (2 * h)
+    return np.linalg.solve(B(E), u - Bdot @ rates)

@@ -1,4 +1,4 @@
-"""C12, C17, C27, C31, C35: cost and performance of the paper's laws and of later ones (Murphy 1988, 2.5 and 4)."""
+"""C12, C17, C27, C31, C35, C36: cost and performance of the paper's laws and later ones (Murphy 1988, 2.5 and 4)."""
 
 from __future__ import annotations
 
@@ -170,3 +170,19 @@ def c35(results: Results) -> tuple[Word, Evidence]:
         f"""Reasonable: {", ".join(reasonable) or "none"}. {told}. A small error settles in {small:.3f} s.""",
         sum(one.n for _, one, _ in found),
     )
+
+
+@claim("C36")
+def c36(results: Results) -> tuple[Word, Evidence]:
+    """Return which tests of performance each of the three lacks, exact boundary points included."""
+    small, known = closed_form.linear_settling(*results.gains()), adequacy.of_three(results)
+    three = some([one for one in adequacy.every(results, MAIN_ENGINE) if one.name in THREE], "law of the paper")
+    lacks = {one.name: set(adequacy.missed(one, known, small, {})) & set(LIMIT.TESTS) for one in three}
+    told = "; ".join(
+        f"{one.name.partition('/')[0]} lacks {', '.join(sorted(lacks[one.name])) or 'nothing'} ({one.settled:.2%} of "
+        f"{one.n:,} settle, {one.lost} of {one.directed} directed starts are lost, {one.lost_exact} on a boundary "
+        f"itself, 99% settle in {one.pace.value:.2f} s)"
+        for one in three
+    )
+    is_none = len(three) == len(THREE) and all(lacks.values())
+    return word_of(is_none, False), evidence(f"{told}.", sum(one.rows for one in three))

@@ -4,8 +4,7 @@ regions.py      the law that nothing beats in a situation, by results/situations
 sensitivity.py  other rules, random halves, Holm's correction, laws tuned for themselves, the held-out set
 tables.py       the rows of a run that laws are compared on, the same starts for each
 criteria.py     what is measured of a law, each criterion a NamedTuple of data
-measured.py     all criteria of all laws, and the rule: ties, Pareto fronts, the simplest; fixed before it was run
-needs.py        what a robot asks of a law, and the law advised for it
+needs.py        all criteria of all laws, what a robot asks, and the rule, fixed before it was run
 robots.py       the robots beside the map: arms, velocities, positions, torques with no inertia cancelled
 words.py        what is advised in sentences
 """

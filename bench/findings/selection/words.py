@@ -4,8 +4,7 @@ import itertools
 import math
 from collections.abc import Callable, Sequence
 
-from bench.findings.selection.measured import GENERAL, Measured
-from bench.findings.selection.needs import Decision
+from bench.findings.selection.needs import GENERAL, Decision, Measured
 from tasks.situation import COORDINATES, Coordinate
 
 NAMED = 3

@@ -1,8 +1,7 @@
 """The chapter on what an error must do: how many laws settle from everywhere, and how many noise cannot hold."""
 
 from bench.experiments.situations import NOISE_RAD
-from bench.findings.selection.measured import measured
-from bench.findings.selection.needs import is_unheld, settles_everywhere
+from bench.findings.selection.needs import is_unheld, measured, settles_everywhere
 from report.figures.kit import families
 from report.figures.kit.page import Run
 

@@ -1,20 +1,37 @@
 """The page on arms: which laws settle on arms as they are, what limits them, and what a wrong model leaves."""
 
+import itertools
+from collections.abc import Iterator
+
 import numpy as np
 import pandas as pd
 
 import tasks
-from bench.findings.claims.tables import some
+from bench.findings.claims.tables import settled, share, some
+from bench.findings.on_arms import FULL, best, passed
 from bench.findings.selection.robots import ARM, decide_for
-from report.figures.arms import arm_ranking, arm_rows
-from report.figures.kit import families, media
+from bench.law.contenders.registry import baselines_of_arms
+from report.figures.arms import arm_rows
+from report.figures.kit import families, html, media
 from report.figures.kit.page import Run, in_run
-from report.figures.kit.spelling import prose
+from report.figures.kit.spelling import listed, prose
+from report.figures.kit.tables import Table
 
 HOMES = (
     "Renders of the four arms side by side, each in its home pose: Kinova Jaco, Franka Emika Panda, Unimation PUMA "
     "560, Universal Robots UR5e. Axes mark the base and the tool."
 )
+RANKED = Table("Law | Settled [%] | No limit touched | Reach, settled | Reach, no limit touched")
+LIMITED = Table(
+    "Arm | Motors | kp [1/s²] | Settled [%] | A motor at its rating [%] | Stopped by a joint [%] | Lost otherwise [%]"
+)
+SETS = ("uniform", "reach")
+MOTORS = {
+    **{"nominal": "usual", "motors-low": "least inertia", "motors-high": "greatest inertia"},
+    **{"motors-slow": "5 ms slow", "motors-late": "5 ms late"},
+}
+COLUMNS = tuple((name, measure) for name in SETS for measure in ("settled", "range"))
+FEW = 4  # names up to this number are said, more are counted; the table has them
 
 
 def facts(run: Run) -> dict:
@@ -23,18 +40,109 @@ def facts(run: Run) -> dict:
     return {
         "arms-at-home": media.still(HOMES, "arms"),
         "sources": "\n".join(f"- `{name}`: {prose(tasks.arm(name).source)}" for name in tasks.arm_names()),
-        "lead": in_run(lambda: arm_ranking.lead(arm_ranking.of_laws(arm_rows.episodes(run), "uniform"))),
+        "lead": in_run(lambda: lead(of_laws(arm_rows.episodes(run), "uniform"))),
         "advised": families.word(one.law) if one and one.law else "none, for this run does not tell",
         "joint_pd": in_run(lambda: joint_pd(arm_rows.episodes(run))),
-        "tab_ranked": in_run(lambda: arm_ranking.RANKED(arm_ranking.ranked(arm_rows.episodes(run)))),
-        "tab_limited": in_run(lambda: arm_ranking.LIMITED(arm_ranking.limited(arm_rows.every(run)))),
+        "tab_ranked": in_run(lambda: RANKED(ranked(arm_rows.episodes(run)))),
+        "tab_limited": in_run(lambda: LIMITED(limited(arm_rows.every(run)))),
         "model_errors": in_run(lambda: describe_model_errors(run)),
     }
 
 
+def of_laws(rows: pd.DataFrame, start_set: str) -> pd.DataFrame:
+    """Episodes of the laws by the paper's two Jacobians and the standard inverse, from one set."""
+    return arm_rows.with_standard(rows[rows["start_set"] == start_set])
+
+
+def ranked(rows: pd.DataFrame) -> Iterator[tuple]:
+    """Return a row a law, best first, then the baselines: percentages with intervals; bold: what no other law beats.
+
+    Args:
+        rows: of `arm_rows.episodes`.
+    """
+    laws = arm_rows.with_standard(rows)
+    top = {(name, one): best(laws[laws["start_set"] == name], one, "controller") for name, one in COLUMNS}
+    own = pd.concat([laws, rows[rows["regulator"].isin(baselines_of_arms())]])
+    own = own[own["start_set"].isin(SETS)]
+    own = own.assign(**passed(own), after=own["regulator"].isin(baselines_of_arms()))
+    means = own[own["start_set"] == SETS[0]].groupby("controller")[["after", "settled"]].mean()
+    for controller in means.sort_values(["after", "settled"], ascending=[True, False], kind="stable").index:
+        cells = []
+        for name, measure in COLUMNS:
+            mine = own.loc[(own["controller"] == controller) & (own["start_set"] == name), measure]
+            text = html.MISSING
+            if len(mine):
+                value, low, high = (f"{100 * one:.0f}" for one in share(mine)[2:])
+                text = f"{value} ({low} to {high})".replace(" ", "\N{NO-BREAK SPACE}")
+            cells.append(f"**{text}**" if controller in top[name, measure] else text)
+        yield arm_rows.title(controller).removeprefix("(2.2) "), *cells
+
+
+def limited(rows: pd.DataFrame) -> Iterator[tuple]:
+    """Return a row for each arm, motors and gains: what settles, and what stops the others; over all laws.
+
+    Args:
+        rows: of `arm_rows.every`.
+    """
+    rows = of_laws(rows, SETS[0])
+    rows = compare_settings(rows[rows["variation"].isin(MOTORS)], ["variation", "kp"])
+    for arm, motors in itertools.product(rows["arm"].unique(), MOTORS):
+        every = rows[(rows["arm"] == arm) & (rows["variation"] == motors)]
+        for kp, own in every.groupby("kp"):
+            counts = settled(own).sum(), (own["peak_torque_ratio"] > FULL).sum(), count_stopped(own)
+            shares = (f"{100 * one / len(own):.0f}" for one in (*counts, len(own) - counts[0] - counts[2]))
+            yield arm, MOTORS[motors], f"{kp:g}", *shares
+
+
+def compare_settings(rows: pd.DataFrame, settings: list[str]) -> pd.DataFrame:
+    """Return the rows of the starts of an arm that ran under all its settings."""
+    ran = rows.groupby(["arm", "start_id"])[settings].transform("nunique").sum(axis=1)
+    return rows[ran == ran.groupby(rows["arm"]).transform("max")]
+
+
+def count_stopped(rows: pd.DataFrame) -> int:
+    """Return how many episodes did not settle and had a joint at the end of its range."""
+    return int((~settled(rows) & (rows["range_excess_rad"] > 0.0)).sum())
+
+
+def describe_share(rows: pd.DataFrame, controller: str, measure: str) -> str:
+    """Share of a controller's episodes that pass, with its interval and n, in words."""
+    own = passed(rows[rows["controller"] == controller])[measure]
+    found = share(own)
+    return f"{100 * found.value:.0f} % ({100 * found.low:.0f} to {100 * found.high:.0f} %, n = {found.n})"
+
+
+def lead(uniform: pd.DataFrame) -> str:
+    """State who settles most on arms as they are, what gains do, and what stops the others; uniform: of `of_laws`."""
+    is_settled, by_arm = settled(uniform), settled(uniform).groupby(uniform["arm"]).mean()
+    is_shipped = uniform["kp"] == uniform["arm"].map(lambda arm: (*tasks.arm(arm).gains, 0.0)[0])
+    kinds = uniform["kp"].map("kp = {:g} 1/s²".format).mask(is_shipped, "shipped gains")
+    both = uniform.assign(kind=kinds, settled=is_settled)
+    both = compare_settings(both[both.groupby("arm")["kp"].transform("nunique") > 2], ["kp"])
+    levels = [f"{100 * own['settled'].mean():.0f} % at {kind}" for kind, own in both.groupby("kind")]
+    ends = [f"{arm_rows.name_arm(arm)} ({100 * by_arm[arm]:.0f} %)" for arm in (by_arm.idxmin(), by_arm.idxmax())]
+    stopped = count_stopped(uniform) / max(1, (~is_settled).sum())
+    return (
+        "Motors are cut at their rated torque, and joints stop at the ends of their ranges. From evenly spread starts, "
+        f"{leading(uniform, 'settled').replace('(2.2) ', '')}. On the arms that run with three pairs of gains, all "
+        f"laws together settle {', '.join(levels)}. Of the episodes that do not settle, {100 * stopped:.0f} % had a "
+        f"joint at the end of its range. The least settle on the {ends[0]}, the most on the {ends[1]}."
+    )
+
+
+def leading(rows: pd.DataFrame, measure: str) -> str:
+    """Which law passes most, or which are not distinguished from it, in words."""
+    names = best(rows, measure, "controller")
+    share_of_first = describe_share(rows, names[0], measure)
+    if len(names) == 1:
+        return f"of the laws {arm_rows.title(names[0])} settles most: {share_of_first}"
+    words = listed(map(arm_rows.title, names)) if len(names) <= FEW else f"{len(names)} laws"
+    return f"{words} are not distinguished from the best of them, {arm_rows.title(names[0])}: {share_of_first}"
+
+
 def joint_pd(rows: pd.DataFrame) -> str:
     """Return what joint PD settles from evenly spread starts."""
-    return arm_ranking.describe_share(rows[rows["start_set"] == "uniform"], "joint-pd@joints", "settled")
+    return describe_share(rows[rows["start_set"] == "uniform"], "joint-pd@joints", "settled")
 
 
 def describe_model_errors(run: Run) -> str:

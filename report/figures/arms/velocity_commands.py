@@ -5,8 +5,7 @@ from collections.abc import Iterable
 import pandas as pd
 
 from bench.findings.claims.adequacy import DETOUR
-from bench.findings.selection.measured import measured
-from bench.findings.selection.needs import Decision, decide
+from bench.findings.selection.needs import Decision, decide, measured
 from bench.findings.selection.robots import VELOCITY
 from bench.findings.selection.words import standing
 from bench.findings.theory.velocity_limits import with_theory

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 
 from bench.base.files import read_json
 from bench.findings import claims
-from bench.findings.claims import Verdict, steadiness
+from bench.findings.claims import Verdict, at_gains
 from bench.findings.claims.errata import COVERAGE, ERRATA, UNTESTABLE, Erratum, Item
 from bench.findings.claims.verdict import MISPRINTS
 from report.figures.kit import html
@@ -29,9 +29,9 @@ def facts(_: Run) -> dict:
         "n_computed": sum(one.check is not None for one in ERRATA),
         "n_read": sum(one.check is None for one in ERRATA),
         "misprints": typeset(" ".join(MISPRINTS.split())),
-        "steady": steadiness.describe(read_json(steadiness.STORED), {one.id: str(one.word) for one in every}),
+        "steady": at_gains.describe(read_json(at_gains.STORED), {one.id: str(one.word) for one in every}),
         "sections": html.Html("".join(map(section, every))),
-        "untestable": SENTENCES((one.section, f"“{prose(one.quote)}”", prose(one.why)) for one in UNTESTABLE),
+        "untestable": SENTENCES((one["section"], f"“{prose(one['quote'])}”", prose(one["why"])) for one in UNTESTABLE),
         "slips": SLIPS(map(describe_slip, sorted(ERRATA, key=lambda one: one.check is None))),
         "coverage": PARTS(map(describe_item, COVERAGE)),
     }

@@ -8,7 +8,6 @@ import pandas as pd
 from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, NEAREST_RAD, Equation, settling
 from report.figures.comparison.comparison import uniform
 from report.figures.kit import families, style
-from report.figures.kit.dots import dots
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
 
@@ -38,7 +37,7 @@ def curves(rows: pd.DataFrame, narrow: bool) -> Drawing:
     """Curves of the equations, and dots of the starts, of the first law of each.
 
     Args:
-        rows: of `cells.common`.
+        rows: of `comparison.common`.
     """
     figure, axes = style.panels(height=4.4 if narrow else 4.2, narrow=narrow)
     kp, kv, tolerance = (float(rows[column].iloc[0]) for column in ("kp", "kv", "tolerance"))
@@ -53,7 +52,7 @@ def curves(rows: pd.DataFrame, narrow: bool) -> Drawing:
             np.degrees(angles), times, color=colour, linewidth=1.1, alpha=alpha, zorder=2 + (colour != style.REST)
         )
         own = rows[rows["contender"] == names[0]].head(DRAWN)
-        dots(axes, np.degrees(own["angle0_rad"]), own["settling_time_s"], colour, 3.0, zorder=3, alpha=alpha)
+        style.dots(axes, np.degrees(own["angle0_rad"]), own["settling_time_s"], colour, 3.0, zorder=3, alpha=alpha)
         word = families.word(names[0]) + (f" +{len(names) - 1}" if len(names) > 1 else "")
         words.append(f"{', '.join(map(families.word, names))} from {times[0]:.2f} to {times[-1]:.2f} s")
         leaves = left_at(np.degrees(angles), times)

@@ -2,22 +2,32 @@
 
 import functools
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 import pandas as pd
+from scipy.spatial.transform import Rotation
 
 from bench.experiments.tables import read
-from bench.findings.selection.measured import measured
-from report.figures.comparison import cells
+from bench.experiments.tables.statistics import Estimate, quantile_estimate
+from bench.findings.claims.tables import share
+from bench.findings.selection import tables as compared
+from bench.findings.selection.needs import measured
+from bench.findings.start_sets import AT_REST
+from report.figures.cost.cost import totals
+from report.figures.cost.operations import CALLS
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
+from report.figures.kit.spelling import power
 from report.figures.kit.tables import Table
 
 ALL_LAWS = Table("Law | Settles [%] | Median [s] | 99 % [s] | Effort | Peak | A tick | Lost | Held")
 NEAR_DEG = 30, 60
 ANISOTROPIC = "weighted-columns"
 """Its stiffness is the others' on the average over its axes alone."""
+NEVER = "never"
+SMALL_PEAK = 1e4
+"""Commands [rad/s^2] above this are those of a division by nearly nothing."""
 
 
 @functools.cache
@@ -29,13 +39,13 @@ def ideal(run: Run) -> pd.DataFrame:
 @functools.cache
 def uniform(run: Run) -> pd.DataFrame:
     """Return the episodes from uniform starts that every law ran."""
-    return cells.common(ideal(run))
+    return common(ideal(run))
 
 
 def facts(run: Run) -> dict:
     """Return the numbers of the laws that are not negative controls, and the table of all laws."""
-    rows, tried = uniform(run), cells.directed_starts(ideal(run))
-    times, efforts = cells.costs(rows, "settling_time_s"), cells.costs(rows, "effort")
+    rows, tried = uniform(run), directed_starts(ideal(run))
+    times, efforts = costs(rows, "settling_time_s"), costs(rows, "effort")
     laws = [name for name in times if name not in families.CONTROLS]
     middle, spent = (table[laws].quantile(interpolation="lower") for table in (times, efforts))
     lost = set(tried.loc[tried["outcome"] != "settled", "contender"])
@@ -68,18 +78,101 @@ def near(rows: pd.DataFrame) -> dict:
 
 def compare_laws(run: Run, times: pd.DataFrame, efforts: pd.DataFrame) -> Iterator[tuple]:
     """Return a row a law: what settles, how fast, effort, peak, a tick, lost starts, what noise holds."""
-    rows, tried, counted = uniform(run), cells.directed_starts(ideal(run)), run.any_rows("costs", **read.FREE_BODY)
+    rows, tried, counted = uniform(run), directed_starts(ideal(run)), run.any_rows("costs", **read.FREE_BODY)
     held = in_run(lambda: measured(run.folder).values["held"]) or {}
     for name in families.in_order(times):
         own = rows[rows["contender"] == name]
         yield (
             families.link(name, families.word(name)),
-            cells.settles(own),
-            cells.seconds(times[name]),
-            cells.seconds(times[name], 0.99),
+            settles(own),
+            seconds(times[name]),
+            seconds(times[name], 0.99),
             html.number(float(f"{efforts[name].quantile(interpolation='lower'):.3g}")),
-            cells.large(own["peak_u"].max()),
-            cells.tick(counted, name),
-            cells.count_lost(tried[tried["contender"] == name]),
+            large(own["peak_u"].max()),
+            tick(counted, name),
+            count_lost(tried[tried["contender"] == name]),
             html.cell(float(held[name][0])) if name in held else html.MISSING,
         )
+
+
+def common(episodes: pd.DataFrame) -> pd.DataFrame:
+    """Rows of uniform starts that every law ran, so that none is judged by easier ones; laws family by family.
+
+    Args:
+        episodes: rows of one engine. The paper's laws ran more starts than the later ones.
+    """
+    rows = compared.common(episodes[(episodes["start_set"] == "uniform") & (episodes["arm"] == "")])
+    names = families.in_order(rows["contender"].unique())
+    ordered = rows.assign(contender=pd.Categorical(rows["contender"].astype(str), names, ordered=True))
+    return ordered.sort_values(["contender", "start_id"], ignore_index=True)
+
+
+def costs(rows: pd.DataFrame, column: str) -> pd.DataFrame:
+    """Return a column by start and law, infinite where the law did not settle: shape (starts, laws)."""
+    settled = rows["outcome"] == "settled"
+    return rows.assign(cost=rows[column].where(settled, np.inf)).pivot(
+        index="start_id", columns="contender", values="cost"
+    )
+
+
+def settles(own: pd.DataFrame) -> str:
+    """Return the share of a law's rows that settle [%], with its interval."""
+    found = share(own["outcome"] == "settled")
+    return with_interval(*map(percent, (found.value, found.low, found.high)))
+
+
+def tick(counted: pd.DataFrame, name: str) -> str:
+    """Return flops and calls of a typical tick, as "45 + 6".
+
+    Args:
+        counted: rows of costs.parquet about the free body.
+    """
+    if name not in set(counted["contender"]):
+        return html.MISSING
+    own = totals(counted).loc[name]
+    flops, calls = int(own["flops"]), int(own[list(CALLS)].sum())
+    return f"{flops} + {calls}" if calls else (f"{flops}" if flops else html.MISSING)
+
+
+def percent(part: float) -> str:
+    """Return a share in per cent, to a tenth, whole where it is all or nothing."""
+    return f"{100 * part:.0f}" if part in (0.0, 1.0) else f"{100 * part:.1f}"
+
+
+def seconds(values: pd.Series, level: float = 0.5) -> str:
+    """Return a quantile of times with its interval; among the failures it is never reached."""
+    return spelled(quantile_estimate(values.to_numpy(), level), lambda value: f"{value:.3f}")
+
+
+def large(value: float) -> str:
+    """Return a number to three figures, or as a power of ten where it stands for no bound."""
+    return html.number(float(f"{value:.3g}")) if value < SMALL_PEAK else power(value)
+
+
+def spelled(found: Estimate, write: Callable[[float], str]) -> str:
+    """Return an estimate as words; where both ends are the number itself, the number alone."""
+    value, low, high = (write(one) if np.isfinite(one) else NEVER for one in found)
+    return value if value == low == high else with_interval(value, low, high)
+
+
+def with_interval(value: str, low: str, high: str) -> str:
+    """Return a number, and its interval, which no line breaks."""
+    return f"{value} {html.together(f'({low} to {high})')}"
+
+
+def directed_starts(episodes: pd.DataFrame) -> pd.DataFrame:
+    """Directed starts at rest, each orientation once a law, though several sets have it; rows of one engine."""
+    rows = episodes[episodes["start_set"].isin(AT_REST) & (episodes["arm"] == "")]
+    return rows[~orientation(rows).assign(contender=rows["contender"]).duplicated()]
+
+
+def orientation(rows: pd.DataFrame) -> pd.DataFrame:
+    """R, which both quaternions of an orientation share, to the last digit but three."""
+    turns = Rotation.from_quat(rows[["quat_w", "quat_x", "quat_y", "quat_z"]].to_numpy(), scalar_first=True)
+    return pd.DataFrame(turns.as_matrix().reshape(-1, 9).round(13), rows.index)
+
+
+def count_lost(rows: pd.DataFrame) -> str:
+    """Return how many of a law's starts that converge do not settle: 26 of 726."""
+    sure = read.converged(rows)
+    return f"{int((sure['outcome'] != 'settled').sum())} of {len(sure)}"

@@ -23,7 +23,7 @@ def modes(run: Run) -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """Return the damping felt by each design, and the longest stable control periods of frankapy's gains."""
+    """Return the damping felt by each design, and the longest stable control periods of gains shipped for Pandas."""
     every, frankapys = modes(run), SHIPPED["frankapy"]
     found, franka = driven(every), on_panda(every, frankapys)
     felt = {name: found.loc[found["damping"] == name, "ratio"] for name in DAMPINGS}
@@ -43,12 +43,8 @@ def facts(run: Run) -> dict:
         "practice": f"{frankapys.translation:g} N/m, {frankapys.rotation:g} N m/rad",
         "practice_tick": in_ms(driven(franka)["longest_dt_s"]),
         "bare_tick": f"{1000.0 * franka['longest_dt_s'].min():.2g}",
+        "panda": PANDA(limits_of_shipped(every)),
     }
-
-
-def tables(run: Run) -> dict:
-    """Return the limits of the gains that are shipped for Pandas."""
-    return {"panda": PANDA(limits_of_shipped(modes(run)))}
 
 
 def limits_of_shipped(every: pd.DataFrame) -> Iterator[tuple]:

@@ -10,6 +10,7 @@ import pandas as pd
 from bench.experiments.tables import read
 from bench.experiments.tables.store import read_arrow
 from bench.findings.claims.standing import MEASURABLE
+from bench.findings.claims.tables import some
 from bench.findings.selection.tables import ticks
 from bench.law.contenders.registry import all_contenders, contenders
 from report.figures.cost import operations
@@ -52,7 +53,8 @@ def compare_forms(counted: pd.DataFrame) -> dict[str, int]:
 
 def share_of_time(run: Run) -> dict[str, str]:
     """Return the shares of a whole controller's time that the cheapest law, late braking and the dearest take."""
-    share = {law: value for law, value in ticks(run).items() if not law.endswith("literal/zyx-euler")}
+    shares = {law: value for law, value in ticks(run).items() if not law.endswith("literal/zyx-euler")}
+    share = some(shares, "time of a law")
     most = max(share, key=lambda law: share[law])
     shown = {"time_matrix": MATRIX, "time_late": "late-braking", "time_most": most}
     words = {

@@ -1,4 +1,4 @@
-"""The parts of a page that are not drawings: badges, tables, formulas, a ball to turn.
+"""The parts of a page that are not drawings: badges, cells of tables, formulas, names of laws.
 
 Their looks are in report/_static/report.css. Tables are Markdown, so that links and citations in their
 cells are checked when the report is built; the rest is HTML.
@@ -7,10 +7,8 @@ cells are checked when the report is built; the rest is HTML.
 import math
 import numbers
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable
 from typing import Any
-
-import pandas as pd
 
 from report.figures.kit import mathml, spelling, style
 
@@ -76,31 +74,6 @@ def together(text: str) -> Html:
 def both(light: str) -> str:
     """Return a colour for light and dark pages, as CSS."""
     return f"light-dark({light}, {style.TWINS[light]})"
-
-
-def table(
-    frame: pd.DataFrame, formats: Mapping[str, str | Callable[[Any], str]] | None = None, words: Iterable[str] = ()
-) -> Markdown:
-    """Return a frame as a Markdown table: numbers to the right, words to the left, gaps as a dash.
-
-    Args:
-        frame: one row per line of the table; the column labels are its head, the index is left out.
-        formats: per column ".2f", "{:.2f} s" or a function; without one, `number`.
-        words: columns to set as words although they hold numbers.
-    """
-    formats = dict(formats or {})
-    unknown = sorted(set(formats) - set(map(str, frame.columns)))
-    if unknown:
-        raise ValueError(f"formats names {unknown}, not columns of the table; known: {list(map(str, frame.columns))}")
-    as_words = {str(name) for name in frame if not pd.api.types.is_numeric_dtype(frame[name])} | set(words)
-    head = [str(column) for column in frame.columns]
-    rule = [":--" if column in as_words else "--:" for column in head]
-    rows = [
-        [keep_count(cell(value, formats.get(column))) for column, value in zip(head, row, strict=True)]
-        for row in frame.itertuples(index=False, name=None)
-    ]
-    lines = [head, rule, *rows]
-    return Markdown("\n".join("| " + " | ".join(line) + " |" for line in lines))
 
 
 def keep_count(text: str) -> str:

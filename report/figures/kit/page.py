@@ -25,6 +25,7 @@ from bench.findings.claims.tables import Results, some
 from bench.findings.claims.verdict import NoEvidence
 from report.figures.kit import html, style
 from report.figures.kit.inline import Drawing, responsive_picture
+from report.figures.kit.tables import Table
 
 REPORT = Path(__file__).resolve().parents[2]
 ABSENT = "not in this run"
@@ -137,7 +138,7 @@ def absent(key: str, kind: str) -> Any:
     if kind == "figure":
         return blank(key.replace("-", " ").replace("_", " ").capitalize())
     if kind == "table":
-        return html.table(pd.DataFrame({"Rows": [ABSENT]}))
+        return Table("Rows")([(ABSENT,)])
     return {"fact": ABSENT, "sentence": html.Markdown(f"This is {ABSENT}.")}.get(kind, html.Html(f"<p>{ABSENT}</p>"))
 
 

@@ -10,9 +10,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+import numpy as np
 from matplotlib import font_manager
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path as Curve
 
 from report.figures.kit import laws
 
@@ -138,3 +141,20 @@ def apart(places: Sequence[float], gap: float) -> list[float]:
             short = max(0.0, gap - (moved[high] - moved[low])) / 2.0
             moved[low], moved[high] = moved[low] - short, moved[high] + short
     return moved
+
+
+def dots(axes: Axes, x: Any, y: Any, colour: str, size: float = 2.2, **look: Any) -> None:
+    """Draw round dots of this size [pt] at (x, y), thousands as one path, which do not move the limits of the axes.
+
+    Segments of no length with round ends take a tenth of the bytes of as many markers.
+    """
+    points = np.column_stack((x, y)).astype(float)
+    points = points[np.isfinite(points).all(axis=1)]
+    if not len(points):
+        return
+    codes = np.tile([Curve.MOVETO, Curve.LINETO], len(points))
+    path = Curve(np.repeat(points, 2, axis=0), codes)
+    path.should_simplify = False
+    axes.add_artist(
+        PathPatch(path, fill=False, edgecolor=colour, linewidth=size, capstyle="round", joinstyle="round", **look)
+    )

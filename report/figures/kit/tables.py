@@ -9,7 +9,7 @@ from report.figures.kit import html
 
 
 class Table:
-    """A table of a page.
+    """A table of a page, in Markdown: numbers to the right, words to the left, gaps as a dash.
 
         TIMES = Table("Law | Starts | Settled [%]:.1f | Error", {"Error": power})
         TIMES(rows)
@@ -27,6 +27,8 @@ class Table:
         self.heads = [head for head, *_ in parts]
         self.formats = {head: form for head, _, form in parts if form} | dict(forms or {})
         self.words = tuple(words)
+        if unknown := sorted(set(self.formats) - set(self.heads)):
+            raise ValueError(f"formats names {unknown}, not columns of the table; known: {self.heads}")
 
     def __call__(self, rows: Iterable) -> html.Markdown | None:
         """Return the table as Markdown.
@@ -35,4 +37,13 @@ class Table:
             rows: a frame or mappings with these heads, or sequences in their order; none makes no table.
         """
         frame = pd.DataFrame(rows if isinstance(rows, pd.DataFrame) else list(rows), columns=self.heads)
-        return html.table(frame, self.formats, self.words) if len(frame) else None
+        if frame.empty:
+            return None
+        numbers = {name for name in self.heads if pd.api.types.is_numeric_dtype(frame[name])} - set(self.words)
+        rule = ["--:" if name in numbers else ":--" for name in self.heads]
+        forms = [self.formats.get(head) for head in self.heads]
+        cells = (
+            [html.keep_count(html.cell(value, form)) for value, form in zip(row, forms, strict=True)]
+            for row in frame.itertuples(index=False, name=None)
+        )
+        return html.Markdown("\n".join(f"| {' | '.join(line)} |" for line in (self.heads, rule, *cells)))

@@ -99,7 +99,8 @@ def in_lines(rows: pd.DataFrame) -> list[tuple]:
 
 def measured(one: Any) -> tuple:
     """Return the cells of a controller but for its name."""
-    has_body = one.starts > 0
+    has_body, times = one.starts > 0, (one.settling_1_s, one.settling_90_s, one.settling_179_9_s)
+    settled = html.together(", ".join("never" if math.isnan(time) else f"{time:.2g}" for time in times))
     return (
         f"{one.kp:.3g}, {one.kv:.3g}" if has_body else f"{one.kp:.3g} a tick",
         html.together(", ".join(f"{100.0 * getattr(one, name):.0f}" for name in FELT_RAD)),
@@ -108,13 +109,8 @@ def measured(one: Any) -> tuple:
         stuck(one),
         (f"{one.away} of {one.starts}" if one.away else "no") if has_body else None,
         math.degrees(one.bent),
-        times(one.settling_1_s, one.settling_90_s, one.settling_179_9_s) if has_body else None,
+        settled if has_body else None,
     )
-
-
-def times(*settling: float) -> str:
-    """Settling times [s]."""
-    return html.together(", ".join("never" if math.isnan(one) else f"{one:.2g}" for one in settling))
 
 
 def stuck(row: Any) -> str:

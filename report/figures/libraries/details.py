@@ -4,9 +4,8 @@ from bench.findings.questions import QUESTIONS, Question
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
 from report.figures.kit.tables import Table
-from report.figures.libraries import answers
 from report.figures.libraries.as_shipped import reported
-from report.figures.libraries.libraries import lines, passed
+from report.figures.libraries.libraries import COUNT_RAD, SINGLE_RAD, lines, passed, table
 
 PASSED = Table("Library | Functions")
 ASKED = Table("Question | Cause | Cure | Measured | Without the cure:.3g | With it:.3g")
@@ -14,11 +13,11 @@ ASKED = Table("Question | Cause | Cure | Measured | Without the cure:.3g | With 
 
 def facts(_: Run) -> dict:
     """Return at which rotations the functions were tested, what is no fault, what passed, and questions of users."""
-    rows = answers.table()
+    rows = table()
     small, near = (rows[rows[name] > 0.0] for name in ("angle_rad", "distance_rad"))
     return {
-        "count": power(answers.COUNT_RAD),
-        "single_count": power(answers.SINGLE_RAD),
+        "count": power(COUNT_RAD),
+        "single_count": power(SINGLE_RAD),
         "axes": int(near["turns"].max()),
         "drawn": int(rows[rows["turn_set"] == "drawn"]["turns"].max()),
         "smallest": power(small["angle_rad"].min()),

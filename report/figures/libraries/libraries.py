@@ -1,35 +1,139 @@
-"""The page on other libraries: which functions fail, with the smallest fix, and shipped controllers."""
+"""The page on other libraries: which functions fail, with the smallest fix, and shipped controllers.
+
+Read from results/libraries, which is committed: it does not change with the run that a report is built from.
+"""
 
 import functools
+import math
 from collections.abc import Iterator
 from typing import Any
 
 import pandas as pd
 
+from bench.base.files import read_json
+from bench.experiments.tables.schema import RESULTS
+from bench.experiments.tables.store import read
 from bench.findings.remedy import KEEP, fix_of
+from bench.studies.libraries.judge import COUNT_RAD, FORMS, SINGLE_RAD, WRONG_AXIS_RAD
 from report.figures.kit import html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import listed, power
 from report.figures.kit.tables import Table
-from report.figures.libraries import answers, as_shipped
+from report.figures.libraries import as_shipped
+
+FOLDER = RESULTS / "libraries"
+VECTOR, SINE, ANGLES = "rotation-vector", "sine", "z-y-x"
+
+NO_NUMBER, ZERO, LONG_WAY, MISALIGNED, SHEET, DIGITS = "no-number", "zero", "long-way", "misaligned", "sheet", "digits"
 
 OURS = "orientation-bench"
 """Our own laws in results/libraries, asked like the libraries."""
 
 FAULTS = Table("Library | Function | Fault | Smallest fix | Thread")
-ORDER = (answers.ZERO, answers.SHEET, answers.LONG_WAY, answers.MISALIGNED, answers.DIGITS)
+ORDER = (ZERO, SHEET, LONG_WAY, MISALIGNED, DIGITS)
 """Order of the faults, by what they do to a controller."""
+
+
+@functools.cache
+def table(name: str = "libraries") -> pd.DataFrame:
+    """Return every row of a table of the study, words as words."""
+    found = read(FOLDER, name)
+    return found.astype(dict.fromkeys(found.select_dtypes("category"), str))
+
+
+def origins() -> dict[str, dict[str, str]]:
+    """Return by library its version and the packages that it was tested with."""
+    return read_json(FOLDER / "provenance.json")["libraries"]
+
+
+def functions(rows: pd.DataFrame) -> pd.DataFrame:
+    """One line a function, in the table's order.
+
+    Columns: library, function, kind, takes, form, precision, thread; `turn`, the largest error of the turn that an
+    answer stands for; `objections`, the verdict: a dictionary from kind to words; `is_right`: it is empty.
+    """
+    words = ["library", "function", "kind", "takes", "form", "precision", "thread"]
+    lines = [
+        {**own.iloc[0][words], "turn": own["turn_error_rad"].max(), "objections": objections(own)}
+        for _, own in rows.groupby(["library", "function"], sort=False)
+    ]
+    return pd.DataFrame(lines).assign(is_right=lambda every: ~every["objections"].map(bool))
+
+
+def objections(own: pd.DataFrame) -> dict[str, str]:
+    """Return what is wrong with a function: kind to words with numbers, empty if nothing is.
+
+    Every function is judged by the turn that its answer stands for; that angles are no error along the axis is no fault
+    of the function. This is the only verdict on a function that the page has.
+    """
+    has_axis, at = FORMS[own["form"].iloc[0]].size is not None, own[own["distance_rad"] == 0.0]
+    found = {}
+    silent = own["raised"].sum() + own["not_finite"].sum()
+    if silent:
+        found[NO_NUMBER] = f"no number for {silent} of {own['turns'].sum()} turns"
+    if has_axis and at["nought"].sum():
+        found[ZERO] = f"zero at {_of(at, 'nought')} 180° rotations"
+    # Next to 180° the other axis is almost the same turn: what is left of it counts as digits.
+    long = own.assign(long_way=own["long_way"].where(own["turn_error_rad"] > WRONG_AXIS_RAD, 0))
+    if has_axis and long["long_way"].sum():
+        found[LONG_WAY] = f"unwinding for {_of(long, 'long_way')} rotations"
+    if has_axis and own["astray"].sum():
+        found[MISALIGNED] = f"another axis for {_of(own, 'astray')} rotations"
+    if own["other_sheet"].sum():
+        found[SHEET] = "unwinding for −q"
+    return found if LONG_WAY in found else found | wrong(own[own["nought"] == 0] if ZERO in found else own)
+
+
+def wrong(own: pd.DataFrame) -> dict[str, str]:
+    """Return where the error is largest, and how large; nothing if that is less than the library's precision."""
+    worst = own.loc[own["turn_error_rad"].idxmax()]
+    if worst["turn_error_rad"] <= (SINGLE_RAD if worst["precision"] == "single" else COUNT_RAD):
+        return {}
+    return {DIGITS: f"off by {power(worst['turn_error_rad'])} rad {where(worst)}"}
+
+
+def where(row: pd.Series) -> str:
+    """Return a set of turns in words."""
+    if not math.isnan(row["angle_rad"]):
+        return f"for rotations of {power(row['angle_rad'])} rad"
+    if math.isnan(row["distance_rad"]):
+        return "at the poles" if row["turn_set"] == "pole" else "for drawn rotations"
+    return f"at {power(row['distance_rad'])} rad before 180°" if row["distance_rad"] else "at 180°"
+
+
+def _of(rows: pd.DataFrame, name: str) -> str:
+    count, every = rows[name].sum(), rows["turns"].sum()
+    return "all" if count == every else f"{count} of {every}"
+
+
+@functools.cache
+def responses() -> pd.DataFrame:
+    """Return a row a function or controller: its starts below 180° and at it.
+
+    Columns: library, function, kind; unsettled, away: of the starts below 180°; at_180, dead: of the starts at 180°,
+    how many and how many of them never move.
+    """
+    rows = table("closed_loop")
+    is_at = rows["angle_deg"] == 180.0
+    below, at = (rows[chosen].groupby(["library", "function", "kind"], sort=False) for chosen in (~is_at, is_at))
+    counts = {
+        "unsettled": below[["dead", "lost", "failed"]].sum().sum(axis=1),
+        "away": below["away"].sum(),
+        "at_180": at["starts"].sum(),
+        "dead": at["dead"].sum(),
+    }
+    return pd.DataFrame(counts).reset_index()
 
 
 @functools.cache
 def lines() -> pd.DataFrame:
     """Return a line a function, idioms and angles among them."""
-    return answers.functions(answers.table())
+    return functions(table())
 
 
 def errors(every: pd.DataFrame, kind: str = "function") -> pd.DataFrame:
     """Return the functions, or the idioms, that are errors along an axis."""
-    return every[every["form"].ne(answers.ANGLES) & every["kind"].eq(kind)]
+    return every[every["form"].ne(ANGLES) & every["kind"].eq(kind)]
 
 
 def facts(run: Run) -> dict:
@@ -37,18 +141,18 @@ def facts(run: Run) -> dict:
 
     Ours are not counted among other libraries'.
     """
-    rows, every = answers.table(), lines()
+    rows, every = table(), lines()
     others = every[every["library"] != OURS]
     functions, idioms = errors(others), errors(others, "idiom")
     good = functions[functions["is_right"]]
     single = good["precision"] == "single"
     return {
-        "libraries": len(set(answers.origins()) - {OURS}),
+        "libraries": len(set(origins()) - {OURS}),
         "functions": len(functions),
         "right": len(good),
         "idioms": len(idioms),
         "idioms_wrong": int((~idioms["is_right"]).sum()),
-        "count": power(answers.COUNT_RAD),
+        "count": power(COUNT_RAD),
         "worst_right": power(good[~single]["turn"].max()),
         "passed_names": listed(name for name, _ in passed(every)),
         "single_names": ", ".join(dict.fromkeys(good[single]["library"])),
@@ -75,7 +179,7 @@ def shipped_facts(run: Run) -> dict:
 
 def loop_facts() -> dict:
     """Return how many closed loops are run, how many stay at 180°, and how many turn away first."""
-    every = answers.responses().query("library != @OURS and kind == 'function'")
+    every = responses().query("library != @OURS and kind == 'function'")
     return {
         "loops": len(every),
         "loops_dead": int((every["dead"] == every["at_180"]).sum()),
@@ -87,7 +191,7 @@ def loop_facts() -> dict:
 def faults(every: pd.DataFrame) -> Iterator[tuple]:
     """Return a row for the functions of a library that fail alike and for which the same thread is known."""
     own = errors(every[every["library"] != OURS]).query("not is_right")
-    audited = answers.table("verdicts")[["library", "function", "replacement"]]
+    audited = table("verdicts")[["library", "function", "replacement"]]
     own = own.merge(audited, how="left").fillna({"replacement": ""})
     own = own.assign(
         said=own["objections"].map(lambda found: "; ".join(found.values())),
@@ -97,21 +201,21 @@ def faults(every: pd.DataFrame) -> Iterator[tuple]:
     for (library, fault, thread), alike in own.groupby(["library", "said", "thread"], sort=False):
         names = ", ".join(f"`{name}`" for name in alike["function"])
         fixes = " or ".join(dict.fromkeys(instead(one, every) for one in alike.itertuples()))
-        yield f"{library} {answers.origins()[library]['version']}", names, fault, fixes, as_shipped.reported(thread)
+        yield f"{library} {origins()[library]['version']}", names, fault, fixes, as_shipped.reported(thread)
 
 
 def passed(every: pd.DataFrame) -> Iterator[tuple]:
     """Return a row a library: its functions that are right and give the rotation vector."""
     kept = errors(every[every["library"] != OURS]).query("is_right")
-    for library, own in kept[kept["form"] == answers.VECTOR].groupby("library", sort=False):
+    for library, own in kept[kept["form"] == VECTOR].groupby("library", sort=False):
         names = dict.fromkeys(name.partition(", of a ")[0] for name in own["function"])
-        yield f"{library} {answers.origins()[library]['version']}", ", ".join(f"`{name}`" for name in names)
+        yield f"{library} {origins()[library]['version']}", ", ".join(f"`{name}`" for name in names)
 
 
 def instead(one: Any, every: pd.DataFrame) -> str:
     """Return the smallest fix: a change of a line, else a right function of the same library, else one of ours."""
-    if one.form == answers.ANGLES or (one.replacement and not one.replacement.startswith("`of_")):
+    if one.form == ANGLES or (one.replacement and not one.replacement.startswith("`of_")):
         return one.replacement or html.MISSING
     kept = errors(every).query("is_right")
-    alike = kept[(kept["library"] == one.library) & (kept["takes"] == one.takes) & (kept["form"] == answers.VECTOR)]
+    alike = kept[(kept["library"] == one.library) & (kept["takes"] == one.takes) & (kept["form"] == VECTOR)]
     return f"`{alike['function'].iloc[0]}`" if len(alike) else f"`of_{one.takes}`"

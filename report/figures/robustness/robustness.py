@@ -82,7 +82,7 @@ def differing(each: Found) -> list[Way]:
 
 
 def facts(run: Run) -> dict:
-    """Return how many laws and perturbations there are, how they differ, and limits of the linear loop."""
+    """Return how many laws and perturbations there are, how they differ, and limits of the linear loop; and the map."""
     each = found(run)
     apart = [tasks.axis(way.axis).title.lower() + " (downwards)" * (not way.grows) for way in differing(each)]
     kp, kv = gains(along(run, "delay"))
@@ -96,12 +96,8 @@ def facts(run: Run) -> dict:
         "starts": int(counted(run, "delay")["starts"].max()),
         "run_starts": starts(along(run, "delay")),
         "apart": "; ".join(apart) or "none",
+        "robustness": threshold_map(each),
     }
-
-
-def figures(run: Run) -> dict:
-    """Thresholds of the laws along the perturbations that tell them apart."""
-    return {"robustness": threshold_map(found(run))}
 
 
 @responsive_picture
