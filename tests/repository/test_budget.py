@@ -9,45 +9,45 @@ ROOT = Path(__file__).parents[2]
 LINES = {
     "bench/__init__.py": 29,
     "bench/__main__.py": 31,
-    "bench/audit": 2_181,
-    "bench/base": 515,
-    "bench/cli": 2_442,
-    "bench/engines": 6_416,
-    "bench/experiments": 5_223,
-    "bench/export": 2_001,
-    "bench/findings": 6_329,
-    "bench/law": 6_723,
-    "bench/regression": 1_295,
-    "bench/running": 2_419,
-    "bench/studies": 2_666,
-    "tests/audit": 599,
-    "tests/cli": 745,
+    "bench/audit": 2_083,
+    "bench/base": 494,
+    "bench/cli": 2_504,
+    "bench/engines": 6_122,
+    "bench/experiments": 5_034,
+    "bench/export": 1_953,
+    "bench/findings": 7_806,
+    "bench/law": 6_615,
+    "bench/regression": 1_269,
+    "bench/running": 2_382,
+    "bench/studies": 2_522,
+    "tests/audit": 584,
+    "tests/cli": 733,
     "tests/conftest.py": 69,
-    "tests/contracts": 2_388,
-    "tests/engines": 2_742,
-    "tests/experiments": 2_231,
-    "tests/export": 314,
-    "tests/findings": 2_146,
-    "tests/law": 2_563,
-    "tests/regression": 722,
-    "tests/report": 1_683,
-    "tests/repository": 517,
-    "tests/running": 1_189,
-    "tests/studies": 703,
-    "tests/support": 3_252,
-    "tests/tasks": 1_887,
-    "report": 6_249,
-    "tasks": 5_301,
+    "tests/contracts": 2_345,
+    "tests/engines": 2_678,
+    "tests/experiments": 2_189,
+    "tests/export": 310,
+    "tests/findings": 2_277,
+    "tests/law": 2_331,
+    "tests/regression": 725,
+    "tests/report": 1_668,
+    "tests/repository": 513,
+    "tests/running": 1_175,
+    "tests/studies": 679,
+    "tests/support": 3_186,
+    "tests/tasks": 1_789,
+    "report": 5_922,
+    "tasks": 5_188,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
-FILES = {"bench/audit": 42, "bench/experiments": 45, "bench/export": 19, "bench/law": 109, "tasks": 77}
+FILES = {"bench/audit": 38, "bench/experiments": 44, "bench/export": 18, "bench/law": 109, "tasks": 77}
 """Python files of the rooms in which one file adds one thing: with one more, a room may have as many lines more."""
 LONGEST_FILE = 250
 TOO_LONG: dict[str, int] = {}
 """Files that are still longer, with their lines."""
 
 
-DATA = {"bench": 3_334, "report": 1_750, "tasks": 489, "tests": 1_034}
+DATA = {"bench": 3_275, "report": 1_750, "tasks": 489, "tests": 1_034}
 """Lines of text in other files than Python: what moves into them counts too. One new file may come on top."""
 SUFFIXES = (".toml", ".text", ".xml", ".js", ".c", ".cpp", ".html", ".css")
 

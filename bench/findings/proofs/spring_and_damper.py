@@ -34,12 +34,11 @@ FORM = "u = Kp f(eta) eps - a omega + b (eps . omega) eps + g eps x omega"
 
 
 class Command(NamedTuple):
+    """The command of one path, taken apart: functions of eta and the gains."""
+
     f: Traced
     a: Traced
     b: Traced
-
-
-"""The command of one path, taken apart: functions of eta and the gains."""
 
 
 def take_apart(body: FreeBody, tick: Tick) -> Command:
