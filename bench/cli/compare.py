@@ -70,7 +70,8 @@ def _compare(
         differences = rows.compare(*folders)
     else:
         with progress("steps", "checking out") as steps:
-            said = gates.compare_revisions(base, head, laws, steps.now, 0 if no_timing else gates.ROUNDS)
+            means = gates.Means(rounds=0 if no_timing else gates.ROUNDS)
+            said = gates.compare_revisions(base, head, laws, steps.now, means=means)
         folded = " (which: --summary FILE)"
         differences = [f"{one.verdict}: {one.says}{folded * bool(one.more)}" for one in said.findings]
     if said.measures:

@@ -44,8 +44,8 @@ def user(tmp_path):
 
 
 @pytest.fixture
-def comparing(finished, monkeypatch):
-    """`compare_revisions`, where both sides' runs are one and the same, and times and faults are as given."""
+def means(finished):
+    """means(...): both sides' runs are one and the same; times and faults are as given."""
 
     def make(time=SAME, faults=(), base_faults=()):
         def compare_times(base, head, report, rounds):
@@ -60,10 +60,7 @@ def comparing(finished, monkeypatch):
             said = tuple(Said("It shakes.", "appendix-method", fault) for fault in (faults if is_head else base_faults))
             return [Judgement("braking", said, (), False)]
 
-        monkeypatch.setattr(gates.commits, "run_side", lambda side, report: contextlib.nullcontext(finished))
-        monkeypatch.setattr(gates, "compare_times", compare_times)
-        monkeypatch.setattr(gates, "judged", judge)
-        return gates.compare_revisions
+        return gates.Means(lambda side, report: contextlib.nullcontext(finished), compare_times, judge)
 
     return make
 
@@ -72,16 +69,16 @@ def states(said):
     return {one.gate: one.state for one in said.gates}
 
 
-def test_gates_of_a_law_that_is_as_before_all_pass(user, comparing):
-    said = comparing()("HEAD", None, (user,))
+def test_gates_of_a_law_that_is_as_before_all_pass(user, means):
+    said = gates.compare_revisions("HEAD", None, (user,), means=means())
     assert states(said) == dict.fromkeys(("exact", "operations", "faults", "time"), "passed")
     assert (said.findings, said.head) == ((), "working tree")
     assert "| braking | 1.000 \\[0.900, 1.100\\] | 0.5 | same |" in summary.write_markdown(said)
 
 
-def test_law_that_is_slower_twice_is_a_regression(user, comparing):
+def test_law_that_is_slower_twice_is_a_regression(user, means):
     slower = Timed("braking", 1.3, 1.2, 1.4, 1e-9, 60, "slower", True)
-    said = comparing(slower)("HEAD", None, (user,))
+    said = gates.compare_revisions("HEAD", None, (user,), means=means(slower))
     assert [one.says[:51] for one in said.regressions] == ["braking is slower: a tick takes 1.30 times as long "]
     assert states(said)["time"] == "failed"
 
@@ -90,23 +87,23 @@ def test_law_that_is_slower_twice_is_a_regression(user, comparing):
     ("at", "state", "says"),
     [(0, "skipped", "base is too old for it: no timing"), (1, "failed", "the law cannot be timed: no timing")],
 )
-def test_side_that_cannot_be_timed_is_skipped_as_base_and_a_regression_as_head(user, comparing, at, state, says):
-    said = comparing(SideFailed(at, "no timing"))("HEAD", None, (user,))
+def test_side_that_cannot_be_timed_is_skipped_as_base_and_a_regression_as_head(user, means, at, state, says):
+    said = gates.compare_revisions("HEAD", None, (user,), means=means(SideFailed(at, "no timing")))
     assert (said.gates[-1].state, said.gates[-1].says) == (state, says)
     assert len(said.regressions) == at
 
 
-def test_law_that_base_lacks_is_judged_alone_and_one_that_head_lacks_is_a_mistake(user, comparing):
-    said = comparing(faults=("chatter",))("HEAD~1", None, (user,))
+def test_law_that_base_lacks_is_judged_alone_and_one_that_head_lacks_is_a_mistake(user, means):
+    said = gates.compare_revisions("HEAD~1", None, (user,), means=means(faults=("chatter",)))
     assert states(said) == {"exact": "skipped", "operations": "skipped", "faults": "failed", "time": "skipped"}
     with pytest.raises(BadResults, match="none of the --law files is there"):
-        comparing()("HEAD", "HEAD~1", (user,))
+        gates.compare_revisions("HEAD", "HEAD~1", (user,), means=means())
 
 
-def test_law_that_base_cannot_load_is_judged_alone(user, comparing):
+def test_law_that_base_cannot_load_is_judged_alone(user, means):
     commit(user.parent, "law.py", "REGULATOR = None\n")
     user.write_text(LAW)
-    said = comparing()("HEAD", None, (user,))
+    said = gates.compare_revisions("HEAD", None, (user,), means=means())
     assert "base has no such law, or it does not load" in said.gates[0].says
 
 
@@ -118,22 +115,22 @@ def test_law_that_base_cannot_load_is_judged_alone(user, comparing):
         (("chatter",), (), ["improvement"], "passed"),
     ],
 )
-def test_fault_that_base_has_not_is_a_regression(user, comparing, base, head, verdicts, state):
+def test_fault_that_base_has_not_is_a_regression(user, means, base, head, verdicts, state):
     user.write_text(LAW + "# another\n")
-    said = comparing(faults=head, base_faults=base)("HEAD", None, (user,))
+    said = gates.compare_revisions("HEAD", None, (user,), means=means(faults=head, base_faults=base))
     assert [one.verdict for one in said.findings] == verdicts
     assert states(said)["faults"] == state
     assert ("- It shakes. (appendix-method)" in summary.write_markdown(said)) == bool(head)
 
 
-def test_law_that_cannot_be_judged_is_a_regression(user, comparing):
-    said = comparing(faults=BadLaw("it cannot be compiled"))("HEAD", None, (user,))
+def test_law_that_cannot_be_judged_is_a_regression(user, means):
+    said = gates.compare_revisions("HEAD", None, (user,), means=means(faults=BadLaw("it cannot be compiled")))
     assert [(one.gate, one.says) for one in said.regressions] == [("faults", "it cannot be compiled")]
 
 
-def test_runs_of_two_schemas_are_a_regression_and_no_mistake(user, comparing, finished):
+def test_runs_of_two_schemas_are_a_regression_and_no_mistake(user, means, finished):
     (finished / "episodes.parquet").unlink()
-    [found] = comparing()("HEAD", None, (user,)).regressions
+    [found] = gates.compare_revisions("HEAD", None, (user,), means=means()).regressions
     assert found.says.startswith("the schema differs: ")
     assert "episodes.parquet" in found.says
 

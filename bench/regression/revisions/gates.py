@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import NamedTuple
 
 from bench.base.errors import BadLaw, BadResults
 from bench.findings.judged import judged
@@ -15,6 +16,15 @@ from bench.regression.revisions.timing import ROUNDS, SAME, SLOWER, Side, SideFa
 EXACT, OPERATIONS, TIME, FAULTS = exact.EXACT, exact.OPERATIONS, "time", "faults"
 
 
+class Means(NamedTuple):
+    """The functions that run, time and judge a side, so that tests can give others; rounds: 0 leaves time out."""
+
+    run_side: Callable = commits.run_side
+    compare_times: Callable = compare_times
+    judge: Callable[..., list[Judgement]] = judged
+    rounds: int = ROUNDS
+
+
 def compare_folders(base: Path, head: Path) -> Comparison:
     """Compare two folders of finished runs row by row; nothing is run."""
     found = exact.compare_runs(base, head)
@@ -22,25 +32,27 @@ def compare_folders(base: Path, head: Path) -> Comparison:
 
 
 def compare_revisions(
-    base: str, head: str | None, laws: tuple[Path, ...] = (), report: Callable = lambda *_: None, rounds: int = ROUNDS
+    base: str, head: str | None, laws: tuple[Path, ...] = (), report: Callable = lambda *_: None, *, means: Means
 ) -> Comparison:
-    """Compare two revisions, or a revision and the files in the checkout (head None); 0 rounds leave time out."""
+    """Compare two revisions, or a revision and the files in the checkout (head None), through every gate."""
     judgements: tuple[Judgement, ...] = ()
     with commits.check_out_both(base, head, laws) as (old, new):
         if new.is_new:
             raise BadResults(f"{new.name}: none of the --law files is there")
-        gates, found, measures = _compare_rows(old, new, report)
+        gates, found, measures = _compare_rows(old, new, report, means)
         if new.only:
             report("judging")
-            gate, faults, judgements = _compare_faults(old, new)
+            gate, faults, judgements = _compare_faults(old, new, means.judge)
             gates, found = [*gates, gate], [*found, *faults]
-        gate, slower, times, files = _compare_times(old, new, report, rounds)
+        gate, slower, times, files = _compare_times(old, new, report, means)
     found = sorted([*found, *slower], key=lambda one: one.verdict != REGRESSION)
     made = (*gates, gate), tuple(found), tuple(times), judgements, tuple(files), tuple(measures)
     return Comparison(old.name, new.name, *made)
 
 
-def _compare_rows(old: Side, new: Side, report: Callable) -> tuple[list[Gate], list[Finding], list[dict[str, str]]]:
+def _compare_rows(
+    old: Side, new: Side, report: Callable, means: Means
+) -> tuple[list[Gate], list[Finding], list[dict[str, str]]]:
     """Compare outcomes and operations; return the measures of a user's laws too."""
     state, says = "passed", "both sides have the same sources and versions, so a run would be the same"
     if old.is_new:
@@ -48,7 +60,7 @@ def _compare_rows(old: Side, new: Side, report: Callable) -> tuple[list[Gate], l
     if old.is_new or (old.digest == new.digest and not new.only):
         return [Gate(name, state, says) for name in (EXACT, OPERATIONS)], [], []
     measures: list[dict[str, str]] = []
-    with commits.run_side(old, report) as before, commits.run_side(new, report) as after:
+    with means.run_side(old, report) as before, means.run_side(new, report) as after:
         try:
             found = exact.compare_runs(before, after)
             measures = compare_measures(before, after) if new.only else []
@@ -57,12 +69,14 @@ def _compare_rows(old: Side, new: Side, report: Callable) -> tuple[list[Gate], l
     return [make_gate(name, found) for name in (EXACT, OPERATIONS)], found, measures
 
 
-def _compare_faults(old: Side, new: Side) -> tuple[Gate, list[Finding], tuple[Judgement, ...]]:
+def _compare_faults(
+    old: Side, new: Side, judge: Callable[..., list[Judgement]]
+) -> tuple[Gate, list[Finding], tuple[Judgement, ...]]:
     """Judge a user's laws on both sides by this program: a fault that base has not is a regression."""
     judgements: list[list[Judgement]] = [[], []]
     for at, side in enumerate((old, new)):
         try:
-            judgements[at] = judged([described(law) for law in side.laws]) if side.laws else []
+            judgements[at] = judge([described(law) for law in side.laws]) if side.laws else []
         except BadLaw as error:
             if side is new:
                 return Gate(FAULTS, "failed", str(error)), [Finding(FAULTS, REGRESSION, "", str(error))], ()
@@ -79,14 +93,14 @@ def _compare_faults(old: Side, new: Side) -> tuple[Gate, list[Finding], tuple[Ju
 
 
 def _compare_times(
-    old: Side, new: Side, report: Callable, rounds: int
+    old: Side, new: Side, report: Callable, means: Means
 ) -> tuple[Gate, list[Finding], list[Timed], list[dict]]:
     is_same = old.digest == new.digest and not new.only
-    if old.is_new or is_same or not rounds:
-        says = "left out on request" if not rounds else "the same sources" if is_same else "there is no base"
+    if old.is_new or is_same or not means.rounds:
+        says = "left out on request" if not means.rounds else "the same sources" if is_same else "there is no base"
         return Gate(TIME, "skipped", says), [], [], []
     try:
-        files, times = compare_times(old, new, report, rounds)
+        files, times = means.compare_times(old, new, report, means.rounds)
     except SideFailed as error:
         if error.at == 0:
             return Gate(TIME, "skipped", f"base is too old for it: {error}"), [], [], []
