@@ -60,15 +60,11 @@ def COMMAND(laws: tuple[str, ...], workers: int, out: Path | None) -> None:
 
 def summarize(one: dict[str, Any]) -> dict[str, Any]:
     """Return a certificate as a line of a table."""
-    settling = one.get("settling") or {}
+    upper = (one.get("settling") or {}).get("upper")
     return {
-        "law": one["law"],
-        "declared": one["declared"],
-        "proved": "yes" if one["is_proved"] else "no",
-        "theorem": one["theorem"] or "none fits",
-        "lemmas": len(one.get("lemmas", ())),
-        "seconds": round(one.get("seconds", 0.0), 1),
-        "settles_by_s": settling.get("upper") and round(settling["upper"], 4),
+        **{"law": one["law"], "declared": one["declared"], "proved": "yes" if one["is_proved"] else "no"},
+        **{"theorem": one["theorem"] or "none fits", "lemmas": len(one.get("lemmas", ()))},
+        **{"seconds": round(one.get("seconds", 0.0), 1), "settles_by_s": upper and round(upper, 4)},
         "away_from_goal": one.get("equilibria", ""),
     }
 
@@ -79,8 +75,7 @@ def list_faults(one: dict[str, Any]) -> list[str]:
     if one["theorem"] and not said and not one["is_proved"]:
         said.append(f"its file declares '{one['declared']}', and what is proved is '{one['stands']}'")
     if found := one.get("counterexample"):
-        place = ", ".join(f"{part:.3g}" for part in found["quat_wxyz"])
-        rates = ", ".join(f"{part:.3g}" for part in found["omega"])
+        place, rates = (", ".join(f"{one:.3g}" for one in found[name]) for name in ("quat_wxyz", "omega"))
         said.append(
             f"counterexample: quaternion ({place}), omega ({rates}) rad/s; an episode from there ends "
             f"{found['outcome']} after {found['path_ratio']:.3g} times the shortest path"

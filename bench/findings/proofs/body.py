@@ -7,7 +7,7 @@ A law is called with R = E^T R_d. Where its answer, in normal form, does not men
 goal.
 """
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from bench.findings.proofs.solver import Solver
@@ -21,12 +21,19 @@ QUATERNION, RATES, GOAL = ("w", "x", "y", "z"), ("omega_x", "omega_y", "omega_z"
 
 
 class Tick(NamedTuple):
-    """A law's answer on one path: u at rest and as the body turns, and its memory afterwards, kept q, if it has one."""
+    """A law's answer on one path: u at rest and as the body turns, and its memory afterwards, kept q, if it has one.
+
+    side: 1 where the law acts on q after the tick, -1 where it acts on -q. known: Z3's conditions of path and side.
+    taken: what a theorem makes of the tick.
+    """
 
     at_rest: tuple
     u: tuple
     kept: Traced | None
     path: Path
+    side: int = 1
+    known: Sequence[Any] = ()
+    taken: Any = None
 
 
 class FreeBody:
@@ -66,7 +73,9 @@ class FreeBody:
         return (rotate_back(self.R_d, answer[0]), answer[1]) if memory else rotate_back(self.R_d, answer)
 
     def ticks(self, law: Law) -> Iterator[Tick]:
-        """Yield what a law on R answers on every path on which Z3 finds a state; a memory is a quaternion on q's side.
+        """Yield what a law on R answers on every path and side on which Z3 finds a state away from the goal.
+
+        A memory is a quaternion on q's side.
 
         Errors:
             DoesNotFit: the law acts on coordinates, has a state, or another memory.
@@ -79,22 +88,19 @@ class FreeBody:
         def call() -> tuple:
             return self.command(law.law, rest, *given), self.command(law.law, self.omega, *given)  # type: ignore[arg-type]
 
+        is_turned = self.solver.of["w"] * self.solver.of["w"] < 1
         for path in self.symbols.paths(call):
-            if self.solver.find(*self.solver.condition(path), self.is_turned())[0] == "unsat":
-                continue
             still, moving = path.answer
+            known = [*self.solver.condition(path), is_turned]
             if law.memory is None:
-                yield Tick(still, moving, None, path)
+                ends = [Tick(still, moving, None, path, 1, known)]
             else:
-                u, after = moving
-                kept = after[0] / self.eta
-                if any(one != kept * other for one, other in zip(after, self.q, strict=True)):
+                kept = moving[1][0] / self.eta
+                if any(one != kept * other for one, other in zip(moving[1], self.q, strict=True)):
                     raise DoesNotFit("its memory is not the quaternion of the turn")
-                yield Tick(still[0], u, kept, path)
-
-    def is_turned(self) -> Any:
-        """Return Z3's condition that the body is not at its goal: eta^2 < 1."""
-        return self.solver.of["w"] * self.solver.of["w"] < 1
+                sides = ((side, [*known, self.solver.is_below(-side * kept)]) for side in (1, -1))
+                ends = [Tick(still[0], moving[0], kept, path, *end) for end in sides]
+            yield from (one for one in ends if self.solver.find(*one.known)[0] != "unsat")
 
     def derive(self, value: Traced, u: tuple, more: Mapping[str, Traced] | None = None) -> Traced:
         """Return the derivative of a function of q and omega (and of `more`, by their derivatives) along the motion."""

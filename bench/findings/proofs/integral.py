@@ -54,7 +54,7 @@ def prove(law: Law) -> Proof:
     known = [
         *solver.given,
         solver.of["kv"] * solver.of["kv"] < RATIO * solver.of["kp"],
-        body.is_turned(),
+        solver.of["w"] * solver.of["w"] < 1,
         solver.of["S"] >= 0,
     ]
     known += [solver.is_below(s**2 - square * S, strictly=False), solver.is_below(-(S + body.eta**2))]

@@ -40,7 +40,7 @@ def prove(law: Law) -> Proof:
     ask = Question(body, law, check)
     x = r"\sigma" if has_memory else r"\epsilon"
     V = rf"V = \tfrac12|\dot x|^2 + \tfrac12 K_p |x|^2, \quad x = {x}"
-    lemmas = [by_algebra("x'' + Kv x' + Kp x = 0", all(part.side in part.taken for part in ask.parts))]
+    lemmas = [by_algebra("x'' + Kv x' + Kp x = 0", all(one.side in one.taken for one in ask.ticks))]
     if not has_memory:
         return Proof(THEOREM.name, "almost global from rest", lemmas, V, "not defined at 180°", 1.0)
     size = dot(rates[1], rates[1]) - dot(omega, omega) / (4 * (1 + body.eta) ** 2)

@@ -3,51 +3,31 @@
 import functools
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any, NamedTuple
+from typing import Any
 
 from bench.findings.proofs.body import FreeBody, Tick
 from bench.findings.proofs.solver import Lemma
 from bench.law.kinds import Law
 
 
-class Part(NamedTuple):
-    """One path on which Z3 finds states.
-
-    side: 1 where the law acts on q after the tick, -1 where it acts on -q. taken: what a theorem makes of the tick.
-    known: conditions for Z3.
-    """
-
-    tick: Tick
-    side: int
-    taken: Any
-    known: list[Any]
-
-
 class Question:
-    """The paths of a law, and what a theorem makes of each: take(body, tick), made once of ticks with equal answers."""
+    """The ticks of a law, and what a theorem makes of each: take(body, tick), made once of those with equal answers."""
 
     def __init__(self, body: FreeBody, law: Law, take: Callable[[FreeBody, Tick], Any]) -> None:
-        self.body, self.has_memory, self.parts = body, law.memory is not None, list[Part]()
+        self.body, self.has_memory, self.ticks = body, law.memory is not None, list[Tick]()
         self.eta = body.solver.of["w"]
-        made: list[tuple[Tick, Any]] = []
         for tick in body.ticks(law):
             mine = tick.u, tick.at_rest, tick.path.meanings
-            same = (taken for one, taken in made if (one.u, one.at_rest, one.path.meanings) == mine)
-            taken = next(same, None) or take(body, tick)
-            made.append((tick, taken))
-            for side in (1, -1) if self.has_memory else (1,):
-                known = [*body.solver.condition(tick.path), body.is_turned()]
-                known += [body.solver.is_below(-side * tick.kept)] if tick.kept is not None else []
-                if body.solver.find(*known)[0] != "unsat":
-                    self.parts.append(Part(tick, side, taken, known))
+            same = (one.taken for one in self.ticks if (one.u, one.at_rest, one.path.meanings) == mine)
+            self.ticks.append(tick._replace(taken=next(same, None) or take(body, tick)))
 
     def never(self, statement: str, fault: Callable[[Any, int], Any], sides: tuple[int, ...] = (1, -1)) -> Lemma:
         """Return the lemma that no path on some sides has a state with a fault, fault(taken, side): Z3's condition."""
         seconds = 0.0
-        for part in self.parts:
-            if part.side in sides:
-                self.body.symbols.path = part.tick.path
-                answer, state, lasted = self.body.solver.find(*part.known, fault(part.taken, part.side))
+        for tick in self.ticks:
+            if tick.side in sides:
+                self.body.symbols.path = tick.path
+                answer, state, lasted = self.body.solver.find(*tick.known, fault(tick.taken, tick.side))
                 seconds += lasted
                 if answer != "unsat":
                     return Lemma(statement, False, "Z3", seconds, state)

@@ -87,8 +87,7 @@ def prove(law: Law) -> Proof:
         turn(ask.never(f"a {least}", lambda one, _: is_damped_less(body, one, c, False)), is_along=False),
         turn(ask.never(f"a - (1 - eta^2) b {least}", lambda one, _: is_damped_less(body, one, c, True)), is_along=True),
     ]
-    kept = [part for part in ask.parts if part.side > 0]
-    springs = {part.taken.f.value.as_expr().subs(part.tick.path.meanings) for part in kept}
+    springs = {one.taken.f.value.as_expr().subs(one.path.meanings) for one in ask.ticks if one.side > 0}
     delta, drop, equilibria = None, None, "none"
     if law.memory is not None:
         delta = float(ask.delta)
