@@ -28,10 +28,10 @@ def COMMAND(laws: tuple[str, ...], workers: int, out: Path | None) -> None:
 
     LAWS are names of laws, or files of yours with a constant REGULATOR, which run in processes of their own.
 
-    The source is called with symbols in place of numbers. Algebra and Z3 then prove for all orientations, rates and
-    gains that a Lyapunov function falls, where it stays, and where a law with memory changes its side; intervals (Arb)
-    bound the longest settling time from rest at the paper's gains. A false lemma is shown with a state, and how an
-    episode from there ends.
+    The source is called with symbols in place of numbers. Algebra and Z3 then prove for all orientations, rates
+    and gains that a Lyapunov function decreases, where it does not, and when a law with memory changes its
+    side; intervals (Arb) bound the longest settling time from rest at the paper's gains. A false lemma is shown
+    with a state, and how an episode from there ends.
     """
     try:
         from bench.findings.proofs import certificate, sampled

@@ -117,6 +117,21 @@ def test_planted_fault_is_refuted_by_a_state_from_which_an_episode_fails(tmp_pat
     assert found["counterexample"]["outcome"] == outcome
 
 
+FALSE_FORMS = {
+    "delta > 0": ("late-braking", ("memory[3] * z < 0.0", "memory[3] * z < 0.0 and False")),  # it ignores its memory
+    "one function": (
+        "rotation-matrix",
+        ("    return (\n", "    if n[0] > 0.0:\n        half = gains.kp\n    return (\n"),
+    ),
+}
+
+
+@pytest.mark.parametrize("lemma", FALSE_FORMS)
+def test_law_without_one_potential_or_one_change_of_side_is_not_proved(tmp_path, lemma):
+    proof = prove(load_law(copy_law(tmp_path, *FALSE_FORMS[lemma])))
+    assert any(lemma in one.statement for one in proof.lemmas if not one.is_proved)
+
+
 def test_law_that_no_theorem_fits_is_not_proved():
     assert prove(regulator("linearized-euler")) is None
     assert prove(regulator("predicted-side")) is None
@@ -162,7 +177,7 @@ def test_every_measured_start_at_rest_settles_within_its_bound():
 def test_equilibria_are_the_failure_points_that_the_command_has():
     found = pd.read_parquet(RESULTS / "reference" / "command-field.parquet")
     found = found[found["finding"] == "dead-half-turns"].set_index("regulator")["what"].astype(str)
-    words = {"none": "none", "every 180° rotation": "every"}
+    words = {"none": "none", "none, but the command jumps at 180°": "none", "every 180° rotation": "every"}
     for law, one in STORED.items():
         if law in found.index:
             assert found[law] == words.get(one["equilibria"], "some")

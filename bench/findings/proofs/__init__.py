@@ -9,5 +9,5 @@ sampled          when a law that is held between ticks is stable near its goal
 certificate      all of it for one law, in a process of its own, as `bench prove` prints it and results/proofs has it
 
 The proofs say that V falls, where it stays, and when a side changes. That the body then comes to the goal is LaSalle's
-theorem, and that a set of starts has measure zero is the theorem of stable manifolds: both are cited, not checked.
+theorem, and that a set of starts has measure zero follows from its instability: both are cited, not checked.
 """

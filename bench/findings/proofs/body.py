@@ -21,7 +21,7 @@ QUATERNION, RATES, GOAL = ("w", "x", "y", "z"), ("omega_x", "omega_y", "omega_z"
 
 
 class Tick(NamedTuple):
-    """A law's answer on one path: u at rest and as the body turns, and its memory afterwards, kept q, if it has one.
+    """A law's answer on one path: u for omega = 0, u, and kept, where its new memory, if it has one, is kept q.
 
     side: 1 where the law acts on q after the tick, -1 where it acts on -q. known: Z3's conditions of path and side.
     taken: what a theorem makes of the tick.

@@ -42,8 +42,9 @@ def certify_apart(law: Law) -> dict[str, Any]:
 def certify(law: Law) -> dict[str, Any]:
     """Return what is proved of a law, as JSON has it.
 
-    is_proved: the property that its file declares. settling: bounds of the settling time from rest, or why there are
-    none. counterexample: a state where the first false lemma is false, and how an episode from there ends.
+    is_proved: whether all lemmas hold and prove the property that its file declares. settling: bounds of the settling
+    time from rest, or why there are none. counterexample: a state where the first false lemma is false, and how an
+    episode from there ends.
     """
     from bench.findings.proofs import settling_time
     from bench.findings.proofs.theorem import DoesNotFit, prove

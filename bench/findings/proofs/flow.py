@@ -1,7 +1,7 @@
 """Motions of an angle from rest, enclosed for every P of an interval: Taylor polynomials with remainders (Arb).
 
-The equation and its variables are those of `settling_time`. A motion is that of the middle P, and its derivative by P,
-over all P of the interval, times what P is away from the middle. Each step's remainder is the last Taylor coefficient
+The equation and its variables are those of `settling_time`. In the mean-value form, x(P) lies in
+x(P_mid) + (dx/dP)([P]) (P - P_mid). Each step's remainder is the last Taylor coefficient
 over an enclosure of the whole step, which is found by Picard's iteration.
 """
 
@@ -40,6 +40,8 @@ def turned_by(x: arb, P: arb) -> tuple[arb, arb, arb, arb]:
     u = P x^2/4.
     """
     u, found = P * x * x / 4, []
+    if not abs(u) < 100:  # or the terms left out would not be smaller than the last
+        raise Unenclosed
     for power in (2, 3):
         terms = [arb((-1) ** k) / math.factorial(2 * k + power) for k in range(TERMS + 1)]
         value, slope = (

@@ -1,12 +1,13 @@
-"""A law without a measured rate: a frame F follows the body, and the body is damped by what F lags behind.
+"""A law without a measured rate: a frame F follows the body, and the sine of the angle between them damps it.
 
 In the goal's axes let q be the turn from R to R_d, p the quaternion of F and r that of R. With cos(theta/2) = w and
 cos(theta_F/2) = p . r,
 
     V = 2 Kp (1 - w^2) + 4 Kv^2 (1 - (p . r)^2) + |omega|^2/2        V' = -c Kv |omega_F|^2
 
-omega_F is the rate at which the law turns F, and c a positive number. A body that stays where V' = 0 has a frame that
-rests, so that theta_F is constant, 0 or 180°, and the body rests too: u = 0, and sin(theta) = 0.
+omega_F is the rate at which the law turns F, and c a positive number. Where V' stays zero the frame rests and theta_F
+is 0 or 180°. If it is 0, the body rests too: u = 0, and sin(theta) = 0. If it is 180°, the body may swing without
+damping; for that V >= 4 Kv^2. F begins at R, so that from rest V <= 2 Kp: for Kp < 2 Kv^2 the body never comes there.
 
 Source: Lizarralde & Wen 1996; Tayebi 2008.
 """
@@ -56,11 +57,10 @@ def prove(law: Law) -> Proof:
     )
     falls = body.derive(V, u, dict(zip(FRAME, moved, strict=True)))
     ratio = (-falls / (kv * dot(turning, turning))).value
-    lemmas = [
-        by_algebra("V' = -c Kv |omega_F|^2, c constant and positive", ratio.numer.is_ground and ratio.numer.LC > 0)
-    ]
+    is_constant = bool(ratio.numer.is_ground and ratio.numer.LC > 0)
+    lemmas = [by_algebra("V' = -c Kv |omega_F|^2, c constant and positive", is_constant)]
     shown = r"V = 2 K_p (1 - \eta^2) + 4 K_v^2 (1 - \eta_F^2) + \tfrac12|\omega|^2"
-    return Proof(THEOREM.name, "almost global", lemmas, shown, "every 180° rotation")
+    return Proof(THEOREM.name, "almost global from rest where Kp < 2 Kv^2", lemmas, shown, "every 180° rotation")
 
 
 THEOREM = Theorem("following-frame", "A frame that follows the body, in place of its rate", prove, ("velocity-free",))

@@ -6,6 +6,7 @@ With e = sin(theta) k = 2 eta eps, the law's state x, x' = omega - c e, and x_d 
     V' < 0 but where omega = 0 and e = 0
 
 The law's own source gives c and h = -du/dx. Where V' stays zero the body rests at the goal or on a 180° rotation.
+(That 180° rotations are unstable is not checked: s^3 + Kv s^2 + (h - Kp) s - h c has a positive root.)
 Source: Goodarzi, Lee, Lee 2013.
 """
 

@@ -1,9 +1,9 @@
 """A potential that is quadratic in the quaternion, U = q^T M q, and a damper: u = -Kp grad U - Kv omega.
 
-V = Kp U + |omega|^2/2 falls as -Kv |omega|^2. A body that stays where V' = 0 is where M q is along q: at q's four axes
-where M is diagonal with four different entries. Then the goal has the least of them, and from a 180° rotation about the
-goal's n_d, o_d or a_d the way to the goal goes down: all three are unstable. M is what the law's own source gives, in
-the goal's axes.
+V = Kp U + |omega|^2/2 falls as -Kv |omega|^2. A body that stays where V' = 0 is at an eigenvector q of M: if M is
+diagonal with four different entries, at the goal or at a 180° rotation about n_d, o_d or a_d. The goal has the least
+entry, so U decreases along a rotation away from the others, and they are unstable. M is what the law's own source
+gives, in the goal's axes.
 
 Source: Chillingworth, Marsden, Wan 1982; Chaturvedi, Sanyal, McClamroch 2011.
 """

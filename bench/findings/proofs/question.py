@@ -5,8 +5,10 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
+from z3 import Real, substitute
+
 from bench.findings.proofs.body import FreeBody, Tick
-from bench.findings.proofs.solver import Lemma
+from bench.findings.proofs.solver import Lemma, by_algebra
 from bench.law.kinds import Law
 
 
@@ -21,31 +23,39 @@ class Question:
             same = (one.taken for one in self.ticks if (one.u, one.at_rest, one.path.meanings) == mine)
             self.ticks.append(tick._replace(taken=next(same, None) or take(body, tick)))
 
-    def never(self, statement: str, fault: Callable[[Any, int], Any], sides: tuple[int, ...] = (1, -1)) -> Lemma:
-        """Return the lemma that no path on some sides has a state with a fault, fault(taken, side): Z3's condition."""
+    def never(self, statement: str, fault: Callable[[Tick], Any], sides: tuple[int, ...] = (1, -1)) -> Lemma:
+        """Return the lemma that no tick on some sides has a state with a fault, Z3's condition."""
         seconds = 0.0
         for tick in self.ticks:
             if tick.side in sides:
                 self.body.symbols.path = tick.path
-                answer, state, lasted = self.body.solver.find(*tick.known, fault(tick.taken, tick.side))
+                answer, state, lasted = self.body.solver.find(*tick.known, fault(tick))
                 seconds += lasted
                 if answer != "unsat":
                     return Lemma(statement, False, "Z3", seconds, state)
         return Lemma(statement, True, "Z3", seconds)
 
+    def meets(self, one: Tick, other: Tick) -> bool:
+        """Tell whether two paths may have states of the same eta."""
+        apart = [(symbol, Real(f"{name}'")) for name, symbol in self.body.solver.of.items() if name != "w"]
+        known = [substitute(condition, *apart) for condition in other.known]
+        return self.body.solver.find(*one.known, *known)[0] != "unsat"
+
     @functools.cached_property
     def delta(self) -> Fraction:
         """The least delta, to 0.001, with no side kept at eta < -delta; 1 if a side is kept everywhere."""
-        return find_least(lambda end: self.never("", lambda *_: self.eta < -float(end), (1,)).is_proved, 1000)
+        return find_least(lambda end: self.never("", lambda _: self.eta < -float(end), (1,)).is_proved, 1000)
 
     def changes_of_side(self) -> list[Lemma]:
         """Return the lemmas on where a side is kept and where it changes; none of a law without memory."""
         if not self.has_memory:
             return []
+        is_kept = by_algebra("delta > 0", self.delta > 0)
         kept, changed = 0.0 - float(min(self.delta, Fraction(99, 100))), 0.0 - float(self.delta)
         return [
-            self.never(f"a side is kept at eta >= {kept:g} alone", lambda *_: self.eta < kept, (1,)),
-            self.never(f"a side changes at eta <= {changed:g} alone", lambda *_: self.eta > changed, (-1,)),
+            is_kept,
+            self.never(f"a side is kept at eta >= {kept:g} alone", lambda _: self.eta < kept, (1,)),
+            self.never(f"a side changes at eta <= {changed:g} alone", lambda _: self.eta > changed, (-1,)),
         ]
 
 

@@ -8,12 +8,13 @@ u is traced from the law's own source on the axis. Its cosine and sine of theta/
 
     w = 1 - P c,   z = sin(theta/2)/p = x/2 - P s,   P = p^2,   c' = z v/2,   s' = c v/2
 
-so that what a linear spring does cancels before anything is rounded. With a = Kv/2, xi = exp(a t) x and
-upsilon = exp(a t) (v + a x) the linear system stands still, and xi' = upsilon, upsilon' = exp(a t) N with
+so that the linear part cancels in symbols, before anything is rounded. With a = Kv/2, xi = exp(a t) x and
+upsilon = exp(a t) (v + a x) the linear system of Kp = a^2 has N = 0, and xi' = upsilon, upsilon' = exp(a t) N with
 N = -u/p + Kv v + a^2 x (`flow`).
 
-After the last crossing V = v^2/2 + Kp U/p^2 is below what it is at the edge of the band; the descent theorem does the
-rest. The greatest time over p in [0, pi] is found by bisection of p, the intervals with the latest end first.
+After the last crossing V = v^2/2 + Kp U/p^2 is smaller than at the edge of the band. V does not increase (the descent
+theorem), so the angle cannot leave the band again. The memory is reset, and at 180° the law turns to one side. The
+greatest time over p in [0, pi] is found by bisection of p, the intervals with the latest end first.
 """
 
 import heapq

@@ -71,6 +71,10 @@ class Solver:
         """Return Z3's condition that a value is below zero, or at most zero."""
         return self.sign(value) < 0 if strictly else self.sign(value) <= 0
 
+    def is_zero(self, *polynomials: PolyElement) -> Any:
+        """Return Z3's condition that one of some polynomials is zero."""
+        return z3.Or(*(self.term(one) == 0 for one in polynomials))
+
     def condition(self, path: Path) -> list[Any]:
         """Return what a path knows, the relations of its symbols, and that atan2(y, x) has the sign of y."""
         known = [self.term(one) == 0 for one in [*self.symbols.relations, *path.relations]]

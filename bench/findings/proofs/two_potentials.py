@@ -1,10 +1,11 @@
 """Two potentials, of which one is in force: V_q(X) = V(X_q), X_q = X exp(q kappa V(X) [b]x), q = 1 or -1.
 
-X is R in the goal's axes, and V = q^T M q of its quaternion, M diagonal. The force is the gradient of
-U_q = 2 V_0 (1 - sqrt(1 - V_q/V_0)), and Kp U_q + |omega|^2/2 falls as -Kv |omega|^2. Where the force is zero X_q is at
-rest under V: because kappa |b . grad V| < 1, X_q turns whenever X does. So X_q is the goal, and X is too, or X_q is one
-of three 180° rotations. Each comes of one X, at which V_{-q} is lower by more than the gap at which q changes. A change
-of q takes the gap from V_q, and more from U_q.
+X is R in the goal's axes, and V = q^T M q of its quaternion, M diagonal. The force is the gradient of U_q = 2 V_0 (1
+- sqrt(1 - V_q/V_0)), and Kp U_q + |omega|^2/2 falls as -Kv |omega|^2. Where the force is zero X_q is at rest under V:
+because kappa |b . grad V| < 1, X_q turns whenever X does. X_q is a bijection of X (a local one, on a compact set,
+deformed from X itself). So X_q is the goal, and X is too, or X_q is one of three 180° rotations, each of one X, at
+which V_{-q} is lower by more than the gap at which q changes. A change of q takes the gap from V_q, and more from
+U_q.
 
 All of it is what the law's own source gives; the X are enclosed by interval arithmetic (Arb).
 Source: Mayhew & Teel 2013; Berkane & Tayebi, arXiv:1502.07386 (abstracts).

@@ -29,7 +29,7 @@ PROPERTIES = {
     "almost global": "Stable from all starts but a set of measure zero. No continuous law without memory can do more "
     "(Bhat & Bernstein 2000).",
     "almost global from rest": "Stable from all starts at rest but a set of measure zero.",
-    "global with memory": "Stable from every start, with memory. No continuous law is without (Bhat & Bernstein 2000).",
+    "global with memory": "Stable from every start, with memory. No continuous law is (Bhat & Bernstein 2000).",
     "none": "Nothing.",
     "": "",
 }
@@ -96,10 +96,11 @@ def say_property(law: Law) -> dict[str, str]:
     if not one or not one["is_proved"]:
         return {"Proved" if law.property == "none" else "Measured, not proved": text}
     by = " and ".join(sorted({lemma["by"] for lemma in one["lemmas"]}))
-    text += f" Proved from its source by {by} in {one['seconds']:.1f} s."
+    text += f" The lemmas are proved from its source by {by} in {one['seconds']:.1f} s."
     text += f" Equilibria away from the goal: {one['equilibria']}."
     if "upper" in one["settling"]:
-        text += f" From rest it settles within {one['settling']['upper']:.4f} s at the paper's gains, proved by Arb."
+        upper = f"{one['settling']['upper']:.4f} s"
+        text += f" From rest it settles to 2 % of the angle within {upper} at the paper's gains, proved by Arb."
     return {"Proved": html.Html(f"{set_words(text)} {html.formula(one['V'])}")}
 
 

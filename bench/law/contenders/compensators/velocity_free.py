@@ -7,7 +7,9 @@ With e = sin(theta) k of the turn from R to R_d and z the same of the turn from 
 so omega is never read, and |u| <= Kp + 2 Kv^2. Small angles obey s^3 + gamma s^2 + (Kp + 2 Kv^2) s + gamma Kp, which is
 stable for all gains and (s + sqrt(3 Kp))^3 at Kv = 2 sqrt(Kp).
 
-V = Kp (1 - cos theta) + 2 Kv^2 (1 - cos theta_F) + |omega|^2/2 has V' = -2 Kv^2 gamma |z|^2: almost global.
+V = Kp (1 - cos theta) + 2 Kv^2 (1 - cos theta_F) + |omega|^2/2 has V' = -2 Kv^2 gamma |z|^2. Where theta_F is 180°, V
+is at least 4 Kv^2, and a body may swing without damping. From rest V is at most 2 Kp: so almost global there if Kp <
+2 Kv^2.
 
 The state is the quaternion of F, of any length. Limitations: rests at exact 180° rotations; regulates only, a moving
 goal's rate is not fed forward.
@@ -60,7 +62,7 @@ COMPENSATOR = Law(
     source="Lizarralde & Wen 1996; Tayebi 2008",
     formula=r"u = K_p\,e(R, R_d) - 2 K_v^2\,e(R, F), \quad \dot F = \gamma\,[e(F, R)]_\times F",
     law=law,
-    property="almost global",
+    property="almost global from rest where Kp < 2 Kv^2",
     state=State(
         begin,
         lambda kp, kv: (FOLLOWED * kv, kp + 2.0 * kv * kv, FOLLOWED * kv * kp),
