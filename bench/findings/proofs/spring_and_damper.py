@@ -117,7 +117,7 @@ def is_one_function(ask: Question, is_smooth: bool) -> bool:
 
 
 def look_at_180(springs: set[Any]) -> tuple[str, Lemma]:
-    """Return what a law without memory does at 180°, and the lemma that it goes away from there, or never comes there."""
+    """Return what a law without memory does at 180°, and the lemma that it leaves, or never comes there."""
     for f in springs:
         if f.subs(ETA, 0) == 0:
             return "every 180° rotation", by_algebra("df/deta > 0 at 180°", bool(sp.diff(f, ETA).subs(ETA, 0) > 0))
