@@ -51,6 +51,11 @@ def all_claims() -> tuple[Claim, ...]:
     return tuple(found[id] for id in sorted(found))
 
 
+def judge(id: str, results: Results) -> Verdict:
+    """Return the verdict on one claim on a run's tables."""
+    return decide(next(claim for claim in all_claims() if claim.id == id), results)
+
+
 def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
     """Every claim that a run decides, and for each other one what the run lacks; kept for the next call."""
     find = functools.partial(_judge_possible, results)

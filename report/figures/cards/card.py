@@ -92,8 +92,9 @@ def make_card(record: Any, title: str, said: tuple[str, Mapping[str, str]], look
 
 def say_property(law: Law) -> dict[str, str]:
     """Return the property of a law: as proved from its source, with V and by what, or as not proved."""
-    one, text = read_certificates().get(law.name), PROPERTIES.get(law.property, f"{law.property.capitalize()}.")
-    if not one or not one["is_proved"]:
+    one = read_certificates().get(law.name)
+    text = PROPERTIES.get(law.property, f"{law.property[:1].upper()}{law.property[1:]}.")
+    if not one or not one["is_proved"] or one["declared"] != law.property:
         return {"Proved" if law.property == "none" else "Measured, not proved": text}
     by = " and ".join(sorted({lemma["by"] for lemma in one["lemmas"]}))
     text += f" The lemmas are proved from its source by {by} in {one['seconds']:.1f} s."
