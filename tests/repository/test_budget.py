@@ -15,7 +15,7 @@ LINES = {
     "bench/engines": 6_122,
     "bench/experiments": 5_034,
     "bench/export": 1_953,
-    "bench/findings": 7_844,
+    "bench/findings": 7_838,
     "bench/law": 6_617,
     "bench/regression": 1_283,
     "bench/running": 2_382,

@@ -7,7 +7,7 @@ A law is called with R = E^T R_d. Where its answer, in normal form, does not men
 goal.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from bench.findings.proofs.solver import Solver
@@ -65,9 +65,10 @@ class FreeBody:
             self.R = Rotation(*(rotate_back(E, column) for column in self.R_d))
         self.solver = Solver(self.symbols)
 
-    def command(self, law: Callable, rates: tuple, *memory: Any) -> Any:
-        """Call a law at this body's orientation, with rates that are given in the frame of q."""
-        answer = law(self.R, rotate(self.R_d, rates) if self.goal_frame else rates, self.goal, self.gains, *memory)
+    def command(self, law: Law, rates: tuple, *memory: Any) -> Any:
+        """Call a law at this body's orientation, with rates that are given in the frame of q; so is its command."""
+        evaluate: Any = law.law
+        answer = evaluate(self.R, rotate(self.R_d, rates) if self.goal_frame else rates, self.goal, self.gains, *memory)
         if not self.goal_frame:
             return answer
         return (rotate_back(self.R_d, answer[0]), answer[1]) if memory else rotate_back(self.R_d, answer)
@@ -86,7 +87,7 @@ class FreeBody:
         rest = tuple(self.symbols.number(0) for _ in range(3))
 
         def call() -> tuple:
-            return self.command(law.law, rest, *given), self.command(law.law, self.omega, *given)  # type: ignore[arg-type]
+            return self.command(law, rest, *given), self.command(law, self.omega, *given)
 
         is_turned = self.solver.of["w"] * self.solver.of["w"] < 1
         for path in self.symbols.paths(call):

@@ -12,27 +12,19 @@ damping; for that V >= 4 Kv^2. F begins at R, so that from rest V <= 2 Kp: for K
 Source: Lizarralde & Wen 1996; Tayebi 2008.
 """
 
+from typing import Any
+
 from bench.findings.proofs.body import GOAL, FreeBody
 from bench.findings.proofs.solver import by_algebra
 from bench.findings.proofs.theorem import Proof, Theorem
 from bench.law.kinds import Law
-from bench.law.so3 import dot, rotate_back
+from bench.law.so3 import dot
+from tasks.rotations import multiply
 
 FRAME = ("p_w", "p_x", "p_y", "p_z")
 
 
-def multiply(p: tuple, q: tuple) -> tuple:
-    """Return the product of two quaternions."""
-    (a, b, c, d), (w, x, y, z) = p, q
-    return (
-        a * w - b * x - c * y - d * z,
-        a * x + b * w + c * z - d * y,
-        a * y - b * z + c * w + d * x,
-        a * z + b * y - c * x + d * w,
-    )
-
-
-def conjugate(q: tuple) -> tuple:
+def conjugate(q: tuple) -> Any:
     """Return (w, -x, -y, -z)."""
     return (q[0], -q[1], -q[2], -q[3])
 
@@ -44,17 +36,13 @@ def prove(law: Law) -> Proof:
     p, goal = body.symbols[FRAME], body.symbols[GOAL]
     body.symbols.relate("p_w", 1 - p[1] ** 2 - p[2] ** 2 - p[3] ** 2)
     state = tuple(symbol["size"] * one for one in multiply(goal, p))
-    (path,) = body.symbols.paths(lambda: law.law(body.R, body.omega, body.goal, body.gains, state))  # type: ignore[misc]
+    (path,) = body.symbols.paths(lambda: body.command(law, body.omega, state))
     u, rate = path.answer
-    u = rotate_back(body.R_d, u)
     moved = tuple(one / symbol["size"] for one in multiply(conjugate(goal), rate))
     turning = tuple(2 * one for one in multiply(moved, conjugate(p))[1:])
     following = sum((one * other for one, other in zip(p, conjugate(body.q), strict=True)), body.symbols.number(0))
-    V = (
-        2 * kp * (1 - body.eta**2)
-        + 4 * kv**2 * (1 - following**2)
-        + body.symbols.number(0.5) * dot(body.omega, body.omega)
-    )
+    spin = body.symbols.number(0.5) * dot(body.omega, body.omega)
+    V = 2 * kp * (1 - body.eta**2) + 4 * kv**2 * (1 - following**2) + spin
     falls = body.derive(V, u, dict(zip(FRAME, moved, strict=True)))
     ratio = (-falls / (kv * dot(turning, turning))).value
     is_constant = bool(ratio.numer.is_ground and ratio.numer.LC > 0)

@@ -31,7 +31,7 @@ def prove(law: Law) -> Proof:
     (kp, kv), omega, half = body.gains, body.omega, body.symbols.number(0.5)
     state, balance = body.symbols[STATE], body.symbols[BALANCE]
     given = (*state, body.symbols.number(0))
-    (path,) = body.symbols.paths(lambda: law.law(body.R, omega, body.goal, body.gains, given))  # type: ignore[misc]
+    (path,) = body.symbols.paths(lambda: body.command(law, omega, given))
     u, rate = path.answer
     e = tuple(2 * body.eta * one for one in body.eps)
     c = dot(tuple(w - one for w, one in zip(omega, rate, strict=False)), e) / dot(e, e)

@@ -5,6 +5,7 @@ where that stays zero M e = 0. Source: Takegaki & Arimoto 1981.
 """
 
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
@@ -25,8 +26,10 @@ def prove(law: Law) -> Proof:
     e, qdot, m = (symbols[parts[word]] for word in parts)
     chain = SimpleNamespace(n=JOINTS, axes=np.zeros((JOINTS, 3)), qdot=qdot)
     a, tau = list(e), [None] * JOINTS
-    law.assemble(chain, None, None, Gains(kp, kv), (), None, a)  # type: ignore[misc]
-    law.through[1].resolve(np.diag(m), a, None, tau, JOINTS, JOINTS, None)  # type: ignore[misc]
+    assemble: Any = law.assemble
+    through: Any = law.through
+    assemble(chain, None, None, Gains(kp, kv), (), None, a)
+    through[1].resolve(np.diag(m), a, None, tau, JOINTS, JOINTS, None)
     power = sum((qdot[i] * (tau[i] - kp * m[i] * e[i] + kv * m[i] * qdot[i]) for i in range(JOINTS)), symbols.number(0))
     still = [tau[i] - m[i] * (kp * e[i] - kv * qdot[i]) for i in range(JOINTS)]
     lemmas = [by_algebra("V' = -Kv qdot^T M qdot", power), by_algebra("tau = M (Kp e - Kv qdot)", still)]

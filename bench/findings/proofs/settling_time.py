@@ -64,7 +64,8 @@ def trace_on_axis(law: Law, gains: Gains) -> Any:
     solver, found = Solver(symbols), list[Traced]()
     kp_kv: Any = map(symbols.number, gains)
     given = (R, (zero, zero, rate), Goal(Rotation(*one)), Gains(*kp_kv), *memory)
-    for path in symbols.paths(lambda: law.law(*given)):  # type: ignore[misc]
+    evaluate: Any = law.law
+    for path in symbols.paths(lambda: evaluate(*given)):
         if solver.find(*solver.condition(path), solver.of["w"] < 1)[0] == "unsat":
             continue
         u = path.answer[0] if memory else path.answer

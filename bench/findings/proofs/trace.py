@@ -68,7 +68,7 @@ class Symbols:
         """(y, x) -> symbol: angles that are known on every path."""
         self.path = Path([])
 
-    def __getitem__(self, names: tuple[str, ...]) -> tuple:
+    def __getitem__(self, names: tuple[str, ...]) -> Any:
         return tuple(self.of[name] for name in names)
 
     def relate(self, square_of: str, polynomial: "Traced") -> None:

@@ -11,6 +11,7 @@ All of it is what the law's own source gives; the X are enclosed by interval ari
 Source: Mayhew & Teel 2013; Berkane & Tayebi, arXiv:1502.07386 (abstracts).
 """
 
+import functools
 import sys
 from collections.abc import Sequence
 from fractions import Fraction
@@ -66,7 +67,7 @@ def prove(law: Law) -> Proof:
     potentials: dict[float, Traced] = {}
     forces, switches = [], []
     for memory in (1.0, -1.0):
-        for path in body.symbols.paths(lambda q=memory: body.command(law.law, omega, (q, 0.0, 0.0, 0.0))):  # type: ignore
+        for path in body.symbols.paths(functools.partial(body.command, law, omega, (memory, 0.0, 0.0, 0.0))):
             u, (q, *_) = path.answer
             V = path.turns[0] / body.symbols.number(kappa)
             M = find_quadratic(body, body.derive(V, still))
