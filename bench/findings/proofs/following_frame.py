@@ -38,14 +38,14 @@ def prove(law: Law) -> Proof:
     state = tuple(symbol["size"] * one for one in multiply(goal, p))
     (path,) = body.symbols.paths(lambda: body.command(law, body.omega, state))
     u, rate = path.answer
-    moved = tuple(one / symbol["size"] for one in multiply(conjugate(goal), rate))
+    moved: Any = tuple(one / symbol["size"] for one in multiply(conjugate(goal), rate))
     turning = tuple(2 * one for one in multiply(moved, conjugate(p))[1:])
     following = sum((one * other for one, other in zip(p, conjugate(body.q), strict=True)), body.symbols.number(0))
     spin = body.symbols.number(0.5) * dot(body.omega, body.omega)
     V = 2 * kp * (1 - body.eta**2) + 4 * kv**2 * (1 - following**2) + spin
     falls = body.derive(V, u, dict(zip(FRAME, moved, strict=True)))
     ratio = (-falls / (kv * dot(turning, turning))).value
-    is_constant = bool(ratio.numer.is_ground and ratio.numer.LC > 0)
+    is_constant = bool(ratio.numer.is_ground and ratio.denom.is_ground and ratio.numer.LC * ratio.denom.LC > 0)
     lemmas = [by_algebra("V' = -c Kv |omega_F|^2, c constant and positive", is_constant)]
     shown = r"V = 2 K_p (1 - \eta^2) + 4 K_v^2 (1 - \eta_F^2) + \tfrac12|\omega|^2"
     return Proof(THEOREM.name, "almost global from rest where Kp < 2 Kv^2", lemmas, shown, "every 180° rotation")
