@@ -1,14 +1,16 @@
 """Theorems about laws: against plain calls of the laws, scipy's motions, episodes, and faults that are planted."""
 
-import importlib
-
 import numpy as np
 import pandas as pd
 import pytest
 from flint import arb
 
 from bench.experiments.tables.schema import RESULTS
+from bench.findings.proofs import sampled, settling_time
+from bench.findings.proofs.body import QUATERNION, RATES, FreeBody
 from bench.findings.proofs.certificate import certify_apart, list_laws, read_certificates
+from bench.findings.proofs.flow import enclose
+from bench.findings.proofs.theorem import DoesNotFit, prove
 from bench.findings.theory import isotropic
 from bench.law.contenders import regulators
 from bench.law.contenders.described_law import described
@@ -19,19 +21,7 @@ from bench.law.so3 import Rotation, from_quaternion, rotate_back
 from tasks.rules import RULES
 
 STORED = read_certificates()
-
-
-def of_proofs(module):
-    """A module that loads Z3, which must not be loaded before a test's process is forked."""
-    return importlib.import_module(f"bench.findings.proofs.{module}")
-
-
-def prove(law):
-    return of_proofs("theorem").prove(law)
-
-
 TRACED = (
-    "square-root",
     "slew-limited",
     "rotation-vector",
     "bounded-command",
@@ -48,14 +38,14 @@ def evaluate(value, numbers):
 
 @pytest.mark.parametrize("word", TRACED)
 def test_one_path_of_the_trace_is_what_the_law_answers(word):
-    law, body, draw = regulator(word), of_proofs("body").FreeBody(), np.random.default_rng(3)
+    law, body, draw = regulator(word), FreeBody(), np.random.default_rng(3)
     states = [draw.normal(size=7) for _ in range(6)]
     seen = 0
     for tick in body.ticks(law):
         for state in states:
             q, omega = state[:4] / np.linalg.norm(state[:4]), 5.0 * state[4:]
             numbers = {"kp": 20, "kv": 9, "size": 1, "a": 1, "b": 0, "c": 0, "d": 0}
-            numbers |= dict(zip(("w", "x", "y", "z", "omega_x", "omega_y", "omega_z"), (*q, *omega), strict=True))
+            numbers |= dict(zip((*QUATERNION, *RATES), (*q, *omega), strict=True))
             numbers |= {name: one.subs(numbers) for name, one in tick.path.meanings.items()}
             signs = [float(one.as_expr().subs(numbers)) < 0.0 for one, _ in tick.path.decisions]
             if signs != [is_negative for _, is_negative in tick.path.decisions]:
@@ -149,24 +139,24 @@ def test_law_that_no_theorem_fits_is_not_proved():
 @pytest.mark.parametrize("word", ["square-root", "late-braking", "mrp", "sliding"])
 def test_enclosure_holds_the_settling_time_of_scipys_motion(word):
     tolerance, a = arb(str(RULES.tolerance)), arb(PAPERS_GAINS.kv) / 2
-    equation = of_proofs("settling_time").make_equation(regulator(word), PAPERS_GAINS, tolerance)
+    equation = settling_time.make_equation(regulator(word), PAPERS_GAINS, tolerance)
     for p in (0.4, 1.7, 2.9):
         expected = isotropic.settling(isotropic.EQUATIONS[word], p, *PAPERS_GAINS, RULES.tolerance)
         for width in (0.0, 0.01):
-            low, high = of_proofs("flow").enclose(equation, a, (p - width, p + width), tolerance)
+            low, high = enclose(equation, a, (p - width, p + width), tolerance)
             assert low - 2e-6 <= expected <= high + 2e-6
             assert high - low < (1e-3 if width else 1e-4) + 0.5 * width
 
 
 @pytest.mark.parametrize("word", ["rotation-vector", "square-root"])
 def test_bound_of_the_settling_time_is_that_of_the_certificate(word):
-    assert of_proofs("settling_time").bound(regulator(word))._asdict() == STORED[word]["settling"]
+    assert settling_time.bound(regulator(word))._asdict() == STORED[word]["settling"]
 
 
 @pytest.mark.parametrize(("word", "reason"), [("rotation-matrix", "equilibrium"), ("gibbs", "no bound")])
 def test_law_without_a_bound_says_why(word, reason):
-    with pytest.raises(of_proofs("theorem").DoesNotFit, match=reason):
-        of_proofs("settling_time").bound(regulator(word))
+    with pytest.raises(DoesNotFit, match=reason):
+        settling_time.bound(regulator(word))
 
 
 def test_every_measured_start_at_rest_settles_within_its_bound():
@@ -193,4 +183,4 @@ def test_equilibria_are_the_failure_points_that_the_command_has():
 
 
 def test_limits_of_sampled_loops_are_proved():
-    assert [one.is_proved for one in of_proofs("sampled").prove_loops()] == [True, True]
+    assert [one.is_proved for one in sampled.prove_loops()] == [True, True]

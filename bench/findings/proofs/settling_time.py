@@ -40,7 +40,7 @@ Z, V, C, S, P = sp.symbols("z v c s P")
 
 
 class Bound(NamedTuple):
-    """No start at rest settles later than `upper` [s], and one settles at `lower` or later."""
+    """No start at rest settles later than `upper` [s], rounded up to 0.1 ms; one settles at `lower` or later."""
 
     lower: float
     upper: float
@@ -142,4 +142,4 @@ def bound(law: Law, gains: Gains = PAPERS_GAINS) -> Bound:
             except Unenclosed:
                 upper = math.inf
             heapq.heappush(waiting, (-upper, *part))
-    return Bound(lower, -waiting[0][0], count)
+    return Bound(lower, math.ceil(-1e4 * waiting[0][0]) / 1e4, count)

@@ -33,7 +33,7 @@ def facts(run: Run) -> dict:
     spent = counted[counted["stage"] == "total"].set_index(["contender", "branch"])
     return {
         "at_peak": compare_at_equal_peak(),
-        "slowest": f"{proved['settling']['upper']:.3f}",
+        **{name: f"{proved['settling']['upper']:{form}}" for name, form in (("slowest", ".3f"), ("bound", ".4f"))},
         "linear": f"{linear_settling(*PAPERS_GAINS):.3f}",
         **{name: f"{proved[name]:g}" for name in ("rate", "delta")},
         "drop": f"{proved['drop']:.3f}",
