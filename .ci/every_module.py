@@ -6,7 +6,12 @@ import pkgutil
 import bench
 import tasks
 
-OF_EXTRAS = ("bench.studies.libraries", "bench.running.schedulers.cluster", "bench.findings.proofs.")
+OF_EXTRAS = (
+    "bench.studies.libraries",
+    "bench.running.schedulers.cluster",
+    "bench.findings.proofs.",
+    "tasks.gymnasium_suite",
+)
 
 for package in (bench, tasks):
     for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}.", onerror=lambda name: None):

@@ -89,6 +89,10 @@ class Regulation(Driven):
 
     def __init__(self, task: Task, start: Start):
         self.task = task
+        self.begin_at(start)
+
+    def begin_at(self, start: Start) -> None:
+        """Begin every episode from now on at this start."""
         self.start = start
 
     def initialize_episode(self, physics: Physics) -> None:
