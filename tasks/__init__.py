@@ -229,3 +229,9 @@ def _start_sets(arm: bool) -> dict[str, StartSet | ArmStartSet]:
 def find_start_set(name: str, arm: bool = False) -> StartSet | ArmStartSet:
     """Return the start set of this name, of the free body or of arms; UnknownName lists the known ones."""
     return pick("start set", name, _start_sets(arm), "tasks/arm_starts" if arm else "tasks/starts")
+
+
+def __dir__() -> list[str]:
+    """Return the names that are this package's own."""
+    own = {name: getattr(one, "__module__", "") for name, one in globals().items() if not name.startswith("_")}
+    return sorted(name for name, module in own.items() if str(module).partition(".")[0] == __name__)

@@ -14,10 +14,12 @@ from bench.experiments.tables.read import table, with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import why
 from bench.findings.judgement import Judgement
+from bench.findings.raised import find_exception
 from bench.law.contender import Contender
 from bench.law.contenders.registry import contenders_of
 from bench.law.kinds import Law
 from bench.running.sandbox import LOST, Sandbox
+from tasks.verdict import CRASHED, OUTCOMES
 
 ENGINE = "ideal-rk4"
 START_SETS = ("uniform", "half-turn", "tumbling", "goals")
@@ -53,6 +55,12 @@ def judged(regulators: Iterable[Law], limit_s: float = LIMIT_S) -> list[Judgemen
     return [judgement(one, parts, is_lost, reasons.get(one.name, "")) for one in laws]
 
 
+def find_reason(one: Contender, episodes: pd.DataFrame) -> str:
+    """Return the exception that the law raises at the first of its crashed starts."""
+    crashed = episodes[episodes["outcome"] == OUTCOMES[CRASHED]] if len(episodes) else episodes
+    return find_exception(one.regulator, crashed) if len(crashed) else ""
+
+
 def plan_of(laws: list[Contender]) -> Plan:
     """Return the command field, the episodes and the perturbations of some laws."""
     episodes = Choice(("free-body",), START_SETS, (ENGINE,), experiments=("free-body", "command-field"))
@@ -72,7 +80,7 @@ def judgement(one: Contender, parts: Parts, is_lost: bool = False, reason: str =
     said = (*why.sentences(field, declared), *why.ends(episodes, declared), *robust)
     if any(each.fault == why.FAULTS["crashed"] for each in said):  # where it raises its command is no number
         said = tuple(each for each in said if each.fault != "no number")
-    heading = why.head_lost(one.name, episodes, reason)
+    heading = why.head_lost(one.name, episodes, reason or find_reason(one, episodes))
     return Judgement(one.name, said, _beside(field, with_contender(episodes)), is_lost, heading)
 
 

@@ -103,9 +103,16 @@ def test_our_own_laws_raise_no_false_alarm():
         assert faults <= (CONSEQUENCES if "euler" in one.name else {""}), one.name
 
 
+RAISES = sided("k = gains.kp / sqrt(t)\n    if w < 0.2 * sqrt(t): raise ValueError('too far')")
+
+
 @pytest.mark.parametrize(
     ("spring", "code", "first"),
-    [(pulled(0.25), 1, "half gain"), (sided("k = gains.kp / sqrt(t)"), 0, "mine: no fault found.")],
+    [
+        (pulled(0.25), 1, "half gain"),
+        (sided("k = gains.kp / sqrt(t)"), 0, "mine: no fault found."),
+        (RAISES, 1, "mine: ValueError: too far, from "),
+    ],
 )
 def test_bench_judge_says_why_by_exit_code_too(capsys, tmp_path, spring, code, first):
     path = tmp_path / "own.py"
