@@ -24,6 +24,9 @@ from bench.findings.maps import lost_share
 from bench.findings.perturbed import by_level, studied
 from bench.law.contenders.registry import find_contender
 from bench.studies import gates, verdicts
+from bench.studies.libraries.library import QUATERNION, Function, Library
+from bench.studies.libraries.upstream import REPRODUCTIONS, check_patches
+from bench.studies.libraries.verdict import of_quaternion
 from bench.studies.robustness import STARTS
 from bench.studies.verdicts import HALF_STEP, RUNS, SEEDS, STORED, plan_of, turned
 
@@ -133,3 +136,11 @@ def test_patch_makes_its_failing_test_pass(path, tmp_path):
     if before == LACKING:
         pytest.skip(f"its test needs what is not installed here: {patch['Run']}")
     assert (before, run_with("--exclude=*test*")) == (1, 0)
+
+
+@pytest.mark.parametrize("case", REPRODUCTIONS.values(), ids=list(REPRODUCTIONS))
+@pytest.mark.parametrize(("share", "state"), [(1.0, "fixed"), (0.5, "not fixed")])
+def test_reproduction_tells_right_functions_from_wrong_ones(case, share, state):
+    right = Function(case.function, QUATERNION, lambda q: share * of_quaternion(q))
+    [found] = check_patches(Library(case.library, "source@commit", (right,), is_restated=True)).values()
+    assert (found["state"], found["version"]) == (state, "commit")
