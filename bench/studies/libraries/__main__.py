@@ -38,7 +38,8 @@ def main() -> None:
         print(f"{name}: not asked ({reason})")
     sets = every_set()
     frames: dict[str, list[pd.DataFrame]] = {"libraries": [], "closed_loop": [], "verdicts": []}
-    about, patches = {}, {}
+    about: dict[str, dict] = {}
+    patches: dict[str, dict] = {}
     for library in found.libraries:
         print(f"{library.name} {version_of(library)}: {len(library.functions)} functions", flush=True)
         if not library.is_restated:
