@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from bench.studies.libraries.asked import compiled, version_of
 from bench.studies.libraries.judge import FORMS, quiet, said, turn_error
-from bench.studies.libraries.turns import DIGITS, Turn, about
+from bench.studies.libraries.turns import of_quaternion
 
 if TYPE_CHECKING:
     from bench.studies.libraries.library import Library
@@ -16,26 +16,21 @@ FIXED_SHARE = 0.01
 
 
 class Reproduction(NamedTuple):
-    """A turn that a library's function returned wrongly before the patch; with sign -1, of its quaternion -q."""
+    """A quaternion of any length whose rotation a library's function returned wrongly; with sign -1, given as -q."""
 
     library: str
     function: str
-    turn: Turn
+    quat_wxyz: tuple[int, int, int, int]
     sign: float = 1.0
 
 
-def turn_by(angle_rad: Any, *axis: int) -> Turn:
-    """Return the turn by an angle, in 60 digits, about an axis of any length."""
-    return about(axis, DIGITS.cos(angle_rad / 2), DIGITS.sin(angle_rad / 2))
-
-
 REPRODUCTIONS = {
-    "mink": Reproduction("mink", "SO3.log (Python)", about((1, 0, 0), 0, 1)),
-    "numpy-quaternion": Reproduction("numpy-quaternion", "as_rotation_vector", turn_by(1.0, 0, 1, 0), -1.0),
-    "kdl": Reproduction("kdl", compiled.SMALL_EPS.name, turn_by(DIGITS.pi - 1e-7, 0, 0, 1)),
-    "tf2": Reproduction("tf2", "Matrix3x3::getRPY", about((-1, 1, 1), 1, DIGITS.sqrt(3))),  # exactly at a pole
-    "robosuite": Reproduction("robosuite", "mat2quat, quat2axisangle", turn_by(3e-4, 1, 2, -3)),
-    "transforms3d": Reproduction("transforms3d", "mat2axangle", turn_by(1e-5, -3, 0, 1)),
+    "mink": Reproduction("mink", "SO3.log (Python)", (0, 1, 0, 0)),
+    "numpy-quaternion": Reproduction("numpy-quaternion", "as_rotation_vector", (2, 0, 1, 0), -1.0),
+    "kdl": Reproduction("kdl", compiled.SMALL_EPS.name, (1, 0, 0, 20_000_000)),
+    "tf2": Reproduction("tf2", "Matrix3x3::getRPY", (1, -1, 1, 1)),  # exactly at a pole
+    "robosuite": Reproduction("robosuite", "mat2quat, quat2axisangle", (25_000, 1, 2, -3)),
+    "transforms3d": Reproduction("transforms3d", "mat2axangle", (640_000, -3, 0, 1)),
 }
 
 
@@ -45,8 +40,8 @@ def check_patches(library: Library) -> dict[str, dict[str, Any]]:
     functions, checked = {one.name: one for one in (compiled.SMALL_EPS, *library.functions)}, {}
     for patch, case in REPRODUCTIONS.items():
         if case.library == library.name:
-            function = functions[case.function]
-            error = turn_error(FORMS[function.form], said(function, case.turn, case.sign), case.turn)
-            state = "fixed" if error <= FIXED_SHARE * case.turn.angle else "not fixed"
+            function, turn = functions[case.function], of_quaternion(*case.quat_wxyz)
+            error = turn_error(FORMS[function.form], said(function, turn, case.sign), turn)
+            state = "fixed" if error <= FIXED_SHARE * turn.angle else "not fixed"
             checked[patch] = {"version": version_of(library), "state": state, "error_rad": float(f"{error:.3g}")}
     return checked

@@ -94,7 +94,5 @@ def compiled(name: str, *options: str) -> Callable[[str], Callable]:
     return function
 
 
-SMALL_EPS = Function(
-    "Rotation::GetRotAngle, eps 1e-9", MATRIX, lambda R: compiled(*OF_KDL)("get_rot_angle_with_small_eps")(R)
-)
-"""What a patch changes of KDL; it is no function of the tables, where eps is as KDL sets it."""
+SMALL_EPS = Function("GetRotAngle, eps 1e-9", MATRIX, lambda R: compiled(*OF_KDL)("get_rot_angle_with_small_eps")(R))
+"""The function of KDL that a patch fixes; it is not in the tables, where eps is KDL's own."""
