@@ -38,8 +38,7 @@ def main() -> None:
         print(f"{name}: not asked ({reason})")
     sets = every_set()
     frames: dict[str, list[pd.DataFrame]] = {"libraries": [], "closed_loop": [], "verdicts": []}
-    about: dict[str, dict] = {}
-    patches: dict[str, dict] = {}
+    about, patches = dict[str, dict](), dict[str, dict]()
     for library in found.libraries:
         print(f"{library.name} {version_of(library)}: {len(library.functions)} functions", flush=True)
         if not library.is_restated:
@@ -138,8 +137,8 @@ def keep_patches(checked: dict[str, dict]) -> None:
     """Print which patches are fixed in the installed libraries; write patches.json, with what was checked earlier."""
     kept = (read_json(FOLDER / "patches.json") if (FOLDER / "patches.json").is_file() else {}) | checked
     for patch in sorted(path.stem for path in Path(__file__).parent.glob("patches/*.patch")):
-        text = "not checked: needs its library, or the sources that its test runs on"
-        print(f"patch {patch}: " + ("{state} in {version}".format(**kept[patch]) if patch in kept else text))
+        text = "not checked: needs its library, or the source that its test runs on"
+        print(f"patch {patch}:", "{state} in {version}".format_map(kept[patch]) if patch in kept else text)
     write_json(FOLDER / "patches.json", kept)
 
 
