@@ -1,6 +1,7 @@
 """Committed studies are whole and keep to theory, and are what the code makes now where some rows are made again."""
 
 import importlib.util
+import os
 import re
 import shutil
 import subprocess
@@ -23,6 +24,9 @@ from bench.findings.maps import lost_share
 from bench.findings.perturbed import by_level, studied
 from bench.law.contenders.registry import find_contender
 from bench.studies import gates, verdicts
+from bench.studies.libraries.library import QUATERNION, Function, Library
+from bench.studies.libraries.upstream import REPRODUCTIONS, check_patches
+from bench.studies.libraries.verdict import of_quaternion
 from bench.studies.robustness import STARTS
 from bench.studies.verdicts import HALF_STEP, RUNS, SEEDS, STORED, plan_of, turned
 
@@ -100,25 +104,43 @@ def test_seed_and_step_run_what_hangs_on_them():
 
 
 PATCHES = sorted((ROOT / "bench" / "studies" / "libraries" / "patches").glob("*.patch"))
-PACKAGES = {"mink": ("mink", "."), "numpy-quaternion": ("quaternion", "src")}
-"""Patch -> the package, and its folder in the library's repository."""
+LACKING = 77
+"""Exit code of a patch's command where this machine lacks what the test needs."""
 
 
-def outcome(folder: Path, source: str) -> int:
-    """Return the exit code of the patch's test, run in its own process."""
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-c", "/dev/null", "tests"]
-    environment = {"PYTHONPATH": str(folder / source), "PATH": "/usr/bin:/bin"}
-    return subprocess.run(command, cwd=folder, env=environment, capture_output=True, check=False).returncode
+def copy_source(patch: dict[str, str], folder: Path) -> bool:
+    """Copy a checkout in $ORIENTATION_BENCH_SOURCES, or the installed package, and return whether there is one."""
+    checkout = Path(os.environ.get("ORIENTATION_BENCH_SOURCES", "no such folder")) / patch["Repository"].split("/")[1]
+    package = Path(patch.get("Package", ""))
+    spec = importlib.util.find_spec(package.name) if package.name else None
+    if not checkout.is_dir() and (spec is None or spec.origin is None):
+        return False
+    given, place = (checkout, folder) if checkout.is_dir() else (Path(spec.origin).parent, folder / package)
+    shutil.copytree(given, place, ignore=shutil.ignore_patterns(".git", "assets"), dirs_exist_ok=True)
+    return True
 
 
-@pytest.mark.parametrize("patch", PATCHES, ids=lambda path: path.stem)
-def test_patch_cures_the_installed_library(patch, tmp_path):
-    package, source = PACKAGES[patch.stem]
-    spec = importlib.util.find_spec(package)
-    if spec is None or spec.origin is None:
-        pytest.skip(f"{package} is not installed here")
-    shutil.copytree(Path(spec.origin).parent, tmp_path / source / package)
-    (added,) = re.findall(r"^\+\+\+ b/(tests/\S+)", patch.read_text(), re.MULTILINE)
-    for part, expected in ((["--include", added], 1), (["--exclude", added], 0)):
-        subprocess.run(["git", "apply", *part, patch], cwd=tmp_path, check=True)
-        assert outcome(tmp_path, source) == expected
+@pytest.mark.parametrize("path", PATCHES, ids=lambda path: path.stem)
+def test_patch_makes_its_failing_test_pass(path, tmp_path):
+    patch = dict(re.findall(r"^(\w+): (.+)$", path.read_text(), re.MULTILINE))
+    subprocess.run(["git", "apply", "--numstat", path], check=True)
+    if not copy_source(patch, tmp_path):
+        pytest.skip(f"no source: put a checkout of {patch['Repository']} into $ORIENTATION_BENCH_SOURCES")
+
+    def run_with(part: str) -> int:
+        subprocess.run(["git", "apply", part, path], cwd=tmp_path, check=True)
+        environment = {"PYTHON": sys.executable, **os.environ}
+        return subprocess.run(["sh", "-c", patch["Run"]], cwd=tmp_path, env=environment, check=False).returncode
+
+    before = run_with("--include=*test*")
+    if before == LACKING:
+        pytest.skip(f"its test needs what is not installed here: {patch['Run']}")
+    assert (before, run_with("--exclude=*test*")) == (1, 0)
+
+
+@pytest.mark.parametrize("case", REPRODUCTIONS.values(), ids=list(REPRODUCTIONS))
+@pytest.mark.parametrize(("share", "state"), [(1.0, "fixed"), (0.5, "not fixed")])
+def test_reproduction_tells_right_functions_from_wrong_ones(case, share, state):
+    right = Function(case.function, QUATERNION, lambda q: share * of_quaternion(q))
+    [found] = check_patches(Library(case.library, "source@commit", (right,), is_restated=True)).values()
+    assert (found["state"], found["version"]) == (state, "commit")

@@ -8,6 +8,7 @@ import datetime
 import platform
 from collections.abc import Iterable
 from importlib.metadata import version
+from pathlib import Path
 
 import pandas as pd
 
@@ -20,6 +21,7 @@ from bench.studies.libraries.closed_loop import rows_of, rows_of_controller
 from bench.studies.libraries.judge import COUNT_RAD, SINGLE_RAD, judge
 from bench.studies.libraries.library import ANGLES, Function, Library
 from bench.studies.libraries.turns import TurnSet, every_set
+from bench.studies.libraries.upstream import check_patches
 from bench.studies.libraries.verdict import verdict
 from bench.studies.study import make_parser
 
@@ -36,7 +38,7 @@ def main() -> None:
         print(f"{name}: not asked ({reason})")
     sets = every_set()
     frames: dict[str, list[pd.DataFrame]] = {"libraries": [], "closed_loop": [], "verdicts": []}
-    about = {}
+    about, patches = dict[str, dict](), dict[str, dict]()
     for library in found.libraries:
         print(f"{library.name} {version_of(library)}: {len(library.functions)} functions", flush=True)
         if not library.is_restated:
@@ -44,6 +46,8 @@ def main() -> None:
             about[library.name] = origin(library)
         frames["closed_loop"].append(closed_loops(library))
         frames["verdicts"].append(verdicts(library))
+        patches |= check_patches(library)
+    keep_patches(patches)
     keep({name: pd.concat(own) for name, own in frames.items() if own}, about)
 
 
@@ -127,6 +131,15 @@ def keep(tables: dict[str, pd.DataFrame], about: dict[str, dict]) -> None:
     if (FOLDER / "provenance.json").is_file():
         about = read_json(FOLDER / "provenance.json")["libraries"] | about
     write_json(FOLDER / "provenance.json", {"libraries": about})
+
+
+def keep_patches(checked: dict[str, dict]) -> None:
+    """Print which patches are fixed in the installed libraries; write patches.json, with what was checked earlier."""
+    kept = (read_json(FOLDER / "patches.json") if (FOLDER / "patches.json").is_file() else {}) | checked
+    for patch in sorted(path.stem for path in Path(__file__).parent.glob("patches/*.patch")):
+        text = "not checked: needs its library, or the source that its test runs on"
+        print(f"patch {patch}:", "{state} in {version}".format_map(kept[patch]) if patch in kept else text)
+    write_json(FOLDER / "patches.json", kept)
 
 
 def marked(new: pd.DataFrame, earlier: pd.DataFrame) -> pd.DataFrame:

@@ -14,6 +14,7 @@ from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Librar
 
 SOURCES = Path(__file__).parent / "cpp"
 NUMBERS = ctypes.POINTER(ctypes.c_double)
+OF_KDL = ("kdl", "-I/usr/include/eigen3", "-lorocos-kdl")
 
 
 def eigen() -> list[Library]:
@@ -30,7 +31,7 @@ def eigen() -> list[Library]:
 
 def kdl() -> list[Library]:
     """Return the rotation vectors of KDL's Rotation, its difference, a vector part and its angles."""
-    made = compiled("kdl", "-I/usr/include/eigen3", "-lorocos-kdl")
+    made = compiled(*OF_KDL)
     thread = "orocos/orocos_kinematics_dynamics#352"
     functions = (
         Function("Rotation::GetRot", MATRIX, made("get_rot"), thread=thread),
@@ -91,3 +92,7 @@ def compiled(name: str, *options: str) -> Callable[[str], Callable]:
         return call
 
     return function
+
+
+SMALL_EPS = Function("GetRotAngle, eps 1e-9", MATRIX, lambda R: compiled(*OF_KDL)("get_rot_angle_with_small_eps")(R))
+"""The function of KDL that a patch fixes; it is not in the tables, where eps is KDL's own."""

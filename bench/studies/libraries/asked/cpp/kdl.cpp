@@ -10,14 +10,18 @@ static void write(const KDL::Vector &v, double *e) {
     for (int i = 0; i < 3; ++i) e[i] = v(i);
 }
 
+static void write_rot_angle(const double *R, double eps, double *e) {
+    KDL::Vector axis;
+    const double angle = rotation(R).GetRotAngle(axis, eps);
+    write(angle * axis, e);
+}
+
 extern "C" {
 void get_rot(const double *R, double *e) { write(rotation(R).GetRot(), e); }
 
-void get_rot_angle(const double *R, double *e) {
-    KDL::Vector axis;
-    const double angle = rotation(R).GetRotAngle(axis);
-    write(angle * axis, e);
-}
+void get_rot_angle(const double *R, double *e) { write_rot_angle(R, KDL::epsilon, e); }
+
+void get_rot_angle_with_small_eps(const double *R, double *e) { write_rot_angle(R, 1e-9, e); }
 
 void diff(const double *R, double *e) { write(KDL::diff(KDL::Rotation::Identity(), rotation(R)), e); }
 
