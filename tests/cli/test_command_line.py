@@ -227,4 +227,4 @@ def test_doctor_says_what_it_checked(capsys):
 
 
 def test_sign_that_the_encoding_lacks_is_no_error():
-    assert "180?" in python("-m", "bench", "audit", "--help", PYTHONIOENCODING="ascii")
+    assert "180?" in python("-m", "bench", "audit", "check", "--help", PYTHONIOENCODING="ascii")
