@@ -7,18 +7,15 @@ import sys
 from pathlib import Path
 
 from bench.audit.apart import CALLS, LIMIT_S, audit_apart
-from bench.base.errors import BadFunction, BadNumber
+from bench.base.errors import BadFunction
 
-SHORTEST_S = 0.1
-"""Seconds in which Python starts."""
 STATED = ("takes", "frame", "sign", "stiffness", "accept")
 """Options that are arguments of `bench.audit.audit`."""
 DESCRIPTION = """\
 Find the convention of an orientation error and its faults, each with a pair of orientations that reproduces it.
 
-FUNCTION is FILE.py:NAME, MODULE:NAME or LIBRARY.so:SYMBOL. It takes (R, R_d), 3 x 3, or (q, q_d), and returns three
-numbers. It is called with some thousand pairs of orientations, in a process of its own that has a time limit and whose
-output is dropped. This takes about a second."""
+FUNCTION takes (R, R_d), 3 x 3, or (q, q_d), and returns three numbers. It is called with some thousand pairs of
+orientations, in a process of its own that has a time limit and whose output is dropped: about a second."""
 EPILOG = """\
 A function of two matrices or two quaternions:
    {prog} my_file.py:my_error
@@ -30,8 +27,7 @@ The error must be in the base frame, and its clip is intended:
    {prog} my.py:f --frame base --accept norm-clip
 
 A fault is what no controller wants. A note is a property that one may want, as the sine's zero at 180°, or what no
-encoder shows. Exit code 1: a fault that is not accepted; a function that ends the process or hangs has one. 2: it could
-not be audited: no such function, or too slow for --limit."""
+encoder shows. Exit code 1: a fault that is not accepted; a function that ends the process or hangs has one."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -52,19 +48,13 @@ def run(arguments: argparse.Namespace) -> int:
     """Print the report on a function and return 1 if it has a fault, else 0.
 
     Errors:
-        BadFunction: it cannot be audited. BadNumber: the limit. BenchError: the file of the report.
+        BadFunction: it cannot be audited, or the file of the report cannot be written.
     """
-    function, file = arguments.function, arguments.json
-    if not arguments.limit >= SHORTEST_S:
-        raise BadNumber(f"--limit {arguments.limit:g} is too short; give at least {SHORTEST_S:g} s")
-    show(f"loading {function}")
+    function, file, stated = arguments.function, arguments.json, {name: getattr(arguments, name) for name in STATED}
     try:
-        said = audit_apart(
-            function,
-            {name: getattr(arguments, name) for name in STATED},
-            arguments.limit,
-            lambda calls: show(f"{calls:,} of about {CALLS:,} calls: {function}"),
-        )
+        show(f"loading {function}")
+        count = f"of about {CALLS:,} calls: {function}"
+        said = audit_apart(function, stated, arguments.limit, lambda calls: show(f"{calls:,} {count}"))
     finally:
         show("")
     print(said["text"], end="")
@@ -79,5 +69,5 @@ def run(arguments: argparse.Namespace) -> int:
 def show(text: str) -> None:
     """Replace the last line of a terminal with this one; where stderr is no terminal, print nothing."""
     if sys.stderr.isatty():
-        width = shutil.get_terminal_size().columns - 1
-        print(f"\r\x1b[K{text[:width]}", end="", file=sys.stderr, flush=True)
+        shown = text[: shutil.get_terminal_size().columns - 1]
+        print(f"\r\x1b[K{shown}", end="", file=sys.stderr, flush=True)

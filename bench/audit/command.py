@@ -14,10 +14,7 @@ from bench.base.errors import BadFunction, BenchError, UnknownWord, print_refusa
 COMMANDS = {"check": ("check", "find the convention of an orientation error, and its faults")}
 """Word of a command -> its module here, with add_arguments(parser) and run(arguments) -> exit code; what it does."""
 EPILOG = """\
-Examples:
-   {prog} check my_file.py:my_error
-   {prog} check --help
-
+For example: {prog} check my_file.py:my_error. Options and more examples: {prog} check --help.
 Exit code 0: no fault. Exit code 1: a fault. Exit code 2: it could not be checked; one line says why and what to do."""
 
 
@@ -46,8 +43,7 @@ def run_command(words: Sequence[str], prog: str, version: str) -> int:
         if not re.search(r"[.:]|^-", first):
             raise UnknownWord("command", first, list(COMMANDS))
         words, first = ("check", *words), "check"
-    parser = Parser(prog=prog, description="Check the code of an orientation controller.")
-    parser.epilog = EPILOG.format(prog=prog)
+    parser = Parser(prog=prog, description="Check an orientation controller.", epilog=EPILOG.format(prog=prog))
     parser.add_argument("--version", action="version", version=version)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
     for name, (module, what) in COMMANDS.items():
