@@ -23,7 +23,7 @@ PACKAGE = "orientation_audit"
 NAMES = {"bench.audit": PACKAGE, "bench/audit": PACKAGE, "bench.base.errors": f"{PACKAGE}.errors"}
 """What the sources are called here -> in the wheel."""
 EPOCH = "315532800"
-"""Date of the files in a wheel, 1980-01-01, so that the same sources make the same bytes."""
+"""Date of the files in a wheel, 1980-01-01. With it, and with modes as below, the same sources make the same bytes."""
 
 
 def write_sources(folder: Path) -> None:
@@ -42,6 +42,8 @@ def write_sources(folder: Path) -> None:
         text = Path(__file__).with_name(ours).read_text(encoding="utf-8")
         (folder / theirs).write_text(Template(text).substitute(values), encoding="utf-8")
     shutil.copy(ROOT / "LICENSE", folder)
+    for path in (folder / "LICENSE", package / "py.typed"):  # setuptools keeps their modes
+        path.chmod(0o644)
 
 
 def write_laws(package: Path) -> str:
@@ -70,7 +72,7 @@ def build_wheel(folder: Path) -> None:
         command = [sys.executable, "-P", "-m", "pip", "--disable-pip-version-check", "wheel", "--quiet", "--no-index"]
         command += ["--no-deps", "--no-build-isolation", "--wheel-dir", str(folder.resolve()), sources]
         environment = os.environ | {"SOURCE_DATE_EPOCH": EPOCH}
-        done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+        done = subprocess.run(command, env=environment, umask=0o022, capture_output=True, text=True, check=False)
     if done.returncode:
         raise MissingTool(f"pip could not build the wheel (try: make wheels): {done.stderr.strip()}")
 
