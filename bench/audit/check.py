@@ -27,7 +27,8 @@ The error must be in the base frame, and its clip is intended:
    {prog} my.py:f --frame base --accept norm-clip
 
 A fault is what no controller wants. A note is a property that one may want, as the sine's zero at 180°, or what no
-encoder shows. Exit code 1: a fault that is not accepted; a function that ends the process or hangs has one."""
+encoder shows. Exit code 1: a fault that is not accepted; a function that ends the process or hangs has one.
+In pytest, where the wheel orientation-audit is installed: pytest --orientation-error my_file.py:my_error"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -30,7 +30,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def run_command(words: Sequence[str], prog: str, version: str) -> int:
-    """Run one command, `check` if the words begin with a function, and return its exit code: 0, or 1 for a fault.
+    """Run one command, `check` if the words begin with a function, and return its exit code: 0; 1 for a fault.
 
     Args:
         prog: what the command line is called. version: what --version prints.

@@ -11,5 +11,5 @@ from bench.base.provenance import describe_project
 @click.argument("command", nargs=-1, type=click.UNPROCESSED)
 def COMMAND(command: tuple[str, ...]) -> None:
     """Check an orientation error of yours: its convention, and what is wrong with it, each with a pair to reproduce."""
-    if run_command(command, "bench audit", describe_project()["version"]):
-        raise Exit(1)
+    if code := run_command(command, "bench audit", describe_project()["version"]):
+        raise Exit(code)
