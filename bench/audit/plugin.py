@@ -54,16 +54,8 @@ class Check(pytest.Item):
     def runtest(self) -> None:
         """Fail if the function has it."""
         if self.fault in self.said["paragraphs"]:
-            raise Faulty(f"{self.said['head']}\n\n{self.said['paragraphs'][self.fault]}")
-
-    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        """Return the report's paragraph, and no trace."""
-        return str(excinfo.value) if excinfo.errisinstance(Faulty) else super().repr_failure(excinfo, style)
+            pytest.fail(f"{self.said['head']}\n\n{self.said['paragraphs'][self.fault]}", pytrace=False)
 
     def reportinfo(self) -> tuple[Path, int | None, str]:
         """Return its place in pytest's lists."""
         return self.path, None, f"orientation error {self.name}"
-
-
-class Faulty(Exception):
-    """A fault, in words."""

@@ -13,7 +13,6 @@ import tempfile
 from pathlib import Path
 from string import Template
 
-from bench.base.errors import MissingTool
 from bench.base.provenance import ROOT
 from bench.export.heading import PROJECT
 from bench.export.language import find_language
@@ -56,25 +55,18 @@ def write_laws(package: Path) -> str:
         (laws / name).write_text(text, encoding="utf-8")
         coordinates = f" in {subject.representation.title}" if subject.representation else ""
         rows.append(f"| `{subject.identifier}` | {subject.record.title}{coordinates} |")
-    heading = f"Laws, one module each: from {PACKAGE}.laws import late_braking. They need the standard library alone."
-    (laws / "__init__.py").write_text(f'"""{heading}"""\n', encoding="utf-8")
+    heading = f'"""Laws, one module each, on the standard library alone: from {PACKAGE}.laws import late_braking."""'
+    (laws / "__init__.py").write_text(f"{heading}\n", encoding="utf-8")
     return "\n".join(rows)
 
 
 def build_wheel(folder: Path) -> None:
-    """Build the wheel into a folder, without a network.
-
-    Errors:
-        MissingTool: pip or setuptools cannot build it.
-    """
+    """Build the wheel into a folder, without a network."""
     with tempfile.TemporaryDirectory() as sources:
         write_sources(Path(sources))
         command = [sys.executable, "-P", "-m", "pip", "--disable-pip-version-check", "wheel", "--quiet", "--no-index"]
         command += ["--no-deps", "--no-build-isolation", "--wheel-dir", str(folder.resolve()), sources]
-        environment = os.environ | {"SOURCE_DATE_EPOCH": EPOCH}
-        done = subprocess.run(command, env=environment, umask=0o022, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise MissingTool(f"pip could not build the wheel (try: make wheels): {done.stderr.strip()}")
+        subprocess.run(command, env=os.environ | {"SOURCE_DATE_EPOCH": EPOCH}, umask=0o022, check=True)
 
 
 if __name__ == "__main__":
