@@ -6,7 +6,7 @@
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup setup-cluster bench bench-quick time prove libraries report test check lint gate regress reference lock
-.PHONY: clean audit judge history edition
+.PHONY: clean audit judge history edition wheels
 
 SHELL := /bin/sh
 # Where it is set, each process of the tests and the report would compile every module of ours again.
@@ -103,13 +103,17 @@ reference: $(READY) ## run the quick suite and make it the new reference (in a c
 	@echo "Promoted. Now: git add results && git commit"
 edition: $(DEV) report ## an archive of site, data, source and wheels that rebuilds all without a network: dist
 	@$(PY) -m report.edition $(ARGS)
+wheels: $(READY) .venv-wheels/.made ## the audit and all laws as a wheel on NumPy alone: dist/orientation_audit-*.whl
+	@rm -f dist/orientation_audit-*.whl
+	@$(PY) -m bench.export.wheel dist
+	@.venv-wheels/bin/twine check --strict dist/orientation_audit-*.whl
 lock: $(DEV) ## write requirements/*.txt from pyproject.toml (after changing a dependency; look at git diff --stat)
 	@$(call compile,dev,--extra report --extra dev --extra cluster pyproject.toml)
 	@$(call compile,report,--extra report --constraint requirements/dev.txt pyproject.toml)
 	@$(call compile,base,--constraint requirements/dev.txt pyproject.toml)
 	@for name in cluster libraries; do \
 		$(call compile,$$name,--extra $$name --constraint requirements/dev.txt pyproject.toml) || exit; done
-	@for name in audit $(APART) install; do $(call compile,$$name,--group $$name) || exit; done
+	@for name in audit wheels $(APART) install; do $(call compile,$$name,--group $$name) || exit; done
 clean: ## remove environments, the built report, caches and results/quick; other results stay
 	@rm -rf $(VENV) .venv-* build dist report/_build report/.jupyter_cache results/quick
 	@rm -rf .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks .home *.egg-info

@@ -9,13 +9,15 @@ law/          what a law is: the dialect, rotations, linear algebra, records. `f
               says what goes together; a user's own: law_file runs it, law_process where, described_law describes it
               control/, contenders at work: resolved_acceleration (tau = D J^-1 (u - Jdot qdot) + fg), hybrid,
               velocity (omega = K f), impedance, unshaped (an impedance with the hand's own inertia), registry
-audit/        anybody's orientation error: pairs, convention, faults/ (one file each), report; knows nothing of laws
+audit/        anybody's orientation error: pairs, convention, faults/ (one file each), report, its own command line and
+              pytest plugin; knows nothing of laws
 engines/      one episode, four ways: reference, native, ideal-rk4, ideal-held; disturbed, and commanded by velocities
               metrics/, what is measured: motion/ along an episode, contact/ of a hand in contact
               counting/, operations of the code that runs
 experiments/  one file an experiment with its columns, units and rows; what plans them (experiment, plan, suites)
               tables/: schema, store, read, statistics, lock; trust and kept_laws (laws of a results folder)
-export/       laws as code for another's controller: C, C++, Python, JavaScript, with test vectors
+export/       laws as code for another's controller: C, C++, Python, JavaScript, with test vectors; wheel, which has the
+              audit and all laws in Python
 running/      run, run_folder (until it is finished), order, precompile, sandbox (a user's laws), answers, wire_format,
               schedulers/ (threads, and a Dask cluster), finish (the tables), timing/ (time per tick: pytest-benchmark)
 findings/     claims/ (the paper's sentences), selection/ (which law), why (what a law does), theory/ (closed forms);

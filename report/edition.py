@@ -15,6 +15,7 @@ from pathlib import Path
 
 from bench.experiments.tables import data_package
 from bench.experiments.tables.schema import RESULTS
+from bench.export.wheel import build_wheel
 from report.figures.method.provenance import cited
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -28,7 +29,7 @@ orientation-bench {version}
 site/index.html   the book; every page reads without a network
 data/             the results, with datapackage.json that says what each column means
 source.tar.gz     the source
-wheels/           what it runs on: {platform}, Python {python}
+wheels/           what it runs on: {platform}, Python {python}; and orientation-audit, for any project
 SHA256SUMS        checksums of all this: sha256sum --check SHA256SUMS
 
 To rebuild without a network, with Python {python} and make:
@@ -73,7 +74,7 @@ def write_source(folder: Path) -> str:
 
 
 def write_wheels(folder: Path) -> str:
-    """Download all that make bench and make report install, as wheels for this system and Python."""
+    """Download all that make bench and make report install, as wheels for this system and Python, and build ours."""
     target = folder / "wheels"
     target.mkdir(exist_ok=True)
     locks = [word for name in LOCKS for word in ("-r", str(ROOT / "requirements" / f"{name}.txt"))]
@@ -82,6 +83,7 @@ def write_wheels(folder: Path) -> str:
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:
         raise CannotMake(f"pip could not fetch the wheels (cure: a network, or pip's cache):\n{done.stderr.strip()}")
+    build_wheel(target)
     return f"{sum(1 for _ in target.glob('*.whl'))} wheels"
 
 

@@ -4,7 +4,8 @@ A function f(R, R_d) of two 3 x 3 matrices, or of two unit quaternions, returns 
 is found first (`convention.py`), then each file of `faults/` looks for one fault. Nothing of ours is the measure: the
 pairs are made from axis and angle in closed form, so what the function should say of them is known.
 
-This module imports nothing: a pytest plugin that is not used must cost nothing.
+The wheel `orientation-audit` is this package under another name, with its command line (`command.py`) and its pytest
+plugin (bench/export/wheel.py). This module imports nothing: a plugin that is not used must cost nothing.
 """
 
 from __future__ import annotations

@@ -1,7 +1,6 @@
 """Audit a function in a process of its own (audit_process.py): what it prints goes nowhere; it may hang, exit or crash.
 
-This file imports nothing of ours, and neither does the pytest plugin that loads it by its place: a project may have a
-package `bench` of its own.
+It imports no more than the errors, nor does the pytest plugin, which runs in the process of somebody's tests.
 """
 
 import json
@@ -11,16 +10,15 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from bench.base.errors import BadFunction
+
 LIMIT_S = 60.0
 """Seconds on the wall for the whole audit: fifty times what a function of some microseconds takes."""
 CALLS = 6000
 """Approximate number of calls of the function in one audit."""
-ROOT = str(Path(__file__).resolve().parents[2])
-BEGIN = f"import sys; sys.path.insert(0, {ROOT!r}); from bench.audit.audit_process import main; main()"
-
-
-class NotAudited(Exception):
-    """No report: the reason and the cure, in one sentence."""
+ROOT = str(Path(__file__).resolve().parents[__name__.count(".")])
+"""The folder that holds our outermost package: a checkout, or installed packages."""
+BEGIN = f"import sys; sys.path.insert(0, {ROOT!r}); from {__package__}.audit_process import main; main()"
 
 
 def audit_apart(
@@ -37,7 +35,7 @@ def audit_apart(
         fault -> text.
 
     Errors:
-        NotAudited: nothing that can be audited is there, or it takes too long.
+        BadFunction: nothing that can be audited is there, or it takes too long.
     """
     request = {"target": target, "stated": stated, "limit_s": limit_s, "path": sys.path}
     command = [sys.executable, "-P", "-c", BEGIN, json.dumps(request)]
@@ -48,7 +46,7 @@ def audit_apart(
             if isinstance(said, int):
                 progress(said)
     if isinstance(said, int):
-        raise NotAudited(f"the audit of {target} ended without a report (exit code {process.returncode}); report this")
+        raise BadFunction(f"the audit of {target} ended without a report (exit code {process.returncode}); report this")
     if "refused" in said:
-        raise NotAudited(said["refused"])
+        raise BadFunction(said["refused"])
     return dict(said)

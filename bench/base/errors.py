@@ -4,6 +4,7 @@ A contestant's failure is never one of these: it is an outcome in a row.
 """
 
 import difflib
+import sys
 
 LISTED = (
     *("regulator", "representation", "jacobian", "inverse"),
@@ -62,3 +63,10 @@ class MissingTool(BenchError):
 
 class BadFunction(BenchError):
     """A function that cannot be audited."""
+
+
+def print_refusal(reason: str) -> int:
+    """Print what was wrong on one line of stderr and return 2, the exit code of every mistake."""
+    shown = "".join(sign if sign.isprintable() else "?" for sign in " ".join(reason.split()))  # of a file, perhaps
+    print(f"error: {shown}", file=sys.stderr)
+    return 2

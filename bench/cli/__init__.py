@@ -14,7 +14,7 @@ from pathlib import Path
 import rich_click as click
 from click.exceptions import Exit
 
-from bench.base.errors import BenchError
+from bench.base.errors import BenchError, print_refusal
 from bench.base.provenance import describe_project
 from bench.cli.screen import examples
 
@@ -66,7 +66,7 @@ def main(words: list[str] | None = None) -> int:
     except click.ClickException as error:
         reason, context = error.format_message(), getattr(error, "ctx", None)
         where = context.command_path if context else "bench"
-        return _refused(reason if "(try: " in reason else f"{reason} (try: {where} --help)")
+        return print_refusal(reason if "(try: " in reason else f"{reason} (try: {where} --help)")
     except (KeyboardInterrupt, click.Abort):
         print("stopped; what was finished is kept, and the same command goes on from there", file=sys.stderr)
         return 130
@@ -75,11 +75,4 @@ def main(words: list[str] | None = None) -> int:
 
         if not isinstance(error, BenchError | TaskError):
             raise
-        return _refused(str(error))
-
-
-def _refused(reason: str) -> int:
-    """Say on one line what was wrong; the exit code of every mistake."""
-    shown = "".join(sign if sign.isprintable() else "?" for sign in " ".join(reason.split()))  # of a file, perhaps
-    print(f"error: {shown}", file=sys.stderr)
-    return 2
+        return print_refusal(str(error))

@@ -8,5 +8,6 @@ braces     the writer for languages with braces; layout: lines and comments
 heading    the heading of every file
 vectors    test vectors
 language   the record of a language; languages/ has one file each
+wheel      the audit and all laws in Python as a package of their own
 browser    all laws, the plant and the judge as one script for the live page
 """

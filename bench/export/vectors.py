@@ -64,14 +64,17 @@ def states(count: int, seed: int = SEED) -> Iterator[State]:
 @functools.lru_cache(maxsize=64)
 def vectors(subject: Subject) -> tuple[Vector, ...]:
     """Return FIRST vectors of the first entry and OTHERS of every other, those with finite answers only."""
-    found: list[Vector] = []
+    return tuple(make_vectors(subject))
+
+
+def make_vectors(subject: Subject) -> Iterator[Vector]:
+    """Yield them one by one."""
     for place, entry in enumerate(subject.entries):
         wanted = OTHERS if place else FIRST
         random = np.random.default_rng(SEED + place)
         made = (_vector(subject, entry, one, random) for one in states(20 * wanted, SEED + place))
         finite = (one for one in made if np.isfinite([*one.result, *one.memory]).all())
-        found += (one for one, _ in zip(finite, range(wanted), strict=False))
-    return tuple(found)
+        yield from (one for one, _ in zip(finite, range(wanted), strict=False))
 
 
 def _vector(subject: Subject, entry: Entry, state: State, random: np.random.Generator) -> Vector:

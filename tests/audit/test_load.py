@@ -1,8 +1,12 @@
 """What can be audited, functions, classes, C, by command and by pytest; every mistake has its cure."""
 
 import json
+import os
+import pty
+import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +17,7 @@ from bench.audit import audit
 from bench.audit.faults import every_fault
 from bench.audit.load import load
 from bench.base.errors import BadFunction, BadNumber, UnknownWord
+from bench.base.provenance import ROOT
 
 HERE = Path(__file__).parent
 
@@ -135,8 +140,24 @@ def test_command_ends_with_1_on_a_fault_and_0_if_it_is_accepted(capsys, file):
 
 
 def test_command_refuses_a_mistake_on_one_line(capsys, file):
-    assert "has no 'colums'" in refused(capsys, "audit", f"{file}:colums")
+    assert "has no 'colums'" in refused(capsys, "audit", "check", f"{file}:colums")
     assert "'world' is unknown" in refused(capsys, "audit", f"{file}:half", "--frame", "world")
+    assert "(Not a directory); name another file" in refused(capsys, "audit", f"{file}:half", "--json", file / "x.json")
+
+
+def test_examples_of_the_help_are_words_that_the_command_takes(capsys, file):
+    lines = re.findall(r"^   bench (audit check) \S+(.*)", bench(capsys, "audit", "check", "--help").out, re.MULTILINE)
+    assert len(lines) == 4
+    for command, options in lines:
+        assert bench(capsys, *command.split(), f"{file}:columns", *options.split()).code == 0
+
+
+def test_terminal_sees_the_number_of_calls(file):
+    ours, theirs = pty.openpty()
+    words = [sys.executable, "-m", "bench", "audit", "check", f"{file}:columns"]
+    subprocess.run(words, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=theirs, check=True)
+    os.close(theirs)
+    assert re.search(rb"[1-9][0-9,]* of about 6,000 calls: ", os.read(ours, 1 << 16))
 
 
 def test_command_writes_all_of_it_as_json(capsys, file, tmp_path):
@@ -162,12 +183,13 @@ pytest_plugins = ("pytester",)
 
 
 @pytest.fixture
-def run(pytester):
+def run(pytester, monkeypatch):
     """run(words of pytest...) in a folder with the functions above and one test."""
+    monkeypatch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
     pytester.makepyfile(mine=Path(__file__).with_name("errors.python").read_text(), test_one="def test_one(): pass")
 
     def result(*words):
-        return pytester.runpytest("-p", "orientation_audit_plugin", "-p", "no:cacheprovider", *words)
+        return pytester.runpytest("-p", "bench.audit.plugin", "-p", "no:cacheprovider", *words)
 
     return result
 

@@ -1,18 +1,15 @@
 """pytest --orientation-error FUNCTION: a test for each fault that an orientation error can have.
 
-The wheel puts this file beside `bench`, under a name that no other project has. It imports nothing of ours, for the
-project under test may have a package `bench` of its own. Without the option it does nothing.
+The wheel `orientation-audit` gives it to every project (bench/export/wheel.py). Without the option it does nothing.
 """
 
-import importlib.util
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-HERE = Path(__file__).resolve().parent
-ROOM = HERE.parent if HERE.name == "installed" else HERE / "bench" / "audit"
-"""The folder of the audit, in a checkout or among installed packages."""
+from bench.audit.apart import LIMIT_S, audit_apart
+from bench.base.errors import BadFunction
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -22,8 +19,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption("--orientation-error", action="append", default=[], metavar="FUNCTION", help=function)
     accept = "a fault of it that is meant; repeatable"
     group.addoption("--orientation-error-accept", action="append", default=[], metavar="FAULT", help=accept)
-    limit = "seconds that its audit may take (60)"
-    group.addoption("--orientation-error-limit", type=float, default=60.0, metavar="SECONDS", help=limit)
+    limit = f"seconds that its audit may take ({LIMIT_S:g})"
+    group.addoption("--orientation-error-limit", type=float, default=LIMIT_S, metavar="SECONDS", help=limit)
 
 
 def pytest_collection_modifyitems(session: pytest.Session, config: pytest.Config, items: list[pytest.Item]) -> None:
@@ -38,15 +35,12 @@ def checks(session: pytest.Session, target: str) -> list[pytest.Item]:
     Errors:
         UsageError: the function cannot be audited.
     """
-    spec: Any = importlib.util.spec_from_file_location("orientation_audit_apart", ROOM / "apart.py")
-    apart = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(apart)
     accept = session.config.getoption("orientation_error_accept")
     try:
-        said = apart.audit_apart(target, {"accept": accept}, session.config.getoption("orientation_error_limit"))
-    except apart.NotAudited as error:
+        said = audit_apart(target, {"accept": accept}, session.config.getoption("orientation_error_limit"))
+    except BadFunction as error:
         raise pytest.UsageError(str(error)) from error
-    names = sorted(path.stem.replace("_", "-") for path in (ROOM / "faults").glob("[a-z]*.py"))
+    names = sorted(path.stem.replace("_", "-") for path in Path(__file__).with_name("faults").glob("[a-z]*.py"))
     return [Check.from_parent(session, name=f"{target}[{name}]", fault=name, said=said) for name in names]
 
 
@@ -60,16 +54,8 @@ class Check(pytest.Item):
     def runtest(self) -> None:
         """Fail if the function has it."""
         if self.fault in self.said["paragraphs"]:
-            raise Faulty(f"{self.said['head']}\n\n{self.said['paragraphs'][self.fault]}")
-
-    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        """Return the report's paragraph, and no trace."""
-        return str(excinfo.value) if excinfo.errisinstance(Faulty) else super().repr_failure(excinfo, style)
+            pytest.fail(f"{self.said['head']}\n\n{self.said['paragraphs'][self.fault]}", pytrace=False)
 
     def reportinfo(self) -> tuple[Path, int | None, str]:
         """Return its place in pytest's lists."""
         return self.path, None, f"orientation error {self.name}"
-
-
-class Faulty(Exception):
-    """A fault, in words."""

@@ -1,0 +1,74 @@
+"""`check`: the convention and the faults of an orientation error."""
+
+import argparse
+import json
+import shutil
+import sys
+from pathlib import Path
+
+from bench.audit.apart import CALLS, LIMIT_S, audit_apart
+from bench.base.errors import BadFunction
+
+STATED = ("takes", "frame", "sign", "stiffness", "accept")
+"""Options that are arguments of `bench.audit.audit`."""
+DESCRIPTION = """\
+Find the convention of an orientation error and its faults, each with a pair of orientations that reproduces it.
+
+FUNCTION takes (R, R_d), 3 x 3, or (q, q_d), and returns three numbers. It is called with some thousand pairs of
+orientations, in a process of its own that has a time limit and whose output is dropped: about a second."""
+EPILOG = """\
+A function of two matrices or two quaternions:
+   {prog} my_file.py:my_error
+A C function, void f(const double[9], const double[9], double[3]):
+   {prog} libmine.so:my_error
+A class whose instance is called:
+   {prog} my_controller.py:Controller
+The error must be in the base frame, and its clip is intended:
+   {prog} my.py:f --frame base --accept norm-clip
+
+A fault is what no controller wants. A note is a property that one may want, as the sine's zero at 180°, or what no
+encoder shows. Exit code 1: a fault that is not accepted; a function that ends the process or hangs has one.
+In pytest, where the wheel orientation-audit is installed: pytest --orientation-error my_file.py:my_error"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Describe the command and its options to a parser."""
+    parser.description, parser.epilog = DESCRIPTION, EPILOG.format(prog=parser.prog)
+    add = parser.add_argument
+    add("function", metavar="FUNCTION", help="FILE.py:NAME, MODULE:NAME or LIBRARY.so:SYMBOL")
+    add("--takes", metavar="WORD", help="what it takes: matrix, wxyz or xyzw; found if left out")
+    add("--frame", metavar="WORD", help="the frame that it must be in: base or body")
+    add("--sign", metavar="WORD", help="where it must point: to-goal or from-goal")
+    add("--stiffness", type=float, default=1.0, metavar="NUMBER", help="slope that your gains reckon with (1)")
+    add("--accept", action="append", default=[], metavar="FAULT", help="a fault that is intended; repeatable")
+    add("--limit", type=float, default=LIMIT_S, metavar="SECONDS", help=f"seconds that it may take ({LIMIT_S:g})")
+    add("--json", type=Path, metavar="FILE", help="write the report to this file, for machines")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print the report on a function and return 1 if it has a fault, else 0.
+
+    Errors:
+        BadFunction: it cannot be audited, or the file of the report cannot be written.
+    """
+    function, file, stated = arguments.function, arguments.json, {name: getattr(arguments, name) for name in STATED}
+    try:
+        show(f"loading {function}")
+        count = f"of about {CALLS:,} calls: {function}"
+        said = audit_apart(function, stated, arguments.limit, lambda calls: show(f"{calls:,} {count}"))
+    finally:
+        show("")
+    print(said["text"], end="")
+    if file:
+        try:
+            file.write_text(json.dumps(said["report"], indent=1, allow_nan=False) + "\n", encoding="utf-8")
+        except OSError as error:
+            raise BadFunction(f"--json {file}: cannot be written ({error.strerror}); name another file") from error
+    return 1 if said["report"]["faults"] else 0
+
+
+def show(text: str) -> None:
+    """Replace the last line of a terminal with this one; where stderr is no terminal, print nothing."""
+    if sys.stderr.isatty():
+        shown = text[: shutil.get_terminal_size().columns - 1]
+        print(f"\r\x1b[K{shown}", end="", file=sys.stderr, flush=True)
