@@ -109,7 +109,7 @@ lock: $(DEV) ## write requirements/*.txt from pyproject.toml (after changing a d
 	@$(call compile,base,--constraint requirements/dev.txt pyproject.toml)
 	@for name in cluster libraries; do \
 		$(call compile,$$name,--extra $$name --constraint requirements/dev.txt pyproject.toml) || exit; done
-	@for name in audit $(APART) install; do $(call compile,$$name,--group $$name) || exit; done
+	@for name in arrays audit $(APART) install; do $(call compile,$$name,--group $$name) || exit; done
 clean: ## remove environments, the built report, caches and results/quick; other results stay
 	@rm -rf $(VENV) .venv-* build dist report/_build report/.jupyter_cache results/quick
 	@rm -rf .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks .home *.egg-info

@@ -15,12 +15,12 @@ def write_short(word: str) -> str:
     law = laws.get(law, law)
     called = [text for name, text in shared.items() if f"{name}(" in law]
     damped = [FORMS["spring_damper"]] if law and "def angular_acceleration" not in law else []
-    return "\n\n\n".join((*called, law, *damped))
+    return "\n\n".join((*called, law, *damped))
 
 
 def short_files(subject: Subject) -> dict[str, str]:
     """Return the file of a short form by its name; nothing of a subject that has none."""
-    code, name, record = write_short(subject.word), subject.identifier, subject.record
+    code, name, record = write_short(subject.word).replace("\n\n", "\n\n\n"), subject.identifier, subject.record
     memory = FORMS["memory"].format(subject.memory) if subject.memory else ""
     about = FORMS["about"].format(title=record.title, name=name, formula=record.formula, memory=memory)
     return {f"short_{name}.py": f"{about}{code}\n"} if code else {}
