@@ -6,7 +6,7 @@
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup setup-cluster bench bench-quick time prove libraries report test check lint gate regress reference lock
-.PHONY: clean audit judge history edition
+.PHONY: clean arrays audit judge history edition
 
 SHELL := /bin/sh
 # Where it is set, each process of the tests and the report would compile every module of ours again.
@@ -77,6 +77,7 @@ check: lint ## all that must hold before a merge: lint, gate, report, test
 		wait $$report; report=$$?; cat $(VENV)/report.log; test $$gate -eq 0 && test $$report -eq 0
 	@$(MAKE) --no-print-directory test
 	@echo "check: all green"
+arrays: .venv-arrays/.made ## install JAX and PyTorch, in which a weekly test runs the short forms of the laws (6 GB)
 lint: $(DEV) ## style (ruff), types (mypy), layers (import-linter) and workflow files (check-jsonschema)
 	@$(VENV)/bin/ruff check
 	@$(PY) -m mypy

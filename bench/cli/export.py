@@ -21,9 +21,9 @@ def COMMAND(law: str, language: str, out: Path | None, laws: options.Files) -> N
     """Write a LAW as code for your controller, translated from its one source, with test vectors.
 
     A law is named as in `list regulators`, with its coordinates where it has several; representation-NAME are the
-    functions of coordinates, impedance-NAME an impedance, spring-NAME a spring, of a pose or of a
-    rotation alone, compensator-NAME a law with a state. --law FILE runs your file in a process of its own. For Python
-    most laws have a short form beside it: at most 12 lines of NumPy, for JAX and PyTorch too.
+    functions of coordinates, impedance-NAME an impedance, spring-NAME a spring, of a pose or of a rotation alone,
+    compensator-NAME a law with a state. --law FILE runs your file in a process of its own. Python adds a form in 12
+    lines of NumPy.
     """
     from bench.export.apart import files_apart
     from bench.export.language import find_language

@@ -29,7 +29,7 @@ def test_short_form_of_at_most_12_lines_is_equal_to_the_law(tmp_path, word):
 
 
 @pytest.mark.weekly
-@pytest.mark.skipif(not PYTHON.exists(), reason="JAX and PyTorch are not installed (6 GB: make .venv-arrays/.made)")
+@pytest.mark.skipif(not PYTHON.exists(), reason="JAX and PyTorch are not installed (6 GB: make arrays)")
 @pytest.mark.parametrize("library", ["jax", "torch"])
 def test_arrays_of_other_libraries_give_the_law_and_finite_gradients(tmp_path, library):
     words = [PYTHON, short_forms.__file__, library, *(write(word, tmp_path) for word in FORMS["laws"])]
