@@ -6,7 +6,7 @@
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .PHONY: help setup setup-cluster bench bench-quick time prove libraries report test check lint gate regress reference lock
-.PHONY: clean audit judge history edition wheels
+.PHONY: clean arrays audit judge history edition wheels
 
 SHELL := /bin/sh
 # Where it is set, each process of the tests and the report would compile every module of ours again.
@@ -77,6 +77,7 @@ check: lint ## all that must hold before a merge: lint, gate, report, test
 		wait $$report; report=$$?; cat $(VENV)/report.log; test $$gate -eq 0 && test $$report -eq 0
 	@$(MAKE) --no-print-directory test
 	@echo "check: all green"
+arrays: .venv-arrays/.made ## install JAX and PyTorch, in which a weekly test runs the short forms of the laws (6 GB)
 lint: $(DEV) ## style (ruff), types (mypy), layers (import-linter) and workflow files (check-jsonschema)
 	@$(VENV)/bin/ruff check
 	@$(PY) -m mypy
@@ -113,7 +114,7 @@ lock: $(DEV) ## write requirements/*.txt from pyproject.toml (after changing a d
 	@$(call compile,base,--constraint requirements/dev.txt pyproject.toml)
 	@for name in cluster libraries; do \
 		$(call compile,$$name,--extra $$name --constraint requirements/dev.txt pyproject.toml) || exit; done
-	@for name in audit wheels $(APART) install; do $(call compile,$$name,--group $$name) || exit; done
+	@for name in arrays audit wheels $(APART) install; do $(call compile,$$name,--group $$name) || exit; done
 clean: ## remove environments, the built report, caches and results/quick; other results stay
 	@rm -rf $(VENV) .venv-* build dist report/_build report/.jupyter_cache results/quick
 	@rm -rf .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .benchmarks .home *.egg-info

@@ -19,7 +19,7 @@ class Language(NamedTuple):
     """A language: how it writes the file of a subject and the test of it.
 
     suffixes: of the two files. test: the command that runs the test of an export in its folder, with {name} for the
-    subject's identifier. around: the language whose file this one's file includes.
+    subject's identifier. around: the language whose file this one's file includes. beside: further files of a subject.
     """
 
     name: str
@@ -29,6 +29,7 @@ class Language(NamedTuple):
     write_test: Callable[[Subject], str]
     test: str
     around: Language | None = None
+    beside: Callable[[Subject], dict[str, str]] = lambda _: {}
 
     def law(self, subject: Subject) -> tuple[str, str]:
         """Return the name of the file of a subject, and its text."""
@@ -39,6 +40,7 @@ class Language(NamedTuple):
         return {
             **dict([self.law(subject)]),
             **dict([self.around.law(subject)] if self.around else []),
+            **self.beside(subject),
             f"test_{subject.identifier}.{self.suffixes[1]}": self.write_test(subject),
             "vectors.json": write_vectors(subject),
             "README.md": write_readme(subject, self),
@@ -81,12 +83,13 @@ def write_vectors(subject: Subject) -> str:
 def write_readme(subject: Subject, language: Language) -> str:
     """Write how to try the export."""
     remembered = f"\n**Memory.** {RESET} {SIDE}\n" if subject.memory else ""
+    short = "".join(f"`{name}` is the law in at most 12 lines of NumPy. " for name in language.beside(subject))
     return (
         f"# {subject.record.title}, {language.title}\n\nTry it in this folder:\n\n```sh\n"
         f"{language.test.format(name=subject.identifier)}\n```\n\n"
         "`vectors.json` has the benchmark's own answers. Where `tolerance` is 0 the answers are equal bit for bit if "
         "the compiler fuses no product with a sum (`-ffp-contract=off`); elsewhere sines, cosines and "
         f"arcs of another library change last digits, and the tolerance is {CLOSE:g} of the largest number of the "
-        f"answer. The file of the law says what it is and where it fails.\n\n**Matrices** in `vectors.json` are "
+        f"answer. {short}The file of the law says what it is and where it fails.\n\n**Matrices** in `vectors.json` are "
         f"{BY_ROWS.partition('  ')[2]}.\n{remembered}"
     )

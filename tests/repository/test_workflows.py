@@ -108,7 +108,7 @@ def test_audit_without_its_tool_is_no_vulnerability(audit, monkeypatch):
     assert audit.audit("a.txt") == "no network"
 
 
-@pytest.mark.parametrize("name", ["base", "report", "dev", "libraries", "audit"])
+@pytest.mark.parametrize("name", ["base", "report", "dev", "libraries", "arrays", "audit"])
 def test_lock_holds_names_versions_and_hashes_only(name):
     line = re.compile(r"[a-z0-9._\[\],-]+==[\w.!+-]+(?: ; [^\\]+)?(?: \\)?|    --hash=sha256:[0-9a-f]{64}(?: \\)?")
     lines = (ROOT / "requirements" / f"{name}.txt").read_text().splitlines()

@@ -10,6 +10,7 @@ from bench.export.heading import RESET, WIDTH, heading
 from bench.export.language import Language, write_arguments
 from bench.export.layout import INDENT, read_template, wrapped
 from bench.export.reading import Typed
+from bench.export.short import short_files
 from bench.export.subject import Subject, translated
 from bench.law.scalar import PRIMITIVES
 
@@ -101,4 +102,6 @@ def write_test(subject: Subject) -> str:
     return read_template("test.python").replace("NAME", subject.identifier)
 
 
-LANGUAGE = Language("python", "Python", ("py", "py"), write_module, write_test, "python test_{name}.py")
+LANGUAGE = Language(
+    "python", "Python", ("py", "py"), write_module, write_test, "python test_{name}.py", beside=short_files
+)

@@ -12,6 +12,7 @@ from pygments.formatters import HtmlFormatter
 from pygments.lexers import PythonLexer
 
 from bench.export.language import find_language, language_words
+from bench.export.short import write_short
 from bench.export.subject import find_subject
 from bench.findings.proofs.certificate import read_certificates
 from bench.law.kinds import Law
@@ -69,7 +70,8 @@ def make_page(name: str, title: str, card: str, source: Source, word: str = "", 
     languages = map(find_language, language_words() if word else ())
     files = {each.title: each.law(subject) for each in languages if subject}
     take = take_files(word, files, live) if files else ""
-    body = f"<section>{BACK}<h1>{html.foreign(title)}</h1>{card}{take}{show_code(source)}{fold(source)}</section>"
+    code = show_short(word) or show_code(source)
+    body = f"<section>{BACK}<h1>{html.foreign(title)}</h1>{card}{take}{code}{fold(source)}</section>"
     return LawPage(name, title, body, dict(files.values()))
 
 
@@ -134,6 +136,13 @@ def set_words(text: str) -> html.Html:
         text = re.sub(pattern, sign, text)
     text = marked_up(" ".join(text.split()))
     return html.Html(GAIN.sub(r"<i>K</i><sub>\1</sub>", CODE.sub(r"<code>\1</code>", text)))
+
+
+def show_short(word: str) -> str:
+    """Return the short form of a law; nothing of a law that has none."""
+    code = write_short(word)
+    others = "With <code>import jax.numpy as np</code> or <code>import torch as np</code> it runs in JAX or PyTorch."
+    return f"<h2>The law in NumPy</h2><p>{others}</p>{colour(code)}" if code else ""
 
 
 def show_code(source: Source) -> str:

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from bench.experiments.tables import read
+from bench.export.short import write_short
 from bench.findings.proofs.certificate import read_certificates
 from bench.findings.selection.sensitivity import tune
 from bench.findings.theory.closed_form import linear_settling
@@ -38,6 +39,7 @@ def facts(run: Run) -> dict:
         **{name: f"{proved[name]:g}" for name in ("rate", "delta")},
         "drop": f"{proved['drop']:.3f}",
         "seconds": f"{proved['seconds']:.0f}",
+        "code": f"```python\n{write_short(NEW)}\n```",
         "later": ", ".join(f"{ratio:g}" for ratio in RATIOS if is_later(ratio)) or "none",
         "later_of": f"{', '.join(map('{:g}'.format, RATIOS))}",
         **(count_calls(spent.loc[NEW, "typical"]) if (NEW, "typical") in spent.index else {}),
