@@ -10,7 +10,8 @@ is dependent. What is not finite has the condition number infinity. The poses ar
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,7 +23,6 @@ from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.chain import Chain
 from bench.law.contenders.registry import contenders, papers_coordinates
 from bench.law.kinds import Coordinates
-from tasks.arm_model import Arm
 
 if TYPE_CHECKING:
     from bench.experiments.jacobians.eye import Eye
@@ -57,15 +57,6 @@ def of_arm(name: str, count: int) -> Unit:
     return Unit("jacobians", arm=name, count=count, total=count)
 
 
-class Seen(NamedTuple):
-    """All poses of an arm: chains, and J (N x 6 x n) by the judge and by our kernel."""
-
-    poses: list[Pose]
-    chains: list[Chain]
-    J: np.ndarray
-    ours: np.ndarray
-
-
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return one row a pose and representation."""
     from bench.experiments.jacobians.eye import Eye
@@ -76,41 +67,36 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     with np.errstate(all="ignore"):
         chains, Js = zip(*(eye.look(pose.q) for pose in chosen), strict=True)
         ours = filled("geometric", None, chains, chains)
-        seen = Seen(chosen, list(chains), np.array(Js), ours)
-        shared = _shared(arm, seen)
-        parts = [pd.DataFrame({**shared, **_of(eye, seen, one)}) for one in contenders("representations").values()]
+        q, J = np.full((len(chosen), LONGEST), np.nan), np.array(Js)
+        q[:, : arm.joints] = [pose.q for pose in chosen]
+        shared = {
+            "arm": arm.name,
+            "pose_set": [pose.set for pose in chosen],
+            "pose_id": [pose.id for pose in chosen],
+            **{f"q_{i + 1}": q[:, i] for i in range(LONGEST)},
+            "beta": [math.atan2(-chain.R.n[2], math.hypot(chain.R.n[0], chain.R.n[1])) for chain in chains],
+            "condition": conditions(J),
+            "kernel_gap": gap(ours, J),
+            "det": determinants(J),
+        }
+        every = contenders("representations").values()
+        parts = [pd.DataFrame({**shared, **_of(eye, chosen, chains, ours, one)}) for one in every]
     return pd.concat(parts, ignore_index=True)
 
 
-def _shared(arm: Arm, seen: Seen) -> dict:
-    """Return the columns that are the same in every representation."""
-    q = np.full((len(seen.poses), LONGEST), np.nan)
-    q[:, : arm.joints] = [pose.q for pose in seen.poses]
-    return {
-        "arm": arm.name,
-        "pose_set": [pose.set for pose in seen.poses],
-        "pose_id": [pose.id for pose in seen.poses],
-        **{f"q_{i + 1}": q[:, i] for i in range(LONGEST)},
-        "beta": [math.atan2(-chain.R.n[2], math.hypot(chain.R.n[0], chain.R.n[1])) for chain in seen.chains],
-        "condition": conditions(seen.J),
-        "kernel_gap": gap(seen.ours, seen.J),
-        "det": determinants(seen.J),
-    }
-
-
-def _of(eye: Eye, seen: Seen, one: Coordinates) -> dict:
-    """Return the columns of one representation."""
-    charts = [one.chart(chain.R) for chain in seen.chains]
-    J_E = filled("analytic", one, seen.chains, charts)
-    margin = np.array([one.margin(chain.R) for chain in seen.chains], dtype=float)
+def _of(eye: Eye, poses: list[Pose], chains: Sequence[Chain], ours: np.ndarray, one: Coordinates) -> dict:
+    """Return the columns of one representation; ours: J at every pose by our kernel."""
+    charts = [one.chart(chain.R) for chain in chains]
+    J_E = filled("analytic", one, chains, charts)
+    margin = np.array([one.margin(chain.R) for chain in chains], dtype=float)
     derivation, difference = np.full((2, len(margin)), np.nan)
-    drawn = np.array([pose.set == "slice" for pose in seen.poses])
+    drawn = np.array([pose.set == "slice" for pose in poses])
     if one.differentiate is not None:
         some = np.flatnonzero(~drawn | (one.name == PAPERS))
-        again = filled("analytic-differentiated", one, [seen.chains[i] for i in some], [charts[i] for i in some])
+        again = filled("analytic-differentiated", one, [chains[i] for i in some], [charts[i] for i in some])
         derivation[some] = gap(again, J_E[some])
     if one.name == PAPERS:
-        qs = np.array([pose.q for pose in seen.poses])[~drawn]
+        qs = np.array([pose.q for pose in poses])[~drawn]
         difference[~drawn] = gap(_differences(eye, one, qs, margin[~drawn]), J_E[~drawn])
     return {
         "representation": one.name,
@@ -118,13 +104,13 @@ def _of(eye: Eye, seen: Seen, one: Coordinates) -> dict:
         "condition_analytic": conditions(J_E),
         "largest": abs(J_E[:, 3:]).max(axis=(1, 2)),
         "det_analytic": determinants(J_E),
-        "det_gap": _det_gap(seen.ours, J_E, margin) if one.name == PAPERS else np.nan,
+        "det_gap": _det_gap(ours, J_E, margin) if one.name == PAPERS else np.nan,
         "derivation_gap": derivation,
         "difference_gap": difference,
     }
 
 
-def filled(jacobian: str, representation: Coordinates | None, chains: list[Chain], charts: list) -> np.ndarray:
+def filled(jacobian: str, representation: Coordinates | None, chains: Sequence[Chain], charts: Sequence) -> np.ndarray:
     """Compute the Jacobian of that name at every pose, N x rows x n."""
     fill = contenders("jacobians")[jacobian].kernels_in(representation)[0]
     rows = 3 + len(representation.symbols) if representation else 6
