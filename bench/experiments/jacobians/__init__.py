@@ -23,10 +23,11 @@ from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.chain import Chain
 from bench.law.contenders.registry import contenders, papers_coordinates
 from bench.law.kinds import Coordinates
+from bench.law.so3 import Rotation
 
 if TYPE_CHECKING:
-    from bench.experiments.jacobians.eye import Eye
     from bench.experiments.jacobians.pose_sets import Pose
+    from tasks.kinematics import Kinematics
 
 ARM_S, POSE_S = 5.0, 5e-3
 """CPU seconds of an arm's directed poses, and of each random one."""
@@ -59,13 +60,13 @@ def of_arm(name: str, count: int) -> Unit:
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return one row a pose and representation."""
-    from bench.experiments.jacobians.eye import Eye
     from bench.experiments.jacobians.pose_sets import poses
+    from tasks.kinematics import Kinematics
 
     arm = tasks.arm(unit.arm)
-    eye, chosen = Eye(arm), poses(arm, unit.count, settings.seed)
+    kin, chosen = Kinematics(arm), poses(arm, unit.count, settings.seed)
     with np.errstate(all="ignore"):
-        chains, Js = zip(*(eye.look(pose.q) for pose in chosen), strict=True)
+        chains, Js = zip(*(look(kin, pose.q) for pose in chosen), strict=True)
         ours = filled("geometric", None, chains, chains)
         q, J = np.full((len(chosen), LONGEST), np.nan), np.array(Js)
         q[:, : arm.joints] = [pose.q for pose in chosen]
@@ -80,11 +81,24 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
             "det": determinants(J),
         }
         every = contenders("representations").values()
-        parts = [pd.DataFrame({**shared, **_of(eye, chosen, chains, ours, one)}) for one in every]
+        parts = [pd.DataFrame({**shared, **_of(kin, chosen, chains, ours, one)}) for one in every]
     return pd.concat(parts, ignore_index=True)
 
 
-def _of(eye: Eye, poses: list[Pose], chains: Sequence[Chain], ours: np.ndarray, one: Coordinates) -> dict:
+def tool_at(kin: Kinematics, q: Sequence[float] | np.ndarray) -> tuple[np.ndarray, Rotation]:
+    """Return the tool's position [m] and orientation as MuJoCo's matrix."""
+    p, _ = kin.pose(q)
+    m = kin.data.site_xmat[kin.site]
+    return p, Rotation((m[0], m[3], m[6]), (m[1], m[4], m[7]), (m[2], m[5], m[8]))
+
+
+def look(kin: Kinematics, q: Sequence[float]) -> tuple[Chain, np.ndarray]:
+    """Return what a controller sees of a pose, at rest; and J."""
+    J, n, (p, R) = kin.jacobian(q), kin.arm.joints, tool_at(kin, q)
+    return Chain(n, kin.data.xaxis.copy(), kin.data.xanchor.copy(), np.zeros(n), tuple(p), R), J
+
+
+def _of(kin: Kinematics, poses: list[Pose], chains: Sequence[Chain], ours: np.ndarray, one: Coordinates) -> dict:
     """Return the columns of one representation; ours: J at every pose by our kernel."""
     charts = [one.chart(chain.R) for chain in chains]
     J_E = filled("analytic", one, chains, charts)
@@ -97,7 +111,7 @@ def _of(eye: Eye, poses: list[Pose], chains: Sequence[Chain], ours: np.ndarray, 
         derivation[some] = gap(again, J_E[some])
     if one.name == PAPERS:
         qs = np.array([pose.q for pose in poses])[~drawn]
-        difference[~drawn] = gap(_differences(eye, one, qs, margin[~drawn]), J_E[~drawn])
+        difference[~drawn] = gap(_differences(kin, one, qs, margin[~drawn]), J_E[~drawn])
     return {
         "representation": one.name,
         "margin": margin,
@@ -147,16 +161,16 @@ def _det_gap(J: np.ndarray, J_E: np.ndarray, cos_beta: np.ndarray) -> np.ndarray
     return abs(determinants(J_E) + determinants(J) / cos_beta) / scale
 
 
-def _differences(eye: Eye, one: Coordinates, qs: np.ndarray, margin: np.ndarray) -> np.ndarray:
+def _differences(kin: Kinematics, one: Coordinates, qs: np.ndarray, margin: np.ndarray) -> np.ndarray:
     """Compute central differences of position and coordinates, N x rows x n; NaN beside a jump of the coordinates."""
-    n = eye.arm.joints
+    n = kin.arm.joints
     ends, steps = np.empty((2, len(qs), 3 + len(one.symbols), n)), np.empty((2, len(qs), n))
     for place, (q, h) in enumerate(zip(qs, STEP * margin, strict=True)):
         for i in range(n):
             for end, moved in enumerate((q[i] + h, q[i] - h)):
                 there = q.copy()
                 there[i] = steps[end, place, i] = moved
-                p, R = eye.place(there)
+                p, R = tool_at(kin, there)
                 ends[end, place, :3, i], ends[end, place, 3:, i] = p, one.chart(R).E
     change = ends[0] - ends[1]
     change = np.where(abs(change) > JUMP, np.remainder(change + math.pi, math.tau) - math.pi, change)
