@@ -13,7 +13,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -71,7 +71,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 def rows(settings: Settings, unit: Unit) -> list[dict]:
     """Return one row a finding."""
     one = settings.contender(unit.contender)
-    found = [one.words | each._asdict() for each in findings(one, settings.gains)]
+    found: list[dict[str, Any]] = [{**one.words, **each._asdict()} for each in findings(one, settings.gains)]
     for row in found:
         for name, stem, parts in (("quat", "quat_", "wxyz"), ("goal", "goal_quat_", "wxyz"), ("u", "u_", "xyz")):
             row |= {stem + part: float(x) for part, x in zip(parts, row.pop(name), strict=True)}

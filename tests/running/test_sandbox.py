@@ -56,14 +56,14 @@ def test_process_of_a_law_ends_with_the_run(tmp_path):
     temporary = tmp_path / "temporary"
     temporary.mkdir()
     with started("-c", textwrap.dedent(script), tmp_path, variables={"TMPDIR": temporary}) as process:
-        own, started, begun = psutil.Process(process.pid), [], time.monotonic()
-        while len(started) < 3:  # the law's process, its guard, and the fork in which it hangs
+        own, children, begun = psutil.Process(process.pid), [], time.monotonic()
+        while len(children) < 3:  # the law's process, its guard, and the fork in which it hangs
             assert time.monotonic() - begun < 120.0
             time.sleep(0.05)
-            started = own.children(recursive=True)
+            children = own.children(recursive=True)
         [of_the_law] = temporary.glob("orientation-bench-law-*")
         process.kill()
-    _, alive = psutil.wait_procs(started, timeout=60)
+    _, alive = psutil.wait_procs(children, timeout=60)
     assert alive == []
     assert not of_the_law.exists()
 

@@ -106,7 +106,7 @@ def _of(kin: Kinematics, poses: list[Pose], chains: Sequence[Chain], ours: np.nd
     derivation, difference = np.full((2, len(margin)), np.nan)
     drawn = np.array([pose.set == "slice" for pose in poses])
     if one.differentiate is not None:
-        some = np.flatnonzero(~drawn | (one.name == PAPERS))
+        some = np.flatnonzero(~drawn | (one.name == PAPERS)).tolist()
         again = filled("analytic-differentiated", one, [chains[i] for i in some], [charts[i] for i in some])
         derivation[some] = gap(again, J_E[some])
     if one.name == PAPERS:
