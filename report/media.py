@@ -8,7 +8,6 @@ MUJOCO_GL=osmesa). Where that does not work the committed files stay. Loops need
 """
 
 import json
-import math
 import os
 import sys
 from typing import Any
@@ -23,10 +22,9 @@ from drawing import HALF, LINE, MEDIA, THEMES, Motion, Theme, draw_row, encode_l
 import tasks
 from bench.base.provenance import describe
 from bench.engines.contact_episode import TURNED, USUAL, P, R
-from bench.engines.curve import ARM_NUMBERS, blank_curves
+from bench.engines.curve import ARM_NUMBERS
 from bench.engines.simulate_contact import run_contact
-from bench.experiments.episodes import rows_from, simulate
-from bench.experiments.experiment import Settings, Unit
+from bench.experiments.experiment import Unit
 from bench.experiments.suites import IDEAL_MOTORS, ON_ARM
 from bench.law.contenders.registry import find_contender
 from bench.law.control.registry import find_controller
@@ -120,16 +118,13 @@ def simulate_at_pole() -> dict[str, tuple[Motion, dict]]:
     """Return both contenders from the same start: joint angles [rad] tick by tick, and the judge's row."""
     starts = tasks.start_set(POLE["start_set"], None, POLE["seed"], arm=POLE["arm"])
     [start] = [one for one in starts if one.id == POLE["start"]]
-    settings, found = Settings("media"), {}
-    first = ARM_NUMBERS.index("q_1")
+    found, first = {}, ARM_NUMBERS.index("q_1")
     for word in CONTENDERS:
         names = find_contender(word).name, "arm-regulation", POLE["arm"], "native", POLE["start_set"]
         unit = Unit("arm", *names, IDEAL_MOTORS, count=1, horizon_s=ON_ARM)
-        curves = blank_curves(1, round(POLE_LOOP["loop_s"] / settings.dt_s), numbers=ARM_NUMBERS)
-        simulate(settings, unit, [start], POLE_LOOP["loop_s"], curves)
-        [ticks] = curves.samples
-        q = ticks[~np.isnan(ticks[:, 0]), first : first + tasks.arm(POLE["arm"]).joints].tolist()
-        found[word] = Motion(settings.dt_s, q), rows_from(settings, unit, [start]).iloc[0].to_dict()
+        ticks, row = three_fates.simulate_one(unit, start, POLE_LOOP["loop_s"], ARM_NUMBERS)
+        q = ticks[:, first : first + tasks.arm(POLE["arm"]).joints].tolist()
+        found[word] = Motion(three_fates.SETTINGS.dt_s, q), row
     return found
 
 
@@ -144,11 +139,7 @@ def simulate_contact(task: str, trial: str, name: str) -> tuple[ContactPuppet, M
 def describe_files(rows: dict[str, dict], fates: dict[str, Any]) -> dict[str, Any]:
     """Return what the files show and where they come from."""
     numbers = ("settling_time_s", "failure_time_s", "path_ratio", "peak_torque_ratio", "position_error_m")
-    episodes = [
-        {"contender": word, "outcome": str(row["outcome"])}
-        | {name: None if math.isnan(row[name]) else float(f"{row[name]:.6g}") for name in numbers}
-        for word, row in rows.items()
-    ]
+    episodes = [{"contender": word, **three_fates.describe_row(row, numbers)} for word, row in rows.items()]
     plate = {**PLATE, "controllers": list(CONTROLLERS), **PLATE_LOOP}
     stills = {task: trial for task, (trial, _) in STILLS.items()}
     return {**POLE, "episodes": episodes, **POLE_LOOP} | {

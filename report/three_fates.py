@@ -3,8 +3,9 @@
 Orientations come from the compiled engine tick by tick, as in the episodes of the results (ideal-rk4, half-turn).
 """
 
+import itertools
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from drawing import FRAMES_PER_S, Motion, Theme, draw_row, encode, make_view, save, write_on
@@ -15,6 +16,7 @@ from bench.engines.curve import NUMBERS, blank_curves
 from bench.experiments.episodes import rows_from, simulate
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.suites import HORIZON
+from tasks.base import Start
 
 LAWS = {
     "rotation-matrix": "cross product",
@@ -28,19 +30,15 @@ SIZE, HEAD, LINE = (216, 204), 30, 24  # pixels of a gripper, of the heading and
 FATE = {"": ((176, 42, 34), (140, 90, 0), (10, 112, 73)), "-dark": ((255, 143, 133), (242, 191, 78), (79, 216, 160))}
 """The colours of stuck, unwinding and home, on light paper and on dark."""
 POSTER_S = 0.2
+SETTINGS = Settings("media")
+Fate = tuple[Motion, dict[str, Any]]
+"""An episode: the rotations of the body tick by tick, and the judge's row."""
 GRIPPER = """
 <geom type="cylinder" size=".1 .12" pos="0 0 -.12" {look}/>
 <geom type="box" size=".09 .24 .05" pos="0 0 .05" {look}/>
 <geom type="box" size=".05 .03 .16" pos="0 .19 .25" {look}/>
 <geom type="box" size=".05 .03 .16" pos="0 -.19 .25" rgba="{finger}"/>
 """
-
-
-class Fate(NamedTuple):
-    """An episode: the rotations of the body tick by tick, and the judge's row."""
-
-    motion: Motion
-    row: dict[str, Any]
 
 
 class Gripper:
@@ -83,23 +81,24 @@ class Gripper:
         return camera
 
 
+def simulate_one(unit: Unit, start: Start, loop_s: float, names: tuple[str, ...]) -> tuple[np.ndarray, dict[str, Any]]:
+    """Return the numbers of an episode tick by tick, as long as the loop, and the judge's row."""
+    curves = blank_curves(1, round(loop_s / SETTINGS.dt_s), numbers=names)
+    simulate(SETTINGS, unit, [start], unit.horizon_s, curves)
+    [ticks] = curves.samples
+    return ticks[~np.isnan(ticks[:, 0])], rows_from(SETTINGS, unit, [start]).iloc[0].to_dict()
+
+
 def simulate_fates() -> dict[str, dict[str, Fate]]:
     """Return each start's episodes by law."""
-    settings = Settings("media")
-    starts = {one.id: one for one in tasks.start_set("half-turn") if one.id in STARTS}
-    ticks, horizon_s = round(LOOP["loop_s"] / settings.dt_s), HORIZON["half-turn"]
-    columns = NUMBERS.index("n_x")
+    starts, columns = {one.id: one for one in tasks.start_set("half-turn")}, NUMBERS.index("n_x")
+    where, horizon_s = ("free-body", "", "ideal-rk4", "half-turn"), HORIZON["half-turn"]
     found: dict[str, dict[str, Fate]] = {}
-    for name in STARTS:
-        for law in LAWS:
-            unit = Unit("free-body", law, "free-body", "", "ideal-rk4", "half-turn", count=1, horizon_s=horizon_s)
-            curves = blank_curves(1, ticks)
-            simulate(settings, unit, [starts[name]], horizon_s, curves)
-            [kept] = curves.samples
-            vectors = kept[~np.isnan(kept[:, 0]), columns : columns + 9]
-            motion = Motion(settings.dt_s, vectors.reshape(-1, 3, 3).transpose(0, 2, 1))
-            row = rows_from(settings, unit, [starts[name]]).iloc[0].to_dict()
-            found.setdefault(name, {})[law] = Fate(motion, row)
+    for name, law in itertools.product(STARTS, LAWS):
+        unit = Unit("free-body", law, *where, count=1, horizon_s=horizon_s)
+        ticks, row = simulate_one(unit, starts[name], LOOP["loop_s"], NUMBERS)
+        vectors = ticks[:, columns : columns + 9].reshape(-1, 3, 3).transpose(0, 2, 1)
+        found.setdefault(name, {})[law] = Motion(SETTINGS.dt_s, vectors), row
     return found
 
 
@@ -121,29 +120,34 @@ def describe(fates: dict[str, dict[str, Fate]]) -> dict[str, Any]:
     """Return what the loop shows."""
     numbers = ("angle0_rad", "settling_time_s", "path_ratio")
     episodes = [
-        {"contender": law, "start": start, "outcome": str(fate.row["outcome"]), "says": describe_fate(fate.row)}
-        | {name: None if math.isnan(fate.row[name]) else float(f"{fate.row[name]:.6g}") for name in numbers}
+        {"contender": law, "start": start, **describe_row(row, numbers, says=describe_fate(row))}
         for start, by_law in fates.items()
-        for law, fate in by_law.items()
+        for law, (_, row) in by_law.items()
     ]
     return {"episodes": episodes, **LOOP}
 
 
+def describe_row(row: dict[str, Any], numbers: tuple[str, ...], **words: str) -> dict[str, Any]:
+    """Return the outcome of an episode, these words, and numbers of its row to six figures."""
+    rounded = {name: None if math.isnan(row[name]) else float(f"{row[name]:.6g}") for name in numbers}
+    return {"outcome": str(row["outcome"]), **words, **rounded}
+
+
 def draw_scene(view: Any, theme: Theme, place: int, by_law: dict[str, Fate]) -> list[Image.Image]:
     """Return the frames of one start: the heading, each law's name and end, and below them the grippers."""
-    [first, *_] = by_law.values()
-    heading = f"{place}. From rest, {math.degrees(first.row['angle0_rad']):.0f}° to turn to the faint gripper"
+    [(_, first), *_] = by_law.values()
+    heading = f"{place}. From rest, {math.degrees(first['angle0_rad']):.0f}° to turn to the faint gripper"
     frames = []
-    motions = [one.motion.frames(LOOP["loop_s"], FRAMES_PER_S * LOOP["slower"]) for one in by_law.values()]
+    motions = [motion.frames(LOOP["loop_s"], FRAMES_PER_S * LOOP["slower"]) for motion, _ in by_law.values()]
     for poses in zip(*motions, strict=True):
         above = HEAD + 2 * LINE
         names = [LAWS[law] for law in by_law]
         image = draw_row([view(pose) for pose in poses], names, above, 0, HEAD + LINE - 6, 18, theme)
         write_on(image, (image.width // 2, HEAD - 8), heading, 20, theme)
-        for column, fate in enumerate(by_law.values()):
+        for column, (_, row) in enumerate(by_law.values()):
             x = column * SIZE[0] + SIZE[0] // 2
-            in_colour = theme._replace(ink=FATE[theme.suffix][grade(fate.row)])
-            write_on(image, (x, above - 6), describe_fate(fate.row), 18, in_colour)
+            in_colour = theme._replace(ink=FATE[theme.suffix][grade(row)])
+            write_on(image, (x, above - 6), describe_fate(row), 18, in_colour)
         frames.append(image)
     return frames
 

@@ -12,11 +12,6 @@
     tasks.variation(name), tasks.variation_names()    a plant that differs from the controller's model of it
     tasks.axis(name), tasks.axis_names()    perturbations of the free body: one file each in tasks/conditions
 
-What it stands on: base (Start, Task, StartSet, sensors, errors), rules and verdict (when an episode is settled, stuck
-or failed), truth (its own angle), rotations and haar (exact quaternions, points of SO(3)), arm and arm_model, contact
-and contact_model, axis, condition and moving_goal, kinematics, linear_algebra, paths, clearance and singular (how
-starts of arms are found), episode (a Task as a dm_control Environment), discovery (the constant of every file).
-
 Frames and units: everything is in the base frame unless its name ends in `_body`; radians, seconds;
 quaternions are (w, x, y, z) and take body coordinates to base coordinates.
 

@@ -53,15 +53,13 @@ def leaning(tilt_deg: float, azimuth_deg: float) -> Quat:
     return about((math.cos(azimuth), math.sin(azimuth), 0.0), math.radians(tilt_deg))
 
 
-def leaning_trials(
-    arm: Arm, leans: Iterable[tuple[int, int]], betas: Iterable[int], stands: Stands
-) -> tuple[Trial, ...]:
+def leaning_trials(arm: Arm, leans: Iterable[tuple[int, int]], dense: bool, stands: Stands) -> tuple[Trial, ...]:
     """Return a trial for each way in which the surroundings lean, (tilt, azimuth) [deg], and each frame of the hand.
 
     Those that differ in beta alone are the same mechanics.
     """
     q, found = arm.home, []
-    for (tilt, azimuth), beta in itertools.product(leans, betas):
+    for (tilt, azimuth), beta in itertools.product(leans, DENSE_BETAS if dense else BETAS):
         goal = zyx(0.0, math.radians(beta), 0.0)
         specification, place, quat = stands(leaning(tilt, azimuth), math.radians(tilt))
         pose, mount = f"tilt {tilt} about {azimuth}, beta{beta:+d}", mounts(arm, q, goal)

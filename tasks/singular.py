@@ -59,7 +59,10 @@ def singularity_near(model: Kinematics, q: np.ndarray) -> Singularity | None:
         residual = np.append(transposed_product(J, u), 0.5 * (length(u) ** 2 - 1.0))
         M = _derivative(model, q, u)
         if abs(residual).max() < SINGULAR:
-            return Singularity(q, u, _still(J, u), M) if _loses_one(J) else None
+            s = np.linalg.svd(J, compute_uv=False)
+            if not s[4] > 1e-2 * s[0]:  # more than one twist is lost; a bound that no rounding comes near
+                return None
+            return Singularity(q, u, np.eye(n) - np.array([of_lost_rank(J, u, column) for column in J.T]), M)
         A[:n, :n], A[:n, n:], A[n, n:] = M, J.T, u
         step = least_norm(A, -residual)
         if step is None:
@@ -120,17 +123,6 @@ def widening(distance: float, half: float, step: float) -> list[float]:
     while angles[-1] < half:
         angles.append(min(half, angles[-1] * GROWTH, angles[-1] + step))
     return angles
-
-
-def _still(J: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """1 - J^+ J, symmetric, at a singularity with the lost twist u."""
-    return np.eye(J.shape[1]) - np.array([of_lost_rank(J, u, column) for column in J.T])
-
-
-def _loses_one(J: np.ndarray) -> bool:
-    """Whether J has lost one twist alone; a bound that no rounding comes near."""
-    s = np.linalg.svd(J, compute_uv=False)
-    return bool(s[4] > 1e-2 * s[0])
 
 
 def _form(M: np.ndarray, v: np.ndarray) -> float:

@@ -13,7 +13,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -71,15 +71,11 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 def rows(settings: Settings, unit: Unit) -> list[dict]:
     """Return one row a finding."""
     one = settings.contender(unit.contender)
-    return [one.words | flattened(each) for each in findings(one, settings.gains)]
-
-
-def flattened(one: Finding) -> dict:
-    """Return a finding with a column for each component of its vectors."""
-    flat = one._asdict()
-    for name, stem, parts in (("quat", "quat_", "wxyz"), ("goal", "goal_quat_", "wxyz"), ("u", "u_", "xyz")):
-        flat |= {stem + part: float(x) for part, x in zip(parts, flat.pop(name), strict=True)}
-    return flat
+    found: list[dict[str, Any]] = [{**one.words, **each._asdict()} for each in findings(one, settings.gains)]
+    for row in found:
+        for name, stem, parts in (("quat", "quat_", "wxyz"), ("goal", "goal_quat_", "wxyz"), ("u", "u_", "xyz")):
+            row |= {stem + part: float(x) for part, x in zip(parts, row.pop(name), strict=True)}
+    return found
 
 
 def findings(one: Contender, gains: Gains) -> Iterator[Finding]:

@@ -24,6 +24,7 @@ from tasks.base import Start
 
 if TYPE_CHECKING:
     from bench.engines.curve import Curves
+    from bench.engines.metrics.metric import Metric
 
 
 class Place(NamedTuple):
@@ -127,18 +128,23 @@ def prepare(settings: Settings, unit: Unit) -> None:
     """Build the starts, and compile the loop and the contender."""
     if unit.selector:
         starts_of(settings, unit)
-    one, metrics = settings.contender(unit.contender), tuple(metrics_of(on_arm=bool(unit.arm)))
+    metrics = tuple(metrics_of(on_arm=bool(unit.arm)))
     if unit.engine == "reference":
         importlib.import_module("tasks.episode")
     elif unit.arm:
         from bench.engines import simulate_arms
 
         simulate_arms.compiled_loop("arm", metrics)
-        simulate_arms.pointers(one)
+        simulate_arms.pointers(settings.contender(unit.contender))
     else:
-        from bench.engines import simulate
+        prepare_law(settings, unit, unit.engine, metrics)
 
-        simulate.prepare(unit.engine, one, metrics, unit.total)
+
+def prepare_law(settings: Settings, unit: Unit, engine: str, metrics: tuple[Metric, ...]) -> None:
+    """Compile an engine's loop and the contender."""
+    from bench.engines import simulate
+
+    simulate.prepare(engine, settings.contender(unit.contender), metrics, unit.total)
 
 
 def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:

@@ -18,6 +18,7 @@ import numpy as np
 from bench.base.on_first_use import pd
 from bench.engines.episode import OUTCOME, SETTLING_TICK, START_WIDTH, STEP
 from bench.experiments.columns import CONTENDER_KEY
+from bench.experiments.episodes import prepare_law
 from bench.experiments.experiment import Experiment, Settings, Unit
 from bench.experiments.plan import Plan
 from bench.experiments.suites import SHORT
@@ -71,12 +72,6 @@ def plan_of(
     return Plan(Settings("map", gains, dt_s, seed=seed, own=own), tuple(units))
 
 
-def speeds_of(unit: Unit) -> tuple[float, float]:
-    """Return the least and the most initial speed of a unit's starts [rad/s]."""
-    least, _, most = unit.selector.removeprefix("speed-").partition("to")
-    return float(least), float(most)
-
-
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return the cells that a unit's starts lie in, the slowest start of each ring, and the lost starts."""
     found = pd.DataFrame()
@@ -89,7 +84,8 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 def _of_block(settings: Settings, unit: Unit, number: int) -> pd.DataFrame:
     from bench.engines.simulate import on_ideal
 
-    one, (least, most), first = settings.contender(unit.contender), speeds_of(unit), number * BLOCK
+    one, first = settings.contender(unit.contender), number * BLOCK
+    least, most = map(float, unit.selector.removeprefix("speed-").split("to"))
     quats, omegas = (part[: unit.first + unit.count - first] for part in block(number, settings.seed, most, least))
     ended = on_ideal(unit.engine, one, start_rows(quats, omegas), settings.limits(unit.horizon_s), total=unit.total)
     codes, has_converged = ended[:, OUTCOME].astype(int), ended[:, STEP] >= 0.0
@@ -107,13 +103,7 @@ def _of_block(settings: Settings, unit: Unit, number: int) -> pd.DataFrame:
         }
     )
     every = pd.concat([starts.assign(row=row) for row in (CELL, SLOWEST, LOST)], ignore_index=True)
-    law = {
-        **one.words,
-        "engine": unit.engine,
-        "seed": settings.seed,
-        "least_speed": least,
-        "most_speed": most,
-    }
+    law = one.words | {"engine": unit.engine, "seed": settings.seed, "least_speed": least, "most_speed": most}
     return _reduced(every[~((every["row"] == LOST) & (every["settled"] == 1))].assign(**law))
 
 
@@ -166,20 +156,13 @@ def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
     return bool(at["starts"].sum() == unit.count and is_counted and is_inside and has_kinds.all())
 
 
-def prepare(settings: Settings, unit: Unit) -> None:
-    """Compile what runs the law without metrics."""
-    from bench.engines import simulate
-
-    simulate.prepare(unit.engine, settings.contender(unit.contender), (), unit.total)
-
-
 EXPERIMENT = Experiment.of(
     __file__,
     "laws from millions of random starts",
     units=lambda asked: (),
     rows=rows,
     cost_s=lambda unit: unit.count * START_S,
-    prepare=prepare,
+    prepare=lambda settings, unit: prepare_law(settings, unit, unit.engine, metrics=()),
     is_whole=is_whole,
     fold=folded,
     in_suites=False,

@@ -17,11 +17,11 @@ from bench.engines.metrics.registry import metrics_of
 from bench.experiments.choice import Choice
 from bench.experiments.columns import SINGLE, of_metrics, read_table
 from bench.experiments.episode_rows import episode_columns, lost_numbers, measured_columns
+from bench.experiments.episodes import prepare_law
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit
 from bench.experiments.suites import Robustness
 from bench.law.contender import Contender
 from bench.law.contenders.registry import papers_laws
-from bench.law.inputs import Gains
 from tasks.condition import Condition, condition_at
 
 HORIZON_S = 5.0
@@ -87,9 +87,10 @@ def simulated(settings: Settings, unit: Unit, simulate: Callable) -> pd.DataFram
     """
     one, axis, seed = settings.contender(unit.contender), tasks.axis(unit.selector), settings.seed
     metrics, parts = metrics_of(on_arm=False), []
+    # the judge's rules in ticks of a microsecond, which the condition's own steps replace
+    limits = Limits(settings.gains, 1e-6, round(1e6 * unit.horizon_s), 1)
     for level in axis.levels:
-        condition = condition_at(axis, level)
-        some, limits = axis.starts(unit.count, seed, level), _limits(settings.gains, unit.horizon_s)
+        condition, some = condition_at(axis, level), axis.starts(unit.count, seed, level)
         rows = _rows(settings, some, condition, limits, simulate(one, some, condition, limits, metrics, seed))
         parts.append(pd.DataFrame({"axis": axis.name, "level": level, **rows}))
     words = {name: one.words[name] for name in ("regulator", "representation")}
@@ -110,11 +111,6 @@ def lost(settings: Settings, unit: Unit, outcome: str) -> pd.DataFrame:
 def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
     """Tell whether every level is there."""
     return set(tasks.axis(unit.selector).levels) <= set(rows["level"])
-
-
-def _limits(gains: Gains, horizon_s: float) -> Limits:
-    """Return the judge's rules in ticks of a microsecond, which the condition's own steps replace."""
-    return Limits(gains, 1e-6, round(1e6 * horizon_s), 1)
 
 
 def _rows(settings: Settings, starts: list, condition: Condition, limits: Limits, numbers: np.ndarray) -> dict:
@@ -142,13 +138,6 @@ def _rows(settings: Settings, starts: list, condition: Condition, limits: Limits
     }
 
 
-def prepare(settings: Settings, unit: Unit) -> None:
-    """Compile the loop and the law."""
-    from bench.engines import simulate
-
-    simulate.prepare("perturbed", settings.contender(unit.contender), metrics_of(on_arm=False))
-
-
 EXPERIMENT = Experiment(
     "robustness",
     "laws on the free body under perturbations",
@@ -157,7 +146,7 @@ EXPERIMENT = Experiment(
     rows,
     takes=(*OF_LAWS, "axes"),
     cost_s=lambda unit: unit.episodes * EPISODE_S,
-    prepare=prepare,
+    prepare=lambda settings, unit: prepare_law(settings, unit, "perturbed", metrics_of(on_arm=False)),
     lost=lost,
     is_whole=is_whole,
     ticks=lambda settings, unit: unit.episodes * unit.horizon_s / SHORTEST_S,

@@ -76,7 +76,8 @@ def row(one: Law, law: str, contender: Contender, settings: Settings, horizon_s:
     """Return a law's numbers at the gains of a controller."""
     gains = one.gains
     field = Field(contender, gains)
-    felt = {name: compute_stiffness(field, angle) for name, angle in FELT_RAD.items()}
+    pulls = {name: np.sum(field(about(BASE, angle)) * -BASE, axis=1) for name, angle in FELT_RAD.items()}
+    felt = {name: float(np.min(pulls[name]) / angle) for name, angle in FELT_RAD.items()}  # least over the base's axes
     ratio, is_velocity = math.nan, one.level == VELOCITY
     if not is_velocity and felt["stiffness_50mrad"] > 0.0:
         ratio = gains.kv / (2.0 * math.sqrt(gains.kp * felt["stiffness_50mrad"]))
@@ -99,11 +100,6 @@ def row(one: Law, law: str, contender: Contender, settings: Settings, horizon_s:
         return found | {"starts": 0, "lost": 0, "away": 0} | dict.fromkeys(SETTLING_RAD, math.nan)
     memories = (memory_of(contender),) if law else (NEAR, ANTIPODE)  # of ours, which take matrices, both signs are one
     return found | motion(contender, memories, settings._replace(gains=gains), horizon_s)
-
-
-def compute_stiffness(field: Field, angle: float) -> float:
-    """Compute e . k / theta at rest, the least over the axes of the base."""
-    return float(np.min(np.sum(field(about(BASE, angle)) * -BASE, axis=1)) / angle)
 
 
 def compute_bending(field: Field, angle: float) -> float:

@@ -19,6 +19,7 @@ from bench.engines.metrics.farthest import FARTHEST
 from bench.engines.metrics.metric import Metric
 from bench.engines.metrics.registry import known_metrics
 from bench.experiments.costs import count_operations
+from bench.experiments.episodes import prepare_law
 from bench.experiments.experiment import Experiment, Settings, Unit
 from bench.experiments.plan import Plan
 from bench.experiments.tables.statistics import order_interval, quantile
@@ -167,20 +168,13 @@ def _run(
     }
 
 
-def prepare(settings: Settings, unit: Unit) -> None:
-    """Compile the loop and the law."""
-    from bench.engines import simulate
-
-    simulate.prepare("perturbed", settings.contender(unit.contender), metrics())
-
-
 EXPERIMENT = Experiment.of(
     __file__,
     "laws on the free body in situations of dimensionless numbers",
     units=lambda asked: (),
     rows=rows,
     cost_s=lambda unit: unit.episodes * START_S,
-    prepare=prepare,
+    prepare=lambda settings, unit: prepare_law(settings, unit, "perturbed", metrics()),
     ticks=lambda settings, unit: 3 * MOST * HORIZON_S / 1e-3,
     in_suites=False,
 )

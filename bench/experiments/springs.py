@@ -44,7 +44,8 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 def rows(settings: Settings, unit: Unit) -> list[dict]:
     """Return a row a spring and frame of its moment."""
     rng = np.random.default_rng((settings.seed, 11))
-    K, axes = draw_stiffness(rng)
+    axes = Turn.random(rng=rng).as_matrix()
+    K = axes @ np.diag(STIFFNESSES) @ axes.T
     paths = rng.uniform(-WIDTH, WIDTH, (LOOPS, 3, 3)) / math.sqrt(3.0)
     found = []
     for spring in SPRINGS:
@@ -66,12 +67,6 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
                 }
             )
     return found
-
-
-def draw_stiffness(rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
-    """Draw the axes of the stiffness matrix with eigenvalues STIFFNESSES, and return both."""
-    axes = Turn.random(rng=rng).as_matrix()
-    return axes @ np.diag(STIFFNESSES) @ axes.T, axes
 
 
 def in_tool(spring: Spring, name: str, K: np.ndarray) -> Moment:
@@ -100,23 +95,17 @@ def turn(phi: np.ndarray) -> np.ndarray:
 
 
 def compute_work(moment: Moment, paths: np.ndarray, stiffness: float, points: int = POINTS) -> float:
-    """Compute the largest |work| over closed paths, over what the stiffness stores at the path's furthest angle."""
+    """Compute the largest |work| on paths a cos s + b sin s + c sin 2s, over what is stored at the furthest angle."""
     s = np.linspace(0.0, 2.0 * math.pi, points, endpoint=False)
     shares = []
-    for path in paths:
-        phi, rate = closed_path(path, s)
+    for a, b, c in paths:
+        phi = np.outer(np.cos(s), a) + np.outer(np.sin(s), b) + np.outer(np.sin(2.0 * s), c)
+        rate = -np.outer(np.sin(s), a) + np.outer(np.cos(s), b) + 2.0 * np.outer(np.cos(2.0 * s), c)
         omega = np.array([right_jacobian(p) @ r for p, r in zip(phi, rate, strict=True)])
         power = [moment(turn(p)) @ w for p, w in zip(phi, omega, strict=True)]
         stored = 0.5 * stiffness * float(np.max(np.sum(phi * phi, axis=1)))
         shares.append(abs(math.fsum(power)) * 2.0 * math.pi / points / stored)
     return max(shares)
-
-
-def closed_path(parts: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return a cos s + b sin s + c sin 2s, and its rate by s."""
-    a, b, c = parts
-    path = np.outer(np.cos(s), a) + np.outer(np.sin(s), b) + np.outer(np.sin(2.0 * s), c)
-    return path, -np.outer(np.sin(s), a) + np.outer(np.cos(s), b) + 2.0 * np.outer(np.cos(2.0 * s), c)
 
 
 def right_jacobian(phi: np.ndarray) -> np.ndarray:

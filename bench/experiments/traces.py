@@ -19,7 +19,6 @@ from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, U
 from bench.experiments.starts import on_arm
 from bench.experiments.suites import HORIZON, LONG, SHORT
 from bench.law.contender import Contender
-from tasks.base import Start
 
 EVERY_S = 0.02
 """Five samples in each time constant of 0.1 s."""
@@ -77,7 +76,13 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
         made = simulate(settings, unit, starts, unit.horizon_s if unit.arm else HORIZON.get(name, SHORT), curves)
         endings = {"outcome": [""] * len(starts)} if unit.arm else judged_columns(made, settings.dt_s)
         whose = {**place, "engine": unit.engine, "start_set": name}
-        frames.append(_frame(whose, starts, curves.samples, names, endings))
+        is_kept = ~np.isnan(curves.samples[:, :, 0])
+        lengths = is_kept.sum(axis=1)
+        found = dict(zip(names, curves.samples[is_kept].T, strict=True))
+        found["angle_rad"] = 2.0 * np.arcsin(np.minimum(1.0, np.sqrt(found.pop("haversine"))))
+        ids = np.repeat([start.id for start in starts], lengths)
+        said = {name: np.repeat(values, lengths) for name, values in endings.items()}  # at all samples of an episode
+        frames.append(pd.DataFrame({**whose, "start_id": ids, **found, **said}))
     return pd.concat(frames, ignore_index=True).reindex(columns=TABLE.names)
 
 
@@ -86,16 +91,6 @@ def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
     names = ("paper", None), ("uniform", unit.count)
     known = {(name, one.id) for name, count in names for one in tasks.start_set(name, count, settings.seed)}
     return {*zip(rows["start_set"], rows["start_id"], strict=True)} == known
-
-
-def _frame(place: dict, starts: list[Start], samples: np.ndarray, names: tuple, endings: dict) -> pd.DataFrame:
-    """Return the curves of all starts, one below the other; the end of an episode stands at all its samples."""
-    is_kept = ~np.isnan(samples[:, :, 0])
-    lengths = is_kept.sum(axis=1)
-    found = dict(zip(names, samples[is_kept].T, strict=True))
-    found["angle_rad"] = 2.0 * np.arcsin(np.minimum(1.0, np.sqrt(found.pop("haversine"))))
-    said = {name: np.repeat(values, lengths) for name, values in endings.items()}
-    return pd.DataFrame({**place, "start_id": np.repeat([start.id for start in starts], lengths), **found, **said})
 
 
 def curves_of(unit: Unit) -> int:

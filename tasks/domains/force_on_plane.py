@@ -17,7 +17,7 @@ import itertools
 from tasks.arm_model import Arm
 from tasks.base import Quat, Vector
 from tasks.contact import ContactTask, Specification, Surroundings, Trial
-from tasks.hand_frames import BETAS, DENSE_BETAS, at, leaning_trials
+from tasks.hand_frames import at, leaning_trials
 from tasks.rotations import columns
 
 RADIUS = 0.01  # of the tip [m]
@@ -50,8 +50,7 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
     def stands(plane: Quat, tilt: float) -> tuple[Specification, Vector, Quat]:
         return SPECIFICATION, (x, y, z - (RADIUS + CLEARANCE) / columns(plane)[2][2]), plane
 
-    leans, betas = (DENSE_PLANES, DENSE_BETAS) if dense else (PLANES, BETAS)
-    return leaning_trials(arm, leans, betas, stands)
+    return leaning_trials(arm, DENSE_PLANES if dense else PLANES, dense, stands)
 
 
 TASK = ContactTask(

@@ -22,7 +22,7 @@ from tasks.arm_model import Arm
 from tasks.base import Quat, Vector
 from tasks.contact import ContactTask, Specification, Surroundings, Trial, attribute
 from tasks.contact_rest import HORIZON_S
-from tasks.hand_frames import BETAS, DENSE_BETAS, at, leaning_trials, plus, wrist
+from tasks.hand_frames import at, leaning_trials, plus, wrist
 from tasks.rotations import about, multiply, to_base
 
 PEG = 0.0125  # half its side [m]
@@ -88,8 +88,7 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
         over = CLEARANCE + 2 * PEG * math.sin(tilt)  # no corner is lower than that
         return SPECIFICATION, plus(tip, to_base(hole, (-OFFSET[0], -OFFSET[1], -over))), hole
 
-    leans, betas = (DENSE_HOLES, DENSE_BETAS) if dense else (HOLES, BETAS)
-    return leaning_trials(arm, leans, betas, stands)
+    return leaning_trials(arm, DENSE_HOLES if dense else HOLES, dense, stands)
 
 
 TASK = ContactTask(

@@ -21,7 +21,7 @@ from tasks.arm_model import Arm
 from tasks.base import Quat, Vector
 from tasks.contact import ContactTask, Specification, Surroundings, Trial
 from tasks.contact_rest import HORIZON_S
-from tasks.hand_frames import BETAS, DENSE_BETAS, at, leaning_trials, wrist
+from tasks.hand_frames import at, leaning_trials, wrist
 from tasks.rotations import columns
 
 SIDE = 0.1  # of the face [m]
@@ -62,8 +62,7 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
         moves_s = (at(arm, q, TIP)[2] - place[2] + BELOW) / LOWERING
         return SPECIFICATION._replace(moves_s=moves_s), place, plate
 
-    leans, betas = (DENSE_PLATES, DENSE_BETAS) if dense else (PLATES, BETAS)
-    return leaning_trials(arm, leans, betas, stands)
+    return leaning_trials(arm, DENSE_PLATES if dense else PLATES, dense, stands)
 
 
 def _below(arm: Arm, q: tuple[float, ...], normal: Vector) -> Vector:

@@ -14,8 +14,6 @@ from __future__ import annotations
 import functools
 import itertools
 import math
-from collections.abc import Iterator
-from typing import NamedTuple
 
 from tasks.arm_model import Arm
 from tasks.base import AT_REST
@@ -51,26 +49,20 @@ FEWER_SPECIFICATIONS = (SPECIFICATIONS[0], SPECIFICATIONS[3])
 ONE_AXIS, ABOUT_X = SPECIFICATIONS[:3], SPECIFICATIONS[:1]
 
 
-class Grid(NamedTuple):
-    """Frames of the hand, each with every specification: turns (alpha, gamma) and betas in degrees."""
-
-    turns: tuple[tuple[int, int], ...]
-    betas: tuple[int, ...]
-    specifications: tuple[Specification, ...]
-
-
+# Frames of the hand, each with every specification: turns (alpha, gamma) and betas in degrees.
+Grid = tuple[tuple[tuple[int, int], ...], tuple[int, ...], tuple[Specification, ...]]
 # evenly, and then towards the poles of Z-Y-X and of Z-Y-Z; elsewhere to see that alpha and gamma matter, for one axis
 # at frames that lean every way; and about x near zero, where Z-Y-Z angles have none
-GRIDS = (
-    Grid(((0, 0),), (0, 1, 5, 15, 30, 45, 60, 75, 85, 89, 90), SPECIFICATIONS),
-    Grid(((35, -20),), (45,), SPECIFICATIONS),
-    Grid(((-50, 15), (110, 40)), (-60, 20), ONE_AXIS),
-    Grid(((4, -3), (-6, 8)), (-8, 3, 10), ABOUT_X),
-    Grid(((35, -20),), (15, 75), FEWER_SPECIFICATIONS),
+GRIDS: tuple[Grid, ...] = (
+    (((0, 0),), (0, 1, 5, 15, 30, 45, 60, 75, 85, 89, 90), SPECIFICATIONS),
+    (((35, -20),), (45,), SPECIFICATIONS),
+    (((-50, 15), (110, 40)), (-60, 20), ONE_AXIS),
+    (((4, -3), (-6, 8)), (-8, 3, 10), ABOUT_X),
+    (((35, -20),), (15, 75), FEWER_SPECIFICATIONS),
 )
-DENSE_GRIDS = (
-    Grid(((0, 0), (35, -20)), tuple(sorted({*range(-90, 91, 3), -89, -1, 1, 89})), SPECIFICATIONS),
-    Grid(((90, 0), (0, 90), (-120, 60)), tuple(range(-90, 91, 5)), FEWER_SPECIFICATIONS),
+DENSE_GRIDS: tuple[Grid, ...] = (
+    (((0, 0), (35, -20)), tuple(sorted({*range(-90, 91, 3), -89, -1, 1, 89})), SPECIFICATIONS),
+    (((90, 0), (0, 90), (-120, 60)), tuple(range(-90, 91, 5)), FEWER_SPECIFICATIONS),
 )
 
 
@@ -90,31 +82,16 @@ def push(arm: Arm) -> float:
 @functools.cache
 def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
     """Six moments, about x, y and z both ways, for every selection and frame of the hand, on coarse or dense grids."""
-    q, size = arm.home, push(arm)
-    return tuple(
-        trial
-        for grid in (DENSE_GRIDS if dense else GRIDS)
-        for (alpha, gamma), beta in itertools.product(grid.turns, grid.betas)
-        for trial in _at(arm, q, size, (alpha, beta, gamma), grid.specifications)
-    )
-
-
-def _at(
-    arm: Arm,
-    q: tuple[float, ...],
-    size: float,
-    angles: tuple[int, int, int],
-    specifications: tuple[Specification, ...],
-) -> Iterator[Trial]:
-    """Yield the trials at one frame of the hand, by its Z-Y-X angles [deg]."""
-    alpha, beta, gamma = angles
-    goal = zyx(math.radians(alpha), math.radians(beta), math.radians(gamma))
-    mount = mounts(arm, q, goal)
-    for specification in specifications:
-        pose = f"alpha{alpha:+d} beta{beta:+d} gamma{gamma:+d}, {specification.name}"
-        for name, moment in MOMENTS.items():
-            wrench = (*AT_REST, *(size * share for share in moment))
-            yield Trial(f"{pose}, moment {name}", pose, specification, q, goal, mount, push=wrench)
+    q, size, found = arm.home, push(arm), []
+    for turns, betas, specifications in DENSE_GRIDS if dense else GRIDS:
+        for (alpha, gamma), beta in itertools.product(turns, betas):
+            goal = zyx(math.radians(alpha), math.radians(beta), math.radians(gamma))
+            mount = mounts(arm, q, goal)
+            for one, (name, moment) in itertools.product(specifications, MOMENTS.items()):
+                pose = f"alpha{alpha:+d} beta{beta:+d} gamma{gamma:+d}, {one.name}"
+                wrench = (*AT_REST, *(size * share for share in moment))
+                found.append(Trial(f"{pose}, moment {name}", pose, one, q, goal, mount, push=wrench))
+    return tuple(found)
 
 
 TASK = ContactTask(

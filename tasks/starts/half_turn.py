@@ -34,7 +34,9 @@ DECADES = range(13)
 
 def build(seed: int) -> list[Start]:
     """Exact 180° rotations first, then every axis at pi - 1 rad, pi - 0.1 rad, ...; `seed` draws random axes."""
-    axes = AXES | _random_axes(seed)
+    # generic axes, uniform on the sphere: no element is zero and no two are equal
+    drawn = np.random.default_rng(seed).normal(size=(RANDOM_AXES, 3)).tolist()
+    axes = AXES | {f"random{i}": unit((x, y, z)) for i, (x, y, z) in enumerate(drawn)}
     exact = [Start(f"half-turn-{name}-exact", short_of_180_degrees(axis, 0.0)) for name, axis in axes.items()]
     near = [
         Start(f"half-turn-{name}-k{k:02d}", short_of_180_degrees(axis, 10.0**-k))
@@ -42,12 +44,6 @@ def build(seed: int) -> list[Start]:
         for name, axis in axes.items()
     ]
     return exact + near
-
-
-def _random_axes(seed: int) -> dict[str, Vector]:
-    """Draw generic axes, uniform on the sphere: no element is zero and no two are equal."""
-    drawn = np.random.default_rng(seed).normal(size=(RANDOM_AXES, 3)).tolist()
-    return {f"random{i}": unit((x, y, z)) for i, (x, y, z) in enumerate(drawn)}
 
 
 STARTS = StartSet(

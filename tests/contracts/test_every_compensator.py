@@ -71,26 +71,13 @@ def test_bound_is_never_exceeded(one):
     assert 0.5 * limit < greatest <= limit * (1.0 + 1e-12)
 
 
-# ---------------------------------------------------------------------------- energies of ours
-
-KP, KV = Gains()
-
-
-def known(name):
-    return contenders("compensators")[name]
-
-
-def starts():
-    """(R, omega, goal) drawn, anywhere."""
-    draw, count = np.random.default_rng(4), 8
-    pairs = (ScipyRotation.random(count, rng=draw) for _ in range(2))
-    return list(zip(*pairs, draw.normal(scale=4.0, size=(count, 3)), strict=True))
+KP = Gains().kp
 
 
 def test_filter_begins_with_no_command_of_its_own_and_the_length_of_its_quaternion_does_not_matter():
     """At rest its first command is the spring alone: nothing is felt of where the frame was switched on."""
-    one, q = known("velocity-free"), np.array((0.3, -0.8, 0.1, 0.5))
-    for R, R_d, _ in starts():
+    one, q = contenders("compensators")["velocity-free"], np.array((0.3, -0.8, 0.1, 0.5))
+    for R, R_d in ScipyRotation.random((8, 2), rng=np.random.default_rng(4)):
         u, rate = commanded(one, R, REST, R_d, Gains(), one.state.begin(of_scipy(R)))
         k = left(R, R_d)
         np.testing.assert_allclose(u, KP * np.sinc(np.linalg.norm(k) / np.pi) * k, atol=1e-11)

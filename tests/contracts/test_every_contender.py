@@ -1,6 +1,7 @@
 """Contracts that every contender keeps, of whatever kind; a new file, and a new kind, are under them unnamed."""
 
 import inspect
+import itertools
 import math
 from importlib import import_module
 from pathlib import Path
@@ -72,19 +73,10 @@ def test_every_contender_is_listed(capsys):
     assert {one.name for kind in registry.FOLDERS for one in registry.contenders(kind).values()} <= listed
 
 
-# ---------------------------------------------------------------------------- controllers as they are shipped
-
 SIZES = (1e-9, 1e-3, 0.2, 1.0, 2.5, 3.1, math.pi)
 
 
 on_shipped = pytest.mark.parametrize("one", registry.contenders("shipped").values())
-
-
-def turns(count: int = 40):
-    """Quaternions of turns about drawn axes."""
-    for k in directions(count, 19):
-        for theta in SIZES:
-            yield (math.cos(theta / 2.0), *(math.sin(theta / 2.0) * k).tolist())
 
 
 @on_shipped
@@ -101,7 +93,8 @@ def test_fields_say_what_it_is_and_its_source_is_pinned(one):
 @on_shipped
 def test_error_is_zero_at_the_goal_and_that_of_the_opposite_turn_is_the_opposite(one):
     assert not any(one.shipped.error((1.0, 0.0, 0.0, 0.0)))
-    for w, x, y, z in turns():
+    for k, theta in itertools.product(directions(40, 19), SIZES):
+        w, (x, y, z) = math.cos(theta / 2.0), (math.sin(theta / 2.0) * k).tolist()
         np.testing.assert_array_equal(one.shipped.error((w, -x, -y, -z)), np.negative(one.shipped.error((w, x, y, z))))
 
 

@@ -109,26 +109,18 @@ def test_command_is_the_same_in_every_base_frame_unless_the_coordinates_are_the_
         np.testing.assert_allclose(turned, Q.apply(seen), rtol=0.0, atol=50 * EPS * size(turn, omega, m))
 
 
-def pushing(draw):
-    """A moment [N m] of the time: six tones a component, up to 5 Hz."""
-    size, frequency, phase = draw.normal(scale=0.1, size=(3, 6)), draw.uniform(1.0, 30.0, (3, 6)), draw.uniform(0, 6, 6)
-    return lambda t: (size * np.sin(frequency * t + phase)).sum(axis=1)
-
-
 def stored(one, turn, omega, goal) -> float:
     """Energy [J] of spring and motion: in its coordinates; without, by the spring's work on the shortest way."""
+    moving = 0.5 * squared_rate(one, turn, omega, goal)
     if one.representation is not None:
-        relative = seen(one, turn, goal)
-        at, to = of_scipy(relative), of_scipy(seen(one, goal, goal))
-        rate = goal.inv().apply(omega) if one.impedance.relative else omega
-        away = np.subtract(one.representation.chart(at).E, one.representation.chart(to).E)
-        E_dot = one.representation.rates(one.representation.chart(at), vector(rate))
-        return float(0.5 * TOUCH.m_o * (np.dot(E_dot, E_dot) + GAINS.kp * np.dot(away, away)))
+        at, to = (one.representation.chart(of_scipy(seen(one, R, goal))).E for R in (turn, goal))
+        away = np.subtract(at, to)
+        return float(TOUCH.m_o * (moving + 0.5 * GAINS.kp * np.dot(away, away)))
     vectored = (turn * goal.inv()).as_rotvec()
     nodes, weights = np.polynomial.legendre.leggauss(12)
     ways = [ScipyRotation.from_rotvec(0.5 * (1.0 + node) * vectored) * goal for node in nodes]
     pulls = [-command(one, way, STILL, STILL, goal) @ vectored for way in ways]
-    return float(TOUCH.m_o * (0.5 * np.dot(pulls, weights) + 0.5 * np.dot(omega, omega)))
+    return float(TOUCH.m_o * (0.5 * np.dot(pulls, weights) + moving))
 
 
 def squared_rate(one, turn, omega, goal) -> float:
@@ -148,7 +140,13 @@ def test_energy_balance_closes(one):
     """
     draw, law, goal = np.random.default_rng(47), bind(one.impedance, one.representation), goals(one)[0]
     turn, spin = ScipyRotation.from_rotvec((0.2, -0.3, 0.1)) * goal, np.array((0.5, 1.0, -0.8))
-    times, turns, omega, work = free_body(law, turn, spin, goal, 1.5, pushing(draw), 1501)
+    # six tones a component, up to 5 Hz
+    size, frequency, phase = draw.normal(scale=0.1, size=(3, 6)), draw.uniform(1.0, 30.0, (3, 6)), draw.uniform(0, 6, 6)
+
+    def moment(t):
+        return (size * np.sin(frequency * t + phase)).sum(axis=1)
+
+    times, turns, omega, work = free_body(law, turn, spin, goal, 1.5, moment, 1501)
     damping = [squared_rate(one, turn, w, goal) for turn, w in zip(turns, omega, strict=True)]
     damped = TOUCH.m_o * GAINS.kv * cumulative_simpson(damping, x=times, initial=0.0)
     for k in range(100, len(times), 200):
@@ -156,9 +154,6 @@ def test_energy_balance_closes(one):
         left = stored(one, turns[k], omega[k], goal) + damped[k]
         assert left == pytest.approx(stored(one, turn, spin, goal) + work[k], abs=1e-7)
     assert work[-1] > 1e-3
-
-
-# ---------------------------------------------------------------------------- plain, compiled, counted
 
 
 @functools.cache

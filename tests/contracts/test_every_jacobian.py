@@ -75,9 +75,6 @@ def test_it_writes_its_rows_and_joints_alone_and_counted_and_compiled_kernels_gi
         assert same_bits(converted(pair, chain, bias, convert=convert), plain), chain.R
 
 
-# ---------------------------------------------------------------------------- MuJoCo's J and Jdot, det J_E
-
-
 @pytest.mark.parametrize("n", [6, 7])
 def test_geometric_jacobian_is_mujocos_and_that_of_the_body_is_turned_into_the_tools_frame(n):
     for arm, chain in poses(n, 60):

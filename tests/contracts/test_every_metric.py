@@ -150,20 +150,14 @@ SUFFIXES |= {"J": "_j", "m/s": "_m_per_s", "rad/s": "_rad_per_s"}
 touch = each(IN_CONTACT)
 
 
-def first_trials(task):
-    """The trials of the second pose of a task."""
-    poses = [tuple(same) for _, same in itertools.groupby(task.trials(tasks.arm("ur5e")), lambda one: one.pose)]
-    return poses[1]
-
-
 @functools.cache
 def measured_poses() -> list[Pose]:
-    """A pose of every task with every controller, from a compiled run."""
+    """The second pose of every task with every controller, from a compiled run."""
     arm = tasks.arm("ur5e")
     found = []
     for name, controller in itertools.product(tasks.contact_names(), CONTROLLERS):
         task = tasks.contact_task(name)
-        trials = first_trials(task)
+        _, trials, *_ = (tuple(same) for _, same in itertools.groupby(task.trials(arm), lambda one: one.pose))
         ended = run_contact("native", controller, task, arm, trials)
         found.append(Pose(task, arm, controller, tuple(map(response, trials, ended))))
     return found

@@ -4,7 +4,6 @@ import importlib
 import shutil
 from types import ModuleType
 
-import pandas as pd
 import pytest
 from support.pages import RUN, assert_is_whole
 
@@ -21,7 +20,6 @@ from report.figures.kit.page import (
     run_in,
     text_of,
 )
-from report.figures.kit.tables import Table
 from report.figures.responses import responses
 
 PAGES = {
@@ -83,17 +81,6 @@ def test_page_takes_what_it_pastes_and_nothing_else():
     with pytest.raises(ValueError, match=r"gives \['n'\], which its page does not paste"):
         contents(Module, None, "")
     assert contents(Module, None, "{glue:text}`n` of {glue:text}`missing`") == {"n": "12\u202f296", "missing": ABSENT}
-
-
-def test_table_writes_its_columns_in_their_order_with_their_formats():
-    rows = Table("Law | Settled [%]:.1f | Error | k", {"Error": lambda value: f"<{value}>"}, words=["k"])
-    head, rule, line = rows([("one", 12.34, 5, 1)]).splitlines()
-    assert head == "| Law | Settled [%] | Error | k |"
-    assert rule == "| :-- | --: | --: | :-- |"
-    assert line == "| one | 12.3 | <5> | 1 |"
-    assert rows(pd.DataFrame([{"k": 1, "Error": 5, "Settled [%]": 12.34, "Law": "one"}])) == rows(
-        [("one", 12.34, 5, 1)]
-    )
 
 
 def test_response_bends_are_nothing_under_feedback_linearization():

@@ -51,9 +51,6 @@ LINEAR = [one for one in all_contenders() if one.regulator.property != "none" an
 FRAMELESS = [one for one in all_contenders() if one.regulator.relative or one.representation is None]
 
 
-# ---------------------------------------------------------------------------- one tick
-
-
 def through(evaluate, R, omega, goal, gains, memory):
     return evaluate(R, omega, goal, gains, memory)
 
@@ -142,8 +139,6 @@ def test_command_is_finite_off_the_singular_set(contender):
         if is_regular(contender, R, IDENTITY):
             assert np.isfinite(call(contender, R, vector((0.5, -1.0, 2.0)))).all(), R
 
-
-# ---------------------------------------------------------------------------- episodes
 
 # name: (settings, starts of each set); together they end in every way an episode can end
 RUNS = {

@@ -84,16 +84,6 @@ def norm_of(A) -> float:
     return float(EXACT.mnorm(A, EXACT.inf))
 
 
-def inverse_of(B):
-    """B^-1; of four coordinates the inverse of least norm, B^T (B B^T)^-1, which leaves E on its sphere."""
-    return B**-1 if B.cols == 3 else B.T * (B * B.T) ** -1
-
-
-def size_of(B):
-    """|det B|; of four coordinates that of the map from the tangent of their sphere."""
-    return abs(EXACT.det(B)) if B.cols == 3 else EXACT.sqrt(EXACT.det(B * B.T))
-
-
 def test_round_trip_rebuilds_every_orientation_to_rounding(representation):
     for R in rotations():
         rebuilt = representation.to_matrix(representation.chart(R).E)
@@ -114,8 +104,9 @@ def test_kernels_are_the_derivatives_of_to_matrix_its_inverse_and_its_transpose(
                 (representation.generalized(at, moment), times(B.T, moment), norm_of(B.T) * size(moment)),
             ]
             if representation.margin(R) > 0.0:
-                inverse, again = inverse_of(B), representation.chart_of(at.E)
-                rates = representation.rates(again, omega)
+                # of four coordinates the inverse of least norm, which leaves E on its sphere
+                inverse = B**-1 if B.cols == 3 else B.T * (B * B.T) ** -1
+                rates = representation.rates(representation.chart_of(at.E), omega)
                 found.append((rates, times(inverse, omega), norm_of(inverse) * size(omega)))
             for given, expected, scale in found:
                 off = size(EXACT.mpf(x) - y for x, y in zip(given, expected, strict=True))
@@ -127,7 +118,9 @@ def test_margin_is_a_share_and_zero_exactly_where_B_is_singular(representation):
     # R is orthonormal to 2 EPS, so its elements may exceed 1 by as much
     assert all(0.0 <= representation.margin(R) <= 1.0 + 2.0 * EPS for R in rotations())
     for R in some_rotations(representation):
-        determinant = size_of(exact_B_at(representation, representation.chart(R).E))
+        B = exact_B_at(representation, representation.chart(R).E)
+        # of four coordinates that of the map from the tangent of their sphere
+        determinant = abs(EXACT.det(B)) if B.cols == 3 else EXACT.sqrt(EXACT.det(B * B.T))
         if representation.margin(R) == 0.0:
             assert determinant <= VANISHING, R
         elif R in axis_permuting():  # exact in doubles: here nothing may round to "nearly singular"

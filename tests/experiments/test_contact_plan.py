@@ -41,9 +41,6 @@ def named(units, name):
     return list(dict.fromkeys(getattr(unit, name) for unit in units))
 
 
-# ---------------------------------------------------------------------------------------------- suites
-
-
 @pytest.mark.parametrize("suite", SUITES)
 def test_suite_sets_every_task_to_every_arm_that_can_do_it(suite):
     units, episodes = contacts(suite)
@@ -118,9 +115,6 @@ def test_integrator_in_contact_is_implicit_unless_one_is_named():
     assert (both.integrator, both.contact_integrator) == ("rk4", "rk4")
 
 
-# --------------------------------------------------------------------------------------------- choices
-
-
 SUITES_OWN = list(SUITES["quick"].in_contact.controllers)
 
 
@@ -141,9 +135,6 @@ def test_what_is_named_runs_alone(words, name, values, has_episodes):
     assert (episodes > 0) == has_episodes
 
 
-# ------------------------------------------------------------------------------------------ the command
-
-
 def test_dry_run_counts_trials_of_each_arm_and_task(capsys):
     said = bench(
         capsys, *DRY, "--experiment", "contact", "--controller", EULER, "--task", "wrench-probe", "--count", "3"
@@ -158,17 +149,13 @@ def test_dry_run_counts_trials_of_each_arm_and_task(capsys):
 TWO = [find_contender("rotation-matrix"), find_contender("hybrid")]
 
 
-def units(choice, laws=TWO, suite="quick"):
-    return robustness.units(Asked(SUITES[suite], tuple(laws), choice))
-
-
 def made(choice, laws=TWO, **words):
     return planning.make("quick", laws, choice, **words)
 
 
 @pytest.mark.parametrize("suite", SUITES)
 def test_every_suite_perturbs_every_law_on_r_along_every_axis(suite):
-    found = units(EVERYTHING, EVERY_LAW, suite)
+    found = robustness.units(Asked(SUITES[suite], tuple(EVERY_LAW), EVERYTHING))
     met = {(unit.contender, unit.selector) for unit in found}
     on_matrix = [one.name for one in EVERY_LAW if one.representation is None and not one.regulator.in_engine]
     assert met >= {(name, axis) for name in on_matrix for axis in tasks.axis_names()}

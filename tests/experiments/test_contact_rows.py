@@ -69,9 +69,6 @@ def test_measured_rotation_is_that_of_the_poses_records(rows):
     assert np.isfinite(compliance(pose)).all()
 
 
-# -------------------------------------------------------------------------------------------- failures
-
-
 def test_every_outcome_has_its_rank():
     assert sorted(WORST_LAST) == sorted(OUTCOMES.values())
     assert WORST_LAST == ("done", "singular", "saturated", "diverged", "broken")
@@ -103,9 +100,6 @@ def test_contact_that_explodes_is_a_row():
     assert set(rows["outcome"]) & {"saturated", "diverged", "broken"}
     failed = rows["outcome"] != "done"
     assert rows.loc[failed, "failure_time_s"].between(0.0, 0.5).all()
-
-
-# ---------------------------------------------------------------------------------------------- memory
 
 
 def test_records_are_dropped_with_their_pose():

@@ -87,10 +87,10 @@ def curves():
     return traces.rows(Settings(), traces.of_law(find_contender(PAPERS), 5))
 
 
-def rerun(law, start_set, start_id, horizon_s=20.0):
+def rerun(law, start_set, start_id):
     """Return (samples, columns of the judge) of one episode, run alone."""
     [start] = [one for one in tasks.start_set(start_set) if one.id == start_id]
-    samples, chosen = blank_curves(1, 200, 20), settings(horizon_s=horizon_s, hold_ticks=HOLD_TICKS)
+    samples, chosen = blank_curves(1, 200, 20), settings(horizon_s=20.0, hold_ticks=HOLD_TICKS)
     rows = run("ideal-rk4", find_contender(law), "free-body", [start], chosen, METRICS, curves=samples)
     return samples.samples[0], judged_columns(rows, chosen.dt_s)
 

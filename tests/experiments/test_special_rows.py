@@ -8,6 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support.bodies import left, motion
+from support.states import directions
 
 import tasks
 from bench.engines.simulate_bodies import run_compensated, run_stream
@@ -60,16 +61,9 @@ def test_flip_raises_every_laws_peak_tenfold():
 K = 10.0
 
 
-def commands():
-    rng = np.random.default_rng(5)
-    directions = rng.normal(size=(200, 3))
-    directions /= np.linalg.norm(directions, axis=1)[:, None]
-    return directions * np.geomspace(1e-4, 40.0, 200)[:, None]
-
-
 @pytest.mark.parametrize("limiter", LIMITERS.values(), ids=LIMITERS)
 def test_limiter_is_odd_passes_the_middle_of_its_range_and_lengthens_and_reverses_no_component(limiter):
-    for omega in commands():
+    for omega in directions(200, 5) * np.geomspace(1e-4, 40.0, 200)[:, None]:
         limited = np.array(limiter.limit(tuple(omega), K))
         assert (limited * omega >= 0.0).all()
         assert (np.abs(limited) <= np.abs(omega)).all()

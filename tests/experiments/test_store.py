@@ -2,15 +2,13 @@
 
 import errno
 import os
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
 import pytest
-from support.command_line import TINY, bench, digest, refused
+from support.command_line import TINY, bench, digest, refused, started
 from support.user_law import law_text
 
 from bench.base import files, lock
@@ -164,9 +162,7 @@ with lock.held(pathlib.Path(sys.argv[1])):
 @pytest.fixture
 def holder(finished):
     """A process that holds the folder of a finished run."""
-    words = [sys.executable, "-c", HOLD, str(finished)]
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
-    with subprocess.Popen(words, cwd=ROOT, **pipes) as process:
+    with started("-c", HOLD, finished) as process:
         assert process.stdout.readline() == "held\n"
         yield process
         process.kill()

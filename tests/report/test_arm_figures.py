@@ -67,9 +67,6 @@ def test_stock_pose_is_well_conditioned_and_on_the_pole():
     assert re.search(r"number 7\.9 .* Jacobian ([2-9]·)?10[⁰¹²³⁴⁵⁶⁷⁸⁹]{2}, .* β = 90°", said)
 
 
-# ---------------------------------------------------------------------------- compliance
-
-
 @pytest.mark.parametrize("beta", [30, 60])
 def test_hand_is_drawn_turning_as_the_closed_form_of_the_papers_force_control_has_it(beta):
     """About the axis, and as far, to the percent that the hand's own way costs where it turns by ten milliradians."""

@@ -27,12 +27,6 @@ def undescribed(narrow):
     return figure, " "
 
 
-@responsive_picture
-def for_a_phone_too(narrow):
-    figure, _ = style.panels(height=2.0, narrow=narrow)
-    return figure, "Nothing, in two widths"
-
-
 def test_every_look_has_a_dark_twin_and_is_one_of_a_kind():
     looks = [style.look(name) for name in contenders("regulators")]
     assert {look.colour for look in looks} <= set(style.TWINS)
@@ -78,7 +72,7 @@ def test_picture_without_words_is_refused():
 
 
 def test_responsive_picture_is_drawn_for_a_phone_too():
-    drawn = for_a_phone_too()
+    drawn = two_laws()
     assert isinstance(drawn, Picture)
     assert drawn.wide != drawn.narrow
     assert 'class="picture narrow"' in drawn._repr_html_()
@@ -92,13 +86,15 @@ def test_picture_is_the_same_bytes_every_time_and_leaves_the_style_of_others_alo
     assert dict(matplotlib.rcParams) == before
 
 
-def test_table_sets_numbers_right_and_words_left():
-    frame = pd.DataFrame({"law": ["a|b"], "n": [5000], "time [s]": [0.58346], "rest": [float("nan")]})
-    assert Table("law | n | time [s]:.3f | rest")(frame).splitlines() == [
-        "| law | n | time [s] | rest |",
-        "| :-- | --: | --: | --: |",
-        "| a\\|b | 5\u202f000 | 0.583 | – |",
+def test_table_writes_its_columns_in_their_order_with_their_formats_numbers_right_and_words_left():
+    rows = Table("Law | Settled [%]:.1f | Error | k | n | rest", {"Error": lambda value: f"<{value}>"}, words=["k"])
+    row = {"rest": float("nan"), "n": 5000, "k": 1, "Error": 5, "Settled [%]": 12.34, "Law": "a|b"}
+    assert rows(pd.DataFrame([row])).splitlines() == [
+        "| Law | Settled [%] | Error | k | n | rest |",
+        "| :-- | --: | --: | :-- | --: | --: |",
+        "| a\\|b | 12.3 | <5> | 1 | 5\u202f000 | – |",
     ]
+    assert rows([tuple(row.values())[::-1]]) == rows(pd.DataFrame([row]))
 
 
 def test_table_refuses_a_format_for_no_column():

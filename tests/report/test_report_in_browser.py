@@ -191,8 +191,6 @@ def test_search_from_a_file_finds_pages_without_an_error(opened, words):
     assert not [line for line in opened.get_log("browser") if "rror" in line["message"]]
 
 
-# ------------------------------------------------------------------------- tables that a reader sorts and filters
-
 CLAIMS = screenshots.SITE / "pages" / "09-murphy-1988.html"
 COLUMN = """
 return [...document.querySelector("table.sortable").tBodies[0].rows]

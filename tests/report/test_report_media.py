@@ -49,7 +49,7 @@ def test_three_fates_are_those_of_the_published_episodes():
     assert three_fates.describe(found) == ABOUT["fates"]
     rows = table("episodes").query("engine == 'ideal-rk4' and start_set == 'half-turn'").set_index(["start_id", "law"])
     for one in ABOUT["fates"]["episodes"]:
-        row, [*_, last] = rows.loc[one["start"], one["contender"]], found[one["start"]][one["contender"]].motion.poses
+        row, [*_, last] = rows.loc[one["start"], one["contender"]], found[one["start"]][one["contender"]][0].poses
         assert (one["outcome"], one["path_ratio"]) == (row["outcome"], pytest.approx(row["path_ratio"], rel=1e-5))
         assert one["settling_time_s"] == (pytest.approx(row["settling_time_s"]) if one["settling_time_s"] else None)
         assert np.allclose(last, np.eye(3), atol=0.05) == (one["outcome"] == "settled")

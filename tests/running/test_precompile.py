@@ -5,16 +5,14 @@ import os
 import platform
 import re
 import subprocess
-import sys
 import threading
 from pathlib import Path
 
 import psutil
 import pytest
-from support.command_line import python
+from support.command_line import python, started
 
 from bench.base.processes import module_command
-from bench.base.provenance import ROOT
 from bench.experiments import plan
 from bench.experiments.choice import Choice
 from bench.law.contenders.registry import all_contenders, find_contender
@@ -88,8 +86,7 @@ def test_the_process_and_its_fork_end_with_a_run_that_is_killed(tmp_path):
         "with precompile.compiling_ahead(every, every.units) as ahead:\n"
         "    print(ahead.process.pid, flush=True); time.sleep(60)"
     )
-    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
-    with subprocess.Popen([sys.executable, "-c", script], env=environment, stdout=subprocess.PIPE, cwd=ROOT) as run:
+    with started("-c", script, variables={"NUMBA_CACHE_DIR": tmp_path}) as run:
         compiling = psutil.Process(int(run.stdout.readline()))
         while not (forks := compiling.children()):
             compiling.status()

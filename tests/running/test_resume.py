@@ -1,30 +1,19 @@
 """A run killed at any moment goes on and ends with the same files; so does one stopped by Ctrl-C, on any threads."""
 
 import json
-import os
 import signal
-import subprocess
-import sys
 import time
 
 import pytest
-from support.command_line import ALONE, bench, digest
+from support.command_line import ALONE, bench, digest, started
 
-from bench.base.provenance import ROOT
 from bench.experiments.experiment import known_experiments
-
-
-def python(*words, **options):
-    """A process of this interpreter in the root of the checkout."""
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (ROOT, ROOT / "tests")))}
-    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
-    return subprocess.Popen([sys.executable, *map(str, words)], cwd=ROOT, env=environment, **pipes, **options)
 
 
 @pytest.fixture(scope="module")
 def killed(tmp_path_factory):
     """What `support.killed` found."""
-    done = python("-W", "ignore", "-m", "support.killed", tmp_path_factory.mktemp("killed"))
+    done = started("-W", "ignore", "-m", "support.killed", tmp_path_factory.mktemp("killed"))
     out, err = done.communicate(timeout=900)
     assert done.returncode == 0, err
     return json.loads(out)
@@ -61,7 +50,7 @@ def interrupted(tmp_path_factory):
     out = tmp_path_factory.mktemp("interrupted") / "run"
     # a shell that starts the tests in the background has them, and theirs, ignore SIGINT
     heed = {"start_new_session": True, "preexec_fn": lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)}
-    process = python("-m", "bench", *MANY, "--out", out, **heed)
+    process = started("-m", "bench", *MANY, "--out", out, **heed)
     while not list((out / "parts").glob("*.rows")) and process.poll() is None:
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)

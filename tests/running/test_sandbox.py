@@ -1,18 +1,14 @@
 """A user's law that raises, exits, hangs or is no law at all in some states costs its own rows, never the run."""
 
-import os
-import subprocess
-import sys
 import textwrap
 import time
 
 import psutil
 import pytest
-from support.command_line import refused
+from support.command_line import refused, started
 from support.user_law import plan_of, spring_text
 
 from bench.base.errors import BadLaw
-from bench.base.provenance import ROOT
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.experiments.experiment import experiment_of
@@ -57,19 +53,17 @@ def test_process_of_a_law_ends_with_the_run(tmp_path):
         plan = plan_of(Path(sys.argv[1]), "while abs(R.n[0] - 0.36) > 1e-3: x = x + 1e-9", engine="reference")
         Sandbox(plan).rows(plan.units[-1])
     """
-    words = [sys.executable, "-c", textwrap.dedent(script), str(tmp_path)]
-    path, temporary = os.pathsep.join(map(str, (ROOT / "tests", ROOT))), tmp_path / "temporary"
+    temporary = tmp_path / "temporary"
     temporary.mkdir()
-    environment = {**os.environ, "PYTHONPATH": path, "TMPDIR": str(temporary)}
-    with subprocess.Popen(words, env=environment) as process:
-        own, started, begun = psutil.Process(process.pid), [], time.monotonic()
-        while len(started) < 3:  # the law's process, its guard, and the fork in which it hangs
+    with started("-c", textwrap.dedent(script), tmp_path, variables={"TMPDIR": temporary}) as process:
+        own, children, begun = psutil.Process(process.pid), [], time.monotonic()
+        while len(children) < 3:  # the law's process, its guard, and the fork in which it hangs
             assert time.monotonic() - begun < 120.0
             time.sleep(0.05)
-            started = own.children(recursive=True)
+            children = own.children(recursive=True)
         [of_the_law] = temporary.glob("orientation-bench-law-*")
         process.kill()
-    _, alive = psutil.wait_procs(started, timeout=60)
+    _, alive = psutil.wait_procs(children, timeout=60)
     assert alive == []
     assert not of_the_law.exists()
 

@@ -201,9 +201,6 @@ def test_law_that_ends_its_process_is_refused(tmp_path):
     assert not (tmp_path / "timings").exists()
 
 
-# ------------------------------------------------------------------------------------------- on arms
-
-
 @pytest.fixture(scope="module")
 def on_arm(tmp_path_factory):
     """Return the rows of a quick run of the two laws on one arm."""

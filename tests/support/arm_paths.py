@@ -59,7 +59,3 @@ def conditions(arm, path):
 def in_range(arm, path, margin=0.0):
     one = tasks.arm(arm)
     return bool(((np.array(one.lower) + margin <= path) & (path <= np.array(one.upper) - margin)).all())
-
-
-def middle(start):
-    return geodesic(start, [0.5])

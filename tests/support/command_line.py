@@ -17,13 +17,21 @@ TINY = ("--suite", "quick", "--starts", "paper", "--regulator", "rotation-matrix
 """Three episodes of a hundred ticks on every engine that is named."""
 
 
+def started(*words, variables: dict | None = None, **options) -> subprocess.Popen:
+    """Start Python, which finds the modules of our tests, with these variables and without those of None."""
+    usual = {**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (ROOT, ROOT / "tests")))}
+    given = {name: str(value) for name, value in (usual | (variables or {})).items() if value is not None}
+    pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
+    command = [sys.executable, *map(str, words)]
+    return subprocess.Popen(command, env=given, text=True, **{"cwd": ROOT, **pipes, **options})
+
+
 def python(*words, cwd=ROOT, code: int = 0, **variables: str | None) -> str:
     """What Python prints in a process of its own, with these variables of the environment and without those of None."""
-    environment = {name: value for name, value in {**os.environ, **variables}.items() if value is not None}
-    command = [sys.executable, *map(str, words)]
-    done = subprocess.run(command, cwd=cwd, env=environment, capture_output=True, text=True)
-    assert done.returncode == code, done.stdout + done.stderr
-    return done.stdout
+    process = started(*words, variables={"PYTHONPATH": os.environ.get("PYTHONPATH"), **variables}, cwd=cwd)
+    out, err = process.communicate()
+    assert process.returncode == code, out + err
+    return out
 
 
 class Said(NamedTuple):

@@ -5,7 +5,6 @@ its files only.
 """
 
 import dataclasses
-import hashlib
 import json
 import os
 import shutil
@@ -21,6 +20,7 @@ from bench.experiments.choice import Choice
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import Gains
 from bench.running import run
+from support.command_line import digest
 
 EVENTS = {"open", "os.mkdir", "os.remove", "os.rename", "os.rmdir", "os.chmod"}
 
@@ -64,12 +64,7 @@ def ended(child: int) -> int:
 
 def files_of(out: Path) -> dict[str, str]:
     """Return every file of a run with its bytes' digest; provenance.json, which holds the time, has none."""
-    return {
-        str(path.relative_to(out)): ""
-        if path.name == "provenance.json" or path.is_dir()
-        else hashlib.sha256(path.read_bytes()).hexdigest()
-        for path in sorted(out.rglob("*"))
-    }
+    return {name: "" if name == "provenance.json" else mark for name, mark in digest(out).items()}
 
 
 def undisturbed(one: plan.Plan, out: Path) -> Undisturbed:

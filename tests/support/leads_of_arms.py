@@ -40,13 +40,9 @@ def recompute_compliance():
     C = {beta: euler.loc[beta, entries].to_numpy(float).reshape(3, 3) for beta in betas}
     off = {beta: np.degrees(np.arctan2(np.hypot(*C[beta][1:, 0]), abs(C[beta][0, 0]))) for beta in betas}
     said = ", ".join(f"{value:.0f}° at β = {beta:.0f}°" for beta, value in off.items())
-    return {"off": said, "in_contact.flat": recompute_flat()}
-
-
-def recompute_flat():
     rows = contact("surface-alignment").query("form == 'transpose'")
-    flat = {who: rows.loc[rows["who"] == who, "time_to_align_s"].notna() for who in (EULER, CARTESIAN)}
-    return [count for own in flat.values() for count in (own.sum(), len(own))]
+    flat = [rows.loc[rows["who"] == who, "time_to_align_s"].notna() for who in (EULER, CARTESIAN)]
+    return {"off": said, "in_contact.flat": [count for own in flat for count in (own.sum(), len(own))]}
 
 
 def recompute_impedance():

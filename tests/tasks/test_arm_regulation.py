@@ -21,9 +21,6 @@ def first(arm, name="tumbling"):
     return tasks.start_set(name, 1, arm=arm)[0]
 
 
-# ----------------------------------------------------------------------------------------------- names
-
-
 def test_pairs_are_the_free_body_and_every_arm():
     assert sorted(tasks.pairs()) == sorted([("free-body", ""), *(("arm-regulation", arm) for arm in tasks.arm_names())])
     assert [tasks.is_for_arms(name) for name in ("arm-regulation", "free-body")] == [True, False]
@@ -32,9 +29,6 @@ def test_pairs_are_the_free_body_and_every_arm():
 def test_first_start_is_the_default():
     environment = tasks.load("arm-regulation", arm="ur5e")
     assert environment.task.start == tasks.start_set("clear", 1, arm="ur5e")[0]
-
-
-# ------------------------------------------------------------------------------------------- the plant
 
 
 @on_every_arm
@@ -93,20 +87,17 @@ def test_task_of_the_callers_own_on_an_arm_is_loaded():
 
 
 DT = 1e-3
+TUMBLING = tasks.start_set("tumbling", 10)
 
 
 def matrix(observation):
     return observation["R"].reshape(3, 3).T
 
 
-def tumbling(count=10):
-    return tasks.start_set("tumbling", count)
-
-
 @pytest.mark.parametrize("integrator", ["euler", "implicit", "implicitfast"])
 def test_angular_velocity_changes_by_dt_u_and_a_step_turns_with_the_new_one(integrator):
     """R' = exp(dt [omega']x) R with omega' = omega + dt u, as the module says."""
-    for start in tumbling():
+    for start in TUMBLING:
         environment = tasks.load("free-body", start, integrator=integrator)
         before = environment.reset().observation
         for u in np.vstack(((400.0, -300.0, 200.0), np.random.default_rng(1).normal(scale=50.0, size=(20, 3)))):
@@ -121,7 +112,7 @@ def test_angular_velocity_changes_by_dt_u_to_third_order_under_rk4():
     """MuJoCo averages body-frame rates over the tick: off by less than dt^3 |omega|^2 |u|, and by
     8 times less at half the step."""
     u = np.array([60.0, -40.0, 20.0])
-    for start in tumbling():
+    for start in TUMBLING:
         errors = []
         for dt in (2e-3, 1e-3):
             environment = tasks.load("free-body", start, dt=dt, integrator="rk4")
@@ -134,7 +125,7 @@ def test_angular_velocity_changes_by_dt_u_to_third_order_under_rk4():
 
 @pytest.mark.parametrize("integrator", ["euler", "rk4", "implicit", "implicitfast"])
 def test_free_rotation_is_the_matrix_exponential_and_momentum_is_conserved(integrator):
-    for start in tumbling():
+    for start in TUMBLING:
         environment = tasks.load("free-body", start, integrator=integrator)
         environment.reset()
         for _ in range(500):

@@ -120,22 +120,14 @@ def poses_of(one: ContactController, task: ContactTask, arm: Arm, dense: bool) -
 
 @functools.lru_cache(maxsize=64)
 def _poses(task: ContactTask, arm: Arm, dense: bool, is_impedance: bool) -> tuple[tuple[Trial, ...], ...]:
-    trials = task.trials(arm, dense=dense)
-    kept = _without_selection(trials) if is_impedance else trials
+    kept: dict[Trial, Trial] = {}
+    for trial in task.trials(arm, dense=dense):
+        without = trial.specification._replace(name="", selection=(1, 1, 1, 1, 1, 1))
+        kept.setdefault(trial._replace(id="", pose="", specification=without) if is_impedance else trial, trial)
     found: dict[str, list[Trial]] = {}
-    for trial in kept:
+    for trial in kept.values():
         found.setdefault(trial.pose, []).append(trial)
     return tuple(map(tuple, found.values()))
-
-
-def _without_selection(trials: tuple[Trial, ...]) -> Iterator[Trial]:
-    seen = set()
-    for trial in trials:
-        without = trial.specification._replace(name="", selection=(1, 1, 1, 1, 1, 1))
-        what = trial._replace(id="", pose="", specification=without)
-        if what not in seen:
-            seen.add(what)
-            yield trial
 
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:

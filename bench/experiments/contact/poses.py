@@ -30,8 +30,6 @@ DONE, *_ = WORST_LAST = ("done", "singular", "saturated", "diverged", "broken")
 AT_REST, CREEPING = "at-rest", "creeping"
 
 MEASURED = tuple(f"c_{i}{j}" for i in "xyz" for j in "xyz")
-
-
 TABLE = read_table(__file__, "compliance", METRICS=lambda: of_metrics(known_contact_metrics().values()))
 
 
@@ -60,6 +58,7 @@ def _row(
     first = ended[0][0]
     outcome = max((one.outcome for _, one in ended), key=WORST_LAST.index)
     ticks = min(len(one.record) for _, one in ended if one.outcome == outcome)
+    rest = AT_REST if all(one.rested for _, one in ended) else CREEPING
     pose = Pose(task, arm, controller, tuple(response(*each) for each in ended))
     with np.errstate(all="ignore"):  # of a record that ends beyond all bounds
         measured = {one.column: one.measure(pose) for one in known_contact_metrics().values()}
@@ -80,15 +79,8 @@ def _row(
         "horizon_s": task.horizon_s,
         "trials": len(ended),
         "outcome": outcome,
-        "rest": _rest(task, outcome, [one for _, one in ended]),
+        "rest": rest if task.rests and outcome == DONE else "",
         "failure_time_s": np.nan if outcome == DONE else ticks * conditions.dt_s,
         **measured,
         **dict(zip(MEASURED, compliance(pose).ravel(), strict=True)),
     }
-
-
-def _rest(task: ContactTask, outcome: str, ended: list[Ended]) -> str:
-    """Say how episodes that have an end stand at it; empty for those that have none, or failed."""
-    if not task.rests or outcome != DONE:
-        return ""
-    return AT_REST if all(one.rested for one in ended) else CREEPING

@@ -10,7 +10,8 @@ is dependent. What is not finite has the condition number infinity. The poses ar
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,11 +23,11 @@ from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.chain import Chain
 from bench.law.contenders.registry import contenders, papers_coordinates
 from bench.law.kinds import Coordinates
-from tasks.arm_model import Arm
+from bench.law.so3 import Rotation
 
 if TYPE_CHECKING:
-    from bench.experiments.jacobians.eye import Eye
     from bench.experiments.jacobians.pose_sets import Pose
+    from tasks.kinematics import Kinematics
 
 ARM_S, POSE_S = 5.0, 5e-3
 """CPU seconds of an arm's directed poses, and of each random one."""
@@ -57,74 +58,73 @@ def of_arm(name: str, count: int) -> Unit:
     return Unit("jacobians", arm=name, count=count, total=count)
 
 
-class Seen(NamedTuple):
-    """All poses of an arm: chains, and J (N x 6 x n) by the judge and by our kernel."""
-
-    poses: list[Pose]
-    chains: list[Chain]
-    J: np.ndarray
-    ours: np.ndarray
-
-
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return one row a pose and representation."""
-    from bench.experiments.jacobians.eye import Eye
     from bench.experiments.jacobians.pose_sets import poses
+    from tasks.kinematics import Kinematics
 
     arm = tasks.arm(unit.arm)
-    eye, chosen = Eye(arm), poses(arm, unit.count, settings.seed)
+    kin, chosen = Kinematics(arm), poses(arm, unit.count, settings.seed)
     with np.errstate(all="ignore"):
-        chains, Js = zip(*(eye.look(pose.q) for pose in chosen), strict=True)
+        chains, Js = zip(*(look(kin, pose.q) for pose in chosen), strict=True)
         ours = filled("geometric", None, chains, chains)
-        seen = Seen(chosen, list(chains), np.array(Js), ours)
-        shared = _shared(arm, seen)
-        parts = [pd.DataFrame({**shared, **_of(eye, seen, one)}) for one in contenders("representations").values()]
+        q, J = np.full((len(chosen), LONGEST), np.nan), np.array(Js)
+        q[:, : arm.joints] = [pose.q for pose in chosen]
+        shared = {
+            "arm": arm.name,
+            "pose_set": [pose.set for pose in chosen],
+            "pose_id": [pose.id for pose in chosen],
+            **{f"q_{i + 1}": q[:, i] for i in range(LONGEST)},
+            "beta": [math.atan2(-chain.R.n[2], math.hypot(chain.R.n[0], chain.R.n[1])) for chain in chains],
+            "condition": conditions(J),
+            "kernel_gap": gap(ours, J),
+            "det": determinants(J),
+        }
+        every = contenders("representations").values()
+        parts = [pd.DataFrame({**shared, **_of(kin, chosen, chains, ours, one)}) for one in every]
     return pd.concat(parts, ignore_index=True)
 
 
-def _shared(arm: Arm, seen: Seen) -> dict:
-    """Return the columns that are the same in every representation."""
-    q = np.full((len(seen.poses), LONGEST), np.nan)
-    q[:, : arm.joints] = [pose.q for pose in seen.poses]
-    return {
-        "arm": arm.name,
-        "pose_set": [pose.set for pose in seen.poses],
-        "pose_id": [pose.id for pose in seen.poses],
-        **{f"q_{i + 1}": q[:, i] for i in range(LONGEST)},
-        "beta": [math.atan2(-chain.R.n[2], math.hypot(chain.R.n[0], chain.R.n[1])) for chain in seen.chains],
-        "condition": conditions(seen.J),
-        "kernel_gap": gap(seen.ours, seen.J),
-        "det": determinants(seen.J),
-    }
+def tool_at(kin: Kinematics, q: Sequence[float] | np.ndarray) -> tuple[np.ndarray, Rotation]:
+    """Return the tool's position [m] and orientation as MuJoCo's matrix."""
+    p, _ = kin.pose(q)
+    m = kin.data.site_xmat[kin.site]
+    return p, Rotation((m[0], m[3], m[6]), (m[1], m[4], m[7]), (m[2], m[5], m[8]))
 
 
-def _of(eye: Eye, seen: Seen, one: Coordinates) -> dict:
-    """Return the columns of one representation."""
-    charts = [one.chart(chain.R) for chain in seen.chains]
-    J_E = filled("analytic", one, seen.chains, charts)
-    margin = np.array([one.margin(chain.R) for chain in seen.chains], dtype=float)
+def look(kin: Kinematics, q: Sequence[float]) -> tuple[Chain, np.ndarray]:
+    """Return what a controller sees of a pose, at rest; and J."""
+    J, n, (p, R) = kin.jacobian(q), kin.arm.joints, tool_at(kin, q)
+    return Chain(n, kin.data.xaxis.copy(), kin.data.xanchor.copy(), np.zeros(n), tuple(p), R), J
+
+
+def _of(kin: Kinematics, poses: list[Pose], chains: Sequence[Chain], ours: np.ndarray, one: Coordinates) -> dict:
+    """Return the columns of one representation; ours: J at every pose by our kernel."""
+    charts = [one.chart(chain.R) for chain in chains]
+    J_E = filled("analytic", one, chains, charts)
+    margin = np.array([one.margin(chain.R) for chain in chains], dtype=float)
     derivation, difference = np.full((2, len(margin)), np.nan)
-    drawn = np.array([pose.set == "slice" for pose in seen.poses])
+    drawn = np.array([pose.set == "slice" for pose in poses])
     if one.differentiate is not None:
-        some = np.flatnonzero(~drawn | (one.name == PAPERS))
-        again = filled("analytic-differentiated", one, [seen.chains[i] for i in some], [charts[i] for i in some])
+        some = np.flatnonzero(~drawn | (one.name == PAPERS)).tolist()
+        again = filled("analytic-differentiated", one, [chains[i] for i in some], [charts[i] for i in some])
         derivation[some] = gap(again, J_E[some])
     if one.name == PAPERS:
-        qs = np.array([pose.q for pose in seen.poses])[~drawn]
-        difference[~drawn] = gap(_differences(eye, one, qs, margin[~drawn]), J_E[~drawn])
+        qs = np.array([pose.q for pose in poses])[~drawn]
+        difference[~drawn] = gap(_differences(kin, one, qs, margin[~drawn]), J_E[~drawn])
     return {
         "representation": one.name,
         "margin": margin,
         "condition_analytic": conditions(J_E),
         "largest": abs(J_E[:, 3:]).max(axis=(1, 2)),
         "det_analytic": determinants(J_E),
-        "det_gap": _det_gap(seen.ours, J_E, margin) if one.name == PAPERS else np.nan,
+        "det_gap": _det_gap(ours, J_E, margin) if one.name == PAPERS else np.nan,
         "derivation_gap": derivation,
         "difference_gap": difference,
     }
 
 
-def filled(jacobian: str, representation: Coordinates | None, chains: list[Chain], charts: list) -> np.ndarray:
+def filled(jacobian: str, representation: Coordinates | None, chains: Sequence[Chain], charts: Sequence) -> np.ndarray:
     """Compute the Jacobian of that name at every pose, N x rows x n."""
     fill = contenders("jacobians")[jacobian].kernels_in(representation)[0]
     rows = 3 + len(representation.symbols) if representation else 6
@@ -161,16 +161,16 @@ def _det_gap(J: np.ndarray, J_E: np.ndarray, cos_beta: np.ndarray) -> np.ndarray
     return abs(determinants(J_E) + determinants(J) / cos_beta) / scale
 
 
-def _differences(eye: Eye, one: Coordinates, qs: np.ndarray, margin: np.ndarray) -> np.ndarray:
+def _differences(kin: Kinematics, one: Coordinates, qs: np.ndarray, margin: np.ndarray) -> np.ndarray:
     """Compute central differences of position and coordinates, N x rows x n; NaN beside a jump of the coordinates."""
-    n = eye.arm.joints
+    n = kin.arm.joints
     ends, steps = np.empty((2, len(qs), 3 + len(one.symbols), n)), np.empty((2, len(qs), n))
     for place, (q, h) in enumerate(zip(qs, STEP * margin, strict=True)):
         for i in range(n):
             for end, moved in enumerate((q[i] + h, q[i] - h)):
                 there = q.copy()
                 there[i] = steps[end, place, i] = moved
-                p, R = eye.place(there)
+                p, R = tool_at(kin, there)
                 ends[end, place, :3, i], ends[end, place, 3:, i] = p, one.chart(R).E
     change = ends[0] - ends[1]
     change = np.where(abs(change) > JUMP, np.remainder(change + math.pi, math.tau) - math.pi, change)

@@ -51,7 +51,11 @@ def facts(run: Run) -> dict[str, Any]:
         "unbeaten": f"{100 * held['unbeaten']:.0f}",
         "later": f"{100 * held['half']:.1f}",
         **{name: f"{100 * held[name]:.0f}" for name in ("most", "always_unbeaten", "always_most")},
-        "regions": REGIONS(_region(one) for one in find_regions() if one.advised >= LEAST),
+        "regions": REGIONS(
+            (_link(one.law), 100 * one.advised, 100 * one.unbeaten, describe_bounds(find_bounds(one.law)))
+            for one in find_regions()
+            if one.advised >= LEAST
+        ),
         "rules": RULES(
             (one.words, _link(one.law), 100 * one.advised, 100 * one.unbeaten, 100 * one.changed)
             for one in sensitivity.vary()
@@ -110,10 +114,6 @@ def describe_robot(one: Elsewhere) -> tuple:
     """Return the row of what leads to a law."""
     tied = together([families.word(law) for law in one.tied]) if one.tied else ""
     return one.words, _link(one.law), tied, str(one.compared or ""), f'<a href="{one.page}.html">rows</a>'
-
-
-def _region(one: regions.Region) -> tuple:
-    return _link(one.law), 100 * one.advised, 100 * one.unbeaten, describe_bounds(find_bounds(one.law))
 
 
 def _link(law: str) -> str:

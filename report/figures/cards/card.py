@@ -83,7 +83,9 @@ def make_card(record: Any, title: str, said: tuple[str, Mapping[str, str]], look
     """
     formula = f'<div class="card-formula">{html.formula(record.formula)}</div>' if record.formula else ""
     lines = [set_paragraph(text) for text in said[0].split("\n\n") if text.strip()]
-    lines += [f'<p class="card-fact"><b>{head}.</b> {as_html(text)}</p>' for head, text in said[1].items() if text]
+    for head, text in said[1].items():
+        set_text = text if isinstance(text, html.Html) else html.foreign(text)  # only ours is markup
+        lines += [f'<p class="card-fact"><b>{head}.</b> {set_text}</p>'] if text else []
     return (
         f'<section class="law-card" style="--law: {look}"'
         f' aria-label="{markup.escape(title, quote=True)}">'
@@ -122,11 +124,6 @@ def set_paragraph(text: str) -> str:
     head, *items = re.split(r"(?:^|\n)- ", text)
     each = "".join(f"<li>{set_words(item)}</li>" for item in items)
     return f"<p>{set_words(head)}</p>" + (f"<ul>{each}</ul>" if each else "")
-
-
-def as_html(text: str) -> str:
-    """Return a text as HTML, in which only ours is markup."""
-    return text if isinstance(text, html.Html) else html.foreign(text)
 
 
 def set_words(text: str) -> html.Html:

@@ -81,7 +81,7 @@ def compare_laws(run: Run, times: pd.DataFrame, efforts: pd.DataFrame) -> Iterat
     rows, tried, counted = uniform(run), directed_starts(ideal(run)), run.any_rows("costs", **read.FREE_BODY)
     held = in_run(lambda: measured(run.folder).values["held"]) or {}
     for name in families.in_order(times):
-        own = rows[rows["contender"] == name]
+        own, sure = rows[rows["contender"] == name], read.converged(tried[tried["contender"] == name])
         yield (
             families.link(name, families.word(name)),
             settles(own),
@@ -90,7 +90,7 @@ def compare_laws(run: Run, times: pd.DataFrame, efforts: pd.DataFrame) -> Iterat
             html.number(float(f"{efforts[name].quantile(interpolation='lower'):.3g}")),
             large(own["peak_u"].max()),
             tick(counted, name),
-            count_lost(tried[tried["contender"] == name]),
+            f"{int((sure['outcome'] != 'settled').sum())} of {len(sure)}",
             html.cell(float(held[name][0])) if name in held else html.MISSING,
         )
 
@@ -170,9 +170,3 @@ def orientation(rows: pd.DataFrame) -> pd.DataFrame:
     """R, which both quaternions of an orientation share, to the last digit but three."""
     turns = Rotation.from_quat(rows[["quat_w", "quat_x", "quat_y", "quat_z"]].to_numpy(), scalar_first=True)
     return pd.DataFrame(turns.as_matrix().reshape(-1, 9).round(13), rows.index)
-
-
-def count_lost(rows: pd.DataFrame) -> str:
-    """Return how many of a law's starts that converge do not settle: 26 of 726."""
-    sure = read.converged(rows)
-    return f"{int((sure['outcome'] != 'settled').sum())} of {len(sure)}"

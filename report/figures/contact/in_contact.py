@@ -1,6 +1,5 @@
 """The page on tasks in contact: a plate, a peg, a crank and a plane, by controller and frame of the hand."""
 
-import functools
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -59,16 +58,10 @@ OUTCOMES = Table(
 )
 
 
-@functools.cache
-def all_rows(run: Run) -> pd.DataFrame:
-    """Return the rows of every task in contact that the run has."""
-    found = [of_task(run, name) for name in MEASURES if len(run.any_rows("compliance", task=name))]
-    return pd.concat(some(found, "task in contact"), ignore_index=True)
-
-
 def facts(run: Run) -> dict:
     """Return how episodes end, and one table of all tasks."""
-    rows = all_rows(run)
+    found = [of_task(run, name) for name in MEASURES if len(run.any_rows("compliance", task=name))]
+    rows = pd.concat(some(found, "task in contact"), ignore_index=True)
     return {
         "outcomes": OUTCOMES(compare_tasks(rows)),
         **plate(rows),
