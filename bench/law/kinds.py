@@ -161,6 +161,12 @@ class Coordinates(NamedTuple):
         return self.chart
 
 
+def functions_of(module: dict[str, Any]) -> dict[str, Any]:
+    """Return the functions of coordinates, chart to margin, that the globals of a file have by their names."""
+    first, last = (Coordinates._fields.index(name) for name in ("chart", "margin"))
+    return {name: module[name] for name in Coordinates._fields[first : last + 1] if name in module}
+
+
 class Jacobian(NamedTuple):
     """Which motion of the tool the joint rates are mapped to: xdot = J qdot, of 6 or 7 rows, the linear ones first.
 
@@ -201,7 +207,7 @@ class Inverse(NamedTuple):
     source: str
     formula: str
     resolve: Callable
-    gives: str
+    gives: str = "acceleration"
     refuses: Callable[[int, int], str] = lambda rows, n: ""
     uses_inertia: bool = False
 
