@@ -1,15 +1,4 @@
-"""Contact controllers: what takes part in the tasks of contact.
-
-hybrid-base+transpose             along the axes of the base frame, forces by the Jacobian transpose (Murphy 1988, 3.3)
-hybrid-base+inverse               the same by accelerations: an impedance
-hybrid-rate+inverse               the same; turns that are held are held by their rate alone
-hybrid-hand+projected             along axes that the hand carries along
-hybrid/zyx-euler+transpose        along x, y, z and the Euler angles, on the Euler Jacobian (Murphy 1988, 3.3)
-hybrid/zyx-euler+inverse          the same by accelerations
-hybrid-unconverted/zyx-euler+...  the same with moments taken for generalized forces: a negative control
-impedance-geometric               six-axis impedance on one error of orientation (bench/law/contenders/impedances)
-impedance-coordinates/zyx-euler   in coordinates
-"""
+"""Contact controllers: what takes part in the tasks of contact."""
 
 from collections.abc import Callable
 from typing import NamedTuple
