@@ -56,11 +56,9 @@ def simulate(
     loop: Callable, laws: tuple, world: Any, memory: tuple, begun: np.ndarray, limits: Numbers, rows: np.ndarray,
     curves: Curves | None = None,
 ) -> np.ndarray:  # fmt: skip
-    """Run a loop: fill a row, and a curve if there is room, for each start.
+    """Run a loop, of `compiled_loop` or plain: fill a row, and a curve if there is room, for each start.
 
-    Args:
-        loop: of `compiled_loop`, or plain. laws: the functions that it calls. world: what its plant and controller work
-            in. begun: of `episode.start_rows`.
+    laws: the functions that it calls. world: what its plant and controller work in. begun: of `episode.start_rows`.
     """
     functions = (*laws, *[None] * (3 - len(laws)))
     loop(*functions, world, memory, begun, limits, rows, curves or blank_curves(len(begun)))
@@ -71,12 +69,10 @@ def run(
     engine: str, contender: Contender, task: str, starts: Starts, settings: Settings, metrics: Metrics,
     integrator: str = "euler", curves: Curves | None = None, total: int = 0, converge: bool = True,
 ) -> np.ndarray:  # fmt: skip
-    """Rows of `engines.episode`, one per start, on the free body; on an arm: `simulate_arms.run_arm`.
+    """Return rows of `engines.episode`, one per start, on the free body; on an arm: `simulate_arms.run_arm`.
 
-    Args:
-        starts: tasks.Start, in order; metrics: Metric, in the order of their columns.
-        curves: filled too, on any engine but `reference`.
-        total: episodes of which these are some; converge: see `on_ideal`.
+    metrics: in the order of their columns. curves: filled too, on any engine but `reference`. total: episodes of which
+    these are some; converge: see `on_ideal`.
     """
     if engine == "reference":
         from bench.engines import reference
@@ -111,13 +107,10 @@ def on_ideal(
     curves: Curves | None = None,
     converge: bool = True,
 ) -> np.ndarray:
-    """Simulate on an ideal plant, from starts that are rows already.
+    """Simulate on an ideal plant, from starts that are rows already (`engines.episode.start_rows`).
 
-    Args:
-        begun: of `engines.episode.start_rows`.
-        total: episodes that are asked of this law, if these are a part of them; WORTH_LANES of them or more run in
-            lanes. The rows are the same bits.
-        converge: whether the continuous plant's steps are made shorter where they decide, see `convergence`.
+    total: episodes that are asked of this law, if these are a part of them; WORTH_LANES of them or more run in lanes.
+    The rows are the same bits. converge: whether the continuous plant's steps are made shorter where they decide.
     """
     metrics, curves = tuple(metrics), curves or blank_curves(len(begun))
     if engine != CONTINUOUS or not converge:
@@ -185,10 +178,6 @@ def loop_in_lanes(engine: str, contender: Contender, metrics: tuple) -> Callable
 
 @made_once
 def evaluation(contender: Contender) -> Callable:
-    """Compile a contender for the loops, or take it from the disk cache; a user's law is compiled every time.
-
-    Errors:
-        BadLaw: a user's law that the compiler cannot take.
-    """
+    """Compile a contender for the loops, or take it from the disk cache; a user's law is compiled every time."""
     with own_law(contender.regulator.origin) as cache:
         return compile_function(evaluation_of(contender), compiled.EVALUATE, cache)

@@ -31,10 +31,8 @@ def run_contact(
     engine: str, controller: ContactController, task: ContactTask, arm: Arm, trials: Iterable[Trial],
     conditions: Conditions = USUAL, contact: ContactModel = STANDARD,
 ) -> Iterator[Ended]:  # fmt: skip
-    """One `Ended` a trial, in order, each as soon as it is there.
+    """Yield one `Ended` a trial, in order, by the engine "native", or "reference" for dm_control's own loop.
 
-    Args:
-        engine: "native", or "reference" for dm_control's own loop.
     Errors, before the first episode begins:
         UnknownWord: the engine or the integrator. BadNumber: a constant of the controller, or the control period.
         BadValue: the arm cannot be set the task, or a trial or the contact model is none.

@@ -83,11 +83,7 @@ class Spun(NamedTuple):
 
 
 def spun(numbers: pd.DataFrame, law: str) -> list[Spun]:
-    """Return a law's starts at stated speeds, the slowest first; none if it is in no map.
-
-    Args:
-        numbers: of `counted`.
-    """
+    """Return a law's starts at stated speeds from what `counted` gives, the slowest first; none if it is in no map."""
     own = numbers[(numbers["contender"] == law) & (numbers["least_speed"] == numbers["most_speed"])]
     columns = own.sort_values("most_speed")[["most_speed", "starts", "lost", "unconverged"]]
     return [

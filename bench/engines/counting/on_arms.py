@@ -75,11 +75,7 @@ def _state(model: Any, data: Any, start: Start, is_sampled: bool) -> ArmState:
 
 
 def cost_on_arm(contender: Contender, arm: str) -> Cost:
-    """Count a contender's controller over an arm's states; typical is the median, for an iteration varies by the state.
-
-    Errors:
-        OutsideDialect, BadLaw: see `costs.cost`.
-    """
+    """Count a controller over an arm's states, as `costs.cost`; typical is the median, for an iteration varies."""
     tally = Tally()
     plain = _controller(contender, parts_of(contender, _command(contender, None)), None)
     counting = _controller(contender, _staged_parts(contender, tally), tally)

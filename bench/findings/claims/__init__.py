@@ -68,11 +68,7 @@ def told(words: Iterable[Word]) -> str:
 
 
 def judge_all(folder: Path | None = None) -> list[Verdict]:
-    """Every claim on the run in a folder; without one, on the run that the report shows.
-
-    Errors:
-        NoEvidence: a claim that can be measured, and no row about it. BadResults: the folder.
-    """
+    """Return the verdict on every claim on the run in a folder, or on the one shown; NoEvidence: it lacks rows."""
     decided, lacks = judge_possible(Results(Path(folder) if folder else published.folder()))
     if lacks:
         raise NoEvidence(next(iter(lacks.values())))

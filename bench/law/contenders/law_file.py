@@ -33,11 +33,7 @@ SHORT = re.compile(rf"[\w ,.'-]{{0,{LONGEST}}}")
 
 
 def read_law(path: Path) -> bytes:
-    """Return the text of a user's law file.
-
-    Errors:
-        BadLaw: there is no such file, or it cannot be read.
-    """
+    """Return the text of a user's law file; BadLaw: it cannot be read."""
     if not path.is_file():
         raise BadLaw(f"{path}: there is no such file; give the path of a Python file with a constant REGULATOR")
     try:
@@ -69,12 +65,9 @@ def _folder() -> tempfile.TemporaryDirectory:
 
 
 def load_law(path: Path, text: bytes | None = None) -> Law:
-    """Return the REGULATOR of a file outside the package. This runs the file: in a law's own process alone.
+    """Return the REGULATOR of a file outside the package, or of its text: in a law's own process, for this runs it.
 
     The module's name carries a digest of the file, so that nothing of an earlier version is ever reused.
-
-    Args:
-        text: what the file holds, if it has been read already.
 
     Errors:
         BadLaw: the file is missing, does not import, or lacks a REGULATOR that can be used.
@@ -102,11 +95,7 @@ def load_law(path: Path, text: bytes | None = None) -> Law:
 
 
 def check_answers(own: Law) -> None:
-    """Call the law once in each representation that it acts on.
-
-    Errors:
-        BadLaw: it cannot be called, or does not return three numbers (and a memory).
-    """
+    """Call the law once in each of its representations; BadLaw: it does not return three numbers (and a memory)."""
     for one in contenders_of(own):
         _check_shape(one, Path(own.origin))
 

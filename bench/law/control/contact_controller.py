@@ -78,11 +78,7 @@ class ContactController(NamedTuple):
 
 
 def hybrid(law: str, form: str, representation: Coordinates | None = None) -> ContactController:
-    """Return a hybrid controller, or refuse with the reason.
-
-    Errors:
-        Incompatible: unknown words, a representation too many or too few, or one with no three coordinates.
-    """
+    """Return a hybrid controller, or refuse (Incompatible) unknown words, or a representation that does not fit."""
     if law not in HYBRIDS:
         raise Incompatible(f"'{law}' is no hybrid controller; known: {', '.join(HYBRIDS)}")
     if form not in FORMS:
@@ -99,11 +95,7 @@ def hybrid(law: str, form: str, representation: Coordinates | None = None) -> Co
 
 
 def impedance_controller(one: Impedance, representation: Coordinates | None = None) -> ContactController:
-    """Return an impedance controller, or refuse with the reason.
-
-    Errors:
-        Incompatible: a representation too many or too few, or one with no three coordinates.
-    """
+    """Return an impedance controller, or refuse (Incompatible) a representation too many or too few."""
     word = f"impedance-{one.name}"
     if one.law_in is not None and representation is None:
         raise Incompatible(f"'{word}' acts on coordinates and needs some (try: {word}/{papers_coordinates().name})")

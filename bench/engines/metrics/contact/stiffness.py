@@ -18,10 +18,9 @@ ALIKE = 1e-3
 
 
 def misalignment(pose: Pose, of: Callable[[np.ndarray], float] = np.max) -> float:
-    """Return the largest angle [rad] between e and C e over the axes e that comply; NaN if a moment turns nothing.
+    """Return the largest angle [rad] between e and C e over the axes e that comply, or what else is made `of` them.
 
-    Args:
-        of: what is made of the angles instead, as their mean.
+    It is NaN if a moment turns nothing.
     """
     angles = misaligned(compliance(pose), complying(pose))
     return float(of(angles)) if len(angles) else np.nan
