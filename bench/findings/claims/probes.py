@@ -11,6 +11,10 @@ import numpy as np
 
 import tasks
 from bench.base.on_first_use import Turn, pd
+from bench.experiments import traces
+from bench.experiments.episodes import rows_from
+from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.suites import IDEAL_MOTORS, ON_ARM
 from bench.findings.claims.tables import some
 from bench.findings.theory.closed_form import linear, linear_settling
 from bench.findings.theory.compliance_theory import matrix_B
@@ -82,9 +86,6 @@ def about(axis: Sequence[float] | np.ndarray, angle: float) -> tuple:
 
 def episodes(contender: str, starts: list[Start], gains: Gains, dt_s: float, horizon_s: float) -> pd.DataFrame:
     """Rows of episodes.parquet of a few starts on the continuous plant."""
-    from bench.experiments.episodes import rows_from  # imports the compiler: listing claims must not
-    from bench.experiments.experiment import Settings, Unit
-
     unit = Unit("free-body", contender, "free-body", engine="ideal-rk4", count=len(starts), horizon_s=horizon_s)
     return rows_from(Settings(gains=gains, dt_s=dt_s), unit, starts)
 
@@ -116,8 +117,6 @@ def beside_pole(margin: float, contender: str, gains: Gains, dt_s: float = 1e-3)
 @functools.cache
 def perturbed(law: str, axis: str, starts: int, horizon_s: float, gains: Gains, seed: int) -> pd.DataFrame:
     """Rows of robustness.parquet of a law along a perturbation."""
-    from bench.experiments.experiment import Settings, Unit, rows_of
-
     unit = Unit("robustness", law, selector=axis, count=starts, total=starts, horizon_s=horizon_s)
     return rows_of(Settings(gains=gains, seed=seed), unit)
 
@@ -153,9 +152,6 @@ def curves(word: str, arm: str, gains: Gains, dt_s: float, count: int) -> pd.Dat
 
     A row a sample: start_id, time_s, position_error_m, bend_0 to bend_2 (E less E_d + (E_0 - E_d) linear(t)) [rad].
     """
-    from bench.experiments import traces
-    from bench.experiments.experiment import Settings
-
     unit = traces.of_arm(word, TASK, arm, count, "clear")
     frame = traces.rows(Settings(gains=gains, dt_s=dt_s), unit)
     goals = {start.id: start.goal_wxyz for start in tasks.start_set("clear", count, 0, arm=arm)}
@@ -175,9 +171,6 @@ def beside_poles(word: str, arm: str, poses: pd.DataFrame, gains: Gains) -> pd.D
 
     start_id is the pose's. NoEvidence: the table has no such pose of the arm, or none of its family at 10^-1.
     """
-    from bench.experiments.episodes import rows_from
-    from bench.experiments.experiment import Settings, Unit
-    from bench.experiments.suites import IDEAL_MOTORS, ON_ARM
     from tasks.kinematics import kinematics
 
     judge = kinematics(tasks.arm(arm))
