@@ -15,6 +15,7 @@ from bench.law.contenders.registry import all_contenders, find_contender, regula
 from bench.law.inputs import AT_REST, Gains, Goal
 
 GAINS, RIVALS = Gains(kp=100.0, kv=20.0), Gains(kp=37.0, kv=9.0)
+HOME = ScipyRotation.identity()
 
 ISOTROPIC = {
     one.name: one.equation
