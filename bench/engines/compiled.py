@@ -161,10 +161,7 @@ def register(function: Callable) -> Callable:
 
 
 def compile_function(function: Callable, signature: Any, cache: bool = True, **options: Any) -> Callable:
-    """Return the function compiled for one signature with our options; cached on disk unless the law is a user's.
-
-    options: of numba's; what a function calls inherits forceinline.
-    """
+    """Return the function compiled for one signature with our options and others; not cached if it holds a user's law."""
     register_kernels()
     return numba.njit(signature, cache=cache, **JIT, **options)(function)
 

@@ -17,10 +17,7 @@ SHOWN = 3
 
 
 def on(words: tuple[str, ...], laws: dict[str, Contender], joints: int) -> list[Contender]:
-    """Return the contenders of the words that fit on so many joints, each once; words of other laws are left out.
-
-    Of a baseline on the joints the word is its name.
-    """
+    """Return the contenders of the words (of a baseline its name) that fit on so many joints; words of other laws go."""
     found = (_of_word(word, laws, joints) for word in words)
     return list(dict.fromkeys(one for one in found if one is not None))
 

@@ -69,11 +69,7 @@ class LawProcess:
         self.line = Connection(ours.detach())
 
     def hear(self, longest_s: float, most: int = MOST) -> bytes:
-        """Return the next thing that it says, of at most so many bytes.
-
-        Errors:
-            TimeoutError: it said nothing for so long, or halted midway. EOFError, OSError: it has ended.
-        """
+        """Return what it says next; TimeoutError: nothing for so long, or halted. EOFError, OSError: it has ended."""
         deadline = time.monotonic() + longest_s
         while not self.line.poll(max(0.0, min(LOOK_S, deadline - time.monotonic()))):
             if self.process.poll() is not None and not self.line.poll(0.0):
