@@ -161,7 +161,7 @@ def register(function: Callable) -> Callable:
 
 
 def compile_function(function: Callable, signature: Any, cache: bool = True, **options: Any) -> Callable:
-    """Return the function compiled for one signature with our options and others; not cached if it holds a user's law."""
+    """Return the function compiled for one signature with our options and others; cached on disk if no user's law."""
     register_kernels()
     return numba.njit(signature, cache=cache, **JIT, **options)(function)
 

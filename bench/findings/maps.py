@@ -42,7 +42,7 @@ def count_in(folder: Path) -> pd.DataFrame:
 
 
 def lost_between(lost: int, unconverged: int, of: int) -> Estimate:
-    """Return the share lost of those that converge, and its exact 95 % interval, whose upper end counts all others too."""
+    """Return the share lost of those that converge, and its exact 95 % interval, whose upper end counts the others."""
     value = lost / (of - unconverged) if of > unconverged else math.nan
     return Estimate(value, lost_share(lost, of).low, lost_share(lost + unconverged, of).high)
 

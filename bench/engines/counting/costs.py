@@ -86,7 +86,7 @@ def size(counts: Counts) -> tuple[int, int]:
 
 
 def counted_calls(contender: Contender, over: Iterable[State] | None = None) -> Iterator[Call]:
-    """Yield every state counted, checked against the plain call; a law that raises costs what it computed until then."""
+    """Yield all states counted, checked against the plain call; a law that raises costs what it computed until then."""
     tally = Tally()
     plain, counting = contender.law, law_of(contender, tally)
     first = contender.regulator.memory

@@ -46,7 +46,7 @@ CALLBACK = _callback.address
 
 
 def advance_trapped(body):
-    """Return the errors, 0 or 1, of one step by body.asked (`_advance`); plain, of a step of dm_control's environment."""
+    """Return the errors, 0 or 1, of one step by body.asked (`_advance`); plain, of dm_control's environment."""
     if body.asked[2] != BEGIN:
         try:
             body.sim.data.step(body.sim.ctrl.copy())

@@ -215,7 +215,7 @@ def loop_of(observe):
 
 
 def in_steps(numbers: Numbers, condition: Condition, hold_s: float, horizon_s: float) -> Numbers:
-    """Return the numbers in steps of the plant, the horizon from the goal's jump on; what lasts stops no episode early."""
+    """Return the numbers in steps of the plant, the horizon from a goal's jump on; what lasts stops none early."""
     step_s = condition.period_s / steps_of(condition)
     ticks = max(1, round(horizon_s / step_s)) + timing(condition).jump
     rest = max(1, round(hold_s / step_s))

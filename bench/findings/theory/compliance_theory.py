@@ -99,7 +99,7 @@ def directions(controller: ContactController, goal: Rotation) -> np.ndarray:
 
 @functools.cache
 def mobility(arm: Arm) -> np.ndarray:
-    """Return J D^-1 J^T of rotations in the tasks' posture: angular acceleration per moment [1/(kg m^2)], base frame."""
+    """Return J D^-1 J^T of rotations in the tasks' posture: angular acceleration per moment [1/(kg m^2)]."""
     from tasks.kinematics import kinematics  # MuJoCo takes a moment to import; naming claims needs it not
 
     return kinematics(arm).mobility(arm.home)[3:, 3:]

@@ -17,7 +17,7 @@ SHOWN = 3
 
 
 def on(words: tuple[str, ...], laws: dict[str, Contender], joints: int) -> list[Contender]:
-    """Return the contenders of the words (of a baseline its name) that fit on so many joints; words of other laws go."""
+    """Return the contenders of the words (of a baseline its name) that fit on so many joints; other words go."""
     found = (_of_word(word, laws, joints) for word in words)
     return list(dict.fromkeys(one for one in found if one is not None))
 

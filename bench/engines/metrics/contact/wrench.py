@@ -49,7 +49,7 @@ moment_error_peak, moment_error_rms = partial(peak, error_of=moment_error), part
 
 
 def force_overshoot(pose: Pose) -> float:
-    """max -f . h / |h|^2 - 1: by how much of the force h ordered the hand presses harder; NaN without order or touch."""
+    """max -f . h / |h|^2 - 1: by how much of the force h ordered a hand presses harder; NaN: no order or touch."""
     ordered, touched = np.array(pose.first.trial.specification.desired_wrench[:3]), from_first_touch(pose)
     if touched is None or not ordered.any():
         return np.nan
