@@ -2,7 +2,7 @@
 
 import functools
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 
 import mujoco
 import numpy as np
@@ -121,16 +121,6 @@ def run_velocity(
     return simulate(compiled_loop("velocity-arm"), (*functions, _resolve(contender)), world, *given)
 
 
-def prepare_velocity(contender: Contender, limits: Iterable[Callable]) -> None:
-    """Compile what `run_velocity` will need, or take it from the disk cache."""
-    evaluation(contender._replace(jacobian=None, inverse=None))
-    for one in limits:
-        part(one, compiled.LIMIT)
-    if contender.inverse:
-        _resolve(contender)
-    compiled_loop("velocity-arm" if contender.inverse else "velocity")
-
-
 def run_impedance(
     law: Contender, damping: Impedance, springs: Springs, starts: Starts, settings: Settings, arm: str,
     variation: str = IDEAL_MOTORS,
@@ -148,10 +138,3 @@ def run_impedance(
     simulate(compiled_loop("impedance"), laws, world, memory_of(law), start_rows(starts), limits, rows)
     del kept
     return rows, world.ends
-
-
-def prepare_impedance(law: Contender, damping: Impedance) -> None:
-    """Compile what `run_impedance` will need, or take it from the disk cache."""
-    evaluation(law)
-    part(damping.design, compiled.DESIGN)
-    compiled_loop("impedance")
