@@ -6,18 +6,38 @@ law of it, u = K e - D omega, which carries the quaternion on from tick to tick 
 with the memory ANTIPODE an episode begins on the other sign.
 """
 
+import math
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
+from typing import NamedTuple
 
 from bench.law.inputs import Gains
-from bench.law.kinds import AsShipped, Law
+from bench.law.kinds import Law
 from bench.law.scalar import kernel, sqrt
 from bench.law.so3 import dot, quaternion_direction, spring_damper, turn_matrix
 from bench.law.spring import rotation_vector
 
 NEAR, ANTIPODE = (1.0, 0.0, 0.0, 0.0), (-1.0, 0.0, 0.0, 0.0)
 """Memories from which an episode begins on the sheet with w >= 0, and on the other one."""
+
+
+class AsShipped(NamedTuple):
+    """A controller as its authors set it, in words and numbers of its source.
+
+    error: kernel of the quaternion. path: the files of the law's source, repository@commit or release, that were read.
+    set_by: where the gains are set. shapes_inertia: whether the body that the gains act on is one of unit inertia
+    whatever the robot's. unbounded, bound: the error before its bound, and the bound of its components or of its
+    length, if it has one. thread: owner/name#number of a public thread on what its error does.
+    """
+
+    error: Callable
+    path: str
+    set_by: str
+    shapes_inertia: bool = False
+    unbounded: Callable | None = None
+    bound: float = math.inf
+    thread: str = ""
 
 
 @kernel
