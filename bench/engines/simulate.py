@@ -113,14 +113,18 @@ def on_ideal(
     The rows are the same bits. converge: whether the continuous plant's steps are made shorter where they decide.
     """
     metrics, curves = tuple(metrics), curves or blank_curves(len(begun))
-    if engine != CONTINUOUS or not converge:
-        return _once(engine, contender, begun, settings, metrics, total, curves)
 
     def once(chosen: Settings) -> np.ndarray:
         """Rows of all; only those of the given control period are seen by metrics and curves."""
-        if chosen is settings:
-            return _once(engine, contender, begun, chosen, metrics, total, curves)
-        return _once(engine, contender, begun, chosen, (), total, blank_curves(len(begun)))
+        seen, kept = (metrics, curves) if chosen is settings else ((), blank_curves(len(begun)))
+        if kept.samples.shape[1] or max(total, len(begun)) < WORTH_LANES:
+            return by_law(engine, contender, begun, numbers(chosen), seen, kept)
+        rows = blank(len(begun), seen)
+        loop_in_lanes(engine, contender, seen)(memory_of(contender), begun, numbers(chosen), rows)
+        return rows
+
+    if engine != CONTINUOUS or not converge:
+        return once(settings)
 
     def again(level: Level, which: np.ndarray) -> np.ndarray:
         some = Curves(curves.every, np.full_like(curves.samples[which], np.nan))
@@ -143,16 +147,6 @@ def by_law(
     """Run the loop of an ideal plant, one start at a time; memory: another than the law's own."""
     law, loop, rows = (evaluation(contender),), compiled_loop(engine, metrics), blank(len(begun), metrics)
     return simulate(loop, law, None, memory or memory_of(contender), begun, limits, rows, curves)
-
-
-def _once(
-    engine: str, contender: Contender, begun: np.ndarray, settings: Settings, metrics: tuple, total: int, curves: Curves
-) -> np.ndarray:
-    if curves.samples.shape[1] or max(total, len(begun)) < WORTH_LANES:
-        return by_law(engine, contender, begun, numbers(settings), metrics, curves)
-    rows = blank(len(begun), metrics)
-    loop_in_lanes(engine, contender, metrics)(memory_of(contender), begun, numbers(settings), rows)
-    return rows
 
 
 def prepare(engine: str, contender: Contender, metrics: Metrics, total: int = 0) -> None:

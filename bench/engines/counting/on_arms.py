@@ -151,6 +151,6 @@ def _call(contender: Contender, plain: Callable, counting: Callable, tally: Tall
 
 def call_on_arm(name: str, state: ArmState, tally: Tally, given: tuple, plain: Callable, counting: Callable) -> Call:
     """Return a counted call of what takes the type of its buffers last."""
-    return checked(name, state, tally, lambda: plain(*given, float), lambda: counting(*counted(given, tally), object))[
-        0
-    ]
+    given_counted = counted(given, tally)
+    call, _ = checked(name, state, tally, lambda: plain(*given, float), lambda: counting(*given_counted, object))
+    return call

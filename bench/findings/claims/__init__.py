@@ -39,7 +39,18 @@ def judge(id: str, results: Results) -> Verdict:
 
 def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
     """Every claim that a run decides, and for each other one what the run lacks; kept for the next call."""
-    find = functools.partial(_judge_possible, results)
+
+    def find() -> dict:
+        """Return both as JSON holds them."""
+        decided, lacks = [], {}
+        for one in all_claims():
+            try:
+                _, word, evidence = decide(one, results)
+                decided.append((one.id, word, *evidence))
+            except NoEvidence as error:
+                lacks[one.id] = str(error)
+        return {"decided": decided, "lacks": lacks}
+
     found = keep(results.folder, "claims", find) if results.folder and results.is_as_stored else find()
     claims = {one.id: one for one in all_claims()}
     decided = [
@@ -47,18 +58,6 @@ def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
         for id, word, sentence, rows, tables in found["decided"]
     ]
     return decided, found["lacks"]
-
-
-def _judge_possible(results: Results) -> dict:
-    """Return what `judge_possible` does, as JSON holds it."""
-    decided, lacks = [], {}
-    for one in all_claims():
-        try:
-            _, word, evidence = decide(one, results)
-            decided.append((one.id, word, *evidence))
-        except NoEvidence as error:
-            lacks[one.id] = str(error)
-    return {"decided": decided, "lacks": lacks}
 
 
 def told(words: Iterable[Word]) -> str:

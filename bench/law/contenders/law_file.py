@@ -94,12 +94,6 @@ def load_law(path: Path, text: bytes | None = None) -> Law:
     return own._replace(origin=str(path), text=text.decode())
 
 
-def check_answers(own: Law) -> None:
-    """Call the law once in each of its representations; BadLaw: it does not return three numbers (and a memory)."""
-    for one in contenders_of(own):
-        _check_shape(one, Path(own.origin))
-
-
 def _new_imports(text: bytes) -> str:
     """Return what to write in place of imports from modules of ours that are there no more."""
     old = [
@@ -187,31 +181,34 @@ def _said(error: BaseException, origin: str) -> str:
     return f"{type(error).__name__}{where}: {error}"
 
 
-def _check_shape(one: Contender, path: Path) -> None:
-    has_memory = one.regulator.memory is not None
+def check_answers(own: Law) -> None:
+    """Call the law once in each of its representations; BadLaw: it does not return three numbers (and a memory)."""
+    has_memory = own.memory is not None
     arguments = "R, omega, goal, gains, memory" if has_memory else "R, omega, goal, gains"
-    try:
-        answer = _tried(one)
-    except MISTAKES as error:
-        raise BadLaw(
-            f"--law {path}: the law of '{one.name}' cannot be called as law({arguments}) "
-            f"({_said(error, str(path))}); see the example in README"
-        ) from error
-    except Exception:
-        return  # a law that raises in an episode is a row, not a mistake of the caller
-    if has_memory:
-        memory = answer[1] if isinstance(answer, tuple) and len(answer) == 2 else None
-        if not (isinstance(memory, tuple) and len(memory) == 4):
+    for one in contenders_of(own):
+        is_from = f"--law {own.origin}: the law of '{one.name}'"
+        try:
+            answer = _tried(one)
+        except MISTAKES as error:
             raise BadLaw(
-                f"--law {path}: the law of '{one.name}' has memory and returned {_shown(answer)}; it must return "
-                "(command, memory) with a memory of four floats"
+                f"{is_from} cannot be called as law({arguments}) ({_said(error, own.origin)}); see the example in "
+                "README"
+            ) from error
+        except Exception:
+            continue  # a law that raises in an episode is a row, not a mistake of the caller
+        if has_memory:
+            memory = answer[1] if isinstance(answer, tuple) and len(answer) == 2 else None
+            if not (isinstance(memory, tuple) and len(memory) == 4):
+                raise BadLaw(
+                    f"{is_from} has memory and returned {_shown(answer)}; it must return (command, memory) with a "
+                    "memory of four floats"
+                )
+            answer = answer[0]
+        if not (isinstance(answer, tuple) and len(answer) == 3 and all(isinstance(x, float) for x in answer)):
+            raise BadLaw(
+                f"{is_from} returned {_shown(answer)}; it must return a tuple of three floats, the angular "
+                "acceleration in the base frame"
             )
-        answer = answer[0]
-    if not (isinstance(answer, tuple) and len(answer) == 3 and all(isinstance(x, float) for x in answer)):
-        raise BadLaw(
-            f"--law {path}: the law of '{one.name}' returned {_shown(answer)}; it must return a tuple of three floats, "
-            "the angular acceleration in the base frame"
-        )
 
 
 def _shown(answer) -> str:
