@@ -158,6 +158,7 @@ def test_baselines_are_found_by_their_names(arm):
     assert controls(find_contender(JOINT_PD), False, 1.0, plant).gives_torque == BY_JOINT
 
 
+@pytest.mark.slow
 @over_arms
 def test_native_rows_are_the_reference_rows_bit_for_bit(arm):
     starts = [tasks.start_set(name, 3, arm=arm)[2] for name in ("reach", "uniform")]
@@ -173,20 +174,13 @@ def test_native_rows_are_the_reference_rows_bit_for_bit(arm):
 # ------------------------------------------------------------------------------------------ joints
 
 
-@functools.cache
-def lively(arm):
-    """Samples of one episode under joint PD from the uniform start, without an early stop."""
-    kept: list = []
-    start = tasks.start_set("uniform", 5, arm=arm)[4]
-    chosen = settings(dt_s=5e-4, horizon_s=1.0, hold_ticks=10**9, torque_limit=math.inf)
-    run("reference", find_contender(JOINT_PD), "arm-regulation", arm, [start], chosen, (*ARM_METRICS, recorder(kept)))
-    return start, kept, chosen
-
-
+@pytest.mark.slow
 @over_arms
 def test_joint_pd_spends_its_energy_on_its_dampers_alone(arm):
     """V(0) - V(t) is the integral of Kv qdot' M qdot (Takegaki and Arimoto 1981), to the step's first order."""
-    start, kept, chosen = lively(arm)
+    [*_, start], kept = tasks.start_set("uniform", 5, arm=arm), []
+    chosen = settings(dt_s=5e-4, horizon_s=1.0, hold_ticks=10**9, torque_limit=math.inf)  # without an early stop
+    run("reference", find_contender(JOINT_PD), "arm-regulation", arm, [start], chosen, (*ARM_METRICS, recorder(kept)))
     model, n = kinematics(tasks.arm(arm)), tasks.arm(arm).joints
     M = model.inertia_matrix(tasks.arm(arm).home).diagonal()
     viscous = model.model.dof_damping  # of the Jaco's joints: it takes energy too
