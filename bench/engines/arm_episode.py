@@ -82,8 +82,7 @@ def controls(
 ) -> Controls:  # fmt: skip
     """Return the numbers of a contender on an arm; plant: MuJoCo's model of it.
 
-    Args:
-        lag_s: time constant of its motors. torque_rate: of motors that are cut, how fast a torque changes at most.
+    lag_s: time constant of its motors. torque_rate: of motors that are cut, how fast a torque changes at most.
     """
     gives = GIVES[contender.inverse.gives] if contender.inverse else 0
     own = STANDING if gives == BY_JOINT else int(has_own_model)

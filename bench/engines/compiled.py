@@ -161,11 +161,7 @@ def register(function: Callable) -> Callable:
 
 
 def compile_function(function: Callable, signature: Any, cache: bool = True, **options: Any) -> Callable:
-    """Return the function compiled for one signature with our options; cached on disk unless the law is a user's.
-
-    Args:
-        options: of numba's; what a function calls inherits forceinline.
-    """
+    """Return the function compiled for one signature with our options and others; cached on disk if no user's law."""
     register_kernels()
     return numba.njit(signature, cache=cache, **JIT, **options)(function)
 
@@ -173,8 +169,7 @@ def compile_function(function: Callable, signature: Any, cache: bool = True, **o
 def compile_loop(episodes: Callable, laws: tuple, world: Any = None) -> Callable:
     """Return a loop of `loop.episodes_of`, compiled; cached on disk.
 
-    Args:
-        laws: signatures of the functions that it calls by pointer, three at most. world: a named tuple, annotated.
+    laws: signatures of the functions that it calls by pointer, three at most. world: a named tuple, annotated.
     """
     functions = (*map(types.FunctionType, laws), *[types.none] * (3 - len(laws)))
     # a file of the cache for each world: one for all would import every world, and MuJoCo, with the first loop
@@ -206,10 +201,8 @@ part = made_once(compile_function)
 
 @contextlib.contextmanager
 def own_law(origin: str) -> Iterator[bool]:
-    """Compile what holds a law: yields whether it may be cached on disk, which a user's law is not.
+    """Compile what holds a law: yields whether it may be cached on disk, which a user's (of the file `origin`) is not.
 
-    Args:
-        origin: the file of a user's law; empty for ours.
     Errors:
         BadLaw: a user's law that the compiler cannot take.
     """

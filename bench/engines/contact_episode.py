@@ -159,23 +159,6 @@ def setpoint(R_d, p_0, numbers, time):
     return Setpoint(R_d, p_d, v, numbers.f_d, numbers.m_d)
 
 
-@kernel
-def write_record(record, time, R, omega, p, f, m, gap, turned, load):
-    """One tick's line."""
-    record[0] = time
-    for i in range(3):
-        record[1 + i] = R.n[i]
-        record[4 + i] = R.o[i]
-        record[7 + i] = R.a[i]
-        record[10 + i] = omega[i]
-        record[13 + i] = p[i]
-        record[16 + i] = f[i]
-        record[19 + i] = m[i]
-    record[22] = gap
-    record[23] = turned
-    record[24] = load
-
-
 def made(record: np.ndarray, failure: int, ticks: int, message: str, data: Any) -> Ended:
     """Return the episode of a filled record; broken if MuJoCo left out contacts or constraints for want of memory."""
     kinds = (mujoco.mjtWarning.mjWARN_CONTACTFULL, mujoco.mjtWarning.mjWARN_CNSTRFULL)

@@ -63,11 +63,9 @@ def converged(
     again: Callable[[Level, np.ndarray], np.ndarray],
     settings: Settings,
 ) -> np.ndarray:
-    """Rows of all episodes, STEP of each the step at which it has converged [s]; negative if it has not.
+    """Return rows of all episodes, STEP of each the step at which it has converged [s]; negative if it has not.
 
-    Args:
-        once(settings): rows of all episodes by Runge-Kutta, a step a control period; again(level, which): those of some
-            by `refined`.
+    once(settings): rows of all by Runge-Kutta, a step a control period; again(level, which): of some by `refined`.
     """
     rows = once(settings)
     left = np.flatnonzero(~alike(once(coarser(settings)), rows, 2))

@@ -113,11 +113,7 @@ def has_crashed(u):
 
 @kernel
 def blamed(failure, u):
-    """Why an episode failed; of a command that was none, whether the law crashed.
-
-    Args:
-        u: as the law returned it.
-    """
+    """Return why an episode failed; where the law returned a u that was no command, whether it crashed."""
     if failure == SINGULAR and has_crashed(u):
         return CRASHED
     return failure

@@ -171,11 +171,7 @@ EPISODES = types.void(FOUR, MATRIX, NUMBERS, MATRIX)
 
 
 def episodes_of(engine, evaluate, observe, metrics: int, cache: bool = True):
-    """Return the loop of one law: `episodes(memory0, starts, numbers, rows)` fills the last.
-
-    Args:
-        metrics: how many there are; none is allowed.
-    """
+    """Return the loop of one law and so many metrics: `episodes(memory0, starts, numbers, rows)` fills the last."""
     prepare, step = STEPS[engine]
     columns = FIRST_METRIC + metrics
 

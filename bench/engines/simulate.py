@@ -56,11 +56,9 @@ def simulate(
     loop: Callable, laws: tuple, world: Any, memory: tuple, begun: np.ndarray, limits: Numbers, rows: np.ndarray,
     curves: Curves | None = None,
 ) -> np.ndarray:  # fmt: skip
-    """Run a loop: fill a row, and a curve if there is room, for each start.
+    """Run a loop, of `compiled_loop` or plain: fill a row, and a curve if there is room, for each start.
 
-    Args:
-        loop: of `compiled_loop`, or plain. laws: the functions that it calls. world: what its plant and controller work
-            in. begun: of `episode.start_rows`.
+    laws: the functions that it calls. world: what its plant and controller work in. begun: of `episode.start_rows`.
     """
     functions = (*laws, *[None] * (3 - len(laws)))
     loop(*functions, world, memory, begun, limits, rows, curves or blank_curves(len(begun)))
@@ -71,12 +69,10 @@ def run(
     engine: str, contender: Contender, task: str, starts: Starts, settings: Settings, metrics: Metrics,
     integrator: str = "euler", curves: Curves | None = None, total: int = 0, converge: bool = True,
 ) -> np.ndarray:  # fmt: skip
-    """Rows of `engines.episode`, one per start, on the free body; on an arm: `simulate_arms.run_arm`.
+    """Return rows of `engines.episode`, one per start, on the free body; on an arm: `simulate_arms.run_arm`.
 
-    Args:
-        starts: tasks.Start, in order; metrics: Metric, in the order of their columns.
-        curves: filled too, on any engine but `reference`.
-        total: episodes of which these are some; converge: see `on_ideal`.
+    metrics: in the order of their columns. curves: filled too, on any engine but `reference`. total: episodes of which
+    these are some; converge: see `on_ideal`.
     """
     if engine == "reference":
         from bench.engines import reference
@@ -111,23 +107,24 @@ def on_ideal(
     curves: Curves | None = None,
     converge: bool = True,
 ) -> np.ndarray:
-    """Simulate on an ideal plant, from starts that are rows already.
+    """Simulate on an ideal plant, from starts that are rows already (`engines.episode.start_rows`).
 
-    Args:
-        begun: of `engines.episode.start_rows`.
-        total: episodes that are asked of this law, if these are a part of them; WORTH_LANES of them or more run in
-            lanes. The rows are the same bits.
-        converge: whether the continuous plant's steps are made shorter where they decide, see `convergence`.
+    total: episodes that are asked of this law, if these are a part of them; WORTH_LANES of them or more run in lanes.
+    The rows are the same bits. converge: whether the continuous plant's steps are made shorter where they decide.
     """
     metrics, curves = tuple(metrics), curves or blank_curves(len(begun))
-    if engine != CONTINUOUS or not converge:
-        return _once(engine, contender, begun, settings, metrics, total, curves)
 
     def once(chosen: Settings) -> np.ndarray:
         """Rows of all; only those of the given control period are seen by metrics and curves."""
-        if chosen is settings:
-            return _once(engine, contender, begun, chosen, metrics, total, curves)
-        return _once(engine, contender, begun, chosen, (), total, blank_curves(len(begun)))
+        seen, kept = (metrics, curves) if chosen is settings else ((), blank_curves(len(begun)))
+        if kept.samples.shape[1] or max(total, len(begun)) < WORTH_LANES:
+            return by_law(engine, contender, begun, numbers(chosen), seen, kept)
+        rows = blank(len(begun), seen)
+        loop_in_lanes(engine, contender, seen)(memory_of(contender), begun, numbers(chosen), rows)
+        return rows
+
+    if engine != CONTINUOUS or not converge:
+        return once(settings)
 
     def again(level: Level, which: np.ndarray) -> np.ndarray:
         some = Curves(curves.every, np.full_like(curves.samples[which], np.nan))
@@ -150,16 +147,6 @@ def by_law(
     """Run the loop of an ideal plant, one start at a time; memory: another than the law's own."""
     law, loop, rows = (evaluation(contender),), compiled_loop(engine, metrics), blank(len(begun), metrics)
     return simulate(loop, law, None, memory or memory_of(contender), begun, limits, rows, curves)
-
-
-def _once(
-    engine: str, contender: Contender, begun: np.ndarray, settings: Settings, metrics: tuple, total: int, curves: Curves
-) -> np.ndarray:
-    if curves.samples.shape[1] or max(total, len(begun)) < WORTH_LANES:
-        return by_law(engine, contender, begun, numbers(settings), metrics, curves)
-    rows = blank(len(begun), metrics)
-    loop_in_lanes(engine, contender, metrics)(memory_of(contender), begun, numbers(settings), rows)
-    return rows
 
 
 def prepare(engine: str, contender: Contender, metrics: Metrics, total: int = 0) -> None:
@@ -185,10 +172,6 @@ def loop_in_lanes(engine: str, contender: Contender, metrics: tuple) -> Callable
 
 @made_once
 def evaluation(contender: Contender) -> Callable:
-    """Compile a contender for the loops, or take it from the disk cache; a user's law is compiled every time.
-
-    Errors:
-        BadLaw: a user's law that the compiler cannot take.
-    """
+    """Compile a contender for the loops, or take it from the disk cache; a user's law is compiled every time."""
     with own_law(contender.regulator.origin) as cache:
         return compile_function(evaluation_of(contender), compiled.EVALUATE, cache)

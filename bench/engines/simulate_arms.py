@@ -2,7 +2,7 @@
 
 import functools
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 
 import mujoco
 import numpy as np
@@ -35,11 +35,10 @@ def run_arm(
     engine: str, contender: Contender, task: str, arm: str, starts: Starts, settings: Settings, metrics: Metrics,
     integrator: str = "euler", variation: str = IDEAL_MOTORS, curves: Curves | None = None,
 ) -> np.ndarray:  # fmt: skip
-    """Rows of `engines.arm_episode`, one per start.
+    """Return rows of `engines.arm_episode`, one per start.
 
-    Args:
-        starts: tasks.Start with joint angles, in order; metrics: Metric, in the order of their columns.
-        variation: how the plant differs from the controller's model. curves: filled too, on the engine `native`.
+    metrics: in the order of their columns. variation: how the plant differs from the controller's model. curves: filled
+    too, on the engine `native`.
     """
     if engine == "reference":
         return reference.run_arm(contender, task, arm, starts, settings, metrics, integrator, variation)
@@ -101,12 +100,10 @@ def run_velocity(
     contender: Contender, limit: Callable, K: float, starts: Starts, settings: Settings, arm: str = "",
     lag_s: float = 0.0,
 ) -> np.ndarray:  # fmt: skip
-    """Rows of `plants.velocity`, one per start.
+    """Return rows of `plants.velocity`, one per start; nothing moves before a command.
 
-    Args:
-        contender: a velocity law; on an arm with its Jacobian and inverse. K: its gain [1/s].
-        starts: tasks.Start, in order, whose omega and joint rates are not used: nothing moves before a command.
-        lag_s: time constant of the joints' servos [s]; 0: none. Those of the free body have none.
+    contender: a velocity law; on an arm with its Jacobian and inverse. K: its gain [1/s]. lag_s: time constant of the
+    joints' servos [s]; 0: none. Those of the free body have none.
     """
     pace = velocity.Pace(float(K), servo(float(settings.dt_s), float(lag_s)))
     law, rows = (
@@ -124,26 +121,14 @@ def run_velocity(
     return simulate(compiled_loop("velocity-arm"), (*functions, _resolve(contender)), world, *given)
 
 
-def prepare_velocity(contender: Contender, limits: Iterable[Callable]) -> None:
-    """Compile what `run_velocity` will need, or take it from the disk cache."""
-    evaluation(contender._replace(jacobian=None, inverse=None))
-    for one in limits:
-        part(one, compiled.LIMIT)
-    if contender.inverse:
-        _resolve(contender)
-    compiled_loop("velocity-arm" if contender.inverse else "velocity")
-
-
 def run_impedance(
     law: Contender, damping: Impedance, springs: Springs, starts: Starts, settings: Settings, arm: str,
     variation: str = IDEAL_MOTORS,
 ) -> tuple[np.ndarray, np.ndarray]:  # fmt: skip
-    """Rows of `plants.impedance`, and q and qdot at the end, one per start.
+    """Return rows of `plants.impedance`, and q and qdot at the end, one per start.
 
-    Args:
-        law: its command at omega = 0 over kp is the error of orientation.
-        starts: tasks.Start with joint angles and rates, in order.
-        settings: `torque_limit` is what torques over rated ones may come to. variation: of plant and model alike.
+    law: its command at omega = 0 over kp is the error of orientation. settings: `torque_limit` is what torques over
+    rated ones may come to. variation: of plant and model alike.
     """
     limits, one = numbers(settings._replace(command_limit=settings.torque_limit)), tasks.arm(arm)
     kept = [_simulation(ARM_TASK, one, settings.dt_s, variation=variation) for _ in range(2)]
@@ -153,10 +138,3 @@ def run_impedance(
     simulate(compiled_loop("impedance"), laws, world, memory_of(law), start_rows(starts), limits, rows)
     del kept
     return rows, world.ends
-
-
-def prepare_impedance(law: Contender, damping: Impedance) -> None:
-    """Compile what `run_impedance` will need, or take it from the disk cache."""
-    evaluation(law)
-    part(damping.design, compiled.DESIGN)
-    compiled_loop("impedance")

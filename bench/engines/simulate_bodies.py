@@ -28,11 +28,9 @@ def run_disturbed(
     contender: Contender, starts: Starts, condition: Condition, settings: Settings, metrics: Metrics, seed: int = 0,
     noise_bytes: float = NOISE_BYTES,
 ) -> np.ndarray:  # fmt: skip
-    """Rows of `engines.episode`, one a start, with `perturbed.EXTRA` columns more; settling counts from a jump.
+    """Return rows of `engines.episode`, one a start, with `perturbed.EXTRA` columns more; settling counts from a jump.
 
-    Args:
-        settings: gains and limits; dt_s is the condition's.
-        seed: of the noise, which is the same for every contender.
+    dt_s is the condition's. seed: of the noise, which is the same for every contender.
     """
     rows, begun = blank(len(starts), metrics, (0.0,) * perturbed.EXTRA), start_rows(starts)
     horizon_s = settings.ticks * settings.dt_s
@@ -68,10 +66,8 @@ def run_stream(
 ) -> tuple[float, float, float]:
     """Return greatest |u| [rad/s^2], greatest angle to the true goal [rad] and path turned [rad] of one episode.
 
-    From rest at the first true goal, as long as the stream lasts, whatever becomes of it.
-
-    Args:
-        goals, truth: one a tick (n x 4). is_raw: the spring on the quaternion as it came, in the law's place.
+    From rest at the first true goal, as long as the stream lasts, whatever becomes of it. goals, truth: one a tick
+    (n x 4). is_raw: the spring on the quaternion as it came, in the law's place.
     """
     start, rows = np.zeros((1, episode.START_WIDTH)), np.zeros((1, quaternion.PATH + 1))
     start[0, 0:4], start[0, 7:11] = truth[0], goals[0]
@@ -92,10 +88,8 @@ def run_compensated(
     """Simulate starts, from their orientation and angular velocity.
 
     Return of each the time after which the angle stays in the band [s], NaN if it does not, the angle at the end [rad]
-    and the greatest |u| [rad/s^2].
-
-    Args:
-        band: half its width [rad]. push: constant disturbance [rad/s^2], base frame. is_plain: by the loop in Python.
+    and the greatest |u| [rad/s^2]. band: half its width [rad]. push: constant disturbance [rad/s^2], base frame.
+    is_plain: by the loop in Python.
     """
     loop = quaternion.with_state() if is_plain else compiled_loop("state")
     parts = (one.law, one.state.begin) if is_plain else parts_of(one)

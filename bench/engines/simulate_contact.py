@@ -31,23 +31,13 @@ def run_contact(
     engine: str, controller: ContactController, task: ContactTask, arm: Arm, trials: Iterable[Trial],
     conditions: Conditions = USUAL, contact: ContactModel = STANDARD,
 ) -> Iterator[Ended]:  # fmt: skip
-    """One `Ended` a trial, in order, each as soon as it is there.
+    """Yield one `Ended` a trial, in order, by the engine "native", or "reference" for dm_control's own loop.
 
-    Args:
-        engine: "native", or "reference" for dm_control's own loop.
     Errors, before the first episode begins:
         UnknownWord: the engine or the integrator. BadNumber: a constant of the controller, or the control period.
         BadValue: the arm cannot be set the task, or a trial or the contact model is none.
     """
     trials = tuple(trials)
-    _check(engine, task, arm, trials, conditions, contact)
-    scene = None if engine == "reference" else simulation(task, arm, conditions, contact)
-    return (_episode(scene, controller, task, arm, trial, conditions, contact) for trial in trials)
-
-
-def _check(
-    engine: str, task: ContactTask, arm: Arm, trials: tuple[Trial, ...], conditions: Conditions, contact: ContactModel
-) -> None:
     refuse(task, arm)
     known = {"engine": (engine, ENGINES), "integrator": (conditions.integrator, MUJOCO_INTEGRATORS)}
     for kind, (word, words) in known.items():
@@ -59,6 +49,8 @@ def _check(
     check_contact(contact)
     for trial in trials:
         check_trial(trial, arm)
+    scene = None if engine == "reference" else simulation(task, arm, conditions, contact)
+    return (_episode(scene, controller, task, arm, trial, conditions, contact) for trial in trials)
 
 
 def simulation(task: ContactTask, arm: Arm, conditions: Conditions, contact: ContactModel = STANDARD) -> tuple:

@@ -60,17 +60,17 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return one row an episode."""
-    made = [_rows(settings, unit, stiffness, whole) for stiffness in STIFFNESSES for whole in range(len(COMPENSATED))]
+    some, both = starts.on_arm(START_SET, unit.count, settings.seed, unit.arm), range(len(COMPENSATED))
+    made = [_rows(settings, unit, some, stiffness, whole) for stiffness in STIFFNESSES for whole in both]
     frame = pd.concat(map(pd.DataFrame, made), ignore_index=True)
     frame.loc[frame["failure_time_s"].notna(), list(UNBOUNDED)] = np.nan
     return frame
 
 
-def _rows(settings: Settings, unit: Unit, stiffness: Stiffness, whole: int) -> dict:
+def _rows(settings: Settings, unit: Unit, some: list, stiffness: Stiffness, whole: int) -> dict:
     from bench.engines.plants.impedance import ADDED, DAMPED, ELBOW, KINETIC, LEFT, OFF, OVERSHOOT, STRAIN, Springs
     from bench.engines.simulate_arms import run_impedance as run
 
-    some = starts.on_arm(START_SET, unit.count, settings.seed, unit.arm)
     law, damping = find_contender(LAW), DAMPINGS[unit.selector]
     springs = Springs(*stiffness, ZETA, whole)
     numbers, _ = run(law, damping, springs, some, settings.limits(unit.horizon_s), unit.arm)
@@ -111,9 +111,7 @@ def compute_potential(stiffness: Stiffness, theta: np.ndarray, distance: np.ndar
 
 def prepare(settings: Settings, unit: Unit) -> None:
     """Compile the loop, the error and the design."""
-    from bench.engines.simulate_arms import prepare_impedance
-
-    prepare_impedance(find_contender(LAW), DAMPINGS[unit.selector])
+    _rows(settings, unit, [], STIFFNESSES[0], whole=0)
 
 
 EXPERIMENT = Experiment.of(

@@ -32,13 +32,7 @@ Parts = dict[tuple[str, str], list[pd.DataFrame]]
 
 
 def judged(regulators: Iterable[Law], limit_s: float = LIMIT_S) -> list[Judgement]:
-    """Return the judgement of every law of these.
-
-    Args:
-        limit_s: seconds of processor time until a unit counts as hung.
-    Errors:
-        BadLaw: a file cannot be compiled, or its process ends before it is asked anything.
-    """
+    """Return the judgement of every law; a unit is hung after limit_s of processor time. BadLaw: a file is no law."""
     laws = contenders_of(*regulators)
     plan, parts = plan_of(laws), defaultdict(list)
     with Sandbox(plan, limit_s, TRIED) as sandbox:

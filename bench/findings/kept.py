@@ -26,12 +26,9 @@ def home() -> Path:
 
 
 def keep(folder: Path, what: str, find: Callable[[], dict]) -> dict:
-    """Return what is found about the run in a folder, from an earlier call if it would be the same.
+    """Return what `find` finds about the run in a folder, from an earlier call with this word if it would be the same.
 
     A run of a user's own laws is looked at every time: what may be said of it depends on whether they are trusted.
-
-    Args:
-        what: a word for it. find: computes it, as JSON holds it.
     """
     if (folder / "laws").exists():
         return find()

@@ -42,10 +42,7 @@ def count_in(folder: Path) -> pd.DataFrame:
 
 
 def lost_between(lost: int, unconverged: int, of: int) -> Estimate:
-    """Return the share lost of those that converge, and its exact 95 % interval.
-
-    The lower end is of the first, the upper end of the second.
-    """
+    """Return the share lost of those that converge, and its exact 95 % interval, whose upper end counts the others."""
     value = lost / (of - unconverged) if of > unconverged else math.nan
     return Estimate(value, lost_share(lost, of).low, lost_share(lost + unconverged, of).high)
 
@@ -83,11 +80,7 @@ class Spun(NamedTuple):
 
 
 def spun(numbers: pd.DataFrame, law: str) -> list[Spun]:
-    """Return a law's starts at stated speeds, the slowest first; none if it is in no map.
-
-    Args:
-        numbers: of `counted`.
-    """
+    """Return a law's starts at stated speeds from what `counted` gives, the slowest first; none if it is in no map."""
     own = numbers[(numbers["contender"] == law) & (numbers["least_speed"] == numbers["most_speed"])]
     columns = own.sort_values("most_speed")[["most_speed", "starts", "lost", "unconverged"]]
     return [

@@ -42,11 +42,7 @@ def told_apart(one: pd.Series, other: pd.Series) -> bool:
 
 
 def best(rows: pd.DataFrame, measure: str, by: str) -> list[str]:
-    """Return the controllers that no other is better than, the one that passes most first, then by name.
-
-    Args:
-        rows: episodes, each start once for every controller. by: the column that names controllers.
-    """
+    """Return the controllers (column `by`) that no other is better than: the one that passes most first, or by name."""
     rows = rows.assign(passes=passed(rows)[measure])
     of = {str(name): own.set_index(START)["passes"] for name, own in rows.groupby(by, observed=True)}
     ranked = sorted(of, key=lambda name: (-of[name].mean(), name))

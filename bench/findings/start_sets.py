@@ -18,10 +18,9 @@ DIRECTED = (*AT_REST, "tumbling", "goals")
 
 @functools.cache
 def least_starts(engine: str, part: str = "slices") -> dict[str, int]:
-    """Return, for each start set that all suites run by an engine, how many starts the smallest suite has.
+    """Return the starts that the smallest suite has of each set that all suites run by an engine.
 
-    Args:
-        part: of a suite: `slices` of the paper's laws, `beyond` of later ones and in other coordinates.
+    part: of a suite: `slices` of the paper's laws, `beyond` of later ones and in other coordinates.
     """
     sizes = [
         {one.start_set: tasks.start_set_length(one.start_set, one.size, 0) for one in slices if one.engine == engine}

@@ -24,7 +24,7 @@ from bench.law.chain import bias_acceleration, twist
 from bench.law.contender import Contender
 from bench.law.display import ANGLE, CHORD, LINEAR_MRP, LINEAR_SINE, QUARTER, SINE, TANGENT, Display, Equation, Look
 from bench.law.inputs import AT_REST, Gains, Goal
-from bench.law.kinds import Coordinates, Impedance, Inverse, Jacobian, Law, Spring, State
+from bench.law.kinds import Coordinates, Impedance, Inverse, Jacobian, Law, Spring, State, functions_of
 from bench.law.linalg import (
     determinant,
     dot_rows,

@@ -131,11 +131,7 @@ def refusal(one: Contender, joints: int) -> str:
 
 
 def contender(regulator: Law, representation: Coordinates | None = None) -> Contender:
-    """Put the two together, or refuse with the reason.
-
-    Errors:
-        Incompatible: the regulator acts on R and a representation was given, or the other way about.
-    """
+    """Put the two together, or refuse (Incompatible): a representation too many or too few."""
     if regulator.coordinates == ON_MATRIX:
         if representation is not None:
             raise Incompatible(
@@ -155,11 +151,7 @@ def contender(regulator: Law, representation: Coordinates | None = None) -> Cont
 
 
 def axes_of(representation: Coordinates) -> tuple[int, int, int]:
-    """Which coordinate is the one about x, about y and about z, near E = 0.
-
-    Errors:
-        Incompatible: there are four coordinates, or none for some axis.
-    """
+    """Return which coordinate is the one about x, about y and about z, near E = 0; Incompatible: some axis has none."""
     if representation.about is None:
         raise Incompatible(
             f"'{representation.name}' has no coordinate for each of the axes x, y and z to be held or to comply "

@@ -4,7 +4,6 @@ Shapes: a vector is a tuple of 3 numbers, R a `Rotation`, E a tuple of 3 coordin
 array A[i, j] or b[i] of numbers: float64, or counting scalars. Base frame, radians, seconds, SI units.
 """
 
-import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -36,24 +35,6 @@ class State(NamedTuple):
     bound: Callable | None = None
 
 
-class AsShipped(NamedTuple):
-    """A controller as its authors set it, in words and numbers of its source; see `bench.law.shipped`.
-
-    error: kernel of the quaternion. path: the files of the law's source, repository@commit or release, that were read.
-    set_by: where the gains are set. shapes_inertia: whether the body that the gains act on is one of unit inertia
-    whatever the robot's. unbounded, bound: the error before its bound, and the bound of its components or of its
-    length, if it has one. thread: owner/name#number of a public thread on what its error does.
-    """
-
-    error: Callable
-    path: str
-    set_by: str
-    shapes_inertia: bool = False
-    unbounded: Callable | None = None
-    bound: float = math.inf
-    thread: str = ""
-
-
 class Law(NamedTuple):
     """A law u = law(R, omega, goal, gains): commanded angular acceleration in the base frame [rad/s^2].
 
@@ -66,8 +47,9 @@ class Law(NamedTuple):
     property: what is proved: "local", "almost global", "global with memory", "none", or for which gains.
     Of another law state is None, as shipped is of one that is not a controller as its authors ship it.
     level: what is commanded. gains: those that the authors set, or the paper's.
-    shipped: of a controller as its authors ship it; its formula is that of the error, with clips and deadbands in their
-    order, and its gains are in N m/rad, in 1/s^2 where an inertia is cancelled or simulated, in 1/s of a velocity.
+    shipped: AsShipped, of a controller as its authors ship it; its formula is that of the error, with clips and
+    deadbands in their order, and its gains are in N m/rad, in 1/s^2 where an inertia is cancelled or simulated, in 1/s
+    of a velocity.
     origin, text: a user's file and what it held; empty for ours. later: not in the paper: it runs on fewer starts.
     costing_only: another way to write a law that is listed already: costed and tested, not run.
     in_engine: MuJoCo's own actuator makes the command, on its free body; `law` is what it computes, as tested.
@@ -93,7 +75,7 @@ class Law(NamedTuple):
     property: str = "local"
     level: str = ACCELERATION
     gains: Gains = PAPERS_GAINS
-    shipped: AsShipped | Any = None
+    shipped: Any = None
     origin: str = ""
     text: str = ""
     costing_only: bool = False
@@ -161,6 +143,12 @@ class Coordinates(NamedTuple):
         return self.chart
 
 
+def functions_of(module: dict[str, Any]) -> dict[str, Any]:
+    """Return the functions of coordinates, chart to margin, that the globals of a file have by their names."""
+    first, last = (Coordinates._fields.index(name) for name in ("chart", "margin"))
+    return {name: module[name] for name in Coordinates._fields[first : last + 1] if name in module}
+
+
 class Jacobian(NamedTuple):
     """Which motion of the tool the joint rates are mapped to: xdot = J qdot, of 6 or 7 rows, the linear ones first.
 
@@ -201,7 +189,7 @@ class Inverse(NamedTuple):
     source: str
     formula: str
     resolve: Callable
-    gives: str
+    gives: str = "acceleration"
     refuses: Callable[[int, int], str] = lambda rows, n: ""
     uses_inertia: bool = False
 

@@ -1,4 +1,4 @@
-"""A controller as it is shipped, as a law: what each file of bench/law/contenders/shipped holds or declares.
+"""A controller as it is shipped, as a law: what each file of bench/law/contenders/shipped declares.
 
 The orientation error is a kernel of the unit quaternion (w, x, y, z) of the rotation from R to R_d in the base frame,
 of either sign, as its source has it; an error that takes matrices is the same for both signs. `law_of` makes a
@@ -6,19 +6,38 @@ law of it, u = K e - D omega, which carries the quaternion on from tick to tick 
 with the memory ANTIPODE an episode begins on the other sign.
 """
 
+import math
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import NamedTuple
 
 from bench.law.inputs import Gains
-from bench.law.kinds import AsShipped, Law
+from bench.law.kinds import Law
 from bench.law.scalar import kernel, sqrt
 from bench.law.so3 import dot, quaternion_direction, spring_damper, turn_matrix
 from bench.law.spring import rotation_vector
 
 NEAR, ANTIPODE = (1.0, 0.0, 0.0, 0.0), (-1.0, 0.0, 0.0, 0.0)
 """Memories from which an episode begins on the sheet with w >= 0, and on the other one."""
+
+
+class AsShipped(NamedTuple):
+    """A controller as its authors set it, in words and numbers of its source.
+
+    error: kernel of the quaternion. path: the files of the law's source, repository@commit or release, that were read.
+    set_by: where the gains are set. shapes_inertia: whether the body that the gains act on is one of unit inertia
+    whatever the robot's. unbounded, bound: the error before its bound, and the bound of its components or of its
+    length, if it has one. thread: owner/name#number of a public thread on what its error does.
+    """
+
+    error: Callable
+    path: str
+    set_by: str
+    shapes_inertia: bool = False
+    unbounded: Callable | None = None
+    bound: float = math.inf
+    thread: str = ""
 
 
 @kernel
@@ -40,6 +59,22 @@ def vector_part(q):
 def logarithm(q):
     """theta k, theta = 2 atan2(sin(theta/2), cos(theta/2)) in [0, pi]."""
     return rotation_vector(shorter(q))
+
+
+@kernel
+def vector_part_by_sign(q):
+    """sign(w) sin(theta/2) k of either rotation, where sign(0) = 0."""
+    if q[0] > 0.0:
+        return (q[1], q[2], q[3])
+    if q[0] < 0.0:
+        return (-q[1], -q[2], -q[3])
+    return (0.0 * q[1], 0.0 * q[2], 0.0 * q[3])
+
+
+@kernel
+def sine(q):
+    """sin(theta) k, of either sign of q."""
+    return (2.0 * q[0] * q[1], 2.0 * q[0] * q[2], 2.0 * q[0] * q[3])
 
 
 @kernel
@@ -74,9 +109,29 @@ def scaled(e, factor):
     return (factor * e[0], factor * e[1], factor * e[2])
 
 
-ERRORS = {"logarithm": logarithm, "vector-part": vector_part}
-CHANGES = {"scale": scaled, "clip": clipped, "shorten": shortened}
-"""The errors that a TOML file may name, and what may be done to one, by a number: `scale` leaves it without a bound."""
+@kernel
+def beyond(x, limit):
+    """x, or 0 within the limit."""
+    if -limit < x < limit:
+        return 0.0 * x
+    return x
+
+
+@kernel
+def without_small(e, limit):
+    """Each component, or 0 within the limit."""
+    return (beyond(e[0], limit), beyond(e[1], limit), beyond(e[2], limit))
+
+
+ERRORS = {
+    "logarithm": logarithm,
+    "vector-part": vector_part,
+    "vector-part-by-sign": vector_part_by_sign,
+    "sine": sine,
+}
+BOUNDS = {"clip": clipped, "shorten": shortened}
+CHANGES = BOUNDS | {"scale": scaled, "deadband": without_small}
+"""The errors that a TOML file may name, and what may be done to one, by a number."""
 
 
 def changed(error: Callable, change: Callable, number: float) -> Callable:
@@ -104,13 +159,6 @@ def law_of(error: Callable) -> Callable:
     return law
 
 
-def as_shipped(stiffness: float, damping: float, **words: Any) -> Law:
-    """Return the law of a controller as its authors set it; words: other fields of `AsShipped` and of `Law`."""
-    shipped = AsShipped(**{name: words.pop(name) for name in AsShipped._fields if name in words})
-    gains = Gains(stiffness, damping)
-    return Law(**words, law=law_of(shipped.error), memory=NEAR, property="none", gains=gains, shipped=shipped)
-
-
 def read_shipped(path: Path) -> Law:
     """Return the controller that a TOML file declares: an error, one of CHANGES to it, gains, and fields of a law.
 
@@ -122,9 +170,11 @@ def read_shipped(path: Path) -> Law:
     for word in CHANGES.keys() & words:
         number = words.pop(word)
         error = changed(free, CHANGES[word], number)
-        words |= {} if word == "scale" else {"unbounded": free, "bound": number}
+        words |= {"unbounded": free, "bound": number} if word in BOUNDS else {}
     stiffness = words.pop("stiffness") / words.pop("inertia", 1.0)
     damping = words.pop("damping", None)
     if damping is None:
         damping = 2.0 * words.pop("damping_ratio") * stiffness**0.5
-    return as_shipped(stiffness, damping, name=path.stem.replace("_", "-"), error=error, **words)
+    shipped = AsShipped(error, **{name: words.pop(name) for name in AsShipped._fields if name in words})
+    words |= {"name": path.stem.replace("_", "-"), "property": "none", "gains": Gains(stiffness, damping)}
+    return Law(**words, law=law_of(error), memory=NEAR, shipped=shipped)

@@ -8,16 +8,16 @@ import pytest
 from scipy.linalg import sqrtm
 from scipy.spatial.transform import Rotation
 from support.buffers import inertia_of, jacobian_of, state_of
+from support.driving import settings
 
 import tasks
-from bench.engines.episode import FINAL_ANGLE, OUTCOME, SETTLING_TICK, TICKS, Settings
+from bench.engines.episode import FINAL_ANGLE, OUTCOME, SETTLING_TICK, TICKS
 from bench.engines.plants.impedance import ADDED, DAMPED, ELBOW, KINETIC, LEFT, STRAIN, Springs
 from bench.engines.plants.velocity import BENT, OFF, PATH, PEAK, RATE
 from bench.engines.simulate_arms import run_impedance, run_velocity
 from bench.experiments.limiters import GREATEST_RATE, clamp_axes, clamp_norm, drop_small_errors, pass_all
 from bench.law.contenders.registry import find_contender
 from bench.law.control.unshaped import DAMPINGS, NULL_RATE
-from bench.law.inputs import Gains
 from tasks.base import Start
 from tasks.rotations import about
 from tasks.rules import RULES
@@ -27,8 +27,8 @@ from tasks.verdict import SATURATED
 NONE, K, DT = pass_all, 10.0, 1e-3
 
 
-def settings(ticks=2500, hold_ticks=250, dt=DT):
-    return Settings(Gains(), dt, ticks, hold_ticks)
+def judged(horizon_s=2.5, dt_s=DT, **more):
+    return settings(dt_s, horizon_s, RULES.hold_ticks(dt_s), **more)
 
 
 def rotation_of(data):
@@ -43,7 +43,7 @@ def turned_by(rad, axis=(1.0, 2.0, 3.0)):
 @pytest.mark.parametrize("rad", [1e-6, 0.3, 2.0, 3.1, math.pi])
 @pytest.mark.parametrize("ticks", [1, 7, 100])
 def test_logarithm_takes_k_dt_of_the_angle_at_every_tick(rad, ticks):
-    [row] = run_velocity(find_contender("rotation-vector"), NONE, K, turned_by(rad), settings(ticks, ticks + 1))
+    [row] = run_velocity(find_contender("rotation-vector"), NONE, K, turned_by(rad), settings(horizon_s=ticks * DT))
     left = (1.0 - K * DT) ** ticks
     assert row[FINAL_ANGLE] == pytest.approx(rad * left, rel=1e-11, abs=1e-15)
     assert row[PATH] == pytest.approx(rad * (1.0 - left), rel=1e-11)
@@ -52,10 +52,8 @@ def test_logarithm_takes_k_dt_of_the_angle_at_every_tick(rad, ticks):
 
 def test_sine_follows_its_closed_form_as_ticks_shorten():
     """theta' = -K sin(theta): tan(theta/2) = tan(theta_0/2) exp(-K t)."""
-    dt, time = 1e-5, 0.2
-    [row] = run_velocity(
-        find_contender("rotation-matrix"), NONE, K, turned_by(3.0), settings(round(time / dt), 10**6, dt)
-    )
+    time = 0.2
+    [row] = run_velocity(find_contender("rotation-matrix"), NONE, K, turned_by(3.0), settings(1e-5, time))
     expected = 2.0 * math.atan(math.tan(1.5) * math.exp(-K * time))
     assert row[FINAL_ANGLE] == pytest.approx(expected, rel=1e-4)
 
@@ -63,7 +61,7 @@ def test_sine_follows_its_closed_form_as_ticks_shorten():
 @pytest.mark.parametrize("rad", [1.0, 3.0])
 def test_norm_clamp_settles_at_its_closed_form(rad):
     """At the bound b until theta = b/K, then theta = (b/K) exp(-K t), to 2 % of the beginning."""
-    [row] = run_velocity(find_contender("rotation-vector"), clamp_norm, K, turned_by(rad), settings())
+    [row] = run_velocity(find_contender("rotation-vector"), clamp_norm, K, turned_by(rad), judged())
     knee = GREATEST_RATE / K
     expected = (rad - knee) / GREATEST_RATE + math.log(knee / (0.02 * rad)) / K
     assert row[SETTLING_TICK] * DT == pytest.approx(expected, abs=3e-3)
@@ -74,12 +72,12 @@ def test_norm_clamp_settles_at_its_closed_form(rad):
 def test_clamp_per_axis_bends_the_command_by_the_angle_between():
     omega = K * 3.0 * np.array((1.0, 2.0, 3.0)) / math.sqrt(14.0)  # all three components are cut: (b, b, b)
     expected = math.acos(omega.sum() / (math.sqrt(3.0) * np.linalg.norm(omega)))
-    [row] = run_velocity(find_contender("rotation-vector"), clamp_axes, K, turned_by(3.0), settings(1))
+    [row] = run_velocity(find_contender("rotation-vector"), clamp_axes, K, turned_by(3.0), settings(horizon_s=DT))
     assert row[BENT] == pytest.approx(expected, rel=1e-9)
 
 
 def test_deadband_leaves_less_than_its_diagonal():
-    [row] = run_velocity(find_contender("rotation-vector"), drop_small_errors, K, turned_by(2.0), settings())
+    [row] = run_velocity(find_contender("rotation-vector"), drop_small_errors, K, turned_by(2.0), judged())
     assert 1e-3 < row[FINAL_ANGLE] < 5e-3 * math.sqrt(3.0)
 
 
@@ -88,7 +86,7 @@ def test_arm_goes_where_a_loop_of_mujoco_and_numpy_takes_it(arm):
     """q += dt pinv(J) (K (p_d - p), K log(R_d R^T)), by mj_jacSite and scipy's rotation vector, for 200 ticks."""
     start, ticks = tasks.start_set("clear", 1, 0, arm)[0], 200
     one = find_contender("rotation-vector@geometric+pseudo-inverse")
-    [row] = run_velocity(one, NONE, K, [start], settings(ticks, ticks + 1), arm)
+    [row] = run_velocity(one, NONE, K, [start], settings(horizon_s=ticks * DT), arm)
     model = mujoco.MjModel.from_xml_string(tasks.task("arm-regulation", arm).xml(DT))
     data, goal, rate = state_of(model, start.q), Rotation.from_quat(start.goal_wxyz, scalar_first=True), 0.0
     p_d = data.site("tool").xpos.copy()
@@ -108,7 +106,7 @@ def test_inverses_that_differ_by_inertia_alone_are_one_where_there_is_none():
     start = tasks.start_set("clear", 2, 0, "panda")
     words = ("pseudo-inverse", "dynamically-consistent")
     first, second = (
-        run_velocity(find_contender(f"rotation-vector@geometric+{word}"), NONE, K, start, settings(300), "panda", 0.05)
+        run_velocity(find_contender(f"rotation-vector@geometric+{word}"), NONE, K, start, judged(0.3), "panda", 0.05)
         for word in words
     )
     np.testing.assert_allclose(first, second, rtol=1e-9, atol=1e-12)
@@ -118,10 +116,6 @@ def test_inverses_that_differ_by_inertia_alone_are_one_where_there_is_none():
 
 LAW = find_contender("rotation-vector")
 STIFF = (2000.0, 50.0)
-
-
-def judged(horizon_s=2.5, dt=1e-3, **more):
-    return Settings(Gains(), dt, round(horizon_s / dt), RULES.hold_ticks(dt), **more)
 
 
 def energies(rows, starts, springs):
@@ -166,7 +160,7 @@ def test_arm_goes_where_a_loop_of_mujoco_numpy_and_scipy_takes_it(arm, whole):
 def test_energy_balance_closes_and_better_with_half_the_tick(arm, damping, whole):
     starts, springs, gaps = tasks.start_set("clear", 2, 0, arm), Springs(150.0, 10.0, 1.0, whole), []
     for dt in (1e-3, 5e-4):
-        rows, _ = run_impedance(LAW, DAMPINGS[damping], springs, starts, judged(dt=dt), arm)
+        rows, _ = run_impedance(LAW, DAMPINGS[damping], springs, starts, judged(dt_s=dt), arm)
         stored, left, gone = energies(rows, starts, springs)
         gaps.append(np.abs(left + gone - stored) / stored)
     assert np.max(gaps[0]) < 5e-4

@@ -6,11 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.linalg import expm
-from scipy.spatial.transform import Rotation as Turn
 from scipy.special import lambertw
-from support.bits import EPS
-from support.in_contact import COORDINATES
-from support.states import of_scipy
 
 from bench.findings.theory import closed_form, compliance_theory, isotropic
 from bench.law.control.setpoint import TOUCH
@@ -59,28 +55,6 @@ def settle(short, kp, kv, tolerance):
 def test_settling_grows_by_the_slope_each_decade_near_the_half_turn():
     times = [settle(10.0**-k, *PAPER, TOLERANCE) for k in (6, 7)]
     assert times[1] - times[0] == pytest.approx(closed_form.decade_slope(*PAPER), rel=1e-6)
-
-
-SCIPYS = {
-    "zyx-euler": lambda E: Turn.from_euler("ZYX", E),
-    "xyz-euler": lambda E: Turn.from_euler("XYZ", E),
-    "zyz-euler": lambda E: Turn.from_euler("ZYZ", E),
-    "rotation-vector": Turn.from_rotvec,
-    "mrp": Turn.from_mrp,
-}
-STEP = EPS ** (1 / 3)
-
-
-@pytest.mark.parametrize("word", COORDINATES)
-def test_columns_of_B_are_what_scipys_rotation_turns_about_along_each_coordinate(word):
-    """Central differences: truncation and rounding are about STEP^2 = 4e-11, times third derivatives near poles."""
-    of = SCIPYS[word]
-    for turn in Turn.random(20, rng=np.random.default_rng(1)):
-        E = np.array(COORDINATES[word].chart(of_scipy(turn)).E)
-        steps = STEP * np.eye(3)
-        differenced = [(of(E + h) * of(E - h).inv()).as_rotvec() / (2.0 * STEP) for h in steps]
-        found = compliance_theory.matrix_B(COORDINATES[word], of_scipy(turn))
-        np.testing.assert_allclose(found, np.transpose(differenced), atol=1e-8)
 
 
 def push(kp, kv) -> float:

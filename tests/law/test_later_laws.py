@@ -1,19 +1,21 @@
-"""The later laws: springs, half-circle turns, responses from rest; the side that late-braking keeps, by scipy."""
+"""The later laws: responses from rest, bounds of command and rate, the side of less cost; by scipy."""
 
 import math
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.linalg import solve_continuous_lyapunov
 from scipy.spatial.transform import Rotation as ScipyRotation
 from support import bodies
 from support.bits import EPS
 from support.states import directions, of_scipy, vector
 
-from bench.law.contenders.registry import all_contenders, find_contender
+from bench.law.contenders.registry import all_contenders, find_contender, regulator
 from bench.law.inputs import AT_REST, Gains, Goal
 
-GAINS = Gains(kp=100.0, kv=20.0)
+GAINS, RIVALS = Gains(kp=100.0, kv=20.0), Gains(kp=37.0, kv=9.0)
+HOME = ScipyRotation.identity()
 
 ISOTROPIC = {
     one.name: one.equation
@@ -82,6 +84,36 @@ def test_bounded_command_is_the_sine_and_a_damper_bounded_by_kp_at_any_spin():
         assert np.linalg.norm(u) <= 2.0 * GAINS.kp * (1.0 + 1e-14)
     worst, _ = command("bounded-command", ScipyRotation.from_rotvec((math.pi / 2.0, 0.0, 0.0)), (1e6, 0.0, 0.0))
     assert np.linalg.norm(worst) == pytest.approx(2.0 * GAINS.kp, rel=1e-6)
+
+
+def test_predicted_side_is_that_of_less_cost_by_more_than_its_margin():
+    """Cost of the straight spring about the axis of the spin: x'Px, P by scipy from Lyapunov's equation."""
+    A, feedback = np.array(((0.0, 1.0), (-RIVALS.kp, -RIVALS.kv))), np.array((RIVALS.kp, RIVALS.kv)) / RIVALS.kp
+    P = solve_continuous_lyapunov(A.T, -np.diag((1.0, 0.0)) - np.outer(feedback, feedback))
+    draw, changes, predicted = np.random.default_rng(4), 0, regulator("predicted-side")
+    margin = 4.0 * math.pi * 0.8 * (1.0 / RIVALS.kv + 0.5 * RIVALS.kv / RIVALS.kp)
+    for theta, rate, k in zip(
+        draw.uniform(0.1, 6.1, 400), draw.normal(scale=20.0, size=400), directions(400, 5), strict=True
+    ):
+        kept, other = np.array((theta, -rate)), np.array((2.0 * math.pi - theta, rate))
+        is_kept = kept @ P @ kept - other @ P @ other <= margin
+        side = (math.cos(theta / 2.0), *(math.sin(theta / 2.0) * k))
+        u, after = bodies.commanded(
+            predicted, ScipyRotation.from_rotvec(-theta * k), rate * k, ScipyRotation.identity(), RIVALS, side
+        )
+        to_go = theta * k if is_kept else -(2.0 * math.pi - theta) * k
+        np.testing.assert_allclose(u, RIVALS.kp * to_go - RIVALS.kv * rate * k, rtol=0.0, atol=1e-9 * RIVALS.kp)
+        assert np.dot(after, side) * (1.0 if is_kept else -1.0) > 0.0
+        changes += not is_kept
+    assert 100 < changes < 300
+
+
+def test_slew_limited_law_lets_no_rate_grow_beyond_its_limit():
+    """At |omega| = Kp/Kv the power is not positive, whatever the orientation."""
+    limit = RIVALS.kp / RIVALS.kv
+    for R, k in zip(ScipyRotation.random(200, rng=6), directions(200, 5), strict=True):
+        u = regulator("slew-limited").law(of_scipy(R), vector(limit * k), Goal(of_scipy(R * R.inv())), RIVALS)
+        assert np.dot(u, k) <= 1e-12 * RIVALS.kp
 
 
 # --------------------------------------------------------------------------- the paper's (Murphy 1988, 2.14-2.15)

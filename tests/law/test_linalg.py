@@ -75,16 +75,6 @@ def test_factor_is_numpys_reads_the_lower_half_only_and_solves_within_the_condit
 
 
 @pytest.mark.parametrize("n", SQUARES)
-def test_factor_of_an_indefinite_matrix_is_not_a_number(n):
-    S = np.eye(n)
-    S[n - 1, n - 1] = -1.0
-    L = buffer(S)
-    with np.errstate(all="ignore"):
-        linalg.factor(L, n)
-    assert np.isnan(L[n - 1, n - 1])
-
-
-@pytest.mark.parametrize("n", SQUARES)
 def test_least_eigenvalue_exceeds_a_bound_only_if_it_is_surely_above(n):
     draw = np.random.default_rng(n)
     told = []

@@ -2,13 +2,6 @@
 
 A law is called with counting scalars instead of floats. They carry the same IEEE 754 numbers, so the call
 takes the same branches and returns the same bits, and they tally every operation they take part in.
-
-    counted.py   the counting scalar and its tally
-    staged.py    representations that say which stage of the tick they are
-    states.py    the states a law is counted at
-    costs.py     cost(contender), rows(contenders)
-    on_arms.py   the same of a whole controller on an arm
-    in_contact.py  and of one in contact, its rows apart from its torques
 """
 # ruff: noqa: F401  the face of the folder
 

@@ -49,8 +49,7 @@ def cost(contender: Contender) -> Cost:
     """Count the contender's law over all states; once in a process.
 
     Errors:
-        OutsideDialect: the law uses what cannot be counted.
-        BadLaw: the counted law does not return what the plain law returns.
+        OutsideDialect: it uses what cannot be counted. BadLaw: counted it does not return what the plain law returns.
     """
     return cost_of(contender, list(counted_calls(contender)), statistics.mode)
 
@@ -87,10 +86,7 @@ def size(counts: Counts) -> tuple[int, int]:
 
 
 def counted_calls(contender: Contender, over: Iterable[State] | None = None) -> Iterator[Call]:
-    """Every state counted, each call checked against the plain one.
-
-    A law that raises of itself, called with floats too, costs what it computed until then.
-    """
+    """Yield all states counted, checked against the plain call; a law that raises costs what it computed until then."""
     tally = Tally()
     plain, counting = contender.law, law_of(contender, tally)
     first = contender.regulator.memory
@@ -121,11 +117,7 @@ def _call(
 
 
 def checked(name: str, state: Any, tally: Tally, plain: Callable, counting: Callable) -> tuple[Call, Any]:
-    """Return a counted call, whose answer must be the plain one bit for bit; and that answer, None if it raised.
-
-    Args:
-        state: with an id and is_sampled.
-    """
+    """Return a counted call, whose answer must be the plain one bit for bit; and that answer, None if it raised."""
     want, answer, trouble = None, None, None
     try:
         want = plain()

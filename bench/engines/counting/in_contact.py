@@ -28,11 +28,7 @@ SEED = 61
 
 
 def cost_in_contact(controller: ContactController, specification: Specification = TILTING, joints: int = 6) -> Cost:
-    """Count a controller over all states of an arm of six or seven joints; typical is the median.
-
-    Errors:
-        OutsideDialect: it uses what cannot be counted. BadLaw: counted it commands other torques than with floats.
-    """
+    """Count a controller over all states of an arm of six or seven joints, as `costs.cost`; typical is the median."""
     held, draw = controller.selection(specification), np.random.default_rng(SEED)
     with np.errstate(all="ignore"):
         calls = [_call(controller, held, state, draw) for state in arm_states(ARM_OF[joints])]

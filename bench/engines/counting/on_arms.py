@@ -75,11 +75,7 @@ def _state(model: Any, data: Any, start: Start, is_sampled: bool) -> ArmState:
 
 
 def cost_on_arm(contender: Contender, arm: str) -> Cost:
-    """Count a contender's controller over an arm's states; typical is the median, for an iteration varies by the state.
-
-    Errors:
-        OutsideDialect, BadLaw: see `costs.cost`.
-    """
+    """Count a controller over an arm's states, as `costs.cost`; typical is the median, for an iteration varies."""
     tally = Tally()
     plain = _controller(contender, parts_of(contender, _command(contender, None)), None)
     counting = _controller(contender, _staged_parts(contender, tally), tally)
@@ -155,6 +151,6 @@ def _call(contender: Contender, plain: Callable, counting: Callable, tally: Tall
 
 def call_on_arm(name: str, state: ArmState, tally: Tally, given: tuple, plain: Callable, counting: Callable) -> Call:
     """Return a counted call of what takes the type of its buffers last."""
-    return checked(name, state, tally, lambda: plain(*given, float), lambda: counting(*counted(given, tally), object))[
-        0
-    ]
+    given_counted = counted(given, tally)
+    call, _ = checked(name, state, tally, lambda: plain(*given, float), lambda: counting(*given_counted, object))
+    return call

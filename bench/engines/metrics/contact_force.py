@@ -6,6 +6,7 @@ The hand has no mass, so that F is exactly zero before the first touch. Base fra
 """
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -32,24 +33,17 @@ def from_first_touch(pose: Pose) -> slice | None:
     return slice(int(felt[0]), None) if felt.size else None
 
 
-@once_a_pose
-def force_error(pose: Pose) -> np.ndarray:
-    """f + h [N] along the axes that comply, 0 along the others, N x 3 from the first touch on."""
-    return _error(pose, pose.first.force, slice(0, 3))
-
-
-@once_a_pose
-def moment_error(pose: Pose) -> np.ndarray:
-    """m + h [N m] about the axes that comply, 0 about the others, N x 3 from the first touch on."""
-    return _error(pose, pose.first.moment, slice(3, 6))
-
-
-def _error(pose: Pose, felt: np.ndarray, kind: slice) -> np.ndarray:
+def _error(pose: Pose, field: str, kind: slice) -> np.ndarray:
     specification, touched = pose.first.trial.specification, from_first_touch(pose)
     complies = np.array(specification.selection[kind]) == 0
     if touched is None or not complies.any():
         return NOTHING
-    return (felt[touched] + np.array(specification.desired_wrench[kind])) * complies
+    return (getattr(pose.first, field)[touched] + np.array(specification.desired_wrench[kind])) * complies
+
+
+force_error = once_a_pose(partial(_error, field="force", kind=slice(0, 3)))
+moment_error = once_a_pose(partial(_error, field="moment", kind=slice(3, 6)))
+"""f + h [N] and m + h [N m] along and about the axes that comply, 0 for the others, N x 3 from the first touch on."""
 
 
 def rms(pose: Pose, error_of: Callable[[Pose], np.ndarray]) -> float:

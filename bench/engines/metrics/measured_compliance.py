@@ -86,11 +86,7 @@ def is_still(yields: np.ndarray) -> np.ndarray:
 
 
 def misaligned(C: np.ndarray, axes: np.ndarray) -> np.ndarray:
-    """Angles [rad] between axes e and C e; NaN where C e is no rotation.
-
-    Args:
-        C: 3 x 3 [rad/(N m)]. axes: of x, y and z, whether they count.
-    """
+    """Angles [rad] between those of the axes x, y, z that count and C e [rad/(N m)]; NaN where C e is no rotation."""
     along = np.diag(C)
     across = np.linalg.norm(C - np.diag(along), axis=0)
     return np.where(is_still(C), np.nan, np.arctan2(across, along))[axes]

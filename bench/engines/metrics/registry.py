@@ -32,11 +32,7 @@ def metrics_of(on_arm: bool) -> tuple[Metric, ...]:
 
 
 def collect(package: ModuleType, kind: type[Any]) -> dict[str, Any]:
-    """Column -> metric, from METRIC or METRICS of every module of a package, in alphabetical order.
-
-    Errors:
-        BadMetric: a module has neither, or a column stands twice.
-    """
+    """Return column -> metric, from METRIC or METRICS of every module of a package, in alphabetical order."""
     found: dict[str, Any] = {}
     for info in pkgutil.iter_modules(package.__path__):
         module = importlib.import_module(f"{package.__name__}.{info.name}")

@@ -46,10 +46,7 @@ CALLBACK = _callback.address
 
 
 def advance_trapped(body):
-    """Return the number of errors, 0 or 1, of one step; body.asked holds three integers for `_advance`.
-
-    Plain, dm_control's environment steps, which has been reset.
-    """
+    """Return the errors, 0 or 1, of one step by body.asked (`_advance`); plain, of dm_control's environment."""
     if body.asked[2] != BEGIN:
         try:
             body.sim.data.step(body.sim.ctrl.copy())

@@ -65,8 +65,7 @@ class Tool(NamedTuple):
 def work(n: int, late: int = -1, change: float = math.inf) -> Work:
     """Return fresh buffers for n joints, whose motors give torques so many ticks late; -1: torques are not kept.
 
-    Args:
-        change: by how much a torque changes in a tick at most [N m]; if it is finite, torques are kept.
+    change: by how much a torque changes in a tick at most [N m]; if it is finite, torques are kept.
     """
     late = max(late, 0) if change < math.inf else late
     G, sent = np.zeros((arm_episode.MOST,) * 2), np.zeros((2 + late if late >= 0 else 0, n))

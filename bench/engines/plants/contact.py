@@ -13,7 +13,7 @@ import numpy as np
 from bench.engines import contact_episode
 from bench.engines.arm_episode import MOST, cut, load, squared
 from bench.engines.arrays import Integers, Matrix, Vector
-from bench.engines.contact_episode import BROKEN, RESTED, Numbers, setpoint, wrench, write_record
+from bench.engines.contact_episode import BROKEN, RESTED, Numbers, setpoint, wrench
 from bench.engines.loop import NO_ACT, Act, Controller, Plant, Record, Sensed, episodes_of
 from bench.engines.native.trapped import BEGIN, RUNGE_KUTTA, STEP, advance_trapped
 from bench.engines.simulated import Simulated, fill_inertia
@@ -165,14 +165,20 @@ def command(laws, body, sensed_now, now, gains, memory, numbers):
 @kernel
 def see(row, curves, now, body, sensed_now, act, before, numbers):
     """Write the tick's line of the record."""
-    s, hand = body.sim.sensordata, sensed_now.more
-    f, m = wrench(sensed_now.R, s)
-    gap = s[body.gap] if body.gap >= 0 else 0.0
-    turned = s[body.turned] if body.turned >= 0 else 0.0
-    write_record(
-        body.record[now.tick], now.tick * numbers.dt, sensed_now.R, sensed_now.omega, hand.p, f, m,
-        gap, turned, sqrt(act.squared),
-    )  # fmt: skip
+    s, R, hand, record = body.sim.sensordata, sensed_now.R, sensed_now.more, body.record[now.tick]
+    f, m = wrench(R, s)
+    record[0] = now.tick * numbers.dt
+    for i in range(3):
+        record[1 + i] = R.n[i]
+        record[4 + i] = R.o[i]
+        record[7 + i] = R.a[i]
+        record[10 + i] = sensed_now.omega[i]
+        record[13 + i] = hand.p[i]
+        record[16 + i] = f[i]
+        record[19 + i] = m[i]
+    record[22] = s[body.gap] if body.gap >= 0 else 0.0
+    record[23] = s[body.turned] if body.turned >= 0 else 0.0
+    record[24] = sqrt(act.squared)
 
 
 @kernel

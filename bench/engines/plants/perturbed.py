@@ -64,11 +64,9 @@ def steps_of(condition: Condition) -> int:
 def reported(R, omega, R_d, noise, condition, ahead):
     """Return (R, omega) as measured: rotated and shifted by drawn numbers, and by the worst possible error at 180°.
 
-    The worst is reported with foresight: away from the goal as it will be in LEAD periods, so that what turns back the
-    body brakes it too. Without it, the body swings through 180° farther each time, and gets away.
-
-    Args:
-        noise: six numbers, of unit standard deviation. ahead: LEAD periods [s].
+    The worst is reported with foresight: away from the goal as it will be `ahead` of now [s], so that what turns back
+    the body brakes it too. Without it, the body swings through 180° farther each time, and gets away.
+    noise: six numbers, of unit standard deviation.
     """
     if condition.attitude_noise > 0.0:
         s = condition.attitude_noise
@@ -96,11 +94,7 @@ class World(NamedTuple):
 
 
 def world(condition: Condition, noise: np.ndarray, rows: np.ndarray) -> World:
-    """Return the world of a condition: commands on their way are kept in a ring.
-
-    Args:
-        rows: to be filled, as they are at first.
-    """
+    """Return the world of a condition and of rows as they are at first: commands on their way are kept in a ring."""
     times = timing(condition)
     return World(condition, times, noise, np.zeros((times.late // times.steps + 2, 3)), rows[0, FIRST_METRIC:].copy())
 
@@ -221,10 +215,7 @@ def loop_of(observe):
 
 
 def in_steps(numbers: Numbers, condition: Condition, hold_s: float, horizon_s: float) -> Numbers:
-    """Return the numbers with the plant's step for a tick; the horizon begins where the goal has jumped.
-
-    No episode stops early under a perturbation that lasts.
-    """
+    """Return the numbers in steps of the plant, the horizon from a goal's jump on; what lasts stops none early."""
     step_s = condition.period_s / steps_of(condition)
     ticks = max(1, round(horizon_s / step_s)) + timing(condition).jump
     rest = max(1, round(hold_s / step_s))

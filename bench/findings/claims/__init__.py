@@ -1,26 +1,7 @@
 """The paper's claims, C01 to C47: each sentence with a criterion fixed before the results, and its verdict.
 
-A module holds measurements alone; the TOML file of the same name holds the texts of its claims.
-
-    verdict.py               what a claim, a verdict and its evidence are; history.toml: criteria that stood before
-    rotation_matrix.py       C01 to C05, C32
-    linearized_euler.py      C06 to C08, C29, C37 to C39, C45
-    feedback_linearized.py   C09 to C11, C30
-    performance.py           C12, C17, C27, C31, C35, C36
-    degeneracy.py            C13 to C16, C28
-    euler_jacobian.py        C18, C19, C34, C44
-    controller_costs.py      C20, C26, C33, C46
-    force_conversion.py      C21
-    compliance.py            C22 to C24
-    contact.py               C25, C47
-    representations.py       C40 to C43
-    adequacy.py              every law by the tests of C17 and C27
-    at_gains.py              the same claim at other gains, by sampled engines, with other draws and half the step
-    standing.py              how two laws stand in cost, by time and by operations
-    tables.py                what a judging function reads
-    probes.py                the small experiments of claims that no table answers, on arms too
-    side_by_side.py          rows of two controllers in contact, side by side
-    errata.py                what is printed wrongly in the paper, what no run can decide, where each part is treated
+A module holds measurements alone, and says first of which claims; the TOML file of the same name holds their texts.
+`verdict` has what a claim is, `tables` what judging functions read, `probes` the small experiments that they make.
 """
 
 import functools
@@ -58,7 +39,18 @@ def judge(id: str, results: Results) -> Verdict:
 
 def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
     """Every claim that a run decides, and for each other one what the run lacks; kept for the next call."""
-    find = functools.partial(_judge_possible, results)
+
+    def find() -> dict:
+        """Return both as JSON holds them."""
+        decided, lacks = [], {}
+        for one in all_claims():
+            try:
+                _, word, evidence = decide(one, results)
+                decided.append((one.id, word, *evidence))
+            except NoEvidence as error:
+                lacks[one.id] = str(error)
+        return {"decided": decided, "lacks": lacks}
+
     found = keep(results.folder, "claims", find) if results.folder and results.is_as_stored else find()
     claims = {one.id: one for one in all_claims()}
     decided = [
@@ -68,18 +60,6 @@ def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
     return decided, found["lacks"]
 
 
-def _judge_possible(results: Results) -> dict:
-    """Return what `judge_possible` does, as JSON holds it."""
-    decided, lacks = [], {}
-    for one in all_claims():
-        try:
-            _, word, evidence = decide(one, results)
-            decided.append((one.id, word, *evidence))
-        except NoEvidence as error:
-            lacks[one.id] = str(error)
-    return {"decided": decided, "lacks": lacks}
-
-
 def told(words: Iterable[Word]) -> str:
     """'20 hold, 1 does not hold': how many claims have each word that some claim has, in the order of the words."""
     counts = Counter(words)
@@ -87,11 +67,7 @@ def told(words: Iterable[Word]) -> str:
 
 
 def judge_all(folder: Path | None = None) -> list[Verdict]:
-    """Every claim on the run in a folder; without one, on the run that the report shows.
-
-    Errors:
-        NoEvidence: a claim that can be measured, and no row about it. BadResults: the folder.
-    """
+    """Return the verdict on every claim on the run in a folder, or on the one shown; NoEvidence: it lacks rows."""
     decided, lacks = judge_possible(Results(Path(folder) if folder else published.folder()))
     if lacks:
         raise NoEvidence(next(iter(lacks.values())))

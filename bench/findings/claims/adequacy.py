@@ -66,11 +66,7 @@ class Adequacy(NamedTuple):
 
 
 def every(results: Results, engine: str) -> list[Adequacy]:
-    """All laws that have a suite's uniform starts, its 180° rotations and a cost; the fewest operations first.
-
-    Errors:
-        NoEvidence: no episode on the free body by this engine.
-    """
+    """Return all laws that have a suite's uniform starts, 180° rotations and a cost, the fewest operations first."""
     runs = results.table("episodes", **FREE_BODY, task="free-body", engine=engine)
     runs = runs[runs["start_set"].isin(("uniform", *DIRECTED))]
     least, by_law = least_starts(engine, "beyond"), runs.groupby("contender", observed=True)
@@ -89,11 +85,7 @@ def every(results: Results, engine: str) -> list[Adequacy]:
 
 
 def held(results: Results, noise_rad: float) -> dict[str, tuple[int, int]]:
-    """Return by law the starts at 180° that worst-case noise up to an angle holds there, and of how many.
-
-    Errors:
-        NoEvidence: such noise was tried on no law.
-    """
+    """Return by law the starts at 180° that worst-case noise up to an angle holds there, and of how many."""
     noise = results.table("robustness", axis=NOISE)
     tried = some(noise[noise["level"] <= noise_rad], f"episode under '{NOISE}'")
     counts = tried.assign(lost=~settled(tried)).groupby("contender", observed=True)["lost"].agg(["sum", "size"])
@@ -152,11 +144,7 @@ def ledger(results: Results) -> Ledger:
 
 
 def of_three(results: Results) -> Ledger:
-    """Return the ledger where the paper's three laws are counted.
-
-    Errors:
-        NoEvidence: one of them is not.
-    """
+    """Return the ledger where the paper's three laws are counted; NoEvidence: one of them is not."""
     known = ledger(results)
     for name in THREE:
         some([one[name] for one in known.accountings if name in one], f"cost of {name}")
@@ -171,11 +159,7 @@ BOTH = "abcd"
 
 
 def missed(one: Adequacy, known: Ledger, small_s: float, held: dict[str, tuple[int, int]]) -> str:
-    """Return the tests of C27's criterion that a law does not pass; (f) is among them if it was not tried.
-
-    Args:
-        held: of `adequacy.held`.
-    """
+    """Return the tests of C27's criterion that a law does not pass; (f) is among them if it was not tried (`held`)."""
     cost = [known.stand(one.name, other) for other in THREE[1:] if other != one.name]
     spinning = [spun.share.high <= LOST_SHARE for spun in one.spun if spun.speed > 0.0] or [False]
     passed = {

@@ -61,11 +61,7 @@ def c25(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
 
 
 def _depends(task: str, rows: pd.DataFrame, forms: tuple[str, ...]) -> bool:
-    """Whether on every arm and in every form some pair with a turned frame parts; an arm has run a form or not.
-
-    Errors:
-        NoEvidence: no arm has run a form, or a form lacks turned frames or straight ones.
-    """
+    """Whether on every arm and in every form that it has run some pair with a turned frame parts."""
     for form in forms:
         some(rows[rows["form"] == form], f"pose of {task}, +{form}")
     found = []

@@ -89,8 +89,7 @@ def c20(results: Results) -> tuple[Word, Evidence]:
 def bend(arm: str, gains: Gains, dt_s: float, curves: Callable = probes.curves) -> tuple[float, ...]:
     """Compare curves at a step and at half of it: how far an arm is from double integrators.
 
-    Returns:
-        the bend at the step [rad], the halved one's share of it, that at step zero [rad], the drift [m], samples.
+    Return the bend at the step [rad], the halved one's share of it, that at step zero [rad], the drift [m], samples.
     """
     word = f"{BY_EULER}+{INVERSES[tasks.arm(arm).joints]}"
     full, half = (curves(word, arm, gains, step, LIMIT.CURVES) for step in (dt_s, dt_s / 2))

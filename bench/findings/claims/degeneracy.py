@@ -159,10 +159,7 @@ def c28(results: Results) -> tuple[Word, Evidence]:
 
 
 def ways(seed: int) -> tuple[np.ndarray, list[float], float]:
-    """Distances of the integrals of two ways with the same ends, what loops of zero integral leave, what a plane does.
-
-    Oracle: scipy's rotations.
-    """
+    """Distances of the integrals of two ways with the same ends, what closed loops leave, what a plane does."""
     rng = np.random.default_rng(seed)
     end, between = Turn.random(LIMIT.WAYS, rng=rng), Turn.random(LIMIT.WAYS, rng=rng)
     by_way = between.as_rotvec() + (end * between.inv()).as_rotvec()

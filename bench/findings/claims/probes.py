@@ -11,6 +11,10 @@ import numpy as np
 
 import tasks
 from bench.base.on_first_use import Turn, pd
+from bench.experiments import traces
+from bench.experiments.episodes import rows_from
+from bench.experiments.experiment import Settings, Unit, rows_of
+from bench.experiments.suites import IDEAL_MOTORS, ON_ARM
 from bench.findings.claims.tables import some
 from bench.findings.theory.closed_form import linear, linear_settling
 from bench.findings.theory.compliance_theory import matrix_B
@@ -82,19 +86,12 @@ def about(axis: Sequence[float] | np.ndarray, angle: float) -> tuple:
 
 def episodes(contender: str, starts: list[Start], gains: Gains, dt_s: float, horizon_s: float) -> pd.DataFrame:
     """Rows of episodes.parquet of a few starts on the continuous plant."""
-    from bench.experiments.episodes import rows_from  # imports the compiler: listing claims must not
-    from bench.experiments.experiment import Settings, Unit
-
     unit = Unit("free-body", contender, "free-body", engine="ideal-rk4", count=len(starts), horizon_s=horizon_s)
     return rows_from(Settings(gains=gains, dt_s=dt_s), unit, starts)
 
 
 def off_linear(contender: str, angle: float, about_axes: Any, gains: Gains, dt_s: float) -> np.ndarray:
-    """Return how far rotations by an angle about some axes settle from the linear closed form, relatively.
-
-    Returns:
-        a number an axis, infinite where it does not settle.
-    """
+    """Return how far rotations about axes settle from the linear closed form, relatively; infinite: one does not."""
     starts = [Start("", about(axis, angle)) for axis in about_axes]
     times = episodes(contender, starts, gains, dt_s, 20.0)["settling_time_s"].to_numpy()
     return np.nan_to_num(np.abs(times / linear_settling(*gains) - 1), nan=np.inf)
@@ -120,8 +117,6 @@ def beside_pole(margin: float, contender: str, gains: Gains, dt_s: float = 1e-3)
 @functools.cache
 def perturbed(law: str, axis: str, starts: int, horizon_s: float, gains: Gains, seed: int) -> pd.DataFrame:
     """Rows of robustness.parquet of a law along a perturbation."""
-    from bench.experiments.experiment import Settings, Unit, rows_of
-
     unit = Unit("robustness", law, selector=axis, count=starts, total=starts, horizon_s=horizon_s)
     return rows_of(Settings(gains=gains, seed=seed), unit)
 
@@ -138,11 +133,7 @@ def boundary_distance(frame: pd.DataFrame) -> pd.DataFrame:
 
 
 def at_boundary(frame: pd.DataFrame, place: str, what: str) -> pd.DataFrame:
-    """Return the starts that are exactly on a pole, a wrap or at 180°.
-
-    Errors:
-        NoEvidence: there is none.
-    """
+    """Return the starts that are exactly on a pole, a wrap or at 180°; NoEvidence: there is none."""
     return some(frame[boundary_distance(frame)[place] <= EXACT_RAD], what)
 
 
@@ -157,15 +148,10 @@ BENDS = ("bend_0", "bend_1", "bend_2")
 
 
 def curves(word: str, arm: str, gains: Gains, dt_s: float, count: int) -> pd.DataFrame:
-    """Traces of a contender from the first clear starts of an arm: the angles' departure from the closed form.
+    """Return traces of a contender from the first clear starts of an arm, and their departure from the closed form.
 
-    Returns:
-        a row a sample: start_id, time_s, bend_0 to bend_2 (E less E_d + (E_0 - E_d) linear(t)) [rad],
-        position_error_m.
+    A row a sample: start_id, time_s, position_error_m, bend_0 to bend_2 (E less E_d + (E_0 - E_d) linear(t)) [rad].
     """
-    from bench.experiments import traces
-    from bench.experiments.experiment import Settings
-
     unit = traces.of_arm(word, TASK, arm, count, "clear")
     frame = traces.rows(Settings(gains=gains, dt_s=dt_s), unit)
     goals = {start.id: start.goal_wxyz for start in tasks.start_set("clear", count, 0, arm=arm)}
@@ -181,16 +167,10 @@ def curves(word: str, arm: str, gains: Gains, dt_s: float, count: int) -> pd.Dat
 
 
 def beside_poles(word: str, arm: str, poses: pd.DataFrame, gains: Gains) -> pd.DataFrame:
-    """Episodes from rest at poses of the table, at 10^-2 from a pole or nearer, to the pose of each family at 10^-1.
+    """Return episodes from rest at poses of a table, at 10^-2 from a pole or nearer, to that of their family at 10^-1.
 
-    Returns:
-        rows of episodes.parquet; start_id is the pose's.
-    Errors:
-        NoEvidence: the table has no such pose of the arm, or none of its family at 10^-1.
+    start_id is the pose's. NoEvidence: the table has no such pose of the arm, or none of its family at 10^-1.
     """
-    from bench.experiments.episodes import rows_from
-    from bench.experiments.experiment import Settings, Unit
-    from bench.experiments.suites import IDEAL_MOTORS, ON_ARM
     from tasks.kinematics import kinematics
 
     judge = kinematics(tasks.arm(arm))

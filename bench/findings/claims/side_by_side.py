@@ -46,12 +46,9 @@ def by_papers_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[...
 
 
 def beside_base(results: Results, representation: str, orders: tuple[str, ...], forms: tuple[str, ...]) -> pd.DataFrame:
-    """Rows of wrench-probe of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`).
+    """Return rows of wrench-probe of a hybrid controller in coordinates, with those of hybrid-base (suffix `_base`).
 
-    Returns:
-        a row each arm, form, pose and order that both have; cos_beta and from_zero (the angle of R) [rad] are added.
-    Errors:
-        NoEvidence: there is none of one of the orders.
+    A row each arm, form, pose and order that both have; cos_beta and from_zero (the angle of R) [rad] are added.
     """
     both = paired(results, representation, forms, task=PROBE)
     for order in orders:

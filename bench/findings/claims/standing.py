@@ -129,10 +129,9 @@ def times_of(rows: pd.DataFrame) -> Times:
 
 
 def price_of_a_call(times: Times, operations: dict[str, Operations]) -> float:
-    """Flops that a call takes, the median over machines: least squares of time on 1, flops and calls, none negative.
+    """Fit the flops that a call takes, the median over machines: time on 1, flops and calls, none negative.
 
-    Returns:
-        not a number where fewer than FEWEST laws that are counted were timed, or a flop takes no time in the fit.
+    It is not a number where fewer than FEWEST counted laws were timed, or a flop takes no time in the fit.
     """
     from scipy.optimize import nnls
 

@@ -81,11 +81,7 @@ class Results:
         return frame[frame["representation"].isin(PAPERS_COORDINATES)]
 
     def episodes(self, regulator: str, engine: str, *start_sets: str) -> pd.DataFrame:
-        """Episodes of a law on the free body from some start sets.
-
-        Errors:
-            NoEvidence: there are none, or fewer starts of a set than a whole suite has.
-        """
+        """Return episodes of a law on the free body from some start sets; NoEvidence: fewer than a whole suite has."""
         frame = self.free_body("episodes", task="free-body", regulator=regulator, engine=engine)
         if start_sets:
             frame = frame[frame["start_set"].isin(start_sets)]
@@ -161,11 +157,7 @@ Rows = TypeVar("Rows", bound=Sized)
 
 
 def some(frame: Rows, what: str) -> Rows:
-    """Return the frame, or a list, if it has rows.
-
-    Errors:
-        NoEvidence: it has none.
-    """
+    """Return the frame, or a list, if it has rows; NoEvidence: it has none."""
     if len(frame) == 0:
         raise NoEvidence(f"no {what}: {WHOLE}")
     return frame
@@ -185,11 +177,7 @@ class Share(NamedTuple):
 
 
 def share(facts: pd.Series) -> Share:
-    """How many of some yes-or-no rows are yes.
-
-    Errors:
-        NoEvidence: there are no rows.
-    """
+    """Return how many of some yes-or-no rows are yes; NoEvidence: there are no rows."""
     from scipy.stats import binomtest
 
     k, n = int(facts.sum()), len(facts)

@@ -204,11 +204,7 @@ class Verdict(NamedTuple):
 
 
 def decide(claim: Claim, results: Any) -> Verdict:
-    """Judge one claim on a run's results.
-
-    Errors:
-        NoEvidence: the tables hold no row about it.
-    """
+    """Judge one claim on a run's results; NoEvidence: the tables hold no row about it."""
     word, evidence = claim.judge(results)
     if evidence.rows < 1:
         raise NoEvidence(

@@ -76,10 +76,7 @@ class FreeBody:
     def ticks(self, law: Law) -> Iterator[Tick]:
         """Yield what a law on R answers on every path and side on which Z3 finds a state away from the goal.
 
-        A memory is a quaternion on q's side.
-
-        Errors:
-            DoesNotFit: the law acts on coordinates, has a state, or another memory.
+        A memory is a quaternion on q's side. DoesNotFit: the law acts on coordinates, has a state, or another memory.
         """
         if law.law is None or law.state is not None or law.coordinates != ON_MATRIX:
             raise DoesNotFit("it is no law on the rotation matrix without a state")

@@ -30,11 +30,7 @@ def read_certificates() -> dict[str, dict[str, Any]]:
 
 
 def certify_apart(law: Law) -> dict[str, Any]:
-    """Return the certificate of a law, made in a process of its own.
-
-    Errors:
-        BadLaw: a user's file ends that process, or it does not return.
-    """
+    """Return the certificate of a law, made in a process of its own; BadLaw: it ends that, or does not return."""
     asked = {"name": law.name, "text": law.text, "origin": law.origin}
     return next(ask(__name__, asked, WAITS_S, law.origin or law.name))
 

@@ -101,11 +101,7 @@ class Flow:
         return [[state[place][k] for k in range(ORDER + 1)] for place in (0, 1, 4, 5)]
 
     def step(self, begin: Sequence[arb], h: float) -> Step:
-        """Return the step of [0, h] from x, y = v + a x and their derivatives by P.
-
-        Errors:
-            Unenclosed: no enclosure of the step was found, or a wide one.
-        """
+        """Return the step of [0, h] from x, y = v + a x and their derivatives by P; Unenclosed: none is found."""
         during = arb(0).union(arb(h))
         grows, box = (self.a * during).exp(), list(begin)
         for _ in range(12):
@@ -128,9 +124,7 @@ def enclose(equation: Equation, a: arb, p: tuple[float, float], tolerance: arb) 
     """Return times before and after which the angle comes to stay below the tolerance, for every p of an interval.
 
     The equation holds while v < 0 < x: at v = 0 < x the spring pulls back, and x > 0 is checked at every step's end.
-
-    Errors:
-        Unenclosed: not found within LONGEST_S, or x is not above zero.
+    Unenclosed: not found within LONGEST_S, or x is not above zero.
     """
     ctx.cap = ORDER + 1
     low, high = (arb(one) ** 2 if one < math.pi else arb.pi() ** 2 for one in p)

@@ -22,11 +22,7 @@ from bench.law.so3 import dot
 
 
 def find_quadratic(body: FreeBody, slope: Traced) -> sp.Matrix:
-    """Return M, symmetric with M_00 = 0, for which the derivative of q^T M q along the motion is a slope.
-
-    Errors:
-        DoesNotFit: there is none.
-    """
+    """Return M, symmetric with M_00 = 0, for which the derivative of q^T M q along the motion is a slope."""
     pairs = list(itertools.combinations_with_replacement(range(4), 2))[1:]
     still = tuple(body.symbols.number(0) for _ in range(3))
     derivatives = [body.derive(body.q[i] * body.q[j], still).value.numer for i, j in pairs]

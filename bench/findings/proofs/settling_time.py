@@ -48,11 +48,7 @@ class Bound(NamedTuple):
 
 
 def trace_on_axis(law: Law, gains: Gains) -> Any:
-    """Return the command about the axis over p, on the way from rest to the goal, in z, v, c, s and P.
-
-    Errors:
-        DoesNotFit: it has a corner on its way, or turns about another axis too.
-    """
+    """Return the command about the axis over p, on the way from rest to the goal, in z, v, c, s and P."""
     symbols = Symbols(("w", "z", "rate", "half"), ("w", "z", "rate", "half"))
     z, w, rate = symbols["z", "w", "rate"]
     symbols.relate("w", 1 - z**2)
@@ -111,11 +107,7 @@ def gather(polynomial: sp.Poly) -> Any:
 
 
 def bound(law: Law, gains: Gains = PAPERS_GAINS) -> Bound:
-    """Return bounds of the longest settling time from rest, WIDTH_S apart.
-
-    Errors:
-        DoesNotFit: the law has none, or none that this method finds.
-    """
+    """Return bounds of the longest settling time from rest, WIDTH_S apart; DoesNotFit: none is found."""
     tolerance, a = arb(str(RULES.tolerance)), arb(gains.kv) / 2
     equation = make_equation(law, gains, tolerance)
     c, s, *_ = turned_by(arb(1), arb.pi() ** 2)

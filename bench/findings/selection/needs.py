@@ -105,10 +105,7 @@ GENERAL = ("time", "worst", "effort", "peak", "variation", "tick")
 
 
 def front(found: Measured, laws: Sequence[str], criteria: Sequence[str]) -> list[str]:
-    """Return the laws that no other of them dominates, in the order given.
-
-    Ties are not transitive, so that in a circle of laws each could dominate the next; then all are kept.
-    """
+    """Return the laws that no other dominates, in the order given; of a circle all, for ties are not transitive."""
     kept = [law for law in laws if not any(dominates(found, other, law, criteria) for other in laws if other != law)]
     return kept or list(laws)
 

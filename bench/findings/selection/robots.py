@@ -23,11 +23,7 @@ from tasks.situation import UNCANCELLED
 
 
 def measure_velocities(results: Results) -> Measured:
-    """Return the criteria of every first-order law at the full share of K, without a limiter; peak is of omega.
-
-    Errors:
-        NoEvidence: the run commands no robot by velocities.
-    """
+    """Return the criteria of every first-order law at the full share of K, without a limiter; peak is of omega."""
     advice = "no robot was commanded by velocities (try: bench run --experiment velocity)"
     try:
         rows = results.table("velocity", limiter="none")

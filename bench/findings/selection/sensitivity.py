@@ -135,9 +135,8 @@ def tune(folder: Path = STUDY) -> list[Tuned]:
 def count_agreeing(folder: Path = STUDY) -> dict[str, float]:
     """Compare the answers of the map with the held-out situations, which were run once.
 
-    Returns:
-        of: how many; same: share whose nearest row advises the law that their own rows do; of the map's answers, and
-        after "always_" of the default in every situation, what `rate` returns.
+    Return of: how many; same: share whose nearest row advises the law that their own rows do; what `rate` returns of
+    the map's answers and, after "always_", of the default in every situation.
     """
     verdicts = decide_all(folder / "held-out")
     given = {at: regions.answer(at, RULE, folder).verdict.law for at in verdicts}
@@ -153,9 +152,8 @@ def count_agreeing(folder: Path = STUDY) -> dict[str, float]:
 def rate(given: dict[Situation, str | None], folder: Path) -> dict[str, float]:
     """Return how good an advice is in the held-out situations.
 
-    Returns:
-        unbeaten: share in which nothing beats the advised law; half, most: median and 95 % of the time that the advised
-        law takes longer than the fastest published law that meets the requirements.
+    unbeaten: share in which nothing beats the advised law; half, most: median and 95 % of the time that the advised law
+    takes longer than the fastest published law that meets the requirements.
     """
     rows, verdicts, later = read_map(folder / "held-out"), decide_all(folder / "held-out"), []
     for at, truth in verdicts.items():

@@ -56,11 +56,7 @@ class Tables(NamedTuple):
 
 
 def tables_of(results: Results) -> Tables:
-    """Return the tables of a run for every law that has uniform starts, half-turn starts and a cost.
-
-    Errors:
-        NoEvidence: the run has no such law, or perturbs none.
-    """
+    """Return the tables of a run for every law that has uniform starts, half-turn starts and a cost."""
     every = results.table("episodes")
     runs = every[(every["task"] == "free-body") & every["engine"].isin((MAIN_ENGINE, SAMPLED))]
     on_main = set(runs.loc[runs["engine"] == MAIN_ENGINE, "contender"])

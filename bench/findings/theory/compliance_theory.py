@@ -99,10 +99,7 @@ def directions(controller: ContactController, goal: Rotation) -> np.ndarray:
 
 @functools.cache
 def mobility(arm: Arm) -> np.ndarray:
-    """Return A [1/(kg m^2)], 3 x 3, base frame: the hand's angular acceleration per moment in the tasks' posture.
-
-    The rotational block of J D^-1 J^T; the hand adds no mass, and its frame changes nothing.
-    """
+    """Return J D^-1 J^T of rotations in the tasks' posture: angular acceleration per moment [1/(kg m^2)]."""
     from tasks.kinematics import kinematics  # MuJoCo takes a moment to import; naming claims needs it not
 
     return kinematics(arm).mobility(arm.home)[3:, 3:]

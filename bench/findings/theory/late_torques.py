@@ -22,11 +22,9 @@ LAST = 0.1
 
 
 def find_greatest_kv(answered: np.ndarray, steps: int, period_s: float) -> float:
-    """Return the Kv [1/s] above which the error grows.
+    """Return the Kv [1/s] above which the error grows; steps: of the plant in a control period.
 
-    Args:
-        answered: of each step of the plant the tick, counted from 1, that its torque answers; 0 before the first.
-        steps: of the plant in a control period.
+    answered: of each step the tick, counted from 1, that its torque answers; 0 before the first.
     """
     is_stable = functools.partial(is_shrinking, answered.tolist(), steps, period_s)
     return bisect(is_stable, 0.0, GREATEST / period_s, HALVINGS)[0]

@@ -39,11 +39,7 @@ def delay_margin(kp: float, kv: float) -> float:
 
 
 def least_rate(kp: float, kv: float) -> float:
-    """Control rate [Hz] at and below which the sampled linear loop is unstable, its command held between ticks.
-
-    Its polynomial z^2 + (Kp h^2/2 + Kv h - 2) z + (1 + Kp h^2/2 - Kv h) has its roots inside the unit circle where
-    Kv h < 2 and Kp h < 2 Kv.
-    """
+    """Control rate [Hz] at and below which the sampled linear loop is unstable: Kv h < 2 and Kp h < 2 Kv above it."""
     return max(kv / 2.0, kp / (2.0 * kv))
 
 

@@ -31,10 +31,7 @@ def keeps(law: str) -> float:
 
 @functools.cache
 def least(law: str, kp: float, kv: float) -> float:
-    """Return the least noise [rad] that holds a law at a 180° rotation; 0 if any does, NaN if theory does not say.
-
-    It follows from the law's scalar equation, or from where its memory ends.
-    """
+    """Return the least noise [rad] that holds a law at 180°, by its equation or its memory; NaN: neither says."""
     kept = keeps(law)
     if not math.isnan(kept):
         return kept
@@ -51,10 +48,7 @@ def least(law: str, kp: float, kv: float) -> float:
 
 @functools.cache
 def near_goal(axis: str, grows: bool, kp: float, kv: float) -> float:
-    """Return the level at which the linear loop near the goal leaves its limit, NaN where theory has none.
-
-    The loop is unstable from there, or what noise or a slightly moving goal leaves of the error exceeds FOLLOWED_RAD.
-    """
+    """Return the level where the linear loop near the goal is unstable or errs by FOLLOWED_RAD; NaN: no theory."""
     if axis == "delay":
         return robustness_theory.delay_margin(kp, kv)
     if axis == "control-rate":

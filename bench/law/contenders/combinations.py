@@ -17,12 +17,7 @@ SHOWN = 3
 
 
 def on(words: tuple[str, ...], laws: dict[str, Contender], joints: int) -> list[Contender]:
-    """Return the contenders of the words that fit on so many joints, each once.
-
-    Args:
-        laws: by name, the laws there are; a word of another one is left out. Of a baseline on the joints the word is
-            its name.
-    """
+    """Return the contenders of the words (of a baseline its name) that fit on so many joints; other words go."""
     found = (_of_word(word, laws, joints) for word in words)
     return list(dict.fromkeys(one for one in found if one is not None))
 
@@ -35,11 +30,7 @@ def baselines(joints: int) -> list[Contender]:
 
 
 def _of_word(word: str, laws: dict[str, Contender], joints: int) -> Contender | None:
-    """Return the contender of a word `law@jacobian+inverse` on so many joints; None if nothing fits.
-
-    Args:
-        laws: by name, the laws there are.
-    """
+    """Return the contender of a word `law@jacobian+inverse` on so many joints; None if nothing fits."""
     law, _, way = word.partition("@")
     jacobian_word, _, inverse_word = way.partition("+")
     if law not in laws:

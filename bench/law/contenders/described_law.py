@@ -39,10 +39,8 @@ WORDS = tuple(name for name in Law._fields if name not in (*FUNCTIONS, *ELSEWHER
 
 
 def described(path: Path, text: bytes | None = None, limit_s: float = LOAD_S, waits_s: float = WAITS_S) -> Law:
-    """Return the law of a file by its words: `law` and the other functions refuse to be called here.
+    """Return the law of a file, or of its text, by its words: its functions refuse to be called here.
 
-    Args:
-        text: what the file holds, if it has been read already.
     Errors:
         BadLaw: the file is missing, does not import, ends its process or does not return, or holds no law.
     """
@@ -102,11 +100,7 @@ def fields_of(own: Law) -> dict[str, Any]:
 
 
 def not_here(*_):
-    """Stands for each function of a user's law.
-
-    Errors:
-        RuntimeError: always.
-    """
+    """Stand for each function of a user's law, and refuse to be called."""
     raise RuntimeError("a user's law is called in its sandbox alone")
 
 

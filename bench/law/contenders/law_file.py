@@ -33,11 +33,7 @@ SHORT = re.compile(rf"[\w ,.'-]{{0,{LONGEST}}}")
 
 
 def read_law(path: Path) -> bytes:
-    """Return the text of a user's law file.
-
-    Errors:
-        BadLaw: there is no such file, or it cannot be read.
-    """
+    """Return the text of a user's law file; BadLaw: it cannot be read."""
     if not path.is_file():
         raise BadLaw(f"{path}: there is no such file; give the path of a Python file with a constant REGULATOR")
     try:
@@ -69,12 +65,9 @@ def _folder() -> tempfile.TemporaryDirectory:
 
 
 def load_law(path: Path, text: bytes | None = None) -> Law:
-    """Return the REGULATOR of a file outside the package. This runs the file: in a law's own process alone.
+    """Return the REGULATOR of a file outside the package, or of its text: in a law's own process, for this runs it.
 
     The module's name carries a digest of the file, so that nothing of an earlier version is ever reused.
-
-    Args:
-        text: what the file holds, if it has been read already.
 
     Errors:
         BadLaw: the file is missing, does not import, or lacks a REGULATOR that can be used.
@@ -99,16 +92,6 @@ def load_law(path: Path, text: bytes | None = None) -> Law:
     if own.name in contenders("regulators"):
         raise BadLaw(f"--law {path}: the name '{own.name}' is one of ours; give your REGULATOR another name")
     return own._replace(origin=str(path), text=text.decode())
-
-
-def check_answers(own: Law) -> None:
-    """Call the law once in each representation that it acts on.
-
-    Errors:
-        BadLaw: it cannot be called, or does not return three numbers (and a memory).
-    """
-    for one in contenders_of(own):
-        _check_shape(one, Path(own.origin))
 
 
 def _new_imports(text: bytes) -> str:
@@ -198,31 +181,34 @@ def _said(error: BaseException, origin: str) -> str:
     return f"{type(error).__name__}{where}: {error}"
 
 
-def _check_shape(one: Contender, path: Path) -> None:
-    has_memory = one.regulator.memory is not None
+def check_answers(own: Law) -> None:
+    """Call the law once in each of its representations; BadLaw: it does not return three numbers (and a memory)."""
+    has_memory = own.memory is not None
     arguments = "R, omega, goal, gains, memory" if has_memory else "R, omega, goal, gains"
-    try:
-        answer = _tried(one)
-    except MISTAKES as error:
-        raise BadLaw(
-            f"--law {path}: the law of '{one.name}' cannot be called as law({arguments}) "
-            f"({_said(error, str(path))}); see the example in README"
-        ) from error
-    except Exception:
-        return  # a law that raises in an episode is a row, not a mistake of the caller
-    if has_memory:
-        memory = answer[1] if isinstance(answer, tuple) and len(answer) == 2 else None
-        if not (isinstance(memory, tuple) and len(memory) == 4):
+    for one in contenders_of(own):
+        is_from = f"--law {own.origin}: the law of '{one.name}'"
+        try:
+            answer = _tried(one)
+        except MISTAKES as error:
             raise BadLaw(
-                f"--law {path}: the law of '{one.name}' has memory and returned {_shown(answer)}; it must return "
-                "(command, memory) with a memory of four floats"
+                f"{is_from} cannot be called as law({arguments}) ({_said(error, own.origin)}); see the example in "
+                "README"
+            ) from error
+        except Exception:
+            continue  # a law that raises in an episode is a row, not a mistake of the caller
+        if has_memory:
+            memory = answer[1] if isinstance(answer, tuple) and len(answer) == 2 else None
+            if not (isinstance(memory, tuple) and len(memory) == 4):
+                raise BadLaw(
+                    f"{is_from} has memory and returned {_shown(answer)}; it must return (command, memory) with a "
+                    "memory of four floats"
+                )
+            answer = answer[0]
+        if not (isinstance(answer, tuple) and len(answer) == 3 and all(isinstance(x, float) for x in answer)):
+            raise BadLaw(
+                f"{is_from} returned {_shown(answer)}; it must return a tuple of three floats, the angular "
+                "acceleration in the base frame"
             )
-        answer = answer[0]
-    if not (isinstance(answer, tuple) and len(answer) == 3 and all(isinstance(x, float) for x in answer)):
-        raise BadLaw(
-            f"--law {path}: the law of '{one.name}' returned {_shown(answer)}; it must return a tuple of three floats, "
-            "the angular acceleration in the base frame"
-        )
 
 
 def _shown(answer) -> str:

@@ -69,11 +69,7 @@ class LawProcess:
         self.line = Connection(ours.detach())
 
     def hear(self, longest_s: float, most: int = MOST) -> bytes:
-        """Return the next thing that it says, of at most so many bytes.
-
-        Errors:
-            TimeoutError: it said nothing for so long, or halted midway. EOFError, OSError: it has ended.
-        """
+        """Return what it says next; TimeoutError: nothing for so long, or halted. EOFError, OSError: it has ended."""
         deadline = time.monotonic() + longest_s
         while not self.line.poll(max(0.0, min(LOOK_S, deadline - time.monotonic()))):
             if self.process.poll() is not None and not self.line.poll(0.0):
@@ -106,8 +102,8 @@ class LawProcess:
 def ask(module: str, asked: dict, silent_s: float, files: str) -> Iterator[dict]:
     """Yield what a process of a module of ours says, each an object of JSON, until it is no longer asked.
 
-    Args:
-        asked: the first message. silent_s: on the wall, from one answer to the next. files: the laws', for errors.
+    asked: the first message. silent_s: on the wall, from one answer to the next. files: the laws', for errors.
+
     Errors:
         BadLaw: a mistake that the process names, or it did not return, ended, or did not answer in JSON.
     """
@@ -133,8 +129,7 @@ def ask(module: str, asked: dict, silent_s: float, files: str) -> Iterator[dict]
 def answer(descriptor: int, processor_s: float, make: Callable[[dict, Path | None], dict]) -> None:
     """In a law's own process, say what is made of a message, or the caller's mistake, which names the user's own file.
 
-    Args:
-        make: of the message and the file that holds the law's text, if there is one.
+    make: of the message and the file that holds the law's text, if there is one.
     """
     with Connection(descriptor) as line:
         asked = json.loads(line.recv_bytes())
@@ -168,8 +163,7 @@ def _carriers(entry: bytes) -> list[int]:
 def limit(processor_s: float, is_last: bool = False) -> None:
     """End this process with SIGXCPU when it has used so many seconds more, rounded up.
 
-    Args:
-        is_last: no other limit follows, so that SIGKILL comes a second later, which nothing ignores.
+    is_last: no other limit follows, so that SIGKILL comes a second later, which nothing ignores.
     """
     used = resource.getrusage(resource.RUSAGE_SELF)
     _, most = resource.getrlimit(resource.RLIMIT_CPU)

@@ -31,11 +31,7 @@ FOLDERS: dict[str, Any] = {
 
 @functools.cache
 def contenders(folder: str) -> dict[str, Any]:
-    """Word -> what the files of a folder hold, in alphabetical order.
-
-    Errors:
-        BadLaw: a module has no such constant, or its name is not the file's.
-    """
+    """Return word -> what the files of a folder hold, in alphabetical order; BadLaw: one lacks its constant."""
     package = importlib.import_module(f"{__package__}.{folder}")
     constant, kind = folder.removesuffix("s").upper(), FOLDERS[folder]
     found = {path.stem: package.read(path) for path in Path(package.__path__[0]).glob("*.toml")}
@@ -104,11 +100,9 @@ inverse: Callable[[str], Inverse] = functools.partial(_named, "inverse")
 
 
 def find_contender(word: str, extra: tuple[Law, ...] = ()) -> Contender:
-    """`regulator[/representation][@jacobian+inverse]`, as rows and the command line write it.
+    """Return `regulator[/representation][@jacobian+inverse]`, as rows and the command line write it.
 
-    Errors:
-        UnknownWord: a part that is in no list. Incompatible: no representation is named, and the regulator acts on
-        several.
+    UnknownWord: a part that is in no list. Incompatible: no representation is named, and the regulator acts on several.
     """
     law, _, way = word.partition("@")
     name, _, coordinates = law.partition("/")

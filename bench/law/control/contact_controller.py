@@ -1,15 +1,4 @@
-"""Contact controllers: what takes part in the tasks of contact.
-
-hybrid-base+transpose             along the axes of the base frame, forces by the Jacobian transpose (Murphy 1988, 3.3)
-hybrid-base+inverse               the same by accelerations: an impedance
-hybrid-rate+inverse               the same; turns that are held are held by their rate alone
-hybrid-hand+projected             along axes that the hand carries along
-hybrid/zyx-euler+transpose        along x, y, z and the Euler angles, on the Euler Jacobian (Murphy 1988, 3.3)
-hybrid/zyx-euler+inverse          the same by accelerations
-hybrid-unconverted/zyx-euler+...  the same with moments taken for generalized forces: a negative control
-impedance-geometric               six-axis impedance on one error of orientation (bench/law/contenders/impedances)
-impedance-coordinates/zyx-euler   in coordinates
-"""
+"""Contact controllers: what takes part in the tasks of contact."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -89,11 +78,7 @@ class ContactController(NamedTuple):
 
 
 def hybrid(law: str, form: str, representation: Coordinates | None = None) -> ContactController:
-    """Return a hybrid controller, or refuse with the reason.
-
-    Errors:
-        Incompatible: unknown words, a representation too many or too few, or one with no three coordinates.
-    """
+    """Return a hybrid controller, or refuse (Incompatible) unknown words, or a representation that does not fit."""
     if law not in HYBRIDS:
         raise Incompatible(f"'{law}' is no hybrid controller; known: {', '.join(HYBRIDS)}")
     if form not in FORMS:
@@ -110,11 +95,7 @@ def hybrid(law: str, form: str, representation: Coordinates | None = None) -> Co
 
 
 def impedance_controller(one: Impedance, representation: Coordinates | None = None) -> ContactController:
-    """Return an impedance controller, or refuse with the reason.
-
-    Errors:
-        Incompatible: a representation too many or too few, or one with no three coordinates.
-    """
+    """Return an impedance controller, or refuse (Incompatible) a representation too many or too few."""
     word = f"impedance-{one.name}"
     if one.law_in is not None and representation is None:
         raise Incompatible(f"'{word}' acts on coordinates and needs some (try: {word}/{papers_coordinates().name})")

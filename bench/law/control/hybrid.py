@@ -126,10 +126,7 @@ def _carry_back(R, R_d, row):
 def in_coordinates(representation: Coordinates, converts: bool = True) -> Callable:
     """Return the rows along the coordinates of a representation, on J_E = diag(I, B^-1) J.
 
-    Args:
-        converts: F_E = (f, B^T m) (Murphy 1988, 3.12); otherwise m's components as they are, a negative control.
-    Errors:
-        Incompatible: coordinates of which no three are those about x, y and z.
+    converts: F_E = (f, B^T m) (Murphy 1988, 3.12); otherwise m's components as they are, a negative control.
     """
     axes_of(representation)
     chart, rates = representation.chart, representation.rates

@@ -25,11 +25,7 @@ def all_controllers() -> list[ContactController]:
 
 
 def find_controller(word: str) -> ContactController:
-    """`law[/representation][+form]`, as the command line writes a controller in contact.
-
-    Errors:
-        UnknownWord: of the law or the representation. Incompatible: a part too many, too few, or unfitting.
-    """
+    """Return the controller in contact of `law[/representation][+form]`, as the command line writes it."""
     rest, plus, form = word.partition("+")
     law, _, coordinates = rest.partition("/")
     springs = {f"impedance-{name}": one for name, one in contenders("impedances").items()}

@@ -58,11 +58,7 @@ class Parts(NamedTuple):
 
 
 def parts_of(contender: Contender, command: Callable) -> Parts:
-    """Return the parts of a contender on an arm.
-
-    Args:
-        command: its law in the form `Parts.command` says.
-    """
+    """Return the parts of a contender on an arm; command: its law in the form `Parts.command` says."""
     jacobian, representation = contender.jacobian, contender.representation
     baseline = contender.regulator.assemble
     if jacobian is None:

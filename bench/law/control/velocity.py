@@ -23,9 +23,6 @@ def velocity(limit, u, K, kp):
 
 
 def is_velocity_law(one: Contender) -> bool:
-    """Whether a law's command at rest is a function of R and R_d, or of a side kept beside them.
-
-    Of a law with memory its equation says so, which has a spring of the angle alone.
-    """
+    """Whether a law's command at rest is a function of R and R_d, or of a side kept beside them (its equation says)."""
     law = one.regulator
     return not (law.in_engine or law.costing_only) and (law.memory is None or one.equation is not None)

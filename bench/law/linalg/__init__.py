@@ -1,10 +1,5 @@
 """Small dense kernels on buffers, of any element type: float64, or counting scalars in an object array.
 
-    products.py     J x, J^T y, a row times a row, and the symmetric J J^T, J^T J
-    elimination.py  solve, determinant: Gauss with partial pivoting
-    cholesky.py     factor, solve_factored, and the parts of them; exceeds: how small its eigenvalues are
-    rotations.py    orthogonalize: one-sided Jacobi, the singular value decomposition
-
 A buffer may be larger than what is used of it; sizes are passed. Nothing is allocated. A singular matrix ends in
 numbers that are not finite, and those that are not finite in any number, but never in an exception or an endless loop.
 """

@@ -18,11 +18,7 @@ ALIKE = 1e-3
 
 
 def misalignment(pose: Pose, of: Callable[[np.ndarray], float] = np.max) -> float:
-    """Return the largest angle [rad] between e and C e over the axes e that comply; NaN if a moment turns nothing.
-
-    Args:
-        of: what is made of the angles instead, as their mean.
-    """
+    """Return the largest angle [rad] between e and C e over axes e that comply, or its mean; NaN: one is lost."""
     angles = misaligned(compliance(pose), complying(pose))
     return float(of(angles)) if len(angles) else np.nan
 

@@ -23,10 +23,7 @@ SLIDING = "force-on-plane"
 
 
 def contact_settling_time(pose: Pose) -> float:
-    """Time [s] from the first touch until |f + h| stays within 2 % of |h|, the band of all settling times here.
-
-    NaN if it does not, if no force was ordered, or if nothing was touched.
-    """
+    """Time [s] from the first touch until |f + h| stays within 2 % of |h|; NaN if never, or without order or touch."""
     one, touched = last(pose), from_first_touch(pose)
     ordered = np.linalg.norm(pose.first.trial.specification.desired_wrench[:3])
     if one is None or touched is None or ordered == 0.0:
@@ -52,10 +49,7 @@ moment_error_peak, moment_error_rms = partial(peak, error_of=moment_error), part
 
 
 def force_overshoot(pose: Pose) -> float:
-    """max -f . h / |h|^2 - 1: by how much of the force h ordered the hand presses harder at the worst.
-
-    NaN if no force was ordered, or if nothing was touched.
-    """
+    """max -f . h / |h|^2 - 1: by how much of the force h ordered a hand presses harder; NaN: no order or touch."""
     ordered, touched = np.array(pose.first.trial.specification.desired_wrench[:3]), from_first_touch(pose)
     if touched is None or not ordered.any():
         return np.nan

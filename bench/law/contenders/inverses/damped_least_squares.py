@@ -30,5 +30,4 @@ INVERSE = Inverse(
     source="Nakamura & Hanafusa 1986; Wampler 1986",
     formula=r"\ddot q = J_W^\top (J_W J_W^\top + \lambda^2 I)^{-1}\, W a, \quad J_W = W J",
     resolve=resolve,
-    gives="acceleration",
 )

@@ -98,6 +98,5 @@ INVERSE = Inverse(
     source="Chiaverini, Siciliano, Egeland 1994; Nakamura & Hanafusa 1986",
     formula=r"\lambda^2 = \lambda_{\max}^2 \max\bigl(0,\; 1 - \sigma_{\min}^2 / \epsilon^2\bigr)",
     resolve=resolve,
-    gives="acceleration",
     refuses=partial(refuse_seven, ": its least singular value is 0 at every pose and says nothing"),
 )

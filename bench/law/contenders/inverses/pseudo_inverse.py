@@ -27,6 +27,5 @@ INVERSE = Inverse(
     source="Whitney 1972; Penrose 1955",
     formula=r"\ddot q = J^{+} a, \quad J^{+} = J^\top (J J^\top)^{-1} \text{ or } (J^\top J)^{-1} J^\top",
     resolve=resolve,
-    gives="acceleration",
     refuses=partial(refuse_seven, ": both J J^T and J^T J are singular"),
 )

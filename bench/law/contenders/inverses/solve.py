@@ -30,6 +30,5 @@ INVERSE = Inverse(
     source="Murphy 1988, (2.2), (3.7); Luh, Walker, Paul 1980",
     formula=r"\ddot q = J^{-1} a",
     resolve=resolve,
-    gives="acceleration",
     refuses=refuses,
 )

@@ -58,5 +58,4 @@ INVERSE = Inverse(
     source="Golub & Kahan 1965; Hestenes 1958",
     formula=r"\ddot q = \sum_{\sigma_i > \epsilon} \frac{u_i \cdot W a}{\sigma_i}\, v_i, \quad W J = U \Sigma V^\top",
     resolve=resolve,
-    gives="acceleration",
 )

@@ -7,7 +7,17 @@ the one with w >= 0: E jumps to -E at 180° rotations.
 
 from typing import NamedTuple
 
-from bench.law import CHORD, Coordinates, Display, Look, from_quaternion, kernel, quaternion_direction, sqrt
+from bench.law import (
+    CHORD,
+    Coordinates,
+    Display,
+    Look,
+    from_quaternion,
+    functions_of,
+    kernel,
+    quaternion_direction,
+    sqrt,
+)
 
 
 class Chart(NamedTuple):
@@ -90,14 +100,8 @@ REPRESENTATION = Coordinates(
     source="Shepperd 1978; Wie, Weiss, Arapostathis 1989",
     formula=r"E = (\cos\tfrac{\theta}{2},\; \sin\tfrac{\theta}{2}\, k), \quad \dot E = \tfrac12\, (0, \omega)\, E",
     symbols=("w", "x", "y", "z"),
-    chart=chart,
-    chart_of=chart_of,
+    **functions_of(globals()),
     to_matrix=from_quaternion,
-    rates=rates,
-    accelerate=accelerate,
-    angular_velocity=angular_velocity,
-    generalized=generalized,
-    margin=margin,
     about=None,
     display=Display("quaternions", Look("blue", "o", "solid"), equation=CHORD),
 )
