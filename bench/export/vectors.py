@@ -88,7 +88,7 @@ def _vector(subject: Subject, entry: Entry, state: State, random: np.random.Gene
 def _argument(subject: Subject, one: Parameter, state: State, random: np.random.Generator) -> Any:
     """Return a value for an argument, as JSON has it: a number or a list of numbers, a matrix by rows."""
     quat = state.quat_d if "_d" in one.name else state.quat
-    name = one.name.removesuffix("_body")
+    name = one.name.removesuffix("_body").removesuffix("_wxyz")
     if one.kind == "matrix":
         return np.array(from_quaternion(quat)).T.ravel().tolist()
     if one.kind == "gains":

@@ -124,12 +124,12 @@ def write_header(subject: Subject) -> str:
 def write_state(subject: Subject) -> Iterator[str]:
     """Write the type of a memory, and its reset."""
     if subject.memory is not None:
-        name = subject.identifier
+        name, kept = subject.identifier, subject.memory_name
         yield "/* What the law remembers from tick to tick. */"
-        yield f"typedef struct {{ double memory[{len(subject.memory)}]; }} {name}_state;\n"
+        yield f"typedef struct {{ double {kept}[{len(subject.memory)}]; }} {name}_state;\n"
         yield from comment(RESET)
         yield f"static inline void {name}_reset({name}_state *state) {{"
-        yield from (f"{INDENT}state->memory[{at}] = {value!r};" for at, value in enumerate(subject.memory))
+        yield from (f"{INDENT}state->{kept}[{at}] = {value!r};" for at, value in enumerate(subject.memory))
         yield "}\n"
 
 
@@ -143,7 +143,7 @@ def write_entry(subject: Subject, core: Core, entry: Entry) -> str:
         "": "const double {name}[{size}]",
     }
     passed = {"number": "{name}", "gains": f"{core.prefix}Gains_of(kp, kv)"}
-    passed["memory"] = f"{core.prefix}real{len(subject.memory or ())}_at(state->memory)"
+    passed["memory"] = f"{core.prefix}real{len(subject.memory or ())}_at(state->{subject.memory_name})"
     passed |= {"matrix": f"{core.prefix}Rotation_at({{name}})", "": f"{core.prefix}real{{size}}_at({{name}})"}
     given, arguments = write_arguments(entry, declared, passed)
     call, (out, kind, size) = f"{core.prefix}{function.name}({arguments})", entry.returns
@@ -154,7 +154,7 @@ def write_entry(subject: Subject, core: Core, entry: Entry) -> str:
         head, body = f"static inline double {name}({given}) {{", [f"return {call};"]
     if entry.has_memory:
         body = [f"const {core.kind(function.returns)} answer = {call};", stored.format("answer.item0")]
-        body.append(f"{passed['memory'].partition('_at')[0]}_to(answer.item1, state->memory);")
+        body.append(f"{passed['memory'].partition('_at')[0]}_to(answer.item1, state->{subject.memory_name});")
     about, matrices = entry.doc, [one.name for one in (*entry.parameters, entry.returns) if one.size == 9]
     if matrices:
         about += f"; {', '.join(matrices)} by rows: {matrices[0]}[3*i+j]"
@@ -208,14 +208,14 @@ def _test_entry(subject: Subject, entry: Entry, calls: Calls) -> Iterator[str]:
             yield f"{deep}const int is_first = {first};"
             yield f"{deep}{calls.state} state;"
             yield f"{deep}int k;"
-            yield f"{deep}for (k = 0; k < {one.size}; k++) state.memory[k] = is_first ? -1.0 : row[{place} + k];"
+            yield f"{deep}for (k = 0; k < {one.size}; k++) state.{one.name}[k] = is_first ? -1.0 : row[{place} + k];"
             yield f"{deep}if (is_first) {calls.reset};"
         passed.append(calls.passed.get(one.kind, calls.passed[""]).format(at=place, size=one.size))
         place += one.size
     yield f"{deep}{calls.call(entry, ', '.join(passed))}"
     checks = [f"is_wrong(result, row + {place}, {results}, tolerance)"]
     if kept:
-        checks.append(f"is_wrong(state.memory, row + {place + results}, {kept}, tolerance)")
+        checks.append(f"is_wrong(state.{subject.memory_name}, row + {place + results}, {kept}, tolerance)")
     yield f"{deep}wrong += {' || '.join(checks)};\n{INDENT}}}\n{INDENT}return wrong;\n}}\n"
 
 

@@ -37,18 +37,18 @@ def write_function(function: Typed) -> str:
 
 
 COPYSIGN = read_template("copysign.js")
-PASSED = {"gains": "[kp, kv]", "memory": "state.memory", "matrix": "columns({name})", "": "{name}"}
+PASSED = {"gains": "[kp, kv]", "memory": "state.{name}", "matrix": "columns({name})", "": "{name}"}
 
 
 def write_script(subject: Subject) -> str:
-    """Write the law as one script: NAME.command(...) and so on."""
+    """Write the law as one script: NAME.angular_acceleration(...) and so on."""
     program = translated(subject)
     functions = [write_function(one) for one in program.functions]
     if any("copysign(" in one for one in functions):
         functions.insert(0, COPYSIGN)
     offered = [line for one in subject.entries for line in write_entry(one, program.entries[one.name].name)]
     if subject.memory:
-        first = f"Object.assign(state, {{ memory: {json.dumps(subject.memory)} }})"
+        first = f"Object.assign(state, {{ {subject.memory_name}: {json.dumps(subject.memory)} }})"
         offered = [*slashes(f"{RESET} reset() makes a state."), f"reset: (state = {{}}) => {first},", *offered]
     return "\n".join(
         (
@@ -69,7 +69,10 @@ def write_entry(entry: Entry, function: str) -> list[str]:
     """Write one entry of the object that the script offers."""
     given, passed = write_arguments(entry, {"gains": "kp, kv", "memory": "state", "": "{name}"}, PASSED)
     call = f"{function}({passed})"
-    call = f"kept({call}, state)" if entry.has_memory else f"rows({call})" if entry.returns.kind == "matrix" else call
+    if entry.has_memory:
+        call = f"kept({call}, state, '{entry.parameters[-1].name}')"
+    elif entry.returns.kind == "matrix":
+        call = f"rows({call})"
     return [*slashes(entry.doc), f"{entry.name}: ({given}) => {call},"]
 
 

@@ -50,7 +50,7 @@ class _Resolved(ast.NodeTransformer):
 
 
 def write_module(subject: Subject) -> str:
-    """Write the law as one module: command(R, omega, R_d, kp, kv) and so on."""
+    """Write the law as one module: angular_acceleration(R, omega, R_d, kp, kv) and so on."""
     program = translated(subject)
     named = {kind.name: kind.fields for kind in program.tuples if kind.name}
     classes = (
