@@ -12,17 +12,18 @@ import numpy as np
 
 from bench.law import (
     AT_REST,
-    Coordinates,
     Gains,
     Goal,
     cross,
     dot,
     from_quaternion,
     kernel,
+    minus,
     rotate,
     rotate_back,
     turn_quaternion,
 )
+from bench.law.tracking import carried_along
 
 
 class Parameter(NamedTuple):
@@ -89,11 +90,16 @@ def in_both_frames(make: Callable[[Frame], Iterable[Callable]], *declared: Decla
 
 R, R_D = Parameter("R", "matrix", 9), Parameter("R_d", "matrix", 9)
 OMEGA, U, MOMENT, E, TAU = (Parameter(name, "vector", 3) for name in ("omega", "u", "moment", "e", "tau"))
+OMEGA_D, ALPHA_D = Parameter("omega_d", "vector", 3), Parameter("alpha_d", "vector", 3)
 GAINS, INERTIA = Parameter("gains", "gains", 2), Parameter("inertia_body", "rows", 9)
 REGULATING = Gains(1.0, 2.0)
 """The gains of the orientation error: stiffness 1, critically damped as the paper's gains are."""
 
 ACCELERATION = "angular acceleration u [rad/s^2] that the law commands"
+TRACKING = (
+    "angular acceleration u [rad/s^2] that the law commands towards a goal that turns at omega_d [rad/s], alpha_d "
+    "[rad/s^2]: alpha_d + omega_d x (omega - omega_d) + the law's own u at omega - omega_d"
+)
 ERROR = "error of orientation e [rad near the goal], towards the goal: u at rest over Kp, at Kv^2 = 4 Kp"
 TORQUE = "torque tau [N m] that gives a rigid body the angular acceleration u; inertia_body [kg m^2]: in the body frame"
 
@@ -141,7 +147,7 @@ def name_numbers(name: str, found: tuple, quat_wxyz: tuple) -> str:
 
 
 def of_law(law: Callable, memory: tuple | None) -> list[Entry]:
-    """Return the angular acceleration, the orientation error and the torque of a regulator, in both frames.
+    """Return angular acceleration, also for a moving goal, orientation error and torque of a regulator, in both frames.
 
     memory: the first one; None of a law without memory.
     """
@@ -154,6 +160,12 @@ def of_law(law: Callable, memory: tuple | None) -> list[Entry]:
             return from_base(R, law(R, to_base(R, omega), Goal(R_d, AT_REST, AT_REST), gains))
 
         @kernel
+        def tracking_acceleration(R, omega, R_d, omega_d, alpha_d, gains):
+            at, along = to_base(R, omega), to_base(R, omega_d)
+            u = law(R, minus(at, along), Goal(R_d, AT_REST, AT_REST), gains)
+            return from_base(R, carried_along(u, at, along, to_base(R, alpha_d)))
+
+        @kernel
         def orientation_error(R, R_d):
             return angular_acceleration(R, AT_REST, R_d, REGULATING)
 
@@ -163,18 +175,29 @@ def of_law(law: Callable, memory: tuple | None) -> list[Entry]:
             return from_base(R, u), kept
 
         @kernel
+        def tracking_acceleration_with_memory(R, omega, R_d, omega_d, alpha_d, gains, memory):
+            at, along = to_base(R, omega), to_base(R, omega_d)
+            u, kept = law(R, minus(at, along), Goal(R_d, AT_REST, AT_REST), gains, memory)
+            return from_base(R, carried_along(u, at, along, to_base(R, alpha_d))), kept
+
+        @kernel
         def orientation_error_with_memory(R, R_d, memory):
             return angular_acceleration_with_memory(R, AT_REST, R_d, REGULATING, memory)
 
         if memory is None:
-            return angular_acceleration, orientation_error
-        return angular_acceleration_with_memory, orientation_error_with_memory
+            return angular_acceleration, tracking_acceleration, orientation_error
+        return angular_acceleration_with_memory, tracking_acceleration_with_memory, orientation_error_with_memory
 
     kept: tuple[Parameter, ...] = ()
     if memory is not None:
         (w, v, _), (_u, after) = turn_quaternion(*SEEN), law(SEEN[0], AT_REST, Goal(SEEN[1]), REGULATING, memory)
         kept = (Parameter(name_numbers("memory", after, (w, *v)), "memory", 4),)
-    both = in_both_frames(make, ((R, OMEGA, R_D, GAINS, *kept), U, ACCELERATION), ((R, R_D, *kept), E, ERROR))
+    both = in_both_frames(
+        make,
+        ((R, OMEGA, R_D, GAINS, *kept), U, ACCELERATION),
+        ((R, OMEGA, R_D, OMEGA_D, ALPHA_D, GAINS, *kept), U, TRACKING),
+        ((R, R_D, *kept), E, ERROR),
+    )
     return [*both, *of_torque()]
 
 
@@ -192,42 +215,3 @@ def of_impedance(law: Callable) -> list[Entry]:
 
     given = (R, OMEGA, MOMENT, R_D, GAINS, Parameter("apparent_inertia", "number"))
     return [*in_both_frames(make, (given, U, f"{ACCELERATION} under a moment [N m]")), *of_torque()]
-
-
-def of_representation(record: Coordinates) -> list[Entry]:
-    """Return the entries of coordinates: to and from R, B, B^-1 and B^T, base frame."""
-    size, order = len(record.symbols), "_wxyz" * (record.symbols == ("w", "x", "y", "z"))
-    chart, chart_of = record.chart, record.chart_of
-    push, pull, accelerate, convert = record.angular_velocity, record.rates, record.accelerate, record.generalized
-    E, Edot, Eddot, F = (Parameter(f"{name}{order}", "tuple", size) for name in ("E", "Edot", "Eddot", "F"))
-    number = Parameter("margin", "number")
-
-    @kernel
-    def coordinates(R):
-        return chart(R).E
-
-    @kernel
-    def rates(E, omega):
-        return pull(chart_of(E), omega)
-
-    @kernel
-    def angular_velocity(E, Edot):
-        return push(chart_of(E), Edot)
-
-    @kernel
-    def angular_acceleration(E, Edot, Eddot):
-        return accelerate(chart_of(E), Edot, Eddot)
-
-    @kernel
-    def generalized_forces(E, moment):
-        return convert(chart_of(E), moment)
-
-    return [
-        Entry(f"coordinates{order}", coordinates, (R,), E, f"E = ({', '.join(record.symbols)}) of R"),
-        Entry("rotation", record.to_matrix, (E,), R, "R of E"),
-        Entry(f"rates{order}", rates, (E, OMEGA), Edot, "Edot = B^-1 omega"),
-        Entry("angular_velocity", angular_velocity, (E, Edot), OMEGA, "omega = B Edot"),
-        Entry("angular_acceleration", angular_acceleration, (E, Edot, Eddot), U, "u = B Eddot + Bdot Edot"),
-        Entry(f"generalized_forces{order}", generalized_forces, (E, MOMENT), F, "B^T m"),
-        Entry("margin", record.margin, (R,), number, "in [0, 1], 0 exactly where B^-1 does not exist"),
-    ]

@@ -1,4 +1,4 @@
-"""Entries of laws with a state and of springs, in both frames."""
+"""Entries of laws with a state and of springs, in both frames, and of coordinates."""
 
 from collections.abc import Callable
 
@@ -18,7 +18,7 @@ from bench.export.entries import (
     name_numbers,
     of_torque,
 )
-from bench.law import AT_REST, Goal, kernel, quaternion_direction, relative, sqrt
+from bench.law import AT_REST, Coordinates, Goal, kernel, quaternion_direction, relative, sqrt
 
 PERIOD = Parameter("period", "number")
 BEGIN = "the state to begin with, and after a pause"
@@ -84,3 +84,42 @@ def turn_left(R, R_d):
 def by_rows(k):
     """Return a matrix of nine numbers by rows."""
     return ((k[0], k[1], k[2]), (k[3], k[4], k[5]), (k[6], k[7], k[8]))
+
+
+def of_representation(record: Coordinates) -> list[Entry]:
+    """Return the entries of coordinates: to and from R, B, B^-1 and B^T, base frame."""
+    size, order = len(record.symbols), "_wxyz" * (record.symbols == ("w", "x", "y", "z"))
+    chart, chart_of = record.chart, record.chart_of
+    push, pull, accelerate, convert = record.angular_velocity, record.rates, record.accelerate, record.generalized
+    E, Edot, Eddot, F = (Parameter(f"{name}{order}", "tuple", size) for name in ("E", "Edot", "Eddot", "F"))
+    number = Parameter("margin", "number")
+
+    @kernel
+    def coordinates(R):
+        return chart(R).E
+
+    @kernel
+    def rates(E, omega):
+        return pull(chart_of(E), omega)
+
+    @kernel
+    def angular_velocity(E, Edot):
+        return push(chart_of(E), Edot)
+
+    @kernel
+    def angular_acceleration(E, Edot, Eddot):
+        return accelerate(chart_of(E), Edot, Eddot)
+
+    @kernel
+    def generalized_forces(E, moment):
+        return convert(chart_of(E), moment)
+
+    return [
+        Entry(f"coordinates{order}", coordinates, (R,), E, f"E = ({', '.join(record.symbols)}) of R"),
+        Entry("rotation", record.to_matrix, (E,), R, "R of E"),
+        Entry(f"rates{order}", rates, (E, OMEGA), Edot, "Edot = B^-1 omega"),
+        Entry("angular_velocity", angular_velocity, (E, Edot), OMEGA, "omega = B Edot"),
+        Entry("angular_acceleration", angular_acceleration, (E, Edot, Eddot), U, "u = B Eddot + Bdot Edot"),
+        Entry(f"generalized_forces{order}", generalized_forces, (E, MOMENT), F, "B^T m"),
+        Entry("margin", record.margin, (R,), number, "in [0, 1], 0 exactly where B^-1 does not exist"),
+    ]

@@ -8,10 +8,10 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from bench.base.errors import UnknownWord
-from bench.export.entries import Entry, of_impedance, of_law, of_representation
+from bench.export.entries import Entry, of_impedance, of_law
 from bench.export.program import REAL, Kind, Tuple, numbers
 from bench.export.reading import Program
-from bench.export.sprung import of_compensator, of_spring
+from bench.export.sprung import of_compensator, of_representation, of_spring
 from bench.law.contender import Contender
 from bench.law.contenders import registry
 from bench.law.contenders.registry import contenders
