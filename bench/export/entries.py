@@ -52,6 +52,12 @@ class Entry(NamedTuple):
         """Tell whether it takes a memory."""
         return any(one.kind == "memory" for one in self.parameters)
 
+    @property
+    def about(self) -> str:
+        """Return what it returns, and how its matrices are stored."""
+        matrices = [one.name for one in (*self.parameters, self.returns) if one.size == 9]
+        return f"{self.doc}; {', '.join(matrices)} by rows: {matrices[0]}[3*i+j]" if matrices else self.doc
+
 
 class Frame(NamedTuple):
     """The frame of an entry's vectors: a suffix of its name, and the kernels (R, v) that convert its vectors."""

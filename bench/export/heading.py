@@ -1,15 +1,21 @@
 """Headings of exported files: formula, source, limitations, cost and licence."""
 
+import importlib.metadata
 import re
 import sys
 import textwrap
 
-from bench.base.provenance import describe_project
+from bench.base.provenance import IS_CHECKOUT, ROOT, describe_project
 from bench.engines.counting.costs import FLOPS, cost
 from bench.engines.counting.counted import TOTAL
 from bench.export.subject import COMPENSATOR, IMPEDANCE, SPRING, Subject
 
 PROJECT = describe_project()
+LICENSE = (
+    (ROOT / "LICENSE").read_text(encoding="utf-8")
+    if IS_CHECKOUT
+    else importlib.metadata.distribution("orientation-bench").read_text("licenses/LICENSE") or ""
+)
 WIDTH = 110
 RESET = (
     "Call reset before the first tick, after a pause, and whenever the goal jumps: the memory outlives the goal, and "
@@ -83,7 +89,7 @@ def _facts(subject: Subject) -> list[str]:
     lines = [
         f"{GAINS}near the goal u = kp (rotation vector to the goal) - kv omega",
         f"Property  {subject.record.property}",
-        f"Cost      {flops} flops and {calls} calls of sin, cos, atan2, acos in the typical branch of the command",
+        f"Cost      {flops} flops and {calls} calls of sin, cos, atan2, acos for u, in the typical branch",
     ]
     if subject.memory is not None:
         first = ", ".join(map(repr, subject.memory))

@@ -42,6 +42,11 @@ class Vector(NamedTuple):
     memory: list[float]
     tolerance: float
 
+    @property
+    def row(self) -> list[float]:
+        """Return arguments, result, memory and tolerance as one row of numbers."""
+        return [float(x) for x in np.hstack([*self.arguments.values(), self.result, self.memory, self.tolerance])]
+
 
 def states(count: int, seed: int = SEED) -> Iterator[State]:
     """Yield states: uniform, near and at 180°, near the goal, at the poles of angles, spinning."""

@@ -209,7 +209,7 @@ EVERY = 100
 def loaded(subject) -> ModuleType:
     """Return the exported module."""
     module = ModuleType(subject.identifier)
-    exec(find_language("python").law(subject)[1], vars(module))
+    exec(*find_language("python").law(subject).values(), vars(module))
     return module
 
 

@@ -33,8 +33,8 @@ def written(subject: Subject, language: str, folder: Path, is_tested: bool = Tru
     here = folder / language / subject.identifier
     here.mkdir(parents=True)
     chosen = find_language(language)
-    laws_alone = [one.law(subject) for one in (chosen, chosen.around) if one]
-    for name, text in chosen.files(subject).items() if is_tested else laws_alone:
+    for name, text in (chosen.files if is_tested else chosen.law)(subject).items():
+        (here / name).parent.mkdir(exist_ok=True)
         (here / name).write_text(text, encoding="utf-8")
     return here
 

@@ -9,7 +9,7 @@ from bench.export.braces import Braces
 from bench.export.entries import Entry
 from bench.export.heading import BY_ROWS, RESET, heading
 from bench.export.language import Language, write_arguments
-from bench.export.layout import INDENT, read_template, slashes
+from bench.export.layout import INDENT, fill_template, slashes
 from bench.export.reading import Typed
 from bench.export.subject import Subject, translated
 
@@ -22,7 +22,7 @@ return static super switch this throw try typeof var void while with yield
 
 SCRIPT: Braces = Braces(
     reserved=frozenset(WORDS.split()),
-    declaration=lambda kind, name: f"let {name}",
+    declaration=lambda kind, name, is_changed: f"let {name}",
     built=lambda kind, items: f"[{', '.join(items)}]",
     part=lambda kind, value, place: f"{value}[{place}]",
     head=lambda function: f"function {function.name}({', '.join(map(SCRIPT.variable, function.parameters))})",
@@ -36,7 +36,7 @@ def write_function(function: Typed) -> str:
     return "\n".join((*slashes(function.summary), *SCRIPT.write(function)))
 
 
-COPYSIGN = read_template("copysign.js")
+COPYSIGN = fill_template("copysign.js")
 PASSED = {"gains": "[kp, kv]", "memory": "state.{name}", "matrix": "columns({name})", "": "{name}"}
 
 
@@ -54,7 +54,7 @@ def write_script(subject: Subject) -> str:
         (
             *(f"// {line}".rstrip() for line in heading(subject, BY_ROWS).splitlines()),
             "(function (root) {\n'use strict';\n",
-            "\n\n".join((*functions, read_template("reading.js"))),
+            "\n\n".join((*functions, fill_template("reading.js"))),
             "const offered = {",
             *(f"{INDENT}{line}" for line in offered),
             "};",
@@ -73,12 +73,13 @@ def write_entry(entry: Entry, function: str) -> list[str]:
         call = f"kept({call}, state, '{entry.parameters[-1].name}')"
     elif entry.returns.kind == "matrix":
         call = f"rows({call})"
-    return [*slashes(entry.doc), f"{entry.name}: ({given}) => {call},"]
+    return [*slashes(entry.about), f"{entry.name}: ({given}) => {call},"]
 
 
 def write_test(subject: Subject) -> str:
     """Write the program that runs the vectors."""
-    return read_template("test.js").replace("NAME", subject.identifier)
+    return fill_template("test.js", NAME=subject.identifier)
 
 
-LANGUAGE = Language("js", "JavaScript", ("js", "js"), write_script, write_test, "node test_{name}.js")
+FILES = "{name}.js", "test_{name}.js"
+LANGUAGE = Language("js", "JavaScript", FILES, write_script, write_test, "node test_{name}.js")
