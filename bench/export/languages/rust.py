@@ -68,7 +68,7 @@ ON_NALGEBRA = Form(
     ON_ARRAYS.returned | {"vector": "Vector3<Real>", "matrix": "Rotation3<Real>"},
     {"vector": "{}.into()", "matrix": "Rotation3::from_matrix_unchecked(Matrix3::from_row_slice(&{}))", "": "{}"},
     ON_ARRAYS.asked
-    | {"matrix": "rotation(row, {at})", "rows": "&matrix(row, {at})", "vector": "&at(row, {at}).into()"},
+    | {"matrix": "to_rotation(row, {at})", "rows": "&to_matrix(row, {at})", "vector": "&at(row, {at}).into()"},
     ON_ARRAYS.flat | {"matrix": "found.matrix().transpose().as_slice()", "vector": "found.as_slice()"},
 )
 
