@@ -9,7 +9,21 @@ from types import ModuleType
 
 import numpy as np
 import pytest
-from support.exported import ANSWERS, KP, KV, NODE, STATES, WIDTH, needs, our_answers, states, written
+from support.exported import (
+    ANSWERS,
+    KP,
+    KV,
+    NODE,
+    SHAPES,
+    STATES,
+    WIDTH,
+    ask_some,
+    assert_same_bits,
+    needs,
+    our_answers,
+    states,
+    written,
+)
 
 from bench.export.language import find_language
 from bench.export.subject import find_subject, subject_words, translated
@@ -102,15 +116,6 @@ def test_quaternions_and_they_alone_have_their_order_in_the_name(word, names):
     assert {name for name in found if name.endswith("_wxyz") or name.startswith(("memory", "state"))} == names
 
 
-IN_CPP = (
-    "late-braking",
-    "feedback-linearized/zyx-euler",
-    "representation-quaternion",
-    "spring-logarithm-energy",
-)
-"""With memory, calling libm, with four coordinates and matrices returned, nine numbers among arguments."""
-
-
 @pytest.mark.parametrize("step", [8, pytest.param(1, marks=pytest.mark.weekly)])
 @pytest.mark.parametrize(
     "language",
@@ -123,7 +128,7 @@ IN_CPP = (
 )
 def test_vectors_pass_where_nothing_of_ours_is_installed(tmp_path, language, step):
     """Try some alone: all laws are held to our bits in C and Python here, and all headers are compiled."""
-    for one in map(find_subject, IN_CPP if language == "cpp" else {*IN_CPP, *subject_words()[::step]}):
+    for one in map(find_subject, SHAPES if language == "cpp" else {*SHAPES, *subject_words()[::step]}):
         code, is_right, said = run_test(written(one, language, tmp_path), language, one.identifier)
         assert (code, is_right) == (0, True), (one.word, said)
 
@@ -157,9 +162,6 @@ def test_every_header_in_cpp_compiles_beside_all_others(tmp_path, step):
     subprocess.run(words, cwd=tmp_path, check=True)
 
 
-SOME = 20_000
-
-
 @needs("node")
 def test_algebraic_laws_give_our_bits_in_node(tmp_path):
     found = [(one, find_subject(one.name)) for one in all_contenders()]
@@ -168,20 +170,11 @@ def test_algebraic_laws_give_our_bits_in_node(tmp_path):
     names = [subject.identifier for _, subject in algebraic]
     for _, subject in algebraic:
         written(subject, "js", tmp_path, is_tested=False)
-    (tmp_path / "states").write_bytes(states()[:: len(states()) // SOME].tobytes())
     (tmp_path / "laws.json").write_text(json.dumps(names))
-    numbers = {"WIDTH_OUT": ANSWERS, "COUNT": SOME, "KP": KP, "KV": KV}
-    text = Path(__file__).with_name("ask.js").read_text()
-    for word, number in numbers.items():
-        text = text.replace(word, str(number))
-    (tmp_path / "ask.js").write_text(text)
+    (tmp_path / "ask.js").write_text(ask_some(tmp_path, "ask.js"))
     subprocess.run(["node", "ask.js"], cwd=tmp_path, check=True)
-    for contender, subject in algebraic:
-        columns = slice(ANSWERS if subject.memory else 3)
-        theirs = np.fromfile(tmp_path / f"{subject.identifier}.answers").reshape(SOME, ANSWERS)[:, columns]
-        ours = our_answers(contender)[:: len(states()) // SOME, columns]
-        same = (ours == theirs) | (np.isnan(ours) & np.isnan(theirs))
-        assert same.all(), (contender.name, np.argwhere(~same)[:3])
+    for contender, _ in algebraic:
+        assert_same_bits(tmp_path, contender)
 
 
 @needs("node")

@@ -5,8 +5,8 @@ Inside, tuples of numbers are arrays and those with names are structures; the en
 
 import re
 import textwrap
+import tomllib
 from collections.abc import Iterator
-from typing import NamedTuple
 
 from bench.export.braces import Braces, count_assignments
 from bench.export.entries import Entry
@@ -23,54 +23,16 @@ abstract as async await become box break const continue crate do dyn else enum e
 let loop macro match mod move mut override priv pub ref return self static struct super trait true try type typeof
 union unsafe unsized use virtual where while yield
 """
+Form = dict[str, dict[str, str]]
 PRECISION = (
     "Precision modules double (f64) and single (f32); double is equal to the test vectors bit for bit where the law "
     "takes sums, products, quotients and roots alone"
 )
 
 
-class Form(NamedTuple):
-    """How entries look on arrays or on nalgebra's types, by kind of a parameter; "" is for all other kinds.
-
-    declared, passed: see `write_arguments`. returned: the type of a result. result: it, from the answer of a
-    call. asked: an argument in the test, from place {at} of a row. flat: `found` as a slice.
-    """
-
-    declared: dict[str, str]
-    passed: dict[str, str]
-    returned: dict[str, str]
-    result: dict[str, str]
-    asked: dict[str, str]
-    flat: dict[str, str]
-
-
-GIVEN = {"number": "{name}: Real", "gains": "kp: Real, kv: Real", "memory": "state: &mut State"}
-NUMBER = "row[{at}] as Real"
-ASKED = {"number": NUMBER, "gains": "row[{at}] as Real, row[{at} + 1] as Real", "memory": "&mut state"}
-ON_ARRAYS = Form(
-    {**GIVEN, "": "{name}: &[Real; {size}]"},
-    {"number": "{name}", "gains": "law::Gains {{ kp, kv }}", "memory": "state.{name}", "matrix": "columns({name})"}
-    | {"": "*{name}"},
-    {"number": "Real", "": "[Real; {size}]"},
-    {"matrix": "rows({})", "": "{}"},
-    {**ASKED, "": "&at(row, {at})"},
-    {"number": "&[found]", "": "&found"},
-)
-ON_NALGEBRA = Form(
-    ON_ARRAYS.declared
-    | {
-        "matrix": "{name}: impl Into<Rotation3<Real>>",
-        "rows": "{name}: &Matrix3<Real>",
-        "vector": "{name}: &Vector3<Real>",
-    },
-    {"matrix": "&by_rows({name}.into().matrix())", "rows": "&by_rows({name})", "vector": "{name}.as_ref()"}
-    | {"gains": "kp, kv", "memory": "state", "": "{name}"},
-    ON_ARRAYS.returned | {"vector": "Vector3<Real>", "matrix": "Rotation3<Real>"},
-    {"vector": "{}.into()", "matrix": "Rotation3::from_matrix_unchecked(Matrix3::from_row_slice(&{}))", "": "{}"},
-    ON_ARRAYS.asked
-    | {"matrix": "to_rotation(row, {at})", "rows": "&to_matrix(row, {at})", "vector": "&at(row, {at}).into()"},
-    ON_ARRAYS.flat | {"matrix": "found.matrix().transpose().as_slice()", "vector": "found.as_slice()"},
-)
+FORMS = tomllib.loads(fill_template("rust.toml"))
+ON_ARRAYS: Form = FORMS["arrays"]
+ON_NALGEBRA: Form = {part: given | FORMS["nalgebra"][part] for part, given in ON_ARRAYS.items()}
 
 
 class Core:
@@ -131,24 +93,20 @@ class Core:
 
     def text(self) -> str:
         """Write structures and functions, callees first."""
-        structures = (line for kind in self.names for line in self.structure(kind))
-        functions = (
-            line for one in self.program.functions for line in (*slashes(one.summary), *self.language.write(one), "")
-        )
-        return "\n".join((*structures, *functions))
+        lines = [line for kind in self.names for line in self.structure(kind)]
+        for one in self.program.functions:
+            lines += (*slashes(one.summary), *self.language.write(one), "")
+        return "\n".join(lines)
 
 
 def write_law(subject: Subject) -> str:
     """Write the law as one file, for a module that defines Real."""
     core = Core(subject)
     text, memory = core.text(), subject.memory_name
-    called = {one.name: f"law::{core.program.entries[one.name].name}" for one in subject.entries}
-    offered = "\n".join(
-        write_entry(one, ON_ARRAYS, called[one.name], f"Return {one.about}.") for one in subject.entries
-    )
-    typed = "\n".join(
-        write_entry(one, ON_NALGEBRA, f"super::{one.name}", f"`super::{one.name}` on the types of nalgebra.")
-        for one in subject.entries
+    names = {name: one.name for name, one in core.program.entries.items()}
+    offered, typed = (
+        "\n".join(write_entry(one, form, names[one.name]) for one in subject.entries)
+        for form in (ON_ARRAYS, ON_NALGEBRA)
     )
     reading = (fill_template(f"{name}.rs") for name in ("columns", "rows") if f"{name}(" in offered)
     reset = "\n/// ".join(textwrap.wrap(RESET, WIDTH - 4))
@@ -157,24 +115,24 @@ def write_law(subject: Subject) -> str:
         HEADING="\n".join(f"// {line}".rstrip() for line in heading(subject, BY_ROWS, PRECISION).splitlines()),
         LAW=textwrap.indent("type Math = libm::Libm<Real>;\n\n" * ("Math::" in text) + text, INDENT).rstrip(),
         READING="\n".join(reading),
-        STATE=fill_template("state.rs", RESET=reset, MEMORY=memory, FIRST=str(list(subject.memory or ())))
-        if memory
-        else "",
+        STATE=fill_template("state.rs", RESET=reset, MEMORY=memory, FIRST=list(subject.memory or ())) * bool(memory),
         ENTRIES=offered,
         OWN="{Real, State}" if memory else "Real",
         TYPED=textwrap.indent(typed, INDENT).rstrip(),
     )
 
 
-def write_entry(entry: Entry, form: Form, function: str, about: str) -> str:
-    """Write one entry, which calls a function."""
-    given, passed = write_arguments(entry, form.declared, form.passed)
-    call, (_, kind, size) = f"{function}({passed})", entry.returns
-    if entry.has_memory and form is ON_ARRAYS:
-        call = f"keep({call}, &mut state.{entry.parameters[-1].name})"
-    head = f"pub fn {entry.name}({given}) -> {form.returned.get(kind, form.returned['']).format(size=size)} {{"
+def write_entry(entry: Entry, form: Form, function: str) -> str:
+    """Write one entry: on arrays around a function of the law, on nalgebra's types around the one on arrays."""
+    given, passed = write_arguments(entry, form["declared"], form["passed"])
+    about, call = f"`super::{entry.name}` on the types of nalgebra.", f"super::{entry.name}({passed})"
+    if form is ON_ARRAYS:
+        about, call = f"Return {entry.about}.", f"law::{function}({passed})"
+        call = f"keep({call}, &mut state.{entry.parameters[-1].name})" if entry.has_memory else call
+    kind, size = entry.returns.kind, entry.returns.size
+    head = f"pub fn {entry.name}({given}) -> {form['returned'].get(kind, form['returned']['']).format(size=size)} {{"
     text = textwrap.wrap(re.sub(r"([][<*]|(?<= )[-+](?= ))", r"\\\1", about), WIDTH - 8)
-    lines = (head, f"{INDENT}{form.result.get(kind, '{}').format(call)}", "}\n")
+    lines = (head, f"{INDENT}{form['result'].get(kind, '{}').format(call)}", "}\n")
     return "\n".join((*(f"/// {line}" for line in text), *wrapped(lines)))
 
 
@@ -195,20 +153,19 @@ def write_test(subject: Subject) -> str:
         found = [one for one in vectors(subject) if one.entry == entry.name]
         table = f"{entry.name.upper()}_ROWS"
         rows.append(f"static {table}: [(&str, [f64; {len(found[0].row)}]); {len(found)}] = [")
-        for one in found:
-            rows += wrapped([f'{INDENT}("{one.kind}", [{", ".join(map(repr, one.row))}]),'])
+        rows += wrapped(f'{INDENT}("{one.kind}", [{", ".join(map(repr, one.row))}]),' for one in found)
         rows.append("];\n")
         tests.append(f"check!({entry.name}, {table}, {sum(one.size for one in entry.parameters)});")
-    asked = ("\n".join(ask(one, form) for one in subject.entries) for form in (ON_ARRAYS, ON_NALGEBRA))
-    filled = dict(zip(("PLAIN", "TYPED"), asked, strict=True))
-    return fill_template("test.rs", NAME=subject.identifier, TESTS="\n".join(tests), ROWS="\n".join(rows), **filled)
+    plain, typed = ("\n".join(ask(one, form) for one in subject.entries) for form in (ON_ARRAYS, ON_NALGEBRA))
+    filled = {"NAME": subject.identifier, "TESTS": "\n".join(tests), "ROWS": "\n".join(rows)}
+    return fill_template("test.rs", PLAIN=plain, TYPED=typed, **filled)
 
 
 def ask(entry: Entry, form: Form) -> str:
     """Write a function that asks an entry with a row of numbers, and returns result and memory."""
-    place, passed, parts, body = 0, [], [form.flat.get(entry.returns.kind, form.flat[""])], []
+    place, passed, parts, body = 0, [], [form["flat"].get(entry.returns.kind, form["flat"][""])], []
     for one in entry.parameters:
-        passed.append(form.asked.get(one.kind, form.asked[""]).format(at=place))
+        passed.append(form["asked"].get(one.kind, form["asked"][""]).format(at=place))
         if one.kind == "memory":
             body.append(f"let mut state = law::State {{ {one.name}: at(row, {place}) }};")
             parts.append(f"&state.{one.name}")
