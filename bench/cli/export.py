@@ -14,7 +14,7 @@ FOLDER = Path("export")
 
 @click.command("export", epilog=examples("export"))
 @click.argument("law")
-@click.option("--to", "language", required=True, metavar="LANGUAGE", help="c, cpp, js or python.")
+@click.option("--to", "language", required=True, metavar="LANGUAGE", help="c, cpp, js, python or rust.")
 @click.option("--out", type=options.PATH, help="Folder to write to (default: export/LANGUAGE/LAW).")
 @options.law
 def COMMAND(law: str, language: str, out: Path | None, laws: options.Files) -> None:

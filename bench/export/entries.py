@@ -167,9 +167,8 @@ def of_law(law: Callable, memory: tuple | None) -> list[Entry]:
 
         @kernel
         def tracking_acceleration(R, omega, R_d, omega_d, alpha_d, gains):
-            at, along = to_base(R, omega), to_base(R, omega_d)
-            u = law(R, minus(at, along), Goal(R_d, AT_REST, AT_REST), gains)
-            return from_base(R, carried_along(u, at, along, to_base(R, alpha_d)))
+            u = angular_acceleration(R, minus(omega, omega_d), R_d, gains)
+            return carried_along(u, omega, omega_d, alpha_d)  # in the entry's frame: a cross product turns with it
 
         @kernel
         def orientation_error(R, R_d):
@@ -182,9 +181,8 @@ def of_law(law: Callable, memory: tuple | None) -> list[Entry]:
 
         @kernel
         def tracking_acceleration_with_memory(R, omega, R_d, omega_d, alpha_d, gains, memory):
-            at, along = to_base(R, omega), to_base(R, omega_d)
-            u, kept = law(R, minus(at, along), Goal(R_d, AT_REST, AT_REST), gains, memory)
-            return from_base(R, carried_along(u, at, along, to_base(R, alpha_d))), kept
+            u, kept = angular_acceleration_with_memory(R, minus(omega, omega_d), R_d, gains, memory)
+            return carried_along(u, omega, omega_d, alpha_d), kept
 
         @kernel
         def orientation_error_with_memory(R, R_d, memory):

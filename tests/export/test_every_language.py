@@ -9,6 +9,7 @@ from types import ModuleType
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 from support.exported import (
     ANSWERS,
     KP,
@@ -227,3 +228,15 @@ def test_arrays_of_numpy_are_taken_as_lists_are_and_another_shape_is_refused():
     np.testing.assert_allclose(R, [[-0.28, 0.0, 0.96], [0.0, -1.0, 0.0], [0.96, 0.0, 0.28]], atol=1e-15)
     with pytest.raises(ValueError, match="three rows of three numbers"):
         law.orientation_error(np.eye(3), np.ones((3, 4)))
+
+
+def test_tracking_acceleration_adds_the_motion_of_the_goal_in_both_frames():
+    law, random = loaded(find_subject("rotation-vector")), np.random.default_rng(7)
+    R, R_d = (Rotation.random(random_state=seed).as_matrix() for seed in (1, 2))
+    omega, omega_d, alpha_d = random.normal(size=(3, 3))
+    expected = alpha_d + np.cross(omega_d, omega - omega_d) + law.angular_acceleration(R, omega - omega_d, R_d, KP, KV)
+    found = law.tracking_acceleration(R, omega, R_d, omega_d, alpha_d, KP, KV)
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
+    in_body = (R.T @ each for each in (omega, omega_d, alpha_d))
+    given = [R, next(in_body), R_d, *in_body, KP, KV]
+    np.testing.assert_allclose(law.tracking_acceleration_body(*given), R.T @ expected, rtol=1e-12)

@@ -1,4 +1,4 @@
-"""JavaScript: one classic script. It loads by a script element, from a file too, by require() and by import.
+"""JavaScript: one classic script, with types for TypeScript. It loads by a script element, by require() and by import.
 
 Tuples are arrays, those with names too; numbers are IEEE doubles, and no product is fused with a sum.
 """
@@ -76,10 +76,28 @@ def write_entry(entry: Entry, function: str) -> list[str]:
     return [*slashes(entry.about), f"{entry.name}: ({given}) => {call},"]
 
 
+TYPED = {"number": "{name}: number", "gains": "kp: number, kv: number", "memory": "state: State"}
+TYPED[""] = "{name}: ArrayLike<number>"
+
+
+def write_types(subject: Subject) -> dict[str, str]:
+    """Write the declarations for TypeScript."""
+    lines = []
+    if subject.memory:
+        lines = [
+            f"export interface State {{ {subject.memory_name}: number[] }}",
+            "export function reset(state?: object): State;",
+        ]
+    for one in subject.entries:
+        given, returned = write_arguments(one, TYPED, {"": ""})[0], "number" + "[]" * (one.returns.kind != "number")
+        lines += (f"/** {one.about} */", f"export function {one.name}({given}): {returned};")
+    return {f"{subject.identifier}.d.ts": "\n".join((*lines, ""))}
+
+
 def write_test(subject: Subject) -> str:
     """Write the program that runs the vectors."""
     return fill_template("test.js", NAME=subject.identifier)
 
 
 FILES = "{name}.js", "test_{name}.js"
-LANGUAGE = Language("js", "JavaScript", FILES, write_script, write_test, "node test_{name}.js")
+LANGUAGE = Language("js", "JavaScript", FILES, write_script, write_test, "node test_{name}.js", beside=write_types)
