@@ -10,19 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.law import (
-    AT_REST,
-    Gains,
-    Goal,
-    cross,
-    dot,
-    from_quaternion,
-    kernel,
-    minus,
-    rotate,
-    rotate_back,
-    turn_quaternion,
-)
+from bench.law import AT_REST, Gains, Goal, kernel
+from bench.law.so3 import cross, dot, from_quaternion, minus, rotate, rotate_back, turn_quaternion
 from bench.law.tracking import carried_along
 
 

@@ -82,12 +82,8 @@ TYPED[""] = "{name}: ArrayLike<number>"
 
 def write_types(subject: Subject) -> dict[str, str]:
     """Write the declarations for TypeScript."""
-    lines = []
-    if subject.memory:
-        lines = [
-            f"export interface State {{ {subject.memory_name}: number[] }}",
-            "export function reset(state?: object): State;",
-        ]
+    state = f"export interface State {{ {subject.memory_name}: number[] }}"
+    lines = [state, "export function reset(state?: object): State;"] if subject.memory else []
     for one in subject.entries:
         given, returned = write_arguments(one, TYPED, {"": ""})[0], "number" + "[]" * (one.returns.kind != "number")
         lines += (f"/** {one.about} */", f"export function {one.name}({given}): {returned};")
