@@ -14,7 +14,7 @@ FOLDER = Path("export")
 
 @click.command("export", epilog=examples("export"))
 @click.argument("law")
-@click.option("--to", "language", required=True, metavar="LANGUAGE", help="c, cpp, js or python (also short, NumPy).")
+@click.option("--to", "language", required=True, metavar="LANGUAGE", help="c, cpp, js, python (with NumPy) or rust.")
 @click.option("--out", type=options.PATH, help="Folder to write to (default: export/LANGUAGE/LAW).")
 @options.law
 def COMMAND(law: str, language: str, out: Path | None, laws: options.Files) -> None:
@@ -46,8 +46,8 @@ def COMMAND(law: str, language: str, out: Path | None, laws: options.Files) -> N
 
 def _write(folder: Path, files: dict[str, str]) -> None:
     try:
-        folder.mkdir(parents=True, exist_ok=True)
         for name, text in files.items():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_text(text, encoding="utf-8")
     except OSError as error:
         raise BadResults(f"--out {folder}: cannot be written ({error.strerror}); name a folder that can") from error

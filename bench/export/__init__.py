@@ -1,6 +1,6 @@
 """Laws as code for another controller: translated from their one source, with test vectors.
 
-entries    what an export offers: orientation error, command and torque; sprung: springs, and laws with a state
+entries    what an export offers: orientation error, angular acceleration, torque; sprung: springs, laws with a state
 subject    what is exported, by its word: a regulator, coordinates, an impedance or a spring
 program    the functions that a law calls, with every name resolved
 types      the kinds of expressions; reading infers them

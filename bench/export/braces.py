@@ -5,6 +5,7 @@ names is taken apart; where a part needs a name that an earlier part changes, it
 """
 
 import ast
+import re
 from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
@@ -19,18 +20,25 @@ STRENGTH = {ast.Mult: 6, ast.Div: 6, ast.Add: 5, ast.Sub: 5}
 class Braces(NamedTuple):
     """A language with braces, by the functions that write its parts.
 
-    reserved: its words. declaration(kind, name): `double x`. built(kind, items): a tuple. part(kind, value, place): an
-    item of a tuple; place: a number, or a variable where all items are numbers. head(function): all that is before the
-    opening brace. function_name(name): that of a function of the program. primitive(name): that of sqrt, sin and so on.
+    reserved: its words. declaration(kind, name, is_changed): `double x`, of a variable that is assigned again or not.
+    built(kind, items): a tuple. part(kind, value, place): an item of a tuple; place: a number, or a variable where all
+    items are numbers. head(function): all that is before the opening brace. function_name(name): that of a function of
+    the program. primitive(name): that of sqrt, sin and so on. The others are templates: a condition, a choice, a loop,
+    the last statement of a function, and what marks a parameter that is not read.
     """
 
     reserved: frozenset[str]
-    declaration: Callable[[Kind, str], str]
+    declaration: Callable[[Kind, str, bool], str]
     built: Callable[[Tuple, list[str]], str]
     part: Callable[[Tuple, str, int | str], str]
     head: Callable[[Typed], str]
     function_name: Callable[[str], str]
     primitive: Callable[[str], str]
+    condition: str = "({})"
+    choice: str = "{} ? {} : {}"
+    loop: str = "for ({declared} = {first}; {name} < {last}; {name}++)"
+    last: str = "return {};"
+    unused: str = ""
 
     def variable(self, name: str) -> str:
         """Return a local name, with an underscore after it if it is a word of the language."""
@@ -38,8 +46,11 @@ class Braces(NamedTuple):
 
     def write(self, function: Typed) -> list[str]:
         """Return the lines of a function, the first of them its whole head."""
-        body = _Body(self, function).lines()
-        return ["\n".join(wrapped([f"{self.head(function)} {{"])), *wrapped((*body, "}"))]
+        body = list(_Body(self, function).lines())
+        read = set(re.findall(r"\w+", "\n".join(body)))
+        names = [name for name in map(self.variable, function.parameters) if self.unused and name not in read]
+        unused = (INDENT + self.unused.format(name) for name in names)
+        return ["\n".join(wrapped([f"{self.head(function)} {{"])), *wrapped((*unused, *body, "}"))]
 
 
 class _Body:
@@ -57,50 +68,53 @@ class _Body:
             undeclared -= due
             if not isinstance(statement, ast.Assign):
                 yield from (f"{INDENT}{self.declared(name)};" for name in sorted(due))
-            yield from self.statement(statement, due, INDENT)
+            yield from self.statement(statement, due, INDENT, statement is self.function.node.body[-1])
 
-    def block(self, statements: list[ast.stmt], indent: str) -> Iterator[str]:
-        """Write the statements of a branch or a loop."""
+    def block(self, statements: list[ast.stmt], indent: str, is_last: bool = False) -> Iterator[str]:
+        """Write the statements of a branch or a loop; is_last: nothing of the function follows."""
         for one in statements:
-            yield from self.statement(one, set(), indent + INDENT)
+            yield from self.statement(one, set(), indent + INDENT, is_last and one is statements[-1])
 
     def declared(self, name: str) -> str:
-        return self.language.declaration(self.function.variables[name], self.language.variable(name))
+        is_changed = count_assignments(name, self.function.node.body) > 1
+        return self.language.declaration(self.function.variables[name], self.language.variable(name), is_changed)
 
-    def statement(self, node: ast.stmt, due: set[str], indent: str) -> Iterator[str]:
+    def statement(self, node: ast.stmt, due: set[str], indent: str, is_last: bool) -> Iterator[str]:
         """Write a statement; due: the names that an assignment declares."""
         if isinstance(node, ast.Assign):
             for target in node.targets:
                 yield from (f"{indent}{one};" for one in self.assigned(target, node.value, due))
         elif isinstance(node, ast.AugAssign):
             name = self.expression(node.target)
-            yield f"{indent}{name} = {name} {ARITHMETIC[type(node.op)]} {self.expression(node.value, 7)};"
+            yield f"{indent}{name} {ARITHMETIC[type(node.op)]}= {self.expression(node.value)};"
         elif isinstance(node, ast.Return) and node.value is not None:
-            yield f"{indent}return {self.expression(node.value)};"
+            yield indent + (self.language.last if is_last else "return {};").format(self.expression(node.value))
         elif isinstance(node, ast.If):
-            yield from self.branches(node, indent)
+            yield from self.branches(node, indent, is_last)
         elif isinstance(node, ast.For):
             yield from self.loop(node, indent)
         elif isinstance(node, ast.Break | ast.Continue):
             yield f"{indent}{type(node).__name__.lower()};"
 
-    def branches(self, node: ast.If, indent: str) -> Iterator[str]:
-        yield f"{indent}if ({self.expression(node.test)}) {{"
-        yield from self.block(node.body, indent)
+    def branches(self, node: ast.If, indent: str, is_last: bool) -> Iterator[str]:
+        condition = self.language.condition
+        yield f"{indent}if {condition.format(self.expression(node.test))} {{"
+        yield from self.block(node.body, indent, is_last)
         while len(node.orelse) == 1 and isinstance(node.orelse[0], ast.If):
             node = node.orelse[0]
-            yield f"{indent}}} else if ({self.expression(node.test)}) {{"
-            yield from self.block(node.body, indent)
+            yield f"{indent}}} else if {condition.format(self.expression(node.test))} {{"
+            yield from self.block(node.body, indent, is_last)
         if node.orelse:
             yield f"{indent}}} else {{"
-            yield from self.block(node.orelse, indent)
+            yield from self.block(node.orelse, indent, is_last)
         yield f"{indent}}}"
 
     def loop(self, node: ast.For, indent: str) -> Iterator[str]:
         bounds = [self.expression(each) for each in node.iter.args] if isinstance(node.iter, ast.Call) else []
         first, last = ("0", bounds[0]) if len(bounds) == 1 else bounds[:2]
         name = self.expression(node.target)
-        yield f"{indent}for ({self.language.declaration(INDEX, name)} = {first}; {name} < {last}; {name}++) {{"
+        declared = self.language.declaration(INDEX, name, True)
+        yield f"{indent}{self.language.loop.format(declared=declared, name=name, first=first, last=last)} {{"
         yield from self.block(node.body, indent)
         yield f"{indent}}}"
 
@@ -138,7 +152,7 @@ class _Body:
 
     def temporary(self, kind: Kind, name: str, value: str) -> str:
         self.spare += 1
-        return f"{self.language.declaration(kind, name)} = {value}"
+        return f"{self.language.declaration(kind, name, False)} = {value}"
 
     def is_read(self, name: str) -> bool:
         nodes = (one for one in ast.walk(self.function.node) if isinstance(one, ast.Name) and one.id == name)
@@ -191,7 +205,7 @@ class _Body:
                 return word.join(self.expression(one, 4) for one in node.values), strength
             case ast.IfExp():
                 parts = [self.expression(one, 2) for one in (node.test, node.body, node.orelse)]
-                return f"{parts[0]} ? {parts[1]} : {parts[2]}", 1
+                return language.choice.format(*parts), 1
         raise TypeError(f"{ast.dump(node)} has passed the type inference")  # pragma: no cover
 
     def call(self, node: ast.Call, kind: Kind) -> tuple[str, int]:
@@ -211,6 +225,21 @@ class _Body:
         if isinstance(kind, Tuple):
             return self.language.built(kind, [self.value(*one) for one in zip(value, kind.items, strict=True)])
         return repr(float(value)) if kind == REAL else str(value).lower()
+
+
+def count_assignments(name: str, statements: list[ast.stmt]) -> int:
+    """Return how often a variable is assigned on the path with most assignments; in a loop each counts twice."""
+    count = 0
+    for node in statements:
+        if isinstance(node, ast.If):
+            branches = (each for each in (node.body, node.orelse) if each and not isinstance(each[-1], ast.Return))
+            count += max((count_assignments(name, each) for each in branches), default=0)
+        elif isinstance(node, ast.For):
+            count += 2 * count_assignments(name, node.body)
+        else:
+            stored = (one for one in ast.walk(node) if isinstance(one, ast.Name) and isinstance(one.ctx, ast.Store))
+            count += sum(one.id == name for one in stored)
+    return count
 
 
 def names_in(node: ast.AST) -> set[str]:

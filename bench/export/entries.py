@@ -1,13 +1,18 @@
 """Entries of an export: the functions that its files offer, in the base frame and in the body frame.
 
 An entry is a function of the law dialect around the law and is translated with it, so that no language has formulas of
-its own. Vectors are in the base frame; where the name of an entry ends in `_body` they are in the body frame.
+its own. Vectors are in the base frame; what is in the body frame has a name that ends in `_body`, and a quaternion
+(w, x, y, z) one that ends in `_wxyz`.
 """
 
 from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
-from bench.law import AT_REST, Coordinates, Gains, Goal, cross, dot, kernel, rotate, rotate_back
+import numpy as np
+
+from bench.law import AT_REST, Gains, Goal, kernel
+from bench.law.so3 import cross, dot, from_quaternion, minus, rotate, rotate_back, turn_quaternion
+from bench.law.tracking import carried_along
 
 
 class Parameter(NamedTuple):
@@ -35,6 +40,12 @@ class Entry(NamedTuple):
     def has_memory(self) -> bool:
         """Tell whether it takes a memory."""
         return any(one.kind == "memory" for one in self.parameters)
+
+    @property
+    def about(self) -> str:
+        """Return what it returns, and how its matrices are stored."""
+        matrices = [one.name for one in (*self.parameters, self.returns) if one.size == 9]
+        return f"{self.doc}; {', '.join(matrices)} by rows: {matrices[0]}[3*i+j]" if matrices else self.doc
 
 
 class Frame(NamedTuple):
@@ -74,14 +85,18 @@ def in_both_frames(make: Callable[[Frame], Iterable[Callable]], *declared: Decla
 
 R, R_D = Parameter("R", "matrix", 9), Parameter("R_d", "matrix", 9)
 OMEGA, U, MOMENT, E, TAU = (Parameter(name, "vector", 3) for name in ("omega", "u", "moment", "e", "tau"))
-GAINS, MEMORY = Parameter("gains", "gains", 2), Parameter("memory", "memory", 4)
-INERTIA = Parameter("inertia", "rows", 9)
+OMEGA_D, ALPHA_D = Parameter("omega_d", "vector", 3), Parameter("alpha_d", "vector", 3)
+GAINS, INERTIA = Parameter("gains", "gains", 2), Parameter("inertia_body", "rows", 9)
 REGULATING = Gains(1.0, 2.0)
 """The gains of the orientation error: stiffness 1, critically damped as the paper's gains are."""
 
-COMMAND = "angular acceleration u [rad/s^2]"
-ERROR = "error of orientation e [rad near the goal], towards the goal: the command at rest over Kp, at Kv^2 = 4 Kp"
-TORQUE = "torque [N m] that gives a rigid body the command u; inertia [kg m^2] is in the body frame in every entry"
+ACCELERATION = "angular acceleration u [rad/s^2] that the law commands"
+TRACKING = (
+    "angular acceleration u [rad/s^2] that the law commands towards a goal that turns at omega_d [rad/s], alpha_d "
+    "[rad/s^2]: alpha_d + omega_d x (omega - omega_d) + the law's own u at omega - omega_d"
+)
+ERROR = "error of orientation e [rad near the goal], towards the goal: u at rest over Kp, at Kv^2 = 4 Kp"
+TORQUE = "torque tau [N m] that gives a rigid body the angular acceleration u; inertia_body [kg m^2]: in the body frame"
 
 
 @kernel
@@ -101,96 +116,95 @@ def torque_in_body(omega_body, u_body, inertia):
     return (p[0] + g[0], p[1] + g[1], p[2] + g[2])
 
 
-def of_law(law: Callable, has_memory: bool) -> list[Entry]:
-    """Return the command and the orientation error of a regulator, and the torque of a command, in both frames."""
+def of_torque() -> list[Entry]:
+    """Return the torque of an angular acceleration, in both frames."""
 
     def make(frame: Frame) -> tuple[Callable, ...]:
-        _suffix, to_base, from_base, to_body, from_body = frame
-
-        @kernel
-        def command(R, omega, R_d, gains):
-            return from_base(R, law(R, to_base(R, omega), Goal(R_d, AT_REST, AT_REST), gains))
-
-        @kernel
-        def orientation_error(R, R_d):
-            return command(R, AT_REST, R_d, REGULATING)
-
-        @kernel
-        def command_with_memory(R, omega, R_d, gains, memory):
-            u, kept = law(R, to_base(R, omega), Goal(R_d, AT_REST, AT_REST), gains, memory)
-            return from_base(R, u), kept
-
-        @kernel
-        def orientation_error_with_memory(R, R_d, memory):
-            return command_with_memory(R, AT_REST, R_d, REGULATING, memory)
+        to_body, from_body = frame.to_body, frame.from_body
 
         @kernel
         def torque(R, omega, u, inertia):
             return from_body(R, torque_in_body(to_body(R, omega), to_body(R, u), inertia))
 
-        if has_memory:
-            return command_with_memory, orientation_error_with_memory, torque
-        return command, orientation_error, torque
+        return (torque,)
 
-    kept = (MEMORY,) if has_memory else ()
-    return in_both_frames(
+    return in_both_frames(make, ((R, OMEGA, U, INERTIA), TAU, TORQUE))
+
+
+SEEN = from_quaternion((0.8, 0.0, 0.6, 0.0)), from_quaternion((10 / 11, 1 / 11, 2 / 11, 4 / 11))
+"""R and R_d at which a law is called to see what it keeps in memory."""
+
+
+def name_numbers(name: str, found: tuple, quat_wxyz: tuple) -> str:
+    """Return the name of four numbers, which ends in _wxyz if they are a multiple of the quaternion."""
+    p, q = np.array(found), np.array(quat_wxyz)
+    return f"{name}_wxyz" if abs(p @ q) > (1.0 - 1e-9) * np.linalg.norm(p) * np.linalg.norm(q) else name
+
+
+def of_law(law: Callable, memory: tuple | None) -> list[Entry]:
+    """Return angular acceleration, also for a moving goal, orientation error and torque of a regulator, in both frames.
+
+    memory: the first one; None of a law without memory.
+    """
+
+    def make(frame: Frame) -> tuple[Callable, ...]:
+        _suffix, to_base, from_base, _to_body, _from_body = frame
+
+        @kernel
+        def angular_acceleration(R, omega, R_d, gains):
+            return from_base(R, law(R, to_base(R, omega), Goal(R_d, AT_REST, AT_REST), gains))
+
+        @kernel
+        def tracking_acceleration(R, omega, R_d, omega_d, alpha_d, gains):
+            u = angular_acceleration(R, minus(omega, omega_d), R_d, gains)
+            return carried_along(u, omega, omega_d, alpha_d)  # in the entry's frame: a cross product turns with it
+
+        @kernel
+        def orientation_error(R, R_d):
+            return angular_acceleration(R, AT_REST, R_d, REGULATING)
+
+        @kernel
+        def angular_acceleration_with_memory(R, omega, R_d, gains, memory):
+            u, kept = law(R, to_base(R, omega), Goal(R_d, AT_REST, AT_REST), gains, memory)
+            return from_base(R, u), kept
+
+        @kernel
+        def tracking_acceleration_with_memory(R, omega, R_d, omega_d, alpha_d, gains, memory):
+            u, kept = angular_acceleration_with_memory(R, minus(omega, omega_d), R_d, gains, memory)
+            return carried_along(u, omega, omega_d, alpha_d), kept
+
+        @kernel
+        def orientation_error_with_memory(R, R_d, memory):
+            return angular_acceleration_with_memory(R, AT_REST, R_d, REGULATING, memory)
+
+        if memory is None:
+            return angular_acceleration, tracking_acceleration, orientation_error
+        return angular_acceleration_with_memory, tracking_acceleration_with_memory, orientation_error_with_memory
+
+    kept: tuple[Parameter, ...] = ()
+    if memory is not None:
+        (w, v, _), (_u, after) = turn_quaternion(*SEEN), law(SEEN[0], AT_REST, Goal(SEEN[1]), REGULATING, memory)
+        kept = (Parameter(name_numbers("memory", after, (w, *v)), "memory", 4),)
+    both = in_both_frames(
         make,
-        ((R, OMEGA, R_D, GAINS, *kept), U, COMMAND),
+        ((R, OMEGA, R_D, GAINS, *kept), U, ACCELERATION),
+        ((R, OMEGA, R_D, OMEGA_D, ALPHA_D, GAINS, *kept), U, TRACKING),
         ((R, R_D, *kept), E, ERROR),
-        ((R, OMEGA, U, INERTIA), TAU, TORQUE),
     )
+    return [*both, *of_torque()]
 
 
 def of_impedance(law: Callable) -> list[Entry]:
-    """Return the command of an impedance under a moment, in both frames."""
+    """Return the angular acceleration of an impedance under a moment, and the torque, in both frames."""
 
     def make(frame: Frame) -> tuple[Callable, ...]:
         to_base, from_base = frame.to_base, frame.from_base
 
         @kernel
-        def command(R, omega, moment, R_d, gains, apparent_inertia):
+        def angular_acceleration(R, omega, moment, R_d, gains, apparent_inertia):
             return from_base(R, law(R, to_base(R, omega), to_base(R, moment), R_d, gains, apparent_inertia))
 
-        return (command,)
+        return (angular_acceleration,)
 
     given = (R, OMEGA, MOMENT, R_D, GAINS, Parameter("apparent_inertia", "number"))
-    return in_both_frames(make, (given, U, f"{COMMAND} under a moment [N m]"))
-
-
-def of_representation(record: Coordinates) -> list[Entry]:
-    """Return the entries of coordinates: to and from R, B, B^-1 and B^T, base frame."""
-    size = len(record.symbols)
-    chart, chart_of = record.chart, record.chart_of
-    push, pull, accelerate, convert = record.angular_velocity, record.rates, record.accelerate, record.generalized
-    E, Edot, Eddot, F = (Parameter(name, "tuple", size) for name in ("E", "Edot", "Eddot", "F"))
-    alpha, number = Parameter("alpha", "vector", 3), Parameter("margin", "number")
-
-    @kernel
-    def coordinates(R):
-        return chart(R).E
-
-    @kernel
-    def rates(E, omega):
-        return pull(chart_of(E), omega)
-
-    @kernel
-    def angular_velocity(E, Edot):
-        return push(chart_of(E), Edot)
-
-    @kernel
-    def angular_acceleration(E, Edot, Eddot):
-        return accelerate(chart_of(E), Edot, Eddot)
-
-    @kernel
-    def generalized_forces(E, moment):
-        return convert(chart_of(E), moment)
-
-    return [
-        Entry("coordinates", coordinates, (R,), E, "E of R"),
-        Entry("rotation", record.to_matrix, (E,), R, "R of E"),
-        Entry("rates", rates, (E, OMEGA), Edot, "Edot = B^-1 omega"),
-        Entry("angular_velocity", angular_velocity, (E, Edot), OMEGA, "omega = B Edot"),
-        Entry("angular_acceleration", angular_acceleration, (E, Edot, Eddot), alpha, "B Eddot + Bdot Edot"),
-        Entry("generalized_forces", generalized_forces, (E, MOMENT), F, "B^T m"),
-        Entry("margin", record.margin, (R,), number, "in [0, 1], 0 exactly where B^-1 does not exist"),
-    ]
+    return [*in_both_frames(make, (given, U, f"{ACCELERATION} under a moment [N m]")), *of_torque()]

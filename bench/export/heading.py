@@ -1,15 +1,21 @@
 """Headings of exported files: formula, source, limitations, cost and licence."""
 
+import importlib.metadata
 import re
 import sys
 import textwrap
 
-from bench.base.provenance import describe_project
+from bench.base.provenance import IS_CHECKOUT, ROOT, describe_project
 from bench.engines.counting.costs import FLOPS, cost
 from bench.engines.counting.counted import TOTAL
 from bench.export.subject import COMPENSATOR, IMPEDANCE, SPRING, Subject
 
 PROJECT = describe_project()
+LICENSE = (
+    (ROOT / "LICENSE").read_text(encoding="utf-8")
+    if IS_CHECKOUT
+    else importlib.metadata.distribution("orientation-bench").read_text("licenses/LICENSE") or ""
+)
 WIDTH = 110
 RESET = (
     "Call reset before the first tick, after a pause, and whenever the goal jumps: the memory outlives the goal, and "
@@ -26,6 +32,10 @@ BY_ROWS = (
     "Matrices  nine numbers by rows: R[3*i+j] is in row i and column j. What is stored by columns (Eigen's data(), "
     "OpenGL, O_T_EE of libfranka, the observation R of this project's tasks) must be transposed first"
 )
+FRAMES = (
+    "Frames    base frame; body frame where a name ends in _body; quaternions (w, x, y, z) where it ends in _wxyz. "
+    "R: columns are the body's axes in the base frame"
+)
 UNFUSED = (
     "Digits    equal to the test vectors bit for bit where the compiler fuses no product with a sum "
     "(-ffp-contract=off and no -march); with -march=native or on aarch64 the last digits may differ"
@@ -34,7 +44,7 @@ GAINS = "Gains     kp [1/s^2], kv [1/s]; "
 OF_KIND = {
     COMPENSATOR: (
         f"{GAINS}what they set is in the formula",
-        "State     four numbers; begin returns the first of them, next_state those of every period after",
+        "State     four numbers; reset returns the first of them, next_state those of every period after",
     ),
     IMPEDANCE: (f"{GAINS}apparent inertia [kg m^2]; stiffness at the goal kp times that",),
     SPRING: (
@@ -59,7 +69,7 @@ def heading(subject: Subject, *notes: str) -> str:
         *([f"Source    {record.source}"] if record.source else []),
         *_facts(subject),
         *_wrapped(f"Limits    {' '.join(limits[1].split())}" if limits else ""),
-        "Frames    base frame; body frame where a name ends in _body. R: columns are the body's axes in the base frame",
+        *_wrapped(FRAMES),
         *_wrapped(f"Entries   {entries}"),
         *(line for note in notes for line in _wrapped(note)),
         f"Made by   orientation-bench {PROJECT['version']} from the law's one source",
@@ -79,11 +89,14 @@ def _facts(subject: Subject) -> list[str]:
     lines = [
         f"{GAINS}near the goal u = kp (rotation vector to the goal) - kv omega",
         f"Property  {subject.record.property}",
-        f"Cost      {flops} flops and {calls} calls of sin, cos, atan2, acos in the typical branch of the command",
+        f"Cost      {flops} flops and {calls} calls of sin, cos, atan2, acos for u, in the typical branch",
     ]
     if subject.memory is not None:
         first = ", ".join(map(repr, subject.memory))
-        lines += _wrapped(f"Memory    the error quaternion of the last tick, at first ({first}). {RESET} {SIDE}")
+        kept, side = "four numbers", ""
+        if subject.memory_name.endswith("_wxyz"):
+            kept, side = "quaternion of the rotation from R to R_d at the last tick, base frame, of any length", SIDE
+        lines += _wrapped(f"Memory    {subject.memory_name}: {kept}; at first ({first}). {RESET} {side}")
     return lines
 
 

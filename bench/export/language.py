@@ -9,7 +9,7 @@ from typing import NamedTuple
 from bench.base.errors import UnknownWord
 from bench.export import languages
 from bench.export.entries import Entry
-from bench.export.heading import BY_ROWS, RESET, SIDE
+from bench.export.heading import BY_ROWS, LICENSE, RESET, SIDE
 from bench.export.subject import Subject
 from bench.export.vectors import CLOSE, vectors
 from tasks.discovery import constants
@@ -18,30 +18,29 @@ from tasks.discovery import constants
 class Language(NamedTuple):
     """A language: how it writes the file of a subject and the test of it.
 
-    suffixes: of the two files. test: the command that runs the test of an export in its folder, with {name} for the
-    subject's identifier. around: the language whose file this one's file includes. beside: further files of a subject.
+    paths: of the two files, with {name} for the subject's identifier. test: the command that runs the test of an export
+    in its folder. notes: more for its README. beside: writes the other files that the law's needs, by path.
     """
 
     name: str
     title: str
-    suffixes: tuple[str, str]
+    paths: tuple[str, str]
     write_law: Callable[[Subject], str]
     write_test: Callable[[Subject], str]
     test: str
-    around: Language | None = None
-    beside: Callable[[Subject], dict[str, str]] = lambda _: {}
+    notes: str = ""
+    beside: Callable[[Subject], dict[str, str]] = lambda subject: {}
 
-    def law(self, subject: Subject) -> tuple[str, str]:
-        """Return the name of the file of a subject, and its text."""
-        return f"{subject.identifier}.{self.suffixes[0]}", self.write_law(subject)
+    def law(self, subject: Subject) -> dict[str, str]:
+        """Return the file of a subject and those that it needs, by path."""
+        return {self.paths[0].format(name=subject.identifier): self.write_law(subject), **self.beside(subject)}
 
     def files(self, subject: Subject) -> dict[str, str]:
-        """Return the files of an export by name: the law, its test, and what they need."""
+        """Return the files of an export by path: the law, its test, and what they need."""
         return {
-            **dict([self.law(subject)]),
-            **dict([self.around.law(subject)] if self.around else []),
-            **self.beside(subject),
-            f"test_{subject.identifier}.{self.suffixes[1]}": self.write_test(subject),
+            **self.law(subject),
+            self.paths[1].format(name=subject.identifier): self.write_test(subject),
+            "LICENSE": LICENSE,
             "vectors.json": write_vectors(subject),
             "README.md": write_readme(subject, self),
         }
@@ -83,7 +82,8 @@ def write_vectors(subject: Subject) -> str:
 def write_readme(subject: Subject, language: Language) -> str:
     """Write how to try the export."""
     remembered = f"\n**Memory.** {RESET} {SIDE}\n" if subject.memory else ""
-    short = "".join(f"`{name}` is the law in at most 12 lines of NumPy. " for name in language.beside(subject))
+    names = (name for name in language.beside(subject) if name.startswith("short_"))
+    short = "".join(f"`{name}` is the law in at most 12 lines of NumPy. " for name in names)
     return (
         f"# {subject.record.title}, {language.title}\n\nTry it in this folder:\n\n```sh\n"
         f"{language.test.format(name=subject.identifier)}\n```\n\n"
@@ -91,5 +91,5 @@ def write_readme(subject: Subject, language: Language) -> str:
         "the compiler fuses no product with a sum (`-ffp-contract=off`); elsewhere sines, cosines and "
         f"arcs of another library change last digits, and the tolerance is {CLOSE:g} of the largest number of the "
         f"answer. {short}The file of the law says what it is and where it fails.\n\n**Matrices** in `vectors.json` are "
-        f"{BY_ROWS.partition('  ')[2]}.\n{remembered}"
+        f"{BY_ROWS.partition('  ')[2]}.\n{remembered}{language.notes}"
     )

@@ -1,5 +1,6 @@
 """Lines of code: indented, wrapped after commas, and commented."""
 
+import re
 import textwrap
 from collections.abc import Iterable, Iterator
 from pathlib import Path
@@ -7,9 +8,10 @@ from pathlib import Path
 INDENT, WIDTH = "    ", 120
 
 
-def read_template(name: str) -> str:
-    """Return a file of bench/export/languages/templates."""
-    return Path(__file__).with_name("languages").joinpath("templates", name).read_text(encoding="utf-8")
+def fill_template(name: str, **texts: object) -> str:
+    """Return a file of bench/export/languages/templates with texts in place of these words."""
+    template = Path(__file__).with_name("languages").joinpath("templates", name).read_text(encoding="utf-8")
+    return re.sub("|".join(texts), lambda word: str(texts[word[0]]), template) if texts else template
 
 
 def wrapped(lines: Iterable[str]) -> Iterator[str]:

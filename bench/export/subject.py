@@ -8,15 +8,15 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from bench.base.errors import UnknownWord
-from bench.export.entries import Entry, of_impedance, of_law, of_representation
+from bench.export.entries import Entry, of_impedance, of_law
 from bench.export.program import REAL, Kind, Tuple, numbers
 from bench.export.reading import Program
-from bench.export.sprung import of_compensator, of_spring
+from bench.export.sprung import of_compensator, of_representation, of_spring
 from bench.law.contender import Contender
 from bench.law.contenders import registry
 from bench.law.contenders.registry import contenders
 from bench.law.control.registry import all_controllers
-from bench.law.inputs import Gains
+from bench.law.inputs import NO_MEMORY, Gains
 from bench.law.kinds import Law
 from bench.law.so3 import Rotation
 
@@ -47,6 +47,11 @@ class Subject(NamedTuple):
     def identifier(self) -> str:
         """Return the word as a name in every language."""
         return identifier_of(self.word)
+
+    @property
+    def memory_name(self) -> str:
+        """Return the name of the memory, which ends in _wxyz if it is a quaternion; empty without memory."""
+        return next((one.name for each in self.entries for one in each.parameters if one.kind == "memory"), "")
 
 
 def identifier_of(word: str) -> str:
@@ -85,8 +90,9 @@ def find_subject(word: str, extra: tuple[Law, ...] = ()) -> Subject:
         raise UnknownWord("law to export", word, subject_words(extra))
     contender = registry.find_contender(word, extra)
     regulator = contender.regulator
-    entries = tuple(of_law(contender.law, regulator.memory is not None))
-    return Subject(contender.on_free_body, regulator, contender.representation, entries, regulator.memory, contender)
+    memory = regulator.memory and (*regulator.memory, *NO_MEMORY[len(regulator.memory) :])
+    entries = tuple(of_law(contender.law, memory))
+    return Subject(contender.on_free_body, regulator, contender.representation, entries, memory, contender)
 
 
 MATRIX = Tuple((numbers(3),) * 3, Rotation.__name__, Rotation._fields)

@@ -42,6 +42,11 @@ class Vector(NamedTuple):
     memory: list[float]
     tolerance: float
 
+    @property
+    def row(self) -> list[float]:
+        """Return arguments, result, memory and tolerance as one row of numbers."""
+        return [float(x) for x in np.hstack([*self.arguments.values(), self.result, self.memory, self.tolerance])]
+
 
 def states(count: int, seed: int = SEED) -> Iterator[State]:
     """Yield states: uniform, near and at 180°, near the goal, at the poles of angles, spinning."""
@@ -91,7 +96,7 @@ def _vector(subject: Subject, entry: Entry, state: State, random: np.random.Gene
 def _argument(subject: Subject, one: Parameter, state: State, random: np.random.Generator) -> Any:
     """Return a value for an argument, as JSON has it: a number or a list of numbers, a matrix by rows."""
     quat = state.quat_d if "_d" in one.name else state.quat
-    name = one.name.removesuffix("_body")
+    name = one.name.removesuffix("_body").removesuffix("_wxyz")
     if one.kind == "matrix":
         return np.array(from_quaternion(quat)).T.ravel().tolist()
     if one.kind == "gains":

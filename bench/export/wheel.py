@@ -51,7 +51,7 @@ def write_laws(package: Path) -> str:
     laws.mkdir()
     rows = []
     for subject in map(find_subject, subject_words()):
-        name, text = find_language("python").law(subject)
+        name, text = next(iter(find_language("python").law(subject).items()))
         (laws / name).write_text(text, encoding="utf-8")
         coordinates = f" in {subject.representation.title}" if subject.representation else ""
         rows.append(f"| `{subject.identifier}` | {subject.record.title}{coordinates} |")

@@ -32,8 +32,8 @@ def test_export_writes_law_test_vectors_and_how_to_try_them(capsys, tmp_path, la
     said = bench(capsys, "export", "rotation-matrix", "--to", language, "--out", str(tmp_path / "here"))
     assert (said.code, "try it there" in said.out) == (0, True)
     names = sorted(path.name for path in (tmp_path / "here").iterdir())
-    assert len(names) == (5 if language in ("cpp", "python") else 4)
-    assert {"README.md", "vectors.json"} < set(names)
+    assert len(names) == (5 if language == "c" else 6)
+    assert {"LICENSE", "README.md", "vectors.json"} < set(names)
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """Exported laws compiled here, all in one library, and the states on which they are held to our own kernels."""
 
 import functools
+import re
 import shutil
 from pathlib import Path
 
@@ -10,12 +11,20 @@ import pytest
 from bench.engines.compiled import EVALUATE, GAINS, MATRIX, compile_function, types
 from bench.engines.simulate import evaluation
 from bench.export.language import find_language
-from bench.export.subject import Subject
+from bench.export.subject import Subject, find_subject
 from bench.law.contender import Contender
 from bench.law.inputs import AT_REST, PAPERS_GAINS, Gains, Goal
 from bench.law.so3 import Rotation, from_quaternion
 
-STATES = 100_000
+STATES, SOME = 100_000, 20_000
+SHAPES = (
+    "late-braking",
+    "feedback-linearized/zyx-euler",
+    "representation-quaternion",
+    "spring-logarithm-energy",
+)
+"""With memory, calling libm, with four coordinates and matrices returned, nine numbers among arguments."""
+
 KP, KV = PAPERS_GAINS
 NODE = str(Path(shutil.which("node") or "/usr/bin/node").parent)
 WIDTH, ANSWERS = 25, 7
@@ -25,7 +34,9 @@ WIDTH, ANSWERS = 25, 7
 def needs(*tools: str):
     """Skip where a tool is missing, with its cure."""
     absent = [tool for tool in tools if shutil.which(tool) is None]
-    return pytest.mark.skipif(bool(absent), reason=f"no {', '.join(absent)} here (Debian: apt install gcc g++ nodejs)")
+    return pytest.mark.skipif(
+        bool(absent), reason=f"no {', '.join(absent)} here (Debian: apt install gcc g++ nodejs; cargo: rustup.rs)"
+    )
 
 
 def written(subject: Subject, language: str, folder: Path, is_tested: bool = True) -> Path:
@@ -33,8 +44,8 @@ def written(subject: Subject, language: str, folder: Path, is_tested: bool = Tru
     here = folder / language / subject.identifier
     here.mkdir(parents=True)
     chosen = find_language(language)
-    laws_alone = [one.law(subject) for one in (chosen, chosen.around) if one]
-    for name, text in chosen.files(subject).items() if is_tested else laws_alone:
+    for name, text in (chosen.files if is_tested else chosen.law)(subject).items():
+        (here / name).parent.mkdir(exist_ok=True)
         (here / name).write_text(text, encoding="utf-8")
     return here
 
@@ -86,3 +97,20 @@ def our_answers(contender: Contender) -> np.ndarray:
     answers = np.zeros((STATES, ANSWERS))
     _ours()(evaluation(contender), Gains(KP, KV), states(), answers)
     return answers
+
+
+def ask_some(folder: Path, program: str) -> str:
+    """Write SOME states into the folder, and return a program that asks at them."""
+    (folder / "states").write_bytes(states()[:: STATES // SOME].tobytes())
+    numbers = {"WIDTH_OUT": ANSWERS, "COUNT": SOME, "KP": KP, "KV": KV, "FOLDER": folder}
+    text = Path(__file__).parents[1].joinpath("export", program).read_text()
+    return re.sub("|".join(numbers), lambda word: str(numbers[word[0]]), text)
+
+
+def assert_same_bits(folder: Path, contender: Contender) -> None:
+    """Compare the answers in the folder with those of our kernel."""
+    subject = find_subject(contender.name)
+    theirs = np.fromfile(folder / f"{subject.identifier}.answers").reshape(SOME, -1)
+    ours = our_answers(contender)[:: STATES // SOME, : ANSWERS if subject.memory else 3]
+    same = (ours == theirs[:, : ours.shape[1]]) | (np.isnan(ours) & np.isnan(theirs[:, : ours.shape[1]]))
+    assert same.all(), (contender.name, np.argwhere(~same)[:3])

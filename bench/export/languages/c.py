@@ -3,18 +3,15 @@
 Inside, tuples are structures; the entries read them from arrays and write them to arrays.
 """
 
-import re
 import textwrap
 from collections.abc import Callable, Iterator
 from typing import NamedTuple
-
-import numpy as np
 
 from bench.export.braces import Braces
 from bench.export.entries import Entry
 from bench.export.heading import BY_ROWS, RESET, UNFUSED, heading
 from bench.export.language import Language, write_arguments
-from bench.export.layout import INDENT, WIDTH, read_template, wrapped
+from bench.export.layout import INDENT, WIDTH, fill_template, wrapped
 from bench.export.program import INDEX, REAL, TRUTH, Kind, Tuple
 from bench.export.reading import Typed
 from bench.export.subject import MATRIX, Subject, translated
@@ -43,12 +40,13 @@ class Core:
             self.names[kind] = f"{self.prefix}{name}"
         self.language = Braces(
             reserved=frozenset(WORDS.split()),
-            declaration=lambda kind, name: f"{self.kind(kind)} {name}",
+            declaration=lambda kind, name, is_changed: f"{self.kind(kind)} {name}",
             built=lambda kind, items: f"{self.names[kind]}_of({', '.join(items)})",
             part=lambda kind, value, place: f"{value}.{self.item(kind, place)}",
             head=self.head,
             function_name=lambda name: f"{self.prefix}{name}",
             primitive=str,
+            unused="(void){};",
         )
 
     def kind(self, kind: Kind) -> str:
@@ -92,11 +90,8 @@ class Core:
         return "\n".join((*wrapped(structures), "", *(self.documented(one) for one in self.program.functions)))
 
     def documented(self, function: Typed) -> str:
-        """Write a function after its comment; its unused parameters are marked."""
-        head, *body = self.language.write(function)
-        names, used = map(self.language.variable, function.parameters), set(re.findall(r"\w+", "\n".join(body)))
-        unused = [f"{INDENT}(void){name};" for name in names if name not in used]
-        return "\n".join((*comment(function.summary), head, *unused, *body, ""))
+        """Write a function after its comment."""
+        return "\n".join((*comment(function.summary), *self.language.write(function), ""))
 
 
 def comment(text: str) -> list[str]:
@@ -124,12 +119,12 @@ def write_header(subject: Subject) -> str:
 def write_state(subject: Subject) -> Iterator[str]:
     """Write the type of a memory, and its reset."""
     if subject.memory is not None:
-        name = subject.identifier
+        name, kept = subject.identifier, subject.memory_name
         yield "/* What the law remembers from tick to tick. */"
-        yield f"typedef struct {{ double memory[{len(subject.memory)}]; }} {name}_state;\n"
+        yield f"typedef struct {{ double {kept}[{len(subject.memory)}]; }} {name}_state;\n"
         yield from comment(RESET)
         yield f"static inline void {name}_reset({name}_state *state) {{"
-        yield from (f"{INDENT}state->memory[{at}] = {value!r};" for at, value in enumerate(subject.memory))
+        yield from (f"{INDENT}state->{kept}[{at}] = {value!r};" for at, value in enumerate(subject.memory))
         yield "}\n"
 
 
@@ -143,7 +138,7 @@ def write_entry(subject: Subject, core: Core, entry: Entry) -> str:
         "": "const double {name}[{size}]",
     }
     passed = {"number": "{name}", "gains": f"{core.prefix}Gains_of(kp, kv)"}
-    passed["memory"] = f"{core.prefix}real{len(subject.memory or ())}_at(state->memory)"
+    passed["memory"] = f"{core.prefix}real{len(subject.memory or ())}_at(state->{subject.memory_name})"
     passed |= {"matrix": f"{core.prefix}Rotation_at({{name}})", "": f"{core.prefix}real{{size}}_at({{name}})"}
     given, arguments = write_arguments(entry, declared, passed)
     call, (out, kind, size) = f"{core.prefix}{function.name}({arguments})", entry.returns
@@ -154,11 +149,8 @@ def write_entry(subject: Subject, core: Core, entry: Entry) -> str:
         head, body = f"static inline double {name}({given}) {{", [f"return {call};"]
     if entry.has_memory:
         body = [f"const {core.kind(function.returns)} answer = {call};", stored.format("answer.item0")]
-        body.append(f"{passed['memory'].partition('_at')[0]}_to(answer.item1, state->memory);")
-    about, matrices = entry.doc, [one.name for one in (*entry.parameters, entry.returns) if one.size == 9]
-    if matrices:
-        about += f"; {', '.join(matrices)} by rows: {matrices[0]}[3*i+j]"
-    return "\n".join((*comment(about), *wrapped((head, *(f"{INDENT}{line}" for line in body), "}", ""))))
+        body.append(f"{passed['memory'].partition('_at')[0]}_to(answer.item1, state->{subject.memory_name});")
+    return "\n".join((*comment(entry.about), *wrapped((head, *(f"{INDENT}{line}" for line in body), "}", ""))))
 
 
 class Calls(NamedTuple):
@@ -177,13 +169,10 @@ class Calls(NamedTuple):
 
 def write_program(subject: Subject, calls: Calls) -> str:
     """Write a program that counts the wrong answers, and ends with 1 if there are any."""
-    functions = (line for entry in subject.entries for line in _test_entry(subject, entry, calls))
+    functions = "\n".join(line for entry in subject.entries for line in _test_entry(subject, entry, calls))
     tests = "\n".join(f"{INDENT}wrong += test_{one.name}();" for one in subject.entries)
     filled = {"NAME": subject.identifier, "COUNT": len(vectors(subject)), "CLOSE": f"{CLOSE:g}", "CALLS": tests}
-    text = read_template("test.c")
-    for word, value in (filled | {"FUNCTIONS": "\n".join(functions)}).items():
-        text = text.replace(word, str(value))
-    return f'#include "{calls.header}"\n{text}'
+    return f'#include "{calls.header}"\n' + fill_template("test.c", **filled, FUNCTIONS=functions)
 
 
 def _test_entry(subject: Subject, entry: Entry, calls: Calls) -> Iterator[str]:
@@ -194,8 +183,7 @@ def _test_entry(subject: Subject, entry: Entry, calls: Calls) -> Iterator[str]:
     width = given + results + kept + 1
     yield f"static const double {entry.name}_rows[{len(found)}][{width}] = {{"
     for each in found:
-        numbers = np.hstack([*each.arguments.values(), each.result, each.memory, each.tolerance]).tolist()
-        yield from wrapped([f"{INDENT}{{{', '.join(map(repr, numbers))}}},"])
+        yield from wrapped([f"{INDENT}{{{', '.join(map(repr, each.row))}}},"])
     yield f"}};\n\nstatic int test_{entry.name}(void) {{"
     yield f"{INDENT}int wrong = 0, at;"
     yield f"{INDENT}for (at = 0; at < {len(found)}; at++) {{"
@@ -208,14 +196,14 @@ def _test_entry(subject: Subject, entry: Entry, calls: Calls) -> Iterator[str]:
             yield f"{deep}const int is_first = {first};"
             yield f"{deep}{calls.state} state;"
             yield f"{deep}int k;"
-            yield f"{deep}for (k = 0; k < {one.size}; k++) state.memory[k] = is_first ? -1.0 : row[{place} + k];"
+            yield f"{deep}for (k = 0; k < {one.size}; k++) state.{one.name}[k] = is_first ? -1.0 : row[{place} + k];"
             yield f"{deep}if (is_first) {calls.reset};"
         passed.append(calls.passed.get(one.kind, calls.passed[""]).format(at=place, size=one.size))
         place += one.size
     yield f"{deep}{calls.call(entry, ', '.join(passed))}"
     checks = [f"is_wrong(result, row + {place}, {results}, tolerance)"]
     if kept:
-        checks.append(f"is_wrong(state.memory, row + {place + results}, {kept}, tolerance)")
+        checks.append(f"is_wrong(state.{subject.memory_name}, row + {place + results}, {kept}, tolerance)")
     yield f"{deep}wrong += {' || '.join(checks)};\n{INDENT}}}\n{INDENT}return wrong;\n}}\n"
 
 
@@ -233,4 +221,4 @@ def write_test(subject: Subject) -> str:
 
 
 COMPILE = "cc -std=c99 -O2 -ffp-contract=off -o test_{name} test_{name}.c -lm && ./test_{name}"
-LANGUAGE = Language("c", "C99", ("h", "c"), write_header, write_test, COMPILE)
+LANGUAGE = Language("c", "C99", ("{name}.h", "test_{name}.c"), write_header, write_test, COMPILE)

@@ -90,4 +90,5 @@ COMPILE = (
     "c++ -std=c++17 -O2 -ffp-contract=off $(pkg-config --cflags eigen3 || echo -I/usr/include/eigen3) "
     "-o test_{name} test_{name}.cpp && ./test_{name}"
 )
-LANGUAGE = Language("cpp", "C++17 on Eigen", ("hpp", "cpp"), write_header, write_test, COMPILE, c.LANGUAGE)
+FILES = "{name}.hpp", "test_{name}.cpp"
+LANGUAGE = Language("cpp", "C++17 on Eigen", FILES, write_header, write_test, COMPILE, beside=c.LANGUAGE.law)

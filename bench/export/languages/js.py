@@ -1,4 +1,4 @@
-"""JavaScript: one classic script. It loads by a script element, from a file too, by require() and by import.
+"""JavaScript: one classic script, with types for TypeScript. It loads by a script element, by require() and by import.
 
 Tuples are arrays, those with names too; numbers are IEEE doubles, and no product is fused with a sum.
 """
@@ -9,7 +9,7 @@ from bench.export.braces import Braces
 from bench.export.entries import Entry
 from bench.export.heading import BY_ROWS, RESET, heading
 from bench.export.language import Language, write_arguments
-from bench.export.layout import INDENT, read_template, slashes
+from bench.export.layout import INDENT, fill_template, slashes
 from bench.export.reading import Typed
 from bench.export.subject import Subject, translated
 
@@ -22,7 +22,7 @@ return static super switch this throw try typeof var void while with yield
 
 SCRIPT: Braces = Braces(
     reserved=frozenset(WORDS.split()),
-    declaration=lambda kind, name: f"let {name}",
+    declaration=lambda kind, name, is_changed: f"let {name}",
     built=lambda kind, items: f"[{', '.join(items)}]",
     part=lambda kind, value, place: f"{value}[{place}]",
     head=lambda function: f"function {function.name}({', '.join(map(SCRIPT.variable, function.parameters))})",
@@ -36,25 +36,25 @@ def write_function(function: Typed) -> str:
     return "\n".join((*slashes(function.summary), *SCRIPT.write(function)))
 
 
-COPYSIGN = read_template("copysign.js")
-PASSED = {"gains": "[kp, kv]", "memory": "state.memory", "matrix": "columns({name})", "": "{name}"}
+COPYSIGN = fill_template("copysign.js")
+PASSED = {"gains": "[kp, kv]", "memory": "state.{name}", "matrix": "columns({name})", "": "{name}"}
 
 
 def write_script(subject: Subject) -> str:
-    """Write the law as one script: NAME.command(...) and so on."""
+    """Write the law as one script: NAME.angular_acceleration(...) and so on."""
     program = translated(subject)
     functions = [write_function(one) for one in program.functions]
     if any("copysign(" in one for one in functions):
         functions.insert(0, COPYSIGN)
     offered = [line for one in subject.entries for line in write_entry(one, program.entries[one.name].name)]
     if subject.memory:
-        first = f"Object.assign(state, {{ memory: {json.dumps(subject.memory)} }})"
+        first = f"Object.assign(state, {{ {subject.memory_name}: {json.dumps(subject.memory)} }})"
         offered = [*slashes(f"{RESET} reset() makes a state."), f"reset: (state = {{}}) => {first},", *offered]
     return "\n".join(
         (
             *(f"// {line}".rstrip() for line in heading(subject, BY_ROWS).splitlines()),
             "(function (root) {\n'use strict';\n",
-            "\n\n".join((*functions, read_template("reading.js"))),
+            "\n\n".join((*functions, fill_template("reading.js"))),
             "const offered = {",
             *(f"{INDENT}{line}" for line in offered),
             "};",
@@ -69,13 +69,31 @@ def write_entry(entry: Entry, function: str) -> list[str]:
     """Write one entry of the object that the script offers."""
     given, passed = write_arguments(entry, {"gains": "kp, kv", "memory": "state", "": "{name}"}, PASSED)
     call = f"{function}({passed})"
-    call = f"kept({call}, state)" if entry.has_memory else f"rows({call})" if entry.returns.kind == "matrix" else call
-    return [*slashes(entry.doc), f"{entry.name}: ({given}) => {call},"]
+    if entry.has_memory:
+        call = f"kept({call}, state, '{entry.parameters[-1].name}')"
+    elif entry.returns.kind == "matrix":
+        call = f"rows({call})"
+    return [*slashes(entry.about), f"{entry.name}: ({given}) => {call},"]
+
+
+TYPED = {"number": "{name}: number", "gains": "kp: number, kv: number", "memory": "state: State"}
+TYPED[""] = "{name}: ArrayLike<number>"
+
+
+def write_types(subject: Subject) -> dict[str, str]:
+    """Write the declarations for TypeScript."""
+    state = f"export interface State {{ {subject.memory_name}: number[] }}"
+    lines = [state, "export function reset(state?: object): State;"] if subject.memory else []
+    for one in subject.entries:
+        given, returned = write_arguments(one, TYPED, {"": ""})[0], "number" + "[]" * (one.returns.kind != "number")
+        lines += (f"/** {one.about} */", f"export function {one.name}({given}): {returned};")
+    return {f"{subject.identifier}.d.ts": "\n".join((*lines, ""))}
 
 
 def write_test(subject: Subject) -> str:
     """Write the program that runs the vectors."""
-    return read_template("test.js").replace("NAME", subject.identifier)
+    return fill_template("test.js", NAME=subject.identifier)
 
 
-LANGUAGE = Language("js", "JavaScript", ("js", "js"), write_script, write_test, "node test_{name}.js")
+FILES = "{name}.js", "test_{name}.js"
+LANGUAGE = Language("js", "JavaScript", FILES, write_script, write_test, "node test_{name}.js", beside=write_types)

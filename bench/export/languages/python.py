@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from bench.export.entries import Entry
 from bench.export.heading import RESET, WIDTH, heading
 from bench.export.language import Language, write_arguments
-from bench.export.layout import INDENT, read_template, wrapped
+from bench.export.layout import INDENT, fill_template, wrapped
 from bench.export.reading import Typed
 from bench.export.short import short_files
 from bench.export.subject import Subject, translated
@@ -51,7 +51,7 @@ class _Resolved(ast.NodeTransformer):
 
 
 def write_module(subject: Subject) -> str:
-    """Write the law as one module: command(R, omega, R_d, kp, kv) and so on."""
+    """Write the law as one module: angular_acceleration(R, omega, R_d, kp, kv) and so on."""
     program = translated(subject)
     named = {kind.name: kind.fields for kind in program.tuples if kind.name}
     classes = (
@@ -63,7 +63,7 @@ def write_module(subject: Subject) -> str:
         (
             f'r"""{heading(subject, *NUMBERS)}\n"""\n\n{imports}\n',
             *(f"{one}\n" for one in classes),
-            read_template("reading.python"),
+            fill_template("reading.python"),
             *(write_function(one) for one in program.functions),
             *reset,
             *("\n".join(write_entry(one, f"_{program.entries[one.name].name}")) for one in subject.entries),
@@ -99,9 +99,9 @@ def _docstring(text: str) -> str:
 
 def write_test(subject: Subject) -> str:
     """Write the program that runs the vectors."""
-    return read_template("test.python").replace("NAME", subject.identifier)
+    return fill_template("test.python", NAME=subject.identifier)
 
 
-LANGUAGE = Language(
-    "python", "Python", ("py", "py"), write_module, write_test, "python test_{name}.py", beside=short_files
-)
+FILES = "{name}.py", "test_{name}.py"
+TEST = "python test_{name}.py"
+LANGUAGE = Language("python", "Python", FILES, write_module, write_test, TEST, beside=short_files)

@@ -67,9 +67,9 @@ int main(int, char **words) {
         const Vector twist = J * qdot;
         a.head<3>() = kp * (p_d - p) - kv * twist.head<3>();
 #ifdef HAS_MEMORY
-        a.tail<3>() = law::command(R, twist.tail<3>(), R_d, kp, kv, memory);
+        a.tail<3>() = law::angular_acceleration(R, twist.tail<3>(), R_d, kp, kv, memory);
 #else
-        a.tail<3>() = law::command(R, twist.tail<3>(), R_d, kp, kv);
+        a.tail<3>() = law::angular_acceleration(R, twist.tail<3>(), R_d, kp, kv);
 #endif
         a -= J_dot * qdot;
         const double damping = n > 6 ? 0.5 * kv : 0.0;

@@ -68,7 +68,8 @@ def make_page(name: str, title: str, card: str, source: Source, word: str = "", 
     """
     subject = find_subject(word) if word else None
     languages = map(find_language, language_words() if word else ())
-    files = {each.title: each.law(subject) for each in languages if subject}
+    laws = {each.title: next(iter(each.law(subject).items())) for each in languages if subject}
+    files = {title: (Path(path).name, text) for title, (path, text) in laws.items()}
     take = take_files(word, files, live) if files else ""
     code = show_short(word) or show_code(source)
     body = f"<section>{BACK}<h1>{html.foreign(title)}</h1>{card}{take}{code}{fold(source)}</section>"

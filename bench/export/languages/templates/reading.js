@@ -8,7 +8,7 @@ function rows(R) {
     return [0, 1, 2].flatMap((i) => [R[0][i], R[1][i], R[2][i]]);
 }
 
-function kept(answer, state) {
-    state.memory = answer[1];
+function kept(answer, state, name) {
+    state[name] = answer[1];
     return answer[0];
 }

@@ -5,13 +5,13 @@ const { vectors } = require('./vectors.json');
 let wrong = 0;
 for (const one of vectors) {
     // a law with memory is at its first tick in the vectors at 180 degrees: after reset
-    const state = { memory: [-1, -1, -1, -1] };
-    if (one.kind === 'at 180°' && law.reset) law.reset(state);
-    else state.memory = one.arguments.memory;
+    const kept = Object.keys(one.arguments).find((name) => name.startsWith('memory'));
+    const state = { [kept]: one.arguments[kept] };
+    if (one.kind === 'at 180°' && kept) law.reset(state);
     const given = Object.entries(one.arguments).flatMap(([name, value]) =>
-        name === 'gains' ? value : name === 'memory' ? [state] : [value]);
+        name === 'gains' ? value : name === kept ? [state] : [value]);
     const result = [law[one.entry](...given)].flat();
-    const found = one.memory.length ? result.concat(state.memory) : result;
+    const found = kept ? result.concat(state[kept]) : result;
     const expected = one.result.concat(one.memory);
     if (!expected.every((value, at) => Math.abs(found[at] - value) <= one.tolerance)) wrong += 1;
 }
