@@ -1,7 +1,7 @@
 """unwinding: a wrong wrap.
 
 effect: the robot turns by up to 360° where a little would do, and jumps where the wrap changes
-cure: wrap angles to [-180°, 180°]; change the sign of the error quaternion where its scalar part is negative
+cure: wrap angles to [-180°, 180°]; atan2 for an arc tangent; change the sign of a quaternion whose scalar is negative
 law: quaternion-shortest
 """
 
@@ -29,4 +29,5 @@ def find(examined: Examined) -> Found | None:
         bad[here] = outside.any(axis=1)
     else:
         return None
-    return examined.first(bad, f"for {bad.sum()} of {here.sum()} pairs")
+    what = "e points against the axis" if examined.convention else "an angle is more than 180°"
+    return examined.first(bad, f"{what} for {bad.sum()} of {here.sum()} pairs")

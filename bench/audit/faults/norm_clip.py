@@ -26,7 +26,7 @@ def find_known(examined: Examined) -> Found | None:
         full, near = examined.slope * examined.pairs.angle, is_nearest(examined.pairs)
         if not np.allclose(examined.size[near], full[near], rtol=1.0 - SHORTER, atol=0.0):
             return None
-    here = np.flatnonzero(examined.at("wide", "close") & (examined.apart < BENT_RAD))
+    here = np.flatnonzero(examined.at("wide", "close", "near-180") & (examined.apart < BENT_RAD))
     shorter = here[examined.size[here] < SHORTER * full[here]]
     for what, length in (("length", examined.size), ("largest component", np.abs(examined.e).max(axis=1))):
         limit = float(length[here].max(initial=0.0))
