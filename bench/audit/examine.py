@@ -1,5 +1,6 @@
 """Ask a function, find its convention, and let every fault look at the answers."""
 
+import functools
 import warnings
 from collections.abc import Callable
 
@@ -29,12 +30,17 @@ def examine(
         warnings.simplefilter("ignore", RuntimeWarning)
         try:
             for call, found in understood(function, stated, name, watch):
-                again = fresh and (lambda call=call: watch(call.wrap(fresh())))
+                again = None if fresh is None else functools.partial(call_again, call, fresh, watch)
                 examined = Examined(watch(call.wrap(function)), stated, call.takes, found, again)
                 reports.append(Report(name, len(examined.e), call, found, findings(examined)))
         except Lost as lost:
             return report_lost(name, lost)
     return min(reports, key=lambda one: UNKNOWN in one.faults)
+
+
+def call_again(call: Call, fresh: Fresh, watch: Callable) -> Callable:
+    """Return a function that was loaded once more, called as before."""
+    return watch(call.wrap(fresh()))
 
 
 def report_lost(name: str, lost: Lost) -> Report:
@@ -71,45 +77,40 @@ def understood(function: Callable, stated: Stated, name: str, watch: Callable) -
     every = pairs.every_pair()
     some = every.chosen(every.at("wide", "close", "fine", "near-identity"))
     few = some.chosen(slice(0, None, 90))
-    calls = [call for takes in possible(stated) for call in ways_to_call(function, takes)]
-    plain = [call for call in calls if call.is_plain]
+    ways = [ways_to_call(function, takes) for takes in possible(stated)]
     reasons: dict[str, list[str]] = {}
-    for chosen in (plain, [call for call in calls if call not in plain]):
-        answered: list[tuple[Call, Convention | None]] = []
-        known: list[tuple[float, Call, Convention]] = []
-        for call in chosen:
+    for calls in ([plain for plain, *_ in ways], [call for _, *others in ways for call in others]):
+        answered: list[tuple[float, Call, Convention | None]] = []
+        for call in calls:
             asked = watch(call.wrap(function))
             first = evaluate(asked, *inputs(call.takes, few))
-            if sum(map(bool, first.raised)) > len(first.raised) / 2:
-                if call in plain:
-                    reasons.setdefault(next(filter(None, first.raised)), []).append(call.takes)
-                continue
-            answered.append((call, None))
-            share, found = convention.find(call.takes, some, evaluate(asked, *inputs(call.takes, some)).e)
-            if found:
-                known.append((share, call, found))
-        if answered:
-            return [max(known, key=lambda one: one[0])[1:]] if known else answered
-    said = "; ".join(
-        f"given {' or '.join(takes)}: {one.removeprefix(NO_THREE_NUMBERS)}" for one, takes in reasons.items()
+            if sum(map(bool, first.raised)) <= len(first.raised) / 2:
+                share, found = convention.find(call.takes, some, evaluate(asked, *inputs(call.takes, some)).e)
+                answered.append((share if found else 0.0, call, found))
+            elif call in (plain for plain, *_ in ways):
+                reasons.setdefault(next(filter(None, first.raised)), []).append(call.takes)
+        if best := max(answered, key=lambda one: one[0], default=None):
+            return [best[1:]] if best[2] else [one[1:] for one in answered]
+    said = (f"given {' or '.join(takes)}: {one.removeprefix(NO_THREE_NUMBERS)}" for one, takes in reasons.items())
+    cure = next(
+        cure
+        for shape, cure in CURES.items()
+        if any(f"{NO_THREE_NUMBERS}{shape}" in one for one in (*reasons, NO_THREE_NUMBERS))
     )
-    cure = next((cure for shape, cure in CURES.items() if f"{NO_THREE_NUMBERS}{shape}" in reasons), CURE)
     raise BadFunction(
         f"{name} returns three numbers neither of two 3 x 3 matrices nor of two quaternions, nor of batches of one, 9 "
-        f"numbers, SciPy's rotations or poses ({said}); {cure}"
+        f"numbers, SciPy's rotations or poses ({'; '.join(said)}); {cure}"
     )
 
 
-CURE = (
-    "write a function of two matrices that calls it, as: def f(R, R_d): return mine(p, R, p, R_d), or mine("
-    "torch.tensor(R), torch.tensor(R_d))"
-)
 CURES = {
     "an array of shape (4,)": "of an error quaternion return the vector part, times the sign of the scalar part",
     "an array of shape (3, 3)": "of an error matrix return the axis, as scipy's Rotation.from_matrix(X).as_rotvec()",
     "an array of shape (6,)": "of six numbers return the three of the orientation, as: mine(R, R_d)[3:]",
     "an array of shape ()": "an angle has no axis: return angle times axis",
     "tuple": "of an axis and an angle return the product",
+    "": "write a function of two matrices that calls it, as: def f(R, R_d): return mine(p, R, p, R_d), or mine("
+    "torch.tensor(R), torch.tensor(R_d))",
 }
 """By what is returned in the place of three numbers."""
 

@@ -24,6 +24,7 @@ PLUGIN = "orientation_audit_plugin"
         ("loops", ["hangs"], "had not returned after"),
         ("prints", [], "no fault found"),
         ("cached", ["memory"], "another answer"),
+        ("cached_by_rounding", ["memory"], "another answer"),
     ],
 )
 def test_function_is_named_for_what_it_does_and_for_nothing_else(tmp_path, capfd, name, faults, said):

@@ -16,20 +16,19 @@ ROUNDING = 1e-13
 """Angle times the square of the distance to 180°: an arc cosine leaves 1e-15."""
 
 
-def find_wrong_before(examined: Examined) -> np.ndarray:
-    """Return the pairs next to 180° (n, a mask) whose answers are off the axis by more than rounding."""
-    by_rounding = ROUNDING / examined.pairs.distance**2
-    return find_astray(examined) & examined.at("near-180") & (examined.apart > by_rounding)
-
-
-def find_astray(examined: Examined) -> np.ndarray:
-    """Return the pairs (n, a mask) with an answer that is off the axis."""
-    return (examined.apart > ASTRAY_RAD) & (examined.size > ZERO * examined.slope * np.pi)
+def find_astray(examined: Examined) -> tuple[np.ndarray, np.ndarray]:
+    """Return the pairs at 180° and next to it (two masks) with an answer off the axis, there beyond rounding."""
+    astray, distance = np.fmin(examined.apart, np.pi - examined.apart), np.fmax(examined.pairs.distance, 1e-15)
+    bad = (astray > ASTRAY_RAD) & (examined.size > ZERO * examined.slope * np.pi)
+    by_rounding = np.fmax(ROUNDING / distance**2, 100.0 * examined.noise / distance)
+    return bad & examined.at("at-180"), bad & examined.at("near-180") & (astray > by_rounding)
 
 
 def find_known(examined: Examined) -> Found | None:
     """At 180° either direction along the axis is right, and nothing else; before it, beyond rounding, one."""
-    exact, before = find_astray(examined) & examined.at("at-180"), find_wrong_before(examined)
+    if examined.form == "gibbs":
+        return None  # it has no end there
+    exact, before = find_astray(examined)
     text = f"{exact.sum()} of {examined.at('at-180').sum()} rotations by 180° are answered with another axis"
     if before.any():
         text += f", and so are rotations by up to {examined.pairs.distance[before].max():.2g} rad less"

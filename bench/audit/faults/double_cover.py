@@ -23,7 +23,8 @@ def find(examined: Examined) -> Found | None:
     for other, given in (("-q_d", (now, -goal)), ("-q", (-now, goal))):
         said = evaluate(examined.function, *given).e
         apart = np.linalg.norm(said - examined.e[here], axis=1)
-        bad = ~(apart <= OTHERWISE * examined.slope * np.fmax(examined.pairs.angle[here], SMALLEST_RAD))
+        same = apart <= OTHERWISE * examined.slope * np.fmax(examined.pairs.angle[here], SMALLEST_RAD)
+        bad = ~same & np.isfinite(examined.size[here])
         if bad.any():
             i = int(np.argmax(bad))
             text = f"{bad.sum()} of {len(here)} pairs are answered otherwise with {other}, the same orientation"

@@ -7,7 +7,7 @@ unless: long-way, deadband, euler-angles, frame, misaligned, axis-at-180
 
 import numpy as np
 
-from bench.audit.examined import Evidence, Examined, Found, inputs
+from bench.audit.examined import COUNT_RAD, Evidence, Examined, Found, inputs
 from bench.audit.pairs import CUBE_AXES, Pairs, diagonal, drawn_axes, drawn_orientations, made
 
 SEED = 11
@@ -25,7 +25,6 @@ def find_known(examined: Examined) -> Found | None:
     """Along rotations from 1e-4 to 179° about some axes: neighbours apart, and still so when they come together."""
     rng, angle = np.random.default_rng(SEED), np.radians(ANGLES_DEG)
     begins = np.vstack((diagonal(3), drawn_orientations(rng, 5)))
-    noise = NOISE * np.nanmedian(np.sin(examined.apart[examined.at("wide")]))
     for q, axis in zip(begins, np.vstack((CUBE_AXES[[0, 6, 18]], drawn_axes(rng, 5))), strict=True):
         step = np.diff(examined.evaluate(along(q, axis, angle)).e / angle[:, None], axis=0)
         bend = np.linalg.norm(step[1:-1] - 0.5 * (step[:-2] + step[2:]), axis=1) / examined.slope
@@ -36,7 +35,7 @@ def find_known(examined: Examined) -> Found | None:
             ends = along(q, axis, np.array((low, high)))
             said = examined.evaluate(ends).e
             size = float(np.linalg.norm(said[1] - said[0])) / examined.slope
-            if size > max(JUMP * min(high, 1.0), noise):
+            if size > max(JUMP * min(high, 1.0), COUNT_RAD, NOISE * examined.noise):
                 (_, now), (_, goal) = inputs(examined.takes, ends)
                 right = examined.known(ends)[1][1]
                 evidence = Evidence(now, goal, said[1], right if np.isfinite(right).all() else "")

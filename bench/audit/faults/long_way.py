@@ -9,6 +9,7 @@ import numpy as np
 
 from bench.audit.examined import Examined, Found
 from bench.audit.faults.euler_angles import SAME_RAD, find_angles
+from bench.audit.faults.stiffness import DEVIATION
 
 AGAINST_RAD = 0.1
 """Between an answer and the axis the wrong way; rounding bends no answer so."""
@@ -16,6 +17,8 @@ AGAINST_RAD = 0.1
 
 def find(examined: Examined) -> Found | None:
     """e points against the axis for some pairs, or an angle is more than pi."""
+    if not examined.form and abs(examined.slope * np.radians(1.0) - 1.0) < DEVIATION:
+        return None  # a sine of degrees, which is not a matter of a wrap
     if examined.convention:
         here = ~examined.at("at-180", "identity", "near-180")
         with np.errstate(invalid="ignore"):

@@ -12,7 +12,7 @@ import numpy as np
 
 from bench.audit.convention import FORMS, directions
 from bench.audit.examined import FAULT, Examined, Found, Model, explanation, rotated
-from bench.audit.pairs import Pairs
+from bench.audit.pairs import Pairs, Place
 
 BENT_RAD = 1e-3
 """Angle to the axis: half a thousandth of it is what single precision leaves nowhere in these places."""
@@ -25,9 +25,8 @@ EXACT, NEARLY = 1e-6, 0.05
 def find(examined: Examined) -> Found | None:
     """Away from 0 and 180° answers leave the axis."""
     here = np.flatnonzero(examined.at("wide", "close"))
-    angle = np.nan_to_num(examined.apart[here])
-    most = float(np.median(angle))
-    bent = angle > (max(BENT_RAD, COARSE * most) if most < BENT_RAD else BENT_RAD)
+    angle = np.nan_to_num(np.fmin(examined.apart, np.pi - examined.apart)[here])  # against the axis is another fault
+    bent = angle > (max(BENT_RAD, COARSE * examined.noise) if examined.noise < BENT_RAD else BENT_RAD)
     worst = int(np.argmax(angle))
     evidence = examined.evidence(int(here[worst]))
     if examined.convention and not bent.any():
@@ -46,7 +45,8 @@ def find(examined: Examined) -> Found | None:
 
 def find_matrix(examined: Examined) -> str:
     """Return the constant M by which e differs from a form, or near the goal, in words; empty if there is none."""
-    for place, tolerance, near in (("wide", EXACT, ""), ("fine", NEARLY, "near the goal ")):
+    places: dict[Place, tuple[float, str]] = {"wide": (EXACT, ""), "fine": (NEARLY, "near the goal ")}
+    for place, (tolerance, near) in places.items():
         of = examined.pairs.chosen(examined.at(place))
         e, body = examined.e[examined.at(place)], directions(of, "body")
         e_body = rotated(of.R.swapaxes(1, 2), e)
@@ -57,15 +57,10 @@ def find_matrix(examined: Examined) -> str:
                 M = np.where(np.abs(M) < tolerance * np.abs(M).max(), 0.0, M).T
                 fits = np.abs(right @ M.T - left).max() <= tolerance * np.abs(left).max()
                 if fits and np.abs(M - M[0, 0] * np.eye(3)).max() > 2.0 * tolerance * np.abs(M).max():
-                    return f"{near}e = {words} {form.title} k with M = {as_text(M, 2 if near else 4)}"
+                    rows = [[float(f"{one:.{2 if near else 4}g}") for one in row] for row in (np.diag(M), *M)]
+                    M_text = f"diag({rows[0]})" if np.array_equal(np.diag(np.diag(M)), M) else f"{rows[1:]}"
+                    return f"{near}e = {words} {form.title} k with M = {M_text}"
     return ""
-
-
-def as_text(M: np.ndarray, digits: int) -> str:
-    """Return a matrix, or its diagonal if that is all."""
-    rows = [", ".join(f"{one:.{digits}g}" for one in row) for row in (*M, np.diag(M))]
-    is_diagonal = not (M - np.diag(np.diag(M))).any()
-    return f"diag({rows[3]})" if is_diagonal else f"[({'), ('.join(rows[:3])})]"
 
 
 def differences(pairs: Pairs) -> Iterator[Model]:
