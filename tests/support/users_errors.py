@@ -126,124 +126,80 @@ MIRROR = np.diag((1.0, 1.0, -1.0))
 
 USERS: dict = {
     # of a referee
-    "degrees": (of_log(lambda e, _: np.degrees(e)), {"stiffness"}, "57.3 times as stiff", "np.radians(e)"),
-    "half-angle": (of_log(lambda e, _: 0.5 * e), {"stiffness"}, "multiply by 2: the angle of a quaternion"),
-    "degrees-in-sine": (
-        of_log(lambda e, theta: np.sin(np.degrees(theta)) * e / theta if theta else e),
-        {"stiffness"},
-        "e is in degrees",
-        "Cure: convert to radians (",
+    "degrees | stiffness | 57.3 times as stiff": of_log(lambda e, _: np.degrees(e)),
+    "half-angle | stiffness | multiply by 2: the angle of a quaternion": of_log(lambda e, _: 0.5 * e),
+    "degrees-in-sine | stiffness | in degrees; Cure: convert to radians (": of_log(
+        lambda e, theta: np.sin(np.degrees(theta)) * e / theta if theta else e
     ),
-    "gibbs": (lambda q, q_d: 2.0 * left(q, q_d)[1:] / left(q, q_d)[0], {"not-a-number"}, "2 tan(θ/2), has no end"),
-    "cayley": (cayley, {"not-a-number"}, "2 tan(θ/2), has no end"),
-    "matrix-logarithm": (matrix_logarithm, {"dead-at-180", "digits-near-180"}, "axis from a column"),
-    "swing-and-twist": (swing_and_twist, {"misaligned"}, "off the axis by up to 5"),
-    "sine-and-branch": (of_sine(sine_and_branch), set(), "no fault found"),
-    "octant": (of_log(lambda e, _: 1.3 * e if (e > 0.0).all() else e), {"uneven"}, "|e| is 1.3 times"),
-    "cone": (of_log(lambda e, theta: 0.7 * e if e[2] > 0.9986 * theta else e), {"uneven"}, "|e| is 0.7 times"),
-    "half-far-from-base": (
-        lambda R, R_d: (0.5 if np.linalg.norm(log(R)) > 2.97 else 1.0) * log(R_d @ R.T),
-        {"uneven"},
-        "|e| is 0.5 times",
+    "gibbs | not-a-number | 2 tan(θ/2), has no end": lambda q, q_d: 2.0 * left(q, q_d)[1:] / left(q, q_d)[0],
+    "cayley | not-a-number | 2 tan(θ/2), has no end": cayley,
+    "matrix-logarithm | dead-at-180, digits-near-180 | axis from a column": matrix_logarithm,
+    "swing-and-twist | misaligned | off the axis by up to 5": swing_and_twist,
+    "sine-and-branch |  | no fault found": of_sine(sine_and_branch),
+    "octant | uneven | |e| is 1.3 times": of_log(lambda e, _: 1.3 * e if (e > 0.0).all() else e),
+    "cone | uneven | |e| is 0.7 times": of_log(lambda e, theta: 0.7 * e if e[2] > 0.9986 * theta else e),
+    "half-far-from-base | uneven | |e| is 0.5 times": lambda R, R_d: (
+        (0.5 if np.linalg.norm(log(R)) > 2.97 else 1.0) * log(R_d @ R.T)
     ),
-    "one-sign-wrong": (lambda R, R_d: columns(R, R_d) * (1.0, -1.0, 1.0), {"misaligned"}, "M = diag([1.0, -1.0, 1.0])"),
-    "z-scaled": (of_log(lambda e, _: e * (1.0, 1.0, 1.2)), {"misaligned"}, "M = diag([1.0, 1.0, 1.2])"),
-    "half-precision": (lambda R, R_d: log((R_d @ R.T).astype(np.float16)), {"single-precision"}, "half precision"),
-    "base-and-body": (
-        lambda R, R_d: log(R_d @ R.T) if np.trace(R_d @ R.T) > 2.0 else log(R.T @ R_d),
-        {"frame"},
-        "body frame for",
-        "between 60",
+    "one-sign-wrong | misaligned | M = diag([1.0, -1.0, 1.0])": lambda R, R_d: columns(R, R_d) * (1.0, -1.0, 1.0),
+    "z-scaled | misaligned | M = diag([1.0, 1.0, 1.2])": of_log(lambda e, _: e * (1.0, 1.0, 1.2)),
+    "half-precision | single-precision | half precision": lambda R, R_d: log((R_d @ R.T).astype(np.float16)),
+    "base-and-body | frame | body frame for": lambda R, R_d: (
+        log(R_d @ R.T) if np.trace(R_d @ R.T) > 2.0 else log(R.T @ R_d)
     ),
-    "whole-degrees": (of_log(lambda e, _: np.radians(np.degrees(e) // 1)), {"deadband"}, "a multiple of 0.01745"),
-    "raises-at-times": (raises_at_times, {"raises"}, "ValueError: lost"),
-    "backwards-past-150": (of_log(lambda e, theta: e if theta < 2.6 else -e), {"long-way"}, "points against the axis"),
-    "power-law": (of_log(lambda e, theta: e * theta**-0.5 if theta else e), {"stiffness"}, "no gain is set by it"),
+    "whole-degrees | deadband | a multiple of 0.01745": of_log(lambda e, _: np.radians(np.degrees(e) // 1)),
+    "raises-at-times | raises | ValueError: lost": raises_at_times,
+    "backwards-past-150 | long-way | points against the axis": of_log(lambda e, theta: e if theta < 2.6 else -e),
+    "power-law | stiffness | no gain is set by it": of_log(lambda e, theta: e * theta**-0.5 if theta else e),
     # others, right
-    "inverse": (lambda R, R_d: log(R_d @ np.linalg.inv(R)), set(), "no fault found"),
-    "components-wrapped": (of_log(lambda e, _: wrapped(e)), set(), "no fault found"),
-    "rounded-at-the-end": (of_log(lambda e, _: e.astype(np.float32)), set(), "no fault found"),
-    "fortran": (lambda R, R_d: log(R_d.ravel("F").reshape(3, 3) @ R), set(), "body frame; points from R_d"),
-    "cached-by-pair": (cached(lambda R, R_d: (R.tobytes(), R_d.tobytes())), set(), "no fault found"),
-    "arc-tangent-of-quaternion": (arc_tangent, set(), "no fault found"),
+    "inverse |  | no fault found": lambda R, R_d: log(R_d @ np.linalg.inv(R)),
+    "components-wrapped |  | no fault found": of_log(lambda e, _: wrapped(e)),
+    "rounded-at-the-end |  | no fault found": of_log(lambda e, _: e.astype(np.float32)),
+    "fortran |  | points from R_d": lambda R, R_d: log(R_d.ravel("F").reshape(3, 3) @ R),
+    "cached-by-pair |  | no fault found": cached(lambda R, R_d: (R.tobytes(), R_d.tobytes())),
+    "arc-tangent-of-quaternion |  | no fault found": arc_tangent,
     # others, wrong
-    "vector-of-the-other-order": (lambda q, q_d: 2.0 * left(q, q_d)[:3], {"quaternion-order"}, "taken as of xyzw"),
-    "arc-cosine-kept-from-1": (
-        of_sine(lambda v, s, c, X: v / np.sinc(np.arccos(np.clip(c, -1 + 1e-6, 1 - 1e-6)) / np.pi)),
-        {"dead-at-180"},
-        "e = 0 for 240",
+    "vector-of-the-other-order | quaternion-order | taken as of xyzw": lambda q, q_d: 2.0 * left(q, q_d)[:3],
+    "arc-cosine-kept-from-1 | dead-at-180 | e = 0 for 240": of_sine(
+        lambda v, s, c, X: v / np.sinc(np.arccos(np.clip(c, -1 + 1e-6, 1 - 1e-6)) / np.pi)
     ),
-    "arc-sine": (
-        of_sine(lambda v, s, c, X: np.arcsin(min(s, 1.0)) * v / s if s else v),
-        {"dead-at-180", "non-unit"},
-        "atan2 for an arc sine",
+    "arc-sine | dead-at-180, non-unit | atan2 for an arc sine": of_sine(
+        lambda v, s, c, X: np.arcsin(min(s, 1.0)) * v / s if s else v
     ),
-    "arc-tangent": (of_sine(lambda v, s, c, X: np.arctan(s / c) * v / s if s else v), {"long-way"}, "atan2 for"),
-    "arc-cosine-of-dot": (arc_cosine_of_dot, {"digits-near-0", "non-unit"}, "no arc cosine"),
-    "constant-in-a-denominator": (
-        of_log(lambda e, theta: e * theta / (theta + 1e-6)),
-        {"digits-near-0"},
-        "no constant",
+    "arc-tangent | long-way | atan2 for": of_sine(lambda v, s, c, X: np.arctan(s / c) * v / s if s else v),
+    "arc-cosine-of-dot | digits-near-0, non-unit | no arc cosine": arc_cosine_of_dot,
+    "constant-in-a-denominator | digits-near-0 | no constant": of_log(lambda e, theta: e * theta / (theta + 1e-6)),
+    "rotation-vectors-subtracted | misaligned | each θ k": lambda R, R_d: log(R_d) - log(R),
+    "vector-parts-subtracted | misaligned | each 2 sin(θ/2) k": lambda q, q_d: 2.0 * (q_d - q)[1:],
+    "matrices-subtracted | misaligned | each sin θ k": lambda R, R_d: columns(np.eye(3), R_d - R),
+    "left-handed | misaligned | M = diag([-1.0, -1.0, 1.0])": lambda R, R_d: log(MIRROR @ R_d @ R.T @ MIRROR),
+    "reversed | misaligned | M = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]": of_log(lambda e, _: e[::-1]),
+    "gains-of-axes | misaligned | diag([100.0, 100.0, 50.0])": lambda R, R_d: log(R.T @ R_d) * (100.0, 100.0, 50.0),
+    "two-columns | misaligned | near the goal e = R M R^T θ k with M = diag([1.0, 1.0, 2.0])": lambda R, R_d: (
+        np.cross(R[:, 0], R_d[:, 0]) + np.cross(R[:, 1], R_d[:, 1])
     ),
-    "rotation-vectors-subtracted": (lambda R, R_d: log(R_d) - log(R), {"misaligned"}, "each θ k"),
-    "vector-parts-subtracted": (lambda q, q_d: 2.0 * (q_d - q)[1:], {"misaligned"}, "each 2 sin(θ/2) k"),
-    "matrices-subtracted": (lambda R, R_d: columns(np.eye(3), R_d - R), {"misaligned"}, "each sin θ k"),
-    "left-handed": (
-        lambda R, R_d: log(MIRROR @ R_d @ R.T @ MIRROR),
-        {"misaligned"},
-        "M = diag([-1.0, -1.0, 1.0])",
+    "linear-near-goal | misaligned | at 2.86° to 3.58°": linear_near_goal,
+    "axis-of-diagonal | axis-at-180 | and so are rotations by up to": of_sine(
+        lambda v, s, c, X: diagonal_axis(X) if c < -0.999 else sine_and_branch(v, s, c, X)
     ),
-    "reversed": (
-        of_log(lambda e, _: e[::-1]),
-        {"misaligned"},
-        "M = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]",
+    "x-near-180 | axis-at-180 | another axis": of_log(
+        lambda e, theta: np.array((np.pi, 0.0, 0.0)) if theta > 3.13 else e
     ),
-    "gains-of-axes": (
-        lambda R, R_d: log(R.T @ R_d) * (100.0, 100.0, 50.0),
-        {"misaligned"},
-        "diag([100.0, 100.0, 50.0])",
+    "clipped-at-3 | norm-clip | never exceeds 3": of_log(lambda e, _: shortened(e, 3.0)),
+    "lee-over-root | not-a-number, stiffness | the vector part of a quaternion": lee_over_root,
+    "shadow-without-antipode | double-cover | nan": shadow,
+    "no-shadow | double-cover | with -q_d": lambda q, q_d: 4.0 * left(q, q_d)[1:] / (1.0 + left(q, q_d)[0]),
+    "series-of-wrong-sign | jump | at 5.72958°": of_log(
+        lambda e, theta: e * (1.0 - theta**2 / 3.0) if theta < 0.1 else e
     ),
-    "two-columns": (
-        lambda R, R_d: np.cross(R[:, 0], R_d[:, 0]) + np.cross(R[:, 1], R_d[:, 1]),
-        {"misaligned"},
-        "near the goal e = R M R^T θ k with M = diag([1.0, 1.0, 2.0])",
-    ),
-    "linear-near-goal": (linear_near_goal, {"misaligned"}, "at 2.86° to 3.58°"),
-    "axis-of-diagonal": (
-        of_sine(lambda v, s, c, X: diagonal_axis(X) if c < -0.999 else sine_and_branch(v, s, c, X)),
-        {"axis-at-180"},
-        "and so are rotations by up to",
-    ),
-    "x-near-180": (
-        of_log(lambda e, theta: np.array((np.pi, 0.0, 0.0)) if theta > 3.13 else e),
-        {"axis-at-180"},
-        "another axis",
-    ),
-    "clipped-at-3": (of_log(lambda e, _: shortened(e, 3.0)), {"norm-clip"}, "never exceeds 3"),
-    "lee-over-root": (lee_over_root, {"not-a-number", "stiffness"}, "the vector part of a quaternion"),
-    "shadow-without-antipode": (shadow, {"double-cover"}, "nan"),
-    "no-shadow": (lambda q, q_d: 4.0 * left(q, q_d)[1:] / (1.0 + left(q, q_d)[0]), {"double-cover"}, "with -q_d"),
-    "series-of-wrong-sign": (
-        of_log(lambda e, theta: e * (1.0 - theta**2 / 3.0) if theta < 0.1 else e),
-        {"jump"},
-        "at 5.72958°",
-    ),
-    "half-forgotten-near-goal": (
-        of_sine(lambda v, s, c, X: 2.0 * v if c > 0.9995 else log(X)),
-        {"jump"},
-        "at 1.81193°",
-    ),
-    "zero-if-close": (
-        lambda R, R_d: np.zeros(3) if np.allclose(R, R_d) else log(R_d @ R.T),
-        {"deadband"},
-        "e = 0 up to",
-    ),
-    "rounded-to-6-digits": (of_log(lambda e, _: np.round(e, 6)), {"deadband"}, "a multiple of 1e-06"),
-    "hysteresis": (hysteresis(), {"memory"}, "may be meant"),
-    "flips-in-place": (flips_in_place, {"changes-inputs"}, "R = R.copy()"),
-    "share-of-half-a-turn": (of_log(lambda e, _: e / np.pi), {"stiffness"}, "e is in half turns"),
+    "half-forgotten-near-goal | jump | at 1.81193°": of_sine(lambda v, s, c, X: 2.0 * v if c > 0.9995 else log(X)),
+    "zero-if-close | deadband | e = 0 up to": lambda R, R_d: np.zeros(3) if np.allclose(R, R_d) else log(R_d @ R.T),
+    "rounded-to-6-digits | deadband | a multiple of 1e-06": of_log(lambda e, _: np.round(e, 6)),
+    "hysteresis | memory | may be meant": hysteresis(),
+    "flips-in-place | changes-inputs | R = R.copy()": flips_in_place,
+    "share-of-half-a-turn | stiffness | e is in half turns": of_log(lambda e, _: e / np.pi),
 }
-"""Name -> a function, what it must be found to have, notes too, and words of the report."""
+"""A name, what must be found, notes too, and words of the report -> a function."""
 
 
 def of_nine(R):
