@@ -117,7 +117,5 @@ CURES = {
 
 def possible(stated: Stated) -> tuple[str, ...]:
     """Return what may be tried: of quaternions both orders, for the wrong one is a fault that is looked for."""
-    if stated.takes is None:
-        return TAKES
-    others = () if stated.takes == "matrix" else TAKES[1:]
-    return tuple(dict.fromkeys((stated.takes, *others)))
+    others = TAKES if stated.takes is None else () if stated.takes == "matrix" else TAKES[1:]
+    return tuple(dict.fromkeys((stated.takes or TAKES[0], *others)))

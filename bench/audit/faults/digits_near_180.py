@@ -2,7 +2,7 @@
 
 effect: near 180° the command has a wrong size or a wrong axis, and flickers
 cure: do not divide by sin(theta): begin with a quaternion from the largest diagonal element
-unless: single-precision, misaligned, euler-angles, axis-clip, norm-clip, long-way, deadband
+unless: single-precision, misaligned, euler-angles, axis-clip, norm-clip, long-way, deadband, jump
 """
 
 import numpy as np

@@ -29,10 +29,7 @@ def find(examined: Examined) -> Found | None:
     if not is_other.sum() > ENOUGH * len(here):
         return None
     where = np.degrees(examined.pairs.angle[here[is_other]])
-    text = (
-        f"{found.frame} frame for most pairs, {other} frame for {is_other.sum()} between {where.min():.3g}° and "
-        f"{where.max():.3g}°"
-    )
+    text = f"{found.frame} frame, but {other} frame for {is_other.sum()}, at {where.min():.3g}° to {where.max():.3g}°"
     return Found(text, examined.evidence(int(here[np.argmax(is_other)])))
 
 

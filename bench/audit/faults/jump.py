@@ -11,7 +11,7 @@ from bench.audit.examined import COUNT_RAD, Evidence, Examined, Found, inputs
 from bench.audit.pairs import CUBE_AXES, Pairs, diagonal, drawn_axes, drawn_orientations, made
 
 SEED = 11
-ANGLES_DEG = np.append(np.geomspace(1e-4, 1.0, 17)[:-1], np.arange(1.0, 179.5))
+ANGLES_DEG = np.concatenate((np.geomspace(1e-4, 1.0, 17)[:-1], np.arange(1.0, 179.5), (179.5,)))
 SUSPECT, SUSPECTS = 1e-4, 3
 """Change of e/theta beyond that of its neighbours, of the slope, from which on a jump is looked for; places a line."""
 WIDTH_RAD = 1e-9
@@ -22,7 +22,7 @@ NOISE = 30.0
 
 
 def find_known(examined: Examined) -> Found | None:
-    """Along rotations from 1e-4 to 179° about some axes: neighbours apart, and still so when they come together."""
+    """Along rotations from 1e-4 to 179.5° about some axes: neighbours apart, and still so when they come together."""
     rng, angle = np.random.default_rng(SEED), np.radians(ANGLES_DEG)
     begins = np.vstack((diagonal(3), drawn_orientations(rng, 5)))
     for q, axis in zip(begins, np.vstack((CUBE_AXES[[0, 6, 18]], drawn_axes(rng, 5))), strict=True):

@@ -16,9 +16,7 @@ def find(examined: Examined) -> Found | None:
     if examined.form == "gibbs":
         last = int(np.argmin(np.where(examined.at("near-180"), examined.pairs.distance, np.inf)))
         text = f"its form, 2 tan(θ/2), has no end: |e| = {examined.size[last]:.1g} next to 180°"
-        return Found(
-            text, examined.evidence(last, False), FAULT, ENDLESS, "take a form with an end, as 2 sin(θ/2) or θ"
-        )
+        return Found(text, examined.evidence(last, False), FAULT, ENDLESS, "take 2 sin(θ/2) or θ, which have an end")
     answered = np.array([not reason for reason in examined.raised])
     bad = answered & ~np.isfinite(examined.e).all(axis=1)
     places = ", ".join(dict.fromkeys(examined.pairs.place[bad]))
