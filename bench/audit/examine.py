@@ -112,7 +112,7 @@ CURES = {
     "": "write a function of two matrices that calls it, as: def f(R, R_d): return mine(p, R, p, R_d), or mine("
     "torch.tensor(R), torch.tensor(R_d))",
 }
-"""By what is returned in the place of three numbers."""
+"""What is returned in the place of three numbers -> the cure."""
 
 
 def possible(stated: Stated) -> tuple[str, ...]:

@@ -19,7 +19,7 @@ BENT_RAD = 1e-3
 COARSE = 30.0
 """Times what most answers are off the axis: half precision leaves less than that."""
 EXACT, NEARLY = 1e-6, 0.05
-"""Of the largest answer: what a constant matrix may leave, everywhere, or near the goal."""
+"""What a constant matrix may leave everywhere, or near the goal, as a share of the largest answer."""
 
 
 def find(examined: Examined) -> Found | None:
