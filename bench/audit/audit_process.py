@@ -126,11 +126,11 @@ def audit_and_exit(request: dict[str, Any], board: np.ndarray, answer: IO[bytes]
         except BadFunction:
             if not loaded:
                 raise  # else a module that can be imported only once is called without a new import
-        return note_calls(loaded[-1], board)
+        return loaded[-1]
 
     try:
         stated = Stated(**request["stated"] | {"accept": tuple(request["stated"].get("accept", ()))})
-        said = describe_report(target, examine(fresh(), stated, target, fresh))
+        said = describe_report(target, examine(fresh(), stated, target, fresh, lambda call: note_calls(call, board)))
     except BenchError as error:
         said = {"refused": str(error)}
     except BaseException as error:
@@ -156,5 +156,5 @@ def note_calls(function: Callable, board: np.ndarray) -> Callable:
 
 def describe_report(target: str, report: Report) -> dict[str, Any]:
     """Return a report as `audit_apart` does."""
-    paragraphs = {one.fault.name: paragraph(target, one) for one in report.findings if one.is_fault}
+    paragraphs = {one.fault.name: paragraph(report, one) for one in report.findings if one.is_fault}
     return {"report": report.as_dict(), "text": report.text(), "head": report.head(), "paragraphs": paragraphs}

@@ -76,9 +76,10 @@ differ from one by the fourth power, 1e-8 and less. Single precision has 6e-8, s
 """
 
 
-NEAREST_RAD, EVEN = (1e-4, 2e-3), 1e-5
+NEAREST_RAD, NEARER_RAD, EVEN = (1e-4, 2e-3), (1e-5, 1e-4), 1e-5
 """Angles at which a form of no name, clipped as short as 0.002 rad, has its slope, if it is one there: to the square
-of the angle, 4e-6, and to double precision. Single precision, 6e-4 at 1e-4 rad, and dead bands have none."""
+of the angle, 4e-6, and to double precision. Single precision, 6e-4 at 1e-4 rad, and dead bands have none. A sine of
+degrees has it nearer."""
 
 
 class Convention(NamedTuple):
@@ -148,10 +149,11 @@ def form_of(pairs: Pairs, size: np.ndarray) -> tuple[str, float]:
             slope = float(np.nanmedian(ratio))
             if slope > 0.0 and np.mean(np.abs(ratio / slope - 1.0) < tolerance) >= ENOUGH:
                 return form, slope
-    nearest = is_nearest(pairs)
-    ratio = size[nearest] / pairs.angle[nearest]
-    if len(ratio) and np.ptp(ratio) <= EVEN * ratio.min():
-        return "", float(np.median(ratio))
+    for angles in (NEAREST_RAD, NEARER_RAD):
+        nearest = is_nearest(pairs, angles)
+        ratio = size[nearest] / pairs.angle[nearest]
+        if len(ratio) and np.ptp(ratio) <= EVEN * ratio.min():
+            return "", float(np.median(ratio))
     fine = pairs.at("fine")
     there = fine & (size > 0.0)
     if there.sum() < FEWEST * fine.sum():
@@ -160,6 +162,6 @@ def form_of(pairs: Pairs, size: np.ndarray) -> tuple[str, float]:
     return "", float(line[1])
 
 
-def is_nearest(pairs: Pairs) -> np.ndarray:
-    """Return the pairs (n) at NEAREST_RAD, as a mask."""
-    return pairs.at("near-identity") & (pairs.angle >= NEAREST_RAD[0]) & (pairs.angle <= NEAREST_RAD[1])
+def is_nearest(pairs: Pairs, angles: tuple[float, float] = NEAREST_RAD) -> np.ndarray:
+    """Return the pairs (n) near the goal with an angle between two, as a mask."""
+    return pairs.at("near-identity") & (pairs.angle >= angles[0]) & (pairs.angle <= angles[1])

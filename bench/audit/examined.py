@@ -187,6 +187,11 @@ class Examined:
         angle = convention.apart(self.e, self.direction)
         return np.where(self.pairs.distance < UNDECIDED_RAD, np.minimum(angle, np.pi - angle), angle)
 
+    @functools.cached_property
+    def noise(self) -> float:
+        """What rounding leaves across the axis, of the size, where nothing is difficult; NaN without a convention."""
+        return float(np.nanmedian(np.sin(self.apart[self.at("wide")])))
+
 
 Model = tuple[str, np.ndarray]
 """Words, and vectors (n x 3)."""

@@ -4,6 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from bench.audit.calls import Call
 from bench.audit.convention import Convention
 from bench.audit.examined import NOTE, Evidence
 from bench.audit.faults import Finding
@@ -17,7 +18,7 @@ class Report(NamedTuple):
 
     name: str
     pairs: int
-    takes: str
+    call: Call
     convention: Convention | None
     findings: tuple[Finding, ...]
 
@@ -28,7 +29,7 @@ class Report(NamedTuple):
 
     def text(self) -> str:
         """Return the whole report."""
-        return "\n\n".join((self.head(), *(paragraph(self.name, one) for one in self.findings))) + "\n"
+        return "\n\n".join((self.head(), *(paragraph(self, one) for one in self.findings))) + "\n"
 
     def head(self) -> str:
         """Verdict and convention."""
@@ -36,7 +37,13 @@ class Report(NamedTuple):
         said = self.convention.text() if self.convention else none
         verdict = f"FAULTS: {', '.join(self.faults)}" if self.faults else "no fault found"
         pairs = f" ({self.pairs} pairs)" if self.pairs else ""
-        return f"{self.name}: {verdict}{pairs}\nConvention found: {said}"
+        called = "" if self.call == Call(self.call.takes) else f"\nCalled as {self.code()}"
+        return f"{self.name}: {verdict}{pairs}{called}\nConvention found: {said}"
+
+    def code(self) -> str:
+        """Return how the function is called."""
+        function = self.name.rpartition(":")[2].rpartition(".")[2] or self.name
+        return self.call.code(function, *(("R", "R_d") if self.call.takes == "matrix" else ("q", "q_d")))
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
@@ -44,13 +51,14 @@ class Report(NamedTuple):
             "function": self.name,
             "pairs": self.pairs,
             "faults": list(self.faults),
-            "takes": self.takes,
+            "takes": self.call.takes,
+            "call": self.code(),
             "convention": self.convention._asdict() if self.convention else None,
             "findings": [as_dict(one) for one in self.findings],
         }
 
 
-def paragraph(name: str, finding: Finding) -> str:
+def paragraph(report: Report, finding: Finding) -> str:
     """One finding for people."""
     said = as_dict(finding)
     lines = [
@@ -59,20 +67,19 @@ def paragraph(name: str, finding: Finding) -> str:
         f"  Effect: {said['effect']}",
         f"  Cure: {said['cure']} (law: {said['law']}; {said['file']})",
     ]
-    return "\n".join((*lines, *(f"    {line}" for line in code(name, finding.found.evidence))))
+    return "\n".join((*lines, *(f"    {line}" for line in code(report, finding.found.evidence))))
 
 
-def code(name: str, evidence: Evidence | None) -> list[str]:
+def code(report: Report, evidence: Evidence | None) -> list[str]:
     """Return the pair as lines to paste."""
     if evidence is None:
         return []
     now, goal = ("R", "R_d") if evidence.now.shape == (3, 3) else ("q", "q_d")
-    called = name.rpartition(":")[2].rpartition(".")[2] or name  # as it is written in code
     right = f"; right is {numbers(evidence.right)}" if len(evidence.right) else ""
     return [
         f"{now} = np.array({numbers(evidence.now)})",
         f"{goal} = np.array({numbers(evidence.goal)})",
-        f"{called}({now}, {goal})  # {numbers(evidence.said)}{right}",
+        f"{report.code()}  # {numbers(evidence.said)}{right}",
     ]
 
 

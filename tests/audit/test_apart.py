@@ -19,6 +19,7 @@ ERRORS = Path(__file__).with_name("errors.python").read_text(encoding="utf-8")
         ("loops", ["hangs"], "had not returned after"),
         ("prints", [], "no fault found"),
         ("cached", ["memory"], "another answer"),
+        ("cached_by_rounding", ["memory"], "another answer"),
     ],
 )
 def test_function_is_named_for_what_it_does_and_for_nothing_else(tmp_path, capfd, name, faults, said):

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.command_line import bench, refused
+from support.users_errors import CALLED, REFUSED
 
 from bench.audit import audit
 from bench.audit.faults import every_fault
@@ -96,10 +97,18 @@ def test_mistake_in_a_name_is_refused_with_its_cure(request, file, target, said)
     assert said in str(error.value)
 
 
-@pytest.mark.parametrize(("name", "said"), [("four", r"an array of shape \(4,\)"), ("words", "str")])
-def test_function_of_another_shape_is_refused(file, name, said):
-    with pytest.raises(BadFunction, match=rf"{name} returns three numbers neither .*{said}.*; wrap it"):
-        audit(load(f"{file}:{name}"))
+@pytest.mark.parametrize(("code", "function"), CALLED.items())
+def test_function_of_other_things_than_arrays_is_called_as_it_wants(code, function):
+    report = audit(function, name="f")
+    assert (report.code(), report.faults) == (code, ())
+    assert f"Called as {code}" in report.text()
+
+
+@pytest.mark.parametrize(("function", "cure"), REFUSED.values(), ids=REFUSED)
+def test_function_of_another_shape_is_refused_with_its_cure(function, cure):
+    with pytest.raises(BadFunction, match=r"f returns three numbers neither .*given .*; ") as error:
+        audit(function, name="f")
+    assert cure in str(error.value)
 
 
 def test_answer_that_no_array_holds_is_refused_in_its_own_words():

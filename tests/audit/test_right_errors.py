@@ -47,7 +47,7 @@ def test_function_that_takes_both_kinds_of_input_is_asked_as_stated():
     def both(now, goal):
         return scipy_in_base(now, goal) if now.shape == (3, 3) else np.zeros(3)
 
-    assert audit(both).takes == audit(both, "matrix").takes == "matrix"
+    assert audit(both).call.takes == audit(both, "matrix").call.takes == "matrix"
     assert audit(both, "wxyz").convention is None
 
 

@@ -1,9 +1,9 @@
 """zero at 180°.
 
 effect: a robot that starts 180° from its goal stays there, and leaves slowly from nearby
-cure: take 1 for the sign of 0; a sine needs another form
+cure: take 1 for the sign of 0, atan2 for an arc sine, the axis from a column of R + R^T; a sine needs another form
 law: quaternion-shortest
-unless: not-a-number, raises
+unless: not-a-number, raises, long-way, misaligned
 """
 
 import numpy as np
@@ -21,7 +21,7 @@ def find_known(examined: Examined) -> Found | None:
     here = examined.at("at-180")
     dead = here & (examined.size <= ZERO * examined.slope * np.pi)
     near = examined.size[np.abs(examined.pairs.distance - BEFORE_RAD) < 1e-9]
-    is_form = bool(np.nanmedian(near) < TWENTIETH * examined.slope * np.pi)
+    is_form = examined.form in ("", "sine") and bool(np.nanmedian(near) < TWENTIETH * examined.slope * np.pi)
     text = f"e = 0 for {dead.sum()} of {here.sum()} rotations by exactly 180°"
     if is_form:
         text += "; its form itself vanishes there"

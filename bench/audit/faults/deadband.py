@@ -1,25 +1,40 @@
 """a dead band.
 
 effect: the robot rests beside its goal, and an integral or a force near the edge makes it chatter
-cure: leave it out; noise wants a filter
+cure: leave it out, and the rounding; noise wants a filter
 unless: single-precision
 """
 
 import numpy as np
 
-from bench.audit.examined import Examined, Found
+from bench.audit.examined import Evidence, Examined, Found, inputs
+from bench.audit.pairs import at_angles, joined
 
 SMALLEST_RAD = 1e-7
 """A dead band below this is none to a robot; the arc cosine's zero ends at 2e-8, and is a loss of digits."""
-FEWEST = 10
+FEWEST, SEED = 10, 13
+
+
+def find_step(examined: Examined) -> float:
+    """Return the step of which every component is a multiple; 0 if there is none, or none that a robot sees."""
+    components = np.abs(examined.e[examined.at("near-identity", "fine", "close")])
+    step = float(np.min(components[components > 0.0], initial=np.inf))
+    multiples = components / step
+    is_step = SMALLEST_RAD * examined.slope < step < np.inf and np.abs(multiples - np.round(multiples)).max() < 1e-3
+    return step if is_step else 0.0
 
 
 def find_known(examined: Examined) -> Found | None:
-    """e is exactly zero, or a component of it, up to an angle; beyond it is not."""
-    small = examined.at("near-identity", "fine", "close")
-    zero = small & (examined.pairs.angle >= SMALLEST_RAD) & (examined.size == 0.0)
-    if zero.sum() < FEWEST:
+    """e is exactly zero, or a component of it, up to an angle; beyond it is not. Or it has steps everywhere."""
+    drawn = at_angles("line", np.random.default_rng(SEED), np.geomspace(SMALLEST_RAD, 1e-3, 40))
+    asked, e = joined(examined.pairs, drawn), np.vstack((examined.e, examined.evaluate(drawn).e))
+    small = asked.at("near-identity", "fine", "close", "line") & (asked.angle >= SMALLEST_RAD)
+    zero = np.flatnonzero(small & ~e.any(axis=1))
+    if len(zero) < FEWEST:
         return None
-    angle = examined.pairs.angle
-    i = int(np.flatnonzero(zero)[np.argmax(angle[zero])])
-    return Found(f"e = 0 up to {angle[i]:.3g} rad", examined.evidence(i))
+    i = int(zero[np.argmax(asked.angle[zero])])
+    text = f"e = 0 up to {asked.angle[i]:.3g} rad"
+    if step := find_step(examined):
+        text = f"e is rounded: each component is a multiple of {step:.4g}; {text}"
+    now, goal = inputs(examined.takes, asked.chosen(slice(i, i + 1)))
+    return Found(text, Evidence(now[0], goal[0], e[i]))

@@ -1,7 +1,8 @@
 """digits lost near the goal.
 
 effect: the command flickers, or is zero, at the goal
-cure: no arc cosine of a trace or scalar part: atan2 of the vector's length and the scalar keeps every digit
+cure: no arc cosine of a trace or scalar part, and no constant added to a denominator: atan2 of the vector's length and
+  the scalar keeps every digit, and only a length of exactly zero needs a branch
 unless: single-precision, deadband, euler-angles, norm-clip, axis-clip, long-way
 """
 

@@ -11,18 +11,20 @@ from bench.audit.examined import Evidence, Examined, Found, evaluate, inputs
 
 OTHERWISE = 1e-3
 """Least difference of angles; rounding leaves 1e-16, single precision 1e-7."""
+SMALLEST_RAD = 1e-3
 
 
 def find(examined: Examined) -> Found | None:
     """f(q, -q_d) and f(-q, q_d) are not f(q, q_d)."""
     if examined.takes == "matrix" or not examined.convention:
         return None
-    here = np.flatnonzero(examined.at("wide"))[::4]
+    here = np.flatnonzero(examined.at("wide", "identity"))[::4]
     now, goal = inputs(examined.takes, examined.pairs.chosen(here))
     for other, given in (("-q_d", (now, -goal)), ("-q", (-now, goal))):
         said = evaluate(examined.function, *given).e
         apart = np.linalg.norm(said - examined.e[here], axis=1)
-        bad = ~(apart <= OTHERWISE * examined.slope * examined.pairs.angle[here])
+        same = apart <= OTHERWISE * examined.slope * np.fmax(examined.pairs.angle[here], SMALLEST_RAD)
+        bad = ~same & np.isfinite(examined.size[here])
         if bad.any():
             i = int(np.argmax(bad))
             text = f"{bad.sum()} of {len(here)} pairs are answered otherwise with {other}, the same orientation"

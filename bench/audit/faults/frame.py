@@ -8,7 +8,10 @@ unless: transpose
 
 from collections.abc import Iterator
 
-from bench.audit.examined import Examined, Found, Model, explanation, rotated
+import numpy as np
+
+from bench.audit.convention import ENOUGH, FRAMES, apart, directions
+from bench.audit.examined import EXPLAINED_RAD, Examined, Found, Model, explanation, rotated
 from bench.audit.pairs import Pairs
 
 
@@ -17,7 +20,17 @@ def find(examined: Examined) -> Found | None:
     stated, found = examined.stated, examined.convention
     if found and stated.frame and stated.frame != found.frame:
         return Found(f"stated to be in the {stated.frame} frame, it is in the {found.frame} frame")
-    return explanation(examined, models, "e = {}, which is in no frame")
+    if not found:
+        return explanation(examined, models, "e = {}, which is in no frame")
+    (other,) = set(FRAMES) - {found.frame}
+    here = np.flatnonzero(examined.at("wide", "close") & (examined.apart > EXPLAINED_RAD))
+    line = apart(examined.e, directions(examined.pairs, other))[here]
+    is_other = np.minimum(line, np.pi - line) < EXPLAINED_RAD
+    if not is_other.sum() > ENOUGH * len(here):
+        return None
+    where = np.degrees(examined.pairs.angle[here[is_other]])
+    text = f"{found.frame} frame, but {other} frame for {is_other.sum()}, at {where.min():.3g}° to {where.max():.3g}°"
+    return Found(text, examined.evidence(int(here[np.argmax(is_other)])))
 
 
 def models(pairs: Pairs) -> Iterator[Model]:

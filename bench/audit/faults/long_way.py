@@ -1,7 +1,7 @@
 """unwinding: a wrong wrap.
 
 effect: the robot turns by up to 360° where a little would do, and jumps where the wrap changes
-cure: wrap angles to [-180°, 180°]; change the sign of the error quaternion where its scalar part is negative
+cure: wrap angles to [-180°, 180°]; atan2 for an arc tangent; change the sign of a quaternion whose scalar is negative
 law: quaternion-shortest
 """
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from bench.audit.examined import Examined, Found
 from bench.audit.faults.euler_angles import SAME_RAD, find_angles
+from bench.audit.faults.stiffness import DEVIATION
 
 AGAINST_RAD = 0.1
 """Between an answer and the axis the wrong way; rounding bends no answer so."""
@@ -16,6 +17,8 @@ AGAINST_RAD = 0.1
 
 def find(examined: Examined) -> Found | None:
     """e points against the axis for some pairs, or an angle is more than pi."""
+    if not examined.form and abs(examined.slope * np.radians(1.0) - 1.0) < DEVIATION:
+        return None  # a sine of degrees, which is not a matter of a wrap
     if examined.convention:
         here = ~examined.at("at-180", "identity", "near-180")
         with np.errstate(invalid="ignore"):
@@ -29,4 +32,5 @@ def find(examined: Examined) -> Found | None:
         bad[here] = outside.any(axis=1)
     else:
         return None
-    return examined.first(bad, f"for {bad.sum()} of {here.sum()} pairs")
+    what = "e points against the axis" if examined.convention else "an angle is more than 180°"
+    return examined.first(bad, f"{what} for {bad.sum()} of {here.sum()} pairs")

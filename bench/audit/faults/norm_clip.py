@@ -2,6 +2,7 @@
 
 effect: beyond the limit the stiffness felt falls with the angle while the damping stays: a slow return
 cure: clip the command, not the error; or accept it, for it bends nothing
+unless: axis-clip
 """
 
 import numpy as np
@@ -26,11 +27,11 @@ def find_known(examined: Examined) -> Found | None:
         full, near = examined.slope * examined.pairs.angle, is_nearest(examined.pairs)
         if not np.allclose(examined.size[near], full[near], rtol=1.0 - SHORTER, atol=0.0):
             return None
-    here = np.flatnonzero(examined.at("wide", "close") & (examined.apart < BENT_RAD))
+    here = np.flatnonzero(examined.at("wide", "close", "near-180") & (examined.apart < BENT_RAD))
     shorter = here[examined.size[here] < SHORTER * full[here]]
     for what, length in (("length", examined.size), ("largest component", np.abs(examined.e).max(axis=1))):
         limit = float(length[here].max(initial=0.0))
         at_limit = shorter[np.abs(length[shorter] - limit) <= SAME * limit]
-        if len(at_limit) >= FEWEST:
+        if len(at_limit) >= FEWEST and np.ptp(full[at_limit]) > (1.0 - SHORTER) * limit:
             return Found(f"the {what} never exceeds {limit:.6g}", examined.evidence(int(at_limit[-1])))
     return None

@@ -1,7 +1,7 @@
 """stiffness felt is not stiffness set.
 
 effect: the stiffness felt is the slope times that set, and the damping ratio changes by one over the slope's root
-cure: take radians; a vector part needs the factor 2, modified Rodrigues parameters 4; or divide the gain by the slope
+cure: divide the error, or the gains, by the slope
 law: quaternion-shortest
 unless: euler-angles
 """
@@ -21,7 +21,19 @@ TIMES = 1.5
 """Between them; a form of one slope changes by 1e-4, and digits lost by less than a tenth."""
 
 
-RADIANS = "convert it to radians: np.radians(e)"
+UNITS = {
+    np.degrees(1.0): ("degrees", "180/pi"),
+    1.0 / np.pi: ("half turns", "1/pi"),
+    0.5 / np.pi: ("turns", "1/(2 pi)"),
+}
+FACTORS = {
+    ("sine-of-half", 0.5): "multiply by 2: the vector part of a quaternion is sin(θ/2) k",
+    ("rotation-vector", 0.5): "multiply by 2: the angle of a quaternion is 2 atan2(|v|, w)",
+    ("gibbs", 0.5): "multiply by 2: Rodrigues parameters are tan(θ/2) k",
+    ("mrp", 0.25): "multiply by 4: modified Rodrigues parameters are tan(θ/4) k",
+    ("sine", 2.0): "divide by 2: the sum of the three cross products, as R - R^T, is 2 sin θ k",
+}
+"""Cures of slopes that have a reason."""
 
 
 def find(examined: Examined) -> Found | None:
@@ -36,10 +48,17 @@ def find(examined: Examined) -> Found | None:
         if felt.max() > TIMES * felt.min():
             text = f"|e|/theta is between {felt.min():.4g} and {felt.max():.4g} near the goal: no gain is set by it"
             return Found(text, examined.evidence(int(np.flatnonzero(here)[np.argmax(felt)]), False))
+        if abs(examined.slope / examined.stated.stiffness - 1.0) < felt.max() / felt.min() - 1.0:
+            return None  # no one slope: another fault
     ratio = examined.slope / examined.stated.stiffness
     i = int(np.flatnonzero(examined.at("near-identity") & (examined.pairs.angle > LARGEST_RAD))[0])
     evidence = examined.evidence(i, False)._replace(right=examined.e[i] / ratio)
     effect = f"the robot is {ratio:.4g} times as stiff as set, and damped {ratio**-0.5:.2g} times as much for it"
-    if abs(ratio * np.radians(1.0) - 1.0) <= DEVIATION:
-        return Found(f"e is in degrees: the slope is {ratio:.6g} = 180/pi", evidence, FAULT, effect, RADIANS)
-    return Found(f"the stiffness felt is {ratio:.4g} of the stiffness set", evidence, FAULT, effect)
+    for slope, (unit, words) in UNITS.items():
+        if abs(ratio / slope - 1.0) <= DEVIATION:
+            cure = "convert to radians" + (": np.radians(e)" if unit == "degrees" else "") * bool(examined.form)
+            return Found(f"e is in {unit}: the slope is {ratio:.6g} = {words}", evidence, FAULT, effect, cure)
+    cures = (
+        cure for (form, slope), cure in FACTORS.items() if form == examined.form and abs(ratio / slope - 1.0) < 1e-6
+    )
+    return Found(f"the stiffness felt is {ratio:.4g} of the stiffness set", evidence, FAULT, effect, next(cures, ""))
