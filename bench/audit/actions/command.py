@@ -8,7 +8,7 @@ from bench.audit.actions.log import EPISODES, NEXT, POSES, find_column, read_arr
 from bench.audit.actions.report import audit_actions
 
 EPILOG = """examples:
-  audit actions log.npz                              arrays R (n x 3 x 3), action, and episode_index if there are several
+  audit actions log.npz                              arrays R (n x 3 x 3), action, perhaps episode_index
   audit actions file-000.parquet --pose observation.state[3:6]:rotation-vector --action action[3:6]
   audit actions log.npz --action action[3:6] --expect "rotation-vector base scale=0.5"
 
@@ -36,9 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
     following = read_poses(*find_column(arrays, arguments.next, NEXT)) if has_next else None
     has_episodes = arguments.episode or any(one in arrays for one in EPISODES)
     episode = find_column(arrays, arguments.episode, EPISODES)[0][:, 0] if has_episodes else None
-    report = audit_actions(
-        poses, find_column(arrays, arguments.action, ())[0], following, episode, expect=arguments.expect
-    )
+    report = audit_actions(poses, find_column(arrays, arguments.action)[0], following, episode, expect=arguments.expect)
     print(report.text(), end="")
     if arguments.json:
         arguments.json.write_text(json.dumps(report.as_dict(), indent=1) + "\n", encoding="utf-8")

@@ -62,6 +62,16 @@ class Convention(NamedTuple):
     gain: float = 0.0
     turn: np.ndarray = np.eye(3)
 
+    @property
+    def extras(self) -> int:
+        """Count of its parameters beyond the gain: constant rotation, clip, target."""
+        return bool(self.offset) + bool(self.clip) + bool(self.follows)
+
+    @property
+    def suspicion(self) -> int:
+        """Count of what would be a fault, to prefer the plainest of conventions that explain a log alike."""
+        return (self.lag != 0) + (self.relation == "difference") + (self.is_inverse or self.gain < 0.0)
+
 
 def fit(rows: Rows, one: Convention) -> tuple[Convention, np.ndarray]:
     """Return the convention with its gain and constant rotation, and the residual (n) of every row [rad]."""
@@ -91,10 +101,11 @@ def fit(rows: Rows, one: Convention) -> tuple[Convention, np.ndarray]:
     return one._replace(gain=gain, turn=turn if one.offset == "frame" else C), residual
 
 
-def nearest(M: np.ndarray) -> np.ndarray:
-    """Return the rotation nearest to a matrix (Kabsch)."""
+def nearest(M: np.ndarray, is_signed: bool = False) -> np.ndarray:
+    """Return the rotation C nearest to a matrix (Kabsch), or to it or its negative, whichever is nearer to one."""
     U, _, Vt = np.linalg.svd(M)
-    return U @ np.diag((1.0, 1.0, np.sign(np.linalg.det(U @ Vt)))) @ Vt
+    sign = np.sign(np.linalg.det(U @ Vt))
+    return sign * U @ Vt if is_signed else U @ np.diag((1.0, 1.0, sign)) @ Vt
 
 
 def regress(v: np.ndarray, u: np.ndarray, tolerance: np.ndarray, is_turned: bool = False) -> tuple[float, np.ndarray]:
@@ -110,7 +121,6 @@ def regress(v: np.ndarray, u: np.ndarray, tolerance: np.ndarray, is_turned: bool
         if gain:
             weight = 1.0 / (1.0 + (((v - gain * u @ C.T) / (times * tolerance)[:, None]) ** 2).sum(axis=1)) ** 2
         if is_turned:
-            M = (weight[:, None] * v).T @ u
-            C = max((nearest(M), nearest(-M)), key=lambda one: abs((one * M).sum()))
+            C = nearest((weight[:, None] * v).T @ u, is_signed=True)
         gain = float((weight * (v * (u @ C.T)).sum(axis=1)).sum() / max((weight * square).sum(), 1e-300))
     return gain, C

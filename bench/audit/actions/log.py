@@ -30,7 +30,9 @@ def read_arrays(path: Path) -> dict[str, np.ndarray]:
     return {one: np.array(table[one].to_pylist()) for one in table.column_names if "image" not in one}
 
 
-def find_column(arrays: dict[str, np.ndarray], stated: str | None, usual: tuple[str, ...]) -> tuple[np.ndarray, str]:
+def find_column(
+    arrays: dict[str, np.ndarray], stated: str | None, usual: tuple[str, ...] = ("action",)
+) -> tuple[np.ndarray, str]:
     """Return the numbers (n x m) of "name", "name[3:6]" or "name[3:6]:reading", and the reading or ""."""
     known = next((one for one in usual if one in arrays), usual[0])
     name, start, stop, reading = re.fullmatch(r"(.*?)(?:\[(\d*):(\d*)\])?(?::([\w-]+))?", stated or known).groups()
