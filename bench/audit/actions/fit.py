@@ -73,7 +73,7 @@ class Convention(NamedTuple):
         return (self.lag != 0) + (self.relation == "difference") + (self.is_inverse or self.gain < 0.0)
 
 
-def fit(rows: Rows, one: Convention) -> tuple[Convention, np.ndarray]:
+def fit(rows: Rows, one: Convention, rounds: int = 5) -> tuple[Convention, np.ndarray]:
     """Return the convention with its gain and constant rotation, and the residual (n) of every row [rad]."""
     R, R_next, C, size = rows.R, rows.R_next, np.eye(3), np.linalg.norm(rows.action, axis=1, keepdims=True)
     a = np.clip(rows.action, -one.bound, one.bound) if one.clip == "component" else rows.action
@@ -85,10 +85,12 @@ def fit(rows: Rows, one: Convention) -> tuple[Convention, np.ndarray]:
         A = REPRESENTATIONS[a.shape[1]][one.representation](one.unit * a)
         A = A.swapaxes(1, 2) if one.is_inverse else A
         v, u, goal = log(R.swapaxes(1, 2) @ R_next), log(R.swapaxes(1, 2) @ A), R_next
-        for _ in range(3 if one.offset else 0):  # a pose is only part of the way to its goal: C, the gain, and again
+        for _ in range(
+            0 if not one.offset else 3 if rounds else 1
+        ):  # a pose is only part of the way to its goal: C, the gain, and again
             C = nearest((A.swapaxes(1, 2) @ goal if one.offset == "tool" else goal @ A.swapaxes(1, 2)).mean(axis=0))
             u = log(R.swapaxes(1, 2) @ (A @ C if one.offset == "tool" else C @ A))
-            goal = R @ exp(v / max(regress(v, u, rows.tolerance)[0], 0.2))
+            goal = R @ exp(v / max(regress(v, u, rows.tolerance, rounds)[0], 0.2))
     else:
         if one.follows:  # the target of a step, seen from how far the pose went towards it
             R_next = R @ exp(log(R.swapaxes(1, 2) @ R_next) / one.follows)
@@ -96,7 +98,7 @@ def fit(rows: Rows, one: Convention) -> tuple[Convention, np.ndarray]:
         v = log(R_next @ R.swapaxes(1, 2) if one.relation == "base" else R.swapaxes(1, 2) @ R_next)
         u = log(REPRESENTATIONS[a.shape[1]][one.representation](one.unit * a))
     share = one.follows or 1.0
-    gain, turn = regress(v, u, rows.tolerance / share, one.offset == "frame")
+    gain, turn = regress(v, u, rows.tolerance / share, rounds, one.offset == "frame")
     residual = share * np.linalg.norm(v - gain * u @ turn.T, axis=1)
     return one._replace(gain=gain, turn=turn if one.offset == "frame" else C), residual
 
@@ -108,19 +110,18 @@ def nearest(M: np.ndarray, is_signed: bool = False) -> np.ndarray:
     return sign * U @ Vt if is_signed else U @ np.diag((1.0, 1.0, sign)) @ Vt
 
 
-def regress(v: np.ndarray, u: np.ndarray, tolerance: np.ndarray, is_turned: bool = False) -> tuple[float, np.ndarray]:
-    """Return k and C of v = k C u (n x 3), by weights 1/(1 + (r/s)^2)^2 with s from 8 tolerances down to 1.
+def regress(
+    v: np.ndarray, u: np.ndarray, tolerance: np.ndarray, rounds: int, is_turned: bool = False
+) -> tuple[float, np.ndarray]:
+    """Return k and C of v = k C u (n x 3), by weights 1/(1 + (r/s)^2)^2, with s from 8 tolerances down to 1 in rounds.
 
-    Without C it starts from the quartile of the rows' gains that leaves the least, so that half of them may be wrong.
+    It starts from the quartile of the rows' gains that leaves the least, so that half of them may be wrong.
     """
-    C, gain, weight, square = np.eye(3), 0.0, np.ones(len(v)), np.maximum((u * u).sum(axis=1), 1e-300)
-    if not is_turned:
-        starts = np.quantile((v * u).sum(axis=1) / square, (0.25, 0.5, 0.75))
-        gain = min(starts, key=lambda k: np.minimum(np.linalg.norm(v - k * u, axis=1) / tolerance, 1.0).sum())
-    for times in (8.0, 4.0, 2.0, 1.0, 1.0):
-        if gain:
-            weight = 1.0 / (1.0 + (((v - gain * u @ C.T) / (times * tolerance)[:, None]) ** 2).sum(axis=1)) ** 2
-        if is_turned:
-            C = nearest((weight[:, None] * v).T @ u, is_signed=True)
-        gain = float((weight * (v * (u @ C.T)).sum(axis=1)).sum() / max((weight * square).sum(), 1e-300))
-    return gain, C
+    C, square = nearest(v.T @ u, is_signed=True) if is_turned else np.eye(3), np.maximum((u * u).sum(axis=1), 1e-300)
+    starts = np.quantile((v * (u @ C.T)).sum(axis=1) / square, (0.25, 0.5, 0.75))
+    gain = min(starts, key=lambda k: np.minimum(np.linalg.norm(v - k * u @ C.T, axis=1) / tolerance, 1.0).sum())
+    for times in (8.0, 4.0, 2.0, 1.0, 1.0)[:rounds]:
+        weight = 1.0 / (1.0 + (((v - gain * u @ C.T) / (times * tolerance)[:, None]) ** 2).sum(axis=1)) ** 2
+        C = nearest((weight[:, None] * v).T @ u, is_signed=True) if is_turned else C
+        gain = (weight * (v * (u @ C.T)).sum(axis=1)).sum() / max((weight * square).sum(), 1e-300)
+    return float(gain), C

@@ -24,25 +24,20 @@ def read_arrays(path: Path) -> dict[str, np.ndarray]:
     try:
         table = importlib.import_module("pyarrow.parquet").read_table(path)
     except ImportError:
-        raise MissingTool(
-            f"{path} is read with pyarrow, which is not here; pip install pyarrow, or save .npz"
-        ) from None
+        raise MissingTool(f"{path} is read with pyarrow, which is missing; pip install pyarrow, or save .npz") from None
     return {one: np.array(table[one].to_pylist()) for one in table.column_names if "image" not in one}
 
 
-def find_column(
-    arrays: dict[str, np.ndarray], stated: str | None, usual: tuple[str, ...] = ("action",)
-) -> tuple[np.ndarray, str]:
+def find_column(arrays: dict, stated: str | None, usual: tuple[str, ...] = ("action",)) -> tuple[np.ndarray, str]:
     """Return the numbers (n x m) of "name", "name[3:6]" or "name[3:6]:reading", and the reading or ""."""
-    known = next((one for one in usual if one in arrays), usual[0])
-    name, start, stop, reading = re.fullmatch(r"(.*?)(?:\[(\d*):(\d*)\])?(?::([\w-]+))?", stated or known).groups()
+    column = stated or next((one for one in usual if one in arrays), usual[0])
+    (parts,) = re.findall(r"^(.*?)(?:\[(\d*):(\d*)\])?(?::([\w-]+))?$", column)
+    name, start, stop, reading = parts
     if name not in arrays:
         raise UnknownWord("column", name, sorted(arrays))
     values = arrays[name].astype(float)
-    values = values[:, :3, :3] if values.ndim == 3 and values.shape[1:] == (4, 4) else values
-    return values.reshape(len(values), -1)[
-        :, slice(*(int(one) if one else None for one in (start, stop)))
-    ], reading or ""
+    values = values[:, :3, :3] if values.shape[1:] == (4, 4) else values
+    return values.reshape(len(values), -1)[:, int(start or 0) : int(stop) if stop else None], reading
 
 
 def read_poses(values: np.ndarray, reading: str) -> dict[str, np.ndarray]:

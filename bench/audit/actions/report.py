@@ -29,11 +29,12 @@ def audit_actions(R: Any, action: np.ndarray, R_next: Any = None, episode: Any =
         BadNumber: no representation has m numbers, or the counts of rows differ. UnknownWord: a word of `expect`.
     """
     action, words = np.asarray(action, float), tuple(expect.replace(",", " ").split())
-    now, later = (one if isinstance(one, dict) or one is None else {"matrix": np.asarray(one)} for one in (R, R_next))
+    now, later = (one if isinstance(one, dict) else {"matrix": np.asarray(one)} for one in (R, R_next))
+    later = {} if R_next is None else later
     episode = np.zeros(len(action)) if episode is None else np.asarray(episode)
     if action.ndim != 2 or action.shape[1] not in REPRESENTATIONS:
         raise BadNumber(f"actions of shape {action.shape} are no rotations; give 3, 4, 6 or 9 columns, as action[3:6]")
-    if {*map(len, (*now.values(), *(later or {}).values(), episode))} != {len(action)}:
+    if {*map(len, (*now.values(), *later.values(), episode))} != {len(action)}:
         raise BadNumber(f"{len(action)} actions have not as many poses and episodes; give one of each in every row")
     known = [*REPRESENTATIONS[action.shape[1]], *RELATIONS, "delta", "target", *UNITS, "scale=NUMBER", "lag=NUMBER"]
     for word in words:
@@ -76,7 +77,8 @@ class Report(NamedTuple):
         """Return what is wrong, by name: differences from what was stated, and what no statement makes right."""
         if not self.found.best:
             return {}
-        one, mixed, width, faults = self.found.best.convention, self.found.mixed, self.action.shape[1], {}
+        one, mixed, width = self.found.best.convention, self.found.mixed, self.action.shape[1]
+        faults: dict[str, str] = {}
         size, turn = abs(one.gain * one.unit), log(one.turn[None])[0]
         true = set().union(*map(list_words, (one, *self.found.rivals)))
         family = one.representation.partition("-")[0]

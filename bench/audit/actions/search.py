@@ -1,6 +1,6 @@
 """Find the convention that explains a log best, how sure that is, and what else explains it."""
 
-import itertools
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -40,77 +40,46 @@ class Fitted(NamedTuple):
         return float(np.mean(self.loss < 1.0))
 
 
-def fit_each(rows: dict, several: list[Convention]) -> list[Fitted]:
+def fit_each(rows: dict, several: list[Convention], rounds: int = 5) -> list[Fitted]:
     """Fit conventions to the rows of their reading and lag, and return them with the best first."""
     found = []
     for one in several:
         here = rows[one.pose, one.lag]
-        one, residual = fit(here, one)
+        one, residual = fit(here, one, rounds)
         found.append(Fitted(one, here.at, residual, np.minimum(residual / here.tolerance, 1.0)))
     return sorted(found, key=lambda each: each.cost)
 
 
-def screen(rows: Rows, pose: str, lag: int, is_turned: bool) -> list[tuple[float, Convention]]:
-    """Return all conventions without clip and target, or all with a constant rotation, with the loss of a quick fit."""
-    R, R_next, a, found = rows.R, rows.R_next, rows.action, []
-    width, back = a.shape[1], rows.R.swapaxes(1, 2)
-    names = list(REPRESENTATIONS[width])
-    moved = {"base": log(R_next @ back), "body": log(back @ R_next)}
-
-    def rate(v: np.ndarray, u: np.ndarray, made: list[Convention]) -> None:
-        k = np.quantile((v * u).sum(axis=2) / np.maximum((u * u).sum(axis=2), 1e-300), (0.25, 0.5, 0.75), axis=1)
-        missed = np.linalg.norm(v - k[:, :, None, None] * u, axis=3) / rows.tolerance
-        loss = np.minimum(missed, 1.0).mean(axis=2)
-        best = loss.argmin(axis=0)
-        found.extend(
-            (float(loss[i, m]), one._replace(gain=float(k[i, m])))
-            for m, (i, one) in enumerate(zip(best, made, strict=True))
-        )
-
-    def decode(unit: float) -> np.ndarray:
-        return np.array([one(unit * a) for one in REPRESENTATIONS[width].values()])
-
-    first = Convention(pose, "rotation-vector", "base", lag)
-    size = max(abs(fit(rows, first._replace(relation=one))[0].gain) for one in moved) or 1.0 if width == 3 else 1.0
-    u = log(decode(size).reshape(-1, 3, 3)).reshape(len(names), -1, 3)  # Euler angles of the size of the motion
-    for relation, v in moved.items():
-        made = [Convention(pose, name, relation, lag, size, offset="frame" * is_turned) for name in names]
-        C = np.array([nearest(M, is_signed=True) for M in np.einsum("nj,mnk->mjk", v, u)]) if is_turned else np.eye(3)
-        rate(v, u @ C.swapaxes(-1, -2), made)
-    for unit in (1.0, DEGREE)[: 2 if width == 3 else 1]:
-        A = decode(unit)
-        for is_inverse, offset in ((False, "tool"), (False, "base")) if is_turned else ((False, ""), (True, "")):
-            B = A.swapaxes(2, 3) if is_inverse else A
-            if offset == "tool":
-                B = B @ np.array([nearest(M) for M in (B.swapaxes(2, 3) @ R_next).mean(axis=1)])[:, None]
-            elif offset:
-                B = np.array([nearest(M) for M in (R_next @ B.swapaxes(2, 3)).mean(axis=1)])[:, None] @ B
-            made = [Convention(pose, name, "absolute", lag, unit, is_inverse, offset) for name in names]
-            rate(moved["body"], log((back @ B).reshape(-1, 3, 3)).reshape(len(names), -1, 3), made)
-    for name in COORDINATES if width == 3 and not is_turned else ():
-        c = COORDINATES[name]
-        v = np.remainder(c(R_next) - c(R) + np.pi, 2.0 * np.pi) - np.pi
-        rate(v, a[None], [Convention(pose, name, "difference", lag)])
-    return found
+def list_plain(rows: Rows, pose: str, lag: int) -> Iterator[Convention]:
+    """Yield the conventions without clip, target and constant rotation."""
+    width = rows.action.shape[1]
+    for start in (Convention(pose, "rotation-vector", relation, lag) for relation in ("base", "body")):
+        unit = abs(fit(rows, start)[0].gain) or 1.0 if width == 3 else 1.0  # Euler angles of the size of the motion
+        yield from (start._replace(representation=name, unit=unit) for name in REPRESENTATIONS[width])
+    for is_inverse in (False, True)[: 2 if width < 6 else 1]:  # the inverse of rows is columns
+        for unit in (1.0, DEGREE)[: 2 if width == 3 else 1]:
+            yield from (Convention(pose, name, "absolute", lag, unit, is_inverse) for name in REPRESENTATIONS[width])
+    yield from (Convention(pose, name, "difference", lag) for name in COORDINATES if width == 3)
 
 
-def scale(rows: dict, one: Convention) -> Convention:
-    """Return a delta of Euler angles with the unit that explains the rows best."""
-    if not one.representation.startswith("euler") or one.relation not in ("base", "body"):
-        return one
-    units = (1.0, DEGREE, *(abs(one.gain * one.unit) / np.linspace(0.3, 1.0, 8)))
-    tried = [each.convention for each in fit_each(rows, [one._replace(unit=float(unit)) for unit in units])]
-    return next((each for each in tried if is_reached(abs(each.gain))), one)
+def list_offset(one: Convention) -> list[Convention]:
+    """Return a convention with a constant rotation, where it may have one."""
+    places = {"absolute": ("tool", "base"), "difference": ()}.get(one.relation, ("frame",))
+    return [one._replace(offset=place) for place in places if not one.offset and not one.is_inverse]
 
 
-def extend(rows: dict, one: Convention) -> Convention:
-    """Return it with a target or clip if that is much better."""
-    action, others = rows[one.pose, one.lag].action, []
-    if one.relation in ("base", "body"):
-        others = [one._replace(follows=float(k)) for k in np.linspace(0.1, 0.9, 17)]
-    for clip, size in (("component", np.abs(action)), ("norm", np.linalg.norm(action, axis=1))):
-        bounds = (*np.quantile(size, np.linspace(0.2, 0.98, 14)), *(size.max() * np.linspace(0.1, 0.9, 9)))
-        others += [one._replace(clip=clip, bound=float(b)) for b in bounds if action.shape[1] in (3, 6)]
+def refine(rows: dict, one: Convention, is_extended: bool) -> Convention:
+    """Return it with the best unit of Euler angles, and with a target or clip if that is much better."""
+    action, is_delta, others = rows[one.pose, one.lag].action, one.relation in ("base", "body"), []
+    if is_delta and one.representation.startswith("euler"):
+        units = (1.0, DEGREE, *(abs(one.gain * one.unit) / np.linspace(0.3, 1.0, 8)))
+        tried = fit_each(rows, [one._replace(unit=float(unit)) for unit in units])
+        one = next((each.convention for each in tried if is_reached(abs(each.convention.gain))), one)
+    if is_extended and action.shape[1] in (3, 6):
+        for clip, size in (("component", np.abs(action)), ("norm", np.linalg.norm(action, axis=1))):
+            bounds = (*np.quantile(size, np.linspace(0.2, 0.98, 14)), *(size.max() * np.linspace(0.1, 0.9, 9)))
+            others += [one._replace(clip=clip, bound=float(bound)) for bound in bounds]
+    others += [one._replace(follows=float(k)) for k in np.linspace(0.1, 0.9, 17) if is_extended and is_delta]
     return fit_each(rows, [one, *others])[0].convention
 
 
@@ -147,29 +116,23 @@ def search(poses: dict[str, tuple[np.ndarray, np.ndarray]], action: np.ndarray, 
     if not logs:
         return Found(0)
     few = {key: rows.chosen(slice(None, None, -(-len(rows.at) // SAMPLE))) for key, rows in logs.items()}
-    quick = [one for key, rows in few.items() for one in screen(rows, *key, is_turned=False)]
-    if min(loss for loss, _ in quick) > ENOUGH:
-        quick += [one for key, rows in few.items() if abs(key[1]) < 2 for one in screen(rows, *key, is_turned=True)]
-    is_named = [action.shape[1] < 6 or one.gain > 0.0 and not one.is_inverse for _, one in quick]  # rows and columns
-    plain = [
-        one
-        for _, one in sorted(itertools.compress(quick, is_named), key=lambda each: each[0] / BETTER ** each[1].extras)
-    ]
-    top = [each.convention for each in fit_each(few, [scale(few, one) for one in plain[:TOP]])]
-    best, *others = fit_each(logs, [*(extend(few, one) for one in top[:4]), *top[4:]])
+    plain = fit_each(few, [one for key, rows in few.items() for one in list_plain(rows, *key)], 0)
+    if plain[0].cost > ENOUGH:
+        near = [turned for one in plain if abs(one.convention.lag) < 2 for turned in list_offset(one.convention)]
+        plain = sorted((*plain, *fit_each(few, near, 0)), key=lambda one: one.cost)
+    several = [one.convention for one in plain if action.shape[1] < 6 or one.convention.gain > 0.0]
+    top = fit_each(few, [refine(few, one, is_extended=False) for one in several[:TOP]])
+    best, *others = fit_each(logs, [refine(few, one.convention, k < 4) for k, one in enumerate(top)])
     one = best.convention
-    places = {"absolute": ("tool", "base"), "difference": ()}.get(one.relation, ("frame",))[: 2 * (not one.offset)]
-    rows, best = logs[one.pose, one.lag], fit_each(logs, [one, *(one._replace(offset=place) for place in places)])[0]
+    rows, best = logs[one.pose, one.lag], fit_each(logs, [one, *list_offset(one)])[0]
     left = {key: each.chosen(np.isin(each.at, best.at[best.loss >= 1.0])) for key, each in logs.items()}
-    rest = [each for each in plain[: 4 * TOP] if each.lag == one.lag and not each.offset]
-    is_enough = len(left[one.pose, one.lag].at) > max(FEWEST // 2, 0.05 * len(rows.at))
-    mixed = next((each for each in fit_each(left, rest if is_enough else []) if each.share >= ENOUGH), None)
+    least = max(FEWEST // 2, 0.05 * len(rows.at))
+    rest = [c for c in several[: 4 * TOP] if c.lag == one.lag and not c.offset and len(left[c.pose, c.lag].at) > least]
+    mixed = next((each for each in fit_each(left, rest) if each.share >= ENOUGH), None)
     order = np.random.default_rng(SEED).permutation(len(rows.at))
     shuffled = fit_each({(one.pose, one.lag): rows._replace(action=rows.action[order])}, [best.convention])[0].share
-    if (
-        best.share + (mixed.share * len(mixed.at) / len(rows.at) if mixed else 0.0) < ENOUGH
-        or shuffled > best.share / 2
-    ):
+    explained = best.share + (mixed.share * len(mixed.at) / len(rows.at) if mixed else 0.0)
+    if explained < ENOUGH or shuffled > best.share / 2:
         return Found(len(rows.at), shuffled=shuffled)
     others = [each for each in others if each.convention.extras <= best.convention.extras]
     others = [each for each in others if not mixed or each.convention[:3] != mixed.convention[:3]]
@@ -177,8 +140,6 @@ def search(poses: dict[str, tuple[np.ndarray, np.ndarray]], action: np.ndarray, 
     sure = {id(each): compare(best, each) for each in others}
     equal = [best, *(each for each in others if sure[id(each)] < SURE)]
     best = min(equal, key=lambda each: each.convention.suspicion)
-    beaten = [(each.convention, sure[id(each)]) for each in others if sure[id(each)] >= SURE][:1]
+    second, share = next(((one.convention, sure[id(one)]) for one in others if sure[id(one)] >= SURE), (None, 1.0))
     rivals = tuple(each.convention for each in equal if each is not best)
-    return Found(
-        len(rows.at), best, shuffled, rivals, *(beaten or [(None, 1.0)])[0], mixed, float(np.sqrt(np.mean(spread**2)))
-    )
+    return Found(len(rows.at), best, shuffled, rivals, second, share, mixed, float(np.sqrt(np.mean(spread**2))))
