@@ -41,10 +41,11 @@ def audit_actions(R: Any, action: np.ndarray, R_next: Any = None, episode: Any =
         key, _, number = word.partition("=")
         if word not in known and not (f"{key}=NUMBER" in known and number.lstrip("-").replace(".", "", 1).isdigit()):
             raise UnknownWord("expectation", word, known)
-    is_whole = np.isfinite(action).all(axis=1)
-    t = np.flatnonzero(is_whole if later else is_whole & np.append(episode[:-1] == episode[1:], False))
+    is_whole = np.isfinite(action).all(axis=1) & np.all([np.isfinite(R).all(axis=(1, 2)) for R in now.values()], axis=0)
+    is_followed = np.append((episode[:-1] == episode[1:]) & is_whole[1:], False)
+    t = np.flatnonzero(is_whole if later else is_whole & is_followed)
     poses = {one: (R[t], later[one][t] if later else R[t + 1]) for one, R in now.items()}
-    return Report(search(poses, action[t], episode[t]), words, action[t])
+    return Report(search(poses, action[t], episode[t]), words, action[t], t)
 
 
 def list_words(one: Convention) -> set[str]:
@@ -62,11 +63,12 @@ def describe(one: Convention) -> str:
 
 
 class Report(NamedTuple):
-    """What was found, of what was stated; action: the actions that were judged."""
+    """What was found, of what was stated; the actions that were judged, and their rows in the log."""
 
     found: Found
     stated: tuple[str, ...]
     action: np.ndarray
+    row: np.ndarray
 
     @property
     def code(self) -> int:
@@ -84,7 +86,7 @@ class Report(NamedTuple):
         family = one.representation.partition("-")[0]
         for word in self.stated:
             if word in UNITS or word.startswith("scale"):
-                part = size / (UNITS.get(word) or float(word.partition("=")[2]))
+                part = size / (UNITS.get(word) or float(word.partition("=")[2]) or np.inf)
                 name = "degrees" if is_reached(part / DEGREE) or is_reached(part * DEGREE) else "scale"
                 faults |= {} if is_reached(part) else {name: f"stated {word}, found {size:.4g} rad for 1 in the action"}
             elif word not in true:
@@ -104,7 +106,7 @@ class Report(NamedTuple):
         if one.relation == "difference" and "difference" not in self.stated:
             faults["difference"] = "differences of coordinates, which compose to no rotation; use log(R' R^T)"
         if mixed:
-            where = f"{len(mixed.at)} rows from {mixed.at.min()} to {mixed.at.max()}"
+            where = f"{len(mixed.at)} rows from {self.row[mixed.at.min()]} to {self.row[mixed.at.max()]}"
             faults["mixed"] = f"{where} are explained by {describe(mixed.convention)}"
         if width > 3 and not is_reached(size):
             faults["amplified" if size > 1.0 else "slow"] = f"the pose turns {size:.2f} times as far as the action says"
