@@ -70,7 +70,12 @@ class Convention(NamedTuple):
     @property
     def suspicion(self) -> int:
         """Count of what would be a fault, to prefer the plainest of conventions that explain a log alike."""
-        return (self.lag != 0) + (self.relation == "difference") + (self.is_inverse or self.gain < 0.0)
+        return (self.lag != 0) + (self.relation == "difference") + self.is_backward
+
+    @property
+    def is_backward(self) -> bool:
+        """Tell whether the robot turns the other way; poses that are read transposed look so, with base for body."""
+        return self.is_inverse or self.gain < 0.0
 
 
 def fit(rows: Rows, one: Convention, rounds: int = 5) -> tuple[Convention, np.ndarray]:

@@ -12,7 +12,8 @@ from bench.base.errors import BadNumber, MissingTool, UnknownWord
 
 POSES, NEXT = ("R", "pose", "quat", "observation.state"), ("R_next", "next_R", "next_pose", "next_quat")
 EPISODES = ("episode_index", "episode")
-READINGS = {3: ("rotation-vector", "euler-xyz", "euler-XYZ"), **{n: tuple(REPRESENTATIONS[n]) for n in (4, 6, 9)}}
+READINGS = {3: ("rotation-vector", "euler-xyz", "euler-XYZ"), **{n: tuple(REPRESENTATIONS[n]) for n in (4, 6)}}
+READINGS[9] = ("matrix-rows",)
 """Readings of a pose that are tried, by its count of numbers, if none is stated."""
 
 

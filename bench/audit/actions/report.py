@@ -94,7 +94,7 @@ class Report(NamedTuple):
                 name = FAMILIES.get(family, "representation") if word.startswith(family) else name
                 name = "representation" if name == "relation" and word in REPRESENTATIONS[width] else name
                 faults["lag" if word.startswith("lag") else name] = f"stated {word}, found {describe(one)}"
-        if one.gain < 0.0 or one.is_inverse:
+        if one.is_backward:
             faults["inverse"] = "the robot turns the other way; the action is transposed, negated, or from the goal"
         if one.offset:
             angle, axis = np.degrees(np.linalg.norm(turn)), (turn / np.linalg.norm(turn)).round(2).tolist()

@@ -141,5 +141,6 @@ def search(poses: dict[str, tuple[np.ndarray, np.ndarray]], action: np.ndarray, 
     equal = [best, *(each for each in others if sure[id(each)] < SURE)]
     best = min(equal, key=lambda each: each.convention.suspicion)
     second, share = next(((one.convention, sure[id(one)]) for one in others if sure[id(one)] >= SURE), (None, 1.0))
-    rivals = tuple(each.convention for each in equal if each is not best)
+    forward = [each.convention for each in equal if each.convention.is_backward <= best.convention.is_backward]
+    rivals = tuple(each for each in forward if each is not best.convention)
     return Found(len(rows.at), best, shuffled, rivals, second, share, mixed, float(np.sqrt(np.mean(spread**2))))
