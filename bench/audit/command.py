@@ -11,7 +11,10 @@ from typing import Any, NoReturn
 
 from bench.base.errors import BadFunction, BenchError, UnknownWord, print_refusal
 
-COMMANDS = {"check": ("check", "find the convention of an orientation error, and its faults")}
+COMMANDS = {
+    "check": ("check", "find the convention of an orientation error, and its faults"),
+    "actions": ("actions.command", "find what the rotation of logged actions means, and whether it is as stated"),
+}
 """Word of a command -> its module here, with add_arguments(parser) and run(arguments) -> exit code; what it does."""
 EPILOG = """\
 For example: {prog} check my_file.py:my_error. Options and more examples: {prog} check --help.
