@@ -62,8 +62,6 @@ def test_hand_that_yields_to_a_moment_takes_energy_as_its_inertia_and_damping_do
     assert taken == pytest.approx(wrench_probe.PUSH**2 * free(task.horizon_s), rel=5e-3)
 
 
-# ---------------------------------------------------------------------------- compliance measured by moments
-
 SPRINGS = impedance_controller(geometric.IMPEDANCE)
 MOMENTS = 0.02 * np.vstack((np.eye(3), -np.eye(3)))
 

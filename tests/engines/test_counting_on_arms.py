@@ -93,8 +93,6 @@ def test_controller_that_commands_other_torques_when_counted_is_refused():
         on_arms.cost_on_arm(one, "ur5e")
 
 
-# ---------------------------------------------------------------------------- in contact
-
 N = 6
 
 cost_in_contact = functools.cache(in_contact.cost_in_contact)

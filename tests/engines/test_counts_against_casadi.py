@@ -40,7 +40,6 @@ def expressions_as_written():
     casadi.GlobalOptions.setSimplificationOnTheFly(True)
 
 
-# -------------------------------------------------------------------------------------- the paper, typed anew
 def angles(n, o, a):
     """Z-Y-X angles by atan2 (2.2): alpha from n, gamma from o and a turned back by alpha; what B needs."""
     nx, ny, nz = casadi.vertsplit(n)
@@ -104,7 +103,6 @@ def feedback_linearized(n, o, a, w, nd, od, ad, kp, kv):
     return ca * level - sa * across, sa * level + ca * across, ddalpha - sb * ddgamma - dbeta * spin
 
 
-# -------------------------------------------------------------------------------------- against ours
 def function_of(expression):
     given = [SX.sym(name, 3) for name in ("n", "o", "a", "w", "nd", "od", "ad")] + [SX.sym("kp"), SX.sym("kv")]
     return casadi.Function("u", given, [casadi.vertcat(*expression(*given))])

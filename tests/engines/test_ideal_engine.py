@@ -55,7 +55,6 @@ STARTS_OF = {
 PAPERS_LAWS = tuple(STARTS_OF)
 """Laws whose equations test_counts_against_casadi has."""
 
-# ---------------------------------------------------------------- continuous: against DOP853 and closed forms
 
 # Runge-Kutta of order 4 at 1 ms: 3e-9 in R and 6e-8 rad/s in omega were measured, both a sixteenth of that at
 # half the step, as order 4 has it (tested below). Doubled, so that a start drawn otherwise passes too.
@@ -100,9 +99,6 @@ def test_error_of_the_path_falls_with_the_fourth_power_of_the_step(word):
     assert math.log2(coarse / fine) == pytest.approx(4.0, abs=0.3)
 
 
-# ---------------------------------------------------------------- one tick of the sampled plant
-
-
 @pytest.fixture
 def draw():
     return np.random.default_rng(17)
@@ -137,9 +133,6 @@ def test_held_step_converges_with_the_fourth_power_of_the_tick(draw):
             at, speed = ideal.held_step(at, speed, vector(u), 0.5 / ticks)
         errors.append(np.abs(matrix(at) - true[0].as_matrix()).max())
     np.testing.assert_allclose(np.log2(np.array(errors[:-1]) / errors[1:]), 4.0, atol=0.2)
-
-
-# ---------------------------------------------------------------- the ideal plant's own measure of the angle
 
 
 @pytest.mark.parametrize("theta", [0.0, 1e-12, 1e-6, 1e-3, 1.0, 3.0, math.pi - 1e-6, math.pi - 1e-12, math.pi])

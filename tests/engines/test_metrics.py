@@ -122,8 +122,6 @@ def test_path_ratio_is_no_number_for_a_start_at_its_goal():
     assert math.isnan(episode("rotation-matrix", Start("at the goal", (1.0, 0.0, 0.0, 0.0)))[1]["path_ratio"])
 
 
-# ---------------------------------------------------------------------------- on arms
-
 CHOSEN_ON_ARM = settings(dt_s=DT, horizon_s=0.12)
 ARM_CASES = [
     (arm, word, name)

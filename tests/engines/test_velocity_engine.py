@@ -112,8 +112,6 @@ def test_inverses_that_differ_by_inertia_alone_are_one_where_there_is_none():
     np.testing.assert_allclose(first, second, rtol=1e-9, atol=1e-12)
 
 
-# ---------------------------------------------------------------------------- impedances
-
 LAW = find_contender("rotation-vector")
 STIFF = (2000.0, 50.0)
 

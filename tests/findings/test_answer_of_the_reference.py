@@ -30,9 +30,6 @@ def found():
     return measured(FOLDER)
 
 
-# ------------------------------------------------------------------------------------------- the advice
-
-
 @pytest.mark.parametrize(("robot", "again"), [(ARM, advised.accelerations), (VELOCITY, advised.velocities)])
 def test_robot_is_advised_as_by_the_rule_written_again(robot, again):
     assert again().decide(robot.need) == decide_for(robot, FOLDER)
@@ -67,9 +64,6 @@ def test_time_of_laws_alone_is_what_tells_whole_controllers_apart():
             difference = (whole - whole["rotation-matrix"]) - (alone[whole.index] - alone["rotation-matrix"])
             assert len(whole) > 3
             assert (difference.abs() <= MEASURABLE * whole).all(), difference
-
-
-# --------------------------------------------------------------------------------- wherever it is read
 
 
 def test_front_page_lead_and_table_name_the_advised_law_and_its_bounds():

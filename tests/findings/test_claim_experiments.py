@@ -71,9 +71,6 @@ def test_bodies_beside_a_pole_are_counted_and_some_settle():
     assert (outcomes == "settled").any()
 
 
-# ------------------------------------------------------------------------------------------------- on arms
-
-
 def test_episodes_beside_poles_are_refused_where_a_run_has_no_such_pose():
     of_ur5e = controllers()["poses"].iloc[:1].assign(**{f"q_{i + 1}": 0.0 for i in range(7)})
     with pytest.raises(NoEvidence, match="no pose of panda beside a pole"):
@@ -108,9 +105,6 @@ def test_largest_bend_is_infinite_where_one_is_no_number():
     frame = pd.DataFrame({"bend_0": [1e-3, -2e-3], "bend_1": 0.0, "bend_2": 0.0})
     assert probes.largest(frame) == 2e-3
     assert probes.largest(frame.assign(bend_1=[math.nan, 0.0])) == math.inf
-
-
-# ------------------------------------------------------------------------------------------------- converted moments
 
 
 def somewhere(count):

@@ -98,9 +98,6 @@ def planted(id, *edits):
     return judged(id, **{name: frame for name, frame in frames.items() if name not in EXPERIMENTS}, experiments=found)
 
 
-# ---------------------------------------------------------------------------- cases
-
-
 def write_out(text):
     """Return a text with the words under `short` in the place of their names."""
     while marks := set(re.findall(r"\{(\w+)\}", text)):

@@ -88,7 +88,6 @@ def test_margin_is_the_least_singular_value_of_B_over_that_at_the_identity(one, 
         assert one.margin(R) == pytest.approx(least(R) / least(as_rotation(np.eye(3))), abs=TOLERANCE)
 
 
-# ------------------------------------------------------------------------------------------ rotation vector
 ANGLES = (
     *(10.0**-k for k in range(13)),
     *(math.sqrt(edge) * side for edge in (FLAT, NEAR) for side in (1 - 1e-9, 1.0, 1 + 1e-9)),
@@ -114,7 +113,6 @@ def test_coefficients_are_their_closed_forms_of_50_digits_on_both_sides_of_each_
     assert max(error * factor for error, factor in zip(errors, factors, strict=True)) <= TOLERANCE
 
 
-# ----------------------------------------------------------------------------------------------- quaternion
 def test_extraction_takes_every_branch_and_divides_by_no_small_number():
     seen = set()
     for R in rotations():

@@ -40,9 +40,6 @@ def line_of(action, kind) -> str:
     return line
 
 
-# ---------------------------------------------------------------------------- controllers
-
-
 @pytest.mark.parametrize(
     ("action", "says"),
     [
@@ -70,9 +67,6 @@ def test_controller_that_has_no_meaning_is_refused_with_the_cure(action, says):
     assert [part for part in says if part not in line] == []
 
 
-# ---------------------------------------------------------------------------- constants, words
-
-
 @pytest.mark.parametrize("value", [0.0, -1.0, np.nan, np.inf])
 @pytest.mark.parametrize("name", [*Gains._fields, *TOUCH._fields])
 def test_stiffness_inertia_or_damping_that_is_none_is_refused_before_anything_runs(name, value):
@@ -96,9 +90,6 @@ def test_stiffness_inertia_or_damping_that_is_none_is_refused_before_anything_ru
 )
 def test_word_or_period_that_is_none_is_refused_before_anything_runs(engine, conditions, says):
     assert says in line_of(lambda: run(engine, BASE, TASK, ARM, [TRIAL], conditions), BenchError)
-
-
-# ---------------------------------------------------------------------------- specifications
 
 
 @pytest.mark.parametrize(
@@ -129,8 +120,6 @@ def test_specification_that_holds_nothing_or_everything_is_unusual_and_no_more(h
     ended = next(run("native", BASE, TASK._replace(horizon_s=0.02), ARM, [TRIAL._replace(specification=specification)]))
     assert ended.outcome == "done"
 
-
-# ---------------------------------------------------------------------------- trials and arms
 
 OTHERS_RANGE = (*TRIAL.q[:2], 7.0, *TRIAL.q[3:])
 
@@ -178,9 +167,6 @@ def test_arm_is_taken_once_it_has_a_wrist(joints, tmp_path):
     (tmp_path / "own.xml").write_text(xml(joints).replace('<site name="tool"', '<site name="wrist"/><site name="tool"'))
     own = arm_in("own", tmp_path)
     assert 'name="hand"' in model_xml(TASK, own, 1e-3)
-
-
-# ---------------------------------------------------------------------------- contacts
 
 
 @pytest.mark.parametrize(

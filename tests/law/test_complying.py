@@ -108,8 +108,6 @@ def test_double_diagonalization_is_twice_the_ratio_times_the_geometric_mean():
         )
 
 
-# ---------------------------------------------------------------------------- `comply`
-
 IN_FORMS = pytest.mark.parametrize("form", FORMS)
 ON_JOINTS = pytest.mark.parametrize("n", [6, 7])
 

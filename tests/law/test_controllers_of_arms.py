@@ -83,9 +83,6 @@ def rounding(one, at, J) -> float:
     return at.n**2 * EPS * (condition + of_D)
 
 
-# ---------------------------------------------------------------------------- against MuJoCo
-
-
 @over_arms
 def test_perfect_model_gives_the_tool_the_commanded_acceleration(arm):
     tried = set()
@@ -108,9 +105,6 @@ def test_perfect_model_gives_the_tool_the_commanded_acceleration(arm):
                 got, desired(at, p_d, u), rtol=0.0, atol=rounding(one, at, J) * size, err_msg=one.name
             )
     assert tried == set(EXACT) - ({"solve"} if arm in SEVEN else set())
-
-
-# ---------------------------------------------------------------------------- against numpy
 
 
 @over_arms
@@ -138,8 +132,6 @@ def test_torques_are_the_formula(arm, jacobian, word):
         atol = rounding(one, at, at.J) * np.linalg.norm(at.D, 2) * np.linalg.norm(np.linalg.pinv(at.J), 2)
         np.testing.assert_allclose(tau, wanted, rtol=0.0, atol=atol * np.linalg.norm(a) + 10 * EPS * np.abs(tau).max())
 
-
-# ---------------------------------------------------------------------------- baselines
 
 JOINT_PD = "joint-pd@joints+inertia-at-home"
 SHORT = settings(horizon_s=0.03)
@@ -171,9 +163,6 @@ def test_native_rows_are_the_reference_rows_bit_for_bit(arm):
             assert different_rows(fast, slow) == []
 
 
-# ------------------------------------------------------------------------------------------ joints
-
-
 @pytest.mark.slow
 @over_arms
 def test_joint_pd_spends_its_energy_on_its_dampers_alone(arm):
@@ -192,9 +181,6 @@ def test_joint_pd_spends_its_energy_on_its_dampers_alone(arm):
     assert V[-1] < 0.05 * V[0]
     assert (np.diff(V) <= 1e-3 * V[0]).all()
     np.testing.assert_allclose(V[0] - V[1:], spent[1:], rtol=0.0, atol=0.03 * V[0])
-
-
-# ------------------------------------------------------------------------------------ resolved rate
 
 
 @over_arms

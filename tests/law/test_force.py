@@ -38,9 +38,6 @@ ROUNDING = 200 * EPS
 over_arms = pytest.mark.parametrize("arm", ARMS)
 
 
-# ---------------------------------------------------------------------------- frames, by 80 digits and scipy
-
-
 def B_of(representation, E) -> np.ndarray:
     return np.array(exact_B(representation.to_matrix, E).tolist(), dtype=float)
 
@@ -150,9 +147,6 @@ def test_perfect_model_gives_the_hand_the_acceleration_of_the_impedance(arm, one
         np.testing.assert_allclose(got, wanted, rtol=0.0, atol=allowed)
         compared += 1
     assert compared >= 4
-
-
-# ---------------------------------------------------------------------------- work (Murphy 1988, 3.10-3.12)
 
 
 @pytest.mark.parametrize("one", UNCONVERTED)

@@ -61,9 +61,6 @@ def test_torque_is_kp_times_the_rotation_vector_and_minus_kv_times_the_rate(angl
         np.testing.assert_allclose(found, ours, rtol=0.0, atol=20 * EPS * scale)
 
 
-# ---------------------------------------------------------------------------- before the judge
-
-
 @pytest.mark.parametrize("word", SUITES)
 def test_suite_runs_it_in_mujoco_alone_on_sampled_starts_and_half_turns(word):
     units = make(word, [ONE]).of("free-body", "arm", "robustness")

@@ -116,8 +116,6 @@ def test_slew_limited_law_lets_no_rate_grow_beyond_its_limit():
         assert np.dot(u, k) <= 1e-12 * RIVALS.kp
 
 
-# --------------------------------------------------------------------------- the paper's (Murphy 1988, 2.14-2.15)
-
 REGULAR = 0.05
 """Margin above which B^-1 is at most 20 times larger than 1."""
 

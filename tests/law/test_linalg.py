@@ -24,7 +24,6 @@ def matrices_of(rows, n):
     return matrices(rows, n) if n > 3 else {f"random-{i}": matrices(7, 7)[f"random-{i}"][:rows, :n] for i in range(8)}
 
 
-# ---------------------------------------------------------------------------------------------- elimination
 def test_pivots_are_found_among_numbers_whose_squares_are_zero():
     A = 1e-200 * np.array([[1e-17, 1.0], [1.0, 1.0]])
     x = np.array([1e-200, 2e-200])
@@ -55,7 +54,6 @@ def test_determinant_is_the_exact_one_of_integers(n):
         assert abs(found - exact) <= allowed
 
 
-# ------------------------------------------------------------------------------------------------- Cholesky
 @pytest.mark.parametrize("n", SQUARES)
 def test_factor_is_numpys_reads_the_lower_half_only_and_solves_within_the_condition(n):
     for word, S in symmetric(n).items():
@@ -94,7 +92,6 @@ def test_least_eigenvalue_exceeds_a_bound_only_if_it_is_surely_above(n):
         assert not any(linalg.exceeds(buffer(symmetric(n)[word]), 0.0, np.zeros((7, 7)), n) for word in UNUSABLE)
 
 
-# ------------------------------------------------------------------------------------------------ rotations
 def turned(A, b):
     rows, n = A.shape
     held, beside = buffer(A), buffer(b)
