@@ -7,7 +7,6 @@ everywhere, with all its digits; at 180° either of the two directions. They are
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,13 +20,6 @@ if TYPE_CHECKING:
     from bench.audit.report import Report
 
 
-def of_pair(function: Function) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
-    """f(R, R_d) or f(q, q_d), (w, x, y, z): the function asked for what is left to go, R_d R^T, in base coordinates."""
-    if function.takes == MATRIX:
-        return lambda R, R_d: answer(function, R_d @ R.T)
-    return lambda q, q_d: answer(function, left_to_go(q, q_d))
-
-
 def left_to_go(q: np.ndarray, q_d: np.ndarray) -> np.ndarray:
     """q_d q*, (w, x, y, z)."""
     w, v, w_d, v_d = q[0], q[1:], q_d[0], q_d[1:]
@@ -36,8 +28,10 @@ def left_to_go(q: np.ndarray, q_d: np.ndarray) -> np.ndarray:
 
 @quiet
 def report(function: Function) -> Report:
-    """Return the audit's."""
-    return audit(of_pair(function), "matrix" if function.takes == MATRIX else "wxyz", name=function.name)
+    """Return the audit of a function that is asked for what is left to go, R_d R^T, in base coordinates."""
+    if function.takes == MATRIX:
+        return audit(lambda R, R_d: answer(function, R_d @ R.T), "matrix", name=function.name)
+    return audit(lambda q, q_d: answer(function, left_to_go(q, q_d)), "wxyz", name=function.name)
 
 
 def said(convention: Convention) -> str:

@@ -1,12 +1,10 @@
 """The laws of this benchmark, and errors of controllers that are restated here."""
 
-import functools
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Iterator
 
 import numpy as np
 
-from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
+from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library, Tested, library
 
 RESTATED = {
     "franka_ros": "franka-ros",
@@ -19,8 +17,9 @@ RESTATED = {
 """Name in the tables -> word of bench/law/contenders/shipped."""
 
 
-def orientation_bench() -> list[Library]:
-    """Return laws on R of this benchmark at rest, with kp = 1 and so the error itself."""
+@library("orientation-bench", name="orientation-bench")
+def orientation_bench() -> Iterator[Tested]:
+    """Yield laws on R of this benchmark at rest, with kp = 1 and so the error itself."""
     from bench.law.contenders.registry import find_contender
     from bench.law.inputs import AT_REST, Gains, Goal
     from bench.law.so3 import IDENTITY, Rotation
@@ -38,8 +37,7 @@ def orientation_bench() -> list[Library]:
         **dict.fromkeys(("square-root", "quaternion-shortest"), "sine-of-half"),
         **{"mrp": "mrp", "rotation-matrix": "sine"},
     }
-    functions = tuple(law(word, form) for word, form in forms.items())
-    return [Library("orientation-bench", "orientation-bench", functions)]
+    yield from (law(word, form) for word, form in forms.items())
 
 
 def shipped() -> list[Library]:
@@ -50,15 +48,10 @@ def shipped() -> list[Library]:
     """
     from bench.law.contenders.registry import contenders
 
-    found = []
-    for name, word in RESTATED.items():
+    def restate(name: str, word: str) -> Library:
         one = contenders("shipped")[word]
         repository, _, revision = one.source.partition("@")
-        function = Function("orientation error", QUATERNION, functools.partial(_restated, one.shipped.error))
-        found.append(Library(name, f"{repository}@{revision[:8]}", (function,), is_restated=True))
-    return found
+        function = Function("orientation error", QUATERNION, lambda q: one.shipped.error(tuple(q.tolist())))
+        return Library(name, f"{repository}@{revision[:8]}", (function,), is_restated=True)
 
-
-def _restated(error: Callable, quat_wxyz: np.ndarray) -> Any:
-    """Return what an error on a tuple of floats says of a quaternion."""
-    return error(tuple(quat_wxyz.tolist()))
+    return [restate(*words) for words in RESTATED.items()]
