@@ -36,9 +36,6 @@ def failures(row):
     return {kind: row[kind.replace("-", "_")] for kind in KINDS if row[kind.replace("-", "_")]}
 
 
-# --------------------------------------------------------------------------- turns
-
-
 def test_half_turns_are_exact_rational_matrices_rounded_once():
     """R = 2 k k^T/(k.k) - I, in fractions."""
     for k, turn in zip(turns.axes(), HALF_TURNS.turns, strict=True):
@@ -64,9 +61,6 @@ def test_turns_agree_with_rodrigues_formula_on_their_own_axis_and_angle(turn_set
 def test_distance_to_the_half_turn_keeps_its_digits():
     for turn in turns.near_half_turn(12, 5).turns:
         assert turn.quat_wxyz[0] == pytest.approx(2.5e-12, rel=1e-14)
-
-
-# --------------------------------------------------------------------------- judge
 
 
 @pytest.mark.parametrize("form", [word for word, form in FORMS.items() if form.size is not None])
@@ -145,9 +139,6 @@ def test_negative_quaternion_is_compared_with_the_positive():
     assert judged(bare, HALF_TURNS, QUATERNION, "sine-of-half")["other_sheet"] == 0
 
 
-# --------------------------------------------------------------------------- the committed answers
-
-
 @pytest.mark.parametrize("library", [one for one in find().libraries if not one.is_restated])
 def test_committed_answers_are_what_the_library_says_here(library):
     """One version fails on the same numbers of rotations in three sets, in the same way."""
@@ -162,9 +153,6 @@ def test_committed_answers_are_what_the_library_says_here(library):
             committed = table.loc[(function.name, one.name)]
             counted = ["turns", *(kind.replace("-", "_") for kind in KINDS)]
             assert [row[name] for name in counted] == [committed[name] for name in counted], (function.name, one.name)
-
-
-# --------------------------------------------------------------------------- the page
 
 
 def line(call, takes=MATRIX, form="rotation-vector"):

@@ -7,6 +7,7 @@ environment of its own adds its own; what a new version has fixed is marked.
 import datetime
 import platform
 from importlib.metadata import version
+from operator import itemgetter
 from pathlib import Path
 
 import pandas as pd
@@ -25,7 +26,6 @@ from bench.studies.libraries.verdict import verdict
 from bench.studies.study import make_parser
 
 FOLDER = RESULTS / "libraries"
-KEY = ["library", "function", "takes"]
 
 
 def main() -> None:
@@ -143,20 +143,18 @@ def marked(new: pd.DataFrame, earlier: pd.DataFrame) -> pd.DataFrame:
 
     What was marked for this version stays marked when it runs again.
     """
-    before = earlier.set_index(KEY)
-    rows = []
-    for row in new.to_dict("records"):
-        place = tuple(row[name] for name in KEY)
-        if place in before.index:
-            old = before.loc[place]
-            if old["version"] == row["version"]:
-                row |= {"fixed": old["fixed"], "fixed_since": old["fixed_since"]}
-            else:
-                gone = sorted({*old["faults"].split(", ")} - {*row["faults"].split(", "), ""})
-                row |= {"fixed": ", ".join(gone), "fixed_since": old["version"] if gone else ""}
-                if gone:
-                    print(f"fixed in {row['library']} {row['version']}: {row['function']}: {row['fixed']}")
-        rows.append(row)
+    place_of = itemgetter("library", "function", "takes")
+    before = {place_of(row): row for row in earlier.to_dict("records")}
+    rows = new.to_dict("records")
+    for row in rows:
+        old = before.get(place_of(row), row)
+        if old["version"] == row["version"]:
+            row |= {"fixed": old["fixed"], "fixed_since": old["fixed_since"]}
+            continue
+        gone = sorted({*old["faults"].split(", ")} - {*row["faults"].split(", "), ""})
+        row |= {"fixed": ", ".join(gone), "fixed_since": old["version"] if gone else ""}
+        if gone:
+            print(f"fixed in {row['library']} {row['version']}: {row['function']}: {row['fixed']}")
     return pd.DataFrame(rows)
 
 
