@@ -152,11 +152,8 @@ def _said(found: Answer, wanted: Situation, kp: float) -> list[Paragraph]:
     where = f"Your situation: {wanted.describe()}."
     if found.agree is None:
         return [*lines, Paragraph("How sure", (where, "It was simulated now."))]
-    near = (
-        "It is in the map."
-        if found.distance == 0.0
-        else f"The nearest of the map: {found.at.describe()} (distance {found.distance:.2f})."
-    )
+    near = f"The nearest of the map: {found.at.describe()} (distance {found.distance:.2f})."
+    near = near if found.distance else "It is in the map."
     agree = f"Nothing beats the law in {found.agree[0]} of the {found.agree[1]} situations next to it"
     return [*lines, Paragraph("How sure", (where, near, f"{agree}; --run simulates yours."))]
 

@@ -38,12 +38,9 @@ class Kind(NamedTuple):
     def rows(self, own: tuple = ()) -> Iterator[tuple[str, ...]]:
         """Yield the name and the attributes of each thing, the user's own laws last."""
         for name, one in {**self.find_all(), **{one.name: one for one in own}}.items():
-            yield name, *(write_cell(read_attribute(one, attribute)) for attribute in self.attributes.split())
-
-
-def read_attribute(one: Any, path: str) -> Any:
-    """Return an attribute, or the attribute of one (`table.name`); empty where it has none."""
-    return functools.reduce(lambda found, word: getattr(found, word, ""), path.split("."), one)
+            paths = (attribute.split(".") for attribute in self.attributes.split())  # as `table.name`
+            found = (functools.reduce(lambda part, word: getattr(part, word, ""), path, one) for path in paths)
+            yield name, *map(write_cell, found)
 
 
 def write_cell(value: Any) -> str:

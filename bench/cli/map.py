@@ -86,12 +86,6 @@ def COMMAND(
 
         steps.now("compiling the laws")
         running.run(plan, out, workers=workers, scheduler=scheduler, replace=replace, report=report)
-    _print(out)
-    if read_provenance(out)["lost"]:
-        raise Exit(1)  # a law of the user's crashed or hung: what was lost has been said
-
-
-def _print(out: Path) -> None:
     from bench.experiments.tables.store import read
     from bench.findings.maps import by_law
 
@@ -99,3 +93,5 @@ def _print(out: Path) -> None:
     title = "Starts that are lost, of those that converge; least and most: exact 95 % interval (Clopper-Pearson)"
     console().print(frame_table(by_law(read(out, "map")).round(digits), f"\n{title}"))
     console().print(f"in {shown_path(out)}")
+    if read_provenance(out)["lost"]:
+        raise Exit(1)  # a law of the user's crashed or hung: what was lost has been said

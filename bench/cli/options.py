@@ -4,7 +4,7 @@ import functools
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
 import rich_click as click
 
@@ -75,23 +75,15 @@ carried_out = stacked(
 )
 
 
-class Named(NamedTuple):
-    """What --regulator, --jacobian and --inverse name together."""
-
-    regulators: Words
-    jacobians: Words
-    inverses: Words
-
-
-def named(regulators: Words, jacobians: Words, inverses: Words) -> Named:
-    """Contenders of arms by their whole name, `law@jacobian+inverse`, taken apart; everything else as it is.
+def named(regulators: Words, jacobians: Words, inverses: Words) -> dict[str, Words]:
+    """Return the options with contenders of arms by their whole name, `law@jacobian+inverse`, taken apart.
 
     Errors:
         UsageError: the options would mean more than these names, for each law meets each Jacobian and each inverse.
     """
     whole = [word for word in regulators if "@" in word]
     if not whole:
-        return Named(regulators, jacobians, inverses)
+        return {"regulators": regulators, "jacobians": jacobians, "inverses": inverses}
     ways = {word.partition("@")[2] for word in whole}
     [by, through] = [*sorted(ways)[0].split("+"), ""][:2]
     if len(ways) > 1 or len(whole) < len(regulators) or jacobians or inverses or not by or not through:
@@ -99,7 +91,7 @@ def named(regulators: Words, jacobians: Words, inverses: Words) -> Named:
             f"--regulator {whole[0]}: after @ comes jacobian+inverse, the same for every law and named once; name them "
             f"apart instead (try: --regulator {whole[0].partition('@')[0]} --jacobian geometric --inverse solve)"
         )
-    return Named(tuple(word.partition("@")[0] for word in whole), (by,), (through,))
+    return {"regulators": tuple(word.partition("@")[0] for word in whole), "jacobians": (by,), "inverses": (through,)}
 
 
 def own_laws(files: Files) -> tuple[Law, ...]:
@@ -122,7 +114,10 @@ def chosen(files: Files, regulators: Words, representations: Words, costings: bo
     """Return the contenders that the options name; without names, all (the user's own included)."""
     own = own_laws(files)
     if regulators:
-        picked = [one for word in regulators for one in _named(word, own)]
+        picked = []
+        for word in regulators:
+            whole = [registry.find_contender(word, own)] if "/" in word else []
+            picked += whole or registry.contenders_of(registry.regulator(word, own))
         named = {one.regulator.name for one in picked}
         picked += [one for law in own if law.name not in named for one in registry.contenders_of(law)]
     else:
@@ -134,9 +129,3 @@ def chosen(files: Files, regulators: Words, representations: Words, costings: bo
         if not picked:
             raise click.UsageError(f"no chosen law acts on {', '.join(representations)} (try: bench list regulators)")
     return list(dict.fromkeys(picked))
-
-
-def _named(word: str, own: tuple[Law, ...]) -> list[Contender]:
-    if "/" in word:
-        return [registry.find_contender(word, own)]
-    return registry.contenders_of(registry.regulator(word, own))

@@ -25,18 +25,6 @@ FOUND = (command_of(path, is_given=True) for path in (ROOT / "bench" / "cli").gl
 COMMANDS = {command.name: command for command in FOUND if command}
 
 
-@pytest.fixture(scope="module")
-def ran(tmp_path_factory):
-    """ran(words of a run...) -> its folder."""
-
-    def folder(*words):
-        out = tmp_path_factory.mktemp("run") / "out"
-        assert main([*words, "--out", str(out)]) == 0
-        return out
-
-    return folder
-
-
 @pytest.mark.parametrize("words", [(), ("--help",)])
 def test_help_is_shown_without_a_command_and_names_every_one(capsys, words):
     said = bench(capsys, *words)
@@ -115,11 +103,13 @@ WHOLE = "rotation-matrix@geometric+solve"
 
 
 @pytest.fixture(scope="module")
-def arm_run(ran):
+def arm_run(tmp_path_factory):
     """One start, two inverses, two plants, on the reference engine: four episodes of twenty ticks."""
     words = ("--regulator", "rotation-matrix", "--jacobian", "geometric", "--inverse", "solve")
     plants = ("--variation", "nominal", "--variation", "friction-5", "--engine", "reference", "--dt", "0.005")
-    return ran(*ON_ARM, *words, "--inverse", "transpose", *plants)
+    out = tmp_path_factory.mktemp("run") / "out"
+    assert main([*ON_ARM, *words, "--inverse", "transpose", *plants, "--out", str(out)]) == 0
+    return out
 
 
 @pytest.mark.parametrize("suite", SUITES)
@@ -147,22 +137,18 @@ def test_show_of_one_controller_shows_it_alone(capsys, arm_run):
     assert bench(capsys, "show", arm_run, "--regulator", "rotation-matrix") == whole
 
 
-@pytest.fixture(scope="module")
-def contact_run(ran):
-    """Two controllers, three poses of one task in contact on one arm, 20 ticks a trial."""
-    words = ("--controller", "hybrid-base+inverse", "--controller", "impedance-geometric", "--horizon", "0.02")
-    place = ("--task", "wrench-probe", "--arm", "ur5e", "--count", "3")
-    return ran("run", *place, *words)
-
-
 @pytest.mark.slow
-def test_run_in_contact_has_its_rows_and_no_episodes(contact_run):
-    rows = store.read(contact_run, "compliance")
+def test_run_in_contact_has_its_rows_and_no_episodes(tmp_path):
+    """Two controllers, three poses of one task in contact on one arm, 20 ticks a trial."""
+    words = ["--controller", "hybrid-base+inverse", "--controller", "impedance-geometric", "--horizon", "0.02"]
+    place = ["--task", "wrench-probe", "--arm", "ur5e", "--count", "3", "--out", str(tmp_path / "out")]
+    assert main(["run", *place, *words]) == 0
+    rows = store.read(tmp_path / "out", "compliance")
     assert set(zip(rows.controller[3:], rows.form[3:], strict=True)) == {("impedance-geometric", "")}
     assert list(zip(rows.controller[:3], rows.form[:3], strict=True)) == [("hybrid-base", "inverse")] * 3
     assert set(rows.outcome) == {"done"}
-    assert len(store.read(contact_run, "episodes")) == 0
-    assert files.read_json(contact_run / "provenance.json")["trials"] == rows.trials.sum()
+    assert len(store.read(tmp_path / "out", "episodes")) == 0
+    assert files.read_json(tmp_path / "out" / "provenance.json")["trials"] == rows.trials.sum()
 
 
 def test_count_has_a_line_for_each_law_and_branch(capsys):

@@ -69,24 +69,20 @@ def tables_of_arms(episodes: pd.DataFrame) -> Rows:
 
 
 def summarize_laws(episodes: pd.DataFrame) -> pd.DataFrame:
-    """One line for each law: share of SO(3) settled, settling times [s], and what settled of other start sets."""
+    """One line for each law: share of SO(3) settled with its Wilson 95 % interval, settling times [s], other starts."""
 
     def describe(own: pd.DataFrame) -> dict[str, str]:
         line, uniform = by_start_set(own), own[own["start_set"] == "uniform"]
         if line.pop("uniform", ""):
-            line |= {"settled of SO(3)": _share(uniform), **seconds(uniform)}
+            number = int((uniform["outcome"] == "settled").sum())
+            low, high = binomtest(number, len(uniform)).proportion_ci(method="wilson")
+            line["settled of SO(3)"] = f"{number / len(uniform):.2%} [{low:.2%}, {high:.2%}]"
+            line |= seconds(uniform)
         return line
 
     table = tabulate(episodes, describe, "law")
     first = [name for name in FIRST if name in table]
     return table[first + [name for name in table if name not in first]]
-
-
-def _share(part: pd.DataFrame) -> str:
-    """Return the share that settles, with its Wilson 95 % interval."""
-    number = int((part["outcome"] == "settled").sum())
-    low, high = binomtest(number, len(part)).proportion_ci(method="wilson")
-    return f"{number / len(part):.2%} [{low:.2%}, {high:.2%}]"
 
 
 def describe_controller(rows: pd.DataFrame) -> dict[str, str]:

@@ -40,11 +40,6 @@ class Form(NamedTuple):
     matrix: Callable | None = None
 
 
-def _z_y_x(e: np.ndarray) -> np.ndarray:
-    """R_z(e_z) R_y(e_y) R_x(e_x) (Murphy 1988, 2.4)."""
-    return np.transpose(to_matrix(e[::-1]))
-
-
 ANGLES_OF = {
     "rotation-vector": lambda length: (length,),
     "sine-of-half": lambda length: (2.0 * math.asin(min(1.0, 0.5 * length)),),
@@ -52,8 +47,9 @@ ANGLES_OF = {
     "mrp": lambda length: (4.0 * math.atan(0.25 * length),),
 }
 FORMS = {name: Form(*SIZED[name], angles) for name, angles in ANGLES_OF.items()} | {
-    "z-y-x": Form("Z-Y-X angles", matrix=_z_y_x)
+    "z-y-x": Form("Z-Y-X angles", matrix=lambda e: np.transpose(to_matrix(e[::-1])))
 }
+"""Z-Y-X angles stand for R_z(e_z) R_y(e_y) R_x(e_x) (Murphy 1988, 2.4)."""
 
 
 @quiet

@@ -1,4 +1,7 @@
-"""Libraries of kinematics and control: their errors, and their controllers as their users run them."""
+"""Libraries of kinematics and control: their errors, and their controllers as their users run them.
+
+The requirements of PlaCo and of robosuite contradict those of the others; either runs in an environment of its own.
+"""
 
 import json
 import math
@@ -92,10 +95,7 @@ def pink() -> Iterator[Tested]:
 
 @library("placo")
 def placo() -> Iterator[Tested]:
-    """Yield the error of PlaCo's OrientationTask, and its kinematics solver as its users run it.
-
-    Its requirements contradict those of the other libraries, so it runs in an environment of its own.
-    """
+    """Yield the error of PlaCo's OrientationTask, and its kinematics solver as its users run it."""
     import placo
     from pinocchio import Quaternion
 
@@ -159,8 +159,7 @@ def roboticstoolbox() -> Iterator[Tested]:
 def robosuite() -> Iterator[Tested]:
     """Yield the error of robosuite's operational-space controller, in our loop with the gains of OSC_POSE.
 
-    As delivered they are kp 150, damping_ratio 1, and control at the simulation's 500 Hz. Its requirements contradict
-    those of the other libraries, so it runs in an environment of its own.
+    As delivered they are kp 150, damping_ratio 1, and control at the simulation's 500 Hz.
     """
     import robosuite
     from robosuite.utils import transform_utils
