@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 UNITS = {"": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6}
 FORMS = re.compile(r"([0-9.eE+-]+) *(|s|ms|us)")
 TORQUES = ("torque", "torque-no-model")
+ROBOT = click.Choice([*TORQUES, "velocity", "position"])
 
 
 def time(word: object) -> float:
@@ -55,12 +56,11 @@ POSITIVE = click.FloatRange(0.0, min_open=True)
     show_default=f"0; {UNCANCELLED.unevenness:g} of torque-no-model",
     help="s of principal moments 1 - s, 1, 1 + s.",
 )
-@click.option(
+@options.valued(
     "--robot",
-    type=click.Choice([*TORQUES, "velocity", "position"]),
-    default="torque",
-    show_default=True,
-    help="What it takes: torque, a model cancelling the inertia or not; velocity; or position.",
+    TORQUES[0],
+    "What it takes: torque, a model cancelling the inertia or not; velocity; or position.",
+    type=ROBOT,
 )
 @click.option("--no-memory", is_flag=True, help="Only laws that keep nothing from tick to tick.")
 @click.option("--continuous", is_flag=True, help="Only laws whose command is continuous; 180° rotations hold them.")

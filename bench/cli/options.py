@@ -45,10 +45,11 @@ controller = several(
 arm = several("--arm", "arms", "Only this arm")
 
 
-def numbered(name: str, default: float, meaning: str, python_name: str = "", **more: Any) -> Callable:
-    """Return an option that takes a number and has a default."""
+def valued(name: str, default: Any, meaning: str, python_name: str = "", **more: Any) -> Callable:
+    """Return an option that has a default, and takes values of its type unless more states one."""
     names = [name, python_name] if python_name else [name]
-    return click.option(*names, type=type(default), default=default, help=meaning, **{"show_default": True, **more})
+    facts = {"type": type(default), "show_default": True, **more}
+    return click.option(*names, default=default, help=meaning, **facts)
 
 
 def stacked(*options: Callable) -> Callable:
@@ -57,13 +58,13 @@ def stacked(*options: Callable) -> Callable:
 
 
 simulated = stacked(
-    numbered("--dt", 1e-3, "Control period in seconds.", "dt_s"),
-    numbered("--kp", 100.0, "Position gain [1/s^2]."),
-    numbered("--kv", 20.0, "Velocity gain [1/s]."),
-    numbered("--seed", 0, "Seed of the sampled starts."),
+    valued("--dt", 1e-3, "Control period in seconds.", "dt_s"),
+    valued("--kp", 100.0, "Position gain [1/s^2]."),
+    valued("--kv", 20.0, "Velocity gain [1/s]."),
+    valued("--seed", 0, "Seed of the sampled starts."),
 )
 carried_out = stacked(
-    numbered("--workers", os.cpu_count() or 1, "Threads.", show_default="cores"),
+    valued("--workers", os.cpu_count() or 1, "Threads.", show_default="cores"),
     click.option(
         "--scheduler",
         default=THREADS,

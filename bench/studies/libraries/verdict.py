@@ -16,7 +16,6 @@ from bench.audit.convention import FORMS
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function, answer, quiet
 
 if TYPE_CHECKING:
-    from bench.audit.convention import Convention
     from bench.audit.report import Report
 
 
@@ -34,19 +33,16 @@ def report(function: Function) -> Report:
     return audit(lambda q, q_d: answer(function, left_to_go(q, q_d)), "wxyz", name=function.name)
 
 
-def said(convention: Convention) -> str:
-    """Form, frame, direction and slope, short."""
-    form = FORMS[convention.form].title if convention.form else "a size of its own"
-    return f"{form}, {convention.frame}, {convention.sign}, slope {convention.slope:.4g}"
-
-
 def verdict(function: Function) -> dict[str, str]:
     """Convention, faults and replacement of a function, as columns of verdicts.parquet."""
-    found = report(function)
+    found, convention = report(function), ""
+    if one := found.convention:
+        form = FORMS[one.form].title if one.form else "a size of its own"
+        convention = f"{form}, {one.frame}, {one.sign}, slope {one.slope:.4g}"
     name, faults = smallest_fix(function) if found.faults else ("", ())
     return {
         "takes": function.takes,
-        "convention": said(found.convention) if found.convention else "",
+        "convention": convention,
         "faults": ", ".join(found.faults),
         "replacement": name,
         "replacement_faults": ", ".join(faults),

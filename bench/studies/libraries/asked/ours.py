@@ -1,6 +1,7 @@
 """The laws of this benchmark, and errors of controllers that are restated here."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 
@@ -24,20 +25,16 @@ def orientation_bench() -> Iterator[Tested]:
     from bench.law.inputs import AT_REST, Gains, Goal
     from bench.law.so3 import IDENTITY, Rotation
 
-    def law(word: str, form: str) -> Function:
-        one, gains = find_contender(word), Gains(kp=1.0, kv=0.0)
-
-        def error(R: np.ndarray) -> np.ndarray:
-            return np.array(one.law(IDENTITY, AT_REST, Goal(Rotation(*map(tuple, R.T))), gains))
-
-        return Function(word, MATRIX, error, form)
+    def error(law: Callable, R: np.ndarray) -> np.ndarray:
+        return np.array(law(IDENTITY, AT_REST, Goal(Rotation(*map(tuple, R.T))), Gains(kp=1.0, kv=0.0)))
 
     forms = {
         "rotation-vector": "rotation-vector",
         **dict.fromkeys(("square-root", "quaternion-shortest"), "sine-of-half"),
         **{"mrp": "mrp", "rotation-matrix": "sine"},
     }
-    yield from (law(word, form) for word, form in forms.items())
+    for word, form in forms.items():
+        yield Function(word, MATRIX, partial(error, find_contender(word).law), form)
 
 
 def shipped() -> list[Library]:
