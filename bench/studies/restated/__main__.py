@@ -80,13 +80,12 @@ def built(source: Path, code: str, options: list[str]) -> Errors:
     with tempfile.TemporaryDirectory(prefix="orientation-bench-") as name:
         made = Path(name) / f"{source.stem}{'.cpp' if source.suffix == '.cpp' else '.py'}"
         made.write_text(code)
-        if source.suffix == ".cpp":
-            library = made.with_suffix(".so")
-            subprocess.run([*COMPILE, *options, made, "-o", library, "-lorocos-kdl"], check=True)
-            function = ctypes.CDLL(str(library)).all_errors
-        else:
+        if source.suffix != ".cpp":
             error = runpy.run_path(str(made))["error"]
             return lambda both: np.array([error(one[:4], one[4:]) for one in both])
+        library = made.with_suffix(".so")
+        subprocess.run([*COMPILE, *options, made, "-o", library, "-lorocos-kdl"], check=True)
+        function = ctypes.CDLL(str(library)).all_errors
 
     def errors(both: np.ndarray) -> np.ndarray:
         found = np.full((len(both), 3), np.nan)
