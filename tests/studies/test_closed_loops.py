@@ -55,11 +55,9 @@ def test_sine_never_leaves_an_exact_180_degree_rotation():
 
 
 def test_bare_quaternion_unwinds_from_the_antipode_alone():
-    def bare(quat_wxyz):
-        return 2.0 * quat_wxyz[1:]
-
-    assert not response(bare, 90.0, QUATERNION).goes_away
-    assert response(bare, 90.0, QUATERNION, sheet=-1.0).goes_away
+    for sheet in (1.0, -1.0):
+        found = response(lambda quat_wxyz: 2.0 * quat_wxyz[1:], 90.0, QUATERNION, sheet)
+        assert found.goes_away == (sheet < 0.0)
 
 
 def test_function_without_numbers_fails():
