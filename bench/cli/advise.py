@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 UNITS = {"": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6}
 FORMS = re.compile(r"([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?) *(|s|ms|us)")
 TORQUES = ("torque", "torque-no-model")
-ROBOT = click.Choice([*TORQUES, "velocity", "position"])
 
 
 def time(word: object) -> float:
@@ -54,11 +53,12 @@ POSITIVE = click.FloatRange(0.0, min_open=True)
     show_default=f"0; {UNCANCELLED.unevenness:g} of torque-no-model",
     help="s of principal moments 1 - s, 1, 1 + s.",
 )
-@options.valued(
+@click.option(
     "--robot",
-    TORQUES[0],
-    "What it takes: torque, a model cancelling the inertia or not; velocity; or position.",
-    type=ROBOT,
+    type=click.Choice([*TORQUES, "velocity", "position"]),
+    default="torque",
+    show_default=True,
+    help="What it takes: torque, a model cancelling the inertia or not; velocity; or position.",
 )
 @click.option("--no-memory", is_flag=True, help="Only laws that keep nothing from tick to tick.")
 @click.option("--continuous", is_flag=True, help="Only laws whose command is continuous; 180° rotations hold them.")

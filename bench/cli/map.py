@@ -18,7 +18,7 @@ from bench.law.inputs import Gains
 from bench.running.schedulers import check_scheduler
 
 MOST, SPEED = 10**10, click.FloatRange(0.0, 100.0)
-ENGINES = ("ideal-rk4", "ideal-held")
+ENGINE = click.Choice(["ideal-rk4", "ideal-held"])
 
 
 @click.command("map", epilog=examples("map"))
@@ -35,9 +35,7 @@ ENGINES = ("ideal-rk4", "ideal-held")
     multiple=True,
     help="Initial speed in rad/s of every start, in place of --spin; repeat it for a map of each.",
 )
-@options.valued(
-    "--engine", ENGINES[0], "Continuous plant, or one sampled with a held command.", type=click.Choice(ENGINES)
-)
+@options.valued("--engine", "ideal-rk4", "Continuous plant, or one sampled with a held command.", type=ENGINE)
 @options.simulated
 @options.valued("--horizon", 10.0, "Longest simulated time in seconds.", "horizon_s")
 @options.carried_out
