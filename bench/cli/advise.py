@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import math
 import re
 import tempfile
@@ -23,15 +22,14 @@ if TYPE_CHECKING:
     from tasks.situation import Situation
 
 UNITS = {"": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6}
-FORMS = re.compile(r"([0-9.eE+-]+) *(|s|ms|us)")
+FORMS = re.compile(r"([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?) *(|s|ms|us)")
 TORQUES = ("torque", "torque-no-model")
 
 
 def time(word: object) -> float:
     """Return the seconds of a time: a number of them, or one with a unit, as 5ms."""
-    found, seconds = FORMS.fullmatch(str(word)), math.nan
-    with contextlib.suppress(ValueError):
-        seconds = float(found[1]) * UNITS[found[2]] if found else math.nan
+    found = FORMS.fullmatch(str(word))
+    seconds = float(found[1]) * UNITS[found[2]] if found else math.nan
     if not 0.0 <= seconds < math.inf:
         raise click.BadParameter(f"'{word}' is no time of at least 0 (try: 5ms or 0.005)")
     return seconds
@@ -152,11 +150,8 @@ def _said(found: Answer, wanted: Situation, kp: float) -> list[Paragraph]:
     where = f"Your situation: {wanted.describe()}."
     if found.agree is None:
         return [*lines, Paragraph("How sure", (where, "It was simulated now."))]
-    near = (
-        "It is in the map."
-        if found.distance == 0.0
-        else f"The nearest of the map: {found.at.describe()} (distance {found.distance:.2f})."
-    )
+    near = f"The nearest of the map: {found.at.describe()} (distance {found.distance:.2f})."
+    near = near if found.distance else "It is in the map."
     agree = f"Nothing beats the law in {found.agree[0]} of the {found.agree[1]} situations next to it"
     return [*lines, Paragraph("How sure", (where, near, f"{agree}; --run simulates yours."))]
 

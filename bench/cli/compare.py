@@ -84,8 +84,6 @@ def _compare(
         print_judgement(one)
     if said.times:
         console().print(frame_table(pd.DataFrame(words.tabulate_times(said.times)), "\nBenchmarks"))
-    if not folders:
-        console().print(frame_table(pd.DataFrame(said.gates), "\nGates"))
     if benchmarks:
         for name, content in zip(("base", "head"), said.files, strict=False):
             write_json(benchmarks / f"{name}.json", content)
@@ -97,6 +95,7 @@ def _compare(
         agree = f"{len(differences)} differences between {base} and {head}"
         console().print(agree if differences else f"{head} agrees with {base}")
     else:
+        console().print(frame_table(pd.DataFrame(said.gates), "\nGates"))
         console().print(f"\n{words.write_headline(said)}")
     if differences if folders else said.regressions:
         raise Exit(1)

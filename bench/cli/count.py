@@ -49,9 +49,9 @@ def COMMAND(
         _print(pd.DataFrame(rows), "Operations per tick of a controller in contact", stages)
         return
     named = options.named(**words)
-    alone = named.regulators or tuple(one.name for one in options.own_laws(laws))
+    alone = named.pop("regulators") or tuple(one.name for one in options.own_laws(laws))
     chosen = options.chosen(laws, alone, representations, costings=True)
-    if joints or named.jacobians or named.inverses:
+    if joints or any(named.values()):
         n = int(joints or 6)
         arm = next(name for name in tasks.arm_names() if tasks.arm(name).joints == n)  # nothing else of it counts
         table = _rows(_controllers(chosen, named, n), arm)
@@ -84,13 +84,13 @@ def _print(table: pd.DataFrame, title: str, stages: bool) -> None:
     console().print(frame_table(table.loc[:, (table != 0).any()], title))
 
 
-def _controllers(laws: list[Contender], named: options.Named, joints: int) -> list[Contender]:
+def _controllers(laws: list[Contender], named: dict[str, options.Words], joints: int) -> list[Contender]:
     """Return the controllers of the laws by the Jacobians and inverses that are named; the quick suite's if none is."""
     by_name = {one.name: one for one in laws}
     quick = SUITES["quick"].on_arms
     words = (*quick.words, *quick.operational, *quick.compared)
-    found = combinations.chosen(words, by_name, joints, named.jacobians, named.inverses, BY_WORD_ALONE)
+    found = combinations.chosen(words, by_name, joints, named["jacobians"], named["inverses"], BY_WORD_ALONE)
     if not found:
-        reasons = combinations.refusals(laws, joints, named.jacobians, named.inverses)
+        reasons = combinations.refusals(laws, joints, named["jacobians"], named["inverses"])
         raise Incompatible(f"nothing to count: {combinations.shown(reasons)}")
     return found

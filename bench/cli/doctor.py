@@ -22,7 +22,6 @@ from bench.law.contenders import combinations
 from bench.law.contenders.registry import all_contenders, papers_laws
 from bench.law.control.registry import find_controller
 from tasks.arm import arms
-from tasks.arm_model import Arm
 from tasks.contact import can_do
 from tasks.errors import BadArm
 
@@ -91,14 +90,11 @@ def _engines() -> str:
     return _equal((run(engine, *given) for engine in PAIR), "", "50 ticks of the compiled engine")
 
 
-def _usable_arms() -> list[Arm]:
-    return [one for one in arms().values() if not isinstance(one, BadArm)]
-
-
 def _arms() -> str:
     from bench.engines.simulate_arms import run_arm as run
 
-    broken, found = [str(one) for one in arms().values() if isinstance(one, BadArm)], _usable_arms()
+    broken = [str(one) for one in arms().values() if isinstance(one, BadArm)]
+    found = [one for one in arms().values() if not isinstance(one, BadArm)]
     if broken or not found:
         cure = "correct the file, or take it out of tasks/arms"
         raise RuntimeError(f"{'; '.join(broken) or 'there is none'}. Cure: {cure}")
@@ -115,7 +111,7 @@ def _contact() -> str:
     from bench.engines.simulate_contact import run_contact as run
 
     task, one = tasks.contact_task("surface-alignment"), find_controller("hybrid-base+inverse")
-    able = [arm for arm in _usable_arms() if can_do(task, arm)]
+    able = [arm for arm in arms().values() if not isinstance(arm, BadArm) and can_do(task, arm)]
     if not able:
         raise RuntimeError("no arm has a site 'wrist'. Cure: add the site to an arm in tasks/arms")
     arm, pressing = able[-1], task._replace(horizon_s=0.15)  # it touches after 0.05 s

@@ -12,9 +12,7 @@ from bench.findings.judgement import Judgement
 
 @click.command("judge", epilog=examples("judge"))
 @click.argument("law")
-@click.option(
-    "--law-limit", type=click.FloatRange(0.1), default=5.0, show_default=True, help="Time limit per unit [s]."
-)
+@options.valued("--law-limit", 5.0, "Time limit per unit [s].", type=click.FloatRange(0.1))
 def COMMAND(law: str, law_limit: float) -> None:
     """Judge a law on the free body and explain the result. It takes seconds and writes no file.
 

@@ -1,7 +1,7 @@
 """`list`: what there is to run, by kind."""
 
 import functools
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from types import SimpleNamespace
 from typing import Any, NamedTuple
 
@@ -18,8 +18,10 @@ from bench.law.contenders import registry
 from bench.law.control.contact_controller import HYBRIDS
 from bench.law.control.registry import all_controllers
 from tasks.arm import arms
+from tasks.condition import known_axes
 from tasks.contact import can_do
 from tasks.errors import BadArm
+from tasks.variations import VARIATIONS
 
 
 class Kind(NamedTuple):
@@ -36,12 +38,9 @@ class Kind(NamedTuple):
     def rows(self, own: tuple = ()) -> Iterator[tuple[str, ...]]:
         """Yield the name and the attributes of each thing, the user's own laws last."""
         for name, one in {**self.find_all(), **{one.name: one for one in own}}.items():
-            yield name, *(write_cell(read_attribute(one, attribute)) for attribute in self.attributes.split())
-
-
-def read_attribute(one: Any, path: str) -> Any:
-    """Return an attribute, or the attribute of one (`table.name`); empty where it has none."""
-    return functools.reduce(lambda found, word: getattr(found, word, ""), path.split("."), one)
+            paths = (attribute.split(".") for attribute in self.attributes.split())  # as `table.name`
+            found = (functools.reduce(lambda part, word: getattr(part, word, ""), path, one) for path in paths)
+            yield name, *map(write_cell, found)
 
 
 def write_cell(value: Any) -> str:
@@ -81,7 +80,7 @@ def describe_arm(one: Any) -> Any:
 
 def find_starts(of_arms: bool) -> Mapping[str, Any]:
     """Return the start sets with their numbers of starts."""
-    every = by_name(lambda name: tasks.find_start_set(name, of_arms), tasks.start_set_names(of_arms))
+    every = {name: tasks.find_start_set(name, of_arms) for name in tasks.start_set_names(of_arms)}
     return {name: SimpleNamespace(starts=one.size, title=one.title) for name, one in every.items()}
 
 
@@ -115,10 +114,8 @@ KINDS = {
     "contact-metrics": Kind("Metrics of contact", known_contact_metrics, "unit title"),
     "tasks": Kind("Tasks", find_tasks, "contact title source"),
     "arms": Kind("Arms", lambda: {name: describe_arm(one) for name, one in arms().items()}, "joints title source"),
-    "variations": Kind("Variations of an arm's plant", lambda: by_name(tasks.variation, tasks.variation_names())),
-    "axes": Kind(
-        "Perturbations of the free body (--axis)", lambda: by_name(tasks.axis, tasks.axis_names()), "unit levels title"
-    ),
+    "variations": Kind("Variations of an arm's plant", lambda: VARIATIONS),
+    "axes": Kind("Perturbations of the free body (--axis)", known_axes, "unit levels title"),
     "starts": Kind("Start sets of the free body", lambda: find_starts(False), "starts title"),
     "arm-starts": Kind("Start sets of arms, starts on each arm at most", lambda: find_starts(True), "starts title"),
     "engines": Kind("Engines", find_engines),
@@ -126,11 +123,6 @@ KINDS = {
     "experiments": Kind("Experiments", known_experiments, "table.name title"),
     "claims": Kind("Claims", find_claims, "section sentence"),
 }
-
-
-def by_name(find: Callable[[str], Any], names: Iterable[str]) -> Mapping[str, Any]:
-    """Return find(name) for every name."""
-    return {name: find(name) for name in names}
 
 
 @click.command("list", epilog=examples("list"))

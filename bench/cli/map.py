@@ -17,40 +17,29 @@ from bench.experiments.tables.schema import RESULTS
 from bench.law.inputs import Gains
 from bench.running.schedulers import check_scheduler
 
-MOST = 10**10
+MOST, SPEED = 10**10, click.FloatRange(0.0, 100.0)
+ENGINE = click.Choice(["ideal-rk4", "ideal-held"])
 
 
 @click.command("map", epilog=examples("map"))
 @options.law
 @options.regulator
-@click.option("--starts", type=click.IntRange(1, MOST), default=10**7, show_default=True, help="Of each law.")
-@click.option(
-    "--spin",
-    type=click.FloatRange(0.0, 100.0),
-    default=0.0,
-    show_default=True,
-    help="Initial speeds in rad/s are uniform up to this, directions uniform on the sphere.",
+@options.valued("--starts", 10**7, "Of each law.", type=click.IntRange(1, MOST))
+@options.valued(
+    "--spin", 0.0, "Initial speeds in rad/s are uniform up to this, directions uniform on the sphere.", type=SPEED
 )
 @click.option(
     "--speed",
     "stated",
-    type=click.FloatRange(0.0, 100.0),
+    type=SPEED,
     multiple=True,
     help="Initial speed in rad/s of every start, in place of --spin; repeat it for a map of each.",
 )
-@click.option(
-    "--engine",
-    type=click.Choice(["ideal-rk4", "ideal-held"]),
-    default="ideal-rk4",
-    show_default=True,
-    help="Continuous plant, or one sampled with a held command.",
-)
+@options.valued("--engine", "ideal-rk4", "Continuous plant, or one sampled with a held command.", type=ENGINE)
 @options.simulated
-@options.numbered("--horizon", 10.0, "Longest simulated time in seconds.", "horizon_s")
+@options.valued("--horizon", 10.0, "Longest simulated time in seconds.", "horizon_s")
 @options.carried_out
-@click.option(
-    "--out", type=options.PATH, default=RESULTS / "latest-map", show_default="results/latest-map", help="Folder."
-)
+@options.valued("--out", RESULTS / "latest-map", "Folder.", type=options.PATH, show_default="results/latest-map")
 def COMMAND(
     laws: options.Files, regulators: options.Words, starts: int, seed: int, spin: float, stated: tuple[float, ...],
     engine: str, dt_s: float, horizon_s: float, kp: float, kv: float, workers: int, scheduler: str, out: Path,
@@ -86,12 +75,6 @@ def COMMAND(
 
         steps.now("compiling the laws")
         running.run(plan, out, workers=workers, scheduler=scheduler, replace=replace, report=report)
-    _print(out)
-    if read_provenance(out)["lost"]:
-        raise Exit(1)  # a law of the user's crashed or hung: what was lost has been said
-
-
-def _print(out: Path) -> None:
     from bench.experiments.tables.store import read
     from bench.findings.maps import by_law
 
@@ -99,3 +82,5 @@ def _print(out: Path) -> None:
     title = "Starts that are lost, of those that converge; least and most: exact 95 % interval (Clopper-Pearson)"
     console().print(frame_table(by_law(read(out, "map")).round(digits), f"\n{title}"))
     console().print(f"in {shown_path(out)}")
+    if read_provenance(out)["lost"]:
+        raise Exit(1)  # a law of the user's crashed or hung: what was lost has been said

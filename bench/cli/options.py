@@ -4,7 +4,7 @@ import functools
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, TypeAlias
 
 import rich_click as click
 
@@ -45,10 +45,11 @@ controller = several(
 arm = several("--arm", "arms", "Only this arm")
 
 
-def numbered(name: str, default: float, meaning: str, python_name: str = "", **more: Any) -> Callable:
-    """Return an option that takes a number and has a default."""
+def valued(name: str, default: Any, meaning: str, python_name: str = "", **more: Any) -> Callable:
+    """Return an option that has a default, and takes values of its type unless more states one."""
     names = [name, python_name] if python_name else [name]
-    return click.option(*names, type=type(default), default=default, help=meaning, **{"show_default": True, **more})
+    facts = {"type": type(default), "show_default": True, **more}
+    return click.option(*names, default=default, help=meaning, **facts)
 
 
 def stacked(*options: Callable) -> Callable:
@@ -57,13 +58,13 @@ def stacked(*options: Callable) -> Callable:
 
 
 simulated = stacked(
-    numbered("--dt", 1e-3, "Control period in seconds.", "dt_s"),
-    numbered("--kp", 100.0, "Position gain [1/s^2]."),
-    numbered("--kv", 20.0, "Velocity gain [1/s]."),
-    numbered("--seed", 0, "Seed of the sampled starts."),
+    valued("--dt", 1e-3, "Control period in seconds.", "dt_s"),
+    valued("--kp", 100.0, "Position gain [1/s^2]."),
+    valued("--kv", 20.0, "Velocity gain [1/s]."),
+    valued("--seed", 0, "Seed of the sampled starts."),
 )
 carried_out = stacked(
-    numbered("--workers", os.cpu_count() or 1, "Threads.", show_default="cores"),
+    valued("--workers", os.cpu_count() or 1, "Threads.", show_default="cores"),
     click.option(
         "--scheduler",
         default=THREADS,
@@ -75,23 +76,15 @@ carried_out = stacked(
 )
 
 
-class Named(NamedTuple):
-    """What --regulator, --jacobian and --inverse name together."""
-
-    regulators: Words
-    jacobians: Words
-    inverses: Words
-
-
-def named(regulators: Words, jacobians: Words, inverses: Words) -> Named:
-    """Contenders of arms by their whole name, `law@jacobian+inverse`, taken apart; everything else as it is.
+def named(regulators: Words, jacobians: Words, inverses: Words) -> dict[str, Words]:
+    """Return the options with contenders of arms by their whole name, `law@jacobian+inverse`, taken apart.
 
     Errors:
         UsageError: the options would mean more than these names, for each law meets each Jacobian and each inverse.
     """
     whole = [word for word in regulators if "@" in word]
     if not whole:
-        return Named(regulators, jacobians, inverses)
+        return {"regulators": regulators, "jacobians": jacobians, "inverses": inverses}
     ways = {word.partition("@")[2] for word in whole}
     [by, through] = [*sorted(ways)[0].split("+"), ""][:2]
     if len(ways) > 1 or len(whole) < len(regulators) or jacobians or inverses or not by or not through:
@@ -99,7 +92,7 @@ def named(regulators: Words, jacobians: Words, inverses: Words) -> Named:
             f"--regulator {whole[0]}: after @ comes jacobian+inverse, the same for every law and named once; name them "
             f"apart instead (try: --regulator {whole[0].partition('@')[0]} --jacobian geometric --inverse solve)"
         )
-    return Named(tuple(word.partition("@")[0] for word in whole), (by,), (through,))
+    return {"regulators": tuple(word.partition("@")[0] for word in whole), "jacobians": (by,), "inverses": (through,)}
 
 
 def own_laws(files: Files) -> tuple[Law, ...]:
@@ -122,7 +115,10 @@ def chosen(files: Files, regulators: Words, representations: Words, costings: bo
     """Return the contenders that the options name; without names, all (the user's own included)."""
     own = own_laws(files)
     if regulators:
-        picked = [one for word in regulators for one in _named(word, own)]
+        picked = []
+        for word in regulators:
+            whole = [registry.find_contender(word, own)] if "/" in word else []
+            picked += whole or registry.contenders_of(registry.regulator(word, own))
         named = {one.regulator.name for one in picked}
         picked += [one for law in own if law.name not in named for one in registry.contenders_of(law)]
     else:
@@ -134,9 +130,3 @@ def chosen(files: Files, regulators: Words, representations: Words, costings: bo
         if not picked:
             raise click.UsageError(f"no chosen law acts on {', '.join(representations)} (try: bench list regulators)")
     return list(dict.fromkeys(picked))
-
-
-def _named(word: str, own: tuple[Law, ...]) -> list[Contender]:
-    if "/" in word:
-        return [registry.find_contender(word, own)]
-    return registry.contenders_of(registry.regulator(word, own))

@@ -40,16 +40,13 @@ class Steps:
         if self.total is None:
             return f"{passed}  {self.doing}"
         share = f"{self.done:,} of {self.total:,} {self.unit} ({self.done / max(1, self.total):.0%})"
-        return f"{passed}  {share}{self._left()}: {self.doing}"
+        counted_s, made = self.clock() - self.counting, self.done - self.before
+        is_sure = self.total and made > 0 and counted_s >= SURE_S
+        left = f", {_clock(counted_s * (self.total - self.done) / made)} left" if is_sure else ""
+        return f"{passed}  {share}{left}: {self.doing}"
 
     def __rich__(self) -> Text:
         return Text(self.line, overflow="ellipsis", no_wrap=True)
-
-    def _left(self) -> str:
-        passed, made = self.clock() - self.counting, self.done - self.before
-        if not self.total or made <= 0 or passed < SURE_S:
-            return ""
-        return f", {_clock(passed * (self.total - self.done) / made)} left"
 
 
 def _clock(seconds: float) -> str:

@@ -21,7 +21,7 @@ from bench.cli.screen import console, examples, frame_table
 
 @click.command("prove", epilog=examples("prove"))
 @click.argument("laws", nargs=-1)
-@options.numbered("--workers", os.cpu_count() or 1, "Laws at a time.", show_default="cores")
+@options.valued("--workers", os.cpu_count() or 1, "Laws at a time.", show_default="cores")
 @click.option("--out", type=options.PATH, help="Write what is proved to this file, as JSON.")
 def COMMAND(laws: tuple[str, ...], workers: int, out: Path | None) -> None:
     """Prove what laws' files declare of them, from the source (default: all that are global or almost global).

@@ -75,7 +75,7 @@ def COMMAND(
     check_workers(workers)  # at once: a plan of arms' starts takes seconds
     check_scheduler(scheduler)
     numbers = {name: words.pop(name) for name in ("count", "dt_s", "horizon_s", "integrator", "seed")}
-    choice = Choice(**{**words, **options.named(*(words[name] for name in options.Named._fields))._asdict()})
+    choice = Choice(**{**words, **options.named(words["regulators"], words["jacobians"], words["inverses"])})
     contenders = options.chosen(laws, choice.regulators, choice.representations)
     plan = planning.make(suite, contenders, choice, gains=Gains(kp, kv), **numbers)
     planned.print_size(plan, out, workers, scheduler)

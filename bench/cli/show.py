@@ -74,14 +74,11 @@ def _tables(folder: Path, part: str | None, outcomes: bool, regulators: options.
     episodes = of_laws(episodes, shown_path(folder), regulators)
     if outcomes:
         return [(place, outcome_table(rows)) for place, rows in places(episodes)]
-    found: list = []
-    if part in (None, "free-body"):
-        found += tables_of_free_body(episodes[episodes["arm"] == ""])
-    if part in (None, "arms"):
-        found += tables_of_arms(episodes[episodes["arm"] != ""])
-    if part == "contact" or not (part or regulators):
-        found += contact.tables(read(folder, "compliance"))
-    if part == "robustness" or not (part or regulators):
-        rows = read(folder, "robustness")
-        found += robustness.tables(rows) if len(rows) else ()
-    return found
+    tables_of = {
+        "free-body": lambda: tables_of_free_body(episodes[episodes["arm"] == ""]),
+        "arms": lambda: tables_of_arms(episodes[episodes["arm"] != ""]),
+        "contact": lambda: contact.tables(read(folder, "compliance")),
+        "robustness": lambda: robustness.tables(read(folder, "robustness")),
+    }
+    wanted = [part] if part else [*tables_of][:2] if regulators else tables_of
+    return [table for one in wanted for table in tables_of[one]()]

@@ -36,13 +36,8 @@ FINE = tuple(round(0.5 + 0.02 * k, 2) for k in range(36))
 
 def planes() -> list[Situation]:
     """Return the situations of every plane of the damping ratio and one other number."""
-    zetas = COORDINATES["zeta"].levels
-    each = (
-        NOMINAL._replace(zeta=zeta, **{name: value})
-        for name in NAMES[1:]
-        for value in COORDINATES[name].levels
-        for zeta in zetas
-    )
+    values = [{name: value} for name in NAMES[1:] for value in COORDINATES[name].levels]
+    each = (NOMINAL._replace(zeta=zeta, **value) for value in values for zeta in COORDINATES["zeta"].levels)
     return list(dict.fromkeys((*each, *(NOMINAL._replace(zeta=zeta) for zeta in FINE))))
 
 
@@ -78,16 +73,12 @@ def between(verdicts: dict[Situation, Verdict]) -> list[Situation]:
         for along, across in (("zeta", name), (name, "zeta")):
             ordered = sorted(plane, key=attrgetter(across, along))
             for one, other in itertools.pairwise(ordered):
-                is_line = getattr(one, across) == getattr(other, across) and math.isfinite(getattr(other, along))
+                a, b = getattr(one, along), getattr(other, along)
+                is_line = getattr(one, across) == getattr(other, across) and math.isfinite(b)
                 if is_line and verdicts[one].law != verdicts[other].law:
-                    found.append(halfway(one, other, along))
+                    middle = math.sqrt(a * b) if COORDINATES[along].is_ratio else 0.5 * (a + b)
+                    found.append(rounded(one._replace(**{along: middle})))
     return [at for at in dict.fromkeys(found) if at not in verdicts]
-
-
-def halfway(one: Situation, other: Situation, along: str) -> Situation:
-    """Return the situation between two that differ in one number."""
-    a, b = getattr(one, along), getattr(other, along)
-    return rounded(one._replace(**{along: math.sqrt(a * b) if COORDINATES[along].is_ratio else 0.5 * (a + b)}))
 
 
 def run_lacking(rows: pd.DataFrame, situations: Iterable[Situation], folder: Path, workers: int) -> pd.DataFrame:

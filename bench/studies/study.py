@@ -20,9 +20,8 @@ def make_parser(
     if parts:
         parser.add_argument("--only", nargs="+", choices=list(parts), metavar="PART", help=f"of {', '.join(parts)}")
     if out:
-        parser.add_argument(
-            "--out", type=Path, default=out, help=f"where to write (default: results/{out.parent.name})"
-        )
+        shown = f"where to write (default: results/{out.parent.name})"
+        parser.add_argument("--out", type=Path, default=out, help=shown)
     if workers:
         parser.add_argument("--workers", type=int, default=workers, help=f"threads (default: {workers})")
     return parser

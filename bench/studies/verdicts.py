@@ -48,11 +48,8 @@ DRAWN = {
 }
 """Experiment -> the units of a suite that depend on the seed and that claims look at."""
 
-STEPPED = {
-    **{name: wanted for name, wanted in DRAWN.items() if name != "jacobians"},
-    "boundaries": lambda unit: True,
-    "contact": lambda unit: True,
-}
+STEPPED = {name: wanted for name, wanted in DRAWN.items() if name != "jacobians"}
+STEPPED |= dict.fromkeys(("boundaries", "contact"), lambda unit: True)
 """The experiments that depend on the step: Jacobians are of poses."""
 
 

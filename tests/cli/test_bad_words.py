@@ -4,7 +4,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from support.command_line import bench, refused, refused_run
+from support.command_line import refused, refused_run
 
 import tasks
 from bench.experiments import plan as planning
@@ -52,12 +52,6 @@ def test_usage_error_is_one_line_that_names_the_word(capsys, words, named):
     assert any(cure in line for cure in ("try: ", "give one of these", "use one", " away)"))
 
 
-def test_no_command_shows_the_help(capsys):
-    said = bench(capsys)
-    assert (said.code, said.err) == (0, "")
-    assert "compare" in said.out
-
-
 @pytest.mark.parametrize(
     ("option", "number"),
     [
@@ -91,18 +85,11 @@ def test_what_does_not_go_together_is_refused_with_the_reason(capsys, finished, 
     ],
 )
 def test_contender_pasted_so_that_it_would_mean_more_is_refused_with_the_cure(capsys, finished, words):
-    assert "(try: --regulator rotation-matrix --jacobian geometric --inverse solve)" in refused_run(
-        capsys, finished, *words
-    )
+    cure = "(try: --regulator rotation-matrix --jacobian geometric --inverse solve)"
+    assert cure in refused_run(capsys, finished, *words)
 
 
 def test_same_word_twice_is_the_word_once():
-    once, twice = (
-        planning.make(
-            "quick",
-            [find_contender("rotation-matrix")],
-            Choice(("free-body",) * count, ("paper",) * count, ("native",) * count),
-        )
-        for count in (1, 2)
-    )
+    choices = [Choice(("free-body",) * count, ("paper",) * count, ("native",) * count) for count in (1, 2)]
+    once, twice = (planning.make("quick", [find_contender("rotation-matrix")], choice) for choice in choices)
     assert once == twice

@@ -25,38 +25,20 @@ FOUND = (command_of(path, is_given=True) for path in (ROOT / "bench" / "cli").gl
 COMMANDS = {command.name: command for command in FOUND if command}
 
 
-@pytest.fixture(scope="module")
-def ran(tmp_path_factory):
-    """ran(words of a run...) -> its folder."""
-
-    def folder(*words):
-        out = tmp_path_factory.mktemp("run") / "out"
-        assert main([*words, "--out", str(out)]) == 0
-        return out
-
-    return folder
-
-
-@pytest.fixture(scope="module")
-def tiny_run(ran):
-    """Three episodes on the reference engine."""
-    return ran("run", *TINY, "--engine", "reference")
-
-
-# ----------------------------------------------------------------------------------------------- help
-
-
-def test_help_names_every_command(capsys):
-    said = bench(capsys, "--help")
-    assert said.code == 0
+@pytest.mark.parametrize("words", [(), ("--help",)])
+def test_help_is_shown_without_a_command_and_names_every_one(capsys, words):
+    said = bench(capsys, *words)
+    assert (said.code, said.err) == (0, "")
     assert [name for name in COMMANDS if f" {name} " not in said.out] == []
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_help_of_a_command_explains_every_option(capsys, name):
+def test_help_of_a_command_explains_every_option_and_says_when_it_ends_with_1(capsys, name):
     said = bench(capsys, name, "--help")
     shown = re.sub(r"[^\w./:;,'-]+", " ", said.out)
     assert said.code == 0
+    source = inspect.getsource(inspect.getmodule(COMMANDS[name].callback))
+    assert ("Exit code 1: " in said.out) == bool(re.search(r"raise Exit\((1|code)\)", source))
     for option in COMMANDS[name].params:
         if isinstance(option, click.Option):
             assert option.opts[0] in said.out
@@ -64,12 +46,6 @@ def test_help_of_a_command_explains_every_option(capsys, name):
             assert " ".join(option.help.split()[:2]).strip("[]:;,.") in shown
         else:
             assert option.name.upper() in said.out
-
-
-@pytest.mark.parametrize("name", COMMANDS)
-def test_help_of_a_command_that_may_end_with_1_says_when(capsys, name):
-    source = inspect.getsource(inspect.getmodule(COMMANDS[name].callback))
-    assert ("Exit code 1: " in bench(capsys, name, "--help").out) == bool(re.search(r"raise Exit\((1|code)\)", source))
 
 
 def test_examples_of_the_help_are_words_that_the_commands_take(capsys):
@@ -85,20 +61,14 @@ def test_version_is_the_one_installed(capsys):
     assert re.search(r"\d+\.\d+\.\d+", bench(capsys, "--version").out)
 
 
-# ----------------------------------------------------------------------------------------------- list
-
-
 @pytest.mark.parametrize("kind", KINDS)
-def test_list_names_everything_of_a_kind_and_nothing_else(capsys, kind):
+def test_list_names_everything_of_a_kind_and_nothing_else_and_takes_the_singular_too(capsys, kind):
     said = bench(capsys, "list", kind)
     rows = [line.split()[0] for line in said.out.splitlines()[2:] if line.strip() and not line.startswith(" ")]
     assert said.code == 0
     assert sorted(rows) == sorted(KINDS[kind].find_all())
-
-
-@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind.endswith("s")])
-def test_list_takes_the_singular_too(capsys, kind):
-    assert bench(capsys, "list", kind[:-1]).out == bench(capsys, "list", kind).out
+    if kind.endswith("s"):
+        assert bench(capsys, "list", kind[:-1]) == said
 
 
 def test_list_names_a_broken_arm_with_the_reason():
@@ -106,14 +76,19 @@ def test_list_names_a_broken_arm_with_the_reason():
     assert describe_arm(BadArm(reason)).title == f"cannot be used: {reason}"
 
 
-def test_run_prints_its_plan_and_what_to_do_next(capsys, tmp_path):
-    said = bench(capsys, "run", *TINY, "--engine", "reference", "--out", tmp_path / "run")
+def test_run_prints_its_plan_and_what_to_do_next_and_show_its_counts(capsys, tmp_path):
+    """A hundred ticks are too few to settle."""
+    words, out = ("run", *TINY, "--engine", "reference"), tmp_path / "run"
+    said = bench(capsys, *words, "--out", out)
     assert (said.code, said.err) == (0, "")
-    assert "suite quick: 3 episodes in 1 unit\n" in said.out
-    assert (
-        "suite quick: 3 episodes in 1 unit\n" in bench(capsys, "run", *TINY, "--engine", "reference", "--dry-run").out
-    )
-    assert f"bench show {tmp_path / 'run'}" in said.out.replace("\n", "")
+    for text in (said.out, bench(capsys, *words, "--dry-run").out):
+        assert "suite quick: 3 episodes in 1 unit\n" in text
+    assert f"bench show {out}" in said.out.replace("\n", "")
+    details = bench(capsys, "show", out, "--details")
+    assert details.code == 0
+    assert "suite quick, 3 episodes" in details.out
+    assert re.search(r"law +paper\s+rotation-matrix +0/3\s", details.out)
+    assert re.search(r"paper +rotation-matrix +3 ", bench(capsys, "show", out, "--outcomes").out)
 
 
 @pytest.mark.parametrize("suite", SUITES)
@@ -123,25 +98,18 @@ def test_suite_runs_every_law_that_is_not_a_costing(capsys, suite):
     assert laws == [one.name for one in all_contenders() if not one.regulator.costing_only]
 
 
-def test_show_counts_what_settled_by_law_and_start_set_and_every_outcome_when_asked(capsys, tiny_run):
-    """A hundred ticks are too few to settle."""
-    said = bench(capsys, "show", tiny_run, "--details")
-    assert said.code == 0
-    assert "suite quick, 3 episodes" in said.out
-    assert re.search(r"law +paper\s+rotation-matrix +0/3\s", said.out)
-    assert re.search(r"paper +rotation-matrix +3 ", bench(capsys, "show", tiny_run, "--outcomes").out)
-
-
 ON_ARM = ("run", "--arm", "ur5e", "--starts", "clear", "--count", "1", "--horizon", "0.1")
 WHOLE = "rotation-matrix@geometric+solve"
 
 
 @pytest.fixture(scope="module")
-def arm_run(ran):
+def arm_run(tmp_path_factory):
     """One start, two inverses, two plants, on the reference engine: four episodes of twenty ticks."""
     words = ("--regulator", "rotation-matrix", "--jacobian", "geometric", "--inverse", "solve")
     plants = ("--variation", "nominal", "--variation", "friction-5", "--engine", "reference", "--dt", "0.005")
-    return ran(*ON_ARM, *words, "--inverse", "transpose", *plants)
+    out = tmp_path_factory.mktemp("run") / "out"
+    assert main([*ON_ARM, *words, "--inverse", "transpose", *plants, "--out", str(out)]) == 0
+    return out
 
 
 @pytest.mark.parametrize("suite", SUITES)
@@ -169,26 +137,18 @@ def test_show_of_one_controller_shows_it_alone(capsys, arm_run):
     assert bench(capsys, "show", arm_run, "--regulator", "rotation-matrix") == whole
 
 
-@pytest.fixture(scope="module")
-def contact_run(ran):
-    """Two controllers, three poses of one task in contact on one arm, 20 ticks a trial."""
-    words = ("--controller", "hybrid-base+inverse", "--controller", "impedance-geometric", "--horizon", "0.02")
-    place = ("--task", "wrench-probe", "--arm", "ur5e", "--count", "3")
-    return ran("run", *place, *words)
-
-
 @pytest.mark.slow
-def test_run_in_contact_has_its_rows_and_no_episodes(contact_run):
-    rows = store.read(contact_run, "compliance")
-    assert list(zip(rows.controller, rows.form, strict=True)) == [("hybrid-base", "inverse")] * 3 + [
-        ("impedance-geometric", "")
-    ] * len(rows[3:])
+def test_run_in_contact_has_its_rows_and_no_episodes(tmp_path):
+    """Two controllers, three poses of one task in contact on one arm, 20 ticks a trial."""
+    words = ["--controller", "hybrid-base+inverse", "--controller", "impedance-geometric", "--horizon", "0.02"]
+    place = ["--task", "wrench-probe", "--arm", "ur5e", "--count", "3", "--out", str(tmp_path / "out")]
+    assert main(["run", *place, *words]) == 0
+    rows = store.read(tmp_path / "out", "compliance")
+    assert set(zip(rows.controller[3:], rows.form[3:], strict=True)) == {("impedance-geometric", "")}
+    assert list(zip(rows.controller[:3], rows.form[:3], strict=True)) == [("hybrid-base", "inverse")] * 3
     assert set(rows.outcome) == {"done"}
-    assert len(store.read(contact_run, "episodes")) == 0
-    assert files.read_json(contact_run / "provenance.json")["trials"] == rows.trials.sum()
-
-
-# --------------------------------------------------------------------------------------- count, doctor
+    assert len(store.read(tmp_path / "out", "episodes")) == 0
+    assert files.read_json(tmp_path / "out" / "provenance.json")["trials"] == rows.trials.sum()
 
 
 def test_count_has_a_line_for_each_law_and_branch(capsys):

@@ -2,41 +2,25 @@
 
 import time
 
-import pytest
 from rich.console import Console
 
 from bench.cli import progress
 
 
-@pytest.fixture
-def clock():
-    """A clock that the test moves."""
-    return [0.0]
-
-
-@pytest.fixture
-def steps(clock):
-    return progress.Steps("episodes", clock=lambda: clock[0])
-
-
-def test_nothing_is_counted_before_something_is_done(clock, steps):
+def test_time_left_is_said_only_while_something_is_counted_and_is_of_what_this_run_does():
+    clock = [0.0]
+    steps = progress.Steps("episodes", clock=lambda: clock[0])
     steps.now("compiling the laws")
     clock[0] = 90.0
     assert steps.line == "0:01:30  compiling the laws"
-
-
-def test_time_left_is_of_what_this_run_does_and_not_of_what_was_kept(clock, steps):
-    steps.now("native hybrid", 500, 1000)
-    clock[0] = 10.0
+    steps.now("native hybrid", 500, 1000)  # were kept
+    clock[0] = 100.0
     steps.now("native hybrid", 600, 1000)
-    assert steps.line == "0:00:10  600 of 1,000 episodes (60%), 0:00:40 left: native hybrid"
-
-
-def test_last_step_says_what_is_made_instead_of_no_time_left(clock, steps):
+    assert steps.line == "0:01:40  600 of 1,000 episodes (60%), 0:00:40 left: native hybrid"
     steps.now("native hybrid", 1000, 1000)
     steps.now("making traces, operation counts")
-    clock[0] = 5.0
-    assert steps.line == "0:00:05  making traces, operation counts"
+    clock[0] = 105.0
+    assert steps.line == "0:01:45  making traces, operation counts"
 
 
 def test_log_gets_lines_while_something_takes_long(capsys):

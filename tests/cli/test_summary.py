@@ -32,17 +32,8 @@ def reference(tables):
     return Results(REFERENCE, dict(tables))
 
 
-def only(tables, *names, **words):
-    """Some tables with rows, of `episodes` those that have these words."""
-    frames = {name: frame if name in (*names, "costs") else frame.iloc[:0] for name, frame in tables.items()}
-    return Results(REFERENCE, {**frames, "episodes": results.chosen(frames["episodes"], words)})
-
-
 def text(*found) -> str:
     return " ".join(sentence for one in found for sentence in one.sentences)
-
-
-# ------------------------------------------------------------------------------------------- its size
 
 
 @pytest.mark.weekly
@@ -56,7 +47,7 @@ def test_summary_of_the_reference_fits_the_screen_and_begins_with_the_law(refere
         assert any(line.startswith(head) for line in lines)
 
 
-def test_summary_of_a_tiny_run_fits_too_and_says_what_is_not_in_it(capsys, finished, monkeypatch):
+def test_summary_of_a_tiny_run_fits_too_says_what_is_not_in_it_and_offers_what_works(capsys, finished, monkeypatch):
     monkeypatch.chdir(finished.parent)
     said = bench(capsys, "show", finished.name)
     lines = said.out.splitlines()
@@ -65,23 +56,17 @@ def test_summary_of_a_tiny_run_fits_too_and_says_what_is_not_in_it(capsys, finis
     assert "This run cannot compare it" in " ".join(said.out.split())
     assert re.search(r"Not in this run: arms, contact, robustness[^.]* and", said.out)
     assert "settled 0 of 3 episodes" in said.out
-    assert f"bench show {finished.name} --details" in said.out
-
-
-def test_what_a_narrowed_run_offers_next_works(capsys, finished, monkeypatch):
-    monkeypatch.chdir(finished.parent)
-    offered = re.findall(r"bench (.*?)   ", bench(capsys, "show", finished.name).out)
-    said = [bench(capsys, *words.split()) for words in offered]
-    assert [words.split()[0] for words in offered] == ["show", "claims"]
-    assert {(one.code, "There is nothing" in one.out) for one in said} == {(0, False)}
-    assert re.search(r"^Not judged {3}C01 cannot be judged from this run: no episode", said[-1].out, re.MULTILINE)
-
-
-# ----------------------------------------------------------------------------------------- its words
+    offered = re.findall(r"bench (.*?)   ", said.out)
+    assert offered == [f"show {finished.name} --details", f"claims {finished.name}"]
+    nexts = [bench(capsys, *words.split()) for words in offered]
+    assert {(one.code, "There is nothing" in one.out) for one in nexts} == {(0, False)}
+    assert re.search(r"^Not judged {3}C01 cannot be judged from this run: no episode", nexts[-1].out, re.MULTILINE)
 
 
 def test_laws_of_a_run_without_arms_are_compared(tables):
-    assert "it is better by" in text(*answer.paragraphs(measure(only(tables, "episodes", "robustness", arm=""))))
+    episodes, compliance = results.chosen(tables["episodes"], {"arm": ""}), tables["compliance"].iloc[:0]
+    found = measure(Results(REFERENCE, {**tables, "episodes": episodes, "compliance": compliance}))
+    assert "it is better by" in text(*answer.paragraphs(found))
 
 
 def test_settled_counts_are_those_of_the_tables(tables, reference):
@@ -96,9 +81,6 @@ def test_law_that_broke_is_named(tables):
     law = str(lost["contender"].iloc[0]).partition("@")[0]
     said = text(failures.paragraph(Results(REFERENCE, {**tables, "episodes": lost})))
     assert f"{law} crashed in 2 episodes and {law} hung in 1 episode" in said
-
-
-# ------------------------------------------------------------------------------------------- its parts
 
 
 @pytest.mark.parametrize("part", ["free-body", "arms", "contact", "robustness"])
@@ -142,9 +124,6 @@ def test_unknown_part_is_refused_with_the_parts(capsys, words):
     line = refused(capsys, "show", *words)
     assert ", ".join(PARTS) in line
     assert "try: " in line
-
-
-# ------------------------------------------------------------------------------------------ its tables
 
 
 def test_names_stay_whole_where_the_table_is_wider_than_the_screen(capsys):

@@ -15,7 +15,7 @@ from scipy.stats import binom
 
 from bench.base.errors import BadResults
 from bench.cli.details import contact
-from bench.cli.details.episodes import outcome_table, summarize_laws
+from bench.cli.details.episodes import outcome_table, summarize_laws, tabulate
 from bench.experiments.tables import read, statistics
 from bench.experiments.tables.data_package import described_folder
 from bench.experiments.tables.schema import RESULTS
@@ -73,7 +73,7 @@ def test_contender_in_contact_is_the_word_of_the_command_line():
 
 
 def test_summary_in_contact_is_of_the_poses_that_are_done():
-    table = contact.summary(IN_CONTACT).set_index("controller")
+    table = tabulate(IN_CONTACT, contact.describe).set_index("controller")
     assert list(table.index) == CONTROLLERS
     assert list(table["done"]) == ["1/1", "2/3", "1/1"]
     assert table["at rest"].str.endswith(("0/0", "1/2")).all()

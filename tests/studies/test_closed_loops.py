@@ -34,9 +34,6 @@ def response(call, angle_deg, takes=MATRIX, sheet=1.0):
     return closed_loop.response(accelerated(Function("f", takes, call), 100.0, 20.0, TICK_S, begun), TICK_S)
 
 
-# --------------------------------------------------------------------------- the free body
-
-
 @pytest.mark.parametrize("angle_deg", [1.0, 90.0, 179.9, 180.0])
 def test_logarithm_settles_in_the_time_of_the_linear_system_from_any_angle(angle_deg):
     """A command that is held costs up to 0.3 ms (shared facts), a tick rounds up to the next."""
@@ -58,11 +55,9 @@ def test_sine_never_leaves_an_exact_180_degree_rotation():
 
 
 def test_bare_quaternion_unwinds_from_the_antipode_alone():
-    def bare(quat_wxyz):
-        return 2.0 * quat_wxyz[1:]
-
-    assert not response(bare, 90.0, QUATERNION).goes_away
-    assert response(bare, 90.0, QUATERNION, sheet=-1.0).goes_away
+    for sheet in (1.0, -1.0):
+        found = response(lambda quat_wxyz: 2.0 * quat_wxyz[1:], 90.0, QUATERNION, sheet)
+        assert found.goes_away == (sheet < 0.0)
 
 
 def test_function_without_numbers_fails():
@@ -84,9 +79,6 @@ def test_step_is_that_of_rodrigues_formula():
     assert angle(conjugate(stepped)) == pytest.approx(np.linalg.norm(ScipyRotation.from_matrix(expected).as_rotvec()))
 
 
-# --------------------------------------------------------------------------- shipped controllers
-
-
 @pytest.mark.parametrize(
     ("name", "ratio", "faults"),
     [
@@ -102,9 +94,6 @@ def test_shipped_controller_has_the_stiffness_and_the_faults_of_its_source(name,
     (function,) = library.functions
     assert closed_loop.stiffness_ratio(function) == pytest.approx(ratio, abs=1e-6)
     assert set(verdict(function)["faults"].split(", ")) == faults
-
-
-# --------------------------------------------------------------------------- verdicts
 
 
 def test_relative_quaternion_is_that_of_the_matrices():

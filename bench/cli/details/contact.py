@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import pandas as pd
 
-from bench.experiments.tables import read as results
+from bench.cli.details.episodes import tabulate
 
 COLUMNS = {
     "leakage_ratio": ("leakage", 1.0),
@@ -18,23 +18,21 @@ COLUMNS = {
 def tables(rows: pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
     """Yield a table for each arm."""
     for arm, part in rows.groupby("arm", observed=True, sort=False):
-        yield f"{arm}, contact (a/b: a of b poses done; then median and worst of these)", summary(part)
+        title = f"{arm}, contact (a/b: a of b poses done; then median and worst of these)"
+        yield title, tabulate(part, describe)
 
 
-def summary(rows: pd.DataFrame) -> pd.DataFrame:
-    """One line for each controller: poses whose trials are all done, and median and worst of COLUMNS over them.
+def describe(rows: pd.DataFrame) -> dict[str, str]:
+    """Return of a controller the poses whose trials are all done, and median and worst of COLUMNS over them.
 
     at rest: of the poses that have an end.
     """
-    lines = []
-    for name, part in results.with_contender(rows).groupby("contender", observed=True, sort=False):
-        done = part[part["outcome"] == "done"]
-        line = {"controller": str(name), "done": f"{len(done)}/{len(part)}"}
-        if "rest" in done:  # not in a run of before there was an end
-            ends = done["rest"].astype(str)
-            line["at rest"] = f"{(ends == 'at-rest').sum()}/{(ends != '').sum()}"
-        for column, (title, scale) in COLUMNS.items():
-            some = scale * done[column].dropna()
-            line[title] = f"{some.median():.3f}  {some.max():.3f}" if len(some) else ""
-        lines.append(line)
-    return pd.DataFrame(lines)
+    done = rows[rows["outcome"] == "done"]
+    line = {"done": f"{len(done)}/{len(rows)}"}
+    if "rest" in done:  # not in a run of before there was an end
+        ends = done["rest"].astype(str)
+        line["at rest"] = f"{(ends == 'at-rest').sum()}/{(ends != '').sum()}"
+    for column, (title, scale) in COLUMNS.items():
+        some = scale * done[column].dropna()
+        line[title] = f"{some.median():.3f}  {some.max():.3f}" if len(some) else ""
+    return line

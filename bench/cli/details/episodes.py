@@ -1,6 +1,6 @@
 """Free body and arms: what each law or controller settles from each start set, and counts of outcomes."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import pandas as pd
 import rich_click as click
@@ -31,10 +31,10 @@ def seconds(rows: pd.DataFrame) -> dict[str, str]:
     return {"median s": median, "worst s": worst}
 
 
-def by_contender(rows: pd.DataFrame) -> Rows:
-    """Name of a law or controller, its rows."""
-    for name, own in results.with_contender(rows).groupby("contender", observed=True, sort=False):
-        yield str(name), own
+def tabulate(rows: pd.DataFrame, describe: Callable[[pd.DataFrame], dict], head: str = "controller") -> pd.DataFrame:
+    """Return a line for each law or controller: its name, and what describe(its rows) returns by column."""
+    named = results.with_contender(rows).groupby("contender", observed=True, sort=False)
+    return pd.DataFrame([{head: str(name), **describe(own)} for name, own in named])
 
 
 def places(episodes: pd.DataFrame) -> Rows:
@@ -62,50 +62,40 @@ def tables_of_arms(episodes: pd.DataFrame) -> Rows:
     usual = episodes[is_usual].assign(plant=plant)
     for (variation, kp), rows in usual.groupby(["plant", "kp"], sort=False):
         for place, part in places(rows):
-            yield f"{place}, {variation}, kp {kp:g} ({OF_STARTS})", summarize_controllers(part)
+            yield f"{place}, {variation}, kp {kp:g} ({OF_STARTS})", tabulate(part, describe_controller)
     for place, part in places(episodes[~is_usual]):
         title = f"{place}, other motors or model errors ({OF_STARTS}; then the median final angle [mrad])"
-        yield title, summarize_variations(part)
+        yield title, tabulate(part, describe_variations)
 
 
 def summarize_laws(episodes: pd.DataFrame) -> pd.DataFrame:
-    """One line for each law: share of SO(3) settled, settling times [s], and what settled of other start sets."""
-    lines = []
-    for name, own in by_contender(episodes):
-        line, uniform = {"law": name, **by_start_set(own)}, own[own["start_set"] == "uniform"]
+    """One line for each law: share of SO(3) settled with its Wilson 95 % interval, settling times [s], other starts."""
+
+    def describe(own: pd.DataFrame) -> dict[str, str]:
+        line, uniform = by_start_set(own), own[own["start_set"] == "uniform"]
         if line.pop("uniform", ""):
-            line |= {"settled of SO(3)": _share(uniform), **seconds(uniform)}
-        lines.append(line)
-    table = pd.DataFrame(lines)
+            number = int((uniform["outcome"] == "settled").sum())
+            low, high = binomtest(number, len(uniform)).proportion_ci(method="wilson")
+            line["settled of SO(3)"] = f"{number / len(uniform):.2%} [{low:.2%}, {high:.2%}]"
+            line |= seconds(uniform)
+        return line
+
+    table = tabulate(episodes, describe, "law")
     first = [name for name in FIRST if name in table]
     return table[first + [name for name in table if name not in first]]
 
 
-def _share(part: pd.DataFrame) -> str:
-    """Return the share that settles, with its Wilson 95 % interval."""
-    number = int((part["outcome"] == "settled").sum())
-    low, high = binomtest(number, len(part)).proportion_ci(method="wilson")
-    return f"{number / len(part):.2%} [{low:.2%}, {high:.2%}]"
+def describe_controller(rows: pd.DataFrame) -> dict[str, str]:
+    """Return settled of each start set, settling times [s], and the causes of failures."""
+    causes = rows["cause"].astype(str).value_counts()
+    near = ", ".join(f"{causes[one]} {one}" for one in CAUSES if one and one in causes)
+    return {**by_start_set(rows), **seconds(rows), "failures near": near}
 
 
-def summarize_controllers(episodes: pd.DataFrame) -> pd.DataFrame:
-    """One line for each controller: settled of each start set, settling times [s], and the causes of its failures."""
-    lines = []
-    for name, rows in by_contender(episodes):
-        causes = rows["cause"].astype(str).value_counts()
-        near = ", ".join(f"{causes[one]} {one}" for one in CAUSES if one and one in causes)
-        lines.append({"controller": name, **by_start_set(rows), **seconds(rows), "failures near": near})
-    return pd.DataFrame(lines)
-
-
-def summarize_variations(episodes: pd.DataFrame) -> pd.DataFrame:
-    """One line for each controller, one column for each variation of the plant: settled, and the median angle left."""
-    lines = []
-    for name, rows in by_contender(episodes):
-        groups = rows.groupby("variation", observed=True, sort=False)
-        cells = {str(one): f"{settled(own)}  {1e3 * own['final_angle_rad'].median():.3g}" for one, own in groups}
-        lines.append({"controller": name, **cells})
-    return pd.DataFrame(lines)
+def describe_variations(rows: pd.DataFrame) -> dict[str, str]:
+    """Return for each variation of the plant: settled, and the median angle left."""
+    groups = rows.groupby("variation", observed=True, sort=False)
+    return {str(one): f"{settled(own)}  {1e3 * own['final_angle_rad'].median():.3g}" for one, own in groups}
 
 
 def of_laws(rows: pd.DataFrame, folder: str, words: tuple[str, ...]) -> pd.DataFrame:

@@ -18,6 +18,8 @@ FEW = 3
 
 def tables(rows: pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
     """Thresholds; of few perturbations one more table for each."""
+    if rows.empty:
+        return
     table = summary(rows)
     laws = table[(table["law"] != NEAR) & ~(table == "none").sum(axis=1).gt(FEW)]
     alike = [one for one in table.columns[2:] if laws[one].nunique() == 1 and table.shape[1] > FEW + 2]

@@ -13,9 +13,6 @@ WORST = 2
 """Laws that are named of those that crashed or hung."""
 
 LOST = ("crashed", "hung")
-HALF_TURNS = "half-turn"
-ENDS = {"Contact": ("done", "poses")}
-"""Part -> word of a good end, and of what ends; of other parts (settled, episodes)."""
 
 
 def paragraph(results: Results) -> Paragraph:
@@ -37,7 +34,7 @@ def paragraph(results: Results) -> Paragraph:
 
 def describe(part: str, rows: pd.DataFrame, who: str) -> str:
     """Say how many of a part's rows ended well, how many laws or controllers failed somewhere, and what got stuck."""
-    good, what = ENDS.get(part, ("settled", "episodes"))
+    good, what = ("done", "poses") if part == "Contact" else ("settled", "episodes")
     is_good = rows["outcome"] == good
     is_whole = is_good.groupby(rows["contender"].astype(str)).all()
     said = f"{part}: {good} {is_good.sum():,} of {len(rows):,} {what}."
@@ -45,7 +42,7 @@ def describe(part: str, rows: pd.DataFrame, who: str) -> str:
         said += f" {(~is_whole).sum()} of {counted(len(is_whole), who)} failed somewhere."
     if part == "Free body":
         stuck, apart = rows[rows["outcome"] == "stuck"], int((rows["converged"] == "no").sum())
-        at = int((stuck["start_set"] == HALF_TURNS).sum())
+        at = int((stuck["start_set"] == "half-turn").sum())
         said += f" {counted(len(stuck), 'episode')} got stuck, {at:,} of them at or near 180°." if len(stuck) else ""
         said += f" {apart:,} did not converge." if apart else ""
     return said

@@ -6,8 +6,8 @@ environment of its own adds its own; what a new version has fixed is marked.
 
 import datetime
 import platform
-from collections.abc import Iterable
 from importlib.metadata import version
+from operator import itemgetter
 from pathlib import Path
 
 import pandas as pd
@@ -17,16 +17,15 @@ from bench.base.provenance import cpu_name
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read, write_table
 from bench.studies.libraries.asked import find, version_of
-from bench.studies.libraries.closed_loop import rows_of, rows_of_controller
+from bench.studies.libraries.closed_loop import rows_of
 from bench.studies.libraries.judge import COUNT_RAD, SINGLE_RAD, judge
-from bench.studies.libraries.library import ANGLES, Function, Library
+from bench.studies.libraries.library import ANGLES, Library
 from bench.studies.libraries.turns import TurnSet, every_set
 from bench.studies.libraries.upstream import check_patches
 from bench.studies.libraries.verdict import verdict
 from bench.studies.study import make_parser
 
 FOLDER = RESULTS / "libraries"
-KEY = ["library", "function", "takes"]
 
 
 def main() -> None:
@@ -73,30 +72,27 @@ def rows(library: Library, sets: tuple[TurnSet, ...]) -> pd.DataFrame:
     )
 
 
-def errors(library: Library) -> Iterable[Function]:
-    """Its functions that are errors: all but angles; where anybody servos on those, that is a controller."""
-    return (one for one in library.functions if one.form != ANGLES)
-
-
 def closed_loops(library: Library) -> pd.DataFrame:
-    """One library's rows of closed_loop.parquet."""
+    """One library's rows of closed_loop.parquet, of all but angles; where anybody servos on those, by a controller."""
     found = []
-    for one in errors(library):
+    for one in library.functions:
+        if one.form == ANGLES:
+            continue
         kind = "restated" if library.is_restated else one.kind
         found += [(one.name, kind, "", one.name, "acceleration", row) for row in rows_of(one)]
     for loop in library.controllers:
         kind = "our-loop" if loop.is_our_loop else "controller"
-        found += [(loop.name, kind, loop.title, loop.error, loop.command, row) for row in rows_of_controller(loop)]
+        found += [(loop.name, kind, loop.title, loop.error, loop.command, row) for row in rows_of(loop)]
     whose = {"library": library.name, "version": version_of(library)}
     names = ("function", "kind", "title", "error", "command")
     return pd.DataFrame(whose | dict(zip(names, words, strict=True)) | row for *words, row in found)
 
 
 def verdicts(library: Library) -> pd.DataFrame:
-    """One library's rows of verdicts.parquet."""
-    whose = {"library": library.name, "version": version_of(library)}
-    unmarked = {"fixed": "", "fixed_since": ""}
-    return pd.DataFrame(whose | {"function": one.name} | verdict(one) | unmarked for one in errors(library))
+    """One library's rows of verdicts.parquet, not yet marked."""
+    errors = [one for one in library.functions if one.form != ANGLES]
+    whose = {"library": library.name, "version": version_of(library), "fixed": "", "fixed_since": ""}
+    return pd.DataFrame(whose | {"function": one.name} | verdict(one) for one in errors)
 
 
 def origin(library: Library) -> dict:
@@ -147,20 +143,18 @@ def marked(new: pd.DataFrame, earlier: pd.DataFrame) -> pd.DataFrame:
 
     What was marked for this version stays marked when it runs again.
     """
-    before = earlier.set_index(KEY)
-    rows = []
-    for row in new.to_dict("records"):
-        place = tuple(row[name] for name in KEY)
-        if place in before.index:
-            old = before.loc[place]
-            if old["version"] == row["version"]:
-                row |= {"fixed": old["fixed"], "fixed_since": old["fixed_since"]}
-            else:
-                gone = sorted({*old["faults"].split(", ")} - {*row["faults"].split(", "), ""})
-                row |= {"fixed": ", ".join(gone), "fixed_since": old["version"] if gone else ""}
-                if gone:
-                    print(f"fixed in {row['library']} {row['version']}: {row['function']}: {row['fixed']}")
-        rows.append(row)
+    place_of = itemgetter("library", "function", "takes")
+    before = {place_of(row): row for row in earlier.to_dict("records")}
+    rows = new.to_dict("records")
+    for row in rows:
+        old = before.get(place_of(row), row)
+        if old["version"] == row["version"]:
+            row |= {"fixed": old["fixed"], "fixed_since": old["fixed_since"]}
+            continue
+        gone = sorted({*old["faults"].split(", ")} - {*row["faults"].split(", "), ""})
+        row |= {"fixed": ", ".join(gone), "fixed_since": old["version"] if gone else ""}
+        if gone:
+            print(f"fixed in {row['library']} {row['version']}: {row['function']}: {row['fixed']}")
     return pd.DataFrame(rows)
 
 

@@ -10,6 +10,7 @@ carried on continuously, as an encoder or an integrator does, so that a function
 with which the episode began.
 """
 
+import functools
 import math
 from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
@@ -91,50 +92,46 @@ def starts(angle_deg: float) -> Iterator[tuple]:
 
 
 @quiet
-def rows_of(function: Function) -> list[dict[str, Any]]:
-    """Return a function's rows: an angle and sheet each."""
-    gains, rows = PAPERS_GAINS, []
+def rows_of(one: Function | Controller) -> list[dict[str, Any]]:
+    """Return the rows of an error as a law, or of a controller: one for each angle and sheet of its quaternion."""
+    signs, stiffness = {"near": 1.0}, math.nan
+    rows: list[dict[str, Any]] = []
+    motion: Callable[[Any], Iterator[tuple]]
+    if isinstance(one, Function):
+        motion, dt_s = functools.partial(accelerated, one, *PAPERS_GAINS, DT_S), DT_S
+        signs |= {"antipode": -1.0} if one.takes == QUATERNION else {}
+        stiffness = stiffness_ratio(one)
+    else:
+        motion, dt_s = one.motion, one.dt_s
     for angle_deg in (*ANGLES_DEG, 180.0):
-        for sheet in (1.0, -1.0) if function.takes == QUATERNION else (1.0,):
-            begun = [tuple(sheet * part for part in one) for one in starts(angle_deg)]
-            found = [response(accelerated(function, gains.kp, gains.kv, DT_S, one), DT_S) for one in begun]
-            sheet_name = "antipode" if sheet < 0.0 else "near"
-            rows.append(_row(angle_deg, sheet_name, found) | {"stiffness_ratio": stiffness_ratio(function)})
+        pull = pull_ratio(one, angle_deg)
+        for sheet, sign in signs.items():
+            begun = [tuple(sign * part for part in start) for start in starts(angle_deg)]
+            found = [response(motion(start), dt_s) for start in begun]
+            times = [each.settling_s for each in found if each.outcome == "settled"]
+            outcomes = [each.outcome for each in found]
+            rows.append(
+                {
+                    "angle_deg": angle_deg,
+                    "sheet": sheet,
+                    "starts": len(found),
+                    **{word: outcomes.count(word) for word in OUTCOMES},
+                    "away": sum(each.goes_away for each in found),
+                    "fastest_s": min(times, default=math.nan),
+                    "slowest_s": max(times, default=math.nan),
+                    "stiffness_ratio": stiffness,
+                    "pull_ratio": pull,
+                }
+            )
     return rows
 
 
-@quiet
-def rows_of_controller(controller: Controller) -> list[dict[str, Any]]:
-    """Return a controller's rows, an angle each."""
-    rows = []
-    for angle_deg in (*ANGLES_DEG, 180.0):
-        found = [response(controller.motion(one), controller.dt_s) for one in starts(angle_deg)]
-        rows.append(_row(angle_deg, "near", found) | {"pull_ratio": pull_ratio(controller, angle_deg)})
-    return rows
-
-
-def pull_ratio(controller: Controller, angle_deg: float) -> float:
+def pull_ratio(one: Function | Controller, angle_deg: float) -> float:
     """Return the acceleration from rest at an angle over its slope at the smallest; NaN where it is not asked for."""
-    if controller.pull is None:
+    if isinstance(one, Function) or one.pull is None:
         return math.nan
-    at, near = (controller.pull(next(starts(angle))) for angle in (angle_deg, min(ANGLES_DEG)))
+    at, near = (one.pull(next(starts(angle))) for angle in (angle_deg, min(ANGLES_DEG)))
     return math.hypot(*at) / math.hypot(*near) * math.radians(min(ANGLES_DEG))
-
-
-def _row(angle_deg: float, sheet: str, found: list[Response]) -> dict[str, Any]:
-    times = [one.settling_s for one in found if one.outcome == "settled"]
-    outcomes = [one.outcome for one in found]
-    return {
-        "angle_deg": angle_deg,
-        "sheet": sheet,
-        "starts": len(found),
-        **{word: outcomes.count(word) for word in OUTCOMES},
-        "away": sum(one.goes_away for one in found),
-        "fastest_s": min(times, default=math.nan),
-        "slowest_s": max(times, default=math.nan),
-        "stiffness_ratio": math.nan,
-        "pull_ratio": math.nan,
-    }
 
 
 def stiffness_ratio(function: Function) -> float:

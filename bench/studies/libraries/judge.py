@@ -7,7 +7,7 @@ stand for a rotation: (w, x, y, z) with w >= 0 is judged, and its negative compa
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -40,11 +40,6 @@ class Form(NamedTuple):
     matrix: Callable | None = None
 
 
-def _z_y_x(e: np.ndarray) -> np.ndarray:
-    """R_z(e_z) R_y(e_y) R_x(e_x) (Murphy 1988, 2.4)."""
-    return np.transpose(to_matrix(e[::-1]))
-
-
 ANGLES_OF = {
     "rotation-vector": lambda length: (length,),
     "sine-of-half": lambda length: (2.0 * math.asin(min(1.0, 0.5 * length)),),
@@ -52,18 +47,9 @@ ANGLES_OF = {
     "mrp": lambda length: (4.0 * math.atan(0.25 * length),),
 }
 FORMS = {name: Form(*SIZED[name], angles) for name, angles in ANGLES_OF.items()} | {
-    "z-y-x": Form("Z-Y-X angles", matrix=_z_y_x)
+    "z-y-x": Form("Z-Y-X angles", matrix=lambda e: np.transpose(to_matrix(e[::-1])))
 }
-
-
-class Answer(NamedTuple):
-    """What came of one turn; lengths in rad, NaN where there is no number."""
-
-    kind: str
-    error_rad: float = math.nan
-    form_error_rad: float = math.nan
-    turn_error_rad: float = math.nan
-    size_rad: float = math.nan
+"""Z-Y-X angles stand for R_z(e_z) R_y(e_y) R_x(e_x) (Murphy 1988, 2.4)."""
 
 
 @quiet
@@ -75,17 +61,14 @@ def judge(function: Function, turns: TurnSet, tolerance: float = COUNT_RAD) -> d
     the largest and the smallest answer. An answer whose turn is right to the tolerance [rad] is usable.
     """
     is_half_turn = turns.distance_rad == 0.0
-    answers = [ask(function, one, is_half_turn, tolerance) for one in turns.turns]
-    kinds = [answer.kind for answer in answers]
+    kinds, numbers = zip(*(ask(function, one, is_half_turn, tolerance) for one in turns.turns), strict=True)
+    columns = "error_rad", "form_error_rad", "turn_error_rad", "largest_rad"
     return {
-        "turns": len(answers),
+        "turns": len(kinds),
         **{kind.replace("-", "_"): kinds.count(kind) for kind in KINDS},
         "other_sheet": sum(is_other_sheet(function, one, is_half_turn, tolerance) for one in turns.turns),
-        "error_rad": largest(answer.error_rad for answer in answers),
-        "form_error_rad": largest(answer.form_error_rad for answer in answers),
-        "turn_error_rad": largest(answer.turn_error_rad for answer in answers),
-        "largest_rad": largest(answer.size_rad for answer in answers),
-        "smallest_rad": -largest(-answer.size_rad for answer in answers),
+        **dict(zip(columns, np.fmax.reduce(numbers), strict=True)),
+        "smallest_rad": np.fmin.reduce(numbers)[-1],
     }
 
 
@@ -93,14 +76,14 @@ KINDS = ("raised", "not-finite", "nought", "long-way", "astray")
 """How an answer can fail to point along the axis of the shorter rotation; else it is `usable`."""
 
 
-def ask(function: Function, turn: Turn, is_half_turn: bool, tolerance: float) -> Answer:
-    """Return what a function says of one turn."""
+def ask(function: Function, turn: Turn, is_half_turn: bool, tolerance: float) -> tuple[str, tuple[float, ...]]:
+    """Return of one turn `usable` or a word of KINDS; the three errors and the length of the answer [rad], or NaN."""
     try:
         e = said(function, turn)
     except Exception:  # whatever a library raises is its answer
-        return Answer("raised")
+        return "raised", (math.nan,) * 4
     if not np.isfinite(e).all():
-        return Answer("not-finite")
+        return "not-finite", (math.nan,) * 4
     form, size = FORMS[function.form], float(np.linalg.norm(e))
     axis = -turn.axis if is_half_turn and e @ turn.axis < 0.0 else turn.axis
     apart = math.atan2(float(np.linalg.norm(np.cross(axis, e))), float(axis @ e))
@@ -115,7 +98,7 @@ def ask(function: Function, turn: Turn, is_half_turn: bool, tolerance: float) ->
         kind = "astray"
     else:
         kind = "usable"
-    return Answer(kind, gap(e, turn.angle * axis), form_error(form, e, turn, axis), off, size)
+    return kind, (gap(e, turn.angle * axis), form_error(form, e, turn, axis), off, size)
 
 
 def said(function: Function, turn: Turn, sign: float = 1.0) -> np.ndarray:
@@ -167,8 +150,3 @@ def is_other_sheet(function: Function, turn: Turn, is_half_turn: bool, tolerance
 def gap(one: np.ndarray, other: np.ndarray) -> float:
     """|one - other|."""
     return float(np.linalg.norm(one - other))
-
-
-def largest(numbers: Iterable[float]) -> float:
-    """Return the largest that is a number; NaN if none is."""
-    return max((number for number in numbers if not math.isnan(number)), default=math.nan)

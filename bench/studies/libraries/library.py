@@ -7,7 +7,7 @@ the same, exactly, and the base and the body frame agree on its axis.
 import functools
 import warnings
 from collections.abc import Callable, Iterator
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -80,6 +80,28 @@ class Library(NamedTuple):
     note: str = ""
 
 
+Tested: TypeAlias = Function | Controller
+
+
+def library(package: str, name: str = "", **facts: Any) -> Callable[[Callable], Callable[[], list[Library]]]:
+    """Make a function that yields what is tested of a package into one that returns its Library, alone in a list.
+
+    Args:
+        name: of the library, if it is not that of the function. facts: other fields of Library.
+    """
+
+    def decorate(tested: Callable[[], Iterator[Tested]]) -> Callable[[], list[Library]]:
+        def asked() -> list[Library]:
+            found = [*tested()]
+            functions = tuple(one for one in found if isinstance(one, Function))
+            controllers = tuple(one for one in found if isinstance(one, Controller))
+            return [Library(name or tested.__name__, package, functions, controllers, **facts)]
+
+        return asked
+
+    return decorate
+
+
 def answer(function: Function, value: np.ndarray) -> np.ndarray:
     """Return the three numbers."""
     return np.asarray(function.call(value), dtype=float).reshape(3)
@@ -90,8 +112,7 @@ def quiet(asking: Callable) -> Callable:
 
     @functools.wraps(asking)
     def called(*given: Any) -> Any:
-        with warnings.catch_warnings(), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(action="ignore"), np.errstate(all="ignore"):
             return asking(*given)
 
     return called

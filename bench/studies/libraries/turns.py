@@ -5,6 +5,7 @@ rotations have w = 0 and an exactly symmetric matrix. Near 180° the distance fr
 angle: sin(distance/2) = w keeps all its digits.
 """
 
+import itertools
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
@@ -61,10 +62,9 @@ def about(axis: Sequence[Any], half_cosine: Any, half_sine: Any) -> Turn:
 
 def axes() -> list[tuple[int, int, int]]:
     """Return the 26 to the faces, edges and corners of a cube, in exact integers, and some drawn."""
-    steps = (-1, 0, 1)
-    cube = [(x, y, z) for x in steps for y in steps for z in steps if (x, y, z) != (0, 0, 0)]
+    cube = filter(any, itertools.product((-1, 0, 1), repeat=3))
     drawn = np.random.default_rng(1).normal(scale=1000.0, size=(DRAWN_AXES, 3)).astype(int).tolist()
-    return cube + [(x, y, z) for x, y, z in drawn]
+    return [(x, y, z) for x, y, z in (*cube, *drawn)]
 
 
 def small(decade: int) -> TurnSet:

@@ -7,7 +7,6 @@ everywhere, with all its digits; at 180° either of the two directions. They are
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,15 +16,7 @@ from bench.audit.convention import FORMS
 from bench.studies.libraries.library import MATRIX, QUATERNION, Function, answer, quiet
 
 if TYPE_CHECKING:
-    from bench.audit.convention import Convention
     from bench.audit.report import Report
-
-
-def of_pair(function: Function) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
-    """f(R, R_d) or f(q, q_d), (w, x, y, z): the function asked for what is left to go, R_d R^T, in base coordinates."""
-    if function.takes == MATRIX:
-        return lambda R, R_d: answer(function, R_d @ R.T)
-    return lambda q, q_d: answer(function, left_to_go(q, q_d))
 
 
 def left_to_go(q: np.ndarray, q_d: np.ndarray) -> np.ndarray:
@@ -36,23 +27,22 @@ def left_to_go(q: np.ndarray, q_d: np.ndarray) -> np.ndarray:
 
 @quiet
 def report(function: Function) -> Report:
-    """Return the audit's."""
-    return audit(of_pair(function), "matrix" if function.takes == MATRIX else "wxyz", name=function.name)
-
-
-def said(convention: Convention) -> str:
-    """Form, frame, direction and slope, short."""
-    form = FORMS[convention.form].title if convention.form else "a size of its own"
-    return f"{form}, {convention.frame}, {convention.sign}, slope {convention.slope:.4g}"
+    """Return the audit of a function that is asked for what is left to go, R_d R^T, in base coordinates."""
+    if function.takes == MATRIX:
+        return audit(lambda R, R_d: answer(function, R_d @ R.T), "matrix", name=function.name)
+    return audit(lambda q, q_d: answer(function, left_to_go(q, q_d)), "wxyz", name=function.name)
 
 
 def verdict(function: Function) -> dict[str, str]:
     """Convention, faults and replacement of a function, as columns of verdicts.parquet."""
-    found = report(function)
+    found, convention = report(function), ""
+    if one := found.convention:
+        form = FORMS[one.form].title if one.form else "a size of its own"
+        convention = f"{form}, {one.frame}, {one.sign}, slope {one.slope:.4g}"
     name, faults = smallest_fix(function) if found.faults else ("", ())
     return {
         "takes": function.takes,
-        "convention": said(found.convention) if found.convention else "",
+        "convention": convention,
         "faults": ", ".join(found.faults),
         "replacement": name,
         "replacement_faults": ", ".join(faults),

@@ -66,18 +66,13 @@ def filled(one: Law, template: str, folder: Path) -> str:
         raise FileNotFoundError(f"no copy of {repository} in the folder")
 
     def lines(mark: re.Match) -> str:
-        own = text_of(copies[0], revision, mark["file"]).splitlines()[int(mark["first"]) - 1 : int(mark["last"])]
+        command = ["git", "-C", str(copies[0]), "show", f"{revision}:{mark['file']}"]
+        shown = subprocess.run(command, capture_output=True, text=True, check=False)
+        text = (copies[0] / mark["file"]).read_text() if shown.returncode else shown.stdout  # a release has no history
+        own = text.splitlines()[int(mark["first"]) - 1 : int(mark["last"])]
         return textwrap.indent(textwrap.dedent("\n".join(own)), mark["indent"])
 
     return MARK.sub(lines, template)
-
-
-def text_of(copy: Path, revision: str, file: str) -> str:
-    """Return a file of a repository at a commit; of a folder without history the file that is there."""
-    shown = subprocess.run(
-        ["git", "-C", copy, "show", f"{revision}:{file}"], capture_output=True, text=True, check=False
-    )
-    return shown.stdout if shown.returncode == 0 else (copy / file).read_text()
 
 
 def built(source: Path, code: str, options: list[str]) -> Errors:
@@ -85,12 +80,19 @@ def built(source: Path, code: str, options: list[str]) -> Errors:
     with tempfile.TemporaryDirectory(prefix="orientation-bench-") as name:
         made = Path(name) / f"{source.stem}{'.cpp' if source.suffix == '.cpp' else '.py'}"
         made.write_text(code)
-        if source.suffix == ".cpp":
-            library = made.with_suffix(".so")
-            subprocess.run([*COMPILE, *options, made, "-o", library, "-lorocos-kdl"], check=True)
-            return in_cpp(ctypes.CDLL(str(library)).all_errors)
-        error = runpy.run_path(str(made))["error"]
-        return lambda both: np.array([error(one[:4], one[4:]) for one in both])
+        if source.suffix != ".cpp":
+            error = runpy.run_path(str(made))["error"]
+            return lambda both: np.array([error(one[:4], one[4:]) for one in both])
+        library = made.with_suffix(".so")
+        subprocess.run([*COMPILE, *options, made, "-o", library, "-lorocos-kdl"], check=True)
+        function = ctypes.CDLL(str(library)).all_errors
+
+    def errors(both: np.ndarray) -> np.ndarray:
+        found = np.full((len(both), 3), np.nan)
+        function(ctypes.c_int(len(both)), np.ascontiguousarray(both).ctypes, found.ctypes)
+        return found
+
+    return errors
 
 
 def turns_of(both: np.ndarray) -> Rotation:
@@ -102,17 +104,6 @@ def turns_of(both: np.ndarray) -> Rotation:
 def errors_of(one: Law, turns: Rotation) -> np.ndarray:
     """Return the errors of our kernel, n x 3."""
     return np.array([one.shipped.error(tuple(q)) for q in turns.as_quat(canonical=True, scalar_first=True).tolist()])
-
-
-def in_cpp(function: Callable) -> Errors:
-    """Return a compiled function of all pairs as one of arrays."""
-
-    def errors(both: np.ndarray) -> np.ndarray:
-        found = np.full((len(both), 3), np.nan)
-        function(ctypes.c_int(len(both)), np.ascontiguousarray(both).ctypes, found.ctypes)
-        return found
-
-    return errors
 
 
 def compare(one: Law, source: Path, folder: Path, options: list[str]) -> dict:

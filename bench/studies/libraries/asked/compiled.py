@@ -5,60 +5,53 @@ import functools
 import shutil
 import subprocess
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 
-from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library, vector_part
+from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Tested, library, vector_part
 
 SOURCES = Path(__file__).parent / "cpp"
 NUMBERS = ctypes.POINTER(ctypes.c_double)
 OF_KDL = ("kdl", "-I/usr/include/eigen3", "-lorocos-kdl")
 
 
-def eigen() -> list[Library]:
-    """Return Eigen's angle times axis, a vector part and its Euler angles."""
+@library("libeigen3-dev", is_debian=True)
+def eigen() -> Iterator[Tested]:
+    """Yield Eigen's angle times axis, a vector part and its Euler angles."""
     made = compiled("eigen", "-I/usr/include/eigen3")
-    functions = (
-        Function("AngleAxisd, of a matrix", MATRIX, made("angle_axis_of_matrix")),
-        Function("AngleAxisd, of a quaternion", QUATERNION, made("angle_axis_of_quaternion")),
-        vector_part("Quaterniond", made("vector_part_of_matrix"), "`AngleAxisd`"),
-        Function("eulerAngles(2, 1, 0)", MATRIX, made("euler_angles"), "z-y-x"),
-    )
-    return [Library("eigen", "libeigen3-dev", functions, is_debian=True)]
+    yield Function("AngleAxisd, of a matrix", MATRIX, made("angle_axis_of_matrix"))
+    yield Function("AngleAxisd, of a quaternion", QUATERNION, made("angle_axis_of_quaternion"))
+    yield vector_part("Quaterniond", made("vector_part_of_matrix"), "`AngleAxisd`")
+    yield Function("eulerAngles(2, 1, 0)", MATRIX, made("euler_angles"), "z-y-x")
 
 
-def kdl() -> list[Library]:
-    """Return the rotation vectors of KDL's Rotation, its difference, a vector part and its angles."""
+@library("liborocos-kdl-dev", is_debian=True)
+def kdl() -> Iterator[Tested]:
+    """Yield the rotation vectors of KDL's Rotation, its difference, a vector part and its angles."""
     made = compiled(*OF_KDL)
     thread = "orocos/orocos_kinematics_dynamics#352"
-    functions = (
-        Function("Rotation::GetRot", MATRIX, made("get_rot"), thread=thread),
-        Function("Rotation::GetRotAngle", MATRIX, made("get_rot_angle"), thread=thread),
-        Function("diff", MATRIX, made("diff"), thread=thread),
-        Function("Rotation::Quaternion, GetRot", QUATERNION, made("of_quaternion"), thread=thread),
-        vector_part("GetQuaternion", made("get_quaternion"), "`-q` where w < 0"),
-        Function("Rotation::GetRPY", MATRIX, made("get_rpy"), "z-y-x"),
-    )
-    return [Library("kdl", "liborocos-kdl-dev", functions, is_debian=True)]
+    yield Function("Rotation::GetRot", MATRIX, made("get_rot"), thread=thread)
+    yield Function("Rotation::GetRotAngle", MATRIX, made("get_rot_angle"), thread=thread)
+    yield Function("diff", MATRIX, made("diff"), thread=thread)
+    yield Function("Rotation::Quaternion, GetRot", QUATERNION, made("of_quaternion"), thread=thread)
+    yield vector_part("GetQuaternion", made("get_quaternion"), "`-q` where w < 0")
+    yield Function("Rotation::GetRPY", MATRIX, made("get_rpy"), "z-y-x")
 
 
-def tf2() -> list[Library]:
-    """Return what users of tf2 multiply for a rotation vector, and its angles."""
+@library("libtf2-dev", is_debian=True, note="Debian's package, which is that of ROS 1")
+def tf2() -> Iterator[Tested]:
+    """Yield what users of tf2 multiply for a rotation vector, and its angles."""
     made = compiled("tf2", "-I/usr/include/console_bridge")
 
     def idiom(name: str, takes: str, word: str) -> Function:
         return Function(name, takes, made(word), kind="idiom", fix="`-q` where `q.w() < 0`, before it")
 
-    functions = (
-        idiom("Quaternion: getAngle * getAxis", QUATERNION, "angle_axis"),
-        idiom("Quaternion: getAngleShortestPath * getAxis", QUATERNION, "shortest_path"),
-        idiom("Matrix3x3::getRotation: getAngle * getAxis", MATRIX, "angle_axis_of_matrix"),
-        Function("Matrix3x3::getRPY", MATRIX, made("get_rpy"), "z-y-x", thread="ros/geometry2#504"),
-    )
-    note = "Debian's package, which is that of ROS 1"
-    return [Library("tf2", "libtf2-dev", functions, is_debian=True, note=note)]
+    yield idiom("Quaternion: getAngle * getAxis", QUATERNION, "angle_axis")
+    yield idiom("Quaternion: getAngleShortestPath * getAxis", QUATERNION, "shortest_path")
+    yield idiom("Matrix3x3::getRotation: getAngle * getAxis", MATRIX, "angle_axis_of_matrix")
+    yield Function("Matrix3x3::getRPY", MATRIX, made("get_rpy"), "z-y-x", thread="ros/geometry2#504")
 
 
 @functools.cache

@@ -1,4 +1,7 @@
-"""Libraries of kinematics and control: their errors, and their controllers as their users run them."""
+"""Libraries of kinematics and control: their errors, and their controllers as their users run them.
+
+The requirements of PlaCo and of robosuite contradict those of the others; either runs in an environment of its own.
+"""
 
 import json
 import math
@@ -10,14 +13,15 @@ from pathlib import Path
 import numpy as np
 
 from bench.studies.libraries.closed_loop import accelerated, conjugate, driven
-from bench.studies.libraries.library import MATRIX, QUATERNION, Controller, Function, Library, vector_part
+from bench.studies.libraries.library import MATRIX, QUATERNION, Controller, Function, Tested, library, vector_part
 
 LINK = """<robot name="body"><link name="body"><inertial><mass value="1"/>
 <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link></robot>"""
 
 
-def drake() -> list[Library]:
-    """Return pydrake.math, its binding of Eigen's AngleAxis, and DoDifferentialInverseKinematics of a floating body.
+@library("drake")
+def drake() -> Iterator[Tested]:
+    """Yield pydrake.math, its binding of Eigen's AngleAxis, and DoDifferentialInverseKinematics of a floating body.
 
     Its inverse dynamics controller knows joints alone, and so no orientation error.
     """
@@ -49,19 +53,17 @@ def drake() -> list[Library]:
         return Quaternion(q / np.linalg.norm(q))
 
     of_matrix = Function("RotationMatrix.ToAngleAxis", MATRIX, lambda R: vector(RotationMatrix(R).ToAngleAxis()))
-    functions = (
-        of_matrix,
-        Function("AngleAxis, of a quaternion", QUATERNION, lambda q: vector(AngleAxis(unit(q)))),
-        vector_part("RotationMatrix.ToQuaternion", lambda R: 2.0 * RotationMatrix(R).ToQuaternion().xyz()),
-        Function("RollPitchYaw", MATRIX, lambda R: RollPitchYaw(RotationMatrix(R)).vector(), "z-y-x"),
-    )
+    yield of_matrix
+    yield Function("AngleAxis, of a quaternion", QUATERNION, lambda q: vector(AngleAxis(unit(q))))
+    yield vector_part("RotationMatrix.ToQuaternion", lambda R: 2.0 * RotationMatrix(R).ToQuaternion().xyz())
+    yield Function("RollPitchYaw", MATRIX, lambda R: RollPitchYaw(RotationMatrix(R)).vector(), "z-y-x")
     title, motion = "time step 10 ms, no limits", partial(driven, solved, dt_s)
-    loop = Controller("DoDifferentialInverseKinematics", of_matrix.name, "velocity", title, dt_s, motion)
-    return [Library("drake", "drake", functions, (loop,))]
+    yield Controller("DoDifferentialInverseKinematics", of_matrix.name, "velocity", title, dt_s, motion)
 
 
-def pink() -> list[Library]:
-    """Return the error of Pink's FrameTask, on Pinocchio's logarithm of a pose, and its solve_ik."""
+@library("pin-pink")
+def pink() -> Iterator[Tested]:
+    """Yield the error of Pink's FrameTask, on Pinocchio's logarithm of a pose, and its solve_ik."""
     import pink
     import pinocchio
 
@@ -87,15 +89,13 @@ def pink() -> list[Library]:
             configuration.integrate_inplace(velocity, dt_s)
 
     name, title = "FrameTask.compute_error", "gain 1, lm_damping 1, 200 Hz"
-    loop = Controller("solve_ik, FrameTask", name, "velocity", title, dt_s, solved)
-    return [Library("pink", "pin-pink", (Function(name, MATRIX, error),), (loop,))]
+    yield Function(name, MATRIX, error)
+    yield Controller("solve_ik, FrameTask", name, "velocity", title, dt_s, solved)
 
 
-def placo() -> list[Library]:
-    """Return the error of PlaCo's OrientationTask, and its kinematics solver as its users run it.
-
-    Its requirements contradict those of the other libraries, so it runs in an environment of its own.
-    """
+@library("placo")
+def placo() -> Iterator[Tested]:
+    """Yield the error of PlaCo's OrientationTask, and its kinematics solver as its users run it."""
     import placo
     from pinocchio import Quaternion
 
@@ -128,38 +128,38 @@ def placo() -> list[Library]:
             robot.update_kinematics()
 
     name, title = "OrientationTask", "solve(True), weight 1"
-    loop = Controller("KinematicsSolver, OrientationTask", name, "velocity", title, 0.01, solved)
-    return [Library("placo", "placo", (Function(name, MATRIX, error),), (loop,))]
+    yield Function(name, MATRIX, error)
+    yield Controller("KinematicsSolver, OrientationTask", name, "velocity", title, 0.01, solved)
 
 
-def roboticstoolbox() -> list[Library]:
-    """Return what the servo and the inverse kinematics of Robotics Toolbox for Python take for the error."""
+@library("roboticstoolbox-python")
+def roboticstoolbox() -> Iterator[Tested]:
+    """Yield what the servo and the inverse kinematics of Robotics Toolbox for Python take for the error."""
     import roboticstoolbox
     from spatialmath import base
 
     dt_s, servo = 0.05, roboticstoolbox.p_servo
 
-    def of_servo(name: str, method: str, form: str) -> tuple[Function, Controller]:
+    def of_servo(name: str, method: str, form: str) -> Iterator[Tested]:
         def error(R: np.ndarray) -> np.ndarray:
             return servo(np.eye(4), base.r2t(R), method=method)[0][3:]
 
         def velocity(T: np.ndarray) -> np.ndarray:  # p_servo gives it in the frame of the tool
             return T.T @ servo(base.r2t(T.T), np.eye(4), gain=1.0, method=method)[0][3:]
 
-        loop = Controller(name, name, "velocity", "gain 1, 20 Hz", dt_s, partial(driven, velocity, dt_s))
-        return Function(name, MATRIX, error, form), loop
+        yield Function(name, MATRIX, error, form)
+        yield Controller(name, name, "velocity", "gain 1, 20 Hz", dt_s, partial(driven, velocity, dt_s))
 
-    vector, loop = of_servo('p_servo(method="angle-axis")', "angle-axis", "rotation-vector")
-    angles, other = of_servo("p_servo, by default", "rpy", "z-y-x")
-    own = Function("angle_axis", MATRIX, lambda R: roboticstoolbox.angle_axis(np.eye(4), base.r2t(R))[3:])
-    return [Library("roboticstoolbox", "roboticstoolbox-python", (own, vector, angles), (loop, other))]
+    yield Function("angle_axis", MATRIX, lambda R: roboticstoolbox.angle_axis(np.eye(4), base.r2t(R))[3:])
+    yield from of_servo('p_servo(method="angle-axis")', "angle-axis", "rotation-vector")
+    yield from of_servo("p_servo, by default", "rpy", "z-y-x")
 
 
-def robosuite() -> list[Library]:
-    """Return the error of robosuite's operational-space controller, in our loop with the gains of OSC_POSE.
+@library("robosuite")
+def robosuite() -> Iterator[Tested]:
+    """Yield the error of robosuite's operational-space controller, in our loop with the gains of OSC_POSE.
 
-    As delivered they are kp 150, damping_ratio 1, and control at the simulation's 500 Hz. Its requirements contradict
-    those of the other libraries, so it runs in an environment of its own.
+    As delivered they are kp 150, damping_ratio 1, and control at the simulation's 500 Hz.
     """
     import robosuite
     from robosuite.utils import transform_utils
@@ -173,12 +173,9 @@ def robosuite() -> list[Library]:
     delta = arm["output_max"][3]  # rad, the largest about each axis in one command
     to_vector = transform_utils.quat2axisangle  # takes (x, y, z, w)
     error = Function("orientation_error", MATRIX, lambda R: orientation_error(R, np.eye(3)), "sine")
-    functions = (
-        error,
-        Function("quat2axisangle", QUATERNION, lambda q: to_vector(q[[1, 2, 3, 0]])),
-        Function("mat2quat, quat2axisangle", MATRIX, lambda R: to_vector(transform_utils.mat2quat(R))),
-    )
+    yield error
+    yield Function("quat2axisangle", QUATERNION, lambda q: to_vector(q[[1, 2, 3, 0]]))
+    yield Function("mat2quat, quat2axisangle", MATRIX, lambda R: to_vector(transform_utils.mat2quat(R)))
     title = f"kp 150, damping ratio 1, 500 Hz; input as delivered: a delta of at most {delta:g} rad"
     motion, name = partial(accelerated, error, kp, kv, dt_s), "OSC_POSE, rotation decoupled"
-    loop = Controller(name, error.name, "acceleration", title, dt_s, motion, is_our_loop=True)
-    return [Library("robosuite", "robosuite", functions, (loop,))]
+    yield Controller(name, error.name, "acceleration", title, dt_s, motion, is_our_loop=True)

@@ -1,12 +1,11 @@
 """The laws of this benchmark, and errors of controllers that are restated here."""
 
-import functools
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 
-from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library
+from bench.studies.libraries.library import MATRIX, QUATERNION, Function, Library, Tested, library
 
 RESTATED = {
     "franka_ros": "franka-ros",
@@ -19,27 +18,23 @@ RESTATED = {
 """Name in the tables -> word of bench/law/contenders/shipped."""
 
 
-def orientation_bench() -> list[Library]:
-    """Return laws on R of this benchmark at rest, with kp = 1 and so the error itself."""
+@library("orientation-bench", name="orientation-bench")
+def orientation_bench() -> Iterator[Tested]:
+    """Yield laws on R of this benchmark at rest, with kp = 1 and so the error itself."""
     from bench.law.contenders.registry import find_contender
     from bench.law.inputs import AT_REST, Gains, Goal
     from bench.law.so3 import IDENTITY, Rotation
 
-    def law(word: str, form: str) -> Function:
-        one, gains = find_contender(word), Gains(kp=1.0, kv=0.0)
-
-        def error(R: np.ndarray) -> np.ndarray:
-            return np.array(one.law(IDENTITY, AT_REST, Goal(Rotation(*map(tuple, R.T))), gains))
-
-        return Function(word, MATRIX, error, form)
+    def error(law: Callable, R: np.ndarray) -> np.ndarray:
+        return np.array(law(IDENTITY, AT_REST, Goal(Rotation(*map(tuple, R.T))), Gains(kp=1.0, kv=0.0)))
 
     forms = {
         "rotation-vector": "rotation-vector",
         **dict.fromkeys(("square-root", "quaternion-shortest"), "sine-of-half"),
         **{"mrp": "mrp", "rotation-matrix": "sine"},
     }
-    functions = tuple(law(word, form) for word, form in forms.items())
-    return [Library("orientation-bench", "orientation-bench", functions)]
+    for word, form in forms.items():
+        yield Function(word, MATRIX, partial(error, find_contender(word).law), form)
 
 
 def shipped() -> list[Library]:
@@ -50,15 +45,10 @@ def shipped() -> list[Library]:
     """
     from bench.law.contenders.registry import contenders
 
-    found = []
-    for name, word in RESTATED.items():
+    def restate(name: str, word: str) -> Library:
         one = contenders("shipped")[word]
         repository, _, revision = one.source.partition("@")
-        function = Function("orientation error", QUATERNION, functools.partial(_restated, one.shipped.error))
-        found.append(Library(name, f"{repository}@{revision[:8]}", (function,), is_restated=True))
-    return found
+        function = Function("orientation error", QUATERNION, lambda q: one.shipped.error(tuple(q.tolist())))
+        return Library(name, f"{repository}@{revision[:8]}", (function,), is_restated=True)
 
-
-def _restated(error: Callable, quat_wxyz: np.ndarray) -> Any:
-    """Return what an error on a tuple of floats says of a quaternion."""
-    return error(tuple(quat_wxyz.tolist()))
+    return [restate(*words) for words in RESTATED.items()]

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from bench.studies.libraries.closed_loop import conjugate
-from bench.studies.libraries.library import MATRIX, QUATERNION, Controller, Function, Library, vector_part
+from bench.studies.libraries.library import MATRIX, QUATERNION, Controller, Function, Tested, library, vector_part
 
 BALL = """
 <body name="body"><joint type="ball"/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/><site name="body"/></body>
@@ -44,8 +44,9 @@ def place_body(name: str, q: Any) -> Any:
     return data
 
 
-def mujoco() -> list[Library]:
-    """Return MuJoCo's functions on quaternions, its <orientation> actuator and its <weld>."""
+@library("mujoco")
+def mujoco() -> Iterator[Tested]:
+    """Yield MuJoCo's functions on quaternions, its <orientation> actuator and its <weld>."""
     import mujoco
 
     def stepped(name: str, q: np.ndarray) -> Iterator[tuple]:  # from rest until it neither moves nor accelerates
@@ -73,13 +74,11 @@ def mujoco() -> list[Library]:
 
     # minus the force of three actuators with kp = 1, in the frame of the body
     actuator = Function("<orientation> actuator", QUATERNION, lambda q: -place_body("actuated", q).qfrc_actuator)
-    functions = (
-        Function("mju_subQuat", QUATERNION, lambda q: filled(3, mujoco.mju_subQuat, q, identity)),
-        Function("mju_quat2Vel", QUATERNION, quat_to_vel),
-        Function("mju_mat2Quat, mju_quat2Vel", MATRIX, lambda R: quat_to_vel(mat_to_quat(R))),
-        vector_part("mju_mat2Quat", lambda R: 2.0 * mat_to_quat(R)[1:], "`mju_quat2Vel` of it"),
-        actuator,
-    )
+    yield Function("mju_subQuat", QUATERNION, lambda q: filled(3, mujoco.mju_subQuat, q, identity))
+    yield Function("mju_quat2Vel", QUATERNION, quat_to_vel)
+    yield Function("mju_mat2Quat, mju_quat2Vel", MATRIX, lambda R: quat_to_vel(mat_to_quat(R)))
+    yield vector_part("mju_mat2Quat", lambda R: 2.0 * mat_to_quat(R)[1:], "`mju_quat2Vel` of it")
+    yield actuator
 
     def numbers(values: Any) -> str:
         return " ".join(f"{value:g}" for value in values)
@@ -91,15 +90,13 @@ def mujoco() -> list[Library]:
     weld, _ = load_model("welded")
     title = f"solref {numbers(weld.eq_solref[0])}, solimp {numbers(weld.eq_solimp[0])}, "
     title += f"timestep {1e3 * weld.opt.timestep:g} ms"
-    controllers = (
-        stepping("held", "<orientation> actuators", actuator.name, "kp 100, kv 20, timestep 1 ms"),
-        stepping("welded", "<weld>, by default", "", title, pull=lambda q: place_body("welded", q).qacc.copy()),
-    )
-    return [Library("mujoco", "mujoco", functions, controllers)]
+    yield stepping("held", "<orientation> actuators", actuator.name, "kp 100, kv 20, timestep 1 ms")
+    yield stepping("welded", "<weld>, by default", "", title, pull=lambda q: place_body("welded", q).qacc.copy())
 
 
-def mink() -> list[Library]:
-    """Return mink's logarithm in Python, the one in C that its FrameTask takes where it is compiled, and solve_ik."""
+@library("mink")
+def mink() -> Iterator[Tested]:
+    """Yield mink's logarithm in Python, the one in C that its FrameTask takes where it is compiled, and solve_ik."""
     import mink
     from mink.lie import _lie_ops_c
 
@@ -126,25 +123,23 @@ def mink() -> list[Library]:
         return _lie_ops_c.se3_log(_lie_ops_c.xmat_xpos_to_wxyz_xyz(np.ravel(R), np.zeros(3)))[3:]
 
     own = Function("FrameTask.compute_error", QUATERNION, error)
-    functions = (
-        Function(
-            "SO3.log (Python)",
-            QUATERNION,
-            lambda q: mink.SO3(np.array(q)).log(),
-            fix="`np.copysign(1.0, q[0])` for `np.sign(q[0])`",
-            thread="kevinzakka/mink#82",
-        ),
-        Function("se3_log (compiled)", QUATERNION, lambda q: _lie_ops_c.se3_log(np.array((*q, 0.0, 0.0, 0.0)))[3:]),
-        Function("se3_log (compiled), of a matrix", MATRIX, log_of_matrix),
-        own,
+    yield Function(
+        "SO3.log (Python)",
+        QUATERNION,
+        lambda q: mink.SO3(np.array(q)).log(),
+        fix="`np.copysign(1.0, q[0])` for `np.sign(q[0])`",
+        thread="kevinzakka/mink#82",
     )
+    yield Function("se3_log (compiled)", QUATERNION, lambda q: _lie_ops_c.se3_log(np.array((*q, 0.0, 0.0, 0.0)))[3:])
+    yield Function("se3_log (compiled), of a matrix", MATRIX, log_of_matrix)
+    yield own
     title = "gain 1, lm_damping 1, damping 1e-3, 200 Hz"
-    loop = Controller("solve_ik, FrameTask", own.name, "velocity", title, dt_s, solved)
-    return [Library("mink", "mink", functions, (loop,))]
+    yield Controller("solve_ik, FrameTask", own.name, "velocity", title, dt_s, solved)
 
 
-def newton() -> list[Library]:
-    """Return the errors of Newton's controllers and inverse kinematics, and axis and angle of its Warp, on the CPU."""
+@library("newton", is_single=True)
+def newton() -> Iterator[Tested]:
+    """Yield the errors of Newton's controllers and inverse kinematics, and axis and angle of its Warp, on the CPU."""
     import newton
     import warp
     from newton._src.controllers.impl._common import _pose_error_kernel
@@ -193,12 +188,9 @@ def newton() -> list[Library]:
         return residuals.numpy()[0]
 
     by_matrix = "warp.quat_from_matrix, quat_to_axis_angle"
-    functions = (
-        Function("controllers: _pose_error_kernel", QUATERNION, pose_error),
-        Function("ik.IKObjectiveRotation, residual", QUATERNION, residual),
-        Function(
-            "warp.quat_to_axis_angle", QUATERNION, lambda q: launched(axis_angle, [on_cpu([q[order]], warp.quat)])
-        ),
-        Function(by_matrix, MATRIX, lambda R: launched(of_matrix, [on_cpu([R], warp.mat33)])),
+    yield Function("controllers: _pose_error_kernel", QUATERNION, pose_error)
+    yield Function("ik.IKObjectiveRotation, residual", QUATERNION, residual)
+    yield Function(
+        "warp.quat_to_axis_angle", QUATERNION, lambda q: launched(axis_angle, [on_cpu([q[order]], warp.quat)])
     )
-    return [Library("newton", "newton", functions, is_single=True)]
+    yield Function(by_matrix, MATRIX, lambda R: launched(of_matrix, [on_cpu([R], warp.mat33)]))
