@@ -12,10 +12,9 @@ reference_kernel   what a ratio is to
 law                a law alone, one command waiting for the other
 benchmark, benchmarks      all that is timed, engines included
 on_arms            the same of every arm: each controller of the default suite
-session            the samples, as pytest-benchmark runs them
 ratios             medians over passes, with intervals
 apart              the same beside a user's laws, in a process of its own
-rows               from seconds to results/timings/<machine>.parquet, and tables for the eye
+rows               samples, from seconds to results/timings/<machine>.parquet, and tables for the eye
 """
 
 from bench.running.timing.apart import run_apart

@@ -1,9 +1,16 @@
-"""From seconds to rows, results/timings/<machine>.parquet, and to tables for the eye: a line a law or controller."""
+"""The interleaved run, its rows in results/timings/<machine>.parquet, and tables with a line a law or controller.
+
+CPU time of the measuring thread is taken (time.thread_time), not the clock on the wall: on a shared machine that
+leaves out the time in which others ran, and a progress bar's thread. No benchmark uses a second thread. A sample is two
+rounds on end and counts with the fastest, for a disturbance only ever adds; the first also warms the caches.
+"""
 
 import functools
 import json
 import math
+import random
 import time
+import timeit
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -16,11 +23,12 @@ from bench.experiments.tables import store
 from bench.experiments.tables.read import with_contender
 from bench.law.contender import Contender
 from bench.running.timing.benchmark import KERNEL, Benchmark
-from bench.running.timing.benchmarks import benchmarks
+from bench.running.timing.benchmarks import Progress, benchmarks
 from bench.running.timing.ratios import ratio
-from bench.running.timing.session import measure
 
 NOT_TIMED, EMPTY = "fails", "(empty loop)"
+
+ROUNDS = 2
 
 PASSES, QUICK_PASSES = 31, 7
 """Odd, so that the median is a value. The interval covers the 10th to 22nd of 31, and all 7."""
@@ -42,12 +50,28 @@ def run(
         BadLaw: a user's law that cannot be compiled. BadResults: the folder cannot be written.
     """
     measured = benchmarks(contenders, report, arms)
-    seconds = measure(measured, QUICK_PASSES if quick else PASSES, report=report)
+    seconds = measure(measured, QUICK_PASSES if quick else PASSES, report)
     rows = frame(measured, seconds)
     path = Path(folder) / f"{machine_key()}.parquet"
     about = {**describe(), "date": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()), "quick": quick}
     store.write_table(path, rows, "timings", about)
     return path
+
+
+def order(count: int, passes: int, seed: int = 0) -> list[list[int]]:
+    """Return a new shuffle of 0..count-1 for every pass."""
+    shuffled = random.Random(seed)
+    return [shuffled.sample(range(count), count) for _ in range(passes)]
+
+
+def measure(measured: list[Benchmark], passes: int, report: Callable = lambda _: None) -> np.ndarray:
+    """Return seconds of the fastest round, garbage collection off: one row a pass, one column a benchmark."""
+    seconds = np.full((passes, len(measured)), np.nan)
+    visits = [(number, at) for number, row in enumerate(order(len(measured), passes)) for at in row]
+    for done, (number, at) in enumerate(visits, 1):
+        seconds[number, at] = min(timeit.repeat(measured[at].call, timer=time.thread_time, repeat=ROUNDS, number=1))
+        report(Progress(measured[at].name, done, len(visits)))
+    return seconds
 
 
 def frame(measured: list[Benchmark], seconds: np.ndarray) -> pd.DataFrame:
