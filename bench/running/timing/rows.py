@@ -35,16 +35,12 @@ PASSES, QUICK_PASSES = 31, 7
 
 
 def run(
-    contenders: list[Contender],
-    folder: Path,
-    quick: bool = False,
-    report: Callable = lambda _: None,
+    contenders: list[Contender], folder: Path, quick: bool = False, report: Callable = lambda _: None,
     arms: tuple[str, ...] = (),
-) -> Path:
-    """Time everything and write the machine's file.
+) -> Path:  # fmt: skip
+    """Time everything, these arms too, and write the machine's file.
 
     Args:
-        arms: names of those that are timed too.
         report: called with a `benchmarks.Progress` for every law compiled and after every sample.
     Errors:
         BadLaw: a user's law that cannot be compiled. BadResults: the folder cannot be written.
@@ -75,11 +71,7 @@ def measure(measured: list[Benchmark], passes: int, report: Callable = lambda _:
 
 
 def frame(measured: list[Benchmark], seconds: np.ndarray) -> pd.DataFrame:
-    """Return the rows of timings.parquet.
-
-    Args:
-        seconds: one row a pass, one column a benchmark.
-    """
+    """Return the rows of timings.parquet; seconds: one row a pass, one column a benchmark."""
     ticks = np.array([float(one.ticks) if one.ticks else np.nan for one in measured])
     ns = seconds / ticks * 1e9
     columns = list(zip(measured, ns.T, strict=True))
@@ -121,9 +113,6 @@ def tables(timings: Path | pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
     """Yield the arm, empty for the free body, and its table: ns a tick alone and in each engine.
 
     What is alone has its ratio to the reference kernel too. The empty loop is what the time of every law alone holds.
-
-    Args:
-        timings: a machine's file, or its rows.
     """
     every = with_contender(timings if isinstance(timings, pd.DataFrame) else read(timings))
     for arm, rows in every.groupby("arm", observed=True, sort=False):
