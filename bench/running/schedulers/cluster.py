@@ -205,23 +205,19 @@ MOST_EPISODES = 50_000
 """Episodes of a chunk: 10 MB of rows, which the worker and then the client hold."""
 
 
-def seconds(unit: Unit) -> float:
-    """Return what a unit usually takes a worker."""
-    return experiment_of(unit).cost_s(unit)
-
-
 def in_batches(units: Sequence[Unit], workers: int) -> list[tuple[Unit, ...]]:
     """Cut the units, in their order, into chunks of at most CHUNK_S, or of one unit that takes longer.
 
     Of little work each of the workers that are there gets ROUNDS chunks all the same.
     """
-    most_s = min(CHUNK_S, sum(map(seconds, units)) / (ROUNDS * max(1, workers)))
+    usual_s = [experiment_of(unit).cost_s(unit) for unit in units]
+    most_s = min(CHUNK_S, sum(usual_s) / (ROUNDS * max(1, workers)))
     chunks: list[list[Unit]] = []
     room_s, room = 0.0, 0
-    for unit in units:
-        if seconds(unit) > room_s or unit.episodes > room:
+    for unit, takes_s in zip(units, usual_s, strict=True):
+        if takes_s > room_s or unit.episodes > room:
             chunks.append([])
             room_s, room = most_s, MOST_EPISODES
         chunks[-1].append(unit)
-        room_s, room = room_s - seconds(unit), room - unit.episodes
+        room_s, room = room_s - takes_s, room - unit.episodes
     return list(map(tuple, chunks))
