@@ -19,7 +19,7 @@ experiments/  one file an experiment with its columns, units and rows; what plan
 export/       laws as code for another's controller: C, C++, Python, JavaScript, with test vectors; wheel, which has the
               audit and all laws in Python
 running/      run, run_folder (until it is finished), order, precompile, sandbox (a user's laws), answers, wire_format,
-              schedulers/ (threads, and a Dask cluster), finish (the tables), timing/ (time per tick: pytest-benchmark)
+              schedulers/ (threads, and a Dask cluster), timing/ (time per tick)
 findings/     claims/ (the paper's sentences), selection/ (which law), why (what a law does), theory/ (closed forms);
               kept: found once, and again when anything differs
 regression/   rows/ (two runs), revisions/ (two revisions), history (every build)

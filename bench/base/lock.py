@@ -15,10 +15,8 @@ from bench.base.errors import BadResults
 
 @contextlib.contextmanager
 def held(folder: Path, waits: bool = False, flock: Callable = fcntl.flock) -> Iterator[None]:
-    """Hold a folder that exists; where it cannot be locked, say so and go on.
+    """Hold a folder that exists; where it cannot be locked, say so and go on; `waits`: for another that holds it.
 
-    Args:
-        waits: for another process that holds it. flock: the system's.
     Errors:
         BadResults: another process holds it, and this one does not wait.
     """
@@ -30,9 +28,8 @@ def held(folder: Path, waits: bool = False, flock: Callable = fcntl.flock) -> It
             cure = "wait for its end, stop it, or choose another folder with --out"
             raise BadResults(f"{folder}: another run is writing into it; {cure}") from None
         except OSError as error:
-            reason = f"cannot be locked ({error.strerror or error})"
-            said = f"{folder}: {reason}, so that nothing keeps a second run out of it; start none there"
-            print(said, file=sys.stderr)
+            result = "so that nothing keeps a second run out of it; start none there"
+            print(f"{folder}: cannot be locked ({error.strerror or error}), {result}", file=sys.stderr)
         yield
     finally:
         os.close(handle)

@@ -125,12 +125,16 @@ def versions() -> dict[str, str]:
     return {"python": platform.python_version(), **{name: importlib.metadata.version(name) for name in VERSIONED}}
 
 
-def cpu_name() -> str:
-    """Return the processor's name as the system gives it."""
+def _read_cpu(field: str) -> str:
+    """Return a field of the first processor; empty where the system is silent."""
     info = Path("/proc/cpuinfo")
     text = info.read_text() if info.is_file() else ""
-    name = text.partition("\nmodel name")[2].partition("\n")[0].partition(":")[2].strip()
-    return name or platform.processor() or platform.machine()
+    return text.partition(f"\n{field}")[2].partition("\n")[0].partition(":")[2].strip()
+
+
+def cpu_name() -> str:
+    """Return the processor's name as the system gives it."""
+    return _read_cpu("model name") or platform.processor() or platform.machine()
 
 
 VECTORS = ("sse4_2", "avx", "avx2", "fma", "avx512f")
@@ -140,9 +144,7 @@ ARITHMETIC = ("OPENBLAS_CORETYPE", "NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES", "NPY_
 
 def vectors() -> str:
     """Which of VECTORS the processor has, by which libraries choose their kernels; empty where the system is silent."""
-    info = Path("/proc/cpuinfo")
-    flags = info.read_text().partition("\nflags")[2].partition("\n")[0].split() if info.is_file() else []
-    return " ".join(word for word in VECTORS if word in flags)
+    return " ".join(word for word in VECTORS if word in _read_cpu("flags").split())
 
 
 def rounded_on(origin: dict) -> str:

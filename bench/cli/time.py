@@ -1,4 +1,4 @@
-"""`time`: nanoseconds a tick on this machine, through pytest-benchmark."""
+"""`time`: nanoseconds a tick on this machine."""
 
 from pathlib import Path
 from typing import Any

@@ -1,4 +1,7 @@
-"""A plan carried out: units run by a scheduler, each written when done, so that a run killed at any moment resumes."""
+"""A plan carried out: units run by a scheduler, each written when done, so that a run killed at any moment resumes.
+
+At the end its tables are made from the parts, in the order of the units; then provenance.json says where they are from.
+"""
 
 import contextlib
 import functools
@@ -7,13 +10,17 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
+import pyarrow as pa
+
+from bench.base.files import write_json
+from bench.base.provenance import describe
 from bench.experiments.choice import check_workers
-from bench.experiments.experiment import Unit, experiment_of
+from bench.experiments.experiment import Unit, experiment_of, known_experiments
 from bench.experiments.plan import Plan
-from bench.running.finish import finish
+from bench.experiments.tables.store import lost_table, merge, read_arrow, write_table
 from bench.running.precompile import compiling_ahead
-from bench.running.run_folder import begin, held, inspect, part, sweep, tidy
-from bench.running.sandbox import Sandbox
+from bench.running.run_folder import begin, held, inspect, part, read_part, sweep, tidy
+from bench.running.sandbox import LOST, Sandbox
 from bench.running.schedulers import THREADS, check_scheduler, kind, threads
 
 
@@ -50,7 +57,7 @@ def run(
         began = time.time()
         sandbox.check()
         todo = [unit for unit in in_running_order(plan.units) if unit.key not in state.done]
-        with _team(plan, todo, out, workers, scheduler, sandbox) as carry_out:
+        with _team(todo, out, workers, scheduler, sandbox) as carry_out:
             if state.done:
                 sweep(out)
                 for unit in state.spoiled:
@@ -60,29 +67,26 @@ def run(
             for unit in plan.units:
                 if unit.key in state.done:
                     report(unit)
-            by = {"scheduler": kind(scheduler), "workers": carry_out(report)}
-        finish(plan, out, sandbox.notes, sandbox.again, by, began, resumed=bool(state.done))
+            by = {"scheduler": kind(scheduler), "workers": carry_out(report), "resumed": bool(state.done)}
+        _finish(plan, out, sandbox, began, by)
         return True
 
 
 @contextlib.contextmanager
-def _team(
-    plan: Plan, todo: list[Unit], out: Path, workers: int, scheduler: str, sandbox: Sandbox
-) -> Iterator[Callable]:
+def _team(todo: list[Unit], out: Path, workers: int, scheduler: str, sandbox: Sandbox) -> Iterator[Callable]:
     """Return what carries out the units, reports each to its argument, and returns its number of workers.
 
     A cluster has answered when this yields, so that nothing is written, or replaced, for one that does not.
     """
     if scheduler == THREADS:
         ours = [unit for unit in todo if experiment_of(unit).compiles and not sandbox.has(unit)]
-        with compiling_ahead(plan, ours) as ahead:
-            yield functools.partial(threads.run, plan, todo, out, workers, sandbox, ahead=ahead)
+        with compiling_ahead(sandbox.plan, ours) as ahead:
+            yield functools.partial(threads.run, todo, out, workers, sandbox, ahead=ahead)
         return
     from bench.running.schedulers import cluster  # Dask is an extra, and takes a second to import
 
-    chunks = functools.partial(cluster.Chunks, notes=sandbox.notes, again=sandbox.again)
     with cluster.client_of(scheduler) as client:
-        yield lambda done: chunks(client, plan, out, done, sandbox.limit_s).carry_out(todo)
+        yield lambda done: cluster.Chunks(client, sandbox, out, done).carry_out(todo)
 
 
 def in_running_order(units: Iterable[Unit]) -> list[Unit]:
@@ -96,3 +100,60 @@ def in_running_order(units: Iterable[Unit]) -> list[Unit]:
     heads = set({unit.contender: unit for unit in reversed(compiling)}.values())
     ordered = sorted(compiling, key=lambda unit: (place[unit.contender] - (unit in heads), unit not in heads))
     return ordered + [unit for unit in units if not experiment_of(unit).compiles]
+
+
+def _finish(plan: Plan, out: Path, sandbox: Sandbox, began: float, about: dict) -> None:
+    """Write the tables, and provenance.json, with `about` the run, when all are there.
+
+    Units that are to be tried again (`Sandbox.again`) count as crashed; the parts of the others stay for the next run.
+    """
+    notes, again = [*sandbox.notes], sandbox.again
+    folds = {one.table.name: one.fold for one in known_experiments().values() if one.fold}
+    for name, table in plan.tables.items():
+        path, fold = out / f"{name}.parquet", folds.get(name)
+        parts = _parts(plan, out, name, again, notes)
+        if fold is None:
+            merge(path, parts, table)
+        else:
+            write_table(path, functools.reduce(fold, (one.to_pandas(ignore_metadata=True) for one in parts)), table)
+    write_json(
+        out / "provenance.json",
+        {
+            **describe(),
+            "suite": plan.settings.suite,
+            "plan": plan.digest,
+            "episodes": plan.episodes("free-body", "arm", "map"),
+            "trials": plan.episodes("contact"),
+            "troubled": plan.episodes("robustness"),
+            "seed": plan.settings.seed,
+            **about,
+            "finished": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()),
+            "wall_s": round(time.time() - began, 1),
+            "lost": list(dict.fromkeys((*notes, *_lost_rows(plan, out)))),
+            **({"again": sorted(again)} if again else {}),
+        },
+    )
+    if not again:
+        tidy(out)
+
+
+def _parts(plan: Plan, out: Path, table: str, again: set[str], notes: list[str]) -> Iterator[pa.Table]:
+    """Yield the rows of every unit of a table; note each unit of a user's law that has none, and should have some."""
+    own = {one.name for one in plan.settings.own}
+    for unit in plan.units:
+        experiment = experiment_of(unit)
+        if experiment.table.name == table:
+            made = lost_table(plan.settings, unit, LOST[0]) if unit.key in again else read_part(plan, out, unit)
+            if unit.law in own and not made.num_rows and not experiment.is_whole(plan.settings, unit, made.to_pandas()):
+                notes.append(f"{unit.label}: it has no rows of {table}")
+            yield made
+
+
+def _lost_rows(plan: Plan, out: Path) -> Iterator[str]:
+    """How many rows say that a user's law crashed or hung, whoever made them, and when."""
+    own = [one.name for one in plan.settings.own]
+    for name, table in plan.tables.items() if own else ():
+        if {"regulator", "outcome"} <= set(table.names):
+            made = read_arrow(out / f"{name}.parquet", table).select(["regulator", "outcome"]).to_pandas().astype(str)
+            counts = made[made["regulator"].isin(own) & made["outcome"].isin(LOST)].value_counts(sort=False)
+            yield from (f"{law}: {count} of its {name} {outcome}" for (law, outcome), count in counts.items())

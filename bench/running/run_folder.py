@@ -1,7 +1,7 @@
 """The folder of a run that is not finished yet: what is done in it, one file a unit, so that it can go on.
 
 Layout: plan.json first, and laws/ with the user's own; then parts/<unit>.rows one by one; at the end the tables,
-provenance.json last of all, and the parts go (`finish`).
+provenance.json last of all, and the parts go (run.py).
 """
 
 import contextlib

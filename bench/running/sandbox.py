@@ -12,7 +12,6 @@ rows are `crashed` in this run, and the same command tries them again.
 """
 
 import contextlib
-import functools
 import json
 import sys
 from collections.abc import Iterator
@@ -24,8 +23,7 @@ from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
 from bench.experiments.tables.packed import pack
 from bench.experiments.tables.store import joined, lost_table, table_of_unit
-from bench.running.process_pool import Pool
-from bench.running.sandbox_line import Ended, Forged, Killed, Lost, Mistake, Process
+from bench.running.sandbox_line import Ended, Forged, Killed, Lost, Mistake, Pool, Process
 from bench.running.wire_format import described
 from tasks.verdict import CRASHED, HUNG, OUTCOMES
 
@@ -42,9 +40,6 @@ MOST_LOST = 100
 STARTS_ANEW, HANGS = 0.3, 0.34
 """Shares of them for an episode that ended the process, which takes seconds to start and to compile again, and for one
 that hung: an endless law costs the limit of its unit and three episodes'."""
-
-MOST_KEPT = 8
-"""Processes that are kept, compiled code and all, until another law needs one: each takes 0.2 GB."""
 
 LOST = tuple(OUTCOMES[one] for one in (CRASHED, HUNG))
 """The outcomes of episodes that did not come back."""
@@ -69,7 +64,7 @@ class Sandbox(contextlib.AbstractContextManager):
         self._own = {one.name: one for one in plan.settings.own}
         self._tried: dict[Unit, pa.Table] = {}
         self._unready: dict[str | tuple[str, ...], Lost] = {}
-        self._pool = Pool(MOST_KEPT)
+        self._pool = Pool()
 
     def __exit__(self, *_: object) -> None:
         self._pool.end_all()
@@ -171,15 +166,14 @@ class Sandbox(contextlib.AbstractContextManager):
                 return self._prepared_once(unit)
         except Lost as lost:
             is_everywhere = isinstance(lost, Ended) or lost.outcome == OUTCOMES[HUNG]
-            where = f"for {unit.engine or unit.experiment} "
-            known = type(lost)(lost.outcome, f"it cannot be compiled {'' if is_everywhere else where}({lost})")
+            where, there = ("", "") if is_everywhere else (f"for {unit.engine or unit.experiment} ", " there")
+            known = type(lost)(lost.outcome, f"it cannot be compiled {where}({lost})")
             self._unready[unit.law if is_everywhere else self._place(unit)] = known
-            which = "all its episodes" if is_everywhere else "all its episodes there"
-            self._note(f"{unit.law}: {known}; {which} are {lost.outcome}")
+            self._note(f"{unit.law}: {known}; all its episodes{there} are {lost.outcome}")
             raise self._known(unit, known) from lost
 
     def _prepared_once(self, unit: Unit) -> Process:
-        process = self._pool.take(unit.law, functools.partial(self._begin, unit.law))
+        process = self._pool.take(unit.law, self._begin)
         try:
             with self._mistakes(unit):
                 process.prepare(unit)

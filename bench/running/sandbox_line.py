@@ -1,7 +1,10 @@
-"""The line from a run to a process of a user's laws (sandbox_process.py): its requests, its limits, and how it ends."""
+"""Processes of users' laws (sandbox_process.py): requests, limits, how one ends, and which are kept for the next."""
 
+import contextlib
 import json
 import signal
+import threading
+from collections.abc import Callable, Iterator
 
 import pyarrow as pa
 
@@ -21,6 +24,10 @@ START_S = 600.0
 
 CLOSING_S = 5.0
 """On the wall, from the end of the line to that of the process."""
+
+TURNS, MOST_KEPT = 256, 8
+"""Threads that may have a process at work at once; and processes that are kept, compiled code and all, until another
+law needs one: each takes 0.2 GB."""
 
 SHORT, SHOWN = 1 << 16, 400
 """Bytes of an answer that is no rows; and signs of a reason that are shown."""
@@ -53,7 +60,7 @@ class Mistake(Exception):
 
 
 class Process:
-    """One process, and the line to it. settings: the plan's. chunk: the first message, about one law."""
+    """One process, and the line to it. settings: the plan's. chunk: the first message, about one law, if not sent."""
 
     def __init__(self, law: str, settings: Settings, chunk: bytes):
         self.law, self.settings, self.chunk = law, settings, chunk
@@ -69,7 +76,8 @@ class Process:
         place = (unit.experiment, unit.contender, unit.engine, unit.selector, unit.arm)
         try:
             if self.chunk:
-                self._load()
+                self._say(self.chunk, START_S)
+                self.chunk = b""
             if place not in self.prepared:
                 self._say(json.dumps({"key": unit.key}).encode(), START_S)
                 self.prepared.add(place)
@@ -77,13 +85,6 @@ class Process:
             if self.process.code(CLOSING_S) == -signal.SIGKILL:
                 raise Killed(ended.outcome, "its process was killed while it prepared (SIGKILL)") from ended
             raise
-
-    def _load(self) -> None:
-        try:
-            self._say(self.chunk, START_S)
-        except Lost as lost:
-            raise (lost if isinstance(lost, Ended) else Ended(lost.outcome, str(lost))) from lost
-        self.chunk = b""
 
     def ask(self, unit: Unit, some: Unit, limit_s: float) -> pa.Table:
         """Return the rows of a unit, or of some of its starts.
@@ -117,7 +118,7 @@ class Process:
         if sign == sandbox_process.MISTAKE:
             raise Mistake(rest.decode(errors="replace"))
         if sign in SIGNS:
-            raise Lost(SIGNS[sign], rest[:SHOWN].decode(errors="replace"))
+            raise (Ended if self.chunk else Lost)(SIGNS[sign], rest[:SHOWN].decode(errors="replace"))
         if sign != sandbox_process.DONE:
             raise Ended(OUTCOMES[CRASHED], "its process gave back no answer")
         return rest
@@ -125,3 +126,58 @@ class Process:
     def end(self) -> None:
         """Stop it, wherever it is, and all that the law has started."""
         self.process.end()
+
+
+class Pool:
+    """Processes, each at work for one thread or idle. turns: a thread holds one while it is at work."""
+
+    def __init__(self) -> None:
+        self._idle: list[Process] = []
+        self._all: list[Process] = []
+        self._taking, self._one_alone = threading.Lock(), threading.Lock()
+        self.turns = threading.Semaphore(TURNS)
+
+    def take(self, law: str, begin: Callable[[str], Process]) -> Process:
+        """Return an idle process of the law, or a new one."""
+        with self._taking:
+            found = next((one for one in reversed(self._idle) if one.law == law), None)
+            if found is None and len(self._all) >= MOST_KEPT and self._idle:
+                self._end(self._idle.pop())  # the oldest comes first when all are gone through again
+            if found is None:
+                found = begin(law)
+                self._all.append(found)
+            else:
+                self._idle.remove(found)
+            return found
+
+    def give_back(self, process: Process, has_ended: bool) -> None:
+        """Keep a process for the next request, or end it."""
+        with self._taking:
+            if has_ended:
+                self._end(process)
+            else:
+                self._idle.append(process)
+
+    def end_all(self) -> None:
+        """End every process, those at work too."""
+        for process in self._all:
+            process.end()
+
+    def _end(self, process: Process) -> None:
+        process.end()
+        self._all.remove(process)
+
+    @contextlib.contextmanager
+    def alone(self) -> Iterator[None]:
+        """For a thread that has a turn: wait until it is the only one, and end the processes that are idle."""
+        self.turns.release()
+        with self._one_alone:
+            for _ in range(TURNS):
+                self.turns.acquire()
+            with self._taking:
+                while self._idle:
+                    self._end(self._idle.pop())
+            try:
+                yield
+            finally:
+                self.turns.release(TURNS - 1)

@@ -76,11 +76,7 @@ def made(plan: Plan, unit: Unit) -> bytes:
 
 
 def answer_of_a_fork(work: Callable[[], bytes], processor_s: float, longest_s: float, run_of: Connection) -> bytes:
-    """Answer in a fork of this process, under its limits; the fork ends with the run.
-
-    Args:
-        run_of: the line to the run.
-    """
+    """Answer in a fork of this process, under its limits; it ends when the line to the run does."""
     reading, writing = os.pipe()
     child = os.fork()
     if not child:

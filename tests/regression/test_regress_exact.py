@@ -10,7 +10,7 @@ from bench.experiments.tables.schema import table_of
 from bench.experiments.tables.store import read, write_table
 from bench.regression.revisions import gates
 from bench.regression.revisions.exact import sort_findings
-from bench.regression.revisions.measures import compare_measures
+from bench.regression.revisions.gates import compare_measures
 from bench.regression.rows import find_differences
 from bench.regression.rows.difference import CHANGED, COLUMN, MISSING, NEW, Difference
 

@@ -18,7 +18,7 @@ from bench.regression.revisions.commits import (
     git,
     is_folder,
 )
-from bench.regression.revisions.comparison import Finding
+from bench.regression.revisions.summary import Finding
 from bench.regression.revisions.timing import SideFailed, Timed
 
 LAW = law_text(DAMPER, name="braking")
@@ -72,7 +72,7 @@ def states(said):
 def test_gates_of_a_law_that_is_as_before_all_pass(user, means):
     said = gates.compare_revisions("HEAD", None, (user,), means=means())
     assert states(said) == dict.fromkeys(("exact", "operations", "faults", "time"), "passed")
-    assert (said.findings, said.head) == ((), "working tree")
+    assert (said.findings, said.head) == ([], "working tree")
     assert "| braking | 1.000 \\[0.900, 1.100\\] | 0.5 | same |" in summary.write_markdown(said)
 
 
@@ -154,8 +154,8 @@ def test_summary_says_why_nothing_was_judged(tmp_path, capsys):
 
 def test_markdown_leaves_no_markup_of_what_it_quotes(finished):
     said = gates.compare_folders(finished, finished)
-    found = Finding("exact", "regression", "a", "a|b <img src=x> `c` *d*")
-    text = summary.write_markdown(said._replace(findings=(found,)))
+    said.findings = [Finding("exact", "regression", "a", "a|b <img src=x> `c` *d*")]
+    text = summary.write_markdown(said)
     assert "- **regression**: a\\|b &lt;img src=x&gt; \\`c\\` \\*d\\*" in text
     assert text.startswith("### 1 regression: ")
 

@@ -17,14 +17,15 @@ from bench.base.errors import BadNumber, BadResults, LostWorkers, MissingTool, U
 from bench.base.files import read_json
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
-from bench.experiments.experiment import known_experiments
+from bench.experiments.experiment import experiment_of, known_experiments
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import find_contender
 from bench.running import run, wire_format
 from bench.running.run import in_running_order
 from bench.running.run_folder import begin, part
+from bench.running.sandbox import Sandbox
 from bench.running.schedulers import check_scheduler, cluster, kind, worker
-from bench.running.schedulers.cluster import CHUNK_S, MOST_EPISODES, in_batches, seconds
+from bench.running.schedulers.cluster import CHUNK_S, MOST_EPISODES, in_batches
 from bench.running.wire_format import described
 
 
@@ -71,7 +72,7 @@ def test_run_goes_on_with_another_scheduler(few, client, by_threads, tmp_path):
             raise KeyboardInterrupt
 
     begin(few, tmp_path)
-    chunks = cluster.Chunks(client, few, tmp_path, stop, ahead=1, waiting=deque((unit,) for unit in few.units))
+    chunks = cluster.Chunks(client, Sandbox(few), tmp_path, stop, ahead=1, waiting=deque((unit,) for unit in few.units))
     with pytest.raises(KeyboardInterrupt):
         chunks.carry_out([])
     assert all(part(tmp_path, unit).is_file() for unit in told)
@@ -115,7 +116,7 @@ class Killed:
 
 
 def test_chunk_that_lost_all_its_workers_is_taken_apart_and_its_unit_named(plan, tmp_path):
-    chunks = cluster.Chunks(None, plan, tmp_path, None)
+    chunks = cluster.Chunks(None, Sandbox(plan), tmp_path, None)
     future, (first, second) = Killed(), plan.units[:2]
     chunks.given[future] = (first, second)
     chunks.take(future)
@@ -199,7 +200,8 @@ def test_batches_keep_every_unit_in_its_order_and_of_little_work_leave_no_worker
 
 @pytest.mark.parametrize("engine", ["ideal-rk4", "native"])
 def test_batches_of_much_work_are_of_ten_to_sixty_seconds(engine):
-    lasting = [sum(map(seconds, chunk)) for chunk in in_batches(units_of_much_work(engine), 2)]
+    chunks = in_batches(units_of_much_work(engine), 2)
+    lasting = [sum(experiment_of(unit).cost_s(unit) for unit in chunk) for chunk in chunks]
     assert min(lasting[:-1]) > 10.0
     assert max(lasting) <= CHUNK_S
 

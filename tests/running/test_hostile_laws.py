@@ -1,22 +1,98 @@
 """No law fools the judge: whatever its file does, it is refused or its rows say it, and all else is as without it."""
 
+import contextlib
 import os
+import tomllib
+from pathlib import Path
 
 import pandas as pd
+import psutil
 import pytest
 from support.command_line import TINY, bench, refused, refused_run
-from support.hostile_laws import AT_IMPORT, COMPILED, IN_A_TICK, LOOPS, WAITS, in_turn, left_behind
-from support.user_law import spring_text
+from support.user_law import law_text, spring_text
 
 import tasks
 from bench.base.errors import BadLaw
 from bench.cli import main
 from bench.experiments.tables import store
 from bench.law.contenders.described_law import described
+from bench.law.contenders.law_process import TOKEN
 from tasks.rotations import columns
 
 ASKED = ("--starts", "uniform", "--horizon", "0.02", "--law-limit", "1", "--experiment", "free-body")
 OURS, SOUND = "rotation-matrix", "sound"
+WAITS, LOOPS = "it did not return", "it did not return within 1 s"
+WRITTEN = """
+def written(said):
+    for line in range(3, 64):
+        try: os.write(line, said)
+        except OSError: pass"""
+
+
+IMPORTS = "import atexit, os, resource, shutil, signal, sys, threading, time"
+
+
+def top(*lines: str) -> str:
+    """A sound law with these lines at the top of its file."""
+    return "\n".join((IMPORTS, *lines)) + spring_text(name="NAME")
+
+
+def each(*lines: str) -> str:
+    """A law that does this whenever it is called."""
+    return spring_text("k = 0.0", *lines, name="NAME")
+
+
+def some(line: str) -> str:
+    """A law that does this in some states."""
+    return each("if R.n[0] < -0.1:", f"    {line}")
+
+
+def late(line: str) -> str:
+    """A file that does this when it is imported in a run, and not when it is first read."""
+    return top(f"if 'sandbox_process' in sys.argv[0]: {line}")
+
+
+PLACES = {"top": top, "each": each, "some": some, "late": late}
+DATA = tomllib.loads(Path(__file__).with_name("hostile_laws.toml").read_text(encoding="utf-8"))
+
+
+def table(name: str) -> dict:
+    """Return the laws of a table of hostile_laws.toml: the text of each and what becomes of it."""
+    return {
+        law: (PLACES[place](*(WRITTEN if line == "WRITTEN" else line for line in lines)), becomes)
+        for law, (place, lines, becomes) in DATA[name].items()
+    }
+
+
+AT_IMPORT: dict[str, tuple[str | bytes | None, str]] = {
+    **table("at-import"),
+    "not-utf-8": (top("# caf\xe9").encode("latin-1"), "it is not UTF-8"),
+    "nul": (b"x = 1\0", "does not import (SyntaxError"),
+    "folder": (None, "there is no such file"),
+    "empty": ("", "it has no REGULATOR"),
+    "is-a-generator": (law_text("yield omega", name="NAME"), "returned <generator object"),
+}
+"""Refused, with the reason in one line."""
+
+COMPILED = table("compiled")
+"""Run on the engine ideal-rk4: what becomes of all episodes, or of some; "" of a law that runs as a sound one."""
+
+IN_A_TICK = {law: tuple(told) for law, told in DATA["in-a-tick"].items()}
+"""Python code: what a law answers in the first tick of an episode, one after the other."""
+
+IN_TURN = """
+import atexit, ctypes, resource, signal, threading
+{WRITTEN}
+BEGINNINGS, ANSWERS = {beginnings}, [{answers}]
+"""
+
+
+def in_turn(beginnings: list[float]) -> str:
+    """A law that answers so in episodes that begin with these R.n[0], and else is sound."""
+    answers = ", ".join(f"lambda R, omega, goal, gains, u: {one}" for one, _ in IN_A_TICK.values())
+    head = IN_TURN.format(WRITTEN=WRITTEN, beginnings=beginnings, answers=answers)
+    first = "if R.n[0] in BEGINNINGS: return ANSWERS[BEGINNINGS.index(R.n[0])](R, omega, goal, gains, (-x, -y, -z))"
+    return head + spring_text(first, name="NAME")
 
 
 def written(folder, name: str, text):
@@ -36,7 +112,10 @@ def nothing_is_left_behind():
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv(marker, "")
         yield
-        assert left_behind(marker) == []
+    for process in psutil.process_iter():
+        with contextlib.suppress(psutil.Error):
+            is_left = {TOKEN, marker} <= process.environ().keys() and process.status() != psutil.STATUS_ZOMBIE
+            assert not is_left, process
 
 
 @pytest.mark.parametrize("name", AT_IMPORT)

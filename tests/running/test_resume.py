@@ -12,8 +12,8 @@ from bench.experiments.experiment import known_experiments
 
 @pytest.fixture(scope="module")
 def killed(tmp_path_factory):
-    """What `support.killed` found."""
-    done = started("-W", "ignore", "-m", "support.killed", tmp_path_factory.mktemp("killed"))
+    """What `support.disturbed` found."""
+    done = started("-W", "ignore", "-m", "support.disturbed", tmp_path_factory.mktemp("killed"))
     out, err = done.communicate(timeout=900)
     assert done.returncode == 0, err
     return json.loads(out)

@@ -1,6 +1,6 @@
 """Timing: the order of the passes, the reference kernel, ratios, rows, a user's law apart. No time is asserted."""
 
-import os
+import functools
 
 import numpy as np
 import pytest
@@ -23,8 +23,7 @@ from bench.running import timing
 from bench.running.timing import benchmarks, controller, law, on_arms, reference_kernel
 from bench.running.timing.benchmark import ENGINE, KERNEL, LAW, LOOP, Benchmark
 from bench.running.timing.ratios import order_interval, ratio
-from bench.running.timing.rows import QUICK_PASSES, frame
-from bench.running.timing.session import measure, order
+from bench.running.timing.rows import QUICK_PASSES, frame, measure, order
 
 LAWS = ("rotation-matrix", "linearized-euler/zyx-euler")
 CONTENDERS = [find_contender(word) for word in LAWS]
@@ -32,10 +31,10 @@ CONTENDERS = [find_contender(word) for word in LAWS]
 
 @pytest.fixture(scope="module")
 def quick(tmp_path_factory):
-    """A quick run of two laws: its file, and what it told of its samples."""
-    told = []
-    path = timing.run(CONTENDERS, tmp_path_factory.mktemp("timings"), quick=True, report=told.append)
-    assert [one.name for one in told if one.total == 0] == list(LAWS)
+    """A quick run of two laws, on one arm too: its file, and what it told of its samples."""
+    told, folder = [], tmp_path_factory.mktemp("timings")
+    path = timing.run(CONTENDERS, folder, quick=True, report=told.append, arms=("ur5e",))
+    assert [one.name for one in told if one.total == 0] == [*LAWS, "ur5e"]
     return path, [one for one in told if one.total]
 
 
@@ -73,7 +72,8 @@ def test_run_visits_everything_in_every_pass(quick):
     each = len(told) // QUICK_PASSES
     passes = [[one.name for one in told[k * each : (k + 1) * each]] for k in range(QUICK_PASSES)]
     assert all(sorted(names) == sorted(passes[0]) for names in passes)
-    assert len(set(passes[0])) == each == 1 + len(LAWS) + 3 * len(LAWS) + 1
+    on_arm = len(on_arms.controllers(CONTENDERS, "ur5e")) + len(LAWS)
+    assert len(set(passes[0])) == each == 1 + len(LAWS) + 3 * len(LAWS) + 1 + on_arm
     assert len({tuple(names) for names in passes}) > 1
     assert [one.done for one in told] == list(range(1, len(told) + 1))
     assert {one.total for one in told} == {len(told)}
@@ -88,23 +88,27 @@ def test_file_is_named_after_the_machine_and_says_where_it_comes_from(quick):
 
 
 def test_file_has_one_row_of_times_for_everything_timed(quick):
-    rows = timing.read(quick[0])
+    every = timing.read(quick[0])
+    rows = every[every.arm == ""]
     keys = set(zip(rows.what, rows.engine, rows.regulator, rows.representation, strict=True))
     laws = [tuple(f"{word}/".split("/")[:2]) for word in LAWS]
     expected = {(LAW, "", *one) for one in laws} | {(LOOP, "", "", "")}
     expected |= {(ENGINE, engine, *one) for engine in benchmarks.ENGINES for one in laws}
     assert keys == expected
     assert len(rows) == len(keys)
-    assert (rows[["ns_per_tick", "ns_reference_kernel", "ratio_low", "ticks"]] > 0).all(axis=None)
-    assert rows.ratio.between(rows.ratio_low, rows.ratio_high).all()
-    assert ((rows.passes == QUICK_PASSES) & (rows.ns_reference_kernel == rows.ns_reference_kernel[0])).all()
+    assert (every[["ns_per_tick", "ns_reference_kernel", "ratio_low", "ticks"]] > 0).all(axis=None)
+    assert every.ratio.between(every.ratio_low, every.ratio_high).all()
+    assert ((every.passes == QUICK_PASSES) & (every.ns_reference_kernel == every.ns_reference_kernel[0])).all()
 
 
-def test_table_has_a_line_for_each_law_and_one_for_comparison(quick):
-    [(arm, lines)] = timing.tables(quick[0])
-    assert (arm, list(lines.law)) == ("", [*LAWS, "(empty loop)"])
-    assert lines.equals(dict(timing.tables(timing.read(quick[0])))[""])
-    assert all(isinstance(cell, str) for cell in lines.to_numpy().ravel())
+def test_tables_have_a_line_for_each_law_one_for_comparison_and_the_arms_apart(quick):
+    rows, made = timing.read(quick[0]), dict(timing.tables(quick[0]))
+    assert set(made) == {"", "ur5e"}
+    assert list(made[""].law) == [*LAWS, "(empty loop)"]
+    assert made[""].equals(dict(timing.tables(rows))[""])
+    assert all(isinstance(cell, str) for cell in made[""].to_numpy().ravel())
+    assert list(made["ur5e"].columns[:2]) == ["law", "native [ns]"]
+    assert len(made["ur5e"]) == ((rows.arm == "ur5e") & (rows.engine == "native")).sum()
 
 
 def test_ratio_is_taken_within_a_pass_whatever_the_machine_does_between():
@@ -146,25 +150,12 @@ def test_law_without_a_finite_command_is_a_row_without_a_time():
     assert dict(timing.tables(rows))[""].iloc[-1]["alone [ns]"] == "fails"
 
 
-def test_measuring_takes_the_fastest_round_and_writes_nothing_to_the_terminal(capfd):
-    before = os.environ.get("PYTEST_CURRENT_TEST")
-    seconds = measure([benchmark("one"), benchmark("two")], passes=3)
-    assert seconds.shape == (3, 2)
+def test_measuring_calls_each_for_two_rounds_on_end_in_every_pass():
+    called = []
+    seconds = measure([benchmark(name, functools.partial(called.append, name)) for name in "abc"], passes=3)
+    assert called[::2] == called[1::2] == ["abc"[at] for row in order(3, 3) for at in row]
+    assert seconds.shape == (3, 3)
     assert np.isfinite(seconds).all()
-    assert capfd.readouterr() == ("", "")
-    assert os.environ.get("PYTEST_CURRENT_TEST") == before
-
-
-ENDINGS = [(KeyboardInterrupt, KeyboardInterrupt, "^$"), (ArithmeticError, RuntimeError, "as planned")]
-
-
-@pytest.mark.parametrize(("raised", "told", "reason"), ENDINGS)
-def test_interrupt_or_failure_of_a_thing_ends_the_measuring_with_its_reason(raised, told, reason):
-    def broken():
-        raise raised("as planned")
-
-    with pytest.raises(told, match=reason):
-        measure([benchmark("one", broken)], passes=2)
 
 
 def test_only_a_whole_run_writes_unasked_where_files_are_tracked():
@@ -201,19 +192,12 @@ def test_law_that_ends_its_process_is_refused(tmp_path):
     assert not (tmp_path / "timings").exists()
 
 
-@pytest.fixture(scope="module")
-def on_arm(tmp_path_factory):
-    """Return the rows of a quick run of the two laws on one arm."""
-    return timing.read(timing.run(CONTENDERS, tmp_path_factory.mktemp("timings"), quick=True, arms=("ur5e",)))
-
-
-def test_every_controller_of_the_default_suite_with_these_laws_is_timed_on_the_arm(on_arm):
-    own = on_arm[(on_arm.arm == "ur5e") & (on_arm.what == ENGINE)]
-    timed = own[own.engine == "native"]
+def test_every_controller_of_the_default_suite_with_these_laws_is_timed_on_the_arm(quick):
+    rows = timing.read(quick[0])
+    timed = rows[(rows.arm == "ur5e") & (rows.what == ENGINE) & (rows.engine == "native")]
     names = set(zip(timed.regulator, timed.jacobian, timed.inverse, strict=True))
     assert names == {(one.regulator.name, *one.way) for one in on_arms.controllers(CONTENDERS, "ur5e")}
     assert {("rotation-matrix", "geometric", "solve"), ("linearized-euler", "geometric", "solve")} < names
-    assert (own.passes == QUICK_PASSES).all()
 
 
 def test_controller_alone_commands_the_torques_of_the_equations():
@@ -225,14 +209,6 @@ def test_controller_alone_commands_the_torques_of_the_equations():
     expected, _ = torques(one, at, last[12:], at.chain.p, PAPERS_GAINS)
     np.testing.assert_allclose(world.work.buffers.tau, expected, rtol=1e-9)
     assert benchmark.ticks == controller.SWEEPS * controller.STATES
-
-
-def test_tables_keep_the_free_body_and_the_arms_apart(on_arm):
-    made = dict(timing.tables(on_arm))
-    assert list(made[""].law) == [*LAWS, "(empty loop)"]
-    assert set(made) == {"", "ur5e"}
-    assert list(made["ur5e"].columns[:2]) == ["law", "native [ns]"]
-    assert len(made["ur5e"]) == ((on_arm.arm == "ur5e") & (on_arm.engine == "native")).sum()
 
 
 def test_controller_that_fails_at_once_is_a_row_without_a_time():

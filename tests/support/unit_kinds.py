@@ -29,19 +29,9 @@ def plan_of_all_kinds(folder: Path) -> plan.Plan:
     alone, *others = [plan.make("quick", laws if k == 0 else [ours], one, **short) for k, one in enumerate(choices)]
     on_arm, contact, perturbed = (one.units for one in others)
     made = (
-        Unit("traces", "mine", "free-body", engine="ideal-rk4", count=1, horizon_s=20.0),
-        Unit("boundaries", "mine", "free-body", engine="ideal-rk4", count=1, total=1, horizon_s=10.0),
-        Unit("command-field", "mine", "free-body", engine="ideal-held", count=1, total=1),
-        Unit("velocity", "mine", "free-body", count=2, horizon_s=0.05),
-        Unit("velocity", "rotation-matrix@geometric+solve", "arm-regulation", "ur5e", count=1, horizon_s=0.05),
-        Unit("velocity-limits", "mine", "free-body"),
-        Unit("shipped", selector="crisp", count=1, total=1, horizon_s=1.0),
         Unit("springs", count=1, total=1),
-        Unit("goal-streams", count=1, total=1, horizon_s=2.0),
-        Unit("impedance", task="arm-regulation", arm="ur5e", selector="diagonal", count=1, horizon_s=0.05),
         Unit("costs", "rotation-matrix"),
         Unit("costs", "mine"),
-        Unit("jacobians", arm="ur5e", count=1, total=1),
         *plan_of([ours], 200, speeds=((0.0, 20.0),), horizon_s=1.0).units,
         *situations.plan_of([(ours, NOMINAL)]).units,
     )

@@ -10,7 +10,7 @@ from pathlib import Path
 from bench.base.provenance import read_provenance
 from bench.engines.counting import OPERATIONS as OPERATION_NAMES
 from bench.engines.counting import TOTAL
-from bench.regression.revisions.comparison import CHANGE, IMPROVEMENT, REGRESSION, Finding
+from bench.regression.revisions.summary import CHANGE, IMPROVEMENT, REGRESSION, Finding
 from bench.regression.rows import describe_skipped, find_differences
 from bench.regression.rows.difference import CHANGED, COLUMN, JUDGE, MISSING, NEW, Difference
 

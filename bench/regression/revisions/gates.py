@@ -1,19 +1,31 @@
 """Compare gate after gate: two runs' folders (`compare_folders`), or two states of the code (`compare_revisions`)."""
 
+import contextlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
+import pandas as pd
+
 from bench.base.errors import BadLaw, BadResults
+from bench.experiments.tables.read import table
 from bench.findings.judged import judged
 from bench.findings.judgement import Judgement
 from bench.law.contenders.described_law import described
 from bench.regression.revisions import commits, exact
-from bench.regression.revisions.comparison import IMPROVEMENT, REGRESSION, Comparison, Finding, Gate, make_gate
-from bench.regression.revisions.measures import compare_measures
+from bench.regression.revisions.summary import IMPROVEMENT, REGRESSION, Comparison, Finding
 from bench.regression.revisions.timing import ROUNDS, SAME, SLOWER, Side, SideFailed, Timed, compare_times
 
-EXACT, OPERATIONS, TIME, FAULTS = exact.EXACT, exact.OPERATIONS, "time", "faults"
+EXACT, TIME, FAULTS = exact.EXACT, "time", "faults"
+ROWS = (EXACT, exact.OPERATIONS)
+
+ENGINE = "ideal-rk4"
+MEDIANS = {
+    "settling_time_s": "settling time, median [s]",
+    "effort": "effort, median",
+    "peak_u": "peak command, median [rad/s²]",
+}
+STIFFNESS = "stiffness near the goal [kp]"
 
 
 class Means(NamedTuple):
@@ -27,51 +39,45 @@ class Means(NamedTuple):
 
 def compare_folders(base: Path, head: Path) -> Comparison:
     """Compare two folders of finished runs row by row; nothing is run."""
-    found = exact.compare_runs(base, head)
-    return Comparison(str(base), str(head), tuple(make_gate(name, found) for name in (EXACT, OPERATIONS)), tuple(found))
+    said = Comparison(str(base), str(head))
+    said.add(ROWS, exact.compare_runs(base, head))
+    return said
 
 
 def compare_revisions(
     base: str, head: str | None, laws: tuple[Path, ...] = (), report: Callable = lambda *_: None, *, means: Means
 ) -> Comparison:
     """Compare two revisions, or a revision and the files in the checkout (head None), through every gate."""
-    judgements: tuple[Judgement, ...] = ()
     with commits.check_out_both(base, head, laws) as (old, new):
         if new.is_new:
             raise BadResults(f"{new.name}: none of the --law files is there")
-        gates, found, measures = _compare_rows(old, new, report, means)
+        said = Comparison(old.name, new.name)
+        _compare_rows(said, old, new, report, means)
         if new.only:
             report("judging")
-            gate, faults, judgements = _compare_faults(old, new, means.judge)
-            gates, found = [*gates, gate], [*found, *faults]
-        gate, slower, times, files = _compare_times(old, new, report, means)
-    found = sorted([*found, *slower], key=lambda one: one.verdict != REGRESSION)
-    made = (*gates, gate), tuple(found), tuple(times), judgements, tuple(files), tuple(measures)
-    return Comparison(old.name, new.name, *made)
+            _compare_faults(said, old, new, means.judge)
+        _compare_times(said, old, new, report, means)
+    said.findings.sort(key=lambda one: one.verdict != REGRESSION)
+    return said
 
 
-def _compare_rows(
-    old: Side, new: Side, report: Callable, means: Means
-) -> tuple[list[Gate], list[Finding], list[dict[str, str]]]:
-    """Compare outcomes and operations; return the measures of a user's laws too."""
-    state, says = "passed", "both sides have the same sources and versions, so a run would be the same"
+def _compare_rows(said: Comparison, old: Side, new: Side, report: Callable, means: Means) -> None:
+    """Compare outcomes and operations, and measure a user's laws too."""
     if old.is_new:
-        state, says = "skipped", "base has no such law, or it does not load: there is nothing to compare with"
-    if old.is_new or (old.digest == new.digest and not new.only):
-        return [Gate(name, state, says) for name in (EXACT, OPERATIONS)], [], []
-    measures: list[dict[str, str]] = []
+        return said.skip(ROWS, "base has no such law, or it does not load: there is nothing to compare with")
+    if old.digest == new.digest and not new.only:
+        same = "both sides have the same sources and versions, so a run would be the same"
+        return said.skip(ROWS, same, "passed")
     with means.run_side(old, report) as before, means.run_side(new, report) as after:
         try:
             found = exact.compare_runs(before, after)
-            measures = compare_measures(before, after) if new.only else []
+            said.measures = compare_measures(before, after) if new.only else []
         except BadResults as error:  # each program has just written its own run, so the schema differs
             found = [Finding(EXACT, REGRESSION, "", f"the schema differs: {error}")]
-    return [make_gate(name, found) for name in (EXACT, OPERATIONS)], found, measures
+    return said.add(ROWS, found)
 
 
-def _compare_faults(
-    old: Side, new: Side, judge: Callable[..., list[Judgement]]
-) -> tuple[Gate, list[Finding], tuple[Judgement, ...]]:
+def _compare_faults(said: Comparison, old: Side, new: Side, judge: Callable[..., list[Judgement]]) -> None:
     """Judge a user's laws on both sides by this program: a fault that base has not is a regression."""
     judgements: list[list[Judgement]] = [[], []]
     for at, side in enumerate((old, new)):
@@ -79,7 +85,8 @@ def _compare_faults(
             judgements[at] = judge([described(law) for law in side.laws]) if side.laws else []
         except BadLaw as error:
             if side is new:
-                return Gate(FAULTS, "failed", str(error)), [Finding(FAULTS, REGRESSION, "", str(error))], ()
+                return said.fail(FAULTS, str(error))
+    said.judgements = judgements[1]
     before, now = ({one.name: one.faults + ["lost"] * one.is_lost for one in each} for each in judgements)
     found, kept = [], []
     for name, faults in now.items():
@@ -88,28 +95,24 @@ def _compare_faults(
         new_ones, mended = [each for each in faults if each not in was], [each for each in was if each not in faults]
         found += [Finding(FAULTS, REGRESSION, name, f"{name}: new fault: {each}") for each in new_ones]
         found += [Finding(FAULTS, IMPROVEMENT, name, f"{name}: no more: {each}") for each in mended]
-    says = f"as in base: {', '.join(kept) or 'no fault'}"
-    return make_gate(FAULTS, found, says), found, tuple(judgements[1])
+    return said.add([FAULTS], found, f"as in base: {', '.join(kept) or 'no fault'}")
 
 
-def _compare_times(
-    old: Side, new: Side, report: Callable, means: Means
-) -> tuple[Gate, list[Finding], list[Timed], list[dict]]:
+def _compare_times(said: Comparison, old: Side, new: Side, report: Callable, means: Means) -> None:
     is_same = old.digest == new.digest and not new.only
     if old.is_new or is_same or not means.rounds:
         says = "left out on request" if not means.rounds else "the same sources" if is_same else "there is no base"
-        return Gate(TIME, "skipped", says), [], [], []
+        return said.skip([TIME], says)
     try:
-        files, times = means.compare_times(old, new, report, means.rounds)
+        said.files, times = means.compare_times(old, new, report, means.rounds)
     except SideFailed as error:
         if error.at == 0:
-            return Gate(TIME, "skipped", f"base is too old for it: {error}"), [], [], []
+            return said.skip([TIME], f"base is too old for it: {error}")
         if not new.only:
             raise
-        says = f"the law cannot be timed: {error}"
-        return Gate(TIME, "failed", says), [Finding(TIME, REGRESSION, "", says)], [], []
-    slower = [describe_time(one) for one in times.values() if one.verdict != SAME]
-    return make_gate(TIME, slower, f"{len(times)} timed"), slower, list(times.values()), files
+        return said.fail(TIME, f"the law cannot be timed: {error}")
+    said.times = list(times.values())
+    return said.add([TIME], [describe_time(one) for one in said.times if one.verdict != SAME], f"{len(times)} timed")
 
 
 def describe_time(one: Timed) -> Finding:
@@ -119,3 +122,40 @@ def describe_time(one: Timed) -> Finding:
         f"p = {one.p:.1g}, {one.rounds} rounds of each, confirmed by a second run"
     )
     return Finding(TIME, REGRESSION if one.verdict == SLOWER else IMPROVEMENT, one.name, says)
+
+
+def compare_measures(base: Path, head: Path) -> list[dict[str, str]]:
+    """Return how a user's laws end on the free body, how fast, at what cost and how stiff: base, head, the change."""
+    was, now, lines = _measure(base), _measure(head), []
+    for law, what in now | was:
+        before, after = (side.get((law, what), "none") for side in (was, now))
+        lines.append({"law": law, "": what, "base": before, "head": after, "change": _change(before, after)})
+    return lines
+
+
+def _measure(folder: Path) -> dict[tuple[str, str], str]:
+    """Return the measures of every law by its name and theirs, as text."""
+    episodes, field = (table(folder, name) for name in ("episodes", "command-field"))
+    episodes = episodes[(episodes["arm"] == "") & (episodes["engine"] == ENGINE)]
+    stiffness = field[field["finding"] == "stiffness"]
+    found = {}
+    for law, rows in episodes.groupby(episodes["contender"].astype(str), sort=False):
+        settled = rows[rows["outcome"] == "settled"]
+        for outcome, count in rows["outcome"].astype(str).value_counts().items():
+            found[law, str(outcome)] = f"{count} of {len(rows)}"
+        for column, name in MEDIANS.items():
+            found[law, name] = _write(settled[column].median())
+        for value in stiffness.loc[stiffness["contender"].astype(str) == law, "value"]:
+            found[law, STIFFNESS] = _write(value)
+    return found
+
+
+def _write(value: float) -> str:
+    return "none" if pd.isna(value) else f"{value:.4g}"
+
+
+def _change(before: str, after: str) -> str:
+    """Return by how many percent a number changed; empty where it did not, or where there is none."""
+    with contextlib.suppress(ValueError, ZeroDivisionError):
+        return f"{float(after) / float(before) - 1.0:+.1%}" if before != after else ""
+    return ""

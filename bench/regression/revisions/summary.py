@@ -1,15 +1,74 @@
-"""Write a comparison in words: a headline, a table of times, and Markdown for a pull request."""
+"""What one comparison found, and in words: a headline, a table of times, and Markdown for a pull request."""
 
 import html
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
 from bench.base.provenance import cpu_name, describe
 from bench.findings.judgement import Judgement
-from bench.regression.revisions.comparison import Comparison
 from bench.regression.revisions.timing import Timed
 
+REGRESSION, CHANGE, IMPROVEMENT = "regression", "change", "improvement"
 SHOWN = 40  # findings that a summary lists
+
+
+class Gate(NamedTuple):
+    """A gate; whether it passed, failed or was skipped; and in a line what came of it or why."""
+
+    gate: str
+    state: str
+    says: str
+
+
+class Finding(NamedTuple):
+    """One thing that differs: found by which gate, of which law, and in words; more: what is folded into it."""
+
+    gate: str
+    verdict: str
+    name: str
+    says: str
+    more: tuple[str, ...] = ()
+
+
+@dataclass
+class Comparison:
+    """All that was compared, and what was found; one gate after the other adds to it.
+
+    files: of pytest-benchmark, of base and head, if both were timed. measures: of a user's laws.
+    """
+
+    base: str
+    head: str
+    gates: list[Gate] = field(default_factory=list)
+    findings: list[Finding] = field(default_factory=list)
+    times: list[Timed] = field(default_factory=list)
+    judgements: list[Judgement] = field(default_factory=list)
+    files: list[dict[str, Any]] = field(default_factory=list)
+    measures: list[dict[str, str]] = field(default_factory=list)
+
+    @property
+    def regressions(self) -> list[Finding]:
+        """Return what must not be merged unseen."""
+        return [one for one in self.findings if one.verdict == REGRESSION]
+
+    def add(self, gates: Iterable[str], findings: list[Finding], what: str = "") -> None:
+        """Add findings, and their gates: failed if one of its findings is a regression."""
+        self.findings += findings
+        for name in gates:
+            found = [one for one in findings if one.gate == name]
+            bad = sum(one.verdict == REGRESSION for one in found)
+            says = f"{bad} regressions, {len(found) - bad} other changes" if found else "nothing differs"
+            self.gates.append(Gate(name, "failed" if bad else "passed", f"{what}: {says}" if what else says))
+
+    def fail(self, gate: str, says: str) -> None:
+        """Add a gate that failed as a whole."""
+        self.gates.append(Gate(gate, "failed", says))
+        self.findings.append(Finding(gate, REGRESSION, "", says))
+
+    def skip(self, gates: Iterable[str], says: str, state: str = "skipped") -> None:
+        """Add gates at which nothing was compared."""
+        self.gates += [Gate(name, state, says) for name in gates]
 
 
 def write_headline(comparison: Comparison) -> str:

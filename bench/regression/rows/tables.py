@@ -45,14 +45,9 @@ def within(relative: float, absolute: float = ABSOLUTE) -> Callable[[str], tuple
     return lambda column: (relative, absolute)
 
 
-def is_settled(frame: pd.DataFrame) -> np.ndarray:
-    """Return whether each row settled."""
-    return (frame["outcome"].astype(str) == OUTCOMES[SETTLED]).to_numpy()
-
-
-def have_same_outcome(old: pd.DataFrame, new: pd.DataFrame) -> np.ndarray:
-    """Return whether each row has the same outcome in both."""
-    return (old["outcome"].astype(str) == new["outcome"].astype(str)).to_numpy()
+def end_as(word: str, *frames: pd.DataFrame) -> np.ndarray:
+    """Return whether each row has this outcome in every frame."""
+    return np.all([one["outcome"].astype(str) == word for one in frames], axis=0)
 
 
 def share_outcome(old: pd.DataFrame, new: pd.DataFrame) -> np.ndarray:
@@ -82,22 +77,22 @@ def compare_episodes(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
             return (relative - RELATIVE, half_tick) if has_ticks else (relative, ABSOLUTE + half_tick)
         return (relative - RELATIVE, 0.0) if column == "ticks" else (relative, ABSOLUTE)
 
-    rows = is_settled(old) & have_same_outcome(old, new) & (loose < 1.0)
+    rows = end_as(OUTCOMES[SETTLED], old, new) & (loose < 1.0)
     skipped = ("cause", "outcome_beside", "rounding_change")
     return Rule(tolerance, rows, {"outcome": ~share_outcome(old, new)}, skipped)
 
 
 def compare_robustness(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
     """Compare outcomes exactly, and numbers of what settled in both."""
-    rows = is_settled(old) & have_same_outcome(old, new)
-    return Rule(within(PERTURBED_RELATIVE), rows, {"outcome": np.ones(len(old), bool)})
+    both = end_as(OUTCOMES[SETTLED], old, new)
+    return Rule(within(PERTURBED_RELATIVE), both, {"outcome": np.ones(len(old), bool)})
 
 
 def compare_contact(old: pd.DataFrame, new: pd.DataFrame) -> Rule:
     """Compare outcomes where no rounding decides them, and numbers of what is done in both."""
     torque = np.fmin(new["peak_torque_ratio"].to_numpy(), old["peak_torque_ratio"].to_numpy())
     decided = ~_is_on_singular_set(old) & ~(torque > THROWN)
-    both = have_same_outcome(old, new) & decided & (old["outcome"].astype(str) == "done").to_numpy()
+    both = end_as("done", old, new) & decided
     is_peg = (old["task"].astype(str) == "peg-in-hole") & ~old["form"].astype(str).isin(("inverse", "projected"))
     creeps = old["rest"].astype(str) == "creeping"
     relative, absolute = (np.select([creeps, is_peg], [CREEP[at], PEG[at]], CONTACT[at]) for at in (0, 1))
@@ -141,7 +136,7 @@ RULES: dict[str, Callable[[pd.DataFrame, pd.DataFrame], Rule]] = {
 def compare_tables(table: Table, old: pd.DataFrame, new: pd.DataFrame) -> list[Difference]:
     """Return what differs between base's and head's rows."""
     if table.name == "traces":  # curves that came to the goal; on the others rounding may decide when they end
-        old, new = (frame[is_settled(frame)] for frame in (old, new))
+        old, new = (frame[end_as(OUTCOMES[SETTLED], frame)] for frame in (old, new))
     old, new, found = align_rows(table, old, new)
     rule = RULES[table.name](old, new) if table.name in RULES else Rule(within(RELATIVE))
     return found + compare_cells(table, old, new, rule)

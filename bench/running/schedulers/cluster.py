@@ -23,8 +23,8 @@ from tornado.ioloop import PeriodicCallback
 
 from bench.base.errors import LostWorkers, MissingTool
 from bench.experiments.experiment import Unit, experiment_of
-from bench.experiments.plan import Plan
 from bench.running.run_folder import part, write_part
+from bench.running.sandbox import Sandbox
 from bench.running.schedulers import LOCAL, worker
 from bench.running.wire_format import described
 
@@ -51,10 +51,8 @@ logging.getLogger("distributed").setLevel(logging.CRITICAL)
 
 @contextlib.contextmanager
 def client_of(word: str) -> Iterator[distributed.Client]:
-    """Open a client of the cluster that the word names; a local one lives as long as this.
+    """Open a client of local:N, a cluster that lives as long as this, or of the scheduler at an address.
 
-    Args:
-        word: local:N, or the address of a scheduler.
     Errors:
         MissingTool: no scheduler answers there.
     """
@@ -112,20 +110,16 @@ def print_while_empty(client: Any, every_s: float = EMPTY_S) -> Iterator[None]:
 class Chunks:
     """Chunks on their way to workers and back: as many as keep them busy, and no more.
 
-    done: called for each unit when it is written. law_limit_s: of a user's laws, as `Sandbox` takes it. ahead: how many
-    each thread of a worker is given. threads: the most that were there. notes: what workers say of a user's laws.
-    again: keys of units that have no rows yet, see `Sandbox`. waiting: not given yet.
+    sandbox: has the plan and limits, and takes what workers say of a law. done: called for each unit when it
+    is written. ahead: how many each thread of a worker is given. threads: the most that were there. waiting: not given.
     """
 
     client: distributed.Client
-    plan: Plan
+    sandbox: Sandbox
     out: Path
     done: Callable[[Unit], None]
-    law_limit_s: float | None = None
     ahead: int = AHEAD
     threads: int = 0
-    notes: list[str] = field(default_factory=list)
-    again: set[str] = field(default_factory=set)
     waiting: deque[tuple[Unit, ...]] = field(default_factory=deque)
     given: dict[distributed.Future, tuple[Unit, ...]] = field(default_factory=dict)
 
@@ -166,8 +160,8 @@ class Chunks:
         room = self.ahead * max(1, self._present())
         while self.waiting and len(self.given) < room:
             units = self.waiting.popleft()
-            text = json.dumps(described(self.plan, units))
-            future = self.client.submit(worker.carry_out, text, self.law_limit_s, pure=False)
+            text = json.dumps(described(self.sandbox.plan, units))
+            future = self.client.submit(worker.carry_out, text, self.sandbox.limit_s, pure=False)
             self.given[future] = units
             ended.add(future)
 
@@ -191,12 +185,12 @@ class Chunks:
             ) from error
         except distributed.CancelledError as error:
             raise LostWorkers(GONE) from error
-        self.notes += [text for text in notes if text not in self.notes]
+        self.sandbox.notes += [text for text in notes if text not in self.sandbox.notes]
         for unit in units:
             if unit.key not in files:
-                self.again.add(unit.key)
+                self.sandbox.again.add(unit.key)
             elif not part(self.out, unit).is_file():  # it is there if Ctrl-C came while the chunk was written
-                write_part(self.plan, self.out, unit, files[unit.key])
+                write_part(self.sandbox.plan, self.out, unit, files[unit.key])
                 self.done(unit)
         del self.given[future]
 
@@ -211,24 +205,19 @@ MOST_EPISODES = 50_000
 """Episodes of a chunk: 10 MB of rows, which the worker and then the client hold."""
 
 
-def seconds(unit: Unit) -> float:
-    """Return what a unit usually takes a worker."""
-    return experiment_of(unit).cost_s(unit)
-
-
 def in_batches(units: Sequence[Unit], workers: int) -> list[tuple[Unit, ...]]:
     """Cut the units, in their order, into chunks of at most CHUNK_S, or of one unit that takes longer.
 
-    Args:
-        workers: that are there; of little work each gets ROUNDS chunks all the same.
+    Of little work each of the workers that are there gets ROUNDS chunks all the same.
     """
-    most_s = min(CHUNK_S, sum(map(seconds, units)) / (ROUNDS * max(1, workers)))
+    usual_s = [experiment_of(unit).cost_s(unit) for unit in units]
+    most_s = min(CHUNK_S, sum(usual_s) / (ROUNDS * max(1, workers)))
     chunks: list[list[Unit]] = []
     room_s, room = 0.0, 0
-    for unit in units:
-        if seconds(unit) > room_s or unit.episodes > room:
+    for unit, takes_s in zip(units, usual_s, strict=True):
+        if takes_s > room_s or unit.episodes > room:
             chunks.append([])
             room_s, room = most_s, MOST_EPISODES
         chunks[-1].append(unit)
-        room_s, room = room_s - seconds(unit), room - unit.episodes
+        room_s, room = room_s - takes_s, room - unit.episodes
     return list(map(tuple, chunks))

@@ -7,7 +7,6 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
 from bench.experiments.experiment import Unit
-from bench.experiments.plan import Plan
 from bench.running.precompile import Ahead
 from bench.running.run_folder import write_part
 from bench.running.sandbox import Sandbox
@@ -18,13 +17,11 @@ UNITS_A_PROCESS = 8
 
 
 def run(
-    plan: Plan, todo: Sequence[Unit], out: Path, workers: int, sandbox: Sandbox, done: Callable[[Unit], None],
+    todo: Sequence[Unit], out: Path, workers: int, sandbox: Sandbox, done: Callable[[Unit], None],
     ahead: Ahead | None = None,
 ) -> int:  # fmt: skip
-    """Carry out units, in their order, and write each when it is done; return the number of workers.
+    """Carry out units, in their order, and write each and call `done` with it; return the number of workers.
 
-    Args:
-        sandbox: of the user's laws. done: called for each unit when it is written. ahead: compiles our contenders.
     Errors:
         KeyboardInterrupt: after the units under way are written.
     """
@@ -37,7 +34,7 @@ def run(
         if stop.is_set():
             return None
         if (content := sandbox.packed(unit)) is not None:
-            write_part(plan, out, unit, content)
+            write_part(sandbox.plan, out, unit, content)
         return unit
 
     ours, own = [unit for unit in todo if not sandbox.has(unit)], [unit for unit in todo if sandbox.has(unit)]

@@ -9,13 +9,10 @@ from bench.running.wire_format import plan_of
 
 
 def carry_out(text: str, law_limit_s: float | None = None) -> tuple[dict[str, bytes], list[str]]:
-    """Key -> its rows as bytes of every unit of a chunk, and what is to be said of a user's laws.
+    """Return the rows of each unit of a chunk as bytes, by its key, and what is to be said of a user's laws.
 
-    A unit that is to be tried again, see `Sandbox.again`, has none.
+    text: of `wire_format.described`, as JSON. A unit that is to be tried again, see `Sandbox.again`, has no rows.
 
-    Args:
-        text: what `wire_format.described` says of it, as JSON. law_limit_s: of a user's law, as `bench.running.sandbox`
-            takes it.
     Errors:
         BadResults: this worker has other sources. BadLaw: a user's law that it cannot load.
     """

@@ -7,15 +7,6 @@ benchmark in a random order of its own, and a ratio is taken within a pass.
 An interval says how sure the median of this run is, on a machine in this state. Three full runs, minutes apart on two
 shared cores, agreed within 1 % for laws alone; beside three processes that kept both cores busy, some ideal loops were
 up to 12 % slower, far outside their intervals.
-
-reference_kernel   what a ratio is to
-law                a law alone, one command waiting for the other
-benchmark, benchmarks      all that is timed, engines included
-on_arms            the same of every arm: each controller of the default suite
-session            the samples, as pytest-benchmark runs them
-ratios             medians over passes, with intervals
-apart              the same beside a user's laws, in a process of its own
-rows               from seconds to results/timings/<machine>.parquet, and tables for the eye
 """
 
 from bench.running.timing.apart import run_apart

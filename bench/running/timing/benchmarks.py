@@ -46,12 +46,10 @@ class Progress(NamedTuple):
 def benchmarks(
     contenders: list[Contender], report: Callable = lambda _: None, arms: tuple[str, ...] = ()
 ) -> list[Benchmark]:
-    """Return the reference kernel first, then everything else; all is compiled and has run once.
+    """Return the reference kernel first, then everything else, arms with the controllers that have these laws too.
 
-    MuJoCo's own actuator is left out: no law of ours runs there.
+    All is compiled and has run once. MuJoCo's own actuator is left out: no law of ours runs there.
 
-    Args:
-        arms: names of those that are timed too, with the controllers that have these laws.
     Errors:
         BadLaw: a user's law that the compiler cannot take.
     """

@@ -6,12 +6,9 @@ from bench.experiments.tables.statistics import Estimate, order_interval
 
 
 def ratio(times: np.ndarray, others: np.ndarray) -> Estimate:
-    """Return the median ratio of two columns of times, pass by pass; the passes are taken for independent.
+    """Return the median ratio of two columns of times, one a pass; the passes are taken for independent.
 
     The interval covers the true median with 95 % confidence; of fewer than 6 passes with less.
-
-    Args:
-        times, others: one number a pass, in the same unit.
     """
     ordered = np.sort(times / others)
     low, high = order_interval(len(ordered), 0.5)

@@ -1,9 +1,16 @@
-"""From seconds to rows, results/timings/<machine>.parquet, and to tables for the eye: a line a law or controller."""
+"""The interleaved run, its rows in results/timings/<machine>.parquet, and tables with a line a law or controller.
+
+CPU time of the measuring thread is taken (time.thread_time), not the clock on the wall: on a shared machine that
+leaves out the time in which others ran, and a progress bar's thread. No benchmark uses a second thread. A sample is two
+rounds on end and counts with the fastest, for a disturbance only ever adds; the first also warms the caches.
+"""
 
 import functools
 import json
 import math
+import random
 import time
+import timeit
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -16,33 +23,30 @@ from bench.experiments.tables import store
 from bench.experiments.tables.read import with_contender
 from bench.law.contender import Contender
 from bench.running.timing.benchmark import KERNEL, Benchmark
-from bench.running.timing.benchmarks import benchmarks
+from bench.running.timing.benchmarks import Progress, benchmarks
 from bench.running.timing.ratios import ratio
-from bench.running.timing.session import measure
 
 NOT_TIMED, EMPTY = "fails", "(empty loop)"
+
+ROUNDS = 2
 
 PASSES, QUICK_PASSES = 31, 7
 """Odd, so that the median is a value. The interval covers the 10th to 22nd of 31, and all 7."""
 
 
 def run(
-    contenders: list[Contender],
-    folder: Path,
-    quick: bool = False,
-    report: Callable = lambda _: None,
+    contenders: list[Contender], folder: Path, quick: bool = False, report: Callable = lambda _: None,
     arms: tuple[str, ...] = (),
-) -> Path:
-    """Time everything and write the machine's file.
+) -> Path:  # fmt: skip
+    """Time everything, these arms too, and write the machine's file.
 
     Args:
-        arms: names of those that are timed too.
         report: called with a `benchmarks.Progress` for every law compiled and after every sample.
     Errors:
         BadLaw: a user's law that cannot be compiled. BadResults: the folder cannot be written.
     """
     measured = benchmarks(contenders, report, arms)
-    seconds = measure(measured, QUICK_PASSES if quick else PASSES, report=report)
+    seconds = measure(measured, QUICK_PASSES if quick else PASSES, report)
     rows = frame(measured, seconds)
     path = Path(folder) / f"{machine_key()}.parquet"
     about = {**describe(), "date": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime()), "quick": quick}
@@ -50,12 +54,24 @@ def run(
     return path
 
 
-def frame(measured: list[Benchmark], seconds: np.ndarray) -> pd.DataFrame:
-    """Return the rows of timings.parquet.
+def order(count: int, passes: int, seed: int = 0) -> list[list[int]]:
+    """Return a new shuffle of 0..count-1 for every pass."""
+    shuffled = random.Random(seed)
+    return [shuffled.sample(range(count), count) for _ in range(passes)]
 
-    Args:
-        seconds: one row a pass, one column a benchmark.
-    """
+
+def measure(measured: list[Benchmark], passes: int, report: Callable = lambda _: None) -> np.ndarray:
+    """Return seconds of the fastest round, garbage collection off: one row a pass, one column a benchmark."""
+    seconds = np.full((passes, len(measured)), np.nan)
+    visits = [(number, at) for number, row in enumerate(order(len(measured), passes)) for at in row]
+    for done, (number, at) in enumerate(visits, 1):
+        seconds[number, at] = min(timeit.repeat(measured[at].call, timer=time.thread_time, repeat=ROUNDS, number=1))
+        report(Progress(measured[at].name, done, len(visits)))
+    return seconds
+
+
+def frame(measured: list[Benchmark], seconds: np.ndarray) -> pd.DataFrame:
+    """Return the rows of timings.parquet; seconds: one row a pass, one column a benchmark."""
     ticks = np.array([float(one.ticks) if one.ticks else np.nan for one in measured])
     ns = seconds / ticks * 1e9
     columns = list(zip(measured, ns.T, strict=True))
@@ -97,9 +113,6 @@ def tables(timings: Path | pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
     """Yield the arm, empty for the free body, and its table: ns a tick alone and in each engine.
 
     What is alone has its ratio to the reference kernel too. The empty loop is what the time of every law alone holds.
-
-    Args:
-        timings: a machine's file, or its rows.
     """
     every = with_contender(timings if isinstance(timings, pd.DataFrame) else read(timings))
     for arm, rows in every.groupby("arm", observed=True, sort=False):
