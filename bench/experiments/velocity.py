@@ -173,12 +173,9 @@ def prepare(settings: Settings, unit: Unit) -> None:
 
 
 EXPERIMENT = Experiment.of(
-    __file__,
+    globals(),
     "first-order laws: robots commanded in velocity",
-    units,
-    rows,
     takes=(*OF_LAWS, "arms"),
     cost_s=lambda unit: unit.count * (8.0 * EPISODE_S["arm"] if unit.arm else 4.0 * EPISODE_S[""]),
-    prepare=prepare,
     ticks=lambda settings, unit: 8.0 * unit.count * unit.horizon_s / settings.dt_s,
 )

@@ -123,10 +123,8 @@ def _run(settings: Settings, unit: Unit, begun: list, k_dt: float, ticks: int, l
 
 
 EXPERIMENT = Experiment.of(
-    __file__,
+    globals(),
     "the largest K dt of first-order laws",
-    units,
-    rows,
     takes=(*OF_LAWS, "arms"),
     cost_s=lambda unit: ARM_S if unit.arm else LAW_S,
     prepare=velocity.prepare,

@@ -148,14 +148,11 @@ def prepare(settings: Settings, unit: Unit) -> None:
     prepare_contact(find_controller(unit.contender))
 
 
-EXPERIMENT = Experiment(
-    "contact",
+EXPERIMENT = Experiment.of(
+    globals(),
     "controllers of a hand in contact",
-    TABLE,
-    units,
-    rows,
+    table=TABLE,
     takes=("tasks", "arms", "controllers", "representations"),
     cost_s=lambda unit: unit.episodes * TRIAL_S,
-    prepare=prepare,
     rank=2,
 )
