@@ -11,7 +11,7 @@ import tasks
 from bench.findings.claims.side_by_side import predicted
 from report.figures.arms import arm_rows, arms, jacobians
 from report.figures.contact import compliance, in_contact
-from report.figures.contact.rows import PAPERS, PAPERS_EULER, level, of, of_task
+from report.figures.contact.in_contact import PAPERS, PAPERS_EULER, level, of, of_task
 
 ARM = "puma560"
 

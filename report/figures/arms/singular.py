@@ -8,11 +8,11 @@ from bench.experiments.suites import IDEAL_MOTORS, LISTS, NOMINAL
 from bench.findings.claims.tables import settled, some
 from bench.law.contenders.registry import contenders
 from report.figures.arms import arm_rows
+from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import listed
-from report.figures.kit.tables import Table
 
-RULES = Table(
+RULES = html.Table(
     "Λ | Arms | Settled, unlimited torque [%]:.0f | Largest torque / rated:.3g "
     "| Settled, limited torque [%]:.0f | Tool off its place, at most [mm]:.0f"
 )

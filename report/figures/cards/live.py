@@ -18,7 +18,7 @@ from bench.experiments.tables import read
 from bench.export import browser
 from bench.law.contender import Contender
 from bench.law.contenders.registry import all_contenders
-from report.figures.cost.operations import CALLS
+from report.figures.cost.cost import CALLS
 from report.figures.kit import families, html, laws, style
 from report.figures.kit.page import Run
 from tasks.base import Start
@@ -157,12 +157,10 @@ def _translatable(name: str) -> Contender | None:
 
 
 def facts(run: Run) -> dict:
-    """Numbers of the page's text."""
-    chosen = alive(())
-    return {"laws": len(chosen), "kilobytes": f"{len(browser.script(chosen)) / 1000:.0f}"}
-
-
-def figures(run: Run) -> dict:
-    """Return what the script brings to life."""
-    costs = run.any_rows("costs", **read.FREE_BODY)
-    return {"two-laws": page(alive(costs["contender"].astype(str)) if len(costs) else alive(()), costs)}
+    """Return the numbers of the text, and what the script brings to life."""
+    ours, costs = alive(()), run.any_rows("costs", **read.FREE_BODY)
+    return {
+        "laws": len(ours),
+        "kilobytes": f"{len(browser.script(ours)) / 1000:.0f}",
+        "two-laws": page(alive(costs["contender"].astype(str)), costs),
+    }

@@ -18,13 +18,12 @@ from bench.law.kinds import Law
 from report.figures.cards.card import LawPage, Source, docstring, make_card, make_page, say_property, set_words
 from report.figures.kit import families, html, laws, style
 from report.figures.kit.page import Run
-from report.figures.kit.tables import Table
 
 UNTRUSTED = (
     "A law of somebody else, by its rows alone: its file came with these results and was not run. If you have read it, "
     "bench trust FILE lets it run, and its card then says what it is."
 )
-LAWS = Table("Law | Property | Settles | On the command line", {"Settles": lambda share: f"{100 * share:.1f} %"})
+LAWS = html.Table("Law | Property | Settles | On the command line", {"Settles": lambda share: f"{100 * share:.1f} %"})
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 EXAMPLE = re.compile(r" Shown by |, as from |, as at ")
 
@@ -128,8 +127,8 @@ def advised(law: str) -> str:
     return f"Advised in {found.advised:.0%} of situations, and unbeaten in {found.unbeaten:.0%}."
 
 
-def tables(run: Run) -> dict:
-    """Every law as a line."""
+def facts(run: Run) -> dict:
+    """Return every law as a line."""
     return {"laws": LAWS(line(one, run) for one in every_law())}
 
 

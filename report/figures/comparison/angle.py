@@ -78,6 +78,6 @@ def left_at(angles: np.ndarray, times: np.ndarray) -> tuple[float, float] | None
     return float(angles[outside[0]]) - ASIDE_DEG, TOP_S if times[outside[0]] > TOP_S else FOOT_S
 
 
-def figures(run: Run) -> dict:
+def facts(run: Run) -> dict:
     """Draw settling times over the angle."""
     return {"comparison-angle": curves(uniform(run))}

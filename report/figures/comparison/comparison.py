@@ -14,14 +14,12 @@ from bench.findings.claims.tables import share
 from bench.findings.selection import tables as compared
 from bench.findings.selection.needs import measured
 from bench.findings.start_sets import AT_REST
-from report.figures.cost.cost import totals
-from report.figures.cost.operations import CALLS
+from report.figures.cost.cost import CALLS, totals
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
-from report.figures.kit.tables import Table
 
-ALL_LAWS = Table("Law | Settles [%] | Median [s] | 99 % [s] | Effort | Peak | A tick | Lost | Held")
+ALL_LAWS = html.Table("Law | Settles [%] | Median [s] | 99 % [s] | Effort | Peak | A tick | Lost | Held")
 NEAR_DEG = 30, 60
 ANISOTROPIC = "weighted-columns"
 """Its stiffness is the others' on the average over its axes alone."""

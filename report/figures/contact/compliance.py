@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from bench.findings.claims.side_by_side import compliances
 from report.figures.arms.arm_rows import name_arm
 from report.figures.contact import as_arms_run
-from report.figures.contact.rows import EULER, PAPERS, PAPERS_EULER, level, of, of_task
+from report.figures.contact.in_contact import EULER, PAPERS, PAPERS_EULER, level, of, of_task
 from report.figures.kit import style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run, in_run

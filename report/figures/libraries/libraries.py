@@ -18,7 +18,6 @@ from bench.studies.libraries.judge import COUNT_RAD, FORMS, SINGLE_RAD, WRONG_AX
 from report.figures.kit import html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import listed, power
-from report.figures.kit.tables import Table
 from report.figures.libraries import as_shipped
 
 FOLDER = RESULTS / "libraries"
@@ -29,7 +28,7 @@ NO_NUMBER, ZERO, LONG_WAY, MISALIGNED, SHEET, DIGITS = "no-number", "zero", "lon
 OURS = "orientation-bench"
 """Our own laws in results/libraries, asked like the libraries."""
 
-FAULTS = Table("Library | Function | Fault | Smallest fix | Thread")
+FAULTS = html.Table("Library | Function | Fault | Smallest fix | Thread")
 ORDER = (ZERO, SHEET, LONG_WAY, MISALIGNED, DIGITS)
 """Order of the faults, by what they do to a controller."""
 
