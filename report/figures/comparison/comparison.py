@@ -82,7 +82,7 @@ def compare_laws(run: Run, times: pd.DataFrame, efforts: pd.DataFrame) -> Iterat
         own, sure = rows[rows["contender"] == name], read.converged(tried[tried["contender"] == name])
         yield (
             families.link(name, families.word(name)),
-            settles(own),
+            with_interval(*map(percent, share(own["outcome"] == "settled")[2:])),
             seconds(times[name]),
             seconds(times[name], 0.99),
             html.number(float(f"{efforts[name].quantile(interpolation='lower'):.3g}")),
@@ -111,12 +111,6 @@ def costs(rows: pd.DataFrame, column: str) -> pd.DataFrame:
     return rows.assign(cost=rows[column].where(settled, np.inf)).pivot(
         index="start_id", columns="contender", values="cost"
     )
-
-
-def settles(own: pd.DataFrame) -> str:
-    """Return the share of a law's rows that settle [%], with its interval."""
-    found = share(own["outcome"] == "settled")
-    return with_interval(*map(percent, (found.value, found.low, found.high)))
 
 
 def tick(counted: pd.DataFrame, name: str) -> str:

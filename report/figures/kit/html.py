@@ -23,7 +23,7 @@ VERDICTS = {
     "not testable": "untestable",
 }
 MISSING = "–"
-COUNT = re.compile(r"\d+ of \d+")
+COUNT = re.compile(r"\d+ of \d+")  # a line of it alone, as 24 of 24, does not break
 
 ROUNDED_FROM, SCIENTIFIC_FROM = 1e3, 1e9  # three figures of a number in between would read 1.23e+03
 LEADING_MINUS = re.compile(r"-[\d.\u221e]")
@@ -76,11 +76,6 @@ def together(text: str) -> Html:
 def both(light: str) -> str:
     """Return a colour for light and dark pages, as CSS."""
     return f"light-dark({light}, {style.TWINS[light]})"
-
-
-def keep_count(text: str) -> str:
-    """Return a cell in which the line of a count alone, as 24 of 24, does not break."""
-    return text.replace(" ", "\u00a0") if COUNT.fullmatch(text) else text
 
 
 def cell(value: Any, form: str | Callable[[Any], str] | None = None) -> str:
@@ -156,8 +151,8 @@ class Table:
         numbers = {name for name in self.heads if pd.api.types.is_numeric_dtype(frame[name])} - set(self.words)
         rule = ["--:" if name in numbers else ":--" for name in self.heads]
         forms = [self.formats.get(head) for head in self.heads]
-        cells = (
-            [keep_count(cell(value, form)) for value, form in zip(row, forms, strict=True)]
-            for row in frame.itertuples(index=False, name=None)
-        )
-        return Markdown("\n".join(f"| {' | '.join(line)} |" for line in (self.heads, rule, *cells)))
+        lines = [self.heads, rule]
+        for row in frame.itertuples(index=False, name=None):
+            texts = (cell(value, form) for value, form in zip(row, forms, strict=True))
+            lines.append([text.replace(" ", "\u00a0") if COUNT.fullmatch(text) else text for text in texts])
+        return Markdown("\n".join(f"| {' | '.join(line)} |" for line in lines))

@@ -83,11 +83,6 @@ def named(rows: pd.DataFrame) -> str:
     return ", ".join(rows["shipped"]) or "none"
 
 
-def list_fixes(run: Run) -> html.Markdown | None:
-    """Return a row a controller that a small fix helps."""
-    return FIXES(describe_fix(one) for one in shipped(run).itertuples() if fix_of(one.shipped).words != KEEP)
-
-
 def in_lines(rows: pd.DataFrame) -> list[tuple]:
     """Return a row for all controllers with the same cells."""
     lines: dict[tuple, list[str]] = {}

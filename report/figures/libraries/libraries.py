@@ -160,15 +160,16 @@ def facts(run: Run) -> dict:
         "known": int(functions.loc[~functions["is_right"], "thread"].ne("").sum()),
         **loop_facts(),
         "tab_faults": FAULTS(faults(every)),
-        "tab_shipped": in_run(as_shipped.list_fixes, run),
         **(in_run(shipped_facts, run) or {}),
     }
 
 
 def shipped_facts(run: Run) -> dict:
-    """Return what the text says of shipped controllers."""
+    """Return what the text says of shipped controllers, and a row for each that a small fix helps."""
     own = as_shipped.shipped(run)
+    fixed = (one for one in own.itertuples() if fix_of(one.shipped).words != KEEP)
     return {
+        "tab_shipped": as_shipped.FIXES(map(as_shipped.describe_fix, fixed)),
         "shipped": len(own),
         "weak": int(as_shipped.is_weak(own).sum()),
         "shipped_dead": int((own["dead"] > 0).sum()),
