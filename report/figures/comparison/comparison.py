@@ -114,11 +114,7 @@ def costs(rows: pd.DataFrame, column: str) -> pd.DataFrame:
 
 
 def tick(counted: pd.DataFrame, name: str) -> str:
-    """Return flops and calls of a typical tick, as "45 + 6".
-
-    Args:
-        counted: rows of costs.parquet about the free body.
-    """
+    """Return flops and calls of a typical tick, as "45 + 6"; counted: rows of costs.parquet about the free body."""
     if name not in set(counted["contender"]):
         return html.MISSING
     own = totals(counted).loc[name]
