@@ -110,12 +110,10 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     return judged_beside(again(starts), starts, again)
 
 
-EXPERIMENT = Experiment(
-    "arm",
+EXPERIMENT = Experiment.of(
+    globals(),
     "laws on arms, by a Jacobian and its inverse",
-    TABLE,
-    units,
-    rows,
+    table=TABLE,
     takes=ON_ARMS,
     cost_s=lambda unit: unit.count * EPISODE_S[unit.engine],
     prepare=episodes.prepare,

@@ -112,13 +112,10 @@ def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
 
 
 EXPERIMENT = Experiment.of(
-    __file__,
+    globals(),
     "where a law first fails, along geodesics",
-    units,
-    rows,
     takes=OF_LAWS,
-    is_whole=is_whole,
-    cost_s=lambda unit: unit.count * AXIS_S,
     prepare=prepare,
+    cost_s=lambda unit: unit.count * AXIS_S,
     ticks=lambda settings, unit: unit.count * len(SCAN) * unit.horizon_s / settings.dt_s,
 )

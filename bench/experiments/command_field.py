@@ -205,13 +205,11 @@ FINDINGS = (
 
 
 EXPERIMENT = Experiment.of(
-    __file__,
+    globals(),
     "commands over all states",
-    units,
-    rows,
+    prepare=prepare,
     cost_s=lambda unit: LAW_S,
     takes=OF_LAWS,
     is_whole=lambda settings, unit, rows: tuple(rows["finding"]) == FINDINGS,
-    prepare=prepare,
     ticks=lambda settings, unit: CALLS,
 )

@@ -82,11 +82,8 @@ def prepare(settings: Settings, unit: Unit) -> None:
 
 
 EXPERIMENT = Experiment.of(
-    __file__,
+    globals(),
     "laws with a state of their own",
-    units,
-    rows,
     cost_s=lambda unit: LEVEL_S * len(DISTURBANCES),
     compiles=False,
-    prepare=prepare,
 )

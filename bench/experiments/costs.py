@@ -75,15 +75,12 @@ def count_operations(one: Contender, joints: int = 0) -> list[dict]:
     return rows() if one.regulator.origin else kept(f"costs/{one.name}{f'-{joints}' if joints else ''}", rows)
 
 
-EXPERIMENT = Experiment(
-    "costs",
+EXPERIMENT = Experiment.of(
+    globals(),
     "operations a tick",
-    read_table(__file__, "costs", OPERATIONS=operations),
-    units,
-    rows,
+    table=read_table(__file__, "costs", OPERATIONS=operations),
     takes=ON_ARMS,
     cost_s=lambda unit: CONTROLLER_S if unit.arm else LAW_S,
     is_tried_first=True,
-    is_whole=is_whole,
     compiles=False,
 )

@@ -13,7 +13,6 @@ import dataclasses
 import functools
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from bench import experiments
@@ -148,6 +147,10 @@ Rows: TypeAlias = "pd.DataFrame | list[dict] | dict[str, Any]"
 """Rows as a data frame, as one dict a row, or as columns."""
 
 
+PARTS = ("units", "rows", "prepare", "lost", "is_whole", "fold")
+"""Functions of an experiment's file that are parts of it by their names."""
+
+
 class Experiment(NamedTuple):
     """The constant EXPERIMENT of a file: what there is to do, and what comes of it.
 
@@ -187,13 +190,11 @@ class Experiment(NamedTuple):
     rank: int = 9
 
     @classmethod
-    def of(
-        cls, file: str, title: str, units: Callable[[Asked], tuple[Unit, ...]], rows: Callable[[Settings, Unit], Rows],
-        **more: Any,
-    ) -> Experiment:  # fmt: skip
-        """Return the experiment of a file, which gives its name and the table of its TOML file."""
-        name = Path(file).stem.replace("_", "-")
-        return cls(name, title, read_table(file, name), units, rows, **more)
+    def of(cls, module: dict[str, Any], title: str, table: Table | None = None, **more: Any) -> Experiment:
+        """Return the experiment of a file, whose globals have PARTS; table: its TOML file's if None."""
+        name = module["__name__"].rpartition(".")[2].replace("_", "-")
+        parts = {part: module[part] for part in PARTS if part in module}
+        return cls(name, title, table or read_table(module["__file__"], name), **parts | more)
 
 
 @functools.cache

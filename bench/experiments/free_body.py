@@ -52,12 +52,10 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     return episodes.rows_from(settings, unit, episodes.starts_of(settings, unit))
 
 
-EXPERIMENT = Experiment(
-    "free-body",
+EXPERIMENT = Experiment.of(
+    globals(),
     "laws on the body that turns freely",
-    TABLE,
-    units,
-    rows,
+    table=TABLE,
     takes=OF_EPISODES,
     cost_s=lambda unit: unit.count * EPISODE_S[unit.engine],
     prepare=episodes.prepare,

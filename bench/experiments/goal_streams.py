@@ -48,10 +48,8 @@ def compute_steps(q: np.ndarray) -> np.ndarray:
 
 
 EXPERIMENT = Experiment.of(
-    __file__,
+    globals(),
     "goals that arrive as a stream",
-    units,
-    rows,
     cost_s=lambda unit: 1.0,
     compiles=False,
 )

@@ -115,12 +115,9 @@ def prepare(settings: Settings, unit: Unit) -> None:
 
 
 EXPERIMENT = Experiment.of(
-    __file__,
+    globals(),
     "impedance without inertia shaping, in free motion",
-    units,
-    rows,
     takes=("tasks", "arms"),
     cost_s=lambda unit: 2.0 * len(STIFFNESSES) * unit.count * EPISODE_S,
-    prepare=prepare,
     compiles=False,
 )

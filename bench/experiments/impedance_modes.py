@@ -119,12 +119,10 @@ def compute_tick_radius(P: np.ndarray, Q: np.ndarray, dt: float) -> float:
 
 
 EXPERIMENT = Experiment.of(
-    __file__,
+    globals(),
     "modes of impedance without inertia shaping",
-    units,
-    rows,
     takes=("tasks", "arms"),
-    cost_s=lambda unit: DESIGN_S,
     prepare=prepare,
+    cost_s=lambda unit: DESIGN_S,
     compiles=False,
 )

@@ -77,7 +77,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     found = pd.DataFrame()
     for number in range(unit.first // BLOCK, -(-(unit.first + unit.count) // BLOCK)):
         made = _of_block(settings, unit, number)
-        found = made if found.empty else folded(found, made)
+        found = made if found.empty else fold(found, made)
     return found
 
 
@@ -125,7 +125,7 @@ def cells(quats: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return 5 * ring, band.astype(np.int64), azimuth.astype(np.int64)
 
 
-def folded(before: pd.DataFrame, after: pd.DataFrame) -> pd.DataFrame:
+def fold(before: pd.DataFrame, after: pd.DataFrame) -> pd.DataFrame:
     """Return the rows of two stretches of starts, the first before the second, as those of both."""
     return _reduced(pd.concat([before, after], ignore_index=True))
 
@@ -157,13 +157,10 @@ def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
 
 
 EXPERIMENT = Experiment.of(
-    __file__,
+    globals(),
     "laws from millions of random starts",
     units=lambda asked: (),
-    rows=rows,
     cost_s=lambda unit: unit.count * START_S,
     prepare=lambda settings, unit: prepare_law(settings, unit, unit.engine, metrics=()),
-    is_whole=is_whole,
-    fold=folded,
     in_suites=False,
 )

@@ -138,17 +138,13 @@ def _rows(settings: Settings, starts: list, condition: Condition, limits: Limits
     }
 
 
-EXPERIMENT = Experiment(
-    "robustness",
+EXPERIMENT = Experiment.of(
+    globals(),
     "laws on the free body under perturbations",
-    read_table(__file__, "robustness", METRICS=lambda: of_metrics(metrics_of(on_arm=False), SINGLE)),
-    units,
-    rows,
+    table=read_table(__file__, "robustness", METRICS=lambda: of_metrics(metrics_of(on_arm=False), SINGLE)),
     takes=(*OF_LAWS, "axes"),
     cost_s=lambda unit: unit.episodes * EPISODE_S,
     prepare=lambda settings, unit: prepare_law(settings, unit, "perturbed", metrics_of(on_arm=False)),
-    lost=lost,
-    is_whole=is_whole,
     ticks=lambda settings, unit: unit.episodes * unit.horizon_s / SHORTEST_S,
     rank=3,
 )

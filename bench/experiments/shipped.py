@@ -148,10 +148,8 @@ def motion(contender: Contender, memories: tuple, settings: Settings, horizon_s:
 
 
 EXPERIMENT = Experiment.of(
-    __file__,
+    globals(),
     "controllers as they are shipped",
-    units,
-    rows,
     cost_s=lambda unit: CONTROLLER_S,
     compiles=False,
 )

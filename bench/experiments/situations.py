@@ -169,10 +169,9 @@ def _run(
 
 
 EXPERIMENT = Experiment.of(
-    __file__,
+    globals(),
     "laws on the free body in situations of dimensionless numbers",
     units=lambda asked: (),
-    rows=rows,
     cost_s=lambda unit: unit.episodes * START_S,
     prepare=lambda settings, unit: prepare_law(settings, unit, "perturbed", metrics()),
     ticks=lambda settings, unit: 3 * MOST * HORIZON_S / 1e-3,

@@ -150,10 +150,8 @@ def compute_energy_error(spring: Spring, moment: Moment, K: np.ndarray) -> float
 
 
 EXPERIMENT = Experiment.of(
-    __file__,
+    globals(),
     "rotational springs with a stiffness matrix",
-    units,
-    rows,
     cost_s=lambda unit: 1.0,
     compiles=False,
 )

@@ -98,15 +98,12 @@ def curves_of(unit: Unit) -> int:
     return unit.count if unit.arm else len(tasks.start_set("paper")) + unit.count
 
 
-EXPERIMENT = Experiment(
-    "traces",
+EXPERIMENT = Experiment.of(
+    globals(),
     "curves of the paper's laws",
-    TABLE,
-    units,
-    rows,
+    table=TABLE,
     takes=OF_LAWS,
-    is_whole=is_whole,
-    cost_s=lambda unit: CURVE_S * curves_of(unit),
     prepare=prepare,
+    cost_s=lambda unit: CURVE_S * curves_of(unit),
     ticks=lambda settings, unit: curves_of(unit) * unit.horizon_s / settings.dt_s,
 )

@@ -30,8 +30,6 @@ from bench.law.control.velocity import is_velocity_law
 from tasks.base import Start
 from tasks.verdict import OUTCOMES
 
-NAME = "velocity"
-
 HORIZON_S = 2.5
 """25 time constants 1/K: what leaves a 180° rotation by rounding alone, 1e-11 rad off it, is still on its way."""
 
@@ -57,8 +55,8 @@ class Part(NamedTuple):
 def units(asked: Asked) -> tuple[Unit, ...]:
     """Return a unit a law on the free body, and one a law, inverse and arm; a user's last."""
     part, some = asked.suite.velocity, velocity_laws(asked)
-    made = [Unit(NAME, one.name, "free-body", count=part.starts, horizon_s=HORIZON_S) for one in some]
-    made += units_on_arms(asked, some, NAME, count=part.on_arms, horizon_s=HORIZON_S)
+    made = [Unit("velocity", one.name, "free-body", count=part.starts, horizon_s=HORIZON_S) for one in some]
+    made += units_on_arms(asked, some, "velocity", count=part.on_arms, horizon_s=HORIZON_S)
     return own_last(made, asked.own)
 
 
@@ -172,12 +170,9 @@ def prepare(settings: Settings, unit: Unit) -> None:
 
 
 EXPERIMENT = Experiment.of(
-    __file__,
+    globals(),
     "first-order laws: robots commanded in velocity",
-    units,
-    rows,
     takes=(*OF_LAWS, "arms"),
     cost_s=lambda unit: unit.count * (8.0 * EPISODE_S["arm"] if unit.arm else 4.0 * EPISODE_S[""]),
-    prepare=prepare,
     ticks=lambda settings, unit: 8.0 * unit.count * unit.horizon_s / settings.dt_s,
 )

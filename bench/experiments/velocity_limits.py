@@ -28,8 +28,6 @@ from bench.law.contenders.registry import find_contender
 from tasks.base import Start
 from tasks.rotations import about, multiply
 
-NAME = "velocity-limits"
-
 LAW_S, ARM_S = 0.01, 0.4
 """CPU seconds a law on the free body, and an inverse on an arm."""
 
@@ -52,8 +50,8 @@ DT_S = 0.1
 def units(asked: Asked) -> tuple[Unit, ...]:
     """Return a unit a law on the free body; on each arm one for each inverse of one law."""
     some = velocity.velocity_laws(asked)
-    made = [Unit(NAME, one.name, "free-body") for one in some]
-    made += velocity.units_on_arms(asked, [one for one in some if one.name == BY_EVERY_INVERSE], NAME)
+    made = [Unit("velocity-limits", one.name, "free-body") for one in some]
+    made += velocity.units_on_arms(asked, [one for one in some if one.name == BY_EVERY_INVERSE], "velocity-limits")
     return own_last(made, asked.own)
 
 
@@ -123,10 +121,8 @@ def _run(settings: Settings, unit: Unit, begun: list, k_dt: float, ticks: int, l
 
 
 EXPERIMENT = Experiment.of(
-    __file__,
+    globals(),
     "the largest K dt of first-order laws",
-    units,
-    rows,
     takes=(*OF_LAWS, "arms"),
     cost_s=lambda unit: ARM_S if unit.arm else LAW_S,
     prepare=velocity.prepare,

@@ -11,8 +11,7 @@ import pandas as pd
 
 import tasks
 from bench.engines.contact_episode import Conditions, Sensor
-from bench.experiments.contact import can_do, poses_of
-from bench.experiments.contact.poses import frame
+from bench.experiments.contact import can_do, frame, poses_of
 from bench.experiments.suites import SUITES
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import as_table

@@ -11,8 +11,7 @@ from bench.engines.contact_episode import OUTCOMES, WIDTH, Conditions, Ended
 from bench.engines.metrics.contact_metric import Pose, response
 from bench.engines.metrics.measured_compliance import compliance
 from bench.engines.simulate_contact import run_contact as run
-from bench.experiments.contact import poses_of
-from bench.experiments.contact.poses import WORST_LAST, frame
+from bench.experiments.contact import WORST_LAST, frame, poses_of
 from bench.law.control.registry import find_controller
 from bench.law.control.setpoint import TOUCH
 

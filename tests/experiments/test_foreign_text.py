@@ -15,7 +15,6 @@ from bench.law.kinds import Law
 from report.figures.cards import regulators
 from report.figures.kit import html
 from report.figures.kit.page import run_in
-from report.figures.kit.tables import Table
 from report.figures.method import provenance as origin
 
 ENABLED = ["amsmath", "attrs_block", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
@@ -67,8 +66,8 @@ def as_read(text: str) -> str:
 
 @pytest.mark.parametrize("text", PAYLOADS)
 def test_foreign_text_in_a_table_reads_as_it_is_and_nothing_is_live(text):
-    table = Table("Law | B")([(html.law("x", text), html.foreign(text))])
-    plain = Table("Law | B")([(html.law("x", "word"), "word")])
+    table = html.Table("Law | B")([(html.law("x", text), html.foreign(text))])
+    plain = html.Table("Law | B")([(html.law("x", "word"), "word")])
     page = rendered(table)
     assert elements(page) == elements(rendered(plain))
     assert as_read(page.get_text()).count(as_read(text)) == 2

@@ -9,7 +9,7 @@ import pytest
 
 from bench.cli import main
 from bench.experiments.experiment import rows_of
-from bench.experiments.map import MOST_LOST, cells, folded, plan_of
+from bench.experiments.map import MOST_LOST, cells, fold, plan_of
 from bench.experiments.tables.schema import table_of
 from bench.experiments.tables.store import as_table, read
 from bench.findings.maps import by_law, counted, lost_between, lost_share
@@ -49,7 +49,7 @@ def test_every_start_is_in_one_cell(plan, whole):
 
 def test_stretches_add_up_to_the_whole(plan, whole):
     parts = [part_of(plan, *stretch) for stretch in ((0, BLOCK), (BLOCK, BLOCK), (2 * BLOCK, 500))]
-    for made in (folded(folded(*parts[:2]), parts[2]), folded(parts[0], folded(*parts[1:]))):
+    for made in (fold(fold(*parts[:2]), parts[2]), fold(parts[0], fold(*parts[1:]))):
         assert as_table(made, table_of("map")).equals(as_table(whole, table_of("map")))
 
 

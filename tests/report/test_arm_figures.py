@@ -11,7 +11,7 @@ import tasks
 from bench.findings.claims.side_by_side import predicted
 from report.figures.arms import arm_rows, arms, jacobians
 from report.figures.contact import compliance, in_contact
-from report.figures.contact.rows import PAPERS, PAPERS_EULER, level, of, of_task
+from report.figures.contact.in_contact import PAPERS, PAPERS_EULER, level, of, of_task
 
 ARM = "puma560"
 
@@ -62,7 +62,7 @@ def test_baselines_are_compared_with_the_laws():
 
 
 def test_stock_pose_is_well_conditioned_and_on_the_pole():
-    said = jacobians.describe_first(jacobians.papers(RUN, **jacobians.FIRST_EXAMPLE))
+    said = jacobians.describe_first(RUN.rows("poses", **jacobians.FIRST_EXAMPLE))
     # how large that of the angles is, rounding decides, up to a one with nothing before its power of ten
     assert re.search(r"number 7\.9 .* Jacobian ([2-9]·)?10[⁰¹²³⁴⁵⁶⁷⁸⁹]{2}, .* β = 90°", said)
 

@@ -9,8 +9,8 @@ import pytest
 from bench.law.contenders.registry import contenders
 from bench.law.display import COLOURS, LINES
 from report.figures.kit import html, style
+from report.figures.kit.html import Table
 from report.figures.kit.inline import Picture, responsive_picture
-from report.figures.kit.tables import Table
 
 
 @responsive_picture

@@ -178,12 +178,10 @@ def _differences(kin: Kinematics, one: Coordinates, qs: np.ndarray, margin: np.n
     return change / (steps[0] - steps[1])[:, None, :]
 
 
-EXPERIMENT = Experiment(
-    "jacobians",
+EXPERIMENT = Experiment.of(
+    globals(),
     "Jacobians over an arm's poses",
-    read_table(__file__, "poses"),
-    units,
-    rows,
+    table=read_table(__file__, "poses"),
     takes=("tasks", "arms"),
     cost_s=lambda unit: ARM_S + POSE_S * unit.count,
     compiles=False,

@@ -15,7 +15,7 @@ SHOWN = ("the rule", "noise is left out", "no memory", "a continuous command", "
 """Rules that the reader may choose from."""
 
 
-def figures(run: Run) -> dict[str, Any]:
+def facts(_: Run) -> dict[str, Any]:
     """Return the picture."""
     names = families.in_order(read_map()["contender"].astype(str))
     planes = {name: plane(name, names) for name in list(COORDINATES)[1:]}

@@ -12,9 +12,8 @@ from bench.export.vectors import CLOSE
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import listed, power
-from report.figures.kit.tables import Table
 
-FAULTS = Table("Fault | What it is | What it does | Cure | Law")
+FAULTS = html.Table("Fault | What it is | What it does | Cure | Law")
 
 
 def facts(_: Run) -> dict[str, Any]:

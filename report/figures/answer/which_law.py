@@ -8,20 +8,19 @@ from bench.findings.selection import regions, sensitivity
 from bench.findings.selection.regions import decide_all, facts_of, find_bounds, find_regions, is_drawn, read_map
 from bench.findings.selection.robots import Elsewhere, list_elsewhere
 from bench.findings.selection.words import describe_bounds, together
-from report.figures.kit import families
+from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
-from report.figures.kit.tables import Table
 from tasks.situation import KP, NOMINAL
 
-REGIONS = Table("Law | Advised [%]:.0f | Unbeaten [%]:.0f | Unbeaten, if one number changes, at")
-RULES = Table("Rule | Law advised most | Advised [%]:.0f | Unbeaten [%]:.0f | Advice changes [%]:.0f")
-TUNED = Table(
+REGIONS = html.Table("Law | Advised [%]:.0f | Unbeaten [%]:.0f | Unbeaten, if one number changes, at")
+RULES = html.Table("Rule | Law advised most | Advised [%]:.0f | Unbeaten [%]:.0f | Advice changes [%]:.0f")
+TUNED = html.Table(
     "Law | kv = 2√kp [1/√kp]:.2f | best zeta:.2f | its time [1/√kp]:.2f | best zeta at equal peak:.2f | "
     "its time [1/√peak]:.2f"
 )
 LEAST = 0.01
 """The share of situations from which on a law has a row of its own."""
-ROBOTS_TABLE = Table("If | use | Tied with | Laws compared | Rows")
+ROBOTS_TABLE = html.Table("If | use | Tied with | Laws compared | Rows")
 
 
 def facts(run: Run) -> dict[str, Any]:

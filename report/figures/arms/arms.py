@@ -15,14 +15,13 @@ from report.figures.arms import arm_rows
 from report.figures.kit import families, html, media
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import listed, prose
-from report.figures.kit.tables import Table
 
 HOMES = (
     "Renders of the four arms side by side, each in its home pose: Kinova Jaco, Franka Emika Panda, Unimation PUMA "
     "560, Universal Robots UR5e. Axes mark the base and the tool."
 )
-RANKED = Table("Law | Settled [%] | No limit touched | Reach, settled | Reach, no limit touched")
-LIMITED = Table(
+RANKED = html.Table("Law | Settled [%] | No limit touched | Reach, settled | Reach, no limit touched")
+LIMITED = html.Table(
     "Arm | Motors | kp [1/s²] | Settled [%] | A motor at its rating [%] | Stopped by a joint [%] | Lost otherwise [%]"
 )
 SETS = ("uniform", "reach")

@@ -13,7 +13,6 @@ from report.figures.arms.arm_rows import name_arm
 from report.figures.kit import html, media
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
-from report.figures.kit.tables import Table
 
 PAPERS = papers_coordinates().name
 LOST = 1e12
@@ -22,24 +21,19 @@ BAD = 100.0
 """Condition number (metres, radians) from which on a Jacobian is called bad: twice what the claims allow."""
 HAMMERED = 10.0
 """Peak torque over that of the law on R from the same start, as in claim C20: beyond it something hammers the arm."""
-POLE = Table("Arm | Starts | Geometric, settled | Geometric, torque | Euler, settled | Euler, torque")
-FIRST_EXAMPLE = {"pose_set": "named", "arm": "puma560", "pose_id": "qn"}
+POLE = html.Table("Arm | Starts | Geometric, settled | Geometric, torque | Euler, settled | Euler, torque")
+FIRST_EXAMPLE = {"representation": PAPERS, "pose_set": "named", "arm": "puma560", "pose_id": "qn"}
 FILM = (
     "The same two motions side by side: the Euler Jacobian throws the arm about, the geometric one turns the tool in "
     "place."
 )
 
 
-def papers(run: Run, **words: str) -> pd.DataFrame:
-    """Poses seen in the paper's coordinates."""
-    return run.rows("poses", representation=PAPERS, **words)
-
-
 def facts(run: Run) -> dict:
     """Return the first example, the poses that J_E spoils, the film, and what the pole does to each arm."""
     return {
-        "first": in_run(lambda: describe_first(papers(run, **FIRST_EXAMPLE))),
-        "spoilt": in_run(lambda: count_spoilt(papers(run, pose_set="random"))),
+        "first": in_run(lambda: describe_first(run.rows("poses", **FIRST_EXAMPLE))),
+        "spoilt": in_run(lambda: count_spoilt(run.rows("poses", representation=PAPERS, pose_set="random"))),
         "pole-loop": media.loop(FILM),
         **describe_film(),
         **(in_run(lambda: count_at_pole(pass_pole(run))) or {}),

@@ -10,13 +10,12 @@ from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
 from bench.findings.theory.late_torques import find_greatest_kv
 from report.figures.arms import arm_rows
-from report.figures.kit import families
+from report.figures.kit import families, html
 from report.figures.kit.page import Run
-from report.figures.kit.tables import Table
 
 STEPS = 8
 STUDY = RESULTS / "real-loop"
-LOOPS = Table(
+LOOPS = html.Table(
     "Arm | Law | Settled; simulated; same end | Delay, median; 99 %; longest [ms] | Largest Kv [1/s]:.0f "
     "| Kv predicted [1/s]:.0f"
 )

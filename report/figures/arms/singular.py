@@ -8,11 +8,11 @@ from bench.experiments.suites import IDEAL_MOTORS, LISTS, NOMINAL
 from bench.findings.claims.tables import settled, some
 from bench.law.contenders.registry import contenders
 from report.figures.arms import arm_rows
+from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import listed
-from report.figures.kit.tables import Table
 
-RULES = Table(
+RULES = html.Table(
     "Λ | Arms | Settled, unlimited torque [%]:.0f | Largest torque / rated:.3g "
     "| Settled, limited torque [%]:.0f | Tool off its place, at most [mm]:.0f"
 )
@@ -21,8 +21,11 @@ REDUNDANT = {False: "six joints", True: "Panda"}
 
 
 def facts(run: Run) -> dict:
-    """Return what the rules do, in words and in a table."""
-    rows = find_rows(run)
+    """Return what the rules do from beside a singularity, in words and in a table."""
+    rows = arm_rows.every(run)
+    own = rows[rows["way"].isin(LISTS["OPERATIONAL"]) & (rows["start_set"] == START_SET)]
+    rows = some(own, "operational-space torque beside a singularity")
+    rows = rows.assign(settled=settled(rows), is_redundant=rows["arm"] == "panda")
     return {"said": describe_rules(rows), "rules": RULES(compare_rules(rows))}
 
 
@@ -44,14 +47,6 @@ def describe_rules(rows: pd.DataFrame) -> str:
         f"but until then the tool moves away from its place, by at most {drifts}. On the Panda, "
         f"{100 * panda['settled'].mean():.0f} % settle with every rule."
     )
-
-
-def find_rows(run: Run) -> pd.DataFrame:
-    """Return the episodes that begin beside a singularity, by every rule."""
-    rows = arm_rows.every(run)
-    own = rows[rows["way"].isin(LISTS["OPERATIONAL"]) & (rows["start_set"] == START_SET)]
-    rows = some(own, "operational-space torque beside a singularity")
-    return rows.assign(settled=settled(rows), is_redundant=rows["arm"] == "panda")
 
 
 def name_rule(word: str) -> str:

@@ -18,7 +18,7 @@ from bench.experiments.tables import read
 from bench.export import browser
 from bench.law.contender import Contender
 from bench.law.contenders.registry import all_contenders
-from report.figures.cost.operations import CALLS
+from report.figures.cost.cost import CALLS
 from report.figures.kit import families, html, laws, style
 from report.figures.kit.page import Run
 from tasks.base import Start
@@ -56,10 +56,13 @@ def page(contenders: list[Contender], costs: Any) -> html.Html:
         for word, one in presets.items()
     )
     texts = {"anchors": "".join(f'<span id="{word}"></span>' for word in presets), "presets": buttons}
-    options = {side: _law_options(names, OPENING[side]) for side in "ab"}
-    controls = CONTROLS.read_text(encoding="utf-8").format(
-        starts=_start_options(every), band=f"{RULES.tolerance:.0%}", **texts, **options
+    groups = [(one.title, [(name, families.word(name)) for name in one.laws]) for one in families.present(names)]
+    options = {side: _options(groups, OPENING[side]) for side in "ab"}
+    kinds = itertools.groupby(every, lambda one: one[0])
+    options["starts"] = _options(
+        ((kind, ((one.id, title) for _, title, one in own)) for kind, own in kinds), OPENING["start"]
     )
+    controls = CONTROLS.read_text(encoding="utf-8").format(band=f"{RULES.tolerance:.0%}", **texts, **options)
     return html.Html(
         f'{controls}<script type="application/json" id="live-data">{inside}</script>'
         f'<script id="live-laws">\n{browser.script(contenders)}</script>'
@@ -107,27 +110,16 @@ def cost(name: str, costs: Any) -> str:
     return said["typical"] if said["typical"] == said["worst"] else f"{said['typical']}; at most {said['worst']}"
 
 
-def _law_options(names: Iterable[str], chosen: str) -> str:
-    """Laws by family."""
-    return "".join(
-        _group(one.title, ((name, families.word(name)) for name in one.laws), chosen) for one in families.present(names)
-    )
-
-
-def _start_options(every: list[tuple[str, str, Start]]) -> str:
-    """List starts by kind."""
-    return "".join(
-        _group(group, ((one.id, title) for _, title, one in own), OPENING["start"])
-        for group, own in itertools.groupby(every, lambda one: one[0])
-    )
-
-
-def _group(title: str, options: Iterable[tuple[str, str]], chosen: str) -> str:
-    inside = "".join(
-        f'<option value="{markup.escape(value)}"{" selected" if value == chosen else ""}>{markup.escape(text)}</option>'
-        for value, text in options
-    )
-    return f'<optgroup label="{markup.escape(title)}">{inside}</optgroup>'
+def _options(groups: Iterable[tuple[str, Iterable[tuple[str, str]]]], chosen: str) -> str:
+    """Return options in groups: (title, (value, text) of each)."""
+    found = ""
+    for title, options in groups:
+        found += f'<optgroup label="{markup.escape(title)}">'
+        for value, text in options:
+            mark = " selected" if value == chosen else ""
+            found += f'<option value="{markup.escape(value)}"{mark}>{markup.escape(text)}</option>'
+        found += "</optgroup>"
+    return found
 
 
 def degrees(angle_rad: float) -> str:
@@ -157,12 +149,10 @@ def _translatable(name: str) -> Contender | None:
 
 
 def facts(run: Run) -> dict:
-    """Numbers of the page's text."""
-    chosen = alive(())
-    return {"laws": len(chosen), "kilobytes": f"{len(browser.script(chosen)) / 1000:.0f}"}
-
-
-def figures(run: Run) -> dict:
-    """Return what the script brings to life."""
-    costs = run.any_rows("costs", **read.FREE_BODY)
-    return {"two-laws": page(alive(costs["contender"].astype(str)) if len(costs) else alive(()), costs)}
+    """Return the numbers of the text, and what the script brings to life."""
+    ours, costs = alive(()), run.any_rows("costs", **read.FREE_BODY)
+    return {
+        "laws": len(ours),
+        "kilobytes": f"{len(browser.script(ours)) / 1000:.0f}",
+        "two-laws": page(alive(costs["contender"].astype(str)), costs),
+    }

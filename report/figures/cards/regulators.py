@@ -18,13 +18,12 @@ from bench.law.kinds import Law
 from report.figures.cards.card import LawPage, Source, docstring, make_card, make_page, say_property, set_words
 from report.figures.kit import families, html, laws, style
 from report.figures.kit.page import Run
-from report.figures.kit.tables import Table
 
 UNTRUSTED = (
     "A law of somebody else, by its rows alone: its file came with these results and was not run. If you have read it, "
     "bench trust FILE lets it run, and its card then says what it is."
 )
-LAWS = Table("Law | Property | Settles | On the command line", {"Settles": lambda share: f"{100 * share:.1f} %"})
+LAWS = html.Table("Law | Property | Settles | On the command line", {"Settles": lambda share: f"{100 * share:.1f} %"})
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 EXAMPLE = re.compile(r" Shown by |, as from |, as at ")
 
@@ -69,6 +68,10 @@ def card(one: Contender, run: Run) -> str:
     """Return the card of one law: source, formula, words and costs."""
     title, episodes = laws.title_of(one), run.any_rows("episodes", contender=one.name, engine=engine_of(one.regulator))
     what, fails = text_of(one.regulator)
+    found = run.any_rows("command-field", contender=one.name)
+    said = why.sentences(found, one.regulator.property) if len(found) else []
+    # without the states that show it, which `judge` prints
+    command = " ".join(EXAMPLE.split(each.text)[0].rstrip(".") + "." for each in said)
     acts = one.representation.title if one.representation else "the rotation matrix"
     fields = {
         "Limitations": set_words(fails),
@@ -76,7 +79,7 @@ def card(one: Contender, run: Run) -> str:
         "Acts on": f"{acts[:1].upper()}{acts[1:]}.",
         **say_property(one.regulator),
         "Measured": measured(episodes, one.regulator),
-        "Its command": set_words(found_of(one, run)),
+        "Its command": set_words(command),
         "Advised": advised(one.name),
     }
     look, costs = html.both(style.look(one.name).colour), costs_of(one, run)
@@ -110,13 +113,6 @@ def measured(episodes: pd.DataFrame, regulator: Law) -> str:
     return f"{found} of the uniform starts settle{pace}."
 
 
-def found_of(one: Contender, run: Run) -> str:
-    """Return what its command is as a function of state, without the states that show it, which `judge` prints."""
-    rows = run.any_rows("command-field", contender=one.name)
-    said = why.sentences(rows, one.regulator.property) if len(rows) else []
-    return " ".join(EXAMPLE.split(each.text)[0].rstrip(".") + "." for each in said)
-
-
 def advised(law: str) -> str:
     """Return the share of the map's drawn situations in which a law is advised, and in which nothing beats it."""
     found = next((one for one in find_regions() if one.law == law), None)
@@ -128,24 +124,19 @@ def advised(law: str) -> str:
     return f"Advised in {found.advised:.0%} of situations, and unbeaten in {found.unbeaten:.0%}."
 
 
-def tables(run: Run) -> dict:
-    """Every law as a line."""
+def facts(run: Run) -> dict:
+    """Return every law as a line."""
     return {"laws": LAWS(line(one, run) for one in every_law())}
 
 
-def say_whether_proved(law: Law) -> str:
-    """Return the property of a law, and whether it is proved from its source."""
-    one = read_certificates().get(law.name)
-    word = "proved" if one and one["is_proved"] else "measured"
-    return f"{law.property}, {word}" if law.property != "none" else "none"
-
-
 def line(one: Contender, run: Run) -> tuple:
-    """Return a link to a law's card, its property, what was measured, its word on the command line."""
+    """Return a link to a law's card, its property and if it is proved, what was measured, its word in commands."""
+    law, known = one.regulator, read_certificates().get(one.regulator.name)
+    proved = "proved" if known and known["is_proved"] else "measured"
     uniform = run.any_rows("episodes", contender=one.name, engine=engine_of(one.regulator), start_set="uniform")
     return (
         families.link(one.name, laws.title_of(one)),
-        html.together(html.foreign(say_whether_proved(one.regulator))),
+        html.together(html.foreign(law.property if law.property == "none" else f"{law.property}, {proved}")),
         (uniform["outcome"] == "settled").mean() if len(uniform) else None,
         f"`{one.name}`",
     )

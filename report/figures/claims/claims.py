@@ -5,12 +5,11 @@ from bench.findings.claims import Verdict, Word
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import prose
-from report.figures.kit.tables import Table
 
 ORDER = (Word.FAILS, Word.DEPENDS, Word.CORRECTED, Word.UNTESTABLE, Word.ANSWERED, Word.HOLDS)
 """Order of the table's rows."""
 
-VERDICTS = Table("Claim | What the paper states, in our words | Verdict | What is true instead")
+VERDICTS = html.Table("Claim | What the paper states, in our words | Verdict | What is true instead")
 EVIDENCE = "appendix-claims.html"
 
 

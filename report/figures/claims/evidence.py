@@ -11,11 +11,10 @@ from bench.findings.claims.verdict import MISPRINTS
 from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose, typeset
-from report.figures.kit.tables import Table
 
-SENTENCES = Table("Section | The paper | Why it is not tested")
-PARTS = Table("The paper | What it says | Claims and errata | Pages")
-SLIPS = Table("Slip | Where | Printed | Should be | Checked")
+SENTENCES = html.Table("Section | The paper | Why it is not tested")
+PARTS = html.Table("The paper | What it says | Claims and errata | Pages")
+SLIPS = html.Table("Slip | Where | Printed | Should be | Checked")
 
 
 def facts(_: Run) -> dict:

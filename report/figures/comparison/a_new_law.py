@@ -13,7 +13,7 @@ from bench.findings.theory.closed_form import linear_settling
 from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, settling
 from bench.law.display import Equation
 from bench.law.inputs import PAPERS_GAINS
-from report.figures.cost.operations import CALLS
+from report.figures.cost.cost import CALLS
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
@@ -44,6 +44,7 @@ def facts(run: Run) -> dict:
         "later_of": f"{', '.join(map('{:g}'.format, RATIOS))}",
         **(count_calls(spent.loc[NEW, "typical"]) if (NEW, "typical") in spent.index else {}),
         "pull": f"{max(map(LATE.spring, np.linspace(0.0, math.pi, 1801))):.2f}",  # max f
+        "springs": draw_springs(),
     }
 
 
@@ -87,8 +88,3 @@ def draw_springs(narrow: bool) -> Drawing:
     axes.set(xlim=(0, 180), ylim=(0, None), xticks=range(0, 181, 30))
     axes.set(xlabel="angle to the goal [deg]", ylabel="command from rest / kp")
     return figure, f"At 180 degrees: {', '.join(f'{law} {EQUATIONS[law].spring(math.pi):.1f}' for law in SHOWN)}."
-
-
-def figures(_: Run) -> dict:
-    """Draw three springs."""
-    return {"springs": draw_springs()}

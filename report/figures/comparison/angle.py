@@ -34,11 +34,7 @@ def groups(rows: pd.DataFrame) -> dict[Equation, list[str]]:
 
 @responsive_picture
 def curves(rows: pd.DataFrame, narrow: bool) -> Drawing:
-    """Curves of the equations, and dots of the starts, of the first law of each.
-
-    Args:
-        rows: of `comparison.common`.
-    """
+    """Curves of the equations, and dots of the starts, of the first law of each; rows: of `comparison.common`."""
     figure, axes = style.panels(height=4.4 if narrow else 4.2, narrow=narrow)
     kp, kv, tolerance = (float(rows[column].iloc[0]) for column in ("kp", "kv", "tolerance"))
     angles = np.linspace(LEAST_RAD, math.pi - NEAREST_RAD, CURVE)
@@ -78,6 +74,6 @@ def left_at(angles: np.ndarray, times: np.ndarray) -> tuple[float, float] | None
     return float(angles[outside[0]]) - ASIDE_DEG, TOP_S if times[outside[0]] > TOP_S else FOOT_S
 
 
-def figures(run: Run) -> dict:
+def facts(run: Run) -> dict:
     """Draw settling times over the angle."""
     return {"comparison-angle": curves(uniform(run))}

@@ -14,14 +14,12 @@ from bench.findings.claims.tables import share
 from bench.findings.selection import tables as compared
 from bench.findings.selection.needs import measured
 from bench.findings.start_sets import AT_REST
-from report.figures.cost.cost import totals
-from report.figures.cost.operations import CALLS
+from report.figures.cost.cost import CALLS, totals
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
-from report.figures.kit.tables import Table
 
-ALL_LAWS = Table("Law | Settles [%] | Median [s] | 99 % [s] | Effort | Peak | A tick | Lost | Held")
+ALL_LAWS = html.Table("Law | Settles [%] | Median [s] | 99 % [s] | Effort | Peak | A tick | Lost | Held")
 NEAR_DEG = 30, 60
 ANISOTROPIC = "weighted-columns"
 """Its stiffness is the others' on the average over its axes alone."""
@@ -84,7 +82,7 @@ def compare_laws(run: Run, times: pd.DataFrame, efforts: pd.DataFrame) -> Iterat
         own, sure = rows[rows["contender"] == name], read.converged(tried[tried["contender"] == name])
         yield (
             families.link(name, families.word(name)),
-            settles(own),
+            with_interval(*map(percent, share(own["outcome"] == "settled")[2:])),
             seconds(times[name]),
             seconds(times[name], 0.99),
             html.number(float(f"{efforts[name].quantile(interpolation='lower'):.3g}")),
@@ -115,18 +113,8 @@ def costs(rows: pd.DataFrame, column: str) -> pd.DataFrame:
     )
 
 
-def settles(own: pd.DataFrame) -> str:
-    """Return the share of a law's rows that settle [%], with its interval."""
-    found = share(own["outcome"] == "settled")
-    return with_interval(*map(percent, (found.value, found.low, found.high)))
-
-
 def tick(counted: pd.DataFrame, name: str) -> str:
-    """Return flops and calls of a typical tick, as "45 + 6".
-
-    Args:
-        counted: rows of costs.parquet about the free body.
-    """
+    """Return flops and calls of a typical tick, as "45 + 6"; counted: rows of costs.parquet about the free body."""
     if name not in set(counted["contender"]):
         return html.MISSING
     own = totals(counted).loc[name]

@@ -10,10 +10,10 @@ from bench.experiments.impedance_modes import SHIPPED
 from bench.experiments.suites import IDEAL_MOTORS
 from bench.findings.theory.impedance_modes import with_theory
 from bench.law.control.unshaped import DAMPINGS
+from report.figures.kit import html
 from report.figures.kit.page import Run
-from report.figures.kit.tables import Table
 
-PANDA = Table("Gains of | Stiffness [N/m; N m/rad] | Control period [ms] | Delay at 1 kHz [ms]")
+PANDA = html.Table("Gains of | Stiffness [N/m; N m/rad] | Control period [ms] | Delay at 1 kHz [ms]")
 
 
 @functools.cache

@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 from bench.findings.claims.side_by_side import compliances
 from report.figures.arms.arm_rows import name_arm
 from report.figures.contact import as_arms_run
-from report.figures.contact.rows import EULER, PAPERS, PAPERS_EULER, level, of, of_task
+from report.figures.contact.in_contact import EULER, PAPERS, PAPERS_EULER, level, of, of_task
 from report.figures.kit import style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run, in_run
@@ -44,21 +44,15 @@ FINGERS = [((x, 0.0, -0.30), (0.06, 0.10, 0.24)) for x in (-0.25, 0.25)]
 def facts(run: Run) -> dict:
     """Return the numbers of the probe, the damping that two designs give an impedance, and the axes of turning."""
     rows = of_task(run, PROBE)
-    damping = in_run(as_arms_run.facts, run) or {}
+    damping, own = in_run(as_arms_run.facts, run) or {}, level(of(rows, EULER, ORDER))
+    own = own[own["outcome"] == "done"]  # its misalignment by accelerations is beta
     return {
         "axes_arm": name_arm(shown_arm(rows)),
         **measured(turns(rows)),
-        "off_by_accelerations": off_by_accelerations(rows),
+        "off_by_accelerations": power(float((np.degrees(own["misalignment_rad"]) - own["beta_deg"].abs()).abs().max())),
         **{name: damping[name] for name in ("felt_least", "felt_most", "double") if name in damping},
         "compliance-axes": axes_of_turning(rows),
     }
-
-
-def off_by_accelerations(rows: pd.DataFrame) -> str:
-    """Return how far the Euler hand's misalignment is from beta [deg], about x and y complying by accelerations."""
-    own = level(of(rows, EULER, ORDER))
-    own = own[own["outcome"] == "done"]
-    return power(float((np.degrees(own["misalignment_rad"]) - own["beta_deg"].abs()).abs().max()))
 
 
 def shown_arm(rows: pd.DataFrame) -> str:
@@ -112,11 +106,7 @@ def measured(found: list[dict]) -> dict[str, str]:
 
 @responsive_picture
 def axes_of_turning(rows: pd.DataFrame, narrow: bool) -> Drawing:
-    """Return a row a moment, a column a controller and beta; on a phone a column a moment.
-
-    Args:
-        rows: of wrench-probe.
-    """
+    """Return a row a moment, a column a controller and beta; on a phone a column a moment; rows: of wrench-probe."""
     found, said = turns(rows), []
     shape = (len(found) // 2, 2) if narrow else (2, len(found) // 2)
     view = {"projection": "3d", "proj_type": "ortho", "computed_zorder": False}

@@ -3,8 +3,7 @@
 import tasks
 from report.figures.contact import limits
 from report.figures.contact.compliance import PROBE
-from report.figures.contact.in_contact import MEASURES
-from report.figures.contact.rows import PAPERS_EULER, of, of_task
+from report.figures.contact.in_contact import MEASURES, PAPERS_EULER, of, of_task
 from report.figures.kit import media
 from report.figures.kit.page import Run, in_run
 from tasks.contact_rest import HORIZON_S, REST

@@ -1,5 +1,9 @@
-"""The page on tasks in contact: a plate, a peg, a crank and a plane, by controller and frame of the hand."""
+"""The page on tasks in contact: a plate, a peg, a crank and a plane, by controller and frame of the hand.
 
+And what all pages on compliance read of compliance.parquet: rows of a task, of a controller, and of a frame.
+"""
+
+import functools
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -9,11 +13,13 @@ from scipy.stats import fisher_exact
 
 import tasks
 from bench.findings.claims.tables import some
-from report.figures.contact.rows import CARTESIAN, EULER, PAPERS, PAPERS_EULER, of, of_task
 from report.figures.kit import html, media
-from report.figures.kit.page import ABSENT, Run
+from report.figures.kit.page import ABSENT, Run, in_run
 from report.figures.kit.spelling import spell_powers
-from report.figures.kit.tables import Table
+
+CARTESIAN, EULER = "hybrid-base+inverse", "hybrid/zyx-euler+inverse"
+PAPERS, PAPERS_EULER = "hybrid-base+transpose", "hybrid/zyx-euler+transpose"
+WORDS = ("task", "arm", "contender", "complies", "pose", "outcome", "rest", "form")
 
 P_VALUE = 0.05
 """P-value of Fisher's exact test, both sides: below it two shares of pegs differ significantly."""
@@ -52,14 +58,19 @@ MEASURES = {
 }
 """Task -> the number that says how it went, the tasks that free rotations first."""
 
-OUTCOMES = Table(
+OUTCOMES = html.Table(
     "Task | Measured at the end | Episodes | Cartesian | Euler, β = 0 | Euler, largest β | Springs",
     words=("Cartesian", "Euler, β = 0", "Euler, largest β", "Springs"),
 )
 
 
 def facts(run: Run) -> dict:
-    """Return how episodes end, and one table of all tasks."""
+    """Return the loop of two arms at a plate, how episodes end, and one table of all tasks."""
+    return {"plate-loop": media.loop(LOOP, "plate-loop"), **(in_run(describe_tasks, run) or {})}
+
+
+def describe_tasks(run: Run) -> dict:
+    """Return how episodes end, in words and in a table."""
     found = [of_task(run, name) for name in MEASURES if len(run.any_rows("compliance", task=name))]
     rows = pd.concat(some(found, "task in contact"), ignore_index=True)
     return {
@@ -129,6 +140,21 @@ def compare_tasks(rows: pd.DataFrame) -> Iterator[tuple]:
         yield str(task).replace("-", " "), measure.title, len(plain), *map(measure.of, columns)
 
 
-def figures(_: Run) -> dict:
-    """Return the loop of two arms at a plate."""
-    return {"plate-loop": media.loop(LOOP, "plate-loop")}
+@functools.cache
+def of_task(run: Run, task: str) -> pd.DataFrame:
+    """Return rows of one task, with plain words and the goal's angles [deg]."""
+    found = run.rows("compliance", task=task)
+    found = found.assign(**{word: found[word].astype(str) for word in WORDS})
+    angles = ("alpha", "beta", "gamma", "tilt")
+    return found.assign(**{f"{name}_deg": np.degrees(found[name]).round(6) + 0.0 for name in angles})
+
+
+def of(rows: pd.DataFrame, contender: str, complies: str = "") -> pd.DataFrame:
+    """Rows of one controller, and of one order if it is named."""
+    own = rows[rows["contender"] == contender]
+    return own[own["complies"] == complies] if complies else own
+
+
+def level(rows: pd.DataFrame) -> pd.DataFrame:
+    """Return the rows whose goal has no alpha and no gamma, by beta."""
+    return rows[(rows["alpha_deg"] == 0.0) & (rows["gamma_deg"] == 0.0)].sort_values("beta_deg", kind="stable")

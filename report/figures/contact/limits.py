@@ -4,14 +4,13 @@ from collections.abc import Iterator
 
 from bench.experiments.tables.read import table
 from bench.experiments.tables.schema import RESULTS
-from report.figures.contact.in_contact import MEASURES, SPRINGS
-from report.figures.contact.rows import PAPERS, PAPERS_EULER
+from report.figures.contact.in_contact import MEASURES, PAPERS, PAPERS_EULER, SPRINGS
+from report.figures.kit import html
 from report.figures.kit.page import Run
-from report.figures.kit.tables import Table
 
 SETTINGS = {"ideal": "Unlimited torque", "motors": "Limited torque", "sensor": "Limited torque, noisy sensor"}
 NAMES = {PAPERS: "Cartesian", PAPERS_EULER: "Euler", SPRINGS: "springs"}
-LIMITS = Table(f"Task | Measured at the end | Control | Episodes | {':.2g | '.join(SETTINGS.values())}:.2g")
+LIMITS = html.Table(f"Task | Measured at the end | Control | Episodes | {':.2g | '.join(SETTINGS.values())}:.2g")
 
 
 def compare_settings() -> Iterator[tuple]:

@@ -1,4 +1,4 @@
-"""The parts of a page that are not drawings: badges, cells of tables, formulas, names of laws.
+"""The parts of a page that are not drawings: badges, tables, formulas, names of laws.
 
 Their looks are in report/_static/report.css. Tables are Markdown, so that links and citations in their
 cells are checked when the report is built; the rest is HTML.
@@ -7,8 +7,10 @@ cells are checked when the report is built; the rest is HTML.
 import math
 import numbers
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
+
+import pandas as pd
 
 from report.figures.kit import mathml, spelling, style
 
@@ -21,7 +23,7 @@ VERDICTS = {
     "not testable": "untestable",
 }
 MISSING = "–"
-COUNT = re.compile(r"\d+ of \d+")
+COUNT = re.compile(r"\d+ of \d+")  # a line of it alone, as 24 of 24, does not break
 
 ROUNDED_FROM, SCIENTIFIC_FROM = 1e3, 1e9  # three figures of a number in between would read 1.23e+03
 LEADING_MINUS = re.compile(r"-[\d.\u221e]")
@@ -76,11 +78,6 @@ def both(light: str) -> str:
     return f"light-dark({light}, {style.TWINS[light]})"
 
 
-def keep_count(text: str) -> str:
-    """Return a cell in which the line of a count alone, as 24 of 24, does not break."""
-    return text.replace(" ", "\u00a0") if COUNT.fullmatch(text) else text
-
-
 def cell(value: Any, form: str | Callable[[Any], str] | None = None) -> str:
     """One value as it stands in a table."""
     if value is None or (isinstance(value, float) and math.isnan(value)):
@@ -118,3 +115,44 @@ def formula(tex: str) -> str:
         return mathml.block(tex)
     except ValueError:
         return f'<div class="math"><code>{foreign(tex)}</code></div>'
+
+
+class Table:
+    """A table of a page, in Markdown: numbers to the right, words to the left, gaps as a dash.
+
+        TIMES = Table("Law | Starts | Settled [%]:.1f | Error", {"Error": power})
+        TIMES(rows)
+
+    Args:
+        columns: heads with their units, each with the format of its numbers if three figures are not what it wants.
+        forms: head -> a function that writes its numbers.
+        words: columns that are set as words, to the left, although they hold numbers.
+    """
+
+    def __init__(
+        self, columns: str, forms: Mapping[str, Callable[[Any], str]] | None = None, words: Iterable[str] = ()
+    ):
+        parts = [one.strip().partition(":") for one in columns.split("|")]
+        self.heads = [head for head, *_ in parts]
+        self.formats = {head: form for head, _, form in parts if form} | dict(forms or {})
+        self.words = tuple(words)
+        if unknown := sorted(set(self.formats) - set(self.heads)):
+            raise ValueError(f"formats names {unknown}, not columns of the table; known: {self.heads}")
+
+    def __call__(self, rows: Iterable) -> Markdown | None:
+        """Return the table as Markdown.
+
+        Args:
+            rows: a frame or mappings with these heads, or sequences in their order; none makes no table.
+        """
+        frame = pd.DataFrame(rows if isinstance(rows, pd.DataFrame) else list(rows), columns=self.heads)
+        if frame.empty:
+            return None
+        numbers = {name for name in self.heads if pd.api.types.is_numeric_dtype(frame[name])} - set(self.words)
+        rule = ["--:" if name in numbers else ":--" for name in self.heads]
+        forms = [self.formats.get(head) for head in self.heads]
+        lines = [self.heads, rule]
+        for row in frame.itertuples(index=False, name=None):
+            texts = (cell(value, form) for value, form in zip(row, forms, strict=True))
+            lines.append([text.replace(" ", "\u00a0") if COUNT.fullmatch(text) else text for text in texts])
+        return Markdown("\n".join(f"| {' | '.join(line)} |" for line in lines))

@@ -1,11 +1,10 @@
 """A page's modules pasted into it, and the words where the run does not hold what the page shows.
 
-The page pages/08-libraries.md has the module libraries/libraries.py (the front page, `index`), whose functions
-facts(run), tables(run) and figures(run) give what it pastes, key by key; a page may do without any of them, and what is
-made of the same rows, and so is missing together, comes from one of them. Further modules on a page give what it pastes
-under their own word: `spread` of responses.responses is pasted as `responses.spread`. A value that is None, a key that
-is left out, and what needs a table that the run lacks (NoEvidence) are not in this run, and the page says so. A key
-that the page does not paste is an error.
+The page pages/08-libraries.md has the module libraries/libraries.py (the front page, `index`), whose facts(run) gives
+what it pastes, key by key. Further modules on a page give what it pastes under their own word: `spread` of
+responses.responses is pasted as `responses.spread`. A value that is None, a key that is left out, and what needs a
+table that the run lacks (NoEvidence) are not in this run, and the page says so. A key that the page does not paste is
+an error.
 """
 
 import functools
@@ -25,11 +24,9 @@ from bench.findings.claims.tables import Results, some
 from bench.findings.claims.verdict import NoEvidence
 from report.figures.kit import html, style
 from report.figures.kit.inline import Drawing, responsive_picture
-from report.figures.kit.tables import Table
 
 REPORT = Path(__file__).resolve().parents[2]
 ABSENT = "not in this run"
-PARTS = ("facts", "tables", "figures")
 CALL = re.compile(r"^kit\.page\(([^)]*)\)$", re.MULTILINE)
 INLINE = re.compile(r"\{glue:(text|md)\}`([^`:]+)")
 BLOCK = re.compile(r"^\s*(?:`{3,}|:{3,})\{glue:?(md|figure|)\}\s+(\S+)", re.MULTILINE)
@@ -95,11 +92,7 @@ def text_of(name: str) -> str:
 
 def contents(module: ModuleType, run: Run, text: str) -> dict[str, Any]:
     """Return what a page pastes of a module, as it pastes it, by the module's own keys."""
-    found: dict[str, Any] = {}
-    for part in PARTS:
-        if hasattr(module, part):
-            found |= in_run(getattr(module, part), run) or {}
-    kinds = kinds_of(module, text)
+    found, kinds = in_run(module.facts, run) or {}, kinds_of(module, text)
     if unread := sorted(set(found) - set(kinds)):
         raise ValueError(f"{module.__name__} gives {unread}, which its page does not paste (cure: remove them)")
     return {key: as_pasted(found.get(key), kind, key) for key, kind in kinds.items()}
@@ -138,7 +131,7 @@ def absent(key: str, kind: str) -> Any:
     if kind == "figure":
         return blank(key.replace("-", " ").replace("_", " ").capitalize())
     if kind == "table":
-        return Table("Rows")([(ABSENT,)])
+        return html.Table("Rows")([(ABSENT,)])
     return {"fact": ABSENT, "sentence": html.Markdown(f"This is {ABSENT}.")}.get(kind, html.Html(f"<p>{ABSENT}</p>"))
 
 

@@ -15,18 +15,17 @@ from bench.studies.restated.__main__ import STORED
 from report.figures.kit import html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
-from report.figures.kit.tables import Table
 
 LEVELS = (TORQUE, POSITION, VELOCITY)
 WEAK = 0.75
 """Share of the stiffness set: what feels less feels as half, or as a deadband."""
 HOST = "https://github.com"
 
-MEASURED = Table(
+MEASURED = html.Table(
     "Controller | K, D | Felt [%] | Damping ratio:.3g | Critical at [kg m²]:.2g | Rests at 180° | Unwinds "
     "| Bent [°]:.0f | Settles [s]"
 )
-FIXES = Table("Controller | Felt [%]:.0f | Stuck at 180° | Smallest fix | Greatest K e")
+FIXES = html.Table("Controller | Felt [%]:.0f | Stuck at 180° | Smallest fix | Greatest K e")
 
 
 def shipped(run: Run) -> pd.DataFrame:
@@ -82,11 +81,6 @@ def held() -> dict:
 def named(rows: pd.DataFrame) -> str:
     """Names, or none."""
     return ", ".join(rows["shipped"]) or "none"
-
-
-def list_fixes(run: Run) -> html.Markdown | None:
-    """Return a row a controller that a small fix helps."""
-    return FIXES(describe_fix(one) for one in shipped(run).itertuples() if fix_of(one.shipped).words != KEEP)
 
 
 def in_lines(rows: pd.DataFrame) -> list[tuple]:

@@ -1,14 +1,14 @@
 """The appendix on other libraries: how functions were tested, and questions of users."""
 
 from bench.findings.questions import QUESTIONS, Question
+from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import power
-from report.figures.kit.tables import Table
 from report.figures.libraries.as_shipped import reported
 from report.figures.libraries.libraries import COUNT_RAD, SINGLE_RAD, lines, passed, table
 
-PASSED = Table("Library | Functions")
-ASKED = Table("Question | Cause | Cure | Measured | Without the cure:.3g | With it:.3g")
+PASSED = html.Table("Library | Functions")
+ASKED = html.Table("Question | Cause | Cure | Measured | Without the cure:.3g | With it:.3g")
 
 
 def facts(_: Run) -> dict:

@@ -18,7 +18,6 @@ from bench.studies.libraries.judge import COUNT_RAD, FORMS, SINGLE_RAD, WRONG_AX
 from report.figures.kit import html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import listed, power
-from report.figures.kit.tables import Table
 from report.figures.libraries import as_shipped
 
 FOLDER = RESULTS / "libraries"
@@ -29,7 +28,7 @@ NO_NUMBER, ZERO, LONG_WAY, MISALIGNED, SHEET, DIGITS = "no-number", "zero", "lon
 OURS = "orientation-bench"
 """Our own laws in results/libraries, asked like the libraries."""
 
-FAULTS = Table("Library | Function | Fault | Smallest fix | Thread")
+FAULTS = html.Table("Library | Function | Fault | Smallest fix | Thread")
 ORDER = (ZERO, SHEET, LONG_WAY, MISALIGNED, DIGITS)
 """Order of the faults, by what they do to a controller."""
 
@@ -161,15 +160,16 @@ def facts(run: Run) -> dict:
         "known": int(functions.loc[~functions["is_right"], "thread"].ne("").sum()),
         **loop_facts(),
         "tab_faults": FAULTS(faults(every)),
-        "tab_shipped": in_run(as_shipped.list_fixes, run),
         **(in_run(shipped_facts, run) or {}),
     }
 
 
 def shipped_facts(run: Run) -> dict:
-    """Return what the text says of shipped controllers."""
+    """Return what the text says of shipped controllers, and a row for each that a small fix helps."""
     own = as_shipped.shipped(run)
+    fixed = (one for one in own.itertuples() if fix_of(one.shipped).words != KEEP)
     return {
+        "tab_shipped": as_shipped.FIXES(map(as_shipped.describe_fix, fixed)),
         "shipped": len(own),
         "weak": int(as_shipped.is_weak(own).sum()),
         "shipped_dead": int((own["dead"] > 0).sum()),

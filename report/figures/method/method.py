@@ -19,7 +19,7 @@ JUDGED = ["outcome", "settling_time_s", "failure_time_s", "final_angle_rad", "ef
 def facts(run: Run) -> dict[str, Any]:
     """Return whether engines agree, how many episodes asked for shorter steps, the gains, and the rules of counting."""
     runs = run.rows("episodes", task="free-body")
-    both, equal = count_equal(runs, "reference", "native")
+    (both, equal), late = count_equal(runs, "reference", "native"), compute_lateness_ms(runs, "native")
     asked, pairs = runs[runs["converged"] != ""], sorted(set(zip(runs["kp"], runs["kv"], strict=True)))
     return {
         "both": both,
@@ -30,7 +30,9 @@ def facts(run: Run) -> dict[str, Any]:
         "engines": runs["engine"].nunique(),
         "gains": " and ".join(f"kp = {kp:g} 1/s², kv = {kv:g} 1/s" for kp, kv in pairs),
         "small": f"{linear_settling(*runs[['kp', 'kv', 'tolerance']].iloc[0]):.3f}",
-        "later_ms": describe_ends(compute_lateness_ms(runs, "native")),
+        "later_ms": " and ".join(
+            f"{html.cell(float(late[law]), '+.1f')} ms ({families.word(law)})" for law in (late.idxmin(), late.idxmax())
+        ),
         "hold_s": f"{RULES.hold_s:g}",
         "chatter": f"{CHATTER:g}",
         "count_rules": "\n".join(f"1. {prose(rule)}" for rule in COUNT_RULES),
@@ -54,9 +56,3 @@ def compute_lateness_ms(runs: pd.DataFrame, other: str) -> pd.Series:
     uniform = runs[runs["start_set"] == "uniform"]
     times = uniform.pivot_table(index=KEY, columns="engine", values="settling_time_s", observed=True)
     return 1e3 * (times[other] - times["ideal-rk4"]).groupby("contender", observed=True).mean()
-
-
-def describe_ends(late: pd.Series) -> str:
-    """Return the least and the greatest of how much later laws settle, with the law of each."""
-    ends = late.idxmin(), late.idxmax()
-    return " and ".join(f"{html.cell(float(late[law]), '+.1f')} ms ({families.word(law)})" for law in ends)

@@ -13,15 +13,14 @@ from bench.experiments.tables.schema import all_tables
 from report.figures.cost.cost import timings
 from report.figures.kit import html
 from report.figures.kit.page import Run
-from report.figures.kit.tables import Table
 
 OFFERED_BYTES = 8_000_000
 """A larger file is named, not offered: the site stays small enough to be mailed or put on a stick."""
 CITATION = ROOT / "CITATION.cff"
 SITE_DATA = "../data"
 """Seen from a page in pages/; report/build.py copies there what pages link to."""
-FACTS = Table("Fact | Value")
-FILES = Table("File | Rows | Size [kB]:.0f")
+FACTS = html.Table("Fact | Value")
+FILES = html.Table("File | Rows | Size [kB]:.0f")
 
 
 def facts(run: Run) -> dict[str, Any]:

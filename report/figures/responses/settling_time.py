@@ -3,7 +3,6 @@
 import re
 
 import numpy as np
-import pandas as pd
 
 from bench.findings.theory import closed_form
 from report.figures.kit.laws import MATRIX
@@ -20,8 +19,9 @@ def facts(run: Run) -> dict:
     rows = run.rows("episodes", engine="ideal-rk4", contender=MATRIX, start_set="half-turn")
     rows = rows.assign(k=rows["start_id"].astype(str).str.extract(DECADE, expand=False).astype(float))
     near, exact = rows[rows["k"].notna()], rows[rows["k"].isna()]
+    used = near[near["k"].between(*FITTED) & near["settling_time_s"].notna()]
     return {
-        "slope": f"{slope(near):.4f}",
+        "slope": f"{np.polyfit(used['k'], used['settling_time_s'], 1)[0]:.4f}",
         "theory": f"{closed_form.decade_slope(*rows[['kp', 'kv']].iloc[0]):.4f}",
         "closest": power(10.0 ** -near["k"].max()),
         "longest": f"{near['settling_time_s'].max():.2f}",
@@ -29,9 +29,3 @@ def facts(run: Run) -> dict:
         "stuck": int((exact["outcome"] == "stuck").sum()),
         "horizon": float(exact["horizon_s"].max()),
     }
-
-
-def slope(near: pd.DataFrame) -> float:
-    """Seconds a decade, by least squares over the decades FITTED."""
-    used = near[near["k"].between(*FITTED) & near["settling_time_s"].notna()]
-    return float(np.polyfit(used["k"], used["settling_time_s"], 1)[0])

@@ -6,9 +6,8 @@ import pandas as pd
 
 from bench.findings.perturbed import DETOUR, FAR_RAD
 from bench.findings.selection.regions import find_default
-from report.figures.kit import families
+from report.figures.kit import families, html
 from report.figures.kit.page import Run
-from report.figures.kit.tables import Table
 from report.figures.robustness.half_turn_noise import regulator_of
 from report.figures.robustness.robustness import along, counted, laws
 
@@ -16,7 +15,7 @@ KEPT, RESET = "goal-jump", "goal-jump-reset"
 SOON_S = 0.2
 """Latest jump that finds the body far from its first goal [s]: two time constants 1/10 s."""
 
-PATHS = Table("Law | Long, kept [%]:.1f | Long, reset [%]:.1f | Longest, kept [°]:.0f | Longest, reset [°]:.0f")
+PATHS = html.Table("Law | Long, kept [%]:.1f | Long, reset [%]:.1f | Longest, kept [°]:.0f | Longest, reset [°]:.0f")
 
 
 def soon(run: Run, axis: str) -> pd.DataFrame:
