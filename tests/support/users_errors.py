@@ -7,27 +7,20 @@ import numpy as np
 from scipy.linalg import logm
 from scipy.spatial.transform import Rotation
 
-from support.planted import CONJUGATE, chord, columns, deadband_of_components, left, log, right, shortened, times
-
-
-def of_log(change):
-    """Return an error of matrices: change(theta k, theta) of the rotation vector in base."""
-
-    def error(R, R_d):
-        e = log(R_d @ R.T)
-        return change(e, np.linalg.norm(e))
-
-    return error
-
-
-def of_sine(change):
-    """Return an error of matrices: change(sin(theta) k, sin(theta), cos(theta), R_d R^T)."""
-
-    def error(R, R_d):
-        v, X = columns(R, R_d), R_d @ R.T
-        return change(v, np.linalg.norm(v), 0.5 * (np.trace(X) - 1.0), X)
-
-    return error
+from support.planted import (
+    CONJUGATE,
+    chord,
+    columns,
+    deadband_of_components,
+    left,
+    log,
+    of_arc_cosine,
+    of_log,
+    of_sine,
+    right,
+    shortened,
+    times,
+)
 
 
 def wrapped(e):
@@ -70,12 +63,6 @@ def cached(key):
     """Return an error that keeps what it computed for a key of R and R_d."""
     kept = {}
     return lambda R, R_d: kept.setdefault(key(R, R_d), log(R_d @ R.T))
-
-
-def constant_in_the_denominator(v, s, c, X):
-    """Zero below a thousandth, and a millionth too small elsewhere: digits of single precision, which it is not."""
-    theta = np.arccos(np.clip(c, -1.0, 1.0))
-    return theta / (np.sin(theta) + 1e-6) * v if theta > 1e-3 else np.zeros(3)
 
 
 def filtered():
@@ -205,7 +192,7 @@ USERS: dict = {
     "deadband-of-a-vector-part | deadband, stiffness | e = 0 up to": lambda q, q_d: (
         0.5 * deadband_of_components(q, q_d)
     ),
-    "constant-and-deadband | dead-at-180, deadband | e = 0 up to 0.001": of_sine(constant_in_the_denominator),
+    "constant-and-deadband | dead-at-180, deadband | e = 0 up to 0.001": of_arc_cosine(1e-6, 1e-3),
     "whole-turn-too-much | long-way | points against the axis": lambda R, R_d: whole_turn(
         Rotation.from_matrix(R_d @ R.T).as_quat(scalar_first=True)
     ),
