@@ -23,10 +23,6 @@ from support.planted import (
 )
 
 
-def wrapped(e):
-    return (e + np.pi) % (2.0 * np.pi) - np.pi
-
-
 def diagonal_axis(X):
     """pi k of a rotation by 180°, without the signs of k."""
     return np.pi * np.sqrt(np.clip(0.5 * (np.diag(X) + 1.0), 0.0, 1.0))
@@ -162,7 +158,7 @@ USERS: dict = {
     # others, right
     "saturated |  | no fault found": of_log(lambda e, theta: np.tanh(theta) / theta * e if theta else e),
     "inverse |  | no fault found": lambda R, R_d: log(R_d @ np.linalg.inv(R)),
-    "components-wrapped |  | no fault found": of_log(lambda e, _: wrapped(e)),
+    "components-wrapped |  | no fault found": of_log(lambda e, _: (e + np.pi) % (2.0 * np.pi) - np.pi),
     "rounded-at-the-end |  | no fault found": of_log(lambda e, _: e.astype(np.float32)),
     "fortran |  | points from R_d": lambda R, R_d: log(R_d.ravel("F").reshape(3, 3) @ R),
     "cached-by-pair |  | no fault found": cached(lambda R, R_d: (R.tobytes(), R_d.tobytes())),
