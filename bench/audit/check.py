@@ -1,13 +1,11 @@
 """`check`: the convention and the faults of an orientation error."""
 
 import argparse
-import json
 import shutil
 import sys
-from pathlib import Path
+from typing import Any
 
 from bench.audit.apart import CALLS, LIMIT_S, audit_apart
-from bench.base.errors import BadFunction
 
 STATED = ("takes", "frame", "sign", "stiffness", "accept")
 """Options that are arguments of `bench.audit.audit`."""
@@ -32,8 +30,7 @@ In pytest, where the wheel orientation-audit is installed: pytest --orientation-
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Describe the command and its options to a parser."""
-    parser.description, parser.epilog = DESCRIPTION, EPILOG.format(prog=parser.prog)
+    """Describe the options to a parser."""
     add = parser.add_argument
     add("function", metavar="FUNCTION", help="FILE.py:NAME, MODULE:NAME or LIBRARY.so:SYMBOL")
     add("--takes", metavar="WORD", help="what it takes: matrix, wxyz or xyzw; found if left out")
@@ -42,29 +39,22 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--stiffness", type=float, default=1.0, metavar="NUMBER", help="slope that your gains reckon with (1)")
     add("--accept", action="append", default=[], metavar="FAULT", help="a fault that is intended; repeatable")
     add("--limit", type=float, default=LIMIT_S, metavar="SECONDS", help=f"seconds that it may take ({LIMIT_S:g})")
-    add("--json", type=Path, metavar="FILE", help="write the report to this file, for machines")
 
 
-def run(arguments: argparse.Namespace) -> int:
-    """Print the report on a function and return 1 if it has a fault, else 0.
+def run(arguments: argparse.Namespace) -> tuple[int, str, dict[str, Any]]:
+    """Return the exit code, 1 if a function has a fault and 0 if not, and its report as text and for JSON.
 
     Errors:
-        BadFunction: it cannot be audited, or the file of the report cannot be written.
+        BadFunction: it cannot be audited.
     """
-    function, file, stated = arguments.function, arguments.json, {name: getattr(arguments, name) for name in STATED}
+    function, stated = arguments.function, {name: getattr(arguments, name) for name in STATED}
     try:
         show(f"loading {function}")
         count = f"of about {CALLS:,} calls: {function}"
         said = audit_apart(function, stated, arguments.limit, lambda calls: show(f"{calls:,} {count}"))
     finally:
         show("")
-    print(said["text"], end="")
-    if file:
-        try:
-            file.write_text(json.dumps(said["report"], indent=1, allow_nan=False) + "\n", encoding="utf-8")
-        except OSError as error:
-            raise BadFunction(f"--json {file}: cannot be written ({error.strerror}); name another file") from error
-    return 1 if said["report"]["faults"] else 0
+    return bool(said["report"]["faults"]), said["text"], said["report"]
 
 
 def show(text: str) -> None:

@@ -4,9 +4,11 @@ import argparse
 import importlib
 import importlib.metadata
 import io
+import json
 import re
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any, NoReturn
 
 from bench.base.errors import BadFunction, BenchError, UnknownWord, print_refusal
@@ -15,7 +17,10 @@ COMMANDS = {
     "check": ("check", "find the convention of an orientation error, and its faults"),
     "actions": ("actions.command", "find what the rotation of logged actions means, and whether it is as stated"),
 }
-"""Word of a command -> its module here, with add_arguments(parser) and run(arguments) -> exit code; what it does."""
+"""Word of a command -> its module here, and what it does.
+
+The module has DESCRIPTION, EPILOG, add_arguments(parser), and run(arguments) -> exit code, text, report for JSON.
+"""
 EPILOG = """\
 For example: {prog} check my_file.py:my_error. Options and more examples: {prog} check --help.
 Exit code 0: no fault. Exit code 1: a fault. Exit code 2: it could not be checked; one line says why and what to do."""
@@ -39,7 +44,7 @@ def run_command(words: Sequence[str], prog: str, version: str) -> int:
         prog: what the command line is called. version: what --version prints.
 
     Errors:
-        BenchError: a mistake in the words, or nothing that can be audited.
+        BenchError: a mistake in the words, nothing that can be audited, or a report that cannot be written.
     """
     first = next(iter(words), "--help")
     if first not in (*COMMANDS, "-h", "--help", "--version"):
@@ -53,7 +58,9 @@ def run_command(words: Sequence[str], prog: str, version: str) -> int:
         one = commands.add_parser(name, help=what)
         if name == first:  # of the others nothing is imported
             found = importlib.import_module(f"{__package__}.{module}")
+            one.description, one.epilog = found.DESCRIPTION, found.EPILOG.format(prog=one.prog)
             found.add_arguments(one)
+            one.add_argument("--json", type=Path, metavar="FILE", help="write the report to this file, for machines")
             one.set_defaults(run=found.run, options=re.findall(r"--[\w-]+", one.format_usage()))
     try:
         arguments, rest = parser.parse_known_args(words)
@@ -61,8 +68,14 @@ def run_command(words: Sequence[str], prog: str, version: str) -> int:
         return 0  # it has printed the help or the version
     if rest:
         raise UnknownWord("argument", rest[0], arguments.options)
-    code: int = arguments.run(arguments)
-    return code
+    code, text, report = arguments.run(arguments)
+    print(text, end="")
+    if file := arguments.json:
+        try:
+            file.write_text(json.dumps(report, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+        except OSError as error:
+            raise BadFunction(f"--json {file}: cannot be written ({error.strerror}); name another file") from error
+    return int(code)
 
 
 def main() -> int:

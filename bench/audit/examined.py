@@ -220,13 +220,3 @@ def explanation(
             evidence = examined.evidence(int(here[np.argmax(is_along)]), right)
             best, share = Found(text.format(words), evidence), float(is_along.mean())
     return best
-
-
-def axis_of(X: np.ndarray) -> np.ndarray:
-    """2 sin(theta) k of rotations X (n x 3 x 3)."""
-    return np.stack((X[:, 2, 1] - X[:, 1, 2], X[:, 0, 2] - X[:, 2, 0], X[:, 1, 0] - X[:, 0, 1]), axis=1)
-
-
-def rotated(X: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """X v (n x 3)."""
-    return np.einsum("nij,nj->ni", X, v)

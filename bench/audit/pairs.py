@@ -13,6 +13,8 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from bench.audit.rotations import matrices, product
+
 Place = Literal["wide", "close", "fine", "identity", "near-identity", "near-180", "at-180", "pole", "cube", "line"]
 Numbers = np.ndarray | float
 SEED = 7
@@ -42,23 +44,6 @@ class Pairs(NamedTuple):
     def at(self, *places: Place) -> np.ndarray:
         """Return the pairs of these places, as a mask."""
         return np.isin(self.place, places)
-
-
-def matrices(q: np.ndarray) -> np.ndarray:
-    """R (n x 3 x 3) of unit quaternions (n x 4)."""
-    w, x, y, z = q.T
-    rows = (
-        (w * w + x * x - y * y - z * z, 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)),
-        (2.0 * (x * y + w * z), w * w - x * x + y * y - z * z, 2.0 * (y * z - w * x)),
-        (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z),
-    )
-    return np.moveaxis(np.array(rows), 2, 0)
-
-
-def product(p: np.ndarray, q: np.ndarray) -> np.ndarray:
-    """Hamilton products p q (n x 4): first q, then p."""
-    w, v, u, r = p[:, :1], p[:, 1:], q[:, :1], q[:, 1:]
-    return np.hstack((w * u - (v * r).sum(axis=1, keepdims=True), w * r + u * v + np.cross(v, r)))
 
 
 def made(place: Place, q: np.ndarray, axis: np.ndarray, cosine: Numbers, sine: Numbers) -> Pairs:

@@ -65,6 +65,10 @@ class BadFunction(BenchError):
     """A function that cannot be audited."""
 
 
+class BadLog(BenchError):
+    """A log of actions that cannot be audited."""
+
+
 def print_refusal(reason: str) -> int:
     """Print what was wrong on one line of stderr and return 2, the exit code of every mistake."""
     shown = "".join(sign if sign.isprintable() else "?" for sign in " ".join(reason.split()))  # of a file, perhaps

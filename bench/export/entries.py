@@ -42,6 +42,11 @@ class Entry(NamedTuple):
         return any(one.kind == "memory" for one in self.parameters)
 
     @property
+    def width(self) -> int:
+        """Return the count of numbers that it is given."""
+        return sum(one.size for one in self.parameters)
+
+    @property
     def about(self) -> str:
         """Return what it returns, and how its matrices are stored."""
         matrices = [one.name for one in (*self.parameters, self.returns) if one.size == 9]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import itertools
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
 
 from bench.base.errors import UnknownWord
@@ -60,16 +61,15 @@ def find_language(word: str) -> Language:
     return every[word]
 
 
-def write_arguments(entry: Entry, declared: Mapping[str, str], passed: Mapping[str, str]) -> tuple[str, str]:
-    """Write the parameters of an entry, and the arguments that its function is called with.
+def write_arguments(entry: Entry, *forms: Mapping[str, str]) -> Iterator[str]:
+    """Yield the parameters of an entry as one list of arguments for each form.
 
-    declared, passed: templates by kind of a parameter, with {name} and {size}; "" is for all other kinds.
+    forms: templates by kind of a parameter, "" for all other kinds, with {name}, {size} and {at}, its place in a row.
     """
-    declarations, arguments = (
-        ", ".join(by.get(one.kind, by[""]).format(name=one.name, size=one.size) for one in entry.parameters)
-        for by in (declared, passed)
-    )
-    return declarations, arguments
+    for by in forms:
+        places = itertools.accumulate((one.size for one in entry.parameters), initial=0)
+        placed = zip(entry.parameters, places, strict=False)
+        yield ", ".join(by.get(one.kind, by[""]).format(name=one.name, size=one.size, at=at) for one, at in placed)
 
 
 def write_vectors(subject: Subject) -> str:

@@ -1,15 +1,15 @@
 """Conventions that are in use, planted faults, and noise, in simulated logs of a robot that lags and is measured."""
 
-import argparse
 import json
+import re
+import shlex
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from support.command_line import bench, refused
 
-from bench.audit.actions import command
 from bench.audit.actions.report import audit_actions
-from bench.base.errors import BenchError
 
 EPISODES, STEPS = 6, 115
 turn, euler = Rotation.from_rotvec, Rotation.from_euler
@@ -148,18 +148,50 @@ def test_command_reads_a_table_finds_the_reading_of_its_poses_and_writes_json(tm
     columns = {"observation.state": list(state), "action": list(action), "episode_index": episode}
     pq.write_table(pa.table(columns), tmp_path / "log.parquet")
     np.savez(tmp_path / "log.npz", quat=Rotation.from_matrix(R).as_quat(), action=action, episode=episode)
-    parser = argparse.ArgumentParser()
-    command.add_arguments(parser)
     pose = ["--pose", "observation.state[3:6]"]
     for name, words, reading in (("log.parquet", pose, "euler-xyz"), ("log.npz", [], "quaternion-xyzw")):
-        arguments = parser.parse_args([str(tmp_path / name), *words, "--json", str(tmp_path / "found.json")])
-        assert command.run(arguments) == 0
-        assert f"6d-rows, body (R' = R A); reading of the poses: {reading}" in capsys.readouterr().out
+        said = bench(capsys, "audit", "actions", tmp_path / name, *words, "--json", tmp_path / "found.json")
+        assert (said.code, said.err) == (0, "")
+        assert f"6d-rows, body (R' = R A); reading of the poses: {reading}" in said.out
         assert json.loads((tmp_path / "found.json").read_text())["convention"]["pose"] == reading
 
 
-def test_wrong_columns_and_unknown_words_are_refused_with_the_cure():
-    R, action, *_ = simulate(IN_USE["isaac-lab"][0], 7)
-    for numbers, words, cure in ((action[:, :2], "", "give 3, 4, 6 or 9"), (action, "axis-angle", "known: rot")):
-        with pytest.raises(BenchError, match=cure):
-            audit_actions(R, numbers, expect=words)
+@pytest.mark.parametrize(
+    ("words", "cure"),
+    [
+        (["nowhere.npz"], "there is no file"),
+        (["nowhere.parquet"], "there is no file"),
+        (["log.csv"], "save the log with np.savez"),
+        (["damaged.npz"], "(File is not a zip file); save arrays of numbers"),
+        (["damaged.parquet"], "save arrays of numbers"),
+        (["objects.npz"], "(Object arrays cannot be loaded"),
+        (["empty.npz"], "'R' has no rows; give a log of at least"),
+        (["log.npz", "--pose", "words"], "something else than numbers"),
+        (["log.npz", "--action", "acton"], "did you mean 'action'"),
+        (["log.npz", "--action", "action[3:7]"], "has 6 numbers; they are counted from 0"),
+        (["log.npz", "--action", "action[:2]"], "give 3, 4, 6 or 9 columns"),
+        (["log.npz", "--pose", "action[1:3]"], "give its rotation, as --pose NAME[3:6]"),
+        (["log.npz", "--action", "action[:3]", "--expect", "axis-angle"], "known: rotation-vector"),
+    ],
+)
+def test_mistake_in_a_log_or_in_words_is_refused_on_one_line_with_the_cure(tmp_path, capsys, words, cure):
+    for name in ("damaged.npz", "damaged.parquet", "log.csv"):
+        (tmp_path / name).write_text("neither")
+    np.savez(tmp_path / "objects.npz", R=np.array([{}]), action=np.zeros((1, 3)))
+    np.savez(tmp_path / "empty.npz", R=np.zeros((0, 3, 3)), action=np.zeros((0, 3)))
+    np.savez(tmp_path / "log.npz", R=np.tile(np.eye(3), (9, 1, 1)), action=np.zeros((9, 6)), words=np.array(["a"] * 9))
+    assert cure in refused(capsys, "audit", "actions", tmp_path / words[0], *words[1:])
+
+
+def test_examples_of_the_help_are_words_that_the_command_takes(tmp_path, capsys, monkeypatch):
+    pq, pa = pytest.importorskip("pyarrow.parquet"), pytest.importorskip("pyarrow")
+    monkeypatch.chdir(tmp_path)
+    R, action, _, episode = simulate(IN_USE["robosuite"][0], 7)
+    np.savez("log.npz", R=R, action=action, episode_index=episode)
+    rows = {"observation.state": Rotation.from_matrix(R).as_rotvec(), "action": action}
+    wide = {name: list(np.hstack((np.zeros_like(one), one))) for name, one in rows.items()}
+    pq.write_table(pa.table({**wide, "episode_index": episode}), "log.parquet")
+    lines = re.findall("^   bench (audit actions .*)", bench(capsys, "audit", "actions", "--help").out, re.MULTILINE)
+    assert len(lines) == 3
+    for line in lines:
+        assert bench(capsys, *shlex.split(line)).code == 0

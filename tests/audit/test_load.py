@@ -135,13 +135,6 @@ def test_stiffness_that_is_not_positive_is_refused(file, stiffness):
 # --------------------------------------------------------------------------- the command
 
 
-def test_command_ends_with_0_and_a_note(capsys, file):
-    said = bench(capsys, "audit", f"{file}:columns")
-    assert (said.code, said.err) == (0, "")
-    assert "no fault found" in said.out
-    assert "note dead-at-180" in said.out
-
-
 def test_command_ends_with_1_on_a_fault_and_0_if_it_is_accepted(capsys, file):
     assert bench(capsys, "audit", f"{file}:half").code == 1
     assert bench(capsys, "audit", f"{file}:half", "--accept", "stiffness").code == 0

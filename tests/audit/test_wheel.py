@@ -11,6 +11,7 @@ from importlib.metadata import distribution
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from bench.export.subject import find_subject, subject_words
 from bench.export.vectors import make_vectors
@@ -86,14 +87,19 @@ def test_wheel_is_small_needs_numpy_alone_and_may_be_published(wheel, said):
     assert not re.search(r"Do Not Upload|\$", said)
 
 
-def test_commands_of_its_readme_run_in_a_project_with_packages_of_our_names(run, said):
-    check, tests, law = re.findall(r"^```sh\n(.*)\n```", said, re.MULTILINE)
+def test_commands_of_its_readme_run_in_a_project_with_packages_of_our_names(run, said, tmp_path):
+    check, tests, actions, law = re.findall(r"^```sh\n(.*)\n```", said, re.MULTILINE)
     checked, refused = run(*check.split()), run(*check.replace("check", "chek").split())
     assert (checked.returncode, "FAULTS: stiffness" in checked.stdout, checked.stderr) == (1, True, "")
     assert (refused.returncode, refused.stdout, refused.stderr.count("\n")) == (2, "", 1)
     for words, failed in ((tests, 1), (tests.replace("my_error:", "my_error.py:"), 1), ("pytest", 0)):
         tested = run(*words.split())
         assert (tested.returncode, "1 failed" in tested.stdout) == (failed, bool(failed)), tested.stdout + tested.stderr
+    R = Rotation.from_rotvec(np.random.default_rng(1).normal(size=(301, 3)))
+    action = (R[1:] * R[:-1].inv()).as_rotvec() / 0.5
+    np.savez(tmp_path / "log.npz", R=R[:-1].as_matrix(), R_next=R[1:].as_matrix(), action=action)
+    found = run("sh", "-c", actions)
+    assert (found.returncode, "rotation-vector, base (R' = A R)" in found.stdout, found.stderr) == (0, True, "")
     assert "Late braking" in run("sh", "-c", law).stdout
 
 

@@ -42,6 +42,36 @@ def columns(R, R_d):
     return 0.5 * sum(np.cross(R[:, i], R_d[:, i]) for i in range(3))
 
 
+def of_log(change):
+    """Return an error of matrices: change(theta k, theta) of the rotation vector in base."""
+
+    def error(R, R_d):
+        e = log(R_d @ R.T)
+        return change(e, np.linalg.norm(e))
+
+    return error
+
+
+def of_sine(change):
+    """Return an error of matrices: change(sin(theta) k, sin(theta), cos(theta), R_d R^T)."""
+
+    def error(R, R_d):
+        v, X = columns(R, R_d), R_d @ R.T
+        return change(v, np.linalg.norm(v), 0.5 * (np.trace(X) - 1.0), X)
+
+    return error
+
+
+def of_arc_cosine(constant=0.0, least=0.0):
+    """Return an error theta k of matrices, divided by sin(theta) plus a constant, and zero up to the least angle."""
+
+    def change(v, s, c, X):
+        theta = np.arccos(np.clip(c, -1.0, 1.0))
+        return theta / (np.sin(theta) + constant) * v if theta > least else np.zeros(3)
+
+    return of_sine(change)
+
+
 def of_xyzw(error):
     """Return an error of quaternions wxyz as one of xyzw."""
     return lambda q, q_d: error(np.roll(q, 1), np.roll(q_d, 1))
@@ -87,45 +117,13 @@ def norm_clip(R, R_d):
     return shortened(log(R.T @ R_d), 1.0)
 
 
-def norm_clip_by_the_largest(q, q_d):
-    e = chord(left(q, q_d))
-    return e / max(1.0, np.abs(e).max() / 0.3)
-
-
-def arc_cosine(R, R_d):
-    X = R_d @ R.T
-    theta = np.arccos(np.clip(0.5 * (np.trace(X) - 1.0), -1.0, 1.0))
-    if theta == 0.0:
-        return np.zeros(3)
-    return theta / (2.0 * np.sin(theta)) * np.array((X[2, 1] - X[1, 2], X[0, 2] - X[2, 0], X[1, 0] - X[0, 1]))
-
-
-def arc_cosine_of_quaternion(q, q_d):
-    e = right(q, q_d)
-    e = e if e[0] >= 0.0 else -e
-    length = np.linalg.norm(e[1:])
-    return -2.0 * np.arccos(min(e[0], 1.0)) * e[1:] / length if length else np.zeros(3)
-
-
 def euler_difference(R, R_d):
     difference = Rotation.from_matrix(R_d).as_euler("ZYX") - Rotation.from_matrix(R).as_euler("ZYX")
     return (difference + np.pi) % (2.0 * np.pi) - np.pi
 
 
-def wrong_wrap_of_angle(R, R_d):
-    """An angle from 0 to 360° about an axis of the upper half space."""
-    e = log(R.T @ R_d)
-    theta = np.linalg.norm(e)
-    return e if theta == 0.0 or e[2] >= 0.0 else (theta - 2.0 * np.pi) * e / theta
-
-
 def single(*numbers):
     return (one.astype(np.float32) for one in numbers)
-
-
-def deadband(R, R_d):
-    e = log(R.T @ R_d)
-    return e if np.linalg.norm(e) > 5e-3 else np.zeros(3)
 
 
 def deadband_of_components(q, q_d):
@@ -174,10 +172,12 @@ PLANTED: dict = {
     "axis-clip": (axis_clip, {"axis-clip"}),
     "axis-clip-tight": (lambda q, q_d: np.clip(-chord(right(q, q_d)), -0.1, 0.1), {"axis-clip"}),
     "norm-clip": (norm_clip, {"norm-clip"}),
-    "norm-clip-by-the-largest": (norm_clip_by_the_largest, {"norm-clip"}),
+    "norm-clip-by-the-largest": (of_log(lambda e, _: e / max(1.0, np.abs(e).max() / 0.3)), {"norm-clip"}),
     "clip-of-a-tick": (lambda q, q_d: shortened(chord(left(q, q_d)), 0.008), {"norm-clip"}),
-    "arc-cosine": (arc_cosine, {"dead-at-180", "digits-near-180", "digits-near-0", "non-unit"}),
-    "arc-cosine-of-quaternion": (arc_cosine_of_quaternion, {"digits-near-0", "non-unit"}),
+    "arc-cosine": (
+        of_arc_cosine(),
+        {"dead-at-180", "digits-near-180", "digits-near-0", "non-unit"},
+    ),
     "euler-difference": (euler_difference, {"euler-angles"}),
     "euler-difference-of-quaternions": (
         lambda q, q_d: euler_difference(*(Rotation.from_quat(one).as_matrix() for one in (q, q_d))),
@@ -188,13 +188,16 @@ PLANTED: dict = {
         lambda R, R_d: Rotation.from_matrix(R_d).as_euler("xyz") - Rotation.from_matrix(R).as_euler("xyz"),
         {"euler-angles", "long-way"},
     ),  # angles' differences as they are
-    "wrong-wrap-of-angle": (wrong_wrap_of_angle, {"long-way"}),
+    "wrong-wrap-of-angle": (
+        of_log(lambda e, theta: (theta - 2.0 * np.pi) / theta * e if e[2] < 0.0 else e),
+        {"long-way"},
+    ),  # from 0 to 360° about an axis of the upper half space
     "single-precision": (lambda R, R_d: log(np.matmul(*single(R_d, R.T)).astype(float)), {"single-precision"}),
     "single-precision-quaternion": (
         of_xyzw(lambda q, q_d: chord(*single(left(*single(q, q_d))))),
         {"single-precision"},
     ),
-    "deadband": (deadband, {"deadband"}),
+    "deadband": (of_log(lambda e, theta: e if theta > 5e-3 else np.zeros(3)), {"deadband"}),
     "deadband-of-components": (deadband_of_components, {"deadband"}),
     "jump-at-90": (lambda R, R_d: columns(R, R_d) if np.trace(R_d @ R.T) >= 1.0 else 0.5 * log(R_d @ R.T), {"jump"}),
     "jump-at-90-of-quaternions": (jump_at_90_of_quaternions, {"jump"}),

@@ -7,31 +7,20 @@ import numpy as np
 from scipy.linalg import logm
 from scipy.spatial.transform import Rotation
 
-from support.planted import CONJUGATE, chord, columns, left, log, right, shortened, times
-
-
-def of_log(change):
-    """Return an error of matrices: change(theta k, theta) of the rotation vector in base."""
-
-    def error(R, R_d):
-        e = log(R_d @ R.T)
-        return change(e, np.linalg.norm(e))
-
-    return error
-
-
-def of_sine(change):
-    """Return an error of matrices: change(sin(theta) k, sin(theta), cos(theta), R_d R^T)."""
-
-    def error(R, R_d):
-        v, X = columns(R, R_d), R_d @ R.T
-        return change(v, np.linalg.norm(v), 0.5 * (np.trace(X) - 1.0), X)
-
-    return error
-
-
-def wrapped(e):
-    return (e + np.pi) % (2.0 * np.pi) - np.pi
+from support.planted import (
+    CONJUGATE,
+    chord,
+    columns,
+    deadband_of_components,
+    left,
+    log,
+    of_arc_cosine,
+    of_log,
+    of_sine,
+    right,
+    shortened,
+    times,
+)
 
 
 def diagonal_axis(X):
@@ -72,6 +61,12 @@ def cached(key):
     return lambda R, R_d: kept.setdefault(key(R, R_d), log(R_d @ R.T))
 
 
+def filtered():
+    """A first-order filter of the error."""
+    kept = np.zeros(3)
+    return of_log(lambda e, _: np.add(0.9 * kept, 0.1 * e, out=kept))
+
+
 def hysteresis():
     side = [1.0]
 
@@ -100,6 +95,12 @@ def shadow(q, q_d):
     return 4.0 * s if s @ s <= 1.0 else -4.0 * s / (s @ s)
 
 
+def whole_turn(e):
+    """An angle from 0 to 360°, of a quaternion of any sign."""
+    length = np.linalg.norm(e[1:])
+    return 2.0 * np.arctan2(length, e[0]) * e[1:] / length if length else np.zeros(3)
+
+
 def lee_over_root(R, R_d):
     X = R_d.T @ R
     return columns(R_d.T, R.T) / np.sqrt(1.0 + np.trace(X))
@@ -123,6 +124,7 @@ def arc_tangent(q, q_d):
 
 
 MIRROR = np.diag((1.0, 1.0, -1.0))
+RNG = np.random.default_rng(3)
 
 USERS: dict = {
     # of a referee
@@ -151,9 +153,12 @@ USERS: dict = {
     "raises-at-times | raises | ValueError: lost": raises_at_times,
     "backwards-past-150 | long-way | points against the axis": of_log(lambda e, theta: e if theta < 2.6 else -e),
     "power-law | stiffness | no gain is set by it": of_log(lambda e, theta: e * theta**-0.5 if theta else e),
+    "stiffer-with-the-angle | stiffness | no gain is set by it": of_log(lambda e, theta: e * np.sqrt(theta)),
+    "unit-vector | stiffness | no gain is set by it": of_log(lambda e, theta: e / theta if theta else e),
     # others, right
+    "saturated |  | no fault found": of_log(lambda e, theta: np.tanh(theta) / theta * e if theta else e),
     "inverse |  | no fault found": lambda R, R_d: log(R_d @ np.linalg.inv(R)),
-    "components-wrapped |  | no fault found": of_log(lambda e, _: wrapped(e)),
+    "components-wrapped |  | no fault found": of_log(lambda e, _: (e + np.pi) % (2.0 * np.pi) - np.pi),
     "rounded-at-the-end |  | no fault found": of_log(lambda e, _: e.astype(np.float32)),
     "fortran |  | points from R_d": lambda R, R_d: log(R_d.ravel("F").reshape(3, 3) @ R),
     "cached-by-pair |  | no fault found": cached(lambda R, R_d: (R.tobytes(), R_d.tobytes())),
@@ -171,6 +176,25 @@ USERS: dict = {
     "constant-in-a-denominator | digits-near-0 | no constant": of_log(lambda e, theta: e * theta / (theta + 1e-6)),
     "rotation-vectors-subtracted | misaligned | each θ k": lambda R, R_d: log(R_d) - log(R),
     "vector-parts-subtracted | misaligned | each 2 sin(θ/2) k": lambda q, q_d: 2.0 * (q_d - q)[1:],
+    "tangent | not-a-number | 2 tan(θ/2), has no end": of_log(
+        lambda e, theta: e * np.sinc(0.5 * theta / np.pi) / np.cos(0.5 * theta)
+    ),
+    "axis-of-diagonal-at-180 | axis-at-180 | with another axis\n": of_sine(
+        lambda v, s, c, X: diagonal_axis(X) if np.abs(X - X.T).max() < 1e-14 and c < 0.0 else log(X)
+    ),
+    "four-numbers-far-away | raises | an array of shape (4,)": of_log(
+        lambda e, theta: e if theta < 3.0 else np.zeros(4)
+    ),
+    "deadband-of-a-vector-part | deadband, stiffness | e = 0 up to": lambda q, q_d: (
+        0.5 * deadband_of_components(q, q_d)
+    ),
+    "constant-and-deadband | dead-at-180, deadband | e = 0 up to 0.001": of_arc_cosine(1e-6, 1e-3),
+    "whole-turn-too-much | long-way | points against the axis": lambda R, R_d: whole_turn(
+        Rotation.from_matrix(R_d @ R.T).as_quat(scalar_first=True)
+    ),
+    "rounded | deadband | a multiple of 0.1": of_log(lambda e, _: np.round(e, 1)),  # its slope at the goal is 0
+    "noisy | memory | another answer": of_log(lambda e, _: e * (1.0 + 1e-3 * RNG.random())),
+    "filtered | memory | another answer": filtered(),
     "matrices-subtracted | misaligned | each sin θ k": lambda R, R_d: columns(np.eye(3), R_d - R),
     "left-handed | misaligned | M = diag([-1.0, -1.0, 1.0])": lambda R, R_d: log(MIRROR @ R_d @ R.T @ MIRROR),
     "reversed | misaligned | M = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]": of_log(lambda e, _: e[::-1]),

@@ -9,48 +9,15 @@ from collections.abc import Callable
 
 import numpy as np
 
-from bench.audit.pairs import matrices
+from bench.audit.rotations import exp, from_euler, log, matrices, to_euler
 
 RELATIONS = {"base": "R' = A R", "body": "R' = R A", "absolute": "R' = A", "difference": "c(R') = c(R) + a"}
 """Formulas; c are the coordinates of the representation."""
 
 
-def exp(v: np.ndarray) -> np.ndarray:
-    """Return rotations (n x 3 x 3) of rotation vectors (n x 3) [rad]."""
-    half = np.linalg.norm(v, axis=1, keepdims=True) / 2.0
-    return matrices(np.hstack((np.cos(half), np.sinc(half / np.pi) / 2.0 * v)))
-
-
-def log(R: np.ndarray) -> np.ndarray:
-    """Return rotation vectors (n x 3) [rad] of rotations: 4 q q^T is linear in R, and its largest row is 4 q_i q."""
-    trace, Q = np.einsum("nii->n", R), np.empty((len(R), 4, 4))
-    Q[:, 0, 0] = 1.0 + trace
-    Q[:, 0, 1:] = Q[:, 1:, 0] = np.stack([R[:, 2, 1] - R[:, 1, 2], R[:, 0, 2] - R[:, 2, 0], R[:, 1, 0] - R[:, 0, 1]], 1)
-    Q[:, 1:, 1:] = R + R.swapaxes(1, 2) + (1.0 - trace)[:, None, None] * np.eye(3)
-    q = Q[np.arange(len(R)), np.einsum("nii->ni", Q).argmax(axis=1)]
-    q = q * np.where(q[:, :1] < 0.0, -1.0, 1.0)
-    size = np.linalg.norm(q[:, 1:], axis=1)
-    return q[:, 1:] * (2.0 * np.arctan2(size, q[:, 0]) / np.maximum(size, 1e-300))[:, None]
-
-
 def unit(v: np.ndarray) -> np.ndarray:
     """Return vectors (n x m) of length 1."""
     return v / np.maximum(np.linalg.norm(v, axis=1, keepdims=True), 1e-300)
-
-
-def from_euler(order: str, angles: np.ndarray) -> np.ndarray:
-    """Return rotations of angles (n x 3) [rad] about the axes of the order, as "XYZ" or "xyz"."""
-    turns = [exp(angles[:, [n]] * np.eye(3)["xyz".index(axis)]) for n, axis in enumerate(order.lower())]
-    return functools.reduce(np.matmul, turns if order.isupper() else turns[::-1])
-
-
-def to_euler(order: str, R: np.ndarray) -> np.ndarray:
-    """Return the angles (n x 3) [rad] of an order of three different axes; R = R_i R_j R_k has sin(b) at (i, k)."""
-    i, j, k = ("xyz".index(axis) for axis in (order.lower() if order.isupper() else order[::-1]))
-    sign = 1.0 if (j - i) % 3 == 1 else -1.0
-    first, third = np.arctan2(-sign * R[:, j, k], R[:, k, k]), np.arctan2(-sign * R[:, i, j], R[:, i, i])
-    found = np.stack((first, np.arcsin(np.clip(sign * R[:, i, k], -1.0, 1.0)), third), axis=1)
-    return found if order.isupper() else found[:, ::-1]
 
 
 def from_columns(a: np.ndarray, b: np.ndarray) -> np.ndarray:

@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.audit.actions.conventions import COORDINATES, REPRESENTATIONS, exp, log
+from bench.audit.actions.conventions import COORDINATES, REPRESENTATIONS
+from bench.audit.rotations import exp, log
 
 TOLERANCE, MOVES = 0.2, 0.25
 """A row is explained to this part of its motion, or of the log's rms motion; it is judged if it moves so far of it."""

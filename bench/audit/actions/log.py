@@ -3,12 +3,14 @@
 import importlib
 import re
 import zipfile
+import zlib
 from pathlib import Path
 
 import numpy as np
+from numpy.lib.format import read_array
 
 from bench.audit.actions.conventions import REPRESENTATIONS
-from bench.base.errors import BadNumber, MissingTool, UnknownWord
+from bench.base.errors import BadLog, BadNumber, MissingTool, UnknownWord
 
 POSES, NEXT = ("R", "pose", "quat", "observation.state"), ("R_next", "next_R", "next_pose", "next_quat")
 EPISODES = ("episode_index", "episode")
@@ -18,27 +20,52 @@ READINGS[9] = ("matrix-rows",)
 
 
 def read_arrays(path: Path) -> dict[str, np.ndarray]:
-    """Return the arrays of a file by name."""
-    if path.suffix == ".npz":
-        with zipfile.ZipFile(path) as file:
-            return {one[:-4]: np.lib.format.read_array(file.open(one), allow_pickle=False) for one in file.namelist()}
+    """Return the arrays of a file by name.
+
+    Errors:
+        BadLog: there is no such file, or it cannot be read. MissingTool: a table, and pyarrow is not installed.
+    """
+    if path.suffix not in (".npz", ".parquet"):
+        raise BadLog(f"{path} is no .npz and no .parquet file; save the log with np.savez, or as a table")
     try:
+        if path.suffix == ".npz":
+            with zipfile.ZipFile(path) as file:
+                return {one[:-4]: read_array(file.open(one), allow_pickle=False) for one in file.namelist()}
         table = importlib.import_module("pyarrow.parquet").read_table(path)
+        return {one: np.array(table[one].to_pylist()) for one in table.column_names if "image" not in one}
     except ImportError:
         raise MissingTool(f"{path} is read with pyarrow, which is missing; pip install pyarrow, or save .npz") from None
-    return {one: np.array(table[one].to_pylist()) for one in table.column_names if "image" not in one}
+    except FileNotFoundError:
+        raise BadLog(f"there is no file {path}; give the path of a .npz or .parquet file") from None
+    except (OSError, ValueError, EOFError, zlib.error, zipfile.BadZipFile) as error:
+        raise BadLog(
+            f"{path} cannot be read ({error}); save arrays of numbers, each with one row for a step"
+        ) from error
 
 
 def find_column(arrays: dict, stated: str | None, usual: tuple[str, ...] = ("action",)) -> tuple[np.ndarray, str]:
-    """Return the numbers (n x m) of "name", "name[3:6]" or "name[3:6]:reading", and the reading or ""."""
+    """Return the numbers (n x m) of "name", "name[3:6]" or "name[3:6]:reading", and the reading or "".
+
+    Errors:
+        UnknownWord: there is no such column. BadLog: it has no rows, not these numbers, or something else.
+    """
     column = stated or next((one for one in usual if one in arrays), usual[0])
     (parts,) = re.findall(r"^(.*?)(?:\[(\d*):(\d*)\])?(?::([\w-]+))?$", column)
     name, start, stop, reading = parts
     if name not in arrays:
         raise UnknownWord("column", name, sorted(arrays))
-    values = arrays[name].astype(float)
+    try:
+        values = arrays[name].astype(float)
+    except (TypeError, ValueError) as error:
+        raise BadLog(f"column '{name}' has something else than numbers ({error}); give another column") from error
+    if not values.size:
+        raise BadLog(f"column '{name}' has no rows; give a log of at least some hundred steps")
     values = values[:, :3, :3] if values.shape[1:] == (4, 4) else values
-    return values.reshape(len(values), -1)[:, int(start or 0) : int(stop) if stop else None], reading
+    values = values.reshape(len(values), -1)
+    first, last = int(start or 0), int(stop or values.shape[1])
+    if not first < last <= values.shape[1]:
+        raise BadLog(f"'{column}' is outside of '{name}', which has {values.shape[1]} numbers; they are counted from 0")
+    return values[:, first:last], reading
 
 
 def read_poses(values: np.ndarray, reading: str) -> dict[str, np.ndarray]:

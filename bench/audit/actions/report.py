@@ -4,9 +4,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from bench.audit.actions.conventions import RELATIONS, REPRESENTATIONS, log
+from bench.audit.actions.conventions import RELATIONS, REPRESENTATIONS
 from bench.audit.actions.fit import TOLERANCE, Convention
 from bench.audit.actions.search import DEGREE, ENOUGH, FEWEST, Found, is_reached, search
+from bench.audit.rotations import log
 from bench.base.errors import BadNumber, UnknownWord
 
 UNITS = {"radians": 1.0, "degrees": DEGREE}

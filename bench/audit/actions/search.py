@@ -5,8 +5,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.audit.actions.conventions import COORDINATES, REPRESENTATIONS, log
+from bench.audit.actions.conventions import COORDINATES, REPRESENTATIONS
 from bench.audit.actions.fit import Convention, Rows, align, fit, nearest
+from bench.audit.rotations import log
 
 LAGS, DEGREE = range(-1, 6), np.pi / 180.0
 FEWEST, SAMPLE, TOP = 50, 300, 10

@@ -20,13 +20,9 @@ class Fault(NamedTuple):
     """One kind of fault: what the docstring of its file says of it, and its `find`.
 
     Args:
-        title: what it is.
-        effect: what it does to a controller.
-        cure: what to do.
         law: the name of a regulator that has it right.
         unless: names of faults that explain this one: with any of them it is not reported.
         name: of the file, with dashes: word in reports and on the command line, anchor on the page.
-        find: examined -> Found, or None.
     """
 
     title: str

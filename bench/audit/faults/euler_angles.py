@@ -15,6 +15,7 @@ import numpy as np
 from bench.audit.convention import ENOUGH
 from bench.audit.examined import Examined, Found
 from bench.audit.pairs import Pairs
+from bench.audit.rotations import to_euler
 
 SEQUENCES = tuple("".join(axes) for axes in itertools.permutations("XYZ"))
 SAME_RAD = 1e-5
@@ -62,14 +63,7 @@ def find_angles(examined: Examined) -> Angles | None:
 def combined(of: Pairs, sequence: str) -> Iterator[tuple[str, np.ndarray]]:
     """(words, angles n x 3) for each way to make an error of them."""
     R, R_d = of.R, of.R_d
-    yield "the difference of angles of R_d and R", angles_of(R_d, sequence) - angles_of(R, sequence)
+    yield "the difference of angles of R_d and R", to_euler(sequence, R_d) - to_euler(sequence, R)
     for words, X in (("R_d R^T", R_d @ R.swapaxes(1, 2)), ("R^T R_d", R.swapaxes(1, 2) @ R_d)):
-        yield f"the angles of {words}", angles_of(X, sequence)
-        yield f"the angles of ({words})^T", angles_of(X.swapaxes(1, 2), sequence)
-
-
-def angles_of(X: np.ndarray, sequence: str) -> np.ndarray:
-    """Angles (n x 3) about intrinsic axes, each in (-pi, pi]."""
-    from scipy.spatial.transform import Rotation  # a third of a second, for a function that has no axis
-
-    return Rotation.from_matrix(X).as_euler(sequence)
+        yield f"the angles of {words}", to_euler(sequence, X)
+        yield f"the angles of ({words})^T", to_euler(sequence, X.swapaxes(1, 2))

@@ -11,8 +11,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from bench.audit.convention import ENOUGH, FRAMES, apart, directions
-from bench.audit.examined import EXPLAINED_RAD, Examined, Found, Model, explanation, rotated
+from bench.audit.examined import EXPLAINED_RAD, Examined, Found, Model, explanation
 from bench.audit.pairs import Pairs
+from bench.audit.rotations import rotated
 
 
 def find(examined: Examined) -> Found | None:

@@ -11,8 +11,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from bench.audit.convention import FORMS, directions
-from bench.audit.examined import FAULT, Examined, Found, Model, explanation, rotated
+from bench.audit.examined import FAULT, Examined, Found, Model, explanation
 from bench.audit.pairs import Pairs, Place
+from bench.audit.rotations import rotated
 
 BENT_RAD = 1e-3
 """Angle to the axis: half a thousandth of it is what single precision leaves nowhere in these places."""

@@ -11,7 +11,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from bench.audit.examined import Examined, Found, Model, explanation, inputs
-from bench.audit.pairs import Pairs, product
+from bench.audit.pairs import Pairs
+from bench.audit.rotations import product
 
 ORDERS = ("wxyz", "xyzw")
 READ = {"wxyz": [0, 1, 2, 3], "xyzw": [3, 0, 1, 2], "xyzw, shifted the wrong way": [1, 2, 3, 0]}

@@ -7,8 +7,9 @@ law: rotation-matrix
 
 from collections.abc import Iterator
 
-from bench.audit.examined import Examined, Found, Model, axis_of, explanation
+from bench.audit.examined import Examined, Found, Model, explanation
 from bench.audit.pairs import Pairs
+from bench.audit.rotations import axis_of
 
 
 def find(examined: Examined) -> Found | None:

@@ -87,11 +87,10 @@ class Core:
     def text(self) -> str:
         """Write structures and functions, callees first."""
         structures = (line for kind in self.names for line in self.structure(kind))
-        return "\n".join((*wrapped(structures), "", *(self.documented(one) for one in self.program.functions)))
-
-    def documented(self, function: Typed) -> str:
-        """Write a function after its comment."""
-        return "\n".join((*comment(function.summary), *self.language.write(function), ""))
+        lines = [*wrapped(structures), ""]
+        for one in self.program.functions:
+            lines += (*comment(one.summary), *self.language.write(one), "")
+        return "\n".join(lines)
 
 
 def comment(text: str) -> list[str]:
@@ -178,9 +177,8 @@ def write_program(subject: Subject, calls: Calls) -> str:
 def _test_entry(subject: Subject, entry: Entry, calls: Calls) -> Iterator[str]:
     """Write rows of arguments, result, memory and tolerance, and a function that runs them."""
     found = [one for one in vectors(subject) if one.entry == entry.name]
-    given, results = sum(one.size for one in entry.parameters), len(found[0].result)
-    kept, deep = len(found[0].memory), INDENT * 2
-    width = given + results + kept + 1
+    given, results, kept = entry.width, len(found[0].result), len(found[0].memory)
+    width, deep = given + results + kept + 1, INDENT * 2
     yield f"static const double {entry.name}_rows[{len(found)}][{width}] = {{"
     for each in found:
         yield from wrapped([f"{INDENT}{{{', '.join(map(repr, each.row))}}},"])
@@ -189,21 +187,17 @@ def _test_entry(subject: Subject, entry: Entry, calls: Calls) -> Iterator[str]:
     yield f"{INDENT}for (at = 0; at < {len(found)}; at++) {{"
     yield f"{deep}const double *row = {entry.name}_rows[at], tolerance = row[{width - 1}];"
     yield f"{deep}double result[{results}];"
-    passed, place = [], 0
-    for one in entry.parameters:
-        if one.kind == "memory":  # in the vectors at 180° it is the first one: after reset
-            first = " && ".join(f"row[{place + at}] == {value!r}" for at, value in enumerate(subject.memory or ()))
-            yield f"{deep}const int is_first = {first};"
-            yield f"{deep}{calls.state} state;"
-            yield f"{deep}int k;"
-            yield f"{deep}for (k = 0; k < {one.size}; k++) state.{one.name}[k] = is_first ? -1.0 : row[{place} + k];"
-            yield f"{deep}if (is_first) {calls.reset};"
-        passed.append(calls.passed.get(one.kind, calls.passed[""]).format(at=place, size=one.size))
-        place += one.size
-    yield f"{deep}{calls.call(entry, ', '.join(passed))}"
-    checks = [f"is_wrong(result, row + {place}, {results}, tolerance)"]
-    if kept:
-        checks.append(f"is_wrong(state.{subject.memory_name}, row + {place + results}, {kept}, tolerance)")
+    checks = [f"is_wrong(result, row + {given}, {results}, tolerance)"]
+    if kept:  # in the vectors at 180° the memory is the first one: after reset
+        name, place = subject.memory_name, given - kept
+        first = " && ".join(f"row[{place + at}] == {value!r}" for at, value in enumerate(subject.memory or ()))
+        yield f"{deep}const int is_first = {first};"
+        yield f"{deep}{calls.state} state;"
+        yield f"{deep}int k;"
+        yield f"{deep}for (k = 0; k < {kept}; k++) state.{name}[k] = is_first ? -1.0 : row[{place} + k];"
+        yield f"{deep}if (is_first) {calls.reset};"
+        checks.append(f"is_wrong(state.{name}, row + {given + results}, {kept}, tolerance)")
+    yield f"{deep}{calls.call(entry, *write_arguments(entry, calls.passed))}"
     yield f"{deep}wrong += {' || '.join(checks)};\n{INDENT}}}\n{INDENT}return wrong;\n}}\n"
 
 

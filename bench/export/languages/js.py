@@ -85,7 +85,7 @@ def write_types(subject: Subject) -> dict[str, str]:
     state = f"export interface State {{ {subject.memory_name}: number[] }}"
     lines = [state, "export function reset(state?: object): State;"] if subject.memory else []
     for one in subject.entries:
-        given, returned = write_arguments(one, TYPED, {"": ""})[0], "number" + "[]" * (one.returns.kind != "number")
+        given, returned = next(write_arguments(one, TYPED)), "number" + "[]" * (one.returns.kind != "number")
         lines += (f"/** {one.about} */", f"export function {one.name}({given}): {returned};")
     return {f"{subject.identifier}.d.ts": "\n".join((*lines, ""))}
 

@@ -155,7 +155,7 @@ def write_test(subject: Subject) -> str:
         rows.append(f"static {table}: [(&str, [f64; {len(found[0].row)}]); {len(found)}] = [")
         rows += wrapped(f'{INDENT}("{one.kind}", [{", ".join(map(repr, one.row))}]),' for one in found)
         rows.append("];\n")
-        tests.append(f"check!({entry.name}, {table}, {sum(one.size for one in entry.parameters)});")
+        tests.append(f"check!({entry.name}, {table}, {entry.width});")
     plain, typed = ("\n".join(ask(one, form) for one in subject.entries) for form in (ON_ARRAYS, ON_NALGEBRA))
     filled = {"NAME": subject.identifier, "TESTS": "\n".join(tests), "ROWS": "\n".join(rows)}
     return fill_template("test.rs", PLAIN=plain, TYPED=typed, **filled)
@@ -163,15 +163,14 @@ def write_test(subject: Subject) -> str:
 
 def ask(entry: Entry, form: Form) -> str:
     """Write a function that asks an entry with a row of numbers, and returns result and memory."""
-    place, passed, parts, body = 0, [], [form["flat"].get(entry.returns.kind, form["flat"][""])], []
-    for one in entry.parameters:
-        passed.append(form["asked"].get(one.kind, form["asked"][""]).format(at=place))
-        if one.kind == "memory":
-            body.append(f"let mut state = law::State {{ {one.name}: at(row, {place}) }};")
-            parts.append(f"&state.{one.name}")
-        place += one.size
+    (passed,), body = write_arguments(entry, form["asked"]), []
+    parts = [form["flat"].get(entry.returns.kind, form["flat"][""])]
+    if entry.has_memory:
+        name, size = entry.parameters[-1].name, entry.parameters[-1].size
+        body.append(f"let mut state = law::State {{ {name}: at(row, {entry.width - size}) }};")
+        parts.append(f"&state.{name}")
     path = "law" if form is ON_ARRAYS else "law::on_nalgebra"
-    body += [f"let found = {path}::{entry.name}({', '.join(passed)});", f"collect(&[{', '.join(parts)}])"]
+    body += [f"let found = {path}::{entry.name}({passed});", f"collect(&[{', '.join(parts)}])"]
     return "\n".join((f"pub fn {entry.name}(row: &[f64]) -> Vec<f64> {{", *(f"{INDENT}{line}" for line in body), "}"))
 
 
