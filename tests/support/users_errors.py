@@ -61,9 +61,8 @@ def cached(key):
     return lambda R, R_d: kept.setdefault(key(R, R_d), log(R_d @ R.T))
 
 
-def filtered():
+def filtered(kept):
     """A first-order filter of the error."""
-    kept = np.zeros(3)
     return of_log(lambda e, _: np.add(0.9 * kept, 0.1 * e, out=kept))
 
 
@@ -194,7 +193,7 @@ USERS: dict = {
     ),
     "rounded | deadband | a multiple of 0.1": of_log(lambda e, _: np.round(e, 1)),  # its slope at the goal is 0
     "noisy | memory | another answer": of_log(lambda e, _: e * (1.0 + 1e-3 * RNG.random())),
-    "filtered | memory | another answer": filtered(),
+    "filtered | memory | another answer": filtered(np.zeros(3)),
     "matrices-subtracted | misaligned | each sin θ k": lambda R, R_d: columns(np.eye(3), R_d - R),
     "left-handed | misaligned | M = diag([-1.0, -1.0, 1.0])": lambda R, R_d: log(MIRROR @ R_d @ R.T @ MIRROR),
     "reversed | misaligned | M = [[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]": of_log(lambda e, _: e[::-1]),
