@@ -11,7 +11,7 @@ from bench.audit.faults import Finding
 
 
 class Report(NamedTuple):
-    """The convention (None if none explains the answers), what was found, and the pairs answered, 0 if a call is lost."""
+    """The convention (None if none explains the answers), what was found, and pairs: how many calls were answered."""
 
     name: str
     pairs: int
