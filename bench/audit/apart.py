@@ -24,18 +24,10 @@ BEGIN = f"import sys; sys.path.insert(0, {ROOT!r}); from {__package__}.audit_pro
 def audit_apart(
     target: str, stated: dict[str, Any], limit_s: float = LIMIT_S, progress: Callable[[int], object] = bool
 ) -> dict[str, Any]:
-    """Return the report on the function that the target names.
+    """Return the report on FILE.py:NAME, MODULE:NAME or LIBRARY.so:SYMBOL; BadFunction if it takes too long.
 
-    Args:
-        target: FILE.py:NAME, MODULE:NAME or LIBRARY.so:SYMBOL. stated: arguments of `bench.audit.audit`.
-        limit_s: seconds on the wall. progress: called with the number of calls, some times a second.
-
-    Returns:
-        report: as `Report.as_dict` has it. text: all of it for people; head: its first lines; paragraphs: name of a
-        fault -> text.
-
-    Errors:
-        BadFunction: nothing that can be audited is there, or it takes too long.
+    `stated` are arguments of `bench.audit.audit`; `progress` gets the number of calls, some times a second. It returns
+    `report` (`Report.as_dict`), `text` (for people), `head` (its first lines), `paragraphs` (name of a fault -> text).
     """
     request = {"target": target, "stated": stated, "limit_s": limit_s, "path": sys.path}
     command = [sys.executable, "-P", "-c", BEGIN, json.dumps(request)]

@@ -45,11 +45,7 @@ def main() -> None:
 
 
 def answer_for(request: dict[str, Any]) -> dict[str, Any]:
-    """Return what the child has written, or the report on how it ended.
-
-    Errors:
-        BadFunction: it ended, or time was up, without a call that explains it.
-    """
+    """Return what the child has written, or the report on how it ended; BadFunction if no call explains that."""
     every_fault()  # of modules whose names the child gives free
     board = np.frombuffer(mmap.mmap(-1, 8 * GOAL.stop))
     with tempfile.TemporaryFile() as answer:
@@ -66,11 +62,7 @@ def answer_for(request: dict[str, Any]) -> dict[str, Any]:
 
 
 def watch(child: int, limit_s: float, board: np.ndarray) -> tuple[int | None, float]:
-    """Wait for the child and print how many calls it has begun.
-
-    Returns:
-        its exit code, None if it did not end in time, and seconds since the last call began.
-    """
+    """Print how many calls have begun; return the exit code, None if time is up, and seconds since the last call."""
     seen, code = 0.0, None
     began = time.monotonic()
     deadline = began + limit_s

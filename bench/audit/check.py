@@ -42,11 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> tuple[int, str, dict[str, Any]]:
-    """Return the exit code, 1 if a function has a fault and 0 if not, and its report as text and for JSON.
-
-    Errors:
-        BadFunction: it cannot be audited.
-    """
+    """Return the exit code, 1 if a function has a fault and 0 if not, and its report as text and for JSON."""
     function, stated = arguments.function, {name: getattr(arguments, name) for name in STATED}
     try:
         show(f"loading {function}")

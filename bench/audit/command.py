@@ -17,10 +17,7 @@ COMMANDS = {
     "check": ("check", "find the convention of an orientation error, and its faults"),
     "actions": ("actions.command", "find what the rotation of logged actions means, and whether it is as stated"),
 }
-"""Word of a command -> its module here, and what it does.
-
-The module has DESCRIPTION, EPILOG, add_arguments(parser), and run(arguments) -> exit code, text, report for JSON.
-"""
+"""Word of a command -> its module, with DESCRIPTION, EPILOG, add_arguments and run; and what it does."""
 EPILOG = """\
 For example: {prog} check my_file.py:my_error. Options and more examples: {prog} check --help.
 Exit code 0: no fault. Exit code 1: a fault. Exit code 2: it could not be checked; one line says why and what to do."""
@@ -38,14 +35,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def run_command(words: Sequence[str], prog: str, version: str) -> int:
-    """Run one command, `check` if the words begin with a function, and return its exit code: 0; 1 for a fault.
-
-    Args:
-        prog: what the command line is called. version: what --version prints.
-
-    Errors:
-        BenchError: a mistake in the words, nothing that can be audited, or a report that cannot be written.
-    """
+    """Run one command, `check` if the words begin with a function, and return its exit code: 0; 1 for a fault."""
     first = next(iter(words), "--help")
     if first not in (*COMMANDS, "-h", "--help", "--version"):
         if not re.search(r"[.:]|^-", first):

@@ -28,9 +28,8 @@ FORMS = {
 }
 """What three numbers can say of a rotation by theta about k, each theta k near the identity.
 
-The rotation vector is the error itself. The others are errors of their own right, and laws have been built on each;
-only `sin(theta) k` is zero at 180°, only 2 tan(theta/2) k is infinite there, and only Euler angles have poles. A
-function is first judged by its own form, so that what it means is distinguished from what it gets wrong.
+Only sin(theta) k is zero at 180°, only 2 tan(theta/2) k is infinite there, and only Euler angles have poles. A function
+is judged by its own form first, so that what it means is distinguished from what it gets wrong.
 """
 
 TAKES = ("matrix", "wxyz", "xyzw")

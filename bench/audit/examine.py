@@ -20,9 +20,7 @@ def examine(
 ) -> Report:
     """Report on a function; without a convention, on the input for which the mistake is known.
 
-    Args:
-        fresh: loads the function once more, with none of what it has kept.
-        watch: takes and returns a function of two arrays.
+    `fresh` loads it once more, with none of what it has kept; `watch` takes and returns a function of two arrays.
     """
     stated.check([one.name for one in every_fault()])
     reports = []
@@ -69,11 +67,7 @@ def findings(examined: Examined) -> tuple[Finding, ...]:
 
 
 def understood(function: Callable, stated: Stated, name: str, watch: Callable) -> list[tuple[Call, Convention | None]]:
-    """Find how it is called and its convention; if nothing explains its answers, all that it may take.
-
-    Errors:
-        BadFunction: it never returns three numbers.
-    """
+    """Find how it is called and its convention; if nothing explains its answers, all that it may take."""
     every = pairs.every_pair()
     some = every.chosen(every.at("wide", "close", "fine", "near-identity"))
     few = some.chosen(slice(0, None, 90))

@@ -19,11 +19,7 @@ ENDS, HANGS, INTERFACE = "ends-process", "hangs", "c-interface"
 
 
 class Lost(BaseException):
-    """A call did not return, and the audit stops. No `except Exception` of a function that calls another stops it.
-
-    Args:
-        fault: one of those above. how: what happened, as in "SIGSEGV". now, goal: what the function was given.
-    """
+    """A call did not return, for a `fault` of those above; `how`: as in "SIGSEGV". No `except Exception` stops it."""
 
     def __init__(self, fault: str, how: str, now: np.ndarray, goal: np.ndarray):
         super().__init__(how)
@@ -56,10 +52,7 @@ class Found(NamedTuple):
 
 
 class Answers(NamedTuple):
-    """e (n x 3), NaN where there are no three numbers; raised (n): the reason there, else an empty string.
-
-    changed (n): whether the function wrote into what it was given.
-    """
+    """Answers e (n x 3), NaN where there is none; raised (n): the reason there; changed (n): inputs written into."""
 
     e: np.ndarray
     raised: list[str]
@@ -205,9 +198,7 @@ def explanation(
 ) -> Found | None:
     """Return the model along whose vectors most answers lie, with a pair that shows it; None if there is none.
 
-    Args:
-        examined: a function whose convention is not known.
-        models: pairs -> (words, vectors n x 3) of each. text: what is said, with {} for a model's words.
+    models: pairs -> (words, vectors n x 3) of each. text: what is said, with {} for a model's words.
     """
     if examined.convention:
         return None

@@ -34,11 +34,7 @@ UNWRITTEN = 255
 
 
 def load(target: str) -> Callable:
-    """Return the function that FILE:NAME or MODULE:NAME names. This runs the file.
-
-    Errors:
-        BadFunction: nothing that can be audited is there.
-    """
+    """Return the function that FILE:NAME or MODULE:NAME names. This runs the file."""
     place, colon, name = target.rpartition(":")
     if not (place and colon and name):
         raise BadFunction(f"'{target}' names no function; give FILE.py:NAME, MODULE:NAME or LIBRARY.so:SYMBOL")

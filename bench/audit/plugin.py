@@ -1,7 +1,4 @@
-"""pytest --orientation-error FUNCTION: a test for each fault that an orientation error can have.
-
-The wheel `orientation-audit` gives it to every project (bench/export/wheel.py). Without the option it does nothing.
-"""
+"""pytest --orientation-error FUNCTION: a test for each fault of an orientation error (bench/export/wheel.py)."""
 
 from pathlib import Path
 from typing import Any
@@ -30,11 +27,7 @@ def pytest_collection_modifyitems(session: pytest.Session, config: pytest.Config
 
 
 def checks(session: pytest.Session, target: str) -> list[pytest.Item]:
-    """One test a fault, over one report.
-
-    Errors:
-        UsageError: the function cannot be audited.
-    """
+    """Return one test a fault, over one report."""
     accept = session.config.getoption("orientation_error_accept")
     try:
         said = audit_apart(target, {"accept": accept}, session.config.getoption("orientation_error_limit"))

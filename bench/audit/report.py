@@ -11,10 +11,7 @@ from bench.audit.faults import Finding
 
 
 class Report(NamedTuple):
-    """The convention of a function (None if no convention explains its answers), and what was found.
-
-    pairs: how many were answered, 0 if a call did not come back.
-    """
+    """The convention (None if none explains the answers), what was found, and pairs: how many calls were answered."""
 
     name: str
     pairs: int

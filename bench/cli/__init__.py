@@ -1,9 +1,6 @@
-"""The command line: `bench COMMAND`. One file a command, collected from this folder.
+"""The command line: `bench COMMAND`. One file a command, collected from this folder, imported only when it is given.
 
-Only the module of the command that is given is imported: the others, and numpy, would take a third of a second more.
-
-Every mistake of the caller ends in one line on stderr and exit code 2, and touches no result; examples.toml has all
-codes.
+A mistake of the caller ends in one line on stderr and exit code 2, and touches no result; examples.toml has all codes.
 """
 
 import ast
@@ -34,11 +31,7 @@ def bench() -> None:
 
 
 def command_of(path: Path, is_given: bool) -> click.Command | None:
-    """Return the constant COMMAND of a module in this folder; None if it has none.
-
-    Args:
-        is_given: whether the command is to be run; of any other only its name and its help are read.
-    """
+    """Return the constant COMMAND of a module, None if it has none; of one that is not given, only name and help."""
     for node in ast.parse(path.read_text(encoding="utf-8")).body:
         if isinstance(node, ast.FunctionDef) and node.name == "COMMAND":
             if is_given:

@@ -102,11 +102,7 @@ def _compare(
 
 
 def _resolve_sides(base: str | None, head: str | None, laws: options.Files) -> tuple[str, str | None, list[Path]]:
-    """Return base, head, and both as folders if they are.
-
-    Errors:
-        UsageError: one is a folder and the other is not; or a user's law is to be judged in folders.
-    """
+    """Return base, head, and both as folders if they are; UsageError for one folder, or for a user's law in folders."""
     from bench.base.errors import Incompatible
     from bench.regression.revisions import commits
 

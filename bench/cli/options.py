@@ -77,11 +77,7 @@ carried_out = stacked(
 
 
 def named(regulators: Words, jacobians: Words, inverses: Words) -> dict[str, Words]:
-    """Return the options with contenders of arms by their whole name, `law@jacobian+inverse`, taken apart.
-
-    Errors:
-        UsageError: the options would mean more than these names, for each law meets each Jacobian and each inverse.
-    """
+    """Return the options with names `law@jacobian+inverse` taken apart; UsageError if they would then mean more."""
     whole = [word for word in regulators if "@" in word]
     if not whole:
         return {"regulators": regulators, "jacobians": jacobians, "inverses": inverses}

@@ -19,10 +19,7 @@ PARTS = {
     "contact": ("contact", "trial", (CONTROLLER, (" in ", "task", "task"), ARM)),
     "robustness": ("robustness", "episode", (LAW, (" under ", "selector", "perturbation"))),
 }
-"""Experiments whose size is said: head, word of an episode, and (before it, field of a unit, word) of what is counted.
-
-Of other experiments the name is said.
-"""
+"""Experiments whose size is said: head, word of an episode, and (word before, field of a unit, word) of each count."""
 
 USUAL = ("", NOMINAL, IDEAL_MOTORS)
 FEW = 3

@@ -62,8 +62,7 @@ class Column(NamedTuple):
 class Frame:
     """A data frame as a table, numbers to the right; no name is broken while the screen has room for it.
 
-    What is too wide goes below in blocks of columns, each with the first column again; sentences wrap. Where two
-    columns are too wide already, their cells are folded: nothing is cut off.
+    What is too wide goes below in blocks of columns, each with the first column again; nothing is cut off.
     """
 
     def __init__(self, columns: list[Column], title: str):

@@ -41,11 +41,7 @@ def COMMAND(folder: str | None, part: str | None, details: bool, outcomes: bool,
 
 
 def _meant(folder: str | None, part: str | None) -> tuple[Path, str | None]:
-    """Return the folder and the part that one or two words mean.
-
-    Errors:
-        UsageError: the second word is no part. BadResults: the first is neither a part nor a folder.
-    """
+    """Return the folder and the part that one or two words mean; UsageError or BadResults if they mean none."""
     from bench.cli.details import PARTS
     from bench.experiments.tables import read as results
 

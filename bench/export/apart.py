@@ -18,13 +18,7 @@ NAME = re.compile(r"(src/|tests/)?[A-Za-z0-9_][A-Za-z0-9_.]{0,120}")
 
 
 def files_apart(own: Law, word: str, language: str) -> dict[str, str]:
-    """Return the files of the export of a user's law by name.
-
-    Args:
-        word: of the law, with its coordinates where it has several.
-    Errors:
-        BadLaw: it cannot be translated, ends its process, does not return, or gives back no files.
-    """
+    """Return the files of the export of a user's law by name; BadLaw if its process gives back none."""
     asked = {"text": own.text, "origin": own.origin, "word": word, "language": language}
     said = next(ask(__name__, asked, WAITS_S, own.origin)).get("files")
     files: dict[str, str] = said if isinstance(said, dict) else {}

@@ -27,10 +27,7 @@ CURES: dict[type, tuple[str, str]] = {
 
 
 class Function(NamedTuple):
-    """A function of the dialect: its tree, the value of each free name, and the summary of its docstring.
-
-    A value is a function of the dialect, a NamedTuple class, a function of PRIMITIVES, `range`, a number, or a tuple.
-    """
+    """A function of the dialect: its tree, the value of each free name (as above), and its docstring's summary."""
 
     name: str
     node: ast.FunctionDef
@@ -44,11 +41,7 @@ class Function(NamedTuple):
 
 
 def read_function(function: Callable) -> Function:
-    """Read a function.
-
-    Errors:
-        BadLaw: its text cannot be read, or a name or an operator in it is nothing that can be translated.
-    """
+    """Read a function; BadLaw if its text cannot be read, or a name or an operator in it cannot be translated."""
     try:
         text = textwrap.dedent(inspect.getsource(function))
     except (OSError, TypeError) as error:
@@ -67,11 +60,7 @@ def read_function(function: Callable) -> Function:
 
 
 def refuse_operators(function: ast.FunctionDef) -> None:
-    """Refuse operators that the languages of the export do not all have.
-
-    Errors:
-        BadLaw: there is one.
-    """
+    """Raise BadLaw for operators that the languages of the export do not all have."""
     allowed = ARITHMETIC | COMPARISONS | SIGNS
     for node in (one for statement in function.body for one in ast.walk(statement)):
         for used in map(type, getattr(node, "ops", [getattr(node, "op", None)])):

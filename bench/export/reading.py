@@ -1,8 +1,4 @@
-"""Type inference: a function of the dialect, read once for each list of kinds of its arguments.
-
-A function that is called with other kinds of arguments (the product of three numbers, and of four) becomes another one,
-as it does where laws are compiled.
-"""
+"""Infer types: each list of kinds of its arguments makes a function of the dialect another one, as a compiler does."""
 
 import ast
 import copy
@@ -19,10 +15,7 @@ CALLS_OF_LIBM = {"sin", "cos", "acos", "atan2"}
 
 
 class Program:
-    """Typed functions, callees first, each with a unique name; those that return an argument as it is are left out.
-
-    entries: those that a subject offers, by the names of its entries.
-    """
+    """Typed functions, callees first, each with a unique name, without those that return an argument as it is."""
 
     def __init__(self) -> None:
         self.functions: list[Typed] = []

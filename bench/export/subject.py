@@ -31,10 +31,7 @@ ALONE: dict[str, tuple[str, Callable[[Any], list[Entry]]]] = {
 
 
 class Subject(NamedTuple):
-    """One thing to export.
-
-    record: the constant of its file. representation: the coordinates that it acts on, if any.
-    """
+    """One thing to export; record: the constant of its file; representation: the coordinates it acts on, or None."""
 
     word: str
     record: Any
@@ -68,11 +65,7 @@ def subject_words(extra: tuple[Law, ...] = ()) -> list[str]:
 
 
 def find_subject(word: str, extra: tuple[Law, ...] = ()) -> Subject:
-    """Return the subject of a word.
-
-    Errors:
-        UnknownWord: nothing of that name. Incompatible: coordinates are missing, or do not fit.
-    """
+    """Return the subject of a word; Incompatible if coordinates are missing or do not fit."""
     first, _, second = word.partition("/")
     for prefix, (folder, entries_of) in ALONE.items():
         if first.startswith(prefix) and first.removeprefix(prefix) in contenders(folder):

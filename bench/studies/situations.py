@@ -42,11 +42,7 @@ def planes() -> list[Situation]:
 
 
 def draw(count: int, seed: int, names: Iterable[str]) -> list[Situation]:
-    """Return situations drawn at random: each number nominal or anywhere between its levels, two others at least.
-
-    Args:
-        names: of the numbers that may differ from the nominal ones.
-    """
+    """Draw situations: each number of `names` nominal or anywhere between its levels, two others at least."""
     found: list[Situation] = []
     rng = np.random.default_rng(seed)
     while len(found) < count:
@@ -82,10 +78,7 @@ def between(verdicts: dict[Situation, Verdict]) -> list[Situation]:
 
 
 def run_lacking(rows: pd.DataFrame, situations: Iterable[Situation], folder: Path, workers: int) -> pd.DataFrame:
-    """Return rows of every law in every situation: those that are there, and the others by a run.
-
-    A call that was stopped goes on in the run's folder; a new law alone is run where there are rows of the others.
-    """
+    """Return rows of every law in every situation: those that are there, and the others by a run, which may go on."""
     known = with_words(rows) if len(rows) else rows.assign(contender=[], situation=[])
     has = set(zip(known["contender"].astype(str), known["situation"], strict=True))
     pairs = [(one, at) for one in mapped_laws() for at in situations if (one.name, at.word) not in has]

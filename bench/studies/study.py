@@ -33,10 +33,7 @@ def describe_study(name: str, **more: Any) -> dict[str, Any]:
 
 
 def make_parts(out: Path, parts: Mapping[str, Callable[[], Any]]) -> dict[str, Any]:
-    """Make parts and return them by name.
-
-    Each is written beside `out` when it is made; a call that was stopped goes on there if the sources are the same.
-    """
+    """Make parts by name, each written beside `out`, so that a stopped call goes on if the sources are the same."""
     beside, digest = out.with_name(f"{out.stem}-unfinished.json"), source_digest()
     kept = read_json(beside) if beside.is_file() else {}
     made: dict[str, Any] = kept["parts"] if kept.get("sources") == digest else {}

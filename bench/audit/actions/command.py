@@ -34,11 +34,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> tuple[int, str, dict[str, Any]]:
-    """Return the exit code of the audit of a log, and its report as text and for JSON.
-
-    Errors:
-        BadLog: the file cannot be read, or a column is not in it.
-    """
+    """Return the exit code of the audit of a log, and its report as text and for JSON."""
     arrays = read_arrays(arguments.log)
     poses = read_poses(*find_column(arrays, arguments.pose, POSES))
     has_next = arguments.next or any(one in arrays for one in NEXT)

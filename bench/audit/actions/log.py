@@ -20,11 +20,7 @@ READINGS[9] = ("matrix-rows",)
 
 
 def read_arrays(path: Path) -> dict[str, np.ndarray]:
-    """Return the arrays of a file by name.
-
-    Errors:
-        BadLog: there is no such file, or it cannot be read. MissingTool: a table, and pyarrow is not installed.
-    """
+    """Return the arrays of a file by name; MissingTool for a table where pyarrow is not installed."""
     if path.suffix not in (".npz", ".parquet"):
         raise BadLog(f"{path} is no .npz and no .parquet file; save the log with np.savez, or as a table")
     try:
@@ -44,11 +40,7 @@ def read_arrays(path: Path) -> dict[str, np.ndarray]:
 
 
 def find_column(arrays: dict, stated: str | None, usual: tuple[str, ...] = ("action",)) -> tuple[np.ndarray, str]:
-    """Return the numbers (n x m) of "name", "name[3:6]" or "name[3:6]:reading", and the reading or "".
-
-    Errors:
-        UnknownWord: there is no such column. BadLog: it has no rows, not these numbers, or something else.
-    """
+    """Return the numbers (n x m) of "name", "name[3:6]" or "name[3:6]:reading", and the reading or ""."""
     column = stated or next((one for one in usual if one in arrays), usual[0])
     (parts,) = re.findall(r"^(.*?)(?:\[(\d*):(\d*)\])?(?::([\w-]+))?$", column)
     name, start, stop, reading = parts

@@ -25,9 +25,6 @@ def audit_actions(R: Any, action: np.ndarray, R_next: Any = None, episode: Any =
         R_next: orientations after the action, as R; the next ones of the same episode if left out.
         episode: number of the episode of every row; one if left out.
         expect: words that have to be found: a representation, a relation, radians, degrees, scale=0.5, lag=1, target.
-
-    Errors:
-        BadNumber: no representation has m numbers, or the counts of rows differ. UnknownWord: a word of `expect`.
     """
     action, words = np.asarray(action, float), tuple(expect.replace(",", " ").split())
     now, later = (one if isinstance(one, dict) else {"matrix": np.asarray(one)} for one in (R, R_next))

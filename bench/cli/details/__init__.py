@@ -1,7 +1,6 @@
-"""What `show` prints in full, a file a part of the run.
+"""What `show` prints in full, a file a part of the run: `tables(rows...)` yields titles, each with a data frame.
 
-A part has `tables(rows...)`: titles, each with a data frame. In every table a cell a/b counts episodes: a of b settled;
-in contact, where an episode is a trial at a pose, a of b were done.
+A cell a/b counts episodes: a of b settled; in contact, where an episode is a trial at a pose, a of b were done.
 """
 
 PARTS = ("free-body", "arms", "contact", "robustness")

@@ -23,10 +23,7 @@ def tables(rows: pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
 
 
 def describe(rows: pd.DataFrame) -> dict[str, str]:
-    """Return of a controller the poses whose trials are all done, and median and worst of COLUMNS over them.
-
-    at rest: of the poses that have an end.
-    """
+    """Return how many poses are done, how many of those with an end are at rest, and median and worst of COLUMNS."""
     done = rows[rows["outcome"] == "done"]
     line = {"done": f"{len(done)}/{len(rows)}"}
     if "rest" in done:  # not in a run of before there was an end

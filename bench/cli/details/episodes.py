@@ -99,11 +99,7 @@ def describe_variations(rows: pd.DataFrame) -> dict[str, str]:
 
 
 def of_laws(rows: pd.DataFrame, folder: str, words: tuple[str, ...]) -> pd.DataFrame:
-    """Return the rows of the laws: by regulator, with its representation, or with its Jacobian and inverse too.
-
-    Errors:
-        UsageError: a word that names no law of the rows.
-    """
+    """Return the rows of the laws: by regulator, with its representation, or with its Jacobian and inverse too."""
     if not words:
         return rows
     named = results.with_contender(rows)

@@ -13,11 +13,7 @@ from tasks.situation import KP, NOMINAL
 
 
 def paragraphs(found: Measured | None) -> list[Paragraph]:
-    """Return what the map advises, what else to use elsewhere, and how laws of ours and the user's compare.
-
-    Args:
-        found: what a run measured; None of a run that cannot compare laws.
-    """
+    """Return what the map advises, what else to use elsewhere, and how laws of ours and the user's compare."""
     default = regions.find_regions()[0]
     said = [Paragraph("Which law", _default(found, default)), Paragraph("Elsewhere", _elsewhere(default.law))]
     said += [Paragraph("Ours", (_ours(law, found, default.law),)) for law in regions.list_ours()]

@@ -1,7 +1,4 @@
-"""C99: one header of static inline functions on plain arrays, without allocation, on nothing but <math.h>.
-
-Inside, tuples are structures; the entries read them from arrays and write them to arrays.
-"""
+"""C99: one header of static inline functions on plain arrays, without allocation, on nothing but <math.h>."""
 
 import textwrap
 from collections.abc import Callable, Iterator

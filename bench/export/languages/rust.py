@@ -1,7 +1,4 @@
-"""Rust: one crate without std, allocation or unsafe code, on nothing but libm, in f64 and f32, and on nalgebra's types.
-
-Inside, tuples of numbers are arrays and those with names are structures; the entries take arrays and the state.
-"""
+"""Rust: one crate without std, allocation or unsafe code, on nothing but libm, in f64 and f32, and with nalgebra."""
 
 import re
 import textwrap

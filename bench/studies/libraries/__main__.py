@@ -109,11 +109,7 @@ def origin(library: Library) -> dict:
 
 
 def keep(tables: dict[str, pd.DataFrame], about: dict[str, dict]) -> None:
-    """Write the tables and provenance.json, with the rows of libraries that were not asked.
-
-    Args:
-        tables: by name, the new rows. about: by library, with what it was asked; restated ones are in no provenance.
-    """
+    """Write the tables and provenance.json, with the earlier rows of libraries that were not asked."""
     for name, new in tables.items():
         if (FOLDER / f"{name}.parquet").is_file():
             earlier = read(FOLDER, name)
@@ -139,10 +135,7 @@ def keep_patches(checked: dict[str, dict]) -> None:
 
 
 def marked(new: pd.DataFrame, earlier: pd.DataFrame) -> pd.DataFrame:
-    """Mark new verdicts with the faults that an earlier version had and this one has not, and that version.
-
-    What was marked for this version stays marked when it runs again.
-    """
+    """Mark new verdicts with the faults that an earlier version had and this one has not, and with that version."""
     place_of = itemgetter("library", "function", "takes")
     before = {place_of(row): row for row in earlier.to_dict("records")}
     rows = new.to_dict("records")

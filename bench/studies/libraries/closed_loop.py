@@ -1,13 +1,11 @@
 """Every library's error as the law u = kp e - kv omega on the free body, and controllers as their users run them.
 
-The plant and its gains are those of the suite (`ideal-held`: kp = 100, kv = 20, a tick of 1 ms), moved from Python a
-tick at a time: omegadot = u held over the tick, Rdot = [omega]x R (Murphy 1988, 2.6-2.7). Starts are at rest, by angle
-about the axes of AXES, each from both quaternions where a function takes one; and exact 180° rotations about the axes
-of `turns`. Settled is what the judge says (tasks/rules.py).
+The plant and its gains are the suite's (`ideal-held`: kp = 100, kv = 20, a tick of 1 ms), a tick at a time from Python:
+omegadot = u held over the tick, Rdot = [omega]x R (Murphy 1988, 2.6-2.7). Starts are at rest, by angle about AXES, each
+from both quaternions where a function takes one; and exact 180° rotations. The judge says what is settled.
 
-The goal is the identity, so that the error that leads there is that of the rotation T = R^T. The quaternion of T is
-carried on continuously, as an encoder or an integrator does, so that a function that takes quaternions sees the sign
-with which the episode began.
+The goal is the identity, so that the error is that of the rotation T = R^T. The quaternion of T is carried on, as by an
+encoder, so that a function that takes quaternions sees the sign with which the episode began.
 """
 
 import functools
@@ -36,8 +34,7 @@ AWAY_RAD = math.radians(1.0)
 NEAR = 0.1
 """An episode ends once the angle has stayed under this share of the band for the judge's hold."""
 SLOPE_AT_RAD = 1e-3
-"""Angle at which the stiffness is measured: near enough to the goal that every form is its own slope to 1e-6, and any
-number has its digits; deadbands of 0.005 are wider, and are felt as none."""
+"""Angle at which the stiffness is measured: each form is its own slope to 1e-6; deadbands of 0.005 are felt as none."""
 
 
 class Response(NamedTuple):
@@ -149,11 +146,7 @@ def stiffness_ratio(function: Function) -> float:
 
 
 def accelerated(function: Function, kp: float, kv: float, dt_s: float, quat_wxyz: Quat) -> Iterator[Quat]:
-    """T tick by tick under u = kp e - kv omega, from rest; ends at once where nothing can ever move.
-
-    Args:
-        quat_wxyz: of T at the start, in either sign.
-    """
+    """Yield T, from a quaternion of either sign at rest, under u = kp e - kv omega, until nothing can ever move."""
     omega = AT_REST
     while True:
         yield quat_wxyz

@@ -84,11 +84,7 @@ Tested: TypeAlias = Function | Controller
 
 
 def library(package: str, name: str = "", **facts: Any) -> Callable[[Callable], Callable[[], list[Library]]]:
-    """Make a function that yields what is tested of a package into one that returns its Library, alone in a list.
-
-    Args:
-        name: of the library, if it is not that of the function. facts: other fields of Library.
-    """
+    """Make a function that yields what is tested of a package into one that returns its Library, alone in a list."""
 
     def decorate(tested: Callable[[], Iterator[Tested]]) -> Callable[[], list[Library]]:
         def asked() -> list[Library]:

@@ -1,7 +1,6 @@
 """What `bench audit` says of a library's function, and what to put in the place of a faulty one.
 
-The replacements, one for R and one for a quaternion, return the rotation vector theta k of the shorter rotation,
-everywhere, with all its digits; at 180° either of the two directions. They are checked as the libraries are.
+The replacements return theta k of the shorter rotation everywhere, with all its digits; at 180°, either direction.
 """
 
 from __future__ import annotations

@@ -1,7 +1,4 @@
-"""Every library that is tested, one function each: it imports the library and returns what is tested of it.
-
-A library that is not installed here is left out, with a line that says why.
-"""
+"""Every library that is tested, one function each; of one that is not installed here a line says why it is left out."""
 
 import functools
 import importlib.metadata
@@ -31,11 +28,7 @@ class Found(NamedTuple):
 
 @functools.cache
 def find(*names: str) -> Found:
-    """Import what is there, or of it the libraries of these names alone.
-
-    Errors:
-        UnknownWord: no function here has that name.
-    """
+    """Import what is there, or of it the libraries of these names alone; UnknownWord if no function has a name."""
     libraries: list[Library] = []
     missing = {}
     for name in names or sorted(ASKED):

@@ -56,11 +56,7 @@ def tf2() -> Iterator[Tested]:
 
 @functools.cache
 def compiled(name: str, *options: str) -> Callable[[str], Callable]:
-    """Compile cpp/NAME.cpp and return: name of a function -> call(array of doubles) -> three numbers.
-
-    Errors:
-        ImportError: no compiler, or the library's headers are not installed.
-    """
+    """Compile cpp/NAME.cpp and return: name of a function -> call(array of doubles) -> three numbers."""
     compiler = shutil.which("c++")
     if compiler is None:
         raise ImportError("no C++ compiler; install g++")

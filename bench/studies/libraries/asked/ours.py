@@ -38,11 +38,7 @@ def orientation_bench() -> Iterator[Tested]:
 
 
 def shipped() -> list[Library]:
-    """Return orientation errors of controllers that cannot be installed here, each by repository and commit.
-
-    They run with the gains of the suite, so that what differs is the error; with those of their authors the experiment
-    `shipped` runs them.
-    """
+    """Return errors of controllers that cannot be installed here, by repository and commit, at the suite's gains."""
     from bench.law.contenders.registry import contenders
 
     def restate(name: str, word: str) -> Library:

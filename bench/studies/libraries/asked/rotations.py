@@ -1,8 +1,4 @@
-"""Libraries of rotations in Python: what each of them returns for the error, function by function.
-
-A rotation vector is the product of axis and angle. An idiom is what users write on functions of a library. Every
-package is imported by the function that needs it.
-"""
+"""Libraries of rotations in Python: what each of them returns for the error, function by function."""
 
 import math
 from collections.abc import Iterator
