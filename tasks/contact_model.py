@@ -49,11 +49,8 @@ def softness(contact: ContactModel, mobility: float) -> dict[str, str]:
 
     MuJoCo's constraint force is (aref - a)/R with R = (1 - d)/d A and, of a negative solref, aref = -(b/dmax) v -
     (k d/dmax^2) r: at d = dmax the stiffness is k/((1 - d) A). A is MuJoCo's estimate of an arm's mobility, so that the
-    same solref is another stiffness on another arm; here it is divided out.
-
-    Args:
-        mobility: A [1/kg], the sum of both bodies' body_invweight0.
-    Source: MuJoCo's documentation, "Computation: constraint model", and "Modeling: solver parameters".
+    same solref is another stiffness on another arm; here it is divided out. mobility: A [1/kg], the sum of both bodies'
+    body_invweight0. Source: MuJoCo's documentation, "Computation: constraint model", "Modeling: solver parameters".
     """
     scale = -(1.0 - contact.dmax) * mobility
     return {
@@ -63,14 +60,11 @@ def softness(contact: ContactModel, mobility: float) -> dict[str, str]:
 
 
 def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = STANDARD) -> str:
-    """Return the judge's MJCF model of a task on an arm, with integration step dt [s].
+    """Return the judge's MJCF model of a task on an arm that can be set it, with integration step dt [s].
 
     Sensors of the site "hand": those of tasks.sensors.SENSORS, its position p [m], then force [N] and moment [N m] in
     the hand's frame as MuJoCo gives them, if anything can touch the gap at the deepest contact [m] (at most 0, and 0
     where there is no contact), and the joint of the scene [rad] if there is one.
-
-    Errors:
-        BadValue: the arm has no site "wrist".
     """
     refuse(task, arm)
     root = _model(task, arm, dt, contact)

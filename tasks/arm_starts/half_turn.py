@@ -5,9 +5,9 @@ and z and AXES_DRAWN drawn ones; for each the first pose around home is taken fr
 180° rotation on a clear joint path (clearance.py), about the axis or against it. Joint angles are drawn from further
 around home than elsewhere, since half a turn about a given axis is much to ask.
 
-How exact: the goal is (0, axis) times the quaternion of the start, so that the judge's haversine is at least 1 - 1e-15
-and its angle math.pi. R is not exactly that of 180° bit for bit, as it is on the free body: on an arm the error
-(2.12) of about 1e-16 is what rounding makes of zero, and any law drifts away from there in time.
+The goal is (0, axis) times the quaternion of the start, so that the judge's haversine is at least 1 - 1e-15 and its
+angle math.pi. Bit for bit R is not that of 180°, as it is on the free body: rounding leaves an error (2.12) of about
+1e-16, and any law drifts away from there in time.
 """
 
 from __future__ import annotations
@@ -29,10 +29,8 @@ AXES: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0
 AXES_DRAWN = 3
 DECADES = (1, 4, 8)
 SIZE = (len(AXES) + AXES_DRAWN) * (1 + len(DECADES))
-# [rad]: a quarter turn either way of each joint.
-AROUND_HOME = math.pi / 2.0
-# Candidates of an axis, both ways round; our arms refuse up to twelve walks for each that does.
-TRIES = 300
+AROUND_HOME = math.pi / 2.0  # [rad]
+TRIES = 300  # candidates of an axis, both ways round; our arms refuse up to twelve walks for each that does
 
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:

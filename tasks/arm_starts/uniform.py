@@ -1,10 +1,9 @@
 """Joint angles spread evenly over the joint ranges, goals spread evenly over SO(3), at rest.
 
-Neither start nor goal nor the way between them keeps clear of anything: fractions that are counted here are of what
-an arm can be asked, not of what it does well. A joint's range is the file's, or one turn about its middle if it is
-wider or there is none. A goal is kept if the search finds joint angles, in range, at which the tool has the goal's
-orientation at the start's position; it starts from the start's own joints, from home, and from SEEDS more. The first
-that it finds are the goal's. A goal that no search found may still be reachable.
+Nothing keeps clear of anything: fractions are of what an arm can be asked, not of what it does well. A joint's range is
+the file's, or one turn about its middle if it is wider or there is none. A goal is kept if the search finds joint
+angles, in range, at which the tool has the goal's orientation at the start's position, from the start's own joints,
+from home, or from SEEDS more. A goal that no search found may still be reachable.
 """
 
 from __future__ import annotations

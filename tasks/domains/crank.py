@@ -8,8 +8,6 @@ instead of the yaw it holds against the hinge.
 The crank begins leaning over by START to one side and is turned to the other. Trials differ in the azimuth of the
 hinge, to which the last joint turns the hand, and in the hand's frame, R = Ry(beta) at the goal; those that differ in
 beta alone are the same mechanics.
-
-Source: Mason 1981, "Compliance and force control for computer controlled manipulators" (turning a crank).
 """
 
 from __future__ import annotations
@@ -21,7 +19,7 @@ import math
 from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Specification, Surroundings, Trial, attribute
 from tasks.contact_rest import HORIZON_S
-from tasks.hand_frames import BETAS, DENSE_BETAS, at, mounts, wrist
+from tasks.hand_frames import BETAS, DENSE_BETAS, UP, at, mounts, wrist
 from tasks.rotations import columns, multiply, zyx
 
 RADIUS = 0.12  # of the crank [m]
@@ -30,7 +28,6 @@ ASIDE, ABOVE = RADIUS * math.sin(START), RADIUS * math.cos(START)  # the handle 
 TIP = (0.0, 0.0, 0.12)  # the handle, in the wrist's frame [m]
 SPEED = 0.03  # along the base's x [m/s]
 MOVES_S = 2.5  # until when
-UP = (0.0, 1.0, 0.0, 0.0)  # turns the wrist's frame, which points down, to the scene's, whose z points up
 AZIMUTHS = (60, 105, -75)  # of the hinge [deg]; where it is negative the crank is turned towards -x
 DENSE_AZIMUTHS = (50, 60, 75, 105, 120, 130, -50, -60, -75, -105, -120, -130)
 

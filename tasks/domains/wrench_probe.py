@@ -5,8 +5,6 @@ One of MOMENTS, as large as `push` says, acts from the first tick on. About axes
 about the others, and with an impedance about all, it comes to rest where the controller's stiffness balances it.
 
 The arm keeps its posture in all trials: only the hand's frame is drawn again, R = Rz(alpha) Ry(beta) Rx(gamma).
-
-Source: Murphy 1988, 3.3 and equations 3.9 to 3.12.
 """
 
 from __future__ import annotations

@@ -38,12 +38,9 @@ def build(seed: int) -> list[Start]:
     drawn = np.random.default_rng(seed).normal(size=(RANDOM_AXES, 3)).tolist()
     axes = AXES | {f"random{i}": unit((x, y, z)) for i, (x, y, z) in enumerate(drawn)}
     exact = [Start(f"half-turn-{name}-exact", short_of_180_degrees(axis, 0.0)) for name, axis in axes.items()]
-    near = [
-        Start(f"half-turn-{name}-k{k:02d}", short_of_180_degrees(axis, 10.0**-k))
-        for k in DECADES
-        for name, axis in axes.items()
-    ]
-    return exact + near
+    for k in DECADES:
+        exact += [Start(f"half-turn-{name}-k{k:02d}", short_of_180_degrees(v, 10.0**-k)) for name, v in axes.items()]
+    return exact
 
 
 STARTS = StartSet(
