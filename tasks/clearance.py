@@ -15,7 +15,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from tasks.base import Quat, Vector
-from tasks.kinematics import Kinematics
+from tasks.kinematics import Joints, Kinematics
 from tasks.paths import beyond, cos_beta, geodesic, zyx_angles
 
 # Largest condition number of J, in metres and radians. Arms have about 10 at home; at 50 the joints turn at most
@@ -50,7 +50,7 @@ def is_clear_of_wraps(quats: Iterable[Quat]) -> bool:
     return True
 
 
-def clear_path(model: Kinematics, q: Sequence[float] | np.ndarray, quats: Sequence[Quat]) -> np.ndarray | None:
+def clear_path(model: Kinematics, q: Joints, quats: Sequence[Quat]) -> np.ndarray | None:
     """Return the joint path through these orientations in place, None if it ends early or any of it is not clear."""
     path = []
     for now in model.walk(q, quats):

@@ -11,7 +11,7 @@ It is sent every PERIOD_S in coordinates, and a filter makes a goal of every tic
     slerp           sin((1 - s) w)/sin(w) q_0 + sin(s w)/sin(w) q_1, cos w = q_0 . q_1 (Shoemake 1985)
     log             R_0 exp(s log(R_0^T R_1))
 
-Between two goals nothing is extrapolated: every filter is a period late, held ones as well.
+Nothing is extrapolated: every filter is a period late, held goals as well.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def continued(q: np.ndarray) -> np.ndarray:
 
 
 def rotation_vector(q: np.ndarray) -> np.ndarray:
-    """2 atan2(|v|, w) v/|v| of quaternions (n x 4) [rad]: up to 180 degrees if w >= 0, up to a whole turn if not."""
+    """Compute 2 atan2(|v|, w) v/|v| of quaternions (n x 4) [rad]: up to 180° if w >= 0, up to a whole turn if not."""
     length = np.linalg.norm(q[:, 1:], axis=1, keepdims=True)
     angle = 2.0 * np.arctan2(length, q[:, :1])
     return q[:, 1:] * np.where(length > 1e-12, angle / np.maximum(length, 1e-12), 2.0)
@@ -66,11 +66,6 @@ def of_rotation_vector(v: np.ndarray) -> np.ndarray:
 def componentwise(c: np.ndarray, s: np.ndarray) -> np.ndarray:
     """(1 - s) c_0 + s c_1 between each two of the rows, for every share s in [0, 1)."""
     return np.concatenate([(1.0 - s) * c_0 + s * c_1 for c_0, c_1 in itertools.pairwise(c)])
-
-
-def normalized(q: np.ndarray) -> np.ndarray:
-    """Rows of length 1."""
-    return q / np.linalg.norm(q, axis=1, keepdims=True)
 
 
 def slerp(q: np.ndarray, s: np.ndarray) -> np.ndarray:
@@ -94,7 +89,8 @@ def by_log(q: np.ndarray, s: np.ndarray) -> np.ndarray:
 
 def by_quaternion(q: np.ndarray, s: np.ndarray) -> np.ndarray:
     """Interpolate the components of quaternions, and scale to length 1."""
-    return normalized(componentwise(q, s))
+    mixed = componentwise(q, s)
+    return mixed / np.linalg.norm(mixed, axis=1, keepdims=True)
 
 
 def by_vector(q: np.ndarray, s: np.ndarray) -> np.ndarray:
@@ -140,10 +136,6 @@ def sent() -> np.ndarray:
 
 
 def goals(stream: Stream, dt: float) -> np.ndarray:
-    """Return the goal of every tick (n x 4), of the sign that the stream gives it, from its first period on.
-
-    Args:
-        dt: control period [s], of which PERIOD_S is a multiple.
-    """
+    """Return the goal of every tick (n x 4), of the sign that the stream gives it; dt [s] divides PERIOD_S."""
     count = round(PERIOD_S / dt)
     return stream.filled(stream.signed(sent()), np.arange(count)[:, None] / count)

@@ -136,5 +136,5 @@ def read_situation(word: str) -> Situation:
 
 
 def rounded(values: Iterable[float]) -> Situation:
-    """Return a situation with numbers of three digits, as its word has them."""
+    """Return a situation with numbers of three digits."""
     return Situation(*(float(f"{value:.3g}") for value in values))
