@@ -101,7 +101,7 @@ class Regulation(Driven):
         physics.data.qvel[:] = qvel
 
     def get_observation(self, physics: Physics) -> dict[str, np.ndarray]:
-        """Return R by columns (9), omega [rad/s], goal_quat wxyz; of an arm q, qdot, p and goal_p, if it has one [m]."""
+        """Return R by columns (9), omega [rad/s], goal_quat wxyz; of an arm q, qdot, p and any goal_p [m]."""
         seen = {"R": physics.R(), "omega": physics.omega(), "goal_quat": np.array(self.start.goal_wxyz)}
         if self.task.arm:
             seen |= {"q": np.array(physics.data.qpos), "qdot": np.array(physics.data.qvel), "p": physics.p()}
