@@ -21,7 +21,7 @@ AT_REST: Vector = (0.0, 0.0, 0.0)
 
 
 class Start(NamedTuple):
-    """Hold the state in which an episode begins and its goal.
+    """The state in which an episode begins and its goal.
 
     On an arm q and qdot are the state, and quat_wxyz and omega are the tool's, by MuJoCo's forward kinematics.
     """

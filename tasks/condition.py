@@ -42,7 +42,6 @@ def declared_fields(axes: dict[str, Axis]) -> tuple[Field, ...]:
 
 FIELDS = declared_fields(known_axes())
 
-
 _record: Any = namedtuple  # which a type checker cannot follow
 _VALUES: Any = _record("_record", [one.name for one in FIELDS], defaults=[one.default for one in FIELDS])
 

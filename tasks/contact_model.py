@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 import xml.etree.ElementTree as ElementTree
 from typing import NamedTuple
 
@@ -104,7 +105,11 @@ def _model(task: ContactTask, arm: Arm, dt: float, contact: ContactModel) -> Ele
     assert world is not None
     scene = ElementTree.SubElement(world, "body", name="scene", mocap="true", pos="0 0 -10")  # until a trial places it
     scene.extend(_elements(around.scene))
-    pairs = _pairs(hand, scene, contact)
+    pairs = ElementTree.Element("contact")
+    friction = {"friction": f"{contact.friction!r} {contact.friction!r} 0 0 0", "solreffriction": f"{contact.slip!r} 1"}
+    for one, other in itertools.product(hand.findall(".//geom[@name]"), scene.findall(".//geom[@name]")):
+        names = {"geom1": one.attrib["name"], "geom2": other.attrib["name"]}
+        ElementTree.SubElement(pairs, "pair", names, condim="3", **friction)
     root.extend([*_elements(around.others), pairs, *ElementTree.fromstring(LOOK), _sensors(around, len(pairs) > 0)])
     for geom in root.iter("geom"):
         geom.attrib.update(contype="0", conaffinity="0")  # pairs are what touches
@@ -113,22 +118,6 @@ def _model(task: ContactTask, arm: Arm, dt: float, contact: ContactModel) -> Ele
 
 def _elements(xml: str) -> list[ElementTree.Element]:
     return list(ElementTree.fromstring(f"<some>{xml}</some>"))
-
-
-def _pairs(hand: ElementTree.Element, scene: ElementTree.Element, contact: ContactModel) -> ElementTree.Element:
-    pairs = ElementTree.Element("contact")
-    for one in hand.findall(".//geom[@name]"):
-        for other in scene.findall(".//geom[@name]"):
-            ElementTree.SubElement(
-                pairs,
-                "pair",
-                geom1=one.attrib["name"],
-                geom2=other.attrib["name"],
-                condim="3",
-                friction=f"{contact.friction!r} {contact.friction!r} 0 0 0",
-                solreffriction=f"{contact.slip!r} 1",
-            )
-    return pairs
 
 
 def _sensors(around: Surroundings, touches: bool) -> ElementTree.Element:

@@ -69,7 +69,6 @@ COORDINATES = {
 }
 """The numbers of a situation, in order."""
 
-
 _record: Any = namedtuple  # which a type checker cannot follow
 _VALUES: Any = _record("_VALUES", COORDINATES, defaults=[one.nominal for one in COORDINATES.values()])
 

@@ -34,21 +34,19 @@ TRIES = 300  # candidates of an axis, both ways round; our arms refuse up to twe
 
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:
-    """Exact 180° rotations about every axis first, then those at 0.1 rad, and so on."""
-    model = kinematics(arm)
+    """Return exact 180° rotations about every axis first, then those at 0.1 rad, and so on."""
+    model, starts = kinematics(arm), []
     axes = AXES | {f"drawn{i}": direction(*point) for i, point in enumerate(halton(AXES_DRAWN, 2, seed))}
-    found = {name: _pose(model, axis, seed) for name, axis in axes.items()}
-    return [
-        model.start(
-            f"half-turn-{name}-{word}", q, normal(multiply(short_of_180_degrees(axis, delta), model.pose(q)[1]))
-        )
-        for word, delta in (("exact", 0.0), *((f"k{k}", 10.0**-k) for k in DECADES))
-        for name, (q, axis) in ((name, one) for name, one in found.items() if one)
-    ]
+    found = [(name, *pose) for name, axis in axes.items() if (pose := _pose(model, axis, seed))]
+    for word, delta in (("exact", 0.0), *((f"k{k}", 10.0**-k) for k in DECADES)):
+        for name, q, axis in found:
+            goal = normal(multiply(short_of_180_degrees(axis, delta), model.pose(q)[1]))
+            starts.append(model.start(f"half-turn-{name}-{word}", q, goal))
+    return starts
 
 
 def _pose(model: Kinematics, axis: Vector, seed: int) -> tuple[np.ndarray, Vector] | None:
-    """Joint angles from which half a turn about the axis, or against it, is clear: (q, axis)."""
+    """Return joint angles from which half a turn about the axis, or against it, is clear: (q, axis)."""
     candidates = around_home(model.arm, seed, AROUND_HOME)
     for _ in range(TRIES):
         q, _ = next(candidates)

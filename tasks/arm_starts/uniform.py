@@ -50,7 +50,7 @@ def spread(arm: Arm, point: list[float]) -> np.ndarray:
 
 
 def _reached(model: Kinematics, q: np.ndarray, goal: Quat, seeds: list[np.ndarray]) -> tuple[float, ...]:
-    """Joint angles of the goal, in range, by the first guess that leads to some; empty if none does."""
+    """Return the joint angles of the goal, in range, by the first guess that leads to some; empty if none does."""
     p, _ = model.pose(q)
     found = (model.find(guess, p, goal) for guess in seeds)
     ends = (model.into_range(there) for there in found if there is not None)

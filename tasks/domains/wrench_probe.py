@@ -46,7 +46,6 @@ SPECIFICATIONS = tuple(
 FEWER_SPECIFICATIONS = (SPECIFICATIONS[0], SPECIFICATIONS[3])
 ONE_AXIS, ABOUT_X = SPECIFICATIONS[:3], SPECIFICATIONS[:1]
 
-
 # Frames of the hand, each with every specification: turns (alpha, gamma) and betas in degrees.
 Grid = tuple[tuple[tuple[int, int], ...], tuple[int, ...], tuple[Specification, ...]]
 # evenly, and then towards the poles of Z-Y-X and of Z-Y-Z; elsewhere to see that alpha and gamma matter, for one axis

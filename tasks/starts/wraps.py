@@ -21,7 +21,7 @@ EXACT = ((0.0, 0.0), (0.4, 0.0), (-0.9, 0.0), (0.0, 0.3), (0.0, -1.5))
 
 
 def build(seed: int) -> list[Start]:
-    """Exact ones first, then both jumps from both sides at every distance."""
+    """Return exact ones first, then both jumps from both sides at every distance."""
     starts = [
         Start(f"wrap-{angle}-exact-b{beta}-o{other}", _start(angle, math.pi, beta, other))
         for angle in ("alpha", "gamma")

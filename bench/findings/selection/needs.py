@@ -11,8 +11,7 @@ The rule was written and committed before any run was judged by it:
    (Pareto 1906).
 4. The best are the front by the robot's own criteria; kept of these is the front by GENERAL.
 5. If several are kept they tie, and the simplest of them is advised: of least memory, then of fewest operations, each
-   addition, product, quotient, root or call counted once, for they are counted here as what has to be written down and
-   trusted, not as time.
+   addition, product, quotient, root or call counted once.
 
 Where a robot takes torques and a model cancels the inertia, the map of situations advises (`regions`).
 """
@@ -117,7 +116,6 @@ CHATTER = 1.0
 """Largest change of the command from tick to tick at rest [rad/s^2]: a hundredth of Kp times a radian. A linear loop
 that has just come to rest from 180 degrees changes by (Kp w + Kv (Kp b + Kv w)) dt = 0.25 at most, b = 0.063 rad being
 the band and w = b/0.25 s."""
-
 
 Fact = Callable[[Measured, str], bool]
 

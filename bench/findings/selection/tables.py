@@ -122,7 +122,7 @@ BY = "rotation-matrix@geometric"
 
 
 def ticks(results: Results) -> dict[str, float]:
-    """Return law -> its time alone over a whole controller's [%], the medians over arms and machines that timed both."""
+    """Return law -> its time alone over a whole controller's [%], the medians over arms and those machines."""
     found: dict[str, list[float]] = {}
     given = results.frames.get("timings")
     timed = [one for one in results.machines() if "arm" in one] if given is None else [given]
