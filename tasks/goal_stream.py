@@ -68,6 +68,11 @@ def componentwise(c: np.ndarray, s: np.ndarray) -> np.ndarray:
     return np.concatenate([(1.0 - s) * c_0 + s * c_1 for c_0, c_1 in itertools.pairwise(c)])
 
 
+def normalized(q: np.ndarray) -> np.ndarray:
+    """Return the rows scaled to length 1."""
+    return q / np.linalg.norm(q, axis=1, keepdims=True)
+
+
 def slerp(q: np.ndarray, s: np.ndarray) -> np.ndarray:
     """Interpolate along the great circle between each two quaternions; their signs choose the shorter or longer arc."""
     made = []
@@ -89,8 +94,7 @@ def by_log(q: np.ndarray, s: np.ndarray) -> np.ndarray:
 
 def by_quaternion(q: np.ndarray, s: np.ndarray) -> np.ndarray:
     """Interpolate the components of quaternions, and scale to length 1."""
-    mixed = componentwise(q, s)
-    return mixed / np.linalg.norm(mixed, axis=1, keepdims=True)
+    return normalized(componentwise(q, s))
 
 
 def by_vector(q: np.ndarray, s: np.ndarray) -> np.ndarray:
