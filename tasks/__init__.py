@@ -1,22 +1,14 @@
 """The judge: plants, starts, goals, rules and ground truth. Imports nothing of `bench`.
 
-    tasks.load("free-body", start)      a dm_control Environment, reset to that start and goal
-    tasks.task(name), tasks.names()     the plants: one file each in tasks/domains
-    tasks.described(name)               what a task's file says, with no arm named
-    tasks.start_set(name, count, seed)  the starts: one file each in tasks/starts
-    tasks.starts_between(name, 5000, 6000, seed), tasks.start_set_length(name, count)    a stretch of many; how many
-    tasks.load("arm-regulation", start, arm="ur5e"), tasks.task("arm-regulation", "ur5e"); in contact tasks.load too
-    tasks.start_set(name, count, seed, arm="ur5e")    one file each in tasks/arm_starts
-    tasks.pairs()                       every (task, arm) there is; the arm is "" on the free body
-    tasks.arm(name), tasks.arm_names()  the manipulators: one file each in tasks/arms
-    tasks.variation(name), tasks.variation_names()    a plant that differs from the controller's model of it
-    tasks.axis(name), tasks.axis_names()    perturbations of the free body: one file each in tasks/conditions
+    tasks.load("free-body", tasks.start_set("half-turn")[0])    a dm_control Environment, reset to that start and goal
+    tasks.load("arm-regulation", arm="ur5e")                    the same of an arm, at the first of its usual starts
 
 Frames and units: everything is in the base frame unless its name ends in `_body`; radians, seconds;
 quaternions are (w, x, y, z) and take body coordinates to base coordinates.
 
-One file adds a task (constant TASK, tasks/domains), a start set (STARTS, tasks/starts or tasks/arm_starts) or an arm
-(MJCF, tasks/arms). `free_body.py` is `free-body` on the command line and in the results.
+One file adds a task (constant TASK, tasks/domains), a start set (STARTS, tasks/starts or tasks/arm_starts), an arm
+(MJCF, tasks/arms) or a perturbation of the free body (AXIS, tasks/conditions). `free_body.py` is `free-body` on the
+command line and in the results.
 """
 
 from __future__ import annotations
@@ -67,11 +59,7 @@ def described(name: str) -> Task | ArmTask:
 
 
 def task(name: str, arm: str = "") -> Task:
-    """Return the task of this name, on this arm; UnknownName lists the known ones.
-
-    Errors:
-        BadValue: a task for arms and no arm, or a task without one and an arm.
-    """
+    """Return the task of this name on this arm; an arm is named if, and only if, the task is for arms (BadValue)."""
     found = described(name)
     if isinstance(found, ArmTask):
         return found.on(_needed(arm, name))
@@ -105,13 +93,11 @@ def load(
     """Return a dm_control Environment that begins every episode at `start` and lasts `horizon` seconds.
 
     Args:
-        task: name of a task, also of one in contact, or a Task of the caller's own.
-        start: a Start: orientation, angular velocity and goal (and on an arm the joints' state); if none is given, the
-            first of `paper`, or on an arm of the first start set of its task. In contact a Trial, or the task's first.
+        start: a Start, by default the first of `paper`, or on an arm of the first start set of its task. In contact a
+            Trial, by default the task's first.
         dt: control period and integration step [s].
         horizon: length of an episode [s], a whole number of ticks after rounding: 20, or in contact the task's own.
         integrator: "euler" (the usual one), "rk4", "implicit" or "implicitfast" (the usual one in contact).
-        arm: name of the arm, if the task is for arms.
         vary: changes the compiled model before the first episode, so that the plant is not what a contestant believes.
     """
     from tasks import contact_episode  # dm_control takes a second to import; listing names must not
@@ -139,14 +125,9 @@ def knows_joints(name: str) -> bool:
 
 
 def start_set(name: str, count: int | None = None, seed: int = 0, arm: str = "") -> list[Start]:
-    """Return the starts of a set, always the same ones in the same order.
+    """Return the starts of a set, always the same ones in the same order; the set's own number of them by default.
 
-    Args:
-        name: one of `start_set_names(arm=bool(arm))`.
-        count: how many; the set's own number if None. A sampled set is prefix-stable (a longer one begins
-            with the shorter one). A fixed set has no more than its own number and then gives them all.
-        seed: of the sampled points and the random axes.
-        arm: name of the arm that starts there, if the set is for arms.
+    A longer list of a sampled set begins with the shorter one. A fixed set has no more starts than its own number.
     """
     if count is not None and count < 1:
         raise BadValue(f"count {count} starts of '{name}': a start set needs at least 1 (try: count=10)")
@@ -159,7 +140,7 @@ def start_set(name: str, count: int | None = None, seed: int = 0, arm: str = "")
 
 @functools.lru_cache(maxsize=128)
 def _starts_on(arm: Arm, chosen: ArmStartSet, count: int, seed: int) -> tuple[Start, ...]:
-    """Kept, for they are found by searches of seconds."""
+    """Find the starts once: it takes searches of seconds."""
     return tuple(chosen.build(arm, count, seed))
 
 

@@ -1,10 +1,8 @@
-"""Arms: the manipulators of tasks/arms, found and checked; `arm_model.py` makes the judge's model of one.
+"""Find and check the manipulators of tasks/arms.
 
-    <name>.xml     MJCF, all in this one text (no meshes, no includes)
-    <name>.py      a function xml() -> str that writes it
-
-An arm is six or seven hinges in one chain with a site "tool", a keyframe "home", one motor a joint whose ctrlrange
-is the rated torque, and texts "title" and "source". Nothing else may act on it (viscous damping may), so that
+<name>.xml is MJCF in one text (no meshes, no includes), <name>.py has a function xml() -> str that writes it. An arm is
+six or seven hinges in one chain with a site "tool", a keyframe "home", one motor a joint whose ctrlrange is the rated
+torque, and texts "title" and "source". Nothing else may act on it (viscous damping may), so that
 
     D qddot = tau - fg,   fg = qfrc_bias - qfrc_passive
 
@@ -34,12 +32,7 @@ def arm_names(folder: Path = ARMS) -> list[str]:
 
 
 def arm(name: str, folder: Path = ARMS) -> Arm:
-    """Return the arm of this name, checked.
-
-    Errors:
-        UnknownName: there is no such file.
-        BadArm: the file is not an arm; what is wrong, and the cure.
-    """
+    """Return the arm of this name; BadArm says what is wrong with its file."""
     files = _files(folder)
     if name not in files:
         raise UnknownName(

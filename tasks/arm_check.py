@@ -1,4 +1,4 @@
-"""What an arm's file must hold, checked on the compiled model; a file that fails is refused in one line with its cure.
+"""Check on the compiled model what an arm's file must hold.
 
 The last check is the one that matters: at a few poses MuJoCo's own forward dynamics must equal
 D^-1 (tau - qfrc_bias + qfrc_passive). Whatever else acts (dry friction, an equality, an actuator with dynamics, gravity

@@ -1,7 +1,4 @@
-"""What the judge's files share: starts, start sets and tasks of both kinds.
-
-`angle` and `haversine`, the measure of the error, live in truth.py and are named here too.
-"""
+"""Define starts, start sets and tasks of both kinds."""
 
 from __future__ import annotations
 
@@ -24,7 +21,7 @@ AT_REST: Vector = (0.0, 0.0, 0.0)
 
 
 class Start(NamedTuple):
-    """Hold the state in which an episode begins and its goal.
+    """The state in which an episode begins and its goal.
 
     On an arm q and qdot are the state, and quat_wxyz and omega are the tool's, by MuJoCo's forward kinematics.
     """
@@ -84,12 +81,9 @@ class Task(NamedTuple):
     servo_xml: Callable[[float, float, float], str] | None = None  # servo_xml(dt, kp, kv): see `with_servo`
 
     def with_servo(self, kp: float, kv: float) -> Task:
-        """Return this plant driven by MuJoCo's own <orientation> actuator: its ctrl is the goal, a quaternion wxyz.
+        """Return this plant driven by MuJoCo's own <orientation> actuator with gains kp [N m/rad], kv [N m s/rad].
 
-        Args:
-            kp, kv: gains of the actuator [N m/rad, N m s/rad].
-        Errors:
-            BadValue: the task has no such model.
+        Its ctrl is the goal, a quaternion wxyz.
         """
         servo_xml = self.servo_xml
         if servo_xml is None:

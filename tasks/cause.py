@@ -1,9 +1,7 @@
-"""Why an arm's episode failed, as far as the judge can see: near what was it?
+"""Say why an arm's episode failed: what it came near to, which is no proof.
 
-Near the representation's singular set, if the margin fell under NEAR_MARGIN; near a kinematic singularity, if the
-condition number of the tool's Jacobian (SI units) rose above NEAR_CONDITION. Both are twice as far in as the start set
-`clear` ever comes. A cause is where an episode came to, not
-a proof: an arm may pass such a place and fail of something else.
+The bounds are twice as far in as the start set `clear` ever comes. An arm may pass such a place and fail of something
+else.
 """
 
 from __future__ import annotations
@@ -17,15 +15,10 @@ CAUSES = ("", "representation", "kinematic", "both", "torque", "law")
 
 
 def cause(outcome: str, min_margin: float, condition: float) -> str:
-    """Return the cause of a failure, in a word; empty for an episode that settled.
+    """Return the cause of a failure, one of CAUSES, from the outcome, least margin (NaN: none) and greatest condition.
 
-    "both" singularities were near; "torque": neither, and the torque rule ended it; "law": none of these, as at an
-    equilibrium away from the goal or a jump of the coordinates, and whatever was near if the law crashed or hung.
-
-    Args:
-        outcome: one of verdict.OUTCOMES.
-        min_margin: smallest margin of the representation, NaN if the law has none.
-        condition: largest condition number of the Jacobian that was seen.
+    "torque": no singularity was near, and the torque rule ended it; "law": none of these, as at an equilibrium away
+    from the goal or a jump of the coordinates, and whatever was near if the law crashed or hung.
     """
     if outcome == "settled":
         return ""

@@ -1,4 +1,4 @@
-"""What a start set keeps clear of, and how a path is looked at: bounds, each with its reason.
+"""Tell whether a path is clear of what start sets keep clear of.
 
 A joint path is clear if along all of it J is well conditioned and every joint stays inside its range; an orientation
 path is clear if along all of it the Z-Y-X angles stay away from their pole and from the jumps of atan2.
@@ -15,7 +15,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from tasks.base import Quat, Vector
-from tasks.kinematics import Kinematics
+from tasks.kinematics import Joints, Kinematics
 from tasks.paths import beyond, cos_beta, geodesic, zyx_angles
 
 # Largest condition number of J, in metres and radians. Arms have about 10 at home; at 50 the joints turn at most
@@ -28,7 +28,6 @@ RANGE = 0.1
 COS_BETA = 0.2
 # alpha and gamma stay so far [rad] from +-pi, beyond any overshoot of a response that is nearly linear.
 WRAP = 0.2
-# 5 degrees.
 STEP = math.radians(5.0)
 
 
@@ -51,7 +50,7 @@ def is_clear_of_wraps(quats: Iterable[Quat]) -> bool:
     return True
 
 
-def clear_path(model: Kinematics, q: Sequence[float] | np.ndarray, quats: Sequence[Quat]) -> np.ndarray | None:
+def clear_path(model: Kinematics, q: Joints, quats: Sequence[Quat]) -> np.ndarray | None:
     """Return the joint path through these orientations in place, None if it ends early or any of it is not clear."""
     path = []
     for now in model.walk(q, quats):
@@ -66,8 +65,7 @@ def clear_turn_through(
 ) -> tuple[np.ndarray, Quat] | None:
     """(q, goal) of a turn in place by 2 half [rad] whose middle is `middle`, near q's pose; None if it is not clear.
 
-    The start is turned back from the middle; the goal is made from the start's own quaternion, so that the middle of
-    the geodesic is right to rounding and not to what the joints were found to.
+    The goal is made from the start's own quaternion, so that the middle of the geodesic is right to rounding.
     """
     there = model.reach(q, model.pose(q)[0], middle)
     if there is None:

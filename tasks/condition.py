@@ -1,7 +1,6 @@
-"""Conditions of an episode on the free body, put together from the perturbations of tasks/conditions.
+"""Put the conditions of an episode on the free body together from the perturbations of tasks/conditions.
 
-At the nominal level of every axis the condition is the default one: a law asked every millisecond, given the truth at
-once.
+By default a law is called every millisecond and given the truth at once.
 """
 
 from __future__ import annotations
@@ -18,16 +17,12 @@ from tasks.errors import BadValue
 
 @functools.cache
 def known_axes() -> dict[str, Axis]:
-    """Return every perturbation by its name, in alphabetical order."""
+    """Return every perturbation by its name, sorted."""
     return constants(conditions, "AXIS")
 
 
 def declared_fields(axes: dict[str, Axis]) -> tuple[Field, ...]:
-    """Return the fields that axes declare, in their order.
-
-    Errors:
-        BadValue: a field that does not say whether it lasts, that two files declare, or of a type that no loop takes.
-    """
+    """Return the fields that axes declare, in their order; BadValue if a declaration has a fault."""
     found: dict[str, Field] = {}
     for name, axis in axes.items():
         for field in axis.fields:
@@ -46,7 +41,6 @@ def declared_fields(axes: dict[str, Axis]) -> tuple[Field, ...]:
 
 
 FIELDS = declared_fields(known_axes())
-
 
 _record: Any = namedtuple  # which a type checker cannot follow
 _VALUES: Any = _record("_record", [one.name for one in FIELDS], defaults=[one.default for one in FIELDS])
@@ -72,11 +66,7 @@ class Condition(_VALUES):
 
 
 def condition_at(axis: Axis, level: float) -> Condition:
-    """Return the condition at a level of an axis.
-
-    Errors:
-        BadValue: the axis sets a field that no file declares.
-    """
+    """Return the condition at a level of an axis; BadValue if it sets a field that no file declares."""
     changes = axis.changes(level)
     for name in changes.keys() - set(Condition._fields):
         raise BadValue(

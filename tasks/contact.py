@@ -4,12 +4,8 @@
 
 A task's file says what the hand and its surroundings are, and lists its trials. The hand has no mass, so that the
 sensor in its wrist reads F and nothing else, and the controller's model of the arm stays perfect. Its frame, the site
-"hand", is what is controlled, and where F is taken.
-
-How the hand's frame is drawn on the hand changes nothing physical; it changes every Euler angle. A trial's
-`mount_wxyz` draws it.
-
-An arm takes part if it has a site "wrist" that moves with the last joint.
+"hand", is what is controlled, and where F is taken. How it is drawn on the hand (`Trial.mount_wxyz`) changes nothing
+physical; it changes every Euler angle.
 """
 
 from __future__ import annotations
@@ -27,9 +23,6 @@ if TYPE_CHECKING:
     import mujoco
 
 AXES = ("x", "y", "z", "about x", "about y", "about z")
-
-# mujoco.mjtSameFrame.mjSAMEFRAME_NONE; importing MuJoCo takes a moment, and listing names must not.
-OWN_FRAME = 0
 
 # Pushes that may follow each other in a trial: the size of a buffer.
 MOST_LEGS = 8
@@ -76,7 +69,7 @@ class Trial(NamedTuple):
 
     @property
     def pushes(self) -> tuple[tuple[float, ...], ...]:
-        """What acts from outside, one after the other for equal times; at most MOST_LEGS."""
+        """Return what acts from outside, one after the other for equal times."""
         return self.legs or (self.push,)
 
 
@@ -118,22 +111,18 @@ class ContactTask(NamedTuple):
         return bool(around.scene or around.others)
 
 
+def can_do(task: ContactTask, arm: Arm) -> bool:
+    """Tell whether the arm can be set the task: it has a site "wrist"."""
+    return wrist_of(ElementTree.fromstring(arm.xml)) is not None
+
+
 def refuse(task: ContactTask, arm: Arm) -> None:
-    """BadValue if the arm cannot be set the task."""
-    if wrist_of(ElementTree.fromstring(arm.xml)) is None:
+    """Raise BadValue if the arm cannot be set the task."""
+    if not can_do(task, arm):
         raise BadValue(
             f"arm '{arm.name}' has no site 'wrist', where task '{task.name}' mounts the hand and its force sensor "
             '(add <site name="wrist"/> to the last body of its file)'
         )
-
-
-def can_do(task: ContactTask, arm: Arm) -> bool:
-    """Tell whether the arm can be set the task."""
-    try:
-        refuse(task, arm)
-    except BadValue:
-        return False
-    return True
 
 
 def leg(count: int, tick: int, ticks: int) -> int:
@@ -147,7 +136,7 @@ def prepare(model: mujoco.MjModel, data: Any, trial: Trial) -> None:
     data.qpos[:n] = trial.q
     hand = model.site("hand").id
     model.site_quat[hand] = trial.mount_wxyz
-    model.site_sameframe[hand] = OWN_FRAME  # else MuJoCo takes the frame it compiled
+    model.site_sameframe[hand] = 0  # mjSAMEFRAME_NONE; else MuJoCo takes the frame it compiled
     data.mocap_pos[0] = trial.scene_pos
     data.mocap_quat[0] = trial.scene_wxyz
     data.xfrc_applied[model.body("hand").id] = trial.pushes[0]

@@ -1,4 +1,4 @@
-"""What is refused before an episode in contact begins: what was given, what is allowed, the cure.
+"""Refuse what no episode in contact can begin with.
 
 A specification may hold nothing (the hand is led by hand) or everything (nothing complies): unusual, but meaningful.
 """

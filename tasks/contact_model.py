@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 import xml.etree.ElementTree as ElementTree
 from typing import NamedTuple
 
@@ -49,11 +50,8 @@ def softness(contact: ContactModel, mobility: float) -> dict[str, str]:
 
     MuJoCo's constraint force is (aref - a)/R with R = (1 - d)/d A and, of a negative solref, aref = -(b/dmax) v -
     (k d/dmax^2) r: at d = dmax the stiffness is k/((1 - d) A). A is MuJoCo's estimate of an arm's mobility, so that the
-    same solref is another stiffness on another arm; here it is divided out.
-
-    Args:
-        mobility: A [1/kg], the sum of both bodies' body_invweight0.
-    Source: MuJoCo's documentation, "Computation: constraint model", and "Modeling: solver parameters".
+    same solref is another stiffness on another arm; here it is divided out. mobility: A [1/kg], the sum of both bodies'
+    body_invweight0. Source: MuJoCo's documentation, "Computation: constraint model", "Modeling: solver parameters".
     """
     scale = -(1.0 - contact.dmax) * mobility
     return {
@@ -63,14 +61,11 @@ def softness(contact: ContactModel, mobility: float) -> dict[str, str]:
 
 
 def model_xml(task: ContactTask, arm: Arm, dt: float, contact: ContactModel = STANDARD) -> str:
-    """Return the judge's MJCF model of a task on an arm, with integration step dt [s].
+    """Return the judge's MJCF model of a task on an arm that can be set it, with integration step dt [s].
 
     Sensors of the site "hand": those of tasks.sensors.SENSORS, its position p [m], then force [N] and moment [N m] in
     the hand's frame as MuJoCo gives them, if anything can touch the gap at the deepest contact [m] (at most 0, and 0
     where there is no contact), and the joint of the scene [rad] if there is one.
-
-    Errors:
-        BadValue: the arm has no site "wrist".
     """
     refuse(task, arm)
     root = _model(task, arm, dt, contact)
@@ -110,7 +105,11 @@ def _model(task: ContactTask, arm: Arm, dt: float, contact: ContactModel) -> Ele
     assert world is not None
     scene = ElementTree.SubElement(world, "body", name="scene", mocap="true", pos="0 0 -10")  # until a trial places it
     scene.extend(_elements(around.scene))
-    pairs = _pairs(hand, scene, contact)
+    pairs = ElementTree.Element("contact")
+    friction = {"friction": f"{contact.friction!r} {contact.friction!r} 0 0 0", "solreffriction": f"{contact.slip!r} 1"}
+    for one, other in itertools.product(hand.findall(".//geom[@name]"), scene.findall(".//geom[@name]")):
+        names = {"geom1": one.attrib["name"], "geom2": other.attrib["name"]}
+        ElementTree.SubElement(pairs, "pair", names, condim="3", **friction)
     root.extend([*_elements(around.others), pairs, *ElementTree.fromstring(LOOK), _sensors(around, len(pairs) > 0)])
     for geom in root.iter("geom"):
         geom.attrib.update(contype="0", conaffinity="0")  # pairs are what touches
@@ -119,22 +118,6 @@ def _model(task: ContactTask, arm: Arm, dt: float, contact: ContactModel) -> Ele
 
 def _elements(xml: str) -> list[ElementTree.Element]:
     return list(ElementTree.fromstring(f"<some>{xml}</some>"))
-
-
-def _pairs(hand: ElementTree.Element, scene: ElementTree.Element, contact: ContactModel) -> ElementTree.Element:
-    pairs = ElementTree.Element("contact")
-    for one in hand.findall(".//geom[@name]"):
-        for other in scene.findall(".//geom[@name]"):
-            ElementTree.SubElement(
-                pairs,
-                "pair",
-                geom1=one.attrib["name"],
-                geom2=other.attrib["name"],
-                condim="3",
-                friction=f"{contact.friction!r} {contact.friction!r} 0 0 0",
-                solreffriction=f"{contact.slip!r} 1",
-            )
-    return pairs
 
 
 def _sensors(around: Surroundings, touches: bool) -> ElementTree.Element:

@@ -1,8 +1,7 @@
 """When a hand in contact is at rest: the rule by which episodes that have an end end early.
 
 A hand is at rest if for REST.hold_s, and after the place it is held at has stopped, it has stayed as near to where it
-then was as the speeds below would take it in that time. One that is not by the horizon creeps, and a row says how
-fast.
+then was as the speeds below would take it in that time.
 """
 
 from typing import NamedTuple

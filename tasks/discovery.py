@@ -1,8 +1,4 @@
-"""Finds the one named constant of every module in a folder: no registry to edit, no import with side effects.
-
-`constants(tasks.domains, "TASK")` imports every module of the folder and keeps those that have the constant. The name
-of the file, with dashes, is the key. A folder is read once in a process; a file added later is found by the next one.
-"""
+"""Find the one named constant of every module in a folder: no registry to edit, no import with side effects."""
 
 from __future__ import annotations
 
@@ -20,7 +16,7 @@ Found = TypeVar("Found")
 
 @functools.cache
 def constants(folder: ModuleType, constant: str) -> dict[str, Any]:
-    """{file name with dashes: its constant} for every module of a package's folder, sorted by name."""
+    """Return {file name with dashes: its constant} for every module that has one, sorted; a folder is read once."""
     found = {}
     for module_info in sorted(pkgutil.iter_modules(folder.__path__), key=lambda info: info.name):
         module = importlib.import_module(f"{folder.__name__}.{module_info.name}")
@@ -30,7 +26,7 @@ def constants(folder: ModuleType, constant: str) -> dict[str, Any]:
 
 
 def pick(kind: str, name: str, known: Mapping[str, Found], where: str) -> Found:
-    """known[name], or an UnknownName that says what there is."""
+    """Return known[name], or raise an UnknownName that says what there is."""
     if name not in known:
         listed = ", ".join(sorted(known))
         raise UnknownName(f"{kind} '{name}' is not in {where}; known: {listed} (use one, or add a file there)")

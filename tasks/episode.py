@@ -34,8 +34,7 @@ with warnings.catch_warnings():
 _WORDS = ("euler", "rk4", "implicit", "implicitfast")
 INTEGRATORS = {word: getattr(mujoco.mjtIntegrator, f"mjINT_{word.upper()}") for word in _WORDS}
 
-# A quaternion written with sixteen digits has a norm within 4e-16 of one; one with eight digits does not
-# pass.
+# A quaternion written with sixteen digits has a norm within 4e-16 of one; one with eight digits does not pass.
 UNIT_NORM_TOLERANCE = 1e-9
 
 
@@ -43,7 +42,7 @@ class Physics(engine.Physics):
     """MuJoCo with the names of our sensors; it knows no rules."""
 
     def after_reset(self) -> None:
-        """One mj_step1 more: dm_control's forward pass runs without actuation, so without motor moments."""
+        """Add an mj_step1: dm_control's forward pass runs without actuation, so without motor moments."""
         super().after_reset()
         mujoco.mj_step1(self.model.ptr, self.data.ptr)
 
@@ -73,10 +72,10 @@ class Driven(control.Task):
         physics.set_control(action)
 
     def action_spec(self, physics: Physics) -> Any:
-        """One number a motor within its ctrlrange, on an arm the rated torque [N m].
+        """Return ctrlrange, on an arm the rated torques [N m]: for agents to draw from, nothing cuts there.
 
-        It is for agents to draw from, nothing cuts there. Limitations: arms have no joint limits. At full torque for
-        half a second, or at random for some, a Panda turns too fast for a step of 1 ms: PhysicsError.
+        Limitations: at full torque for half a second, or at random for some, a Panda turns too fast for a step of 1 ms:
+        PhysicsError.
         """
         spec = engine.action_spec(physics)
         low, high = physics.model.actuator_ctrlrange.T
@@ -102,10 +101,7 @@ class Regulation(Driven):
         physics.data.qvel[:] = qvel
 
     def get_observation(self, physics: Physics) -> dict[str, np.ndarray]:
-        """All that a contestant sees: R, omega [rad/s], goal_quat (w, x, y, z); on an arm also q, qdot, p.
-
-        R is nine numbers by columns: n, o, a. Where the start commands a motion of the tool, goal_p too [m].
-        """
+        """Return R by columns (9), omega [rad/s], goal_quat wxyz; of an arm q, qdot, p and any goal_p [m]."""
         seen = {"R": physics.R(), "omega": physics.omega(), "goal_quat": np.array(self.start.goal_wxyz)}
         if self.task.arm:
             seen |= {"q": np.array(physics.data.qpos), "qdot": np.array(physics.data.qvel), "p": physics.p()}

@@ -11,7 +11,7 @@ It is sent every PERIOD_S in coordinates, and a filter makes a goal of every tic
     slerp           sin((1 - s) w)/sin(w) q_0 + sin(s w)/sin(w) q_1, cos w = q_0 . q_1 (Shoemake 1985)
     log             R_0 exp(s log(R_0^T R_1))
 
-Between two goals nothing is extrapolated: every filter is a period late, held ones as well.
+Nothing is extrapolated: every filter is a period late, held goals as well.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def continued(q: np.ndarray) -> np.ndarray:
 
 
 def rotation_vector(q: np.ndarray) -> np.ndarray:
-    """2 atan2(|v|, w) v/|v| of quaternions (n x 4) [rad]: up to 180 degrees if w >= 0, up to a whole turn if not."""
+    """Compute 2 atan2(|v|, w) v/|v| of quaternions (n x 4) [rad]: up to 180° if w >= 0, up to a whole turn if not."""
     length = np.linalg.norm(q[:, 1:], axis=1, keepdims=True)
     angle = 2.0 * np.arctan2(length, q[:, :1])
     return q[:, 1:] * np.where(length > 1e-12, angle / np.maximum(length, 1e-12), 2.0)
@@ -69,7 +69,7 @@ def componentwise(c: np.ndarray, s: np.ndarray) -> np.ndarray:
 
 
 def normalized(q: np.ndarray) -> np.ndarray:
-    """Rows of length 1."""
+    """Return the rows scaled to length 1."""
     return q / np.linalg.norm(q, axis=1, keepdims=True)
 
 
@@ -140,10 +140,6 @@ def sent() -> np.ndarray:
 
 
 def goals(stream: Stream, dt: float) -> np.ndarray:
-    """Return the goal of every tick (n x 4), of the sign that the stream gives it, from its first period on.
-
-    Args:
-        dt: control period [s], of which PERIOD_S is a multiple.
-    """
+    """Return the goal of every tick (n x 4), of the sign that the stream gives it; dt [s] divides PERIOD_S."""
     count = round(PERIOD_S / dt)
     return stream.filled(stream.signed(sent()), np.arange(count)[:, None] / count)

@@ -20,7 +20,7 @@ BLOCK = 256  # points that `endless` makes together
 
 
 def halton(count: int, dimensions: int, seed: int, first: int = 0) -> list[list[float]]:
-    """`count` points of this seed's scrambled Halton sequence, from the point `first` on."""
+    """Return `count` points of this seed's scrambled Halton sequence, from the point `first` on."""
     from scipy.stats import qmc  # two seconds to import; the directed sets do not need it
 
     sequence = qmc.Halton(d=dimensions, scramble=True, rng=seed)

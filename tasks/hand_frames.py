@@ -14,6 +14,7 @@ from tasks.base import Quat, Vector
 from tasks.contact import Specification, Trial
 from tasks.rotations import about, multiply, to_base, zyx
 
+UP: Quat = (0.0, 1.0, 0.0, 0.0)  # turns the wrist's frame, which points down, so that z points up
 BETAS, DENSE_BETAS = (0, 45, 75), (-60, 0, 30, 45, 60, 75)
 """Frames of the hand of the tasks in contact, R = Ry(beta) at the goal, on a coarse grid and a dense one [deg]."""
 
@@ -56,7 +57,7 @@ def leaning(tilt_deg: float, azimuth_deg: float) -> Quat:
 def leaning_trials(arm: Arm, leans: Iterable[tuple[int, int]], dense: bool, stands: Stands) -> tuple[Trial, ...]:
     """Return a trial for each way in which the surroundings lean, (tilt, azimuth) [deg], and each frame of the hand.
 
-    Those that differ in beta alone are the same mechanics.
+    Those that differ in beta alone are the same mechanics: the hand's frame is R = Ry(beta) at the goal.
     """
     q, found = arm.home, []
     for (tilt, azimuth), beta in itertools.product(leans, DENSE_BETAS if dense else BETAS):

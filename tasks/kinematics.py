@@ -2,11 +2,9 @@
 
     x(q) = (p(q), R(q)),   xdot = (pdot, omega) = J(q) qdot,   dq = J^+ (p_d - p, log(R_d R^T))
 
-The judge's own, to choose starts with: contestants get neither. Poses and Jacobians are MuJoCo's, bit for bit those of
-an episode. A path is followed by Newton's method from point to point; with more than six joints every step is the
-shortest one (minimum norm), so that the path is the one of dq = J^+ dx and depends on where it began.
-
-Units: metres and radians, so that a condition number weighs a metre like a radian. The arms are about a metre long.
+The judge's own, to choose starts with: contestants get neither. A path is followed by Newton's method from point to
+point; with more than six joints every step is the shortest one (minimum norm). A condition number weighs a metre like
+a radian; the arms are about a metre long.
 
 Limitations: a path that comes within about 1e-10 of a singular configuration is given up, and so is one whose points
 are so far apart that a joint jumps by more than LARGEST_STEP.
@@ -41,8 +39,12 @@ SEARCH_STEPS = 40
 DAMPING = 1e-4
 
 
+Joints = Sequence[float] | np.ndarray
+"""One number a joint."""
+
+
 class Kinematics:
-    """MuJoCo's kinematics of one arm, to a site of it. q: n joint angles [rad]; base frame, SI units."""
+    """MuJoCo's kinematics of one arm, to a site of it, bit for bit that of an episode; q [rad], base frame, SI."""
 
     def __init__(self, arm: Arm, site: str = "tool"):
         self.arm = arm
@@ -53,8 +55,8 @@ class Kinematics:
         self._J = np.zeros((6, self.model.nv))
         self._quat = np.zeros(4)
 
-    def pose(self, q: Sequence[float] | np.ndarray) -> tuple[np.ndarray, Quat]:
-        """Return the tool's position [m] and orientation, as the sensors of an episode give them."""
+    def pose(self, q: Joints) -> tuple[np.ndarray, Quat]:
+        """Return the site's position [m] and orientation."""
         data = self.data
         data.qpos[:] = q
         mujoco.mj_kinematics(self.model, data)
@@ -62,17 +64,17 @@ class Kinematics:
         w, x, y, z = self._quat.tolist()
         return data.site_xpos[self.site].copy(), (w, x, y, z)
 
-    def jacobian(self, q: Sequence[float] | np.ndarray) -> np.ndarray:
+    def jacobian(self, q: Joints) -> np.ndarray:
         """J, 6 x n: (pdot, omega) = J qdot."""
         self.pose(q)
         return self._jacobian_here().copy()
 
-    def condition(self, q: Sequence[float] | np.ndarray) -> float:
+    def condition(self, q: Joints) -> float:
         """Condition number of J in the 2-norm: largest over smallest singular value, inf if that is zero."""
         s = np.linalg.svd(self.jacobian(q), compute_uv=False)
         return float(s[0] / s[-1]) if s[-1] > 0.0 else math.inf
 
-    def inertia_matrix(self, q: Sequence[float] | np.ndarray) -> np.ndarray:
+    def inertia_matrix(self, q: Joints) -> np.ndarray:
         """D, n x n [kg m^2]."""
         self.data.qpos[:], self.data.qvel[:] = q, 0.0
         mujoco.mj_forward(self.model, self.data)
@@ -80,28 +82,28 @@ class Kinematics:
         mujoco.mj_fullM(self.model, self.data, D)
         return D
 
-    def mobility(self, q: Sequence[float] | np.ndarray) -> np.ndarray:
+    def mobility(self, q: Joints) -> np.ndarray:
         """J D^-1 J^T, 6 x 6 [1/kg, 1/(kg m), 1/(kg m^2)]: acceleration of the tool per force and moment on it."""
         J = self.jacobian(q)
         return J @ np.linalg.solve(self.inertia_matrix(q), J.T)
 
-    def least_inertia(self, q: Sequence[float] | np.ndarray) -> float:
+    def least_inertia(self, q: Joints) -> float:
         """Return the tool's inertia about the axis about which a moment turns it most [kg m^2]."""
         return float(1.0 / np.linalg.eigvalsh(self.mobility(q)[3:, 3:])[-1])
 
-    def into_range(self, q: Sequence[float] | np.ndarray) -> np.ndarray:
+    def into_range(self, q: Joints) -> np.ndarray:
         """Return q with each joint moved by whole turns as near to the middle of its range as possible, or to 0."""
         ranges = zip(self.arm.lower, self.arm.upper, strict=True)
         middle = np.array([0.5 * (low + high) if high - low < math.inf else 0.0 for low, high in ranges])
         return np.asarray(q) - math.tau * np.round((np.asarray(q) - middle) / math.tau)
 
-    def within_range(self, q: Sequence[float] | np.ndarray, margin: float = 0.0) -> bool:
+    def within_range(self, q: Joints, margin: float = 0.0) -> bool:
         """Whether every joint is inside its range by at least `margin` [rad]."""
         return all(
             low + margin <= x <= high - margin for x, low, high in zip(q, self.arm.lower, self.arm.upper, strict=True)
         )
 
-    def reach(self, q: Sequence[float] | np.ndarray, p: np.ndarray, quat: Quat) -> np.ndarray | None:
+    def reach(self, q: Joints, p: np.ndarray, quat: Quat) -> np.ndarray | None:
         """Return the joint angles of a pose, by Newton's method from nearby ones; None if it does not converge."""
         q = np.array(q, dtype=float)
         for _ in range(NEWTON_STEPS):
@@ -114,7 +116,7 @@ class Kinematics:
             q += step
         return None
 
-    def find(self, q: Sequence[float] | np.ndarray, p: np.ndarray, quat: Quat) -> np.ndarray | None:
+    def find(self, q: Joints, p: np.ndarray, quat: Quat) -> np.ndarray | None:
         """Joint angles of a pose from any others, by damped least squares; None if the search ends elsewhere.
 
         dq = (J^T J + lambda I)^-1 J^T e, lambda = |e|^2/2 + DAMPING (Sugihara 2011, T-RO 27, 984-991): far from the
@@ -129,7 +131,7 @@ class Kinematics:
             q += damped(self._jacobian_here(), error, 0.5 * distance * distance + DAMPING)
         return None
 
-    def walk(self, q: Sequence[float] | np.ndarray, quats: Iterable[Quat]) -> Iterator[np.ndarray]:
+    def walk(self, q: Joints, quats: Iterable[Quat]) -> Iterator[np.ndarray]:
         """Yield the joint angles at each orientation in turn, the tool's position held; ends where it cannot go on."""
         p, _ = self.pose(q)
         now = np.array(q, dtype=float)
@@ -140,30 +142,19 @@ class Kinematics:
             now = reached
             yield now
 
-    def follow(self, q: Sequence[float] | np.ndarray, quats: Sequence[Quat]) -> np.ndarray | None:
+    def follow(self, q: Joints, quats: Sequence[Quat]) -> np.ndarray | None:
         """All of `walk`, len(quats) x n; None if it ended early."""
         path = list(self.walk(q, quats))
         return np.array(path) if len(path) == len(quats) else None
 
-    def rates(self, q: Sequence[float] | np.ndarray, omega: Vector) -> np.ndarray:
-        """Return the least joint rates [rad/s] at which the tool turns with omega [rad/s] in place.
-
-        Errors:
-            BadValue: the arm is at a singularity.
-        """
+    def rates(self, q: Joints, omega: Vector) -> np.ndarray:
+        """Return the least joint rates [rad/s] at which the tool turns with omega in place; BadValue if singular."""
         found = least_norm(self.jacobian(q), np.array((0.0, 0.0, 0.0, *omega)))
         if found is None:
             raise BadValue(f"{self.arm.name} is singular at q = {list(map(float, q))}; turn it from another pose")
         return found
 
-    def start(
-        self,
-        name: str,
-        q: Sequence[float] | np.ndarray,
-        goal: Quat,
-        qdot: Sequence[float] | np.ndarray | None = None,
-        **more: tuple[float, ...],
-    ) -> Start:
+    def start(self, name: str, q: Joints, goal: Quat, qdot: Joints | None = None, **more: tuple[float, ...]) -> Start:
         """Return a start at these joint angles with MuJoCo's orientation and angular velocity; more: of its fields."""
         angles = tuple(map(float, q))
         rates = tuple(map(float, qdot)) if qdot is not None else (0.0,) * len(angles)

@@ -1,14 +1,7 @@
 """The judge's linear algebra, by MuJoCo's Cholesky factors: the same bits whichever BLAS numpy came with.
 
-    least_norm(A, b)           x = A^T (A A^T)^-1 b, the shortest x with A x = b
-    damped(A, b, lambda_)      x = (A^T A + lambda I)^-1 A^T b
-    of_lost_rank(A, u, b)      A^+ b where A^T u = 0
-    smallest(A), largest(A)    singular values at the ends, with their left and right singular vectors
-
-Start sets are found by searches, and numpy's solve, lstsq and svd round, and choose signs, as the kernel of the machine
-does: starts, and with them outcomes, would be other ones on another processor. MuJoCo's functions are compiled once,
-for all processors alike.
-
+Start sets are found by searches. With numpy's solve, lstsq and svd, which round and choose signs as the kernel of the
+machine does, they would be other ones on another processor.
 Squaring A costs half of the digits. `least_norm` gets them back by iterative refinement; the others serve Newton's
 method, whose steps may be inexact by eps cond(A)^2 without moving what it converges to.
 
@@ -33,7 +26,7 @@ WEIGHT = 0.7
 
 
 def least_norm(A: np.ndarray, b: np.ndarray) -> np.ndarray | None:
-    """Return the shortest x with A x = b. A: m x n, m <= n; None if its rows are dependent to rounding."""
+    """Return A^T (A A^T)^-1 b, the shortest x with A x = b; A is m x n, m <= n. None if rows are dependent."""
     gram = _gram(A)
     if mujoco.mju_cholFactor(gram, PIVOT) < len(A):
         return None
@@ -44,7 +37,7 @@ def least_norm(A: np.ndarray, b: np.ndarray) -> np.ndarray | None:
 
 
 def damped(A: np.ndarray, b: np.ndarray, lambda_: float) -> np.ndarray:
-    """(A^T A + lambda I)^-1 A^T b, for lambda > 0."""
+    """Return (A^T A + lambda I)^-1 A^T b, for lambda > 0."""
     gram = _gram(A.T)
     gram.flat[:: len(gram) + 1] += lambda_
     mujoco.mju_cholFactor(gram, PIVOT)
@@ -52,7 +45,7 @@ def damped(A: np.ndarray, b: np.ndarray, lambda_: float) -> np.ndarray:
 
 
 def of_lost_rank(A: np.ndarray, u: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Return a^+ b where A has lost one rank, u being the unit vector with A^T u = 0, and b . u = 0.
+    """Return A^+ b where A has lost one rank, u being the unit vector with A^T u = 0, and b . u = 0.
 
     A A^T + u u^T is regular, and on all that A reaches it is A A^T.
     """
@@ -100,7 +93,7 @@ def signed(v: np.ndarray) -> np.ndarray:
 
 
 def product(A: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """Return a v."""
+    """Return A v."""
     result = np.empty(len(A))
     mujoco.mju_mulMatVec(result, np.ascontiguousarray(A), np.ascontiguousarray(v))
     return result
@@ -114,7 +107,7 @@ def transposed_product(A: np.ndarray, v: np.ndarray) -> np.ndarray:
 
 
 def _gram(A: np.ndarray) -> np.ndarray:
-    """Return a A^T."""
+    """Return A A^T."""
     A, result = np.ascontiguousarray(A), np.empty((len(A), len(A)))
     mujoco.mju_mulMatMatT(result, A, A)
     return result

@@ -5,7 +5,6 @@
     alpha_d = pddot z + qddot exp(p [z]x) x + pdot qdot exp(p [z]x) y
 
 The two axes z and exp(p [z]x) x stay at right angles: |omega_d|^2 = pdot^2 + qdot^2 <= amplitude^2, reached at t = 0.
-Plain functions of numbers, so that the slow loop calls them and the compiled loops compile them.
 """
 
 import math
@@ -15,11 +14,7 @@ NO_FEEDFORWARD, RATE, RATE_AND_ACCELERATION = range(3)
 
 
 def reference_column(time, amplitude, column):
-    """Return a column of R_d at a time, from what it is at time 0 (base frame).
-
-    Args:
-        time [s]; amplitude: peak rate [rad/s]; column: three numbers.
-    """
+    """Return a column of R_d at a time [s], from the column at time 0, base frame; amplitude: peak rate [rad/s]."""
     peak = amplitude * math.sqrt(0.5)
     p, q = peak * math.sin(2.0 * time) / 2.0, peak * math.sin(3.1 * time) / 3.1
     cos_p, sin_p, cos_q, sin_q = math.cos(p), math.sin(p), math.cos(q), math.sin(q)

@@ -1,8 +1,5 @@
 """Paths of a tool's orientation: along a geodesic, and along a straight line of Z-Y-X angles (Murphy 1988, 2.7).
 
-The first is what a regulator takes that turns about the axis of the error; the second what a regulator takes that
-makes alpha, beta and gamma three independent double integrators with one pair of gains.
-
 Limitations: Z-Y-X angles on the pole beta = +-pi/2; a straight line between principal values does not cross +-pi.
 """
 

@@ -15,11 +15,9 @@ BLOCK = 16_384
 
 
 def block(number: int, seed: int, most_speed: float = 0.0, least_speed: float = 0.0) -> tuple[np.ndarray, np.ndarray]:
-    """Orientations (w, x, y, z), shape (BLOCK, 4), and angular velocities [rad/s], shape (BLOCK, 3).
+    """Return orientations wxyz, shape (BLOCK, 4), and angular velocities [rad/s], shape (BLOCK, 3), of one block.
 
-    Args:
-        number: of the block, from 0. seed: of all blocks. least_speed, most_speed: speeds are uniform between them
-            [rad/s], directions uniform on the sphere.
+    Speeds are uniform from least_speed to most_speed [rad/s], directions uniform on the sphere.
     """
     random = np.random.Generator(np.random.Philox(key=np.array([seed, number], dtype=np.uint64)))
     (a, a_squared), (b, b_squared), (c, c_squared) = (_in_disc(random) for _ in range(3))

@@ -14,7 +14,7 @@ from tasks.base import Quat, Vector
 
 
 def multiply(p: Quat, q: Quat) -> Quat:
-    """Hamilton product p * q: first q, then p (base frame)."""
+    """Return the Hamilton product p * q: first q, then p (base frame)."""
     return (
         p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3],
         p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2],
@@ -26,8 +26,7 @@ def multiply(p: Quat, q: Quat) -> Quat:
 def columns(q: Quat) -> tuple[Vector, Vector, Vector]:
     """Return the columns n, o, a of R(q), by the formula and in the order of operations of MuJoCo's mju_quat2Mat.
 
-    Bit-identical to the site matrix of a free body that has this orientation, so that "exactly on the pole"
-    can be decided here.
+    It is bit for bit the site matrix of a free body of this orientation, so that "exactly on the pole" is decided here.
     """
     w, x, y, z = q
     ww, xx, yy, zz = w * w, x * x, y * y, z * z
@@ -68,8 +67,7 @@ def short_of_180_degrees(axis: Vector, delta: float) -> Quat:
     """Rotation by pi - delta [rad] about an axis.
 
     w = sin(delta/2) has full relative precision for any delta, which pi - delta rounded to a double has not;
-    delta = 0 gives w = 0, an exact 180° rotation: a symmetric R, whose rotation-matrix error (2.12) is exactly
-    zero.
+    delta = 0 gives w = 0 and a symmetric R, whose rotation-matrix error (2.12) is exactly zero.
     """
     x, y, z = unit(axis)
     s = math.cos(delta / 2.0)
@@ -90,16 +88,12 @@ SMALLER_PLACES = 256
 
 
 def on_pole(sign: int, twist: float) -> Quat:
-    """Orientation with beta = sign pi/2 and n = (0, 0, -sign), where B is singular (Murphy 1988, 2.8).
+    """Return the orientation with beta = sign pi/2 and n = (0, 0, -sign), where B is singular (Murphy 1988, 2.8).
 
-    The pattern (c, -sign s, sign c, s) / sqrt(2), c and s of twist/2, makes n_y vanish exactly; n_x vanishes
-    for those doubles next to it for which (w^2 + x^2) - y^2 - z^2 rounds to 0. Of these the nearest with
-    |n_z| = 1 is taken, or else |n_z| nearest 1. If c or s is zero there is none, since no double
-    squares to exactly 1/2: sqrt(1/2) gives n_z = -sign (1 + 2.2e-16).
-
-    Args:
-        sign: +1 or -1.
-        twist: alpha - gamma at +pi/2, alpha + gamma at -pi/2 [rad]: all that is determined there.
+    twist [rad]: alpha - gamma at +pi/2, alpha + gamma at -pi/2, all that is determined there. The pattern
+    (c, -sign s, sign c, s) / sqrt(2), c and s of twist/2, makes n_y vanish exactly; n_x vanishes for those doubles next
+    to it for which (w^2 + x^2) - y^2 - z^2 rounds to 0. Of these the nearest with |n_z| = 1 is taken, or else |n_z|
+    nearest 1. If c or s is zero there is none: sqrt(1/2) gives n_z = -sign (1 + 2.2e-16).
 
     Limitations: ArithmeticError for some twists within 0.2 rad of 0 or +-pi but not on them.
     """

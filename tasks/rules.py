@@ -1,9 +1,7 @@
 """The numbers of the rules, each with its derivation; verdict.py applies them.
 
-Settling time: the first time after which the angle stays inside the band to the horizon. The band is
-`tolerance` times the initial angle, or `floor_rad` where the start is at the goal. Settled is at rest: for the last
-`hold_s` the angle has been inside the band, and |omega| at most what crosses half the band in `hold_s`. A swing through
-the goal at the horizon is no settling, and a body that shakes inside the band is not at rest.
+Settling time: the first time after which the angle stays inside the band to the horizon. Settled is at rest: for the
+last `hold_s` the angle has been inside the band, and |omega| at most what crosses half the band in `hold_s`.
 """
 
 from __future__ import annotations
@@ -13,7 +11,7 @@ from typing import NamedTuple
 
 
 def band_rad(angle0: float, tolerance: float, floor_rad: float, at_goal_rad: float) -> float:
-    """Return the half width of the settling band [rad], by numbers of the rules: `Rules.band_rad`."""
+    """Return the half width of the settling band [rad]."""
     return floor_rad if angle0 < at_goal_rad else tolerance * angle0
 
 
@@ -28,9 +26,8 @@ class Rules(NamedTuple):
     # the rotation below which 1 - theta^2/2 rounds to 1 and the diagonal of R no longer changes.
     at_goal_rad: float = 1e-6
     # How long a body must be at rest to be settled; an engine may stop early once the angle has stayed under a
-    # hundredth of the band for as long. The gains
-    # (100, 20) put a double pole at -10/s: 0.25 s is 2.5 of its time constants, too long for a response that
-    # only crosses the goal on its way, and short beside its settling time of 0.58 s.
+    # hundredth of the band for as long. The gains (100, 20) put a double pole at -10/s: 0.25 s is 2.5 of its time
+    # constants, too long for a response that only crosses the goal, and short beside its settling time of 0.58 s.
     hold_s: float = 0.25
     # |u| beyond any actuator: held for a 1 ms tick it adds 1,000 rad/s, a whole radian of motion in the next
     # tick. Spring and damping of the paper's gains stay under 100 sqrt(3) pi + 20 * 20 = 944 rad/s^2.
@@ -38,11 +35,9 @@ class Rules(NamedTuple):
     # |(tau_i / rated_i)| of an arm's torques, each over its motor's rated torque: beyond any motor. The gains
     # (100, 20) ask for up to 100 pi rad/s^2 of the tool; with the condition number of 30 that a clear path may have
     # a heavily geared wrist (the Jaco's 2 kg m^2 behind 6.8 N m) then takes some thousand times its rated torque, and
-    # only singularities ask for ten times that. The paper's motors have no limits; what an episode asked for is a
-    # column, peak_torque_ratio.
+    # only singularities ask for ten times that.
     torque_limit: float = 1e4
-    # |omega| that turns 10 rad in a 1 ms tick, more than once around between two samples: the orientation can
-    # no longer be followed.
+    # |omega| that turns 10 rad in a 1 ms tick: the orientation can no longer be followed.
     speed_limit: float = 1e4
     # At rest: in a horizon of 20 s a body of this speed moves no further than floor_rad ...
     rest_speed: float = 1e-3

@@ -69,7 +69,6 @@ COORDINATES = {
 }
 """The numbers of a situation, in order."""
 
-
 _record: Any = namedtuple  # which a type checker cannot follow
 _VALUES: Any = _record("_VALUES", COORDINATES, defaults=[one.nominal for one in COORDINATES.values()])
 
@@ -136,5 +135,5 @@ def read_situation(word: str) -> Situation:
 
 
 def rounded(values: Iterable[float]) -> Situation:
-    """Return a situation with numbers of three digits, as its word has them."""
+    """Return a situation with numbers of three digits."""
     return Situation(*(float(f"{value:.3g}") for value in values))

@@ -32,11 +32,7 @@ def load(
     task_kwargs: Mapping[str, Any] | None = None,
     environment_kwargs: Mapping[str, Any] | None = None,
 ) -> Environment:
-    """Return the environment of a task.
-
-    Args:
-        task_kwargs: start, vary. environment_kwargs: time_limit [s], control_timestep [s], integrator; see tasks.load.
-    """
+    """Return the environment of a task; words of `tasks.load` and of dm_control are taken in either of the two."""
     given = {
         WORDS.get(name, name): value for name, value in {**(task_kwargs or {}), **(environment_kwargs or {})}.items()
     }

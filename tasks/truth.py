@@ -1,9 +1,8 @@
 """The judge's measure of the orientation error, in plain `math` on scalars.
 
-The error is the angle theta of the rotation conj(goal) * quat, which takes the desired body frame to the
-actual one. It is computed from MuJoCo's quaternion and not from a matrix: the vector part, |v| =
-sin(theta/2), keeps its digits at theta = 0, and the scalar part, |s| = cos(theta/2), keeps them at theta =
-pi. An arc cosine of the trace loses half of its digits at both ends.
+The error is the angle theta of the rotation conj(goal) * quat. It is computed from MuJoCo's quaternion and not from a
+matrix: the vector part, |v| = sin(theta/2), keeps its digits at theta = 0, and the scalar part, |s| = cos(theta/2),
+keeps them at theta = pi. An arc cosine of the trace loses half of its digits at both ends.
 
 The two functions call no other function of ours, so that compiled loops compile them as they stand.
 """
@@ -14,16 +13,10 @@ import math
 
 
 def haversine(quat, goal):
-    """Haversine sin^2(theta/2) of the angle theta between two orientations.
+    """Return sin^2(theta/2), theta the angle between two orientations wxyz of any norm but zero.
 
     |v|^2 / (|v|^2 + s^2) with s, v the parts of conj(goal) * quat: free of square roots, monotonic in theta
     on [0, pi], and indifferent to a common scale or the sign of either quaternion.
-
-    Args:
-        quat, goal: (w, x, y, z), not zero.
-
-    Returns:
-        a number from 0 (same orientation) to 1 (half a turn apart).
     """
     s = goal[0] * quat[0] + goal[1] * quat[1] + goal[2] * quat[2] + goal[3] * quat[3]
     x = goal[0] * quat[1] - goal[1] * quat[0] - goal[2] * quat[3] + goal[3] * quat[2]
@@ -34,15 +27,9 @@ def haversine(quat, goal):
 
 
 def angle(quat, goal):
-    """Angle between two orientations, accurate to a few 1e-16 rad on all of [0, pi].
+    """Return the angle between two orientations wxyz of any norm but zero, right to a few 1e-16 rad on all of [0, pi].
 
     theta = 2 atan2(|v|, |s|) with s, v the parts of conj(goal) * quat.
-
-    Args:
-        quat, goal: (w, x, y, z), of equal or any norm but zero.
-
-    Returns:
-        the angle between the two orientations [rad].
     """
     s = goal[0] * quat[0] + goal[1] * quat[1] + goal[2] * quat[2] + goal[3] * quat[3]
     x = goal[0] * quat[1] - goal[1] * quat[0] - goal[2] * quat[3] + goal[3] * quat[2]

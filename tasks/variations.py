@@ -1,18 +1,14 @@
 """Variations: how the plant differs from the ideal arm, and from the arm that its controller computes with.
 
     nominal       the arm as it is: motors cut at the rated torque, and at the rate of change that its file may state;
-                  stops at the ends of joint ranges, the hand of the file (<numeric name="hand" data="m x y z Ixx Iyy
-                  Izz"/>) and its usual motor inertia
+                  stops at the ends of joint ranges, the hand and the usual motor inertia of the file
     ideal-motors  the paper's assumption: no torque is too large; no stops, no hand, motor inertia as in the file
-    motors-low, motors-high  the nominal arm with the least and the greatest motor inertia that its file states
-    motors-slow, motors-late  the nominal arm, its torques with a first-order lag of 5 ms (32 Hz), or 5 ms late
-    mass-s        D -> s D, and gravity and Coriolis torques with it, s in 0.70, 0.85, 1.15, 1.30
+    mass-s        D -> s D, and gravity and Coriolis torques with it
     links-k       D of links whose inertial parameters are s_i times the model's, s_i in [0.7, 1.3], drawn with seed k
-    friction-p    dry friction in every joint, p per cent of its rated torque
 
-The controller knows hand and motors. In the last three it computes with the nominal arm, of which they differ.
-A factor multiplies the mass and inertia of a link and the reflected motor inertia of its joint; centres of mass and
-viscous damping stay.
+The controller knows hand and motors. In mass-s, links-k and friction-p it computes with the nominal arm. A factor
+multiplies the mass and inertia of a link and the reflected motor inertia of its joint; centres of mass and viscous
+damping stay.
 
 Dry friction is MuJoCo's frictionloss: up to that torque a joint resists motion. Its solver softens the constraint: a
 joint of inertia m that should stay where it is creeps under a torque F at
@@ -78,7 +74,7 @@ def _scale_links(seed: int, model: mujoco.MjModel, rated: Sequence[float]) -> No
 
 
 def _scale(model: mujoco.MjModel, factors: list[float]) -> None:
-    """One factor a joint, for its reflected motor inertia and all that moves with it and not with the next one."""
+    """Scale by a factor a joint its reflected motor inertia and all that moves with it and not with the next one."""
     import mujoco
 
     for i, factor in enumerate(factors):

@@ -1,7 +1,6 @@
-"""The judge at work, tick by tick: has it settled, has it failed, how did it end.
+"""The judge at work, tick by tick, for slow and compiled loops alike: has it settled, has it failed, how did it end.
 
-Plain functions of numbers, so that the slow loop calls them and the compiled loops compile them: one judge
-for every engine. The angle is seen as haversine = sin^2(theta/2), which is monotone in theta and exact near 0.
+The angle is seen as haversine = sin^2(theta/2), which is monotone in theta and exact near 0.
 """
 
 from typing import NamedTuple
@@ -48,10 +47,7 @@ def watched(watch, tick, haversine, band, speed_squared, slow_squared):
 
 
 def check_command(squared, limit_squared):
-    """Return GOING, or why a command of this squared length [rad^2/s^4] cannot be applied: too large or not finite.
-
-    Not finite is judged of the square, which overflows from 1.3e154 rad/s^2 on.
-    """
+    """Return GOING, SATURATED for too large a command, or SINGULAR if its squared length is not finite [rad^2/s^4]."""
     if squared <= limit_squared:
         return GOING
     return SATURATED if squared - squared == 0.0 else SINGULAR

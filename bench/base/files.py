@@ -1,8 +1,4 @@
-"""Write and read files of results: atomic writes; no symlinks, and no JSON with terminal escape sequences.
-
-A file appears by rename after fsync, and its folder is synced after the rename: a process killed at any moment, or a
-machine without power, leaves whole files only, and each that was finished.
-"""
+"""Write files of results whole or not at all, whatever kills the process; read no links, and no terminal escapes."""
 
 import errno
 import json
@@ -17,8 +13,7 @@ from bench.base.errors import BadResults
 def write_atomically(path: Path, write: Callable[..., object]) -> None:
     """Call write(temporary path), then put the file in its place; when this returns, it outlives a loss of power.
 
-    Errors:
-        BadResults: the folder cannot be made or written, or the disk is full; no temporary file stays.
+    BadResults if the folder cannot be made or written, or the disk is full; no temporary file stays.
     """
     path = Path(path)
     try:
@@ -54,7 +49,7 @@ def refused(path: Path, error: OSError) -> BadResults:
 
 
 def make_folder(folder: Path) -> None:
-    """Return the folder and those above it, each known to the one that holds it before anything is put there."""
+    """Make the folder and those above it, each known to the one that holds it before anything is put there."""
     new = [one for one in (folder, *folder.parents) if not one.exists()]
     folder.mkdir(parents=True, exist_ok=True)
     for one in new:
@@ -76,7 +71,7 @@ def is_leftover(path: Path) -> bool:
 
 
 def write_json(path: Path, content: dict) -> None:
-    """Return a JSON file, whole or not at all."""
+    """Write a JSON file, whole or not at all."""
     text = json.dumps(content, indent=1, sort_keys=True) + "\n"
     write_atomically(path, lambda temporary: Path(temporary).write_text(text, encoding="utf-8"))
 
@@ -86,11 +81,7 @@ MOST_JSON_BYTES = 200_000_000
 
 
 def refuse_link(path: Path) -> None:
-    """Return what lies in a results folder lies there itself.
-
-    Errors:
-        BadResults: the path is a symbolic link.
-    """
+    """Raise BadResults if the path is a symbolic link."""
     if path.is_symlink():
         raise BadResults(
             f"{path}: it is a link, and a results folder holds files of its own; put what it leads to in its place, "
@@ -99,11 +90,7 @@ def refuse_link(path: Path) -> None:
 
 
 def read_json(path: Path, most_bytes: int = MOST_JSON_BYTES) -> dict:
-    """Return a JSON file of ours.
-
-    Errors:
-        BadResults: missing, a link, too large, no object, or with texts that a terminal would obey.
-    """
+    """Return a JSON object of ours; BadResults if it is missing, a link, too large, or would steer a terminal."""
     path = Path(path)
     refuse_link(path)
     try:

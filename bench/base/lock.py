@@ -1,7 +1,4 @@
-"""One run at a time in a folder: a lock that the kernel holds on the folder itself until the process ends.
-
-No file is left behind, however a run ends. Some network file systems lock no folder; there a run goes on without.
-"""
+"""Keep a folder to one run at a time: the kernel locks the folder itself until the process ends."""
 
 import contextlib
 import fcntl
@@ -15,10 +12,9 @@ from bench.base.errors import BadResults
 
 @contextlib.contextmanager
 def held(folder: Path, waits: bool = False, flock: Callable = fcntl.flock) -> Iterator[None]:
-    """Hold a folder that exists; where it cannot be locked, say so and go on; `waits`: for another that holds it.
+    """Hold a folder; wait for another process that holds it, or raise BadResults.
 
-    Errors:
-        BadResults: another process holds it, and this one does not wait.
+    Some network file systems lock no folder: this is printed, and the run goes on.
     """
     handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)  # not inherited by the programs that a run starts
     try:

@@ -28,7 +28,6 @@ JUDGE = ("tasks/rules.py", "tasks/verdict.py", "tasks/truth.py", "tasks/cause.py
 """What decides how a given motion is judged."""
 VERSIONED = ("mujoco", "dm-control", "numpy", "scipy", "numba", "llvmlite", "pandas", "pyarrow")
 
-
 TYPES: dict[str, type] = {
     **dict.fromkeys(("suite", "command", "commit", "judge", "platform", "cpu", "vectors", "finished"), str),
     **dict.fromkeys(("episodes", "trials", "troubled", "seed"), int),
@@ -40,11 +39,7 @@ MOST_SIGNS = 200
 
 
 def read_provenance(folder: Path, needed: Iterable[str] = ()) -> dict:
-    """Return provenance.json of a run, which may come from anywhere.
-
-    Errors:
-        BadResults: see `read_json`; it lacks something needed; a value of another type, or too long to be shown.
-    """
+    """Return provenance.json of a run, which may come from anywhere; BadResults if it is not as a run writes it."""
     path = folder / "provenance.json"
     found = read_json(path)
     if lacking := [name for name in needed if name not in found]:
@@ -73,16 +68,13 @@ def describe_project() -> dict[str, Any]:
 
 @functools.cache
 def source_digest() -> str:
-    """Sixteen hex digits over every source that results depend on, and the versions of what they are computed with.
-
-    Of the sources as they were when first asked for, which is when the engines are imported.
-    """
+    """Return sixteen hex digits over every source that results depend on, as first read, and versions of packages."""
     return _digest(DECIDING, repr(sorted(versions().items())))
 
 
 @functools.cache
 def everything_digest() -> str:
-    """Sixteen hex digits over every source, the versions of what they use, and how this processor rounds."""
+    """Return sixteen hex digits over every source, the versions of what they use, and how this processor rounds."""
     settings = [os.environ.get(name) for name in ARITHMETIC]
     return _digest(("bench", "tasks"), repr((sorted(versions().items()), vectors(), settings)))
 
@@ -99,10 +91,10 @@ def _digest(names: tuple[str, ...], more: str = "") -> str:
 
 
 def kept_in(variable: str, usual: str, instead: Path = WORKPLACE / ".home") -> Path:
-    """Our folder where a variable says, or at the usual place in HOME; else in .home of the checkout, as `make` does.
+    """Return our folder where a variable says, or at the usual place in HOME; else in .home of the checkout.
 
-    Where none of them can be written, as under `docker run --user`, one in the temporary folder that is this user's
-    alone, for compiled code lies in it.
+    Where none of them can be written, as under `docker run --user`, it is this user's own temporary folder, for
+    compiled code lies in it.
     """
     named = os.environ.get(variable) or os.path.join(os.path.expanduser("~"), usual)
     for path in (Path(named), instead / usual):
@@ -121,7 +113,7 @@ def kept_in(variable: str, usual: str, instead: Path = WORKPLACE / ".home") -> P
 
 
 def versions() -> dict[str, str]:
-    """Versions of Python and of the packages that results depend on."""
+    """Return the versions of Python and of the packages that results depend on."""
     return {"python": platform.python_version(), **{name: importlib.metadata.version(name) for name in VERSIONED}}
 
 
@@ -160,7 +152,7 @@ def machine_key() -> str:
 
 
 def commit() -> dict:
-    """Commit of the checkout and whether it had changes; empty outside git."""
+    """Return the commit of the checkout and whether it had changes; empty outside git."""
     try:
         head = _git("rev-parse", "HEAD")
         return {"commit": head, "dirty": bool(_git("status", "--porcelain", "--", "bench", "tasks"))}
@@ -184,10 +176,7 @@ def _without_folders(word: str) -> str:
 
 
 def describe() -> dict:
-    """Everything about this moment that a reader may want to know.
-
-    lock: SHA-256 of requirements/base.txt; empty where the package lies without it.
-    """
+    """Describe this moment; lock: SHA-256 of requirements/base.txt, empty where the package lies without it."""
     lock = ROOT / "requirements" / "base.txt"
     return {
         **commit(),

@@ -2,9 +2,7 @@
 
 Joint angles are spread around home, axes over the sphere. A candidate is kept if the tool can be turned in place both
 along the geodesic and along the straight line in Z-Y-X angles, the paths of all laws here but for their transients,
-and all of both is clear (clearance.py): condition number of J at most CONDITION, joints RANGE inside their ranges,
-|cos beta| at least COS_BETA, and the geodesic's alpha and gamma WRAP away from +-pi (a straight line between
-principal values crosses no jump).
+and both are clear (clearance.py; a straight line between principal values crosses no jump).
 
 Angles are stratified, from a van der Corput sequence. An angle for which TRIES candidates in turn are refused is
 shortened by a fifth, until there is one: an arm that cannot turn far has small turns in place of large ones.
@@ -31,8 +29,7 @@ SMALLEST, LARGEST = 10.0, 150.0  # [degrees], so that the names of the strata ar
 AROUND_HOME = 1.0
 TRIES = 150
 SHORTER = 0.8
-# Shortenings at most: the fifth of a degree that is left of 150 degrees then is no turn to test with.
-SHORTENINGS = 30
+SHORTENINGS = 30  # at most: the fifth of a degree that is left of 150 degrees then is no turn to test with
 
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:

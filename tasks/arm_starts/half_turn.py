@@ -5,9 +5,9 @@ and z and AXES_DRAWN drawn ones; for each the first pose around home is taken fr
 180° rotation on a clear joint path (clearance.py), about the axis or against it. Joint angles are drawn from further
 around home than elsewhere, since half a turn about a given axis is much to ask.
 
-How exact: the goal is (0, axis) times the quaternion of the start, so that the judge's haversine is at least 1 - 1e-15
-and its angle math.pi. R is not exactly that of 180° bit for bit, as it is on the free body: on an arm the error
-(2.12) of about 1e-16 is what rounding makes of zero, and any law drifts away from there in time.
+The goal is (0, axis) times the quaternion of the start, so that the judge's haversine is at least 1 - 1e-15 and its
+angle math.pi. Bit for bit R is not that of 180°, as it is on the free body: rounding leaves an error (2.12) of about
+1e-16, and any law drifts away from there in time.
 """
 
 from __future__ import annotations
@@ -29,28 +29,24 @@ AXES: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0
 AXES_DRAWN = 3
 DECADES = (1, 4, 8)
 SIZE = (len(AXES) + AXES_DRAWN) * (1 + len(DECADES))
-# [rad]: a quarter turn either way of each joint.
-AROUND_HOME = math.pi / 2.0
-# Candidates of an axis, both ways round; our arms refuse up to twelve walks for each that does.
-TRIES = 300
+AROUND_HOME = math.pi / 2.0  # [rad]
+TRIES = 300  # candidates of an axis, both ways round; our arms refuse up to twelve walks for each that does
 
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:
-    """Exact 180° rotations about every axis first, then those at 0.1 rad, and so on."""
-    model = kinematics(arm)
+    """Return exact 180° rotations about every axis first, then those at 0.1 rad, and so on."""
+    model, starts = kinematics(arm), []
     axes = AXES | {f"drawn{i}": direction(*point) for i, point in enumerate(halton(AXES_DRAWN, 2, seed))}
-    found = {name: _pose(model, axis, seed) for name, axis in axes.items()}
-    return [
-        model.start(
-            f"half-turn-{name}-{word}", q, normal(multiply(short_of_180_degrees(axis, delta), model.pose(q)[1]))
-        )
-        for word, delta in (("exact", 0.0), *((f"k{k}", 10.0**-k) for k in DECADES))
-        for name, (q, axis) in ((name, one) for name, one in found.items() if one)
-    ]
+    found = [(name, *pose) for name, axis in axes.items() if (pose := _pose(model, axis, seed))]
+    for word, delta in (("exact", 0.0), *((f"k{k}", 10.0**-k) for k in DECADES)):
+        for name, q, axis in found:
+            goal = normal(multiply(short_of_180_degrees(axis, delta), model.pose(q)[1]))
+            starts.append(model.start(f"half-turn-{name}-{word}", q, goal))
+    return starts
 
 
 def _pose(model: Kinematics, axis: Vector, seed: int) -> tuple[np.ndarray, Vector] | None:
-    """Joint angles from which half a turn about the axis, or against it, is clear: (q, axis)."""
+    """Return joint angles from which half a turn about the axis, or against it, is clear: (q, axis)."""
     candidates = around_home(model.arm, seed, AROUND_HOME)
     for _ in range(TRIES):
         q, _ = next(candidates)

@@ -5,11 +5,9 @@ there; or the middle is tilted by 10^-k rad towards d, and then no point of the 
 goal are HALF_ANGLE before and after the middle, where |cos beta| = sin(HALF_ANGLE) = 0.64. All of the joint path is
 clear (clearance.py): the arm can do this with a geometric Jacobian, and what fails there is the representation.
 
-How exact: the axis and the goal are computed from the start's own quaternion so that the geodesic's middle is the
-quaternion of the pole, which differs from one by rounding alone, |n_z| >= 1 - 1e-15. What the arm does on its way is
-another matter: the integrator and the sampling decide how near it comes.
-
-Poses are found around home: n is turned upright the shortest way, d points anywhere.
+The axis and the goal are computed from the start's own quaternion so that the geodesic's middle is the quaternion of
+the pole to rounding, |n_z| >= 1 - 1e-15. Integrator and sampling decide how near the arm comes. Poses are found around
+home: n is turned upright the shortest way, d points anywhere.
 """
 
 from __future__ import annotations
@@ -28,11 +26,9 @@ from tasks.paths import to_vertical, turned
 HALF_ANGLE = math.radians(40.0)
 POLES = {"plus": 1, "minus": -1}
 DECADES = range(1, 8)
-# Poses for each pole.
-POSES = 2
+POSES = 2  # for each pole
 SIZE = len(POLES) * POSES * (1 + len(DECADES))
-# Candidates of a pose; our arms refuse up to six for each that does.
-TRIES = 200
+TRIES = 200  # candidates of a pose; our arms refuse up to six for each that does
 
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:

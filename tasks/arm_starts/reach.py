@@ -1,10 +1,8 @@
 """Moves of the tool to another pose in good condition: by 10 cm at least, and turned by 10 to 150 degrees.
 
 Start and goal are drawn around home. A pair is kept if the tool can go straight from one position to the other while
-it turns along the geodesic, evenly both, and all of that is clear (clearance.py): condition number of J at most
-CONDITION, joints RANGE inside their ranges, |cos beta| at least COS_BETA, alpha and gamma WRAP away from +-pi. Where
-such a path ends the goal's joint angles are (they need not be those that were drawn), and the goal is MuJoCo's pose of
-them, bit for bit.
+it turns along the geodesic, evenly both, and all of that is clear (clearance.py). The goal's joint angles are those at
+the end of the path, which need not be those that were drawn, and the goal is MuJoCo's pose of them, bit for bit.
 """
 
 from __future__ import annotations
@@ -28,8 +26,7 @@ SIZE = 24
 LEAST_WAY, LEAST_TURN, MOST_TURN = 0.1, math.radians(10.0), math.radians(150.0)  # [m], [rad]
 # Points of the way at most so far apart [m]: a joint turns by some 10 degrees in between, at a condition of 10.
 STEP = 0.05
-# Pairs for each start at most.
-TRIES = 1000
+TRIES = 1000  # pairs for each start at most
 OTHER_SEED = 2000
 
 

@@ -15,8 +15,7 @@ from tasks.kinematics import kinematics
 
 SIZE = 24
 SPEED_LIMIT = 5.0  # [rad/s]
-# Moves the seed away from that of `clear`, whose starts these would be otherwise.
-OTHER_SEED = 1000
+OTHER_SEED = 1000  # moves the seed away from that of `clear`, whose starts these would be otherwise
 
 
 def build(arm: Arm, count: int, seed: int) -> list[Start]:

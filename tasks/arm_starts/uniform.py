@@ -1,10 +1,9 @@
 """Joint angles spread evenly over the joint ranges, goals spread evenly over SO(3), at rest.
 
-Neither start nor goal nor the way between them keeps clear of anything: fractions that are counted here are of what
-an arm can be asked, not of what it does well. A joint's range is the file's, or one turn about its middle if it is
-wider or there is none. A goal is kept if the search finds joint angles, in range, at which the tool has the goal's
-orientation at the start's position; it starts from the start's own joints, from home, and from SEEDS more. The first
-that it finds are the goal's. A goal that no search found may still be reachable.
+Nothing keeps clear of anything: fractions are of what an arm can be asked, not of what it does well. A joint's range is
+the file's, or one turn about its middle if it is wider or there is none. A goal is kept if the search finds joint
+angles, in range, at which the tool has the goal's orientation at the start's position, from the start's own joints,
+from home, or from SEEDS more. A goal that no search found may still be reachable.
 """
 
 from __future__ import annotations
@@ -51,7 +50,7 @@ def spread(arm: Arm, point: list[float]) -> np.ndarray:
 
 
 def _reached(model: Kinematics, q: np.ndarray, goal: Quat, seeds: list[np.ndarray]) -> tuple[float, ...]:
-    """Joint angles of the goal, in range, by the first guess that leads to some; empty if none does."""
+    """Return the joint angles of the goal, in range, by the first guess that leads to some; empty if none does."""
     p, _ = model.pose(q)
     found = (model.find(guess, p, goal) for guess in seeds)
     ends = (model.into_range(there) for there in found if there is not None)

@@ -65,7 +65,7 @@ def build(arm: Arm, count: int, seed: int) -> list[Start]:
 
 
 def _families(model: Kinematics, seed: int) -> Iterator[list[Turn]]:
-    """Yield the turns of one singularity after the other, as far as they can all be made."""
+    """Yield the turns of one singularity after the other, if they can all be made."""
     candidates = around_home(model.arm, seed)
     for _ in range(ROUNDS):
         found = [singularity_near(model, next(candidates)[0]) for _ in range(SEARCHED)]

@@ -1,7 +1,4 @@
-"""White noise on the measured orientation: R is turned by a random vector, drawn again each period.
-
-The level is its standard deviation about each axis.
-"""
+"""White noise on the measured orientation: R is turned by a random vector, drawn again each period."""
 
 from tasks.axis import Axis, Field
 

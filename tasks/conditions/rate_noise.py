@@ -1,7 +1,4 @@
-"""White noise on the measured angular velocity, drawn again each period.
-
-The level is its standard deviation about each axis.
-"""
+"""White noise on the measured angular velocity, drawn again each period."""
 
 from tasks.axis import Axis, Field
 

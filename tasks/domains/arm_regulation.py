@@ -3,11 +3,7 @@
     D(q) qddot + fg(q, qdot) = tau,   xdot = J(q) qdot
 
 The command is the motors' torques tau [N m], in joint order. The plant has gravity; it has no contact, no joint
-limits and no torque limits, so that an arm that is driven out of its range shows it in the results and nowhere
-else. The tool is the site `tool` of the arm's file; its goal position is the one at the start unless the start says
-another.
-
-The state: qpos are the joint angles [rad], qvel the joint rates [rad/s].
+limits and no torque limits, so that an arm that is driven out of its range shows it in the results and nowhere else.
 """
 
 from __future__ import annotations

@@ -3,9 +3,7 @@
 Four moments follow each other for equal times, about x, y, -x and -y. The hand complies about x and y, so that it turns
 by some 15 degrees about each and back. A rotation is more than the sum of its parts: held about z or not, what is left
 in the end, and about which axis, is a matter of what was held. To hold omega_z = 0 is no constraint on orientation;
-a square loop of side a then drifts by about a^2.
-
-Source: the holonomy of rotations (Murray, Li, Sastry 1994, chapter 7); Mason 1981 for what is held and what complies.
+a square loop of side a then drifts by about a^2, the holonomy of rotations (Murray, Li, Sastry 1994, chapter 7).
 """
 
 from __future__ import annotations

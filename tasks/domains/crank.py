@@ -8,8 +8,6 @@ instead of the yaw it holds against the hinge.
 The crank begins leaning over by START to one side and is turned to the other. Trials differ in the azimuth of the
 hinge, to which the last joint turns the hand, and in the hand's frame, R = Ry(beta) at the goal; those that differ in
 beta alone are the same mechanics.
-
-Source: Mason 1981, "Compliance and force control for computer controlled manipulators" (turning a crank).
 """
 
 from __future__ import annotations
@@ -21,7 +19,7 @@ import math
 from tasks.arm_model import Arm
 from tasks.contact import ContactTask, Specification, Surroundings, Trial, attribute
 from tasks.contact_rest import HORIZON_S
-from tasks.hand_frames import BETAS, DENSE_BETAS, at, mounts, wrist
+from tasks.hand_frames import BETAS, DENSE_BETAS, UP, at, mounts, wrist
 from tasks.rotations import columns, multiply, zyx
 
 RADIUS = 0.12  # of the crank [m]
@@ -29,8 +27,6 @@ START = math.radians(20.0)  # from upright
 ASIDE, ABOVE = RADIUS * math.sin(START), RADIUS * math.cos(START)  # the handle from the hinge, at the start [m]
 TIP = (0.0, 0.0, 0.12)  # the handle, in the wrist's frame [m]
 SPEED = 0.03  # along the base's x [m/s]
-MOVES_S = 2.5  # until when
-UP = (0.0, 1.0, 0.0, 0.0)  # turns the wrist's frame, which points down, to the scene's, whose z points up
 AZIMUTHS = (60, 105, -75)  # of the hinge [deg]; where it is negative the crank is turned towards -x
 DENSE_AZIMUTHS = (50, 60, 75, 105, 120, 130, -50, -60, -75, -105, -120, -130)
 
@@ -54,7 +50,7 @@ def surroundings(arm: Arm) -> Surroundings:
 
 @functools.cache
 def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
-    """Every hinge that the last joint reaches with every frame of the hand, on a coarse grid or a dense one."""
+    """Return a trial for every hinge that the last joint reaches and frame of the hand, on a coarse or dense grid."""
     grid = itertools.product(DENSE_AZIMUTHS, DENSE_BETAS) if dense else itertools.product(AZIMUTHS, BETAS)
     found = []
     for azimuth, beta in grid:
@@ -63,14 +59,10 @@ def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
             continue
         goal = zyx(0.0, math.radians(beta), 0.0)
         hub = at(arm, q, (TIP[0], TIP[1] + ASIDE, TIP[2] + ABOVE))
-        speed = math.copysign(SPEED, azimuth)
-        specification = Specification(
-            "y, z, about x and y", (1, 0, 0, 0, 0, 1), velocity=(speed, 0.0, 0.0), moves_s=MOVES_S
-        )
-        pose = f"azimuth {azimuth}, beta{beta:+d}"
-        found.append(
-            Trial(pose, pose, specification, q, goal, mounts(arm, q, goal), hub, multiply(wrist(arm, q)[1], UP))
-        )
+        velocity = (math.copysign(SPEED, azimuth), 0.0, 0.0)
+        specification = Specification("y, z, about x and y", (1, 0, 0, 0, 0, 1), velocity=velocity, moves_s=2.5)
+        pose, upright = f"azimuth {azimuth}, beta{beta:+d}", multiply(wrist(arm, q)[1], UP)
+        found.append(Trial(pose, pose, specification, q, goal, mounts(arm, q, goal), hub, upright))
     return tuple(found)
 
 

@@ -3,10 +3,6 @@
 Only one translation complies, and the hand keeps its orientation. So the choice of coordinates should not matter here:
 what a controller loses on this task it does not lose to compliance about the wrong axes. On a plane that rises or
 falls the tip has to move along z, and the damping of what complies costs m_p kc times that speed of the force.
-
-All trials of one plane are the same mechanics; only the hand's frame differs, R = Ry(beta) at the goal.
-
-Source: Raibert and Craig 1981.
 """
 
 from __future__ import annotations
@@ -44,7 +40,7 @@ def surroundings(arm: Arm) -> Surroundings:
 
 @functools.cache
 def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
-    """Every plane with every frame of the hand, on a coarse grid or a dense one."""
+    """Return a trial for every plane and frame of the hand, on a coarse grid or a dense one."""
     x, y, z = at(arm, arm.home, TIP)
 
     def stands(plane: Quat, tilt: float) -> tuple[Specification, Vector, Quat]:

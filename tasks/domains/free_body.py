@@ -10,8 +10,6 @@ command the angular acceleration. Under MuJoCo's Euler integrator one tick is
 
 Its RK4 averages rates of the body frame over a tick and is of second order here, not fourth (one tick errs by
 about dt^3 |omega|^2 |u| / 12), unless the axis stays fixed.
-
-The state: qpos is the quaternion, body to base; qvel is the angular velocity in the *body* frame.
 """
 
 from __future__ import annotations
@@ -44,8 +42,7 @@ def _xml(dt: float, actuators: str) -> str:
     """Return the model with these elements in <actuator>.
 
     The motors' ctrlrange [rad/s^2] is for agents to draw from, and cuts nothing: commands of the paper's gains stay
-    within it (944, tasks/rules.py). The look: a hand with two fingers along a and coloured base axes (red x, green y,
-    blue z), of no mass and touching nothing.
+    within it (944, tasks/rules.py).
     """
     text = Path(__file__).with_suffix(".xml").read_text(encoding="utf-8")
     for word, value in {"TIMESTEP": repr(dt), "ACTUATORS": actuators, "SENSORS": sensor_xml("tool")}.items():
@@ -54,7 +51,7 @@ def _xml(dt: float, actuators: str) -> str:
 
 
 def state(start: Start) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """State of the ball joint: qpos = quat_wxyz, and qvel = R^T omega, in the body frame."""
+    """Return the state of the ball joint: qpos = quat_wxyz, and qvel = R^T omega, in the body frame."""
     return start.quat_wxyz, to_body(start.quat_wxyz, start.omega)
 
 

@@ -6,10 +6,6 @@ so that a peg that jams stands still and does not break; only an impedance's spr
 
 In the frame of the body "scene" the hole's mouth is at z = 0, its axis is z, and the middle of the peg's lower face
 comes to z = -DEPTH if it is all the way in.
-
-All trials of one hole are the same mechanics; only the hand's frame differs, R = Ry(beta) at the goal.
-
-Source: Mason 1981; Whitney 1982, "Quasi-static assembly of compliantly supported rigid parts".
 """
 
 from __future__ import annotations
@@ -22,7 +18,7 @@ from tasks.arm_model import Arm
 from tasks.base import Quat, Vector
 from tasks.contact import ContactTask, Specification, Surroundings, Trial, attribute
 from tasks.contact_rest import HORIZON_S
-from tasks.hand_frames import at, leaning_trials, plus, wrist
+from tasks.hand_frames import UP, at, leaning_trials, plus, wrist
 from tasks.rotations import about, multiply, to_base
 
 PEG = 0.0125  # half its side [m]
@@ -44,7 +40,6 @@ SPECIFICATION = Specification(
 # degrees: by how much the hole leans, and the azimuth of the axis it is turned about
 HOLES = ((2, 90), (4, 30), (8, 0), (8, 120))
 DENSE_HOLES = tuple(itertools.product((2, 4, 6, 8), range(0, 360, 45)))
-UP = (0.0, 1.0, 0.0, 0.0)  # turns the wrist's frame, which points down, so that z points up
 
 
 def surroundings(arm: Arm) -> Surroundings:
@@ -80,7 +75,7 @@ def _box(name: str, size: Vector, pos: Vector, quarters: int, lean: float = 0.0)
 
 @functools.cache
 def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
-    """Every hole with every frame of the hand, on a coarse grid or a dense one."""
+    """Return a trial for every hole and frame of the hand, on a coarse grid or a dense one."""
     upright, tip = multiply(wrist(arm, arm.home)[1], UP), at(arm, arm.home, TIP)
 
     def stands(lean: Quat, tilt: float) -> tuple[Specification, Vector, Quat]:

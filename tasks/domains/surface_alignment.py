@@ -6,10 +6,6 @@ collision routine's. The plate stands as near as it can without touching; the ha
 
 What complies turns the tool about x and y alone. That the yaw about z is held is what Euler angles get wrong: with
 Z-Y-X angles the third axis that complies is the hand's own x, which leans towards z as beta grows.
-
-All trials of one plate are the same mechanics; only the hand's frame differs, R = Ry(beta) at the goal.
-
-Source: Raibert and Craig 1981; Murphy 1988, 3.3.
 """
 
 from __future__ import annotations
@@ -54,23 +50,18 @@ def surroundings(arm: Arm) -> Surroundings:
 
 @functools.cache
 def trials(arm: Arm, dense: bool = False) -> tuple[Trial, ...]:
-    """Every plate with every frame of the hand, on a coarse grid or a dense one."""
-    q = arm.home
+    """Return a trial for every plate and frame of the hand, on a coarse grid or a dense one."""
+    tip = at(arm, arm.home, TIP)
 
     def stands(plate: Quat, tilt: float) -> tuple[Specification, Vector, Quat]:
-        place = _below(arm, q, columns(plate)[2])
-        moves_s = (at(arm, q, TIP)[2] - place[2] + BELOW) / LOWERING
-        return SPECIFICATION._replace(moves_s=moves_s), place, plate
+        normal = columns(plate)[2]
+        sides = columns(wrist(arm, arm.home)[1])[:2]
+        reach = sum(abs(sum(side[i] * normal[i] for i in range(3))) for side in sides) * SIDE / 2
+        x, y, z = tip
+        low = z - (CLEARANCE + reach) / normal[2]  # the lowest corner is CLEARANCE from the plate
+        return SPECIFICATION._replace(moves_s=(z - low + BELOW) / LOWERING), (x, y, low), plate
 
     return leaning_trials(arm, DENSE_PLATES if dense else PLATES, dense, stands)
-
-
-def _below(arm: Arm, q: tuple[float, ...], normal: Vector) -> Vector:
-    """Straight below the face's middle, so low that the lowest corner is CLEARANCE from a plate of this normal."""
-    x, y, z = at(arm, q, TIP)
-    n, o, _ = columns(wrist(arm, q)[1])
-    reach = sum(abs(sum(side[i] * normal[i] for i in range(3))) for side in (n, o)) * SIDE / 2
-    return (x, y, z - (CLEARANCE + reach) / normal[2])
 
 
 TASK = ContactTask(

@@ -5,8 +5,6 @@ One of MOMENTS, as large as `push` says, acts from the first tick on. About axes
 about the others, and with an impedance about all, it comes to rest where the controller's stiffness balances it.
 
 The arm keeps its posture in all trials: only the hand's frame is drawn again, R = Rz(alpha) Ry(beta) Rx(gamma).
-
-Source: Murphy 1988, 3.3 and equations 3.9 to 3.12.
 """
 
 from __future__ import annotations
@@ -47,7 +45,6 @@ SPECIFICATIONS = tuple(
 )
 FEWER_SPECIFICATIONS = (SPECIFICATIONS[0], SPECIFICATIONS[3])
 ONE_AXIS, ABOUT_X = SPECIFICATIONS[:3], SPECIFICATIONS[:1]
-
 
 # Frames of the hand, each with every specification: turns (alpha, gamma) and betas in degrees.
 Grid = tuple[tuple[tuple[int, int], ...], tuple[int, ...], tuple[Specification, ...]]

@@ -2,13 +2,9 @@
 
     |alpha| < pi/2,  |beta| < pi/2,  |gamma| < pi
 
-- grid: a regular grid of cell centres inside;
-- inside: the midpoint of every face, edge and corner of the box moved in by 0.001 and 0.1 rad;
-- on: the same points on the boundary;
-- outside: |alpha| beyond pi/2 by 0.001 to 1.4 rad.
-
-Every orientation has a triple with |beta| <= pi/2 and |gamma| <= pi, so outside the box means |alpha| > pi/2
-and nothing else. On the faces beta = +-pi/2 and gamma = +-pi several ids are one orientation.
+Inside are a regular grid of cell centres, and every corner and middle of a face or edge moved in by 0.001 and 0.1 rad.
+Every orientation has a triple with |beta| <= pi/2 and |gamma| <= pi, so outside the box means |alpha| > pi/2 and
+nothing else. On the faces beta = +-pi/2 and gamma = +-pi several ids are one orientation.
 """
 
 from __future__ import annotations
@@ -28,17 +24,18 @@ OUTSIDE = ((0.0, 0.0), (0.7, -1.5), (-0.7, 2.5), (1.2, 0.5))
 
 
 def build(seed: int) -> list[Start]:
-    """Grid, just inside, on, outside."""
-    return _grid() + [start for depth in DEPTHS for start in _shell("inside", depth)] + _shell("on", 0.0) + _outside()
-
-
-def _grid() -> list[Start]:
-    centres = [
-        [width * ((2 * i + 1) / cells - 1.0) for i in range(cells)]
-        for width, cells in zip(HALF_WIDTHS, GRID, strict=True)
-    ]
-    cells = itertools.product(*(range(n) for n in GRID))
-    return [Start(f"box-grid-{i}{j}{k}", zyx(centres[0][i], centres[1][j], centres[2][k])) for i, j, k in cells]
+    """Return the grid, then the starts just inside, on, and outside the box."""
+    starts = []
+    for cell in itertools.product(*map(range, GRID)):
+        of_each = zip(HALF_WIDTHS, cell, GRID, strict=True)
+        angles = [width * ((2 * i + 1) / cells - 1.0) for width, i, cells in of_each]
+        starts.append(Start("box-grid-" + "".join(map(str, cell)), zyx(*angles)))
+    for word, depth in (*(("inside", depth) for depth in DEPTHS), ("on", 0.0)):
+        starts += _shell(word, depth)
+    for excess, (letter, sign), (beta, gamma) in itertools.product(EXCESSES, (("p", 1), ("m", -1)), OUTSIDE):
+        name = f"box-outside-{letter}{excess}-b{beta}-g{gamma}"
+        starts.append(Start(name, zyx(sign * (math.pi / 2.0 + excess), beta, gamma)))
+    return starts
 
 
 def _shell(word: str, depth: float) -> list[Start]:
@@ -51,18 +48,6 @@ def _shell(word: str, depth: float) -> list[Start]:
             suffix = f"-{depth}" if depth else ""
             starts.append(Start(f"box-{word}-{letters}{suffix}", zyx(*angles)))
     return starts
-
-
-def _outside() -> list[Start]:
-    return [
-        Start(
-            f"box-outside-{letter}{excess}-b{beta}-g{gamma}",
-            zyx(sign * (math.pi / 2.0 + excess), beta, gamma),
-        )
-        for excess in EXCESSES
-        for letter, sign in (("p", 1), ("m", -1))
-        for beta, gamma in OUTSIDE
-    ]
 
 
 STARTS = StartSet(

@@ -1,9 +1,7 @@
 """Goals far from the identity: can a regulator drive to anything but zero (Murphy 1988, section 2.4)?
 
-Directed pairs first: goals on a pole of beta, goals across a jump of atan2, goals half a turn from the
-identity, small steps at distant goals, a start at its goal, and starts half a turn from a distant goal. Then
-pairs drawn uniformly from SO(3) x SO(3), those kept whose goal is more than a quarter turn from the identity
-(82 % of them).
+Directed pairs come first, then pairs drawn uniformly from SO(3) x SO(3), those kept whose goal is more than a quarter
+turn from the identity (82 % of them).
 """
 
 from __future__ import annotations

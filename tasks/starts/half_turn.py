@@ -33,17 +33,14 @@ DECADES = range(13)
 
 
 def build(seed: int) -> list[Start]:
-    """Exact 180° rotations first, then every axis at pi - 1 rad, pi - 0.1 rad, ...; `seed` draws random axes."""
+    """Return exact 180° rotations first, then every axis at pi - 1 rad, pi - 0.1 rad, ...; seed draws random axes."""
     # generic axes, uniform on the sphere: no element is zero and no two are equal
     drawn = np.random.default_rng(seed).normal(size=(RANDOM_AXES, 3)).tolist()
     axes = AXES | {f"random{i}": unit((x, y, z)) for i, (x, y, z) in enumerate(drawn)}
-    exact = [Start(f"half-turn-{name}-exact", short_of_180_degrees(axis, 0.0)) for name, axis in axes.items()]
-    near = [
-        Start(f"half-turn-{name}-k{k:02d}", short_of_180_degrees(axis, 10.0**-k))
-        for k in DECADES
-        for name, axis in axes.items()
-    ]
-    return exact + near
+    starts = [Start(f"half-turn-{name}-exact", short_of_180_degrees(axis, 0.0)) for name, axis in axes.items()]
+    for k in DECADES:
+        starts += [Start(f"half-turn-{name}-k{k:02d}", short_of_180_degrees(v, 10.0**-k)) for name, v in axes.items()]
+    return starts
 
 
 STARTS = StartSet(

@@ -1,9 +1,8 @@
 """One start for each response figure of the paper (Murphy 1988, figures 2.3 to 2.5).
 
-The text gives no initial orientations and the scan no figures: these are ours, chosen to show what each
-figure is said to show. 2.3: the rotation-matrix regulator far from a 180° rotation. 2.4: the linearized Euler
-regulator at angles "much larger than might be expected", inside its range. 2.5: the feedback-linearized
-regulator near the limits of the range on which its response is linear.
+The text gives no initial orientations and the scan no figures: these are ours. 2.3: the rotation-matrix regulator far
+from a 180° rotation. 2.4: the linearized Euler regulator at angles "much larger than might be expected", inside its
+range. 2.5: the feedback-linearized regulator near the limits of the range on which its response is linear.
 """
 
 from __future__ import annotations

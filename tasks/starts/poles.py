@@ -7,6 +7,7 @@ Exact ones have n = (0, 0, -sign) with n_x and n_y exactly zero in MuJoCo's matr
 
 from __future__ import annotations
 
+import itertools
 import math
 
 from tasks.base import Start, StartSet
@@ -30,19 +31,16 @@ PAIRS = ((0.0, 0.0), (0.1, 0.2), (1.0, -0.5), (-2.0, 1.0), (2.5, 2.8))
 
 
 def build(seed: int) -> list[Start]:
-    """Exact poles first, then both poles at every distance."""
-    exact = [
+    """Return exact poles first, then both poles at every distance."""
+    starts = [
         Start(f"pole-{pole}-exact-twist-{name}", on_pole(sign, twist))
         for pole, sign in POLES.items()
         for name, twist in TWISTS.items()
     ]
-    near = [
-        Start(f"pole-{pole}-k{k:02d}-a{alpha}-g{gamma}", zyx(alpha, sign * (math.pi / 2.0 - 10.0**-k), gamma))
-        for k in DECADES
-        for pole, sign in POLES.items()
-        for alpha, gamma in PAIRS
-    ]
-    return exact + near
+    for k, (pole, sign), (alpha, gamma) in itertools.product(DECADES, POLES.items(), PAIRS):
+        angles = (alpha, sign * (math.pi / 2.0 - 10.0**-k), gamma)
+        starts.append(Start(f"pole-{pole}-k{k:02d}-a{alpha}-g{gamma}", zyx(*angles)))
+    return starts
 
 
 STARTS = StartSet("poles", "At and near beta = +-pi/2", len(POLES) * (len(TWISTS) + len(DECADES) * len(PAIRS)), build)

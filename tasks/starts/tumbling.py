@@ -1,8 +1,7 @@
 """Orientations spread over SO(3) with an initial angular velocity of up to 20 rad/s in any direction.
 
-The paper starts at rest. Speeds are uniform on [0, 20] rad/s and directions uniform on the sphere: a quarter
-of the starts is above 15 rad/s, at which the damping Kv omega = 300 rad/s^2 is as large as the greatest
-spring term, 100 pi.
+Speeds are uniform on [0, 20] rad/s and directions uniform on the sphere: a quarter of the starts is above 15 rad/s, at
+which the damping Kv omega = 300 rad/s^2 is as large as the greatest spring term, 100 pi.
 """
 
 from __future__ import annotations

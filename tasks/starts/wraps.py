@@ -7,6 +7,7 @@ differ from 0: with two, the element rounds to about 1e-17.
 
 from __future__ import annotations
 
+import itertools
 import math
 
 from tasks.base import Quat, Start, StartSet
@@ -20,23 +21,17 @@ EXACT = ((0.0, 0.0), (0.4, 0.0), (-0.9, 0.0), (0.0, 0.3), (0.0, -1.5))
 
 
 def build(seed: int) -> list[Start]:
-    """Exact ones first, then both jumps from both sides at every distance."""
-    exact = [
+    """Return exact ones first, then both jumps from both sides at every distance."""
+    starts = [
         Start(f"wrap-{angle}-exact-b{beta}-o{other}", _start(angle, math.pi, beta, other))
         for angle in ("alpha", "gamma")
         for beta, other in EXACT
     ]
-    near = [
-        Start(
-            f"wrap-{angle}-{word}-k{k:02d}-b{beta}-o{other}",
-            _start(angle, sign * (math.pi - 10.0**-k), beta, other),
-        )
-        for k in DECADES
-        for angle in ("alpha", "gamma")
-        for word, sign in SIGNS.items()
-        for beta, other in NEAR
-    ]
-    return exact + near
+    kinds = itertools.product(DECADES, ("alpha", "gamma"), SIGNS.items(), NEAR)
+    for k, angle, (word, sign), (beta, other) in kinds:
+        name = f"wrap-{angle}-{word}-k{k:02d}-b{beta}-o{other}"
+        starts.append(Start(name, _start(angle, sign * (math.pi - 10.0**-k), beta, other)))
+    return starts
 
 
 def _start(angle: str, value: float, beta: float, other: float) -> Quat:

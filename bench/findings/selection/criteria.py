@@ -42,17 +42,12 @@ class Criterion(NamedTuple):
 
     @property
     def sense(self) -> float:
-        """The factor by which less is better."""
+        """Return the factor by which less is better."""
         return -1.0 if self.greater else 1.0
 
 
 LATE_S = 0.02
 """The delay at which laws are compared, the largest [s]."""
-
-
-def of_one_law(measure: Callable[[Tables, str], float]) -> Measure:
-    """Return a measure from a function of one law."""
-    return lambda tables: {name: np.array([measure(tables, name)]) for name in tables.contenders}
 
 
 def over_uniform(column: str) -> Measure:
@@ -72,7 +67,7 @@ def perturbed(axis: str, level: float, column: str) -> Measure:
 
 
 def longest_path(tables: Tables) -> dict[str, np.ndarray]:
-    """Longest path over the geodesic, from uniform starts and 180° rotations."""
+    """Return the longest path over the geodesic, from uniform starts and 180° rotations."""
     half_turns = tables.directed[tables.directed["start_set"] == "half-turn"]
     ways = [by_law(rows, "path_ratio") for rows in (tables.uniform, half_turns)]
     return {name: np.array([np.nanmax(np.concatenate([way[name] for way in ways]))]) for name in ways[0]}
@@ -116,7 +111,7 @@ def _across(one: Contender, axis: np.ndarray) -> float:
 
 
 def on_arms(measure: str) -> Measure:
-    """100 for each episode on arms from uniform starts that passes one of `on_arms.MEASURES`, 0 for the others [%]."""
+    """Return 100 for each episode on arms from uniform starts that passes one of `on_arms.MEASURES`, else 0 [%]."""
 
     def measured(tables: Any) -> Any:
         rows = tables.arms[tables.arms["contender"].isin(tables.contenders)]
@@ -130,8 +125,8 @@ MEASURES: dict[str, Measure] = {
     "lost": lambda tables: {name: np.array([lost.sum()]) for name, lost in by_law(tables.directed, "lost").items()},
     "detour": longest_path,
     **dict.fromkeys(("time", "worst"), over_uniform("settling_time_s")),
-    "tick": of_one_law(lambda tables, name: tables.ticks.get(name, math.nan)),
-    "memory": of_one_law(Tables.memory),
+    "tick": lambda tables: {name: np.array([tables.ticks.get(name, math.nan)]) for name in tables.contenders},
+    "memory": lambda tables: {name: np.array([tables.memory(name)]) for name in tables.contenders},
     "held": held_by_noise_from,
     "effort": over_uniform("effort"),
     "peak": over_uniform("peak_u"),

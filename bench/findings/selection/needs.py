@@ -11,8 +11,7 @@ The rule was written and committed before any run was judged by it:
    (Pareto 1906).
 4. The best are the front by the robot's own criteria; kept of these is the front by GENERAL.
 5. If several are kept they tie, and the simplest of them is advised: of least memory, then of fewest operations, each
-   addition, product, quotient, root or call counted once, for they are counted here as what has to be written down and
-   trusted, not as time.
+   addition, product, quotient, root or call counted once.
 
 Where a robot takes torques and a model cancels the inertia, the map of situations advises (`regions`).
 """
@@ -53,11 +52,10 @@ class Measured(NamedTuple):
         return math.nan if values is None or not len(values) else float(statistic(BY_NAME[criterion])(values))
 
     def beats(self, criterion: str, law: str, other: str) -> bool:
-        """Whether a law is better by a criterion, notably, and not by the chance of these starts.
+        """Tell whether a law is better by a criterion, notably, and not by the chance of these starts.
 
-        Notably: by more than the criterion's `notable` and `least`. Both have the same starts, so what is
-        resampled is the start, and what must not change its sign the difference (a paired bootstrap). Of maxima: at
-        least EXCEEDING of the other's starts exceed all of the law's (S. Rosenbaum, Ann. Math. Statist. 25, 1954).
+        Of maxima: at least EXCEEDING of the other's starts exceed all of the law's (S. Rosenbaum, Ann. Math. Statist.
+        25, 1954).
         """
         one = BY_NAME[criterion]
         own, others = (one.sense * self.number(criterion, name) for name in (law, other))
@@ -83,13 +81,11 @@ def _drawn(criterion: str, values: bytes) -> np.ndarray:
 def statistic(one: Criterion) -> Any:
     """Return what is made of a law's values: statistic(values, axis=-1) -> numbers."""
     level = one.level
-    if isinstance(level, str):
-        return np.mean
-    return lambda values, axis=-1: quantile(values, level, axis)
+    return np.mean if isinstance(level, str) else lambda values, axis=-1: quantile(values, level, axis)
 
 
 def measure(results: Results) -> Measured:
-    """All criteria of a run."""
+    """Measure all criteria of a run."""
     tables = tables_of(results)
     return Measured(tables, {one.name: one.measure(tables) for one in CRITERIA})
 
@@ -111,10 +107,9 @@ def front(found: Measured, laws: Sequence[str], criteria: Sequence[str]) -> list
 
 
 def dominates(found: Measured, law: str, other: str, criteria: Sequence[str]) -> bool:
-    """Whether a law is better than another by some criterion, and worse by none."""
-    return any(found.beats(one, law, other) for one in criteria) and not any(
-        found.beats(one, other, law) for one in criteria
-    )
+    """Tell whether a law is better than another by some criterion, and worse by none."""
+    is_better = any(found.beats(one, law, other) for one in criteria)
+    return is_better and not any(found.beats(one, other, law) for one in criteria)
 
 
 CHATTER = 1.0
@@ -122,9 +117,7 @@ CHATTER = 1.0
 that has just come to rest from 180 degrees changes by (Kp w + Kv (Kp b + Kv w)) dt = 0.25 at most, b = 0.063 rad being
 the band and w = b/0.25 s."""
 
-
 Fact = Callable[[Measured, str], bool]
-"""A test whether a law meets a requirement."""
 
 
 class Need(NamedTuple):

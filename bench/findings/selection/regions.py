@@ -99,12 +99,12 @@ def facts_of(law: str) -> Facts:
 
 @functools.cache
 def read_map(folder: Path = STUDY) -> pd.DataFrame:
-    """Return the rows of a map with `contender` and `situation`, the word of each row's situation."""
+    """Return the rows of a map, `with_words`."""
     return with_words(read(folder, "situations"))
 
 
 def with_words(rows: pd.DataFrame) -> pd.DataFrame:
-    """Return rows of situations.parquet with `contender` and `situation`."""
+    """Return rows of situations.parquet with `contender` and `situation`, the word of each row's situation."""
     words = [Situation(*values).word for values in rows[NAMES].itertuples(index=False, name=None)]
     return with_contender(rows).assign(situation=words)
 
@@ -132,13 +132,8 @@ def decide(rows: pd.DataFrame, rule: Rule = RULE) -> Verdict:
     order = ["peak"] if rule.least_peak else []
     kept = asked[~is_ours & ~by_published].sort_values([*order, "memory", "operations", "contender"])
     law, *tied = kept["contender"].astype(str)
-    return Verdict(
-        law,
-        tuple(tied),
-        tuple(own[is_ours & ~by_published]),
-        tuple(own[is_ours & beaten[own.tolist().index(law)]]),
-        len(asked),
-    )
+    faster = own[is_ours & beaten[own.tolist().index(law)]]
+    return Verdict(law, tuple(tied), tuple(own[is_ours & ~by_published]), tuple(faster), len(asked))
 
 
 def find_beaten(rows: pd.DataFrame, rule: Rule) -> np.ndarray:

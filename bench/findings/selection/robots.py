@@ -1,7 +1,6 @@
 """What a robot takes, and the laws that the rule advises for it: each by rows of robots that take just that.
 
-Criteria keep their names and what is notable. What the rows of such a robot have no number for ties, and a law that was
-not run on it is not asked.
+By a criterion that such rows have no number for, laws tie.
 """
 
 import math
@@ -56,10 +55,7 @@ def measure_velocities(results: Results) -> Measured:
 
 
 class Robot(NamedTuple):
-    """A kind of robot.
-
-    takes: what commands it. rows: what was run. page: its file in the book. measure: how laws are measured on it.
-    """
+    """A kind of robot: what it takes, the rows that were run, its page in the book, and how laws are measured on it."""
 
     takes: str
     rows: str

@@ -11,7 +11,7 @@ from bench.findings.selection import regions
 from bench.findings.selection.regions import RULE, STUDY, Rule, decide_all, find_default, find_regions, read_map
 from tasks.situation import NOMINAL, Situation, read_situation
 
-RULES = {
+RULES = {  # ours, and those that a critic would choose
     "the rule": RULE,
     "a law may fail from some starts": Rule(everywhere=False),
     "unwinding is allowed": Rule(direct=False),
@@ -25,8 +25,6 @@ RULES = {
     "of equally fast laws, the one with the least peak command is advised": Rule(least_peak=True),
     "the least effort decides": Rule(by="effort"),
 }
-"""The rule, and rules that a critic would choose."""
-
 HALVES, SEED = 100, 1988
 LEVEL = 0.05
 

@@ -1,9 +1,7 @@
 """The rows of a run that laws are compared on: the free body, the same starts for every law, and the time of a law.
 
-A law's time is a share of a whole controller's, by the times of results/timings. A whole controller
-(`bench.running.timing.controller`) computes the forward kinematics, D and fg, then the law, the Jacobian, its inverse
-and (2.2); plant, judge and metrics are not in it. Every share has this one denominator: the controller with the
-rotation-matrix law. Laws tie where shares differ by at most `standing.MEASURABLE`.
+A law's time is a share of a whole controller's (`bench.running.timing.controller`) with the rotation-matrix law, by the
+times of results/timings. Laws tie where shares differ by at most `standing.MEASURABLE`.
 """
 
 from __future__ import annotations
@@ -42,16 +40,16 @@ class Tables(NamedTuple):
     contenders: dict[str, Contender]
 
     def spent(self, name: str, branch: str = "typical") -> tuple[int, int]:
-        """Flops and calls a tick, the goal given as a rotation matrix."""
+        """Return flops and calls a tick, the goal given as a rotation matrix."""
         rows = self.costs[name]
         return tallied(rows[rows["branch"] == branch], with_goal=True)
 
     def memory(self, name: str) -> int:
-        """Numbers that a law keeps from tick to tick."""
+        """Return how many numbers a law keeps from tick to tick."""
         return len(self.contenders[name].regulator.memory or ())
 
     def simplicity(self, name: str) -> tuple[int, int]:
-        """Numbers kept, and operations of a typical tick, a call counted as one: less is simpler."""
+        """Return numbers kept, and operations of a typical tick, a call counted as one: less is simpler."""
         return self.memory(name), sum(self.spent(name))
 
 
@@ -124,10 +122,7 @@ BY = "rotation-matrix@geometric"
 
 
 def ticks(results: Results) -> dict[str, float]:
-    """Return law -> its time alone over a whole controller's [%], the medians over arms and over machines.
-
-    Laws that no machine timed are left out, and so are machines that timed no whole controller.
-    """
+    """Return law -> its time alone over a whole controller's [%], the medians over arms and those machines."""
     found: dict[str, list[float]] = {}
     given = results.frames.get("timings")
     timed = [one for one in results.machines() if "arm" in one] if given is None else [given]

@@ -4,7 +4,6 @@ Linear:      x'' = -Kp x - Kd x'                 feedback linearization, and eve
 Large turns: theta'' = -Kp sin(theta) - Kd theta'     the rotation-matrix law from rest (Murphy 1988, 2.12-2.13), whose
              axis never turns: e = sin(theta) k, and omega stays along k.
 
-Settled is what the judge says: the last time at which the angle is the band's edge, `tolerance` times its beginning.
 Close to 180° phi = pi - theta grows as exp(r t) with r = sqrt(Kp + Kd^2/4) - Kd/2, so that each decade of
 phi costs ln 10 / r.
 """
@@ -17,7 +16,7 @@ from tasks.rules import RULES
 
 
 def linear(times: float | np.ndarray, kp: float, kv: float) -> np.ndarray:
-    """Response of the linear system from x = 1 at rest; (1 + w t) exp(-w t) if it is critically damped, w = Kd/2."""
+    """Return the linear response from x = 1 at rest; (1 + w t) exp(-w t) if it is critically damped, w = Kd/2."""
     t, decay = np.asarray(times), kv / 2
     square = decay * decay - kp
     if abs(square) < 1e-9 * kp:  # rounding of decay^2 - Kp; beyond it sinh(r t)/r is exact enough
@@ -27,7 +26,7 @@ def linear(times: float | np.ndarray, kp: float, kv: float) -> np.ndarray:
 
 
 def linear_settling(kp: float, kv: float, tolerance: float = RULES.tolerance) -> float:
-    """Last time [s] at which the linear response is `tolerance` of its beginning."""
+    """Return the last time [s] at which the linear response is `tolerance` of its beginning."""
     from scipy.optimize import brentq
 
     slowest = kv / 2 - math.sqrt(max(0.0, kv**2 / 4 - kp))  # rate of decay near the goal [1/s]

@@ -55,10 +55,10 @@ def compliance(
     touch: ContactParameters = TOUCH,
     arm: Arm | None = None,
 ) -> np.ndarray:
-    """C [rad/(N m)], 3 x 3: what a controller makes of a constant moment in some time, from rest at its goal.
+    """Return C [rad/(N m)], 3 x 3: what a controller makes of a constant moment in some time, from rest at its goal.
 
-    specification: ignored by an impedance, as by the controller. arm: in the posture of the tasks; needed where the
-    moment acts through its inertia, by the Jacobian transpose.
+    An impedance ignores the specification. The arm is needed where the moment acts through its inertia, by the Jacobian
+    transpose.
     """
     B = directions(controller, goal)
     if controller.form != PAPERS_FORM:

@@ -26,7 +26,6 @@ from tasks.kinematics import Kinematics
 Stiffness = tuple[float, float]
 """Stiffness of translation [N/m] and of rotation [N m/rad]."""
 
-
 FREQUENCIES = 4_000
 """At which a delayed loop is looked at: they are 0.2 % apart."""
 

@@ -1,7 +1,4 @@
-"""The laws that turn about one fixed axis from rest, integrated apart from the benchmark by their scalar equations.
-
-`settling` gives the last time at which the angle is the band's edge, as the judge means it.
-"""
+"""The laws that turn about one fixed axis from rest, integrated apart from the benchmark by their scalar equations."""
 
 import functools
 import math
@@ -34,7 +31,7 @@ EQUATIONS = {one.name: one.equation for one in all_contenders() if one.equation}
 
 @functools.cache
 def settling(equation: Equation, angle: float, kp: float, kv: float, tolerance: float) -> float:
-    """Last time [s] at which the angle to the goal is `tolerance` of the initial one [rad]."""
+    """Return the last time [s] at which the angle to the goal is `tolerance` of the initial one [rad]."""
 
     def rate(_: Any, state: Any) -> Any:
         theta, speed = state

@@ -28,7 +28,7 @@ LEAVING_TICKS = 1500
 
 
 def crossover(kp: float, kv: float) -> float:
-    """Angular frequency [rad/s] at which the open loop (Kv s + Kp)/s^2 has unit gain."""
+    """Return the angular frequency [rad/s] at which the open loop (Kv s + Kp)/s^2 has unit gain."""
     return math.sqrt((kv * kv + math.sqrt(kv**4 + 4.0 * kp * kp)) / 2.0)
 
 

@@ -73,7 +73,7 @@ def far(equation: Equation, angles: np.ndarray) -> float:
 
 
 def lagged(lag_ticks: float) -> float:
-    """Behind servos with a time constant of so many control periods."""
+    """Return the limit behind servos with a time constant of so many control periods."""
     if lag_ticks == 0.0:
         return 2.0
     a = math.exp(-1.0 / lag_ticks)
@@ -95,7 +95,7 @@ def on_arm(arm: str, q: Any, by: Inverse) -> float:
 
 
 def with_theory(rows: pd.DataFrame) -> pd.DataFrame:
-    """Rows of velocity-limits.parquet with `k_dt_theory`; NaN where there is none."""
+    """Return rows of velocity-limits.parquet with `k_dt_theory`; NaN where there is none."""
     return rows.assign(k_dt_theory=[float(of_row(row)) for row in rows.to_dict("records")])
 
 
