@@ -17,8 +17,7 @@ from bench.base.errors import BadResults
 def write_atomically(path: Path, write: Callable[..., object]) -> None:
     """Call write(temporary path), then put the file in its place; when this returns, it outlives a loss of power.
 
-    Errors:
-        BadResults: the folder cannot be made or written, or the disk is full; no temporary file stays.
+    BadResults says that it cannot be written; no temporary file stays.
     """
     path = Path(path)
     try:
@@ -86,11 +85,7 @@ MOST_JSON_BYTES = 200_000_000
 
 
 def refuse_link(path: Path) -> None:
-    """Return what lies in a results folder lies there itself.
-
-    Errors:
-        BadResults: the path is a symbolic link.
-    """
+    """Raise BadResults if the path is a symbolic link: what lies in a results folder lies there itself."""
     if path.is_symlink():
         raise BadResults(
             f"{path}: it is a link, and a results folder holds files of its own; put what it leads to in its place, "
@@ -99,11 +94,7 @@ def refuse_link(path: Path) -> None:
 
 
 def read_json(path: Path, most_bytes: int = MOST_JSON_BYTES) -> dict:
-    """Return a JSON file of ours.
-
-    Errors:
-        BadResults: missing, a link, too large, no object, or with texts that a terminal would obey.
-    """
+    """Return a JSON file of ours; BadResults if missing, a link, too large, no object, or obeyed by a terminal."""
     path = Path(path)
     refuse_link(path)
     try:

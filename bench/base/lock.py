@@ -15,11 +15,7 @@ from bench.base.errors import BadResults
 
 @contextlib.contextmanager
 def held(folder: Path, waits: bool = False, flock: Callable = fcntl.flock) -> Iterator[None]:
-    """Hold a folder that exists; where it cannot be locked, say so and go on; `waits`: for another that holds it.
-
-    Errors:
-        BadResults: another process holds it, and this one does not wait.
-    """
+    """Hold a folder, or say that it cannot be locked; BadResults if another process holds it, unless it `waits`."""
     handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)  # not inherited by the programs that a run starts
     try:
         try:

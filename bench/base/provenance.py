@@ -40,11 +40,7 @@ MOST_SIGNS = 200
 
 
 def read_provenance(folder: Path, needed: Iterable[str] = ()) -> dict:
-    """Return provenance.json of a run, which may come from anywhere.
-
-    Errors:
-        BadResults: see `read_json`; it lacks something needed; a value of another type, or too long to be shown.
-    """
+    """Return provenance.json of a run, which may come from anywhere; BadResults if a value is not there or wrong."""
     path = folder / "provenance.json"
     found = read_json(path)
     if lacking := [name for name in needed if name not in found]:
@@ -184,10 +180,7 @@ def _without_folders(word: str) -> str:
 
 
 def describe() -> dict:
-    """Everything about this moment that a reader may want to know.
-
-    lock: SHA-256 of requirements/base.txt; empty where the package lies without it.
-    """
+    """Return what a reader may want to know of this moment; lock: SHA-256 of requirements/base.txt, or empty."""
     lock = ROOT / "requirements" / "base.txt"
     return {
         **commit(),

@@ -164,7 +164,7 @@ def frame(path: Path, table: str | Table) -> pd.DataFrame:
 
 
 def read(folder: Path, table: str | Table) -> pd.DataFrame:
-    """Return one table of a finished run (BadResults of another); without rows if its experiment is newer than that."""
+    """Return one table of a run, BadResults if it has not finished; without rows if its experiment is newer than it."""
     table, folder = table_of(table), Path(folder)
     if not folder.is_dir():
         raise BadResults(f"{folder}: there is no such folder; run `make bench` (or bench run) first")

@@ -27,10 +27,7 @@ class Difference(NamedTuple):
 
 
 class Rule(NamedTuple):
-    """How cells are compared: numbers by a tolerance (column -> relative, absolute) in some rows, words exactly.
-
-    exact: columns that are compared first, exactly, each in some rows. skipped: columns that are not compared.
-    """
+    """How cells are compared: exact columns first, numbers by a relative and absolute tolerance, words exactly."""
 
     tolerance: Callable[[str], tuple[float | np.ndarray, float | np.ndarray]]
     rows: np.ndarray | bool = True
