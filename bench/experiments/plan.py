@@ -75,7 +75,7 @@ def _digest(text: str) -> str:
 
 
 def chosen(choice: Choice) -> list[Experiment]:
-    """Return the experiments that are named, or take every kind of word that is; Incompatible if there is none."""
+    """Return the experiments that are named, or else that take every kind of word; Incompatible if none takes a word."""
     if not choice.experiments:
         return _taking(choice)
     found = [one for name, one in known_experiments().items() if name in choice.experiments]

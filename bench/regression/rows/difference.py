@@ -27,7 +27,10 @@ class Difference(NamedTuple):
 
 
 class Rule(NamedTuple):
-    """How cells are compared: exact columns first, numbers by a relative and absolute tolerance, words exactly."""
+    """How cells are compared: numbers by a tolerance (column -> relative, absolute) in some rows, words exactly.
+
+    exact: columns that are compared first, exactly, each in some rows.
+    """
 
     tolerance: Callable[[str], tuple[float | np.ndarray, float | np.ndarray]]
     rows: np.ndarray | bool = True
