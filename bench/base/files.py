@@ -94,7 +94,7 @@ def refuse_link(path: Path) -> None:
 
 
 def read_json(path: Path, most_bytes: int = MOST_JSON_BYTES) -> dict:
-    """Return a JSON file of ours; BadResults if missing, a link, too large, no object, or obeyed by a terminal."""
+    """Return a JSON file of ours; BadResults if missing, a link, too large, no object, or with terminal escapes."""
     path = Path(path)
     refuse_link(path)
     try:

@@ -1,7 +1,7 @@
 """pandas and SciPy's Rotation, imported when a function first uses them.
 
-Either takes a quarter of a second to import, for nothing in `bench --help`, `bench list` and `bench run --dry-run`.
-A module that these import has `pd` from here; elsewhere `import pandas as pd` is right.
+Either takes a quarter of a second to import; `bench --help`, `bench list` and `bench run --dry-run` need neither.
+A module that these import takes `pd` from here; elsewhere `import pandas as pd` is right.
 """
 
 import importlib

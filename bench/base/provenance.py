@@ -40,7 +40,7 @@ MOST_SIGNS = 200
 
 
 def read_provenance(folder: Path, needed: Iterable[str] = ()) -> dict:
-    """Return provenance.json of a run, which may come from anywhere; BadResults if a value is not there or wrong."""
+    """Return provenance.json of a run, which may come from anywhere; BadResults if it lacks a value or one is wrong."""
     path = folder / "provenance.json"
     found = read_json(path)
     if lacking := [name for name in needed if name not in found]:

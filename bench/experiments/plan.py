@@ -75,7 +75,7 @@ def _digest(text: str) -> str:
 
 
 def chosen(choice: Choice) -> list[Experiment]:
-    """Return the experiments that are named, or else that take every kind of word; Incompatible if none takes a word."""
+    """Return the experiments that are named, or else take every kind of word; Incompatible if none takes a word."""
     if not choice.experiments:
         return _taking(choice)
     found = [one for name, one in known_experiments().items() if name in choice.experiments]
@@ -122,7 +122,7 @@ def make(
     integrator: str | None = None,
     seed: int = 0,
 ) -> Plan:
-    """Return the plan of a suite, as the user narrowed it; raise UnknownWord, BadNumber or Incompatible for bad words.
+    """Return the plan of a suite, as the user narrowed it; raise UnknownWord, BadNumber or Incompatible if it has none.
 
     Args:
         laws: the contenders of the free body; on arms the same laws, by the suite's Jacobians and inverses.

@@ -47,7 +47,7 @@ def pack(rows: pa.Table, table: Table) -> bytes:
 
 
 def unpack(content: bytes, table: Table, most_rows: int | None = None) -> pa.Table:
-    """Return the rows of such bytes; BadResults if they are none of this table, hold no word, or are over most_rows."""
+    """Return the rows of such bytes; BadResults if not this table's, with a bad word, or more than most_rows."""
     try:
         return _unpacked(content, table, most_rows)
     except (ValueError, KeyError, TypeError, struct.error, RecursionError, OSError, pa.ArrowException) as error:

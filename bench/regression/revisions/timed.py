@@ -70,7 +70,8 @@ class Turns:
 def shuffle(states: np.ndarray, rows: np.ndarray, number: int) -> None:
     """Write states into rows, in an order that is new in every round and the same for both sides.
 
-    A processor learns the branches of states that come again, not in every process: 1.5 times as long with a branch.
+    A processor learns the branches of a thousand states that come again and again, in one process but not in another:
+    a law with a branch then took 1.5 times as long.
     """
     draw, count = np.random.default_rng(number), len(states)
     for block in np.split(rows, BLOCKS):
