@@ -135,10 +135,9 @@ def environment(results: Path) -> dict[str, str]:
 
 
 def build(results: Path, cell_key: str) -> None:
-    """Run jupyter-book, and the cells that changed, on a clean output folder; raise CannotBuild with what was said.
+    """Run jupyter-book on a clean output folder, and the cells that changed; raise CannotBuild with what was said.
 
-    The pages are always read again (Sphinx repeats no warning for a page it skips); only cell outputs
-    are kept.
+    The pages are always read again (Sphinx repeats no warning for a page it skips).
     """
     STAMP.unlink(missing_ok=True)
     BUILD.mkdir(exist_ok=True)

@@ -1,8 +1,4 @@
-"""The built report in headless Chromium: what a reader's browser sees.
-
-The browser tests drive it. Needs selenium (the dev extra) and Debian's chromium and chromium-driver;
-nothing is downloaded.
-"""
+"""The built report in headless Chromium, by selenium (the dev extra) and Debian's chromium and chromium-driver."""
 
 import contextlib
 import importlib.util

@@ -1,7 +1,4 @@
-"""What a caller can do wrong. Each message says what was given, what is allowed, and the cure.
-
-A contestant's failure is never one of these: it is an outcome in a row.
-"""
+"""What a caller can do wrong, never a contestant's failure: each says what was given, what is allowed, and the cure."""
 
 import difflib
 import sys

@@ -22,17 +22,12 @@ MOST = {"native": 100, "reference": 2}
 """Episodes a unit at most, as on the free body."""
 
 EPISODE_S = {"native": 0.01, "reference": 0.3}
-"""CPU seconds an episode, as on the free body; of the reference engine, which the default suite does not run, a
-guess."""
+"""CPU seconds an episode, as on the free body; a guess for the reference engine, which the default suite omits."""
 
 
 @functools.lru_cache(maxsize=8)
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """Return the units on every arm.
-
-    Errors:
-        Incompatible: no law, Jacobian and inverse that were named go together on any arm that was named.
-    """
+    """Return the units on every arm; Incompatible where no named law, Jacobian and inverse go together on any."""
     places, every_task = [], episodes.tasks_of(asked)
     slices = episodes.narrowed(asked.suite.on_arms.slices, asked.choice)
     for task in filter(tasks.is_for_arms, every_task):

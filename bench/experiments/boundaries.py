@@ -1,7 +1,6 @@
 """Find where a law first fails along geodesics from the goal: a scan for the first failing angle, then bisection.
 
-A failing set of measure zero (180°, a pole) is not found by a scan and not looked for here: the directed start
-sets hit those exactly.
+A scan misses a failing set of measure zero (180°, a pole): the directed start sets hit those exactly.
 """
 
 from __future__ import annotations
@@ -42,11 +41,7 @@ def of_law(one: Contender, count: int) -> Unit:
 
 
 def rows(settings: Settings, unit: Unit) -> dict:
-    """Return one row an axis, as columns.
-
-    The steps of integration are divided for the two ends of what was found alone; where the ends are not what they
-    seemed to be by undivided steps, the axis is searched again by divided ones.
-    """
+    """Return one row an axis, as columns; where divided steps change an end, they search the whole axis again."""
     directions = axes(unit.count)
     settled, fails, outcome = _search(settings, unit, directions, converge=False)
     is_end = ~np.isnan(fails)

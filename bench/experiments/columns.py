@@ -22,8 +22,7 @@ if TYPE_CHECKING:
 
 VERSION = "2"
 WORD, NUMBER, COUNT, SINGLE = "word", "double", "int64", "float"
-"""Types of columns: of a word, as parquet's dictionary; of others, their names in Arrow. SINGLE is where seven digits
-are enough: sizes of what is nearly zero, condition numbers, measures of robustness."""
+"""Types of columns: parquet's dictionary of words, or names in Arrow; SINGLE where seven digits are enough."""
 
 
 class Column(NamedTuple):
@@ -36,10 +35,9 @@ class Column(NamedTuple):
 
 
 class Table(NamedTuple):
-    """A table: the file <name>.parquet.
+    """A table, the file <name>.parquet. key: the columns that name a row. about: what it is, for results/README.md.
 
-    columns() -> its columns, in order; they may depend on what metrics there are. key: the columns that name a row.
-    about: what it is, for results/README.md.
+    columns() -> its columns, in order; they may depend on what metrics there are.
     """
 
     name: str

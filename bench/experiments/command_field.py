@@ -1,11 +1,9 @@
 """What a law commands, as a function of state: stiffness and damping, equilibria, jumps, how hard it pulls.
 
-A row is a finding, with the state that shows it; all laws have the same rows. Stiffness and damping are shares of the
-gains that are set, and so are commands: |u|/kp. They are also taken at two goals whose matrices are not symmetric:
-there a command in another frame, or a matrix read row first, differs from what is meant.
+A row is a finding, with the state that shows it. Stiffness and damping are shares of the gains that are set; a command
+is |u|/kp. All are also taken at two goals whose matrices are not symmetric: there a wrong frame or order shows.
 
-Limitations: an equilibrium away from 180° rotations, and a jump that no geodesic crosses, are not seen; episodes that
-end at the first are stuck.
+Limitations: an equilibrium away from 180° rotations, and a jump that no geodesic crosses, are not seen.
 """
 
 from __future__ import annotations
@@ -133,10 +131,7 @@ def _compared(finding: str, matrices: np.ndarray, declared: tuple) -> Finding:
 
 
 def _half_turns(field: Field) -> Iterator[Finding]:
-    """Look for rotations of 180 degrees where the command is zero, or no number.
-
-    Their axes are those of small whole numbers, so that many lie in each base plane, and others spread over the sphere.
-    """
+    """Look for rotations of 180° with no command, or no number, about axes of small whole numbers and spread ones."""
     whole = [v for v in itertools.product(range(-3, 4), repeat=3) if v > (0, 0, 0) and math.gcd(*v) == 1]
     k = np.concatenate((np.array(whole) / np.linalg.norm(whole, axis=1)[:, None], axes(AXES - len(whole))))
     quats = about(k, math.pi) * (0.0, 1.0, 1.0, 1.0)

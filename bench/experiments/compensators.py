@@ -11,8 +11,7 @@ from bench.law.kinds import Law
 from tasks.rules import ticks
 
 DISTURBANCES = (0.0, 5.0, 20.0)
-"""Lengths [rad/s^2]; over the paper's Kp they are the sine of what a law without an integral leaves: 2.9 and 11.5
-degrees."""
+"""Lengths [rad/s^2]; over the paper's Kp, the sine of what a law without integral leaves: 2.9 and 11.5 degrees."""
 DIRECTION = (1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0)
 """Direction of the disturbance, in the base frame."""
 BAND_RAD = np.deg2rad(1.0)

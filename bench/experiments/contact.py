@@ -1,7 +1,6 @@
 """Tasks in contact: which controllers do which tasks on which arms, in units of some seconds; a pose a row.
 
-A suite leaves out an arm that does not fit a task; an error says why if the user names both. An episode's record is
-folded into numbers as soon as the trials of its pose are there, and then dropped: it is 25 doubles a tick.
+A suite leaves out arms that do not fit a task. Records, 25 doubles a tick, are folded and dropped pose by pose.
 """
 
 from __future__ import annotations
@@ -50,11 +49,7 @@ DENSE = "dense"
 
 @functools.lru_cache(maxsize=8)
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """Return the units of a suite's part in contact, narrowed or widened by the user; `count` poses of each task.
-
-    Errors:
-        BadValue: an arm that was named cannot be set a task that was. Incompatible: no controller is left.
-    """
+    """Return a suite's units in contact, as the user narrowed them; BadValue if a named arm cannot do a named task."""
     part, choice = asked.suite.in_contact, asked.choice
     if asked.own and choice.is_about_contact and set(choice.tasks) <= set(tasks.contact_names()):
         raise Incompatible(
@@ -130,10 +125,7 @@ def cut(
 
 
 def poses_of(one: ContactController, task: ContactTask, arm: Arm, dense: bool) -> tuple[tuple[Trial, ...], ...]:
-    """Return the trials that a controller is set, by pose, in the task's order.
-
-    To an impedance, which heeds no selection, trials that differ in nothing else are the same, and it is set the first.
-    """
+    """Return a controller's trials, by pose, in order; an impedance heeds no selection, so it is set each once."""
     return _poses(task, arm, dense, one.impedance is not None)
 
 

@@ -41,11 +41,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
 
 
 def rows(settings: Settings, unit: Unit) -> list[dict]:
-    """Return a row a branch and stage; none of a user's law beyond the dialect that only BEYOND runs.
-
-    Errors:
-        BadLaw: a law that cannot be counted.
-    """
+    """Return a row a branch and stage; none of a user's law that only BEYOND runs; BadLaw if it cannot be counted."""
     one = settings.contender(unit.contender)
     try:
         return count_operations(one, tasks.arm(unit.arm).joints if unit.arm else 0)
@@ -63,10 +59,7 @@ def is_whole(settings: Settings, unit: Unit, rows: pd.DataFrame) -> bool:
 
 
 def count_operations(one: Contender, joints: int = 0) -> list[dict]:
-    """Count the operations of a law alone, or of a controller on so many joints.
-
-    Those of ours are kept on disk, for counting all laws takes ten seconds.
-    """
+    """Count the operations of a law, or of a controller on so many joints; ours stay on disk: all take ten seconds."""
     from bench.engines import counting
 
     def rows() -> list[dict]:

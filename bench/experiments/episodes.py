@@ -1,7 +1,4 @@
-"""Episodes without contact: what a suite's slices become when the user narrows them, and the units they are cut into.
-
-`free_body` and `arm` are made of these; what is refused, they refuse together.
-"""
+"""Episodes without contact, for `free_body` and `arm`: a suite's slices as the user narrows them, cut into units."""
 
 from __future__ import annotations
 

@@ -33,10 +33,7 @@ if TYPE_CHECKING:
 
 
 class Settings(NamedTuple):
-    """What all units of a run share.
-
-    own: the user's laws. suite: what the rows say that they belong to.
-    """
+    """What all units of a run share; own: the user's laws; suite: what the rows say that they belong to."""
 
     suite: str = "experiment"
     gains: Gains = PAPERS_GAINS
@@ -111,10 +108,9 @@ class Unit:
 
 @dataclass(frozen=True)
 class Asked:
-    """What a plan is made of: a suite, laws of the free body, and what the user narrowed or widened them to.
+    """What a plan is made of: a suite, laws of the free body, and what the user asked for; None is the suite's own.
 
-    count: of the starts of each set or level, and the poses of each task in contact. horizon_s: of every episode. None
-    of them: the suite's own.
+    count: of the starts of each set or level, and the poses of each task in contact. horizon_s: of every episode.
     """
 
     suite: Suite
@@ -156,19 +152,14 @@ class Experiment(NamedTuple):
 
     name: the file's, with dashes. table: its columns and the key of a row (`columns.read_table`). units(asked): in the
     order of the rows. rows(settings, unit) -> what `pandas.DataFrame` takes. cost_s(unit) -> seconds it usually takes.
-
     prepare(settings, unit): compile, import and build what its rows need, for all processes that are forked then.
     lost(settings, unit, outcome) -> what is left of a unit whose law crashed or hung. is_whole(settings, unit, rows):
     whether rows of a user's law can be all of the unit's, by their number and place. ticks(settings, unit) -> control
-    periods that it takes at most, which a user's law has its time by; usually all of its episodes' to their horizon.
+    periods at most, which a user's law has its time by; usually all of its episodes' to their horizon.
     is_divisible: whether `Unit.part` of it is a unit too. is_tried_first: whether a user's law goes through it before a
-    run begins, so that a mistake leaves no folder.
-    compiles: whether its contender is compiled.
-    takes: the kinds of words, fields of Choice, that narrow its units. Where a word of another kind is named, the
-    experiment is not run.
-    fold(before, after) -> the rows of two units as those of both, where the table is not all of them one after the
-    other. in_suites: whether suites have it; what they have not makes runs of its own. rank: place among all
-    experiments, then by name.
+    run begins, so that a mistake leaves no folder. takes: the kinds of words, fields of Choice, that narrow its units;
+    where another kind is named, it is not run. fold(before, after) -> the rows of two units as those of both, where the
+    table is not all of them in turn. in_suites: whether suites have it. rank: place among all, then by name.
     """
 
     name: str
@@ -199,11 +190,7 @@ class Experiment(NamedTuple):
 
 @functools.cache
 def known_experiments() -> dict[str, Experiment]:
-    """Word -> Experiment, from bench/experiments, in the order in which they are planned.
-
-    Errors:
-        BadLaw: one that is none, or whose name is not its file's.
-    """
+    """Return word -> Experiment, in the order of plans; BadLaw for one that is none, or named unlike its file."""
     found = constants(experiments, "EXPERIMENT")
     for word, one in found.items():
         if not isinstance(one, Experiment) or one.name != word:

@@ -16,17 +16,12 @@ MOST = {"ideal-rk4": 1000, "ideal-held": 1000, "native": 250, "reference": 4}
 """Episodes a unit at most: a few seconds each even if none of them settles, so that Ctrl-C answers soon."""
 
 EPISODE_S = {"ideal-rk4": 4e-4, "ideal-held": 2e-4, "native": 3e-3, "reference": 0.06}
-"""CPU seconds an episode, here and in the other experiments: medians over six units of each kind of the default suite
-on a core of 2026, to one digit. A factor of two does not matter. Compiling comes on top, once."""
+"""Median CPU seconds an episode, of six units of each kind on a core of 2026, to one digit; compiling is extra."""
 
 
 @functools.lru_cache(maxsize=8)
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """Return the units of a suite's slices.
-
-    Errors:
-        Incompatible: no named task, engine and start set go together, here or on arms.
-    """
+    """Return the units of a suite's slices; Incompatible where no named task, engine and start set go together."""
     places = [
         episodes.Place(part, one, task)
         for task in episodes.tasks_of(asked)

@@ -13,10 +13,9 @@ Rows = list[dict]
 
 
 def kept(name: str, make: Callable[[], Rows], folder: Path = cache.FOLDER, sources: str = "") -> Rows:
-    """Return what `make` gave when it was first called by that name for these sources; none named: this checkout's.
+    """Return what `make` first gave by this name (kind/name) for these sources, or else for this checkout's.
 
-    Args:
-        name: kind/name. make: all its rows have the same columns, of numbers, words, or lists of them.
+    All its rows have the same columns, of numbers, words, or lists of them.
     """
     kind, _, one = name.partition("/")
     path = folder / kind / f"{sources or source_digest()}-{one.replace('/', '_')}.json"

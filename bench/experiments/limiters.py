@@ -27,10 +27,8 @@ class Limiter(NamedTuple):
 def clamp_axes(omega, K):
     """Cut each component that exceeds the bound; the others stay, so that the command turns off its direction.
 
-    Far from the goal the tool turns about another axis than that of the shortest path, by up to 54.7 degrees, the angle
-    of a cube's diagonal to its edge; how much depends on the base frame.
-
-    Limitations: the path is longer.
+    Far from the goal the path is longer: its axis is up to 54.7 degrees, the angle of a cube's diagonal to its edge,
+    off that of the shortest path; how much depends on the base frame.
     Source: utiasDSL/crisp_controllers 5075de9, src/cartesian_controller.cpp, which cuts the error so (limit_error).
     """
     return clipped(omega, GREATEST_RATE)
@@ -48,9 +46,7 @@ def pass_beyond(x, least):
 def drop_small_errors(omega, K):
     """Pass each component, or 0 where the error that it is K times of is within BAND.
 
-    The tool stops where each component of the error is inside the band: up to sqrt(3) of it away, 0.5 degrees.
-
-    Limitations: from starts so near that the rest is outside their settling band.
+    The tool stops up to sqrt(3) BAND from the goal, 0.5 degrees: outside the settling band of the nearest starts.
     Source: UT-Austin-RPL/deoxys_control f2932a0, osc_impedance.cpp, whose band is of the quaternion's vector part.
     """
     least = BAND * K

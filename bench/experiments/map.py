@@ -1,8 +1,7 @@
 """Millions of random starts of a law, counted in cells of SO(3), the slowest of each ring, and those that are lost.
 
-No suite has this experiment; `bench map` runs it.
-
-A start is settled, lost or unconverged: what becomes of it depends on the step (`engines.convergence`).
+No suite has this experiment; `bench map` runs it. A start is settled, lost or unconverged: what becomes of it depends
+on the step (`engines.convergence`).
 
 A ring is 5 degrees of the angle to the goal. A cell is a ring in one of 128 equal parts of the sphere of axes, 8 bands
 of z by 16 of the azimuth; the axis is that of the turn from the goal to the start, which is below 180 degrees.

@@ -75,11 +75,7 @@ def _digest(text: str) -> str:
 
 
 def chosen(choice: Choice) -> list[Experiment]:
-    """Return the experiments that are named, or else those that take every kind of word that is.
-
-    Errors:
-        Incompatible: a word that no experiment takes beside the others, or none that is named.
-    """
+    """Return the experiments that are named, or else take every kind of word; Incompatible if none takes a word."""
     if not choice.experiments:
         return _taking(choice)
     found = [one for name, one in known_experiments().items() if name in choice.experiments]
@@ -94,11 +90,7 @@ def chosen(choice: Choice) -> list[Experiment]:
 
 
 def _taking(choice: Choice) -> list[Experiment]:
-    """Return the experiments that take every kind of word that is named.
-
-    Errors:
-        Incompatible: words of two kinds exclude each other, or tasks in contact and a word that they do not take.
-    """
+    """Return the experiments that take every kind of word named; Incompatible if two words exclude each other."""
     found = [one for one in known_experiments().values() if set(choice.named) <= set(one.takes)]
     taken = [set(one.takes) for one in known_experiments().values()]
     for pair in itertools.combinations(choice.named, 2):
@@ -130,15 +122,12 @@ def make(
     integrator: str | None = None,
     seed: int = 0,
 ) -> Plan:
-    """Return the plan of a suite, narrowed or widened by what the user named.
+    """Return the plan of a suite, as the user narrowed it; raise UnknownWord, BadNumber or Incompatible if it has none.
 
     Args:
         laws: the contenders of the free body; on arms the same laws, by the suite's Jacobians and inverses.
         count: of the starts of each set, and the poses of each task in contact; the suite's numbers if None.
         integrator: everywhere; IN_CONTACT in contact and WITHOUT elsewhere if None.
-    Errors:
-        UnknownWord: a name in no list. BadNumber: a number that no episode can be run with.
-        Incompatible: no named task, engine and start set go together, or no law, Jacobian and inverse.
     """
     check_numbers(dt_s, horizon_s, gains, count, seed)
     if integrator is not None:

@@ -36,11 +36,7 @@ EPISODE_S = 6e-4
 
 @functools.lru_cache(maxsize=8)
 def units(asked: Asked) -> tuple[Unit, ...]:
-    """Return the units of a suite's part, narrowed or widened by what the user named; `count` starts at each level.
-
-    Errors:
-        Incompatible: perturbations are named and no law that can meet them.
-    """
+    """Return the units of a suite's part, `count` starts a level; Incompatible if no law can meet what is named."""
     part, choice = asked.suite.robustness, asked.choice
     if choice.tasks and "free-body" not in choice.tasks:
         return ()
@@ -80,11 +76,7 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
 
 
 def simulated(settings: Settings, unit: Unit, simulate: Callable) -> pd.DataFrame:
-    """Return one row a level and start. The starts and the noise are the same for every law.
-
-    Args:
-        simulate: makes the numbers of the rows, as `run_disturbed`.
-    """
+    """Return one row a level and start, simulated as by `run_disturbed`; every law has the same starts and noise."""
     one, axis, seed = settings.contender(unit.contender), tasks.axis(unit.selector), settings.seed
     metrics, parts = metrics_of(on_arm=False), []
     # the judge's rules in ticks of a microsecond, which the condition's own steps replace

@@ -36,13 +36,10 @@ BESIDE, CHANGE = "outcome_beside", "rounding_change"
 def judged_beside(
     rows: pd.DataFrame, starts: Sequence[Start], again: Callable[[list[Start]], pd.DataFrame]
 ) -> pd.DataFrame:
-    """Return the rows of episodes on an arm, with the columns BESIDE and CHANGE.
+    """Return the rows of episodes, one a start, with BESIDE and CHANGE; `again` simulates other starts in the same way.
 
     BESIDE: the other outcome found beside the start; empty if there is none, or the episode is not doubtful.
     CHANGE: the largest relative change of any number of the row beside its start; null if not doubtful.
-
-    Args:
-        rows: one a start, in order. again: the rows of other starts, simulated in the same way.
     """
     doubtful = np.flatnonzero((rows["cond_jacobian_max"] > CONDITION) | (rows["peak_torque_ratio"] > TORQUE_RATIO))
     other, change = np.full(len(rows), "", object), np.full(len(rows), np.nan)

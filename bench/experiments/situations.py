@@ -64,10 +64,7 @@ def metrics() -> tuple[Metric, ...]:
 
 
 def mapped_laws() -> list[Contender]:
-    """Return the laws that are run: on the rotation matrix or its quaternion, no control, no actuator of MuJoCo's.
-
-    Laws on coordinates of SO(3) lose some of the uniform starts, so that none can be advised.
-    """
+    """Return the laws on R or its quaternion; on coordinates of SO(3) some starts are lost: none can be advised."""
     every = [one for one in all_contenders() if one.representation is None]
     return [one for one in every if not (one.regulator.in_engine or one.regulator.control)]
 

@@ -77,8 +77,7 @@ class InContact(NamedTuple):
 class Robustness(NamedTuple):
     """The part of a suite that perturbs laws of the free body, along every axis of tasks/conditions.
 
-    starts: at each level of each axis. others: laws on coordinates that the paper sets aside which take part; None:
-    all of them.
+    starts: at each level of each axis. others: laws on coordinates that the paper sets aside; None: all of them.
     """
 
     starts: int

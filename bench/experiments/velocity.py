@@ -148,11 +148,7 @@ def _run(settings: Settings, unit: Unit, part: Part, some: list[Start]) -> np.nd
 
 
 def compare_beside(numbers: np.ndarray, beside: np.ndarray) -> dict:
-    """Return what 1e-12 rad made of each row: the largest relative change, and the outcome if it is another.
-
-    Args:
-        numbers, beside: the outcome, then the numbers in which rounding is looked for.
-    """
+    """Return what 1e-12 rad made of each row, the outcome and then numbers: the largest change, and another outcome."""
     was, now = numbers[:, 1:], beside[:, 1:]
     with np.errstate(invalid="ignore"):
         change = np.abs(now - was) / np.maximum(np.abs(was), 1e-6)

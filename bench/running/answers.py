@@ -30,11 +30,7 @@ def most_rows(unit: Unit) -> int:
 
 
 def check_rows(settings: Settings, unit: Unit, rows: pd.DataFrame) -> None:
-    """Refuse rows that are not the unit's.
-
-    Errors:
-        ValueError: another law's or start's, a row twice or too few, a word that no row has there.
-    """
+    """Raise ValueError for rows not the unit's: another law's or start's, a row twice or too few, an unknown word."""
     experiment = experiment_of(unit)
     place = {"suite": settings.suite, "seed": settings.seed, "task": unit.task, "arm": unit.arm, "engine": unit.engine}
     for name, value in (settings.contender(unit.contender).words | place).items():
@@ -53,11 +49,7 @@ def check_rows(settings: Settings, unit: Unit, rows: pd.DataFrame) -> None:
 
 
 def _check_given(rows: pd.DataFrame, wanted: pd.DataFrame, table: Table) -> None:
-    """Compare what is known of each episode before it is run; of a perturbation, at the levels that are there.
-
-    Errors:
-        ValueError: they differ.
-    """
+    """Compare what is known of each episode before it is run; of a perturbation, at the levels that are there."""
     if "level" in rows:
         wanted = wanted[wanted["level"].isin(rows["level"])]
     if len(rows) != len(wanted):

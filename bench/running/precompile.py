@@ -68,10 +68,7 @@ def _kind(unit: Unit) -> tuple:
 
 @contextlib.contextmanager
 def compiling_ahead(plan: Plan, units: Sequence[Unit]) -> Iterator[Ahead | None]:
-    """While inside, another process compiles what these units need; it is stopped at the end.
-
-    There is none for fewer contenders than WORTH.
-    """
+    """Let another process compile what these units need, while inside; none for fewer contenders than WORTH."""
     from bench.law.contenders.registry import all_contenders
 
     heads = list({_kind(unit): unit for unit in reversed(units)}.values())[::-1]

@@ -34,15 +34,12 @@ def run(
     report: Callable[[Unit], None] = lambda _: None,
     law_limit_s: float | None = None,
 ) -> bool:
-    """Carry out what is not done yet; whether there was anything to do.
+    """Carry out what is not done yet; return whether there was anything to do.
 
-    Args:
-        workers: threads of this process. scheduler: who carries out the units (bench/running/schedulers/__init__.py).
-        report: called with every unit when it is done. law_limit_s: how long a unit of a user's law may take; None for
-            the rule of `bench.running.sandbox`.
-    Errors:
-        BadNumber: workers. BadResults: the folder cannot be used or written, or another run is at work there.
-        MissingTool, LostWorkers: a cluster. KeyboardInterrupt: after what is finished is written.
+    workers: threads of this process. report: called with every unit when it is done. law_limit_s: how long a unit of
+    a user's law may take; None for the rule of `bench.running.sandbox`. BadResults: the folder cannot be used, or
+    another run is at work there. MissingTool, LostWorkers: a cluster. KeyboardInterrupt: after what is finished is
+    written.
     """
     check_workers(workers)
     check_scheduler(scheduler)
@@ -103,10 +100,7 @@ def in_running_order(units: Iterable[Unit]) -> list[Unit]:
 
 
 def _finish(plan: Plan, out: Path, sandbox: Sandbox, began: float, about: dict) -> None:
-    """Write the tables, and provenance.json, with `about` the run, when all are there.
-
-    Units that are to be tried again (`Sandbox.again`) count as crashed; the parts of the others stay for the next run.
-    """
+    """Write the tables and provenance.json; units to be tried again count as crashed, and other parts then stay."""
     notes, again = [*sandbox.notes], sandbox.again
     folds = {one.table.name: one.fold for one in known_experiments().values() if one.fold}
     for name, table in plan.tables.items():

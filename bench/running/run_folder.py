@@ -36,11 +36,7 @@ class State(NamedTuple):
 
 @contextlib.contextmanager
 def held(out: Path) -> Iterator[None]:
-    """Keep other runs out of the folder, which is made if there is none, and not left behind empty.
-
-    Errors:
-        BadResults: another run is at work there, or it is no folder, or cannot be made.
-    """
+    """Keep other runs out of the folder, made if there is none and never left empty; BadResults if one is at work."""
     is_new = not out.exists()
     with contextlib.ExitStack() as stack:
         try:
@@ -56,11 +52,7 @@ def held(out: Path) -> Iterator[None]:
 
 
 def inspect(plan: Plan, out: Path, replace: bool = False) -> State:
-    """Return what is done already in `out`; nothing is touched.
-
-    Errors:
-        BadResults: the folder holds another plan, or something that is no run of ours.
-    """
+    """Return what is done already in `out`, untouched; BadResults if it holds another plan, or is no run of ours."""
     out = Path(out)
     if not _content(out):
         return State(False, frozenset())
@@ -132,11 +124,7 @@ def is_sound(plan: Plan, out: Path, unit: Unit) -> bool:
 
 
 def read_part(plan: Plan, out: Path, unit: Unit) -> pa.Table:
-    """Return the rows of a part.
-
-    Errors:
-        BadResults: it is not as it was written.
-    """
+    """Return the rows of a part; BadResults if it is not as it was written."""
     path = part(out, unit)
     if not path.is_file() or not is_sound(plan, out, unit):
         raise BadResults(f"{path}: it was removed or changed while the run went on; give the same command again")

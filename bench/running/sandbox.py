@@ -1,11 +1,9 @@
-"""A user's laws kept apart (sandbox_process.py), so that one that hangs or dies costs its own rows and never the run.
-
-Each law has processes of its own, so that none disturbs another.
+"""A user's laws, each in its own processes (sandbox_process.py): one that hangs or dies costs its own rows alone.
 
 Every request has a limit. A unit that was lost is run again one episode after the other, and only those that do not
 come back are rows with the outcome `hung` or `crashed`; after MOST_LOST of them, or three that hang, the rest of the
-unit counts as lost without being tried, and so does a whole unit of which no part can be asked for, or whose answer is
-not its rows (answers.py).
+unit counts as lost without being tried, and so does a whole unit without parts, or whose answer is not its
+rows (answers.py).
 
 A process that is killed while it prepares is started once more, with no other at work; if it is killed again, its
 rows are `crashed` in this run, and the same command tries them again.
@@ -31,8 +29,7 @@ PATIENCE_S, SINGLE_S = 30.0, 1.0
 """Time limits of a unit and of a single episode, besides TICK_S for each of their ticks."""
 
 TICK_S = {"": 1e-5, "ideal-rk4": 1e-5, "ideal-held": 1e-5, "native": 1e-4, "reference": 2e-3}
-"""Seconds of processor time, by engine: ten times what a tick of ours takes. A perturbed body is simulated as
-ideal-held is."""
+"""Seconds of processor time, by engine: ten times a tick of ours. A perturbed body is simulated as ideal-held is."""
 
 MOST_LOST = 100
 """Episodes of a unit that may be lost one by one, each for SINGLE_S."""
@@ -48,11 +45,8 @@ LOST = tuple(OUTCOMES[one] for one in (CRASHED, HUNG))
 class Sandbox(contextlib.AbstractContextManager):
     """The processes of a plan's own laws, as many as there are threads that ask; started when first needed.
 
-    Args:
-        limit_s: of processor time for every request, compiling apart; None for the rule above. most_lost: episodes of a
-            unit, see MOST_LOST. is_checked: by another process, see `check`.
-
-    notes: messages about the laws. again: keys of units whose law was killed twice while it prepared.
+    limit_s: of processor time for every request; None for the rule above. most_lost: episodes of a unit. notes:
+    messages about the laws. again: keys of units whose law was killed twice while it prepared.
     """
 
     def __init__(self, plan: Plan, limit_s: float | None = None, most_lost: int = MOST_LOST, is_checked: bool = False):
@@ -74,12 +68,9 @@ class Sandbox(contextlib.AbstractContextManager):
         return unit.law in self._own
 
     def check(self) -> None:
-        """Compile the laws for every engine that they run on, and try them where an experiment says so.
+        """Compile the laws for every engine that they run on, and try them; BadLaw if one is beyond the dialect.
 
-        A law that is found to be beyond the dialect later than here has changed, and is lost.
-
-        Errors:
-            BadLaw: one beyond the dialect.
+        A law that is found to be so later than here has changed, and is lost.
         """
         own = [unit for unit in self.plan.units if self.has(unit)]
         firsts = {self._place(unit): unit for unit in reversed(own)}
@@ -92,11 +83,7 @@ class Sandbox(contextlib.AbstractContextManager):
         self.is_checked = True
 
     def rows(self, unit: Unit) -> pa.Table:
-        """Return the rows of a unit, whatever becomes of its law.
-
-        Errors:
-            BadLaw: a law beyond the dialect. KeyboardInterrupt: the run stops before all episodes were tried.
-        """
+        """Return the rows of a unit, whatever becomes of its law; BadLaw if it is beyond the dialect."""
         if unit in self._tried:
             return self._tried.pop(unit)
         experiment = experiment_of(unit)

@@ -70,8 +70,7 @@ class Process:
     def prepare(self, unit: Unit) -> None:
         """Load the law; compile, import and build what the unit needs.
 
-        Errors:
-            Lost: the law did not let it. Killed: something else may not have. Mistake: the user's.
+        Lost: the law did not let it. Killed: something else may not have. Mistake: the user's.
         """
         place = (unit.experiment, unit.contender, unit.engine, unit.selector, unit.arm)
         try:
@@ -87,12 +86,7 @@ class Process:
             raise
 
     def ask(self, unit: Unit, some: Unit, limit_s: float) -> pa.Table:
-        """Return the rows of a unit, or of some of its starts.
-
-        Errors:
-            Lost: they did not come in time, or the process ended, or the law broke the judge. Forged: they are
-            others. Mistake: the user's.
-        """
+        """Return the rows of a unit, or of some of its starts; Lost if none came in time, Forged if they are others."""
         longest_s = AND_S + WAITING * limit_s
         asked = {"key": unit.key, "processor_s": limit_s, "longest_s": longest_s}
         if some is not unit:

@@ -49,10 +49,7 @@ def answer(work: Callable[[], bytes]) -> bytes:
 
 
 def prepared(plan: Plan, unit: Unit, run_of: Connection) -> bytes:
-    """Return the answer when all is compiled, imported and built that the unit's rows need, for all forks.
-
-    A law beyond the dialect is tried: what always raises, or never returns, has no type, and is lost, no mistake.
-    """
+    """Return the answer when all that the unit's rows need is built; a law that always raises, or hangs, is lost."""
 
     def ready() -> bytes:
         experiment_of(unit).prepare(plan.settings, unit)
@@ -99,11 +96,7 @@ def answer_of_a_fork(work: Callable[[], bytes], processor_s: float, longest_s: f
 
 
 def _heard(reading: int, child: int, longest_s: float, run_of: Connection) -> bytes | None:
-    """Return what a fork wrote until it ended, even if a grandchild keeps the pipe open; None if it did not end.
-
-    Errors:
-        EOFError: the run has ended.
-    """
+    """Return what a fork wrote until it ended, grandchildren or not, or else None; EOFError if the run has ended."""
     said, deadline = [], time.monotonic() + longest_s
     while (left := deadline - time.monotonic()) > 0.0:
         ready = wait([reading, run_of], min(LOOK_S, left))

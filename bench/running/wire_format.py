@@ -30,12 +30,9 @@ def described(plan: Plan, units: Sequence[Unit]) -> dict:
 
 
 def plan_of(content: dict, read: Callable[[Path, bytes], Law] = described_law.described) -> Plan:
-    """Return a plan of these units alone.
+    """Return a plan of these units alone; BadResults if other sources described it, BadLaw if a law fails to load.
 
-    Args:
-        read: makes a law of a user's file; in a law's own process, and there alone, `law_file.load_law`.
-    Errors:
-        BadResults: it was described by other sources. BadLaw: a user's law that this process cannot load.
+    read: makes a law of a user's file; in a law's own process, and there alone, `law_file.load_law`.
     """
     if content["sources"] != source_digest():
         raise BadResults(

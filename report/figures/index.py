@@ -17,10 +17,7 @@ if (matchMedia("(prefers-reduced-motion: no-preference)").matches)
 
 
 def facts(run: Run) -> dict[str, Any]:
-    """Return the default and what it does, what leads to another law, and how ours compares.
-
-    And the loop of three fates, which plays at once unless the reader wants less motion, with its words.
-    """
+    """Return the default and what it does, what leads to another law, how ours compares, and the three fates."""
     episodes = media.facts()["fates"]["episodes"]
     said = "; ".join(f"from {one['start']} {families.word(one['contender'])} {one['says']}" for one in episodes)
     loop = media.loop(f"A gripper under three laws: {said}.", "fates-loop", "_static/media", 313)

@@ -39,8 +39,7 @@ STEP = float(np.finfo(float).eps) ** (1 / 3)
 """rad, times the margin: where truncation and rounding of a central difference are alike, both about eps^(2/3)."""
 
 PAPERS = papers_coordinates().name
-"""The paper's coordinates: those whose forward kinematics are differenced, whose determinant is checked, and whose
-second derivation is looked at on a slice too."""
+"""The paper's coordinates, of which more is checked: differences, the determinant, and a second derivation."""
 
 JUMP = 1.0
 """rad: a change of coordinates over one step that is none of the motion's but a wrap."""

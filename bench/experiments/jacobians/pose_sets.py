@@ -85,10 +85,9 @@ def grid(arm: Arm, i: int, j: int, side: int) -> Iterator[tuple[tuple[int, int],
 
 
 def pair(kin: Kinematics) -> tuple[int, int]:
-    """Return the two joints whose grid comes nearest to both kinds of singularity.
+    """Return the two joints whose grid comes nearest to both kinds of singularity, by the larger of two distances.
 
-    The kinematic kind by its least 1/cond J over the middle one, the representation's by its least cos(beta) where J is
-    well conditioned; the larger of the two is the pair's distance.
+    These are the least 1/cond J over the middle joint, and the least cos(beta) where J is well conditioned.
     """
     return min(itertools.combinations(range(kin.arm.joints), 2), key=lambda two: _distance(kin, *two))
 

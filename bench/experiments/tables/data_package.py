@@ -18,11 +18,7 @@ TYPES = {WORD: "string", NUMBER: "number", SINGLE: "number", COUNT: "integer"}
 
 
 def described_folder(folder: Path) -> dict:
-    """Return the descriptor of a folder's tables, in order of their names.
-
-    Errors:
-        BadResults: the folder holds no table that the schema knows.
-    """
+    """Return the descriptor of a folder's tables, by name; BadResults if the schema knows none of them."""
     paths = [path for path in sorted(folder.glob("*.parquet")) if path.stem in all_tables()]
     if not paths:
         raise BadResults(f"{folder}: no tables there; give a results folder, such as results/reference")

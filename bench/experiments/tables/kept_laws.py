@@ -18,12 +18,9 @@ UNTRUSTED = "a file that came with the results; it was not run"
 
 
 def kept_laws(folder: Path, costs: pd.DataFrame) -> tuple[Law, ...]:
-    """Return the laws that the folder keeps, in alphabetical order; one that is now ours is left out.
+    """Return the folder's laws, by name, but those now ours; where one may not run, `costs` says what it acts on.
 
-    Args:
-        costs: the folder's costs.parquet, which says what a law acts on that may not run.
-    Errors:
-        BadResults: laws/ is a link or holds one, or a file whose name is no word. BadLaw: of a law that may run.
+    BadResults: laws/ is a link or holds one, or a file whose name is no word. BadLaw: of a law that may run.
     """
     refuse_link(folder / "laws")
     paths = sorted((folder / "laws").glob("*.py"))

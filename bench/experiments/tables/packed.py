@@ -31,11 +31,7 @@ HEADING = 1 << 16
 
 
 def pack(rows: pa.Table, table: Table) -> bytes:
-    """Return rows of a table as bytes.
-
-    Errors:
-        ValueError: a word or a whole number is null.
-    """
+    """Return rows of a table as bytes; ValueError if a word or a whole number is null."""
     words, columns = {}, []
     for one, column in zip(table.columns(), rows.columns, strict=True):
         if one.type in (WORD, COUNT) and column.null_count:
@@ -51,13 +47,7 @@ def pack(rows: pa.Table, table: Table) -> bytes:
 
 
 def unpack(content: bytes, table: Table, most_rows: int | None = None) -> pa.Table:
-    """Return the rows of such bytes, whoever made them.
-
-    Args:
-        most_rows: that there may be.
-    Errors:
-        BadResults: the bytes are no rows of this table, hold a word that is no word, or are more rows.
-    """
+    """Return the rows of such bytes; BadResults if not this table's, with a bad word, or more than most_rows."""
     try:
         return _unpacked(content, table, most_rows)
     except (ValueError, KeyError, TypeError, struct.error, RecursionError, OSError, pa.ArrowException) as error:

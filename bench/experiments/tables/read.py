@@ -82,10 +82,7 @@ def table(path: Path, name: str) -> pd.DataFrame:
 
 
 def with_contender(frame: pd.DataFrame) -> pd.DataFrame:
-    """Return the frame with `contender` added, a law or a controller in contact as the command line writes it.
-
-    Each combination of words is named once however many rows have it.
-    """
+    """Return the frame with `contender` added, as the command line writes it; each combination is named only once."""
     columns = [name for name in MARKS if name in frame]
     words = frame[columns]
     few = words.drop_duplicates().astype(str)
@@ -97,11 +94,7 @@ def with_contender(frame: pd.DataFrame) -> pd.DataFrame:
 
 
 def chosen(frame: pd.DataFrame, words: dict[str, str]) -> pd.DataFrame:
-    """Return the rows whose columns have these words, renumbered from 0, with only the words that occur.
-
-    Errors:
-        BadResults: the table has no such column.
-    """
+    """Return the rows whose columns have these words, renumbered from 0, with only the words that occur."""
     unknown = next((column for column in words if column not in frame), None)
     if unknown is not None:
         raise BadResults(f"no column '{unknown}' in this table; it has: {', '.join(map(str, frame.columns))}")

@@ -15,10 +15,7 @@ STUDIED = tuple(read_table(__file__, name) for name in NAMES)
 
 @functools.cache
 def all_tables() -> dict[str, Table]:
-    """Return every table by its name.
-
-    No table has kp, kv, dt_s and integrator in its key: they are the run's.
-    """
+    """Return every table by its name; kp, kv, dt_s and integrator are in no key: they are the run's."""
     return {table.name: table for table in (*(one.table for one in known_experiments().values()), *STUDIED)}
 
 

@@ -45,18 +45,10 @@ def order_interval(count: int, level: float) -> tuple[int, int]:
 
 
 def bootstrap(values: np.ndarray, statistic: Callable[..., np.ndarray], seed: int = SEED) -> Estimate:
-    """Percentile interval of a statistic over resamples with replacement (Efron 1979).
+    """Return the percentile interval over resamples with replacement (Efron 1979), the same starts for every law.
 
-    The same seed draws the same starts for every law. Of evenly spread starts, which vary less than random ones, the
-    interval is on the wide side.
-
-    Args:
-        values: one number a start, shape (n,).
-        statistic: statistic(values, axis=-1) -> one number along that axis.
-        seed: of the resamples.
-
-    Errors:
-        ValueError: there are no values.
+    Of evenly spread starts, which vary less than random ones, the interval is on the wide side. values: one number a
+    start, shape (n,), at least one. statistic(values, axis=-1) -> one number along that axis.
     """
     found = resampled(values, statistic, seed)
     low, high = quantile(found, TAIL), quantile(found, 1.0 - TAIL)
@@ -64,12 +56,9 @@ def bootstrap(values: np.ndarray, statistic: Callable[..., np.ndarray], seed: in
 
 
 def resampled(values: np.ndarray, statistic: Callable[..., np.ndarray], seed: int = SEED) -> np.ndarray:
-    """Return a statistic of each resample, shape (RESAMPLES,); resample by resample of the same starts for every law.
+    """Return a statistic of each resample, shape (RESAMPLES,), of at least one value; the same starts for every law.
 
     So the difference of two laws' is the paired bootstrap of their difference.
-
-    Errors:
-        ValueError: there are no values.
     """
     if not len(values):
         raise ValueError("no values to resample (allowed: at least one)")

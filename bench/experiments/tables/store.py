@@ -109,11 +109,7 @@ def joined(tables: list[pa.Table]) -> pa.Table:
 
 
 def read_arrow(path: Path, table: str | Table) -> pa.Table:
-    """Return a table of ours with its schema checked.
-
-    Errors:
-        BadResults: missing, truncated, or of another schema; the message says which and the cure.
-    """
+    """Return a table of ours with its schema checked; BadResults if it is missing, truncated, or of another schema."""
     return _checked(
         path,
         table_of(table).name,
@@ -122,11 +118,7 @@ def read_arrow(path: Path, table: str | Table) -> pa.Table:
 
 
 def check(path: Path, table: str | Table) -> None:
-    """Make the checks of `read_arrow` from the file's end alone, where parquet keeps its schema.
-
-    Errors:
-        BadResults: see `read_arrow`.
-    """
+    """Make the checks of `read_arrow` from the file's end alone, where parquet keeps its schema."""
     _checked(path, table_of(table).name, lambda: pq.read_schema(path).empty_table())
 
 
@@ -167,20 +159,12 @@ def _refuse_words(path: Path, arrow: pa.Table) -> None:
 
 
 def frame(path: Path, table: str | Table) -> pd.DataFrame:
-    """Return a file of a table as a data frame.
-
-    Errors:
-        BadResults: see `read_arrow`.
-    """
+    """Return a file of a table as a data frame, checked by `read_arrow`."""
     return read_arrow(path, table).to_pandas(ignore_metadata=True)
 
 
 def read(folder: Path, table: str | Table) -> pd.DataFrame:
-    """Return one table of a finished run; without rows if its experiment is newer than the run.
-
-    Errors:
-        BadResults: see `read_arrow`; also of a run that has not finished.
-    """
+    """Return one table of a run, BadResults if it has not finished; without rows if its experiment is newer than it."""
     table, folder = table_of(table), Path(folder)
     if not folder.is_dir():
         raise BadResults(f"{folder}: there is no such folder; run `make bench` (or bench run) first")

@@ -21,11 +21,7 @@ def mark(text: bytes) -> Path:
 
 
 def remember(text: bytes) -> None:
-    """Remember this text as this user's own.
-
-    Errors:
-        OSError: the user's state cannot be written.
-    """
+    """Remember this text as this user's own; OSError if the user's state cannot be written."""
     mark(text).parent.mkdir(parents=True, exist_ok=True)
     mark(text).touch()
 

@@ -95,9 +95,9 @@ def check_out(folder: Path, commit: str) -> Iterator[Path]:
 
 @contextlib.contextmanager
 def check_out_both(base: str, head: str | None, laws: tuple[Path, ...]) -> Iterator[tuple[Side, Side]]:
-    """Check out base and head for as long as the block lasts; head None means the files in the checkout.
+    """Check out base and head, of the repository of a user's law files if there are any, while the block lasts.
 
-    If there are law files of a user's, revisions are of their repository.
+    head None means the files in the checkout.
     """
     folder = find_repository(laws)
     with contextlib.ExitStack() as stack:

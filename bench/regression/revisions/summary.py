@@ -33,10 +33,7 @@ class Finding(NamedTuple):
 
 @dataclass
 class Comparison:
-    """All that was compared, and what was found; one gate after the other adds to it.
-
-    files: of pytest-benchmark, of base and head, if both were timed. measures: of a user's laws.
-    """
+    """All that was compared, and what was found; files: of pytest-benchmark, if timed; measures: of a user's laws."""
 
     base: str
     head: str

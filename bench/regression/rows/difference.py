@@ -29,7 +29,7 @@ class Difference(NamedTuple):
 class Rule(NamedTuple):
     """How cells are compared: numbers by a tolerance (column -> relative, absolute) in some rows, words exactly.
 
-    exact: columns that are compared first, exactly, each in some rows. skipped: columns that are not compared.
+    exact: columns that are compared first, exactly, each in some rows.
     """
 
     tolerance: Callable[[str], tuple[float | np.ndarray, float | np.ndarray]]

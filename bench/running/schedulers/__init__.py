@@ -16,11 +16,7 @@ ARENA_MAX = -8
 
 
 def check_scheduler(word: str) -> None:
-    """Refuse a word that names no scheduler, or one that needs what is not installed.
-
-    Errors:
-        UnknownWord: none of the forms. BadNumber: a local cluster of so many processes. MissingTool: no Dask.
-    """
+    """Refuse a word that names no scheduler, or a bad number of processes, or one without its package (MissingTool)."""
     if word.startswith(LOCAL):
         number = word.removeprefix(LOCAL)
         if not (re.fullmatch("[0-9]{1,9}", number) and 1 <= int(number) <= MOST):

@@ -51,11 +51,7 @@ logging.getLogger("distributed").setLevel(logging.CRITICAL)
 
 @contextlib.contextmanager
 def client_of(word: str) -> Iterator[distributed.Client]:
-    """Open a client of local:N, a cluster that lives as long as this, or of the scheduler at an address.
-
-    Errors:
-        MissingTool: no scheduler answers there.
-    """
+    """Open a client of local:N, a cluster that lives as long as this, or of an address; MissingTool if none answers."""
     if not word.startswith(LOCAL):
         try:
             client = distributed.Client(word, timeout=ANSWER_S, set_as_default=False)
@@ -126,9 +122,7 @@ class Chunks:
     def carry_out(self, todo: Sequence[Unit]) -> int:
         """Give, take and write until all is done; return the most threads of workers that were there.
 
-        Errors:
-            MissingTool: a worker without this package. BadResults: one with other sources. LostWorkers: a unit ended
-            all that took it, or the scheduler is gone. KeyboardInterrupt: what has come back is written.
+        BadResults: a worker has other sources. LostWorkers: a unit ended all that took it, or the scheduler is gone.
         """
         self.waiting.extend(in_batches(todo, self._present()))
         ended = distributed.as_completed(loop=self.client.loop)
@@ -206,10 +200,7 @@ MOST_EPISODES = 50_000
 
 
 def in_batches(units: Sequence[Unit], workers: int) -> list[tuple[Unit, ...]]:
-    """Cut the units, in their order, into chunks of at most CHUNK_S, or of one unit that takes longer.
-
-    Of little work each of the workers that are there gets ROUNDS chunks all the same.
-    """
+    """Cut the units into chunks of at most CHUNK_S, or one longer unit; of little work, into ROUNDS a worker."""
     usual_s = [experiment_of(unit).cost_s(unit) for unit in units]
     most_s = min(CHUNK_S, sum(usual_s) / (ROUNDS * max(1, workers)))
     chunks: list[list[Unit]] = []

@@ -20,11 +20,7 @@ def run(
     todo: Sequence[Unit], out: Path, workers: int, sandbox: Sandbox, done: Callable[[Unit], None],
     ahead: Ahead | None = None,
 ) -> int:  # fmt: skip
-    """Carry out units, in their order, and write each and call `done` with it; return the number of workers.
-
-    Errors:
-        KeyboardInterrupt: after the units under way are written.
-    """
+    """Carry out units in order, write each and call `done` with it, on Ctrl-C too; return the number of workers."""
     share_heap()
     stop = threading.Event()
 

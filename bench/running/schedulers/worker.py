@@ -11,10 +11,7 @@ from bench.running.wire_format import plan_of
 def carry_out(text: str, law_limit_s: float | None = None) -> tuple[dict[str, bytes], list[str]]:
     """Return the rows of each unit of a chunk as bytes, by its key, and what is to be said of a user's laws.
 
-    text: of `wire_format.described`, as JSON. A unit that is to be tried again, see `Sandbox.again`, has no rows.
-
-    Errors:
-        BadResults: this worker has other sources. BadLaw: a user's law that it cannot load.
+    text: of `wire_format.described`. A unit that is to be tried again, see `Sandbox.again`, has no rows.
     """
     plan = plan_of(json.loads(text))
     with Sandbox(plan, law_limit_s, is_checked=True) as sandbox:

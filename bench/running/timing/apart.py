@@ -26,11 +26,7 @@ def run_apart(
     contenders: list[Contender], folder: Path, quick: bool = False, report: Callable = lambda _: None,
     arms: tuple[str, ...] = (),
 ) -> Path:  # fmt: skip
-    """Time contenders as `run` does, where some of them are a user's.
-
-    Errors:
-        BadLaw: a user's law that cannot be compiled, that ends its process, or that does not return.
-    """
+    """Time contenders as `run` does, where some are a user's; BadLaw if one cannot be compiled, crashes or hangs."""
     files = sorted({(one.regulator.origin, one.regulator.text) for one in contenders if one.regulator.origin})
     how = {"folder": str(folder), "quick": quick, "arms": arms}
     asked = {"files": files, "names": [one.name for one in contenders], "how": how}

@@ -39,10 +39,7 @@ def closed_loop(
     engine: str, one: Contender, loop: Any, laws: tuple, world: Any, starts: list[Start], settings: Settings,
     fresh: np.ndarray, arm: str = "", kept: Any = None,
 ) -> Benchmark:  # fmt: skip
-    """Return the compiled loop of an engine from these starts; fresh: its rows before it.
-
-    kept: what the world holds the addresses of.
-    """
+    """Return the compiled loop of an engine; fresh: its rows before it; kept: what the world has the addresses of."""
     rows = fresh.copy()
     given = memory_of(one), start_rows(starts), numbers(settings), rows, blank_curves(len(starts))
 

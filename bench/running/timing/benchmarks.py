@@ -33,10 +33,7 @@ STARTS = {"ideal-held": 128, "ideal-rk4": 128, "native": 8}
 
 
 class Progress(NamedTuple):
-    """After every sample: what was timed, and how many samples of how many are done.
-
-    Before the first sample, one for every law that is being compiled, with a total of 0.
-    """
+    """After every sample: what was timed, and how many of how many; with a total of 0, the law being compiled."""
 
     name: str
     done: int
@@ -49,9 +46,6 @@ def benchmarks(
     """Return the reference kernel first, then everything else, arms with the controllers that have these laws too.
 
     All is compiled and has run once. MuJoCo's own actuator is left out: no law of ours runs there.
-
-    Errors:
-        BadLaw: a user's law that the compiler cannot take.
     """
     contenders = [one for one in contenders if not one.regulator.in_engine]
     loops, laws = [], []

@@ -19,8 +19,7 @@ from tasks.base import Start
 
 TASK = "arm-regulation"
 SETTINGS = Settings().limits(6.0)._replace(hold_ticks=NEVER)
-"""6000 ticks of 1 ms, some 20 ms: handing the loop its arguments takes 0.19 ms of a call, a hundredth of it; in a run
-it does so once for many episodes. A tick costs the same at any time."""
+"""6000 ticks of 1 ms, some 20 ms of time: handing the loop its arguments takes a hundredth of it, 0.19 ms a call."""
 
 FEWEST_TICKS = 4000
 """A controller that fails sooner is not timed: what a call costs beside its ticks would show."""

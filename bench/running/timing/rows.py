@@ -38,13 +38,7 @@ def run(
     contenders: list[Contender], folder: Path, quick: bool = False, report: Callable = lambda _: None,
     arms: tuple[str, ...] = (),
 ) -> Path:  # fmt: skip
-    """Time everything, these arms too, and write the machine's file.
-
-    Args:
-        report: called with a `benchmarks.Progress` for every law compiled and after every sample.
-    Errors:
-        BadLaw: a user's law that cannot be compiled. BadResults: the folder cannot be written.
-    """
+    """Time everything, these arms too, and write the machine's file; `report` is called with each Progress."""
     measured = benchmarks(contenders, report, arms)
     seconds = measure(measured, QUICK_PASSES if quick else PASSES, report)
     rows = frame(measured, seconds)
@@ -101,19 +95,12 @@ read = functools.partial(store.frame, table="timings")
 
 
 def about(path: Path) -> dict:
-    """Commit, versions, machine and date of a machine's file.
-
-    Errors:
-        BadResults: missing, truncated, or of another schema.
-    """
+    """Return commit, versions, machine and date of a machine's file; BadResults if it is none of ours."""
     return json.loads(store.read_arrow(path, "timings").schema.metadata[b"about"])
 
 
 def tables(timings: Path | pd.DataFrame) -> Iterator[tuple[str, pd.DataFrame]]:
-    """Yield the arm, empty for the free body, and its table: ns a tick alone and in each engine.
-
-    What is alone has its ratio to the reference kernel too. The empty loop is what the time of every law alone holds.
-    """
+    """Yield the arm, empty for the free body, and its table: ns a tick alone, in each engine, and over the kernel's."""
     every = with_contender(timings if isinstance(timings, pd.DataFrame) else read(timings))
     for arm, rows in every.groupby("arm", observed=True, sort=False):
         lines: dict[str, dict[str, str]] = {}

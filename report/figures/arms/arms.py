@@ -54,11 +54,7 @@ def of_laws(rows: pd.DataFrame, start_set: str) -> pd.DataFrame:
 
 
 def ranked(rows: pd.DataFrame) -> Iterator[tuple]:
-    """Return a row a law, best first, then the baselines: percentages with intervals; bold: what no other law beats.
-
-    Args:
-        rows: of `arm_rows.episodes`.
-    """
+    """Return a row a law, best first, then baselines, of `arm_rows.episodes`; percentages are bold if unbeaten."""
     laws = arm_rows.with_standard(rows)
     top = {(name, one): best(laws[laws["start_set"] == name], one, "controller") for name, one in COLUMNS}
     own = pd.concat([laws, rows[rows["regulator"].isin(baselines_of_arms())]])
@@ -78,11 +74,7 @@ def ranked(rows: pd.DataFrame) -> Iterator[tuple]:
 
 
 def limited(rows: pd.DataFrame) -> Iterator[tuple]:
-    """Return a row for each arm, motors and gains: what settles, and what stops the others; over all laws.
-
-    Args:
-        rows: of `arm_rows.every`.
-    """
+    """Return a row for each arm, motors and gains: what settles, what stops the others; of `arm_rows.every`."""
     rows = of_laws(rows, SETS[0])
     rows = compare_settings(rows[rows["variation"].isin(MOTORS)], ["variation", "kp"])
     for arm, motors in itertools.product(rows["arm"].unique(), MOTORS):

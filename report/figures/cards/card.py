@@ -61,11 +61,7 @@ class Source(NamedTuple):
 
 
 def make_page(name: str, title: str, card: str, source: Source, word: str = "", live: str = "") -> LawPage:
-    """Return the page of a law.
-
-    Args:
-        word: by which it is exported; empty if it is not. live: the page on which it runs, from the site's root.
-    """
+    """Return the page of a law; word: by which it is exported, or empty; live: the page on which it runs."""
     subject = find_subject(word) if word else None
     languages = map(find_language, language_words() if word else ())
     laws = {each.title: next(iter(each.law(subject).items())) for each in languages if subject}
@@ -77,11 +73,7 @@ def make_page(name: str, title: str, card: str, source: Source, word: str = "", 
 
 
 def make_card(record: Any, title: str, said: tuple[str, Mapping[str, str]], look: str, costs: str = "") -> str:
-    """Return the card of a law.
-
-    Args:
-        record: its source and formula. said: the docstring's text, and fields by their heads. look: its colour as CSS.
-    """
+    """Return the card of a law; said: the docstring's text, and fields by their heads; look: its colour as CSS."""
     formula = f'<div class="card-formula">{html.formula(record.formula)}</div>' if record.formula else ""
     lines = [set_paragraph(text) for text in said[0].split("\n\n") if text.strip()]
     for head, text in said[1].items():

@@ -43,11 +43,7 @@ def starts() -> list[tuple[str, str, Start]]:
 
 
 def page(contenders: list[Contender], costs: Any) -> html.Html:
-    """Return controls, hidden until the script is there, the laws' code, and what the script reads.
-
-    Args:
-        costs: rows about the free body.
-    """
+    """Return controls, hidden until the script is there, the laws' code, and what it reads; costs: on the free body."""
     names, every = [one.on_free_body for one in contenders], starts()
     inside = json.dumps(data(names, every, costs), separators=(",", ":")).replace("<", "\\u003c")
     presets = presets_of(names)

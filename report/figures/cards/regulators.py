@@ -54,11 +54,7 @@ def text_of(regulator: Law) -> tuple[str, str]:
 
 
 def page(one: Contender, run: Run, live: str = "") -> LawPage:
-    """Return the page of a law.
-
-    Args:
-        live: the page on which laws run, from the site's root; empty where the site has none.
-    """
+    """Return the page of a law; live: the page on which laws run, from the site's root, or empty."""
     word, is_exported = one.on_free_body, not (one.regulator.origin or one.regulator.costing_only)
     title, exported = laws.title_of(one), word if is_exported else ""
     return make_page(families.anchor(word), title, card(one, run), source(one.regulator), exported, live)

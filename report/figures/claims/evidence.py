@@ -18,10 +18,7 @@ SLIPS = html.Table("Slip | Where | Printed | Should be | Checked")
 
 
 def facts(_: Run) -> dict:
-    """Return the rules of all criteria, how steady the verdicts are, and how many slips were computed and read.
-
-    And what decided each claim, folded, and the tables of sentences, slips and parts of the paper.
-    """
+    """Return the rules of all criteria, how steady verdicts are, what decided each claim, and the tables."""
     every = claims.judge_all()
     return {
         "rule": typeset(claims.RULE),
@@ -44,11 +41,7 @@ def describe_item(one: Item) -> tuple:
 
 
 def describe_slip(one: Erratum) -> tuple:
-    """Return the row of a slip, and in it how it was checked, the computed ones just now.
-
-    Errors:
-        ValueError: the check no longer confirms its erratum, and the page must not say that it does.
-    """
+    """Return the row of a slip, with how it was checked just now; ValueError if the check no longer confirms it."""
     if one.check and not one.check():
         raise ValueError(f"erratum {one.id}: its check '{one.how}' does not confirm it (cure: mend it in errata.py)")
     checked = f"{'computed: ' if one.check else ''}{prose(one.how)}"

@@ -94,11 +94,7 @@ def compare_laws(run: Run, times: pd.DataFrame, efforts: pd.DataFrame) -> Iterat
 
 
 def common(episodes: pd.DataFrame) -> pd.DataFrame:
-    """Rows of uniform starts that every law ran, so that none is judged by easier ones; laws family by family.
-
-    Args:
-        episodes: rows of one engine. The paper's laws ran more starts than the later ones.
-    """
+    """Return one engine's rows of uniform starts that every law ran, none judged by easier ones; family by family."""
     rows = compared.common(episodes[(episodes["start_set"] == "uniform") & (episodes["arm"] == "")])
     names = families.in_order(rows["contender"].unique())
     ordered = rows.assign(contender=pd.Categorical(rows["contender"].astype(str), names, ordered=True))

@@ -88,11 +88,7 @@ def unit(axis: str) -> np.ndarray:
 
 
 def measured(found: list[dict]) -> dict[str, str]:
-    """Return how far off the moment the Euler hand turns at each tilt, and how far about the axis that it should hold.
-
-    Args:
-        found: of `turns`.
-    """
+    """Return how far off the moment the Euler hand of `turns` turns at each tilt, and how far about the held axis."""
     tilted = [one for one in found if one["contender"] == PAPERS_EULER and one["beta"] > 0.0]
     off = {one["beta"]: one["off"] for one in tilted if one["pushed"] == "x"}
     held = {one["beta"]: 100.0 * one["share"] for one in tilted if one["pushed"] == "z"}

@@ -59,11 +59,7 @@ def on_the_map(run: Run) -> dict:
 
 @responsive_picture
 def hero(episodes: pd.DataFrame, narrow: bool) -> Drawing:
-    """Settling time against initial angle.
-
-    Args:
-        episodes: rows of one engine; sets at rest with goal zero are drawn, what fails in the rail above.
-    """
+    """Draw one engine's settling time by initial angle, from rest with goal zero; what fails is in the rail above."""
     rows = episodes[episodes["start_set"].isin(SETS)]
     parts = [(name, own) for name in laws.TITLES if len(own := rows[rows["contender"] == name])]
     shape, height = ((len(parts), 1), 2.3 * len(parts)) if narrow else ((1, len(parts)), 3.5)

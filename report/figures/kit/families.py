@@ -1,8 +1,4 @@
-"""The laws in families, each small enough for one panel, with names short enough to label a curve.
-
-Two dozen laws in one figure cannot be distinguished. A family's laws are drawn in their own colours over all
-others in grey.
-"""
+"""The laws in families of one panel each, drawn in their own colours over all others in grey, with short names."""
 
 from collections.abc import Iterable
 from typing import NamedTuple

@@ -61,10 +61,7 @@ def law(name: str, text: str | None = None) -> Html:
 
 
 def foreign(text: str) -> str:
-    """Return a text that we did not write, for HTML and for Markdown: it reads as it is, and nothing of it is markup.
-
-    An entity is a letter to Markdown.
-    """
+    """Return a text that we did not write, for HTML and Markdown: it reads as it is, and nothing of it is markup."""
     return TAKEN.sub(lambda sign: f"&#{ord(sign[0])};", " ".join(str(text).split()))
 
 
@@ -140,11 +137,7 @@ class Table:
             raise ValueError(f"formats names {unknown}, not columns of the table; known: {self.heads}")
 
     def __call__(self, rows: Iterable) -> Markdown | None:
-        """Return the table as Markdown.
-
-        Args:
-            rows: a frame or mappings with these heads, or sequences in their order; none makes no table.
-        """
+        """Return the table of a frame, of mappings with these heads, or of sequences in their order; None if empty."""
         frame = pd.DataFrame(rows if isinstance(rows, pd.DataFrame) else list(rows), columns=self.heads)
         if frame.empty:
             return None

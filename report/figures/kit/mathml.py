@@ -37,11 +37,7 @@ def block(tex: str) -> str:
 
 
 def converted(tex: str, display: str) -> str:
-    """MathML of a formula.
-
-    Raises:
-        ValueError: it is no TeX, or holds a command that is not known and would stand on the page as text.
-    """
+    """Return MathML of a formula; ValueError if it is no TeX, or holds a command that would stand as text."""
     from latex2mathml import converter
 
     try:

@@ -1,7 +1,4 @@
-"""The rendered files of report/_static/media: what they show, in numbers, and the loops as parts of pages.
-
-report/media.py made them and wrote media.json beside them; the joint motion is an episode of our own engine.
-"""
+"""The rendered files that report/media.py made: what media.json says they show, and the loops as parts of pages."""
 
 import html as escape
 import json

@@ -38,11 +38,7 @@ class Run(Results):
     folder: Path
 
     def rows(self, table: str, **words: str) -> pd.DataFrame:
-        """Return rows of one of its tables that have these words.
-
-        Errors:
-            NoEvidence: there are none.
-        """
+        """Return rows of one of its tables that have these words; NoEvidence if there are none."""
         return some(self.any_rows(table, **words), f"rows of {table} with {words} in {self.folder}")
 
     def any_rows(self, table: str, **words: str) -> pd.DataFrame:

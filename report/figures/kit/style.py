@@ -112,8 +112,7 @@ for face in sorted(FONTS.glob("*.ttf")):  # the bundled faces are made known to 
 def panels(rows: int = 1, cols: int = 1, *, height: float = 3.2, narrow: bool = False, **subplots: Any) -> Any:
     """Return a figure of the page's width, [in] high, and its axes; `narrow` is the same for a phone.
 
-    Plain `Figure`, no pyplot: nothing is shown twice, nothing stays open, and no backend is
-    chosen for anybody.
+    Plain `Figure`, no pyplot: nothing is shown twice, nothing stays open, and no backend is chosen for anybody.
     """
     figure = Figure(figsize=(PHONE_WIDTH_IN if narrow else TEXT_WIDTH_IN, height))
     axes = figure.subplots(rows, cols, **subplots)
@@ -144,10 +143,7 @@ def apart(places: Sequence[float], gap: float) -> list[float]:
 
 
 def dots(axes: Axes, x: Any, y: Any, colour: str, size: float = 2.2, **look: Any) -> None:
-    """Draw round dots of this size [pt] at (x, y), thousands as one path, which do not move the limits of the axes.
-
-    Segments of no length with round ends take a tenth of the bytes of as many markers.
-    """
+    """Draw round dots of this size [pt] at (x, y) as one path, a tenth of the bytes of markers; the limits stay."""
     points = np.column_stack((x, y)).astype(float)
     points = points[np.isfinite(points).all(axis=1)]
     if not len(points):

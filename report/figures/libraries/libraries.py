@@ -136,10 +136,7 @@ def errors(every: pd.DataFrame, kind: str = "function") -> pd.DataFrame:
 
 
 def facts(run: Run) -> dict:
-    """Return every number that the text takes, what fails and its fix, and shipped controllers and theirs.
-
-    Ours are not counted among other libraries'.
-    """
+    """Return every number that the text takes, what fails and its fix, and shipped controllers, without ours."""
     rows, every = table(), lines()
     others = every[every["library"] != OURS]
     functions, idioms = errors(others), errors(others, "idiom")

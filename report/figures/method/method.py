@@ -49,10 +49,7 @@ def count_equal(runs: pd.DataFrame, one: str, other: str) -> tuple[int, int]:
 
 
 def compute_lateness_ms(runs: pd.DataFrame, other: str) -> pd.Series:
-    """Compute how much later each law settles on another engine than on the continuous plant, on average [ms].
-
-    Over uniform starts that settle on both.
-    """
+    """Compute how much later than on the continuous plant each law settles, on average of uniform starts [ms]."""
     uniform = runs[runs["start_set"] == "uniform"]
     times = uniform.pivot_table(index=KEY, columns="engine", values="settling_time_s", observed=True)
     return 1e3 * (times[other] - times["ideal-rk4"]).groupby("contender", observed=True).mean()

@@ -57,11 +57,7 @@ def euler_deg(trace: pd.DataFrame) -> np.ndarray:
 
 @responsive_picture
 def responses(traces: pd.DataFrame, kp: float, kv: float, narrow: bool) -> Drawing:
-    """Each law from the start of its figure: its angles with the linear closed form; below, the angle to the goal.
-
-    Args:
-        traces: rows of one engine. kp, kv: gains of the closed form, dashed.
-    """
+    """Draw each law from its figure's start: angles, dashed their linear closed form; below, the angle to the goal."""
     shape = (3, 2) if narrow else (2, 3)
     figure, grid = style.panels(*shape, height=8.4 if narrow else 4.6, narrow=narrow, sharex=True)
     pairs = grid if narrow else grid.T

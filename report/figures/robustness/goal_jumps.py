@@ -41,10 +41,7 @@ def compare_paths(run: Run, kept: pd.DataFrame, reset: pd.DataFrame) -> list[tup
 
 
 def facts(run: Run) -> dict:
-    """Return how many starts jump, when, which ratio counts, and the share of long paths of the default [%].
-
-    And the paths of each law with memory that always settles.
-    """
+    """Return how many starts jump, when, which ratio counts, and the default's and other laws' long paths [%]."""
     kept, reset = soon(run, KEPT), soon(run, RESET)
     long = [measure(rows[rows["contender"] == find_default()])[0] for rows in (kept, reset)]
     return {
