@@ -7,49 +7,49 @@ import pytest
 ROOT = Path(__file__).parents[2]
 
 LINES = {
-    "bench/__init__.py": 29,
+    "bench/__init__.py": 31,
     "bench/__main__.py": 31,
-    "bench/audit": 2_083,
-    "bench/base": 494,
-    "bench/cli": 2_500,
-    "bench/engines": 6_122,
-    "bench/experiments": 5_034,
-    "bench/export": 1_953,
-    "bench/findings": 7_838,
-    "bench/law": 6_617,
-    "bench/regression": 1_283,
-    "bench/running": 2_382,
-    "bench/studies": 2_522,
-    "tests/audit": 584,
-    "tests/cli": 733,
+    "bench/audit": 3_038,
+    "bench/base": 473,
+    "bench/cli": 2_363,
+    "bench/engines": 5_980,
+    "bench/experiments": 4_725,
+    "bench/export": 2_319,
+    "bench/findings": 7_686,
+    "bench/law": 6_433,
+    "bench/regression": 1_261,
+    "bench/running": 2_097,
+    "bench/studies": 2_441,
+    "tests/audit": 798,
+    "tests/cli": 644,
     "tests/conftest.py": 70,
-    "tests/contracts": 2_345,
-    "tests/engines": 2_678,
-    "tests/experiments": 2_189,
-    "tests/export": 310,
-    "tests/findings": 2_291,
-    "tests/law": 2_331,
+    "tests/contracts": 2_286,
+    "tests/engines": 2_655,
+    "tests/experiments": 2_158,
+    "tests/export": 410,
+    "tests/findings": 2_253,
+    "tests/law": 2_244,
     "tests/regression": 722,
-    "tests/report": 1_668,
+    "tests/report": 1_659,
     "tests/repository": 513,
-    "tests/running": 1_175,
-    "tests/studies": 679,
-    "tests/support": 3_186,
-    "tests/tasks": 1_789,
-    "report": 5_924,
-    "tasks": 5_188,
+    "tests/running": 1_273,
+    "tests/studies": 666,
+    "tests/support": 3_285,
+    "tests/tasks": 1_839,
+    "report": 5_701,
+    "tasks": 5_046,
 }
 """Lines of Python a room. Who needs more takes them from another room and lowers that number in the same commit."""
-FILES = {"bench/audit": 38, "bench/experiments": 44, "bench/export": 18, "bench/law": 109, "tasks": 77}
+FILES = {"bench/audit": 49, "bench/experiments": 42, "bench/export": 21, "bench/law": 106, "tasks": 78}
 """Python files of the rooms in which one file adds one thing: with one more, a room may have as many lines more."""
 LONGEST_FILE = 250
 TOO_LONG: dict[str, int] = {}
 """Files that are still longer, with their lines."""
 
 
-DATA = {"bench": 3_275, "report": 1_750, "tasks": 489, "tests": 1_034}
+DATA = {"bench": 3_787, "report": 1_750, "tasks": 489, "tests": 1_055}
 """Lines of text in other files than Python: what moves into them counts too. One new file may come on top."""
-SUFFIXES = (".toml", ".text", ".xml", ".js", ".c", ".cpp", ".html", ".css")
+SUFFIXES = (".toml", ".text", ".xml", ".js", ".c", ".cpp", ".rs", ".html", ".css")
 
 
 def python_files(*rooms: str) -> list[Path]:
