@@ -77,7 +77,8 @@ KP = Gains().kp
 def test_filter_begins_with_no_command_of_its_own_and_the_length_of_its_quaternion_does_not_matter():
     """At rest its first command is the spring alone: nothing is felt of where the frame was switched on."""
     one, q = contenders("compensators")["velocity-free"], np.array((0.3, -0.8, 0.1, 0.5))
-    for R, R_d in ScipyRotation.random((8, 2), rng=np.random.default_rng(4)):
+    drawn = ScipyRotation.random(16, rng=np.random.default_rng(4))
+    for R, R_d in zip(drawn[:8], drawn[8:], strict=True):
         u, rate = commanded(one, R, REST, R_d, Gains(), one.state.begin(of_scipy(R)))
         k = left(R, R_d)
         np.testing.assert_allclose(u, KP * np.sinc(np.linalg.norm(k) / np.pi) * k, atol=1e-11)

@@ -33,7 +33,9 @@ DROPPED = {
     "bench/law/contenders/jacobians/dropped_jacobian.py": renamed("jacobians", "geometric", "jacobian"),
     "bench/law/contenders/inverses/dropped_inverse.py": renamed("inverses", "solve", "inverse"),
     "bench/law/contenders/impedances/dropped_impedance.py": renamed("impedances", "geometric", "impedance"),
-    "bench/law/contenders/shipped/dropped_shipped.py": renamed("shipped", "deoxys", "shipped"),
+    "bench/law/contenders/shipped/dropped_shipped.toml": (
+        ROOT / "bench" / "law" / "contenders" / "shipped" / "deoxys.toml"
+    ).read_text(),
     "bench/law/contenders/springs/dropped_spring.py": renamed("springs", "vector_part", "spring"),
     "bench/law/contenders/compensators/dropped_compensator.py": renamed("compensators", "integral", "compensator"),
     "bench/law/contenders/baselines/dropped_baseline.py": renamed("baselines", "resolved_rate", "baseline"),

@@ -21,18 +21,20 @@ EXACT.mpf.copysign = lambda x, sign: -abs(x) if sign < 0 else abs(x)
 EXACT.mpf.rcopysign = lambda sign, x: EXACT.mpf(x).copysign(sign)
 
 
-def motion(to_matrix, E, Edot, Eddot=(0.0, 0.0, 0.0, 0.0)):
-    """(omega, omegadot), base frame, of the path E + Edot t + Eddot t^2/2 at t = 0.
-
-    [omega]x = Rdot R^T (Murphy 1988, 2.7), and [omegadot]x is the skew part of Rddot R^T.
-    """
+def path(to_matrix, E, Edot, Eddot):
+    """Return R, Rdot and Rddot of the path E + Edot t + Eddot t^2/2 at t = 0."""
 
     def at(t):
         terms = ([EXACT.mpf(x) for x in each] for each in zip(E, Edot, Eddot, strict=False))
         return EXACT.matrix(to_matrix(tuple(e + t * d + t * t * a / 2 for e, d, a in terms))).T
 
     behind, R, ahead = at(-STEP), at(0), at(STEP)
-    first, second = (ahead - behind) / (2 * STEP), (ahead - 2 * R + behind) / STEP**2
+    return R, (ahead - behind) / (2 * STEP), (ahead - 2 * R + behind) / STEP**2
+
+
+def motion(to_matrix, E, Edot, Eddot=(0.0, 0.0, 0.0, 0.0)):
+    """(omega, omegadot), base frame: [omega]x = Rdot R^T (Murphy 1988, 2.7), [omegadot]x the skew part of Rddot R^T."""
+    R, first, second = path(to_matrix, E, Edot, Eddot)
     return _axial(first * R.T), _axial(second * R.T)
 
 

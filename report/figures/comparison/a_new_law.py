@@ -39,7 +39,7 @@ def facts(run: Run) -> dict:
         **{name: f"{proved[name]:g}" for name in ("rate", "delta")},
         "drop": f"{proved['drop']:.3f}",
         "seconds": f"{proved['seconds']:.0f}",
-        "code": f"```python\n{write_short(NEW)}\n```",
+        "lines": len([line for line in write_short(NEW).splitlines() if line]),
         "later": ", ".join(f"{ratio:g}" for ratio in RATIOS if is_later(ratio)) or "none",
         "later_of": f"{', '.join(map('{:g}'.format, RATIOS))}",
         **(count_calls(spent.loc[NEW, "typical"]) if (NEW, "typical") in spent.index else {}),
