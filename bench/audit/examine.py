@@ -76,10 +76,10 @@ def understood(function: Callable, stated: Stated, name: str, watch: Callable) -
     for calls in ([plain for plain, *_ in ways], [call for _, *others in ways for call in others]):
         answered: list[tuple[float, Call, Convention | None]] = []
         for call in calls:
-            asked = watch(call.wrap(function))
-            first = evaluate(asked, *inputs(call.takes, few))
+            watched = watch(call.wrap(function))
+            first = evaluate(watched, *inputs(call.takes, few))
             if sum(map(bool, first.raised)) <= len(first.raised) / 2:
-                share, found = convention.find(call.takes, some, evaluate(asked, *inputs(call.takes, some)).e)
+                share, found = convention.find(call.takes, some, evaluate(watched, *inputs(call.takes, some)).e)
                 answered.append((share if found else 0.0, call, found))
             elif call in (plain for plain, *_ in ways):
                 reasons.setdefault(next(filter(None, first.raised)), []).append(call.takes)

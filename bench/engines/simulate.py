@@ -109,7 +109,7 @@ def on_ideal(
 ) -> np.ndarray:
     """Simulate on an ideal plant, from starts that are rows already (`engines.episode.start_rows`).
 
-    total: episodes that are asked of this law, if these are a part of them; WORTH_LANES of them or more run in lanes.
+    total: number of episodes of this law, if these are a part of them; from WORTH_LANES on they run in lanes.
     The rows are the same bits. converge: whether the continuous plant's steps are made shorter where they decide.
     """
     metrics, curves = tuple(metrics), curves or blank_curves(len(begun))

@@ -10,25 +10,25 @@ import numpy as np
 from bench.audit.examined import Examined, Found
 from bench.audit.faults.dead_at_180 import ZERO
 
-ASTRAY_RAD = 0.01
+OFF_AXIS_RAD = 0.01
 """Angle to the axis: a hundred thousand times what a root of rounding leaves, 1e-8."""
 ROUNDING = 1e-13
 """Angle times the square of the distance to 180°: an arc cosine leaves 1e-15."""
 
 
-def find_astray(examined: Examined) -> tuple[np.ndarray, np.ndarray]:
+def find_off_axis(examined: Examined) -> tuple[np.ndarray, np.ndarray]:
     """Return the pairs at 180° and next to it (two masks) with an answer off the axis, there beyond rounding."""
-    astray, distance = np.fmin(examined.apart, np.pi - examined.apart), np.fmax(examined.pairs.distance, 1e-15)
-    bad = (astray > ASTRAY_RAD) & (examined.size > ZERO * examined.slope * np.pi)
+    off_axis, distance = np.fmin(examined.apart, np.pi - examined.apart), np.fmax(examined.pairs.distance, 1e-15)
+    bad = (off_axis > OFF_AXIS_RAD) & (examined.size > ZERO * examined.slope * np.pi)
     by_rounding = np.fmax(ROUNDING / distance**2, 100.0 * examined.noise / distance)
-    return bad & examined.at("at-180"), bad & examined.at("near-180") & (astray > by_rounding)
+    return bad & examined.at("at-180"), bad & examined.at("near-180") & (off_axis > by_rounding)
 
 
 def find_known(examined: Examined) -> Found | None:
     """At 180° either direction along the axis is right, and nothing else; before it, beyond rounding, one."""
     if examined.form == "gibbs":
         return None  # it has no end there
-    exact, before = find_astray(examined)
+    exact, before = find_off_axis(examined)
     text = f"{exact.sum()} of {examined.at('at-180').sum()} rotations by 180° are answered with another axis"
     if before.any():
         text += f", and so are rotations by up to {examined.pairs.distance[before].max():.2g} rad less"

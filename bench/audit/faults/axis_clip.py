@@ -20,10 +20,10 @@ def find_known(examined: Examined) -> Found | None:
     largest = np.abs(examined.e[here]).max(axis=1)
     limit = float(largest.max(initial=0.0))
     at_limit = here[np.abs(largest - limit) <= SAME * limit]
-    astray = np.minimum(examined.apart, np.pi - examined.apart)  # against the axis is another fault
-    bent = at_limit[astray[at_limit] > BENT_RAD]
+    off_axis = np.minimum(examined.apart, np.pi - examined.apart)  # against the axis is another fault
+    bent = at_limit[off_axis[at_limit] > BENT_RAD]
     if len(at_limit) < FEWEST or len(bent) < len(at_limit) / 2:
         return None
-    worst = int(bent[np.argmax(astray[bent])])
-    text = f"no component exceeds {limit:.6g}; the direction changes by up to {np.degrees(astray[worst]):.3g}°"
+    worst = int(bent[np.argmax(off_axis[bent])])
+    text = f"no component exceeds {limit:.6g}; the direction changes by up to {np.degrees(off_axis[worst]):.3g}°"
     return Found(text, examined.evidence(worst))

@@ -27,14 +27,14 @@ def find_step(examined: Examined) -> float:
 def find_known(examined: Examined) -> Found | None:
     """e is exactly zero, or a component of it, up to an angle; beyond it is not. Or it has steps everywhere."""
     drawn = at_angles("line", np.random.default_rng(SEED), np.geomspace(SMALLEST_RAD, 1e-3, 40))
-    asked, e = joined(examined.pairs, drawn), np.vstack((examined.e, examined.evaluate(drawn).e))
-    small = asked.at("near-identity", "fine", "close", "line") & (asked.angle >= SMALLEST_RAD)
+    tried, e = joined(examined.pairs, drawn), np.vstack((examined.e, examined.evaluate(drawn).e))
+    small = tried.at("near-identity", "fine", "close", "line") & (tried.angle >= SMALLEST_RAD)
     zero = np.flatnonzero(small & ~e.any(axis=1))
     if len(zero) < FEWEST:
         return None
-    i = int(zero[np.argmax(asked.angle[zero])])
-    text = f"e = 0 up to {asked.angle[i]:.3g} rad"
+    i = int(zero[np.argmax(tried.angle[zero])])
+    text = f"e = 0 up to {tried.angle[i]:.3g} rad"
     if step := find_step(examined):
         text = f"e is rounded: each component is a multiple of {step:.4g}; {text}"
-    now, goal = inputs(examined.takes, asked.chosen(slice(i, i + 1)))
+    now, goal = inputs(examined.takes, tried.chosen(slice(i, i + 1)))
     return Found(text, Evidence(now[0], goal[0], e[i]))

@@ -17,7 +17,7 @@ def find_known(examined: Examined) -> Found | None:
     """Find what is across the axis; and along it, if the size is right 0.1 rad before, and does not end in zero."""
     here = examined.at("near-180") & (examined.size > 0.0) & np.isfinite(examined.size)
     error = np.fmin(examined.size, np.pi * examined.slope) * np.sin(examined.apart)
-    if examined.form == "gibbs" or axis_at_180.find_astray(examined)[1].any():
+    if examined.form == "gibbs" or axis_at_180.find_off_axis(examined)[1].any():
         return None  # a form without end at 180°, where no digit of it matters; or more than digits
     before = examined.error[here & (examined.pairs.distance > FARTHEST_RAD)]
     if np.nanmax(before, initial=0.0) < COUNT_RAD:

@@ -1,4 +1,4 @@
-"""What judging functions read: a run's tables, the engines that are asked, shares with their intervals."""
+"""What judging functions read: a run's tables, the engines that they need, shares with their intervals."""
 
 from __future__ import annotations
 

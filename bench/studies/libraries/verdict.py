@@ -26,7 +26,7 @@ def left_to_go(q: np.ndarray, q_d: np.ndarray) -> np.ndarray:
 
 @quiet
 def report(function: Function) -> Report:
-    """Return the audit of a function that is asked for what is left to go, R_d R^T, in base coordinates."""
+    """Return the audit of a function that is called with the rotation to the goal, R_d R^T, in the base frame."""
     if function.takes == MATRIX:
         return audit(lambda R, R_d: answer(function, R_d @ R.T), "matrix", name=function.name)
     return audit(lambda q, q_d: answer(function, left_to_go(q, q_d)), "wxyz", name=function.name)
