@@ -11,6 +11,7 @@ from bench.findings.proofs.solver import Lemma
 from bench.law.kinds import Law
 
 STARTS = "from the first memory and any q, one tick makes the memory a multiple of q"
+FIRST_TICK = "the command of the first tick is finite"
 """The base case: replayed from the declared memory."""
 
 
@@ -30,7 +31,7 @@ def prove_start(law: Law) -> list[Lemma]:
     for path in body.commands(law, memory):
         _, (_, next_memory) = path.answer
         body.find_multiple(path, next_memory, STARTS)
-    finite = body.finite("the command of the first tick is finite")
+    finite = body.finite(FIRST_TICK)
     if not finite.is_proved:
         raise LemmaFails([finite])
     return [Lemma(STARTS, True, "Z3", finite.seconds), finite]

@@ -70,7 +70,8 @@ class Question:
                 continue
             self.body.symbols.path = tick.path
             path = _with_edge(tick) if to_the_edge else tick.path
-            for fault in faults(tick):
+            for possible in faults(tick):
+                fault = Condition(self.body.symbols.without_positive(possible.polynomial), possible.relation)
                 if fault.answer() is False:
                     continue
                 finding = self.body.solver.find(path, *tick.known, fault)

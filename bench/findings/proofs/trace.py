@@ -140,6 +140,7 @@ class Symbols:
         self.questions = 0
         self.question_s = 0.0
         self._answers: dict[tuple, Any] = {}
+        self._results: dict[tuple, Any] = {}
 
     def __getitem__(self, names: tuple[str, ...]) -> Any:
         return tuple(self.of[name] for name in names)
@@ -192,6 +193,14 @@ class Symbols:
             raise Untraceable("it divides by an expression that is zero by the relations of its roots")
         return Traced(self.field(numer) / self.field(denom), self)
 
+    def compute(self, operation: Callable[[Any, Any], Any], left: Any, right: Any) -> "Traced":
+        """Return the result of an operation in normal form: each is made once, for paths have their begins in common."""
+        key = (operation, left, right, tuple(self.path.relations))
+        result = self._results.get(key)
+        if result is None:
+            result = self._results[key] = self.reduce(operation(left, right)).value
+        return Traced(result, self)
+
     def number(self, value: Any) -> "Traced":
         """Return a number as a value: a float as the decimal that it is written as."""
         if isinstance(value, Traced):
@@ -218,7 +227,7 @@ class Symbols:
         """Decide whether a value has a relation to zero: a number has it or not, else the path decides."""
         if not self.is_tracing:
             raise RuntimeError("a comparison of symbols outside a law's source: use is_zero or is_same")
-        condition = Condition(self._without_positive(value.value.numer * value.value.denom), relation).normal()
+        condition = Condition(self.without_positive(value.value.numer * value.value.denom), relation).normal()
         known = condition.answer()
         if known is None:
             known = find_answer(self.path.decisions, condition)
@@ -253,7 +262,7 @@ class Symbols:
         """Decide whether a value is below zero."""
         return self.decide(value, "<")
 
-    def _without_positive(self, polynomial: PolyElement) -> PolyElement:
+    def without_positive(self, polynomial: PolyElement) -> PolyElement:
         """Return a polynomial without the factors that are positive."""
         for factor in self.positive:
             while polynomial and not polynomial.rem([factor]):
@@ -280,7 +289,7 @@ class Symbols:
         """Ask whether a state on the path has a fault, before an operation that is undefined there."""
         if not self.is_tracing:
             return
-        fault = Condition(self._without_positive(fault.polynomial), fault.relation).normal()
+        fault = Condition(self.without_positive(fault.polynomial), fault.relation).normal()
         is_certain = fault.answer()
         if is_certain is None:
             is_certain = find_answer(self.path.decisions, fault)
@@ -435,7 +444,7 @@ def find_place() -> str:
 def _operation(compute: Callable[[Any, Any], Any], is_reflected: bool = False) -> Callable[..., "Traced"]:
     def apply(self: "Traced", other: Any) -> "Traced":
         pair = self.value, self.symbols.number(other).value
-        return self.symbols.reduce(compute(*(pair[::-1] if is_reflected else pair)))
+        return self.symbols.compute(compute, *(pair[::-1] if is_reflected else pair))
 
     return apply
 
@@ -455,7 +464,7 @@ class Traced:
     def __truediv__(self, other: Any) -> "Traced":
         divisor = self.symbols.number(other)
         self.symbols.require_divisor(divisor)
-        return self.symbols.reduce(self.value / divisor.value)
+        return self.symbols.compute(operator.truediv, self.value, divisor.value)
 
     def __rtruediv__(self, other: Any) -> "Traced":
         return self.symbols.number(other) / self
