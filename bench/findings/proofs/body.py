@@ -158,7 +158,7 @@ class FreeBody:
         finding = self.solver.find(path, fault)
         if finding.answer != "unsat":
             note = undecided(finding.answer, finding.seconds)
-            raise LemmaFails([Lemma(statement, False, "Z3", finding.seconds, finding.state, note)])
+            raise LemmaFails([Lemma(statement, False, "Z3", finding.seconds, finding.state, note, True)])
 
     def finite(self, statement: str = IS_FINITE) -> Lemma:
         """Return the lemma that every root, division and arc tangent of all commands so far is defined."""
@@ -167,7 +167,7 @@ class FreeBody:
             return Lemma(statement, True, "Z3", seconds)
         doubt = next((doubt for doubt in doubts if doubt.state), doubts[0])
         note = doubt.words if doubt.state else f"{doubt.words}: {undecided('unknown', doubt.seconds)}"
-        return Lemma(statement, False, "Z3", seconds, doubt.state, note)
+        return Lemma(statement, False, "Z3", seconds, doubt.state, note, True)
 
     def derive(self, value: Traced, u: tuple, more: Mapping[str, Traced] | None = None) -> Traced:
         """Return the derivative of a function of q and omega (and of `more`, by their derivatives) along the motion."""

@@ -36,7 +36,7 @@ class Limits:
 
     Attributes:
         question_s: Seconds that Z3 may take for one question.
-        ends: When the time for this law is over, on the monotonic clock; infinity without a limit.
+        ends: When the time for this law is over, in seconds of processor time; infinity without a limit.
         lemmas: What is decided already: it is reported if the time is over.
         asked: The statement that is being decided.
     """
@@ -50,11 +50,11 @@ class Limits:
     def begin(self, question_s: float, law_s: float) -> None:
         """Start the clock of a law."""
         self.question_s = question_s
-        self.ends = time.monotonic() + law_s
+        self.ends = time.process_time() + law_s
 
     def left_s(self) -> float:
         """Return the seconds left for this law; TimeIsUp: none."""
-        left = self.ends - time.monotonic()
+        left = self.ends - time.process_time()
         if left <= 0.0:
             raise TimeIsUp
         return left

@@ -30,6 +30,7 @@ class Lemma(NamedTuple):
         seconds: How long that took.
         counterexample: Symbol -> number, where it is false; None where it is proved, or not decided.
         note: Why it is not proved, where no state says so.
+        is_basic: Whether every theorem needs it.
     """
 
     statement: str
@@ -38,6 +39,7 @@ class Lemma(NamedTuple):
     seconds: float
     counterexample: dict[str, float] | None = None
     note: str = ""
+    is_basic: bool = False
 
 
 class Finding(NamedTuple):

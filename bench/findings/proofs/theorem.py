@@ -52,6 +52,11 @@ class Proof(NamedTuple):
         return bool(self.lemmas) and all(lemma.is_proved for lemma in self.lemmas)
 
 
+    def is_decided(self) -> bool:
+        """Whether a lemma is false that every theorem needs: the command is finite, the memory is what it is said."""
+        return any(lemma.counterexample and lemma.is_basic for lemma in self.lemmas)
+
+
 class Theorem(NamedTuple):
     """prove(law) -> Proof; raises DoesNotFit.
 
@@ -116,7 +121,7 @@ def attempt(law: Law) -> Attempt:
         proof = proof._replace(seconds=time.perf_counter() - began)
         if proof.is_proved() or result.proof is None:
             result.proof = proof
-        if proof.is_proved():
+        if proof.is_proved() or proof.is_decided():
             break
     return result
 
