@@ -82,7 +82,7 @@ FALSE = {
     ),
     "nan-at-180": (write("    kp = kp * (w / w)"), "180"),
     "nan-at-the-goal": (write("    kp = kp * dot(v, v) / dot(v, v)"), "division by zero"),
-    "root-of-minus-one-on-an-edge": (write("    if omega[0] == 0.0:\n        kp = kp * sqrt(-1.0)"), "below zero"),
+    "root-of-minus-one-on-an-edge": (write("    if omega[0] == 0.0:\n        kp = kp * sqrt(-1.0)"), "no finite number"),
     "root-of-two-negatives": (
         write("    x = v[0]\n    kp = kp * sqrt((x - 9.0) / (x - 9.0)) * (sqrt((x - 9.0)) / sqrt(x - 9.0))"),
         "below zero",

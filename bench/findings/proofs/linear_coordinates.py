@@ -42,6 +42,8 @@ def prove(law: Law) -> Proof:
         return found
 
     ask = Question(body, law, check)
+    if not ask.ticks:
+        ask.refuse_no_ticks()
     x = r"\sigma" if has_memory else r"\epsilon"
     V = rf"V = \tfrac12|\dot x|^2 + \tfrac12 K_p |x|^2, \quad x = {x}"
     lemmas = [by_algebra("x'' + Kv x' + Kp x = 0", all(one.side in one.taken for one in ask.ticks))]

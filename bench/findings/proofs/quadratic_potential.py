@@ -48,6 +48,9 @@ def prove(law: Law) -> Proof:
     """Prove descent and equilibria of a law of this form."""
     if law.memory is not None:
         raise DoesNotFit("it has a memory")
+    # asked first without the goal's axes, where polynomials are short
+    if any(path.taken for path in itertools.islice(FreeBody().commands(law), 1)):
+        raise DoesNotFit("its command has branches")
     body = FreeBody(goal_frame=True)
     ticks = list(body.ticks(law))
     if len(ticks) != 1:

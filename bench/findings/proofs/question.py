@@ -3,13 +3,13 @@
 import functools
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Any
+from typing import Any, NoReturn
 
 from z3 import Real, substitute
 
 from bench.findings.proofs.body import FreeBody, Tick
 from bench.findings.proofs.conditions import CLOSED, Condition
-from bench.findings.proofs.reasons import LIMITS
+from bench.findings.proofs.reasons import LIMITS, DoesNotFit, LemmaFails
 from bench.findings.proofs.solver import Lemma, ask, by_algebra, undecided
 from bench.findings.proofs.trace import are_same
 from bench.law.kinds import Law
@@ -38,6 +38,13 @@ class Question:
             ):
                 return known.taken
         return None
+
+    def refuse_no_ticks(self) -> NoReturn:
+        """Refuse a law that answers at no state; with the lemma that its command is finite, if that is why."""
+        finite = self.body.finite()
+        if finite.is_proved:
+            raise DoesNotFit("its source answers at no state")
+        raise LemmaFails([finite])
 
     def never(
         self,

@@ -102,7 +102,7 @@ def prove(law: Law) -> Proof:
     body = FreeBody(positive=() if has_memory else ("w",))
     ask = Question(body, law, take_apart)
     if not ask.ticks:
-        raise DoesNotFit("its source answers at no state")
+        ask.refuse_no_ticks()
     lemmas = [by_algebra(FORM, True), *start, finite_lemma(body, ask)]  # or take_apart would have refused it
     if not lemmas[-1].is_proved:
         return Proof(THEOREM.name, "", lemmas, "")
