@@ -30,6 +30,8 @@ TRACED = (
     "sliding",
 )
 
+COMPARE = {"<": float.__lt__, "<=": float.__le__, ">": float.__gt__, ">=": float.__ge__, "!=": float.__ne__}
+
 
 def evaluate(value, numbers):
     """A traced value as a float."""
@@ -47,8 +49,9 @@ def test_one_path_of_the_trace_is_what_the_law_answers(word):
             numbers = {"kp": 20, "kv": 9, "size": 1, "a": 1, "b": 0, "c": 0, "d": 0}
             numbers |= dict(zip((*QUATERNION, *RATES), (*q, *omega), strict=True))
             numbers |= {name: one.subs(numbers) for name, one in tick.path.meanings.items()}
-            signs = [float(one.as_expr().subs(numbers)) < 0.0 for one, _ in tick.path.decisions]
-            if signs != [is_negative for _, is_negative in tick.path.decisions]:
+            signs = [float(condition.polynomial.as_expr().subs(numbers)) for condition in tick.path.decisions]
+            relations = [condition.relation for condition in tick.path.decisions]
+            if not all(COMPARE[relation](sign, 0.0) for sign, relation in zip(signs, relations, strict=True)):
                 continue
             E = from_quaternion(tuple(q))
             R = Rotation(*(rotate_back(E, column) for column in np.eye(3).tolist()))

@@ -15,18 +15,29 @@ Source: Lizarralde & Wen 1996; Tayebi 2008.
 from typing import Any
 
 from bench.findings.proofs.body import GOAL, FreeBody
-from bench.findings.proofs.solver import by_algebra
-from bench.findings.proofs.theorem import Proof, Theorem
+from bench.findings.proofs.solver import Lemma, by_algebra
+from bench.findings.proofs.theorem import LASALLE, MEASURE_ZERO, Proof, Theorem
 from bench.law.kinds import Law
-from bench.law.so3 import dot
+from bench.law.so3 import dot, from_quaternion
 from tasks.rotations import multiply
 
+CITED = (LASALLE, MEASURE_ZERO, "that V <= 2 Kp from rest keeps theta_F below 180° where Kp < 2 Kv^2 is by reading")
+BEGINS = "the frame begins at the first orientation"
 FRAME = ("p_w", "p_x", "p_y", "p_z")
 
 
 def conjugate(q: tuple) -> Any:
     """Return (w, -x, -y, -z)."""
     return (q[0], -q[1], -q[2], -q[3])
+
+
+def prove_begin(law: Law) -> Lemma:
+    """Return the lemma that the frame begins at R: the first state is a multiple of R's quaternion, never zero."""
+    body = FreeBody()
+    R, state = from_quaternion(body.q), law.state
+    for path in body.symbols.paths(lambda: state.begin(R)):
+        body.find_multiple(path, path.answer, BEGINS)
+    return body.finite(BEGINS)
 
 
 def prove(law: Law) -> Proof:
@@ -36,6 +47,7 @@ def prove(law: Law) -> Proof:
     p, goal = body.symbols[FRAME], body.symbols[GOAL]
     body.symbols.relate("p_w", 1 - p[1] ** 2 - p[2] ** 2 - p[3] ** 2)
     state = tuple(symbol["size"] * one for one in multiply(goal, p))
+    begins = prove_begin(law)
     (path,) = body.symbols.paths(lambda: body.command(law, body.omega, state))
     u, rate = path.answer
     moved: Any = tuple(one / symbol["size"] for one in multiply(conjugate(goal), rate))
@@ -47,8 +59,9 @@ def prove(law: Law) -> Proof:
     ratio = (-falls / (kv * dot(turning, turning))).value
     is_constant = bool(ratio.numer.is_ground and ratio.denom.is_ground and ratio.numer.LC * ratio.denom.LC > 0)
     lemmas = [by_algebra("V' = -c Kv |omega_F|^2, c constant and positive", is_constant)]
+    lemmas += [begins, body.finite()]
     shown = r"V = 2 K_p (1 - \eta^2) + 4 K_v^2 (1 - \eta_F^2) + \tfrac12|\omega|^2"
-    return Proof(THEOREM.name, "almost global from rest where Kp < 2 Kv^2", lemmas, shown, "every 180° rotation")
+    return Proof(THEOREM.name, "almost global from rest where Kp < 2 Kv^2", lemmas, shown, "every 180° rotation", cited=CITED)
 
 
 THEOREM = Theorem("following-frame", "A frame that follows the body, in place of its rate", prove, ("velocity-free",))

@@ -14,7 +14,7 @@ from fractions import Fraction
 
 from bench.findings.proofs.body import FreeBody
 from bench.findings.proofs.solver import by_algebra, decide
-from bench.findings.proofs.theorem import Proof, Theorem
+from bench.findings.proofs.theorem import LASALLE, MEASURE_ZERO, Proof, Theorem
 from bench.law.contenders.compensators.integral import INTEGRAL, LEAD
 from bench.law.kinds import Law
 from bench.law.so3 import dot
@@ -60,6 +60,7 @@ def prove(law: Law) -> Proof:
     ]
     known += [solver.is_below(s**2 - square * S, strictly=False), solver.is_below(-(S + body.eta**2))]
     lemmas = [
+        body.finite(),
         by_algebra(
             "V' = (c eta^2 - Kv) S - c s^2 + 2 c Kv eta s - c Kp |e|^2, s = eps . omega, S = |omega|^2", falls - written
         ),
@@ -67,7 +68,7 @@ def prove(law: Law) -> Proof:
         decide("V' < 0 but at rest at the goal or on a 180° rotation", known, solver.is_below(-bound, strictly=False)),
     ]
     shown = r"V = 2 K_p (1 - \eta^2) - c\,e \cdot \omega + \tfrac12|\omega|^2 + \tfrac12 h |x - x_d|^2"
-    return Proof(THEOREM.name, f"almost global where Kv^2 < {RATIO} Kp", lemmas, shown, "every 180° rotation")
+    return Proof(THEOREM.name, f"almost global where Kv^2 < {RATIO} Kp", lemmas, shown, "every 180° rotation", cited=(LASALLE, MEASURE_ZERO))
 
 
 THEOREM = Theorem("integral", "A sine of the angle with an integral", prove, ("integral",))

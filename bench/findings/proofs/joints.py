@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 
 from bench.findings.proofs.solver import by_algebra
-from bench.findings.proofs.theorem import Proof, Theorem
+from bench.findings.proofs.theorem import LASALLE, Proof, Theorem
 from bench.findings.proofs.trace import Symbols
 from bench.law.inputs import Gains
 from bench.law.kinds import Law
 
 JOINTS = 7
+CITED = (LASALLE, "that D' - 2 C is skew, so that V' has no term of C, is Takegaki & Arimoto's")
 
 
 def prove(law: Law) -> Proof:
@@ -34,7 +35,7 @@ def prove(law: Law) -> Proof:
     still = [tau[i] - m[i] * (kp * e[i] - kv * qdot[i]) for i in range(JOINTS)]
     lemmas = [by_algebra("V' = -Kv qdot^T M qdot", power), by_algebra("tau = M (Kp e - Kv qdot)", still)]
     V = r"V = \tfrac12 \dot q^\top D \dot q + \tfrac12 K_p\, e^\top M e"
-    return Proof(THEOREM.name, "global in the joints", lemmas, V)
+    return Proof(THEOREM.name, "global in the joints", lemmas, V, cited=CITED)
 
 
 THEOREM = Theorem("joints", "A spring and a damper at every joint", prove, ("joint-pd",))
