@@ -174,7 +174,7 @@ def certify(tmp_path):
     def make(text):
         path = tmp_path / "false_law.py"
         path.write_text(text, encoding="utf-8")
-        request = {"text": text, "name": "", "lemma_s": 20.0, "law_s": 120.0}
+        request = {"text": text, "name": "false-law", "origin": str(path), "lemma_s": 20.0, "law_s": 120.0}
         return certify_asked(request, path)
 
     return make

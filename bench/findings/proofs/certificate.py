@@ -1,5 +1,6 @@
 """What is proved of one law, in a process of its own: for `bench prove`, and for results/proofs/proofs.json."""
 
+import json
 import sys
 from pathlib import Path
 from typing import Any
@@ -57,7 +58,7 @@ def without_proof(law: Law, why: str) -> dict[str, Any]:
     empty: dict[str, Any] = {"theorem": None, "stands": "", "lemmas": [], "V": "", "equilibria": ""}
     empty |= {"rate": None, "delta": None, "drop": None, "cited": [], "seconds": 0.0}
     verdict = {"is_proved": False, "verdict": NOT_PROVED, "why": why, "scope": SCOPE}
-    return {"law": law.name, "declared": law.property, **verdict, **empty, "settling": {}, "counterexample": None}
+    return {"law": law.name, "declared": law.property, **verdict, **empty, "settling": {}, "sampled": {}, "counterexample": None}
 
 
 def certify(law: Law) -> dict[str, Any]:
@@ -91,6 +92,7 @@ def certify(law: Law) -> dict[str, Any]:
         "why": why,
         "scope": SCOPE,
         "settling": bound_settling(law, proof) if is_proved else {},
+        "sampled": measure_sampled(law) if is_proved else {},
         "counterexample": counterexample,
     }
 
@@ -131,6 +133,43 @@ def bound_settling(law: Law, proof: Any) -> dict[str, Any]:
         return {"reason": "the time for one law was over (--law-limit)"}
 
 
+SAMPLED_S, SAMPLED_STARTS = 1e-3, (("uniform", 200), ("tumbling", 200))
+"""The period for which a command is held, and the starts tried: at rest, and spinning."""
+
+
+def measure_sampled(law: Law) -> dict[str, Any]:
+    """Return how many episodes settle at the paper's gains where the command is held from tick to tick.
+
+    A proof is about continuous time; this is measured beside it. Empty of a law that no such engine runs: not tested.
+    """
+    from bench.engines.episode import OUTCOME, Settings
+    from bench.engines.simulate import run
+    from bench.law.inputs import PAPERS_GAINS
+    from tasks import start_set
+    from tasks.rules import RULES, ticks
+    from tasks.verdict import OUTCOMES
+
+    if law.law is None or law.state is not None or law.assemble is not None:
+        return {}
+    starts = [start for name, count in SAMPLED_STARTS for start in start_set(name, count)]
+    settings = Settings(PAPERS_GAINS, SAMPLED_S, ticks(5.0, SAMPLED_S), RULES.hold_ticks(SAMPLED_S))
+    rows = run("ideal-held", contenders_of(law)[0], "free-body", starts, settings, ())
+    outcomes = [OUTCOMES[int(row[OUTCOME])] for row in rows]
+    return {"period_s": SAMPLED_S, "starts": len(starts), "settled": outcomes.count("settled")}
+
+
+def describe_sampled(certificate: dict[str, Any]) -> str:
+    """Return in words what was measured beside a proof."""
+    measured = certificate.get("sampled")
+    if not measured:
+        return "Sampled: not tested."
+    period = f"{1e3 * measured['period_s']:g} ms"
+    gains = "at the paper's gains"
+    if measured["settled"] == measured["starts"]:
+        return f"Sampled at {period}, {gains}: it settles from all {measured['starts']} starts that were tried."
+    return f"Sampled at {period}, {gains}: it settles from {measured['settled']} of {measured['starts']} starts tried."
+
+
 NOT_RUN = "not run"
 """The outcome where no episode is run: the state's gains are not the paper's."""
 
@@ -165,6 +204,15 @@ def replay(law: Law, lemma: Any) -> dict[str, Any]:
 
 def certify_asked(request: dict, path: Path | None) -> dict[str, Any]:
     """Return the certificate of the law that is named, or whose text is given; it says so if its file is at fault."""
+    certificate = _certify_asked(request, path)
+    if path is None:
+        return certificate
+    # reasons name the user's file, not the copy of its text
+    text = json.dumps(certificate).replace(path.name, Path(request["origin"]).name)
+    return json.loads(text)
+
+
+def _certify_asked(request: dict, path: Path | None) -> dict[str, Any]:
     from bench.findings.proofs import dialect
     from bench.findings.proofs.reasons import LIMITS, DoesNotFit, TimeIsUp, describe_error
 
