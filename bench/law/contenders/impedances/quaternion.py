@@ -3,7 +3,7 @@
 Limitations: at 180° e jumps to -e; there the sign is that of `so3.quaternion_direction`.
 """
 
-from bench.law import Impedance, driven, kernel, quaternion_direction, relative, rotate, sqrt
+from bench.law import ADAPTED, Impedance, driven, kernel, quaternion_direction, relative, rotate, sqrt
 
 
 @kernel
@@ -18,7 +18,8 @@ def law(R, omega, m, R_d, gains, inertia):
 IMPEDANCE = Impedance(
     name="quaternion",
     title="Quaternion to the goal",
-    source="Yuan 1988; Caccavale et al. 1999",
+    source="after Yuan 1988 (the error, on a mass and damper)",
+    attribution=ADAPTED,
     formula=r"u = m/m_o + 2 K_p\,\operatorname{sgn}(\eta)\,\epsilon - K_v\,\omega",
     law=law,
 )

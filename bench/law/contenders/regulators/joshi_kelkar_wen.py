@@ -12,7 +12,7 @@ takes the quaternion as it comes, and may turn the longer way; here eta >= 0.
 Limitations: at 180° the command jumps to its opposite.
 """
 
-from bench.law import Display, Equation, Law, Look, cos, kernel, sin, spring_damper, sqrt, turn_quaternion
+from bench.law import ADAPTED, Display, Equation, Law, Look, cos, kernel, sin, spring_damper, sqrt, turn_quaternion
 
 HARDENING = 2.0
 """gamma over Gp."""
@@ -31,7 +31,11 @@ def law(R, omega, goal, gains):
 REGULATOR = Law(
     name="joshi-kelkar-wen",
     title="Hardening quaternion spring",
-    source="Joshi, Kelkar, Wen 1995 (not read; after a report on it)",
+    source=(
+        "after Joshi, Kelkar, Wen 1995 (not read; after a report on it); gamma/Gp = 2 and "
+        "the shorter side are ours"
+    ),
+    attribution=ADAPTED,
     formula=r"u = \tfrac12 \bigl((\eta I + [\epsilon]_\times) G_p + \gamma (1 - \eta) I\bigr)\,\epsilon - G_r\,\omega",
     law=law,
     property="almost global",

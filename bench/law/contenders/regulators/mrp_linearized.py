@@ -8,7 +8,7 @@ Limitations: where the sheet changes the command jumps; a goal that jumps withou
 reached the longer way.
 """
 
-from bench.law import LINEAR_MRP, Display, Law, Look, dot, kernel, turn_on_kept_side
+from bench.law import LINEAR_MRP, PUBLISHED, Display, Law, Look, dot, kernel, turn_on_kept_side
 
 SWITCH = 1.5
 """|sigma|^2 at which the sheet changes: 23 degrees beyond 180°, where it is 1."""
@@ -38,7 +38,11 @@ def law(R, omega, goal, gains, memory):
 REGULATOR = Law(
     name="mrp-linearized",
     title="MRP made linear",
-    source="Schaub, Akella, Junkins 2001",
+    source=(
+        "Schaub, Akella, Junkins 2001; the kept sheet and its switch at |sigma|^2 = 1.5 are "
+        "ours"
+    ),
+    attribution=PUBLISHED,
     formula=r"u = -K_v\,\omega + \bigl(4 K_p/(1+\sigma^2) - \omega^2/2\bigr)\,\sigma + \omega\,(\omega\cdot\sigma)",
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),

@@ -9,7 +9,7 @@ Limitations: up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it keeps t
 way, and so it may without a reset when the goal jumps.
 """
 
-from bench.law import DELTA, QUARTER, Display, Law, Look, kernel, turn_on_kept_side
+from bench.law import ADAPTED, DELTA, QUARTER, Display, Law, Look, kernel, turn_on_kept_side
 from bench.law.contenders.regulators.mrp import turn_by_quarter
 
 
@@ -23,7 +23,11 @@ def law(R, omega, goal, gains, memory):
 REGULATOR = Law(
     name="mrp-memory",
     title="MRP with memory",
-    source="after Tsiotras 1996, Schaub & Junkins 2018 and Mayhew, Sanfelice, Teel 2011",
+    source=(
+        "after Schaub & Junkins 2018 and Mayhew, Sanfelice, Teel 2011; nearest work: "
+        "Martins, Cardeira, Oliveira, arXiv:2302.01983 (opening read)"
+    ),
+    attribution=ADAPTED,
     formula=r"u = 4 K_p\,\sigma - K_v\,\omega, \quad |\sigma|^2 \le (1+\delta)/(1-\delta)",
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),

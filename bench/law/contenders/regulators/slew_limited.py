@@ -12,7 +12,7 @@ from later reports on it. SLEW is ours: 1 limits the rate from 60 degrees on.
 Limitations: at 180° the command jumps to its opposite; from far away it takes theta Kv/(SLEW Kp).
 """
 
-from bench.law import Display, Equation, Law, Look, dot, kernel, sin, spring_damper, sqrt, turn_quaternion
+from bench.law import ADAPTED, Display, Equation, Law, Look, dot, kernel, sin, spring_damper, sqrt, turn_quaternion
 
 SLEW = 1.0
 """Greatest rate of turning, over Kp/Kv."""
@@ -32,7 +32,11 @@ def law(R, omega, goal, gains):
 REGULATOR = Law(
     name="slew-limited",
     title="Slew-limited quaternion cascade",
-    source="Wie & Lu 1995 (not read; after later reports)",
+    source=(
+        "after Wie & Lu 1995 (not read; after later reports); the cut of the whole vector "
+        "and its rate, 1 Kp/Kv, are ours"
+    ),
+    attribution=ADAPTED,
     formula=r"u = K_v\Bigl(\operatorname{sat}_{\omega_{\max}}\bigl(2 \tfrac{K_p}{K_v}\,\epsilon\bigr) - \omega\Bigr)",
     law=law,
     property="almost global",

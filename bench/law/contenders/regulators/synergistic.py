@@ -20,7 +20,7 @@ KAPPA V, as in angular warping, and its sign is remembered.
 Limitations: the turn is curved, and longer than about one axis; stiffness depends on the axis.
 """
 
-from bench.law import Display, Law, Look, Rotation, cos, cross, dot, kernel, rotate, sin, sqrt
+from bench.law import ADAPTED, Display, Law, Look, Rotation, cos, cross, dot, kernel, rotate, sin, sqrt
 from bench.law.contenders.regulators.weighted_columns import WEIGHTS, pull_columns
 
 SHARE = 2.0 / (1.0 / WEIGHTS[0] + 1.0 / WEIGHTS[1] + 1.0 / WEIGHTS[2])
@@ -83,7 +83,11 @@ def law(R, omega, goal, gains, memory):
 REGULATOR = Law(
     name="synergistic",
     title="Synergistic hybrid, two potentials",
-    source="after Berkane & Tayebi, arXiv:1502.07386, and Wang & Tayebi, arXiv:2012.12470 (abstracts read)",
+    source=(
+        "after Berkane & Tayebi, arXiv:1502.07386, and Wang & Tayebi, arXiv:2012.12470 "
+        "(abstracts read); potentials and constants are ours"
+    ),
+    attribution=ADAPTED,
     formula=r"u = K_p\,\bigl(s_q - q\,\kappa\,(b \cdot s_q)\,s\bigr)/\sqrt{1 - U_q/U_0} - K_v\,\omega, \quad q^+ = -q"
     r" \text{ where } U_q - U_{-q} > \delta",
     law=law,
