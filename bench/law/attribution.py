@@ -2,6 +2,7 @@
 
 published   one cited work has this very law. Constants that the work leaves open, or that we chose, are named in the
             same line: "Schaub, Akella, Junkins 2001; the switch at |sigma|^2 = 1.5 is ours".
+            A work that nobody here has opened is marked in the book's references: its law is as later texts state it.
 adapted     parts of published works, combined or changed here: "after A and B". No cited work has this very law, or
             the work was not read and it cannot be said whether it has.
 ours        the law was made here and nobody else has reviewed it: "this benchmark, 2026".
@@ -17,6 +18,14 @@ YOURS = "yours"
 
 SHIPPED_ATTRIBUTIONS = (PUBLISHED, ADAPTED, OURS)
 """What a contender of this repository may say of itself."""
+
+IN_WORDS = {
+    PUBLISHED: "a published law",
+    ADAPTED: "an adapted law (published parts, combined or changed here)",
+    OURS: "a law of ours (simulation only, not reviewed)",
+    YOURS: "your law",
+}
+"""What a sentence calls a law. Sentences, cards and headings take the words from here and nowhere else."""
 
 THIS_BENCHMARK = "this benchmark"
 """How the source of a law of ours begins."""

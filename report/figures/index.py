@@ -24,6 +24,7 @@ def facts(run: Run) -> dict[str, Any]:
     return {
         "fates": html.Html(loop + PLAY),
         "default": families.word(find_default()),
+        "attribution": which_law.describe_attribution(find_default()),
         "does": which_law.describe_default(),
         "bounds": describe_bounds(find_bounds(find_default())),
         "needs": in_run(list_needs, run),

@@ -16,7 +16,11 @@ def paragraphs(found: Measured | None) -> list[Paragraph]:
     """Return what the map advises, what else to use elsewhere, and how laws of ours and the user's compare."""
     default = regions.find_regions()[0]
     said = [Paragraph("Which law", _default(found, default)), Paragraph("Elsewhere", _elsewhere(default.law))]
-    said += [Paragraph("Ours", (_ours(law, found, default.law),)) for law in regions.list_ours()]
+    for law in regions.list_ours():
+        _, beats = regions.compare_ours(law)
+        # One that is nowhere faster than the advised law is left to the table of `bench advise`.
+        if beats:
+            said.append(Paragraph("Ours", (_ours(law, found, default.law),)))
     own = [law for law in (found.laws if found else ()) if found and found.tables.contenders[law].regulator.origin]
     said += [Paragraph("Yours", (f"{law}: {_compared(found, law, default.law)}",)) for law in own]
     others = [
@@ -33,13 +37,19 @@ def _default(found: Measured | None, region: regions.Region) -> tuple[str, ...]:
     drawn = sum(map(regions.is_drawn, regions.decide_all()))
     priced = f" A tick takes {cost(found, region.law)}." if found and region.law in found.laws else ""
     return (
-        f"Use the law {region.law} (published: {find_contender(region.law).regulator.source}) for a body that turns "
-        f"freely, in simulation. Of {drawn} situations drawn at random it is advised in {region.advised:.0%}, and "
-        f"nothing published beats it in {region.unbeaten:.0%}.",
+        f"Use the law {region.law} ({_attributed(region.law)}) for a body that turns freely, in simulation. Of {drawn} "
+        f"situations drawn at random it is advised in {region.advised:.0%}, and no published or adapted law that meets "
+        f"the requirements beats it in {region.unbeaten:.0%}.",
         f"One number at a time: {describe_bounds(regions.find_bounds(region.law))}.",
         f"At kp = {PAPERS_GAINS.kp:g} 1/s², kv = {PAPERS_GAINS.kv:g} 1/s 99 % of the starts settle within "
         f"{row['time'] / KP**0.5:.3f} s.{priced} Your own numbers: bench advise --help.",
     )
+
+
+def _attributed(law: str) -> str:
+    """Return whose a law is, and its works without what else its source says."""
+    one = find_contender(law)
+    return f"{one.attribution}: {one.regulator.source.split('; ')[0]}"
 
 
 def _elsewhere(default: str) -> tuple[str, ...]:
@@ -56,7 +66,7 @@ def _ours(law: str, found: Measured | None, default: str) -> str:
     """Return the sentences on a law of ours: its origin, where the map has it, and the run's comparison."""
     ties, beats = regions.compare_ours(law)
     return (
-        f"{law} is ours: 2026, simulation only, not reviewed. Nothing published beats it in {ties:.0%} of the drawn "
+        f"{law} is ours: 2026, simulation only, not reviewed. No law but ours beats it in {ties:.0%} of the drawn "
         f"situations; it beats the advised law in {beats:.0%}. {_compared(found, law, default)} Reset its memory when "
         "the goal jumps."
     )

@@ -66,7 +66,7 @@ class Verdict(NamedTuple):
     """What the rule makes of a situation.
 
     law: the one that is advised, None if none is left. tied: the others that nothing beats, the simplest first. ours:
-    our own laws that nothing published beats. faster: those of them that beat the advised one. asked: how many laws
+    our own laws that no other law beats. faster: those of them that beat the advised one. asked: how many laws
     have what is required.
     """
 
@@ -230,7 +230,7 @@ def find_bounds(law: str, folder: Path = STUDY, rule: Rule = RULE) -> dict[str, 
 
 
 def compare_ours(law: str, folder: Path = STUDY, rule: Rule = RULE) -> tuple[float, float]:
-    """Return the shares of drawn situations in which nothing published beats our law, and it beats the advised one."""
+    """Return the shares of drawn situations in which no law but ours beats our law, and it beats the advised one."""
     drawn = [one for at, one in decide_all(folder, rule).items() if is_drawn(at)]
     return sum(law in one.ours for one in drawn) / len(drawn), sum(law in one.faster for one in drawn) / len(drawn)
 

@@ -151,7 +151,7 @@ def rate(given: dict[Situation, str | None], folder: Path) -> dict[str, float]:
     """Return how good an advice is in the held-out situations.
 
     unbeaten: share in which nothing beats the advised law; half, most: median and 95 % of the time that the advised law
-    takes longer than the fastest published law that meets the requirements.
+    takes longer than the fastest law that is not ours and meets the requirements.
     """
     rows, verdicts, later = read_map(folder / "held-out"), decide_all(folder / "held-out"), []
     for at, truth in verdicts.items():

@@ -16,11 +16,11 @@ Called = Callable[[str], str]
 def standing(one: Decision, called: Called) -> str:
     """Say that the advised law is alone on the Pareto front, or with which laws it ties."""
     if len(one.asked) == 1:
-        return "No other published law of this run meets these conditions."
+        return "No other published or adapted law of this run meets these conditions."
     if not one.tied:
         return (
-            f"{len(one.asked)} published laws meet these conditions; it is at least as good as the others on every "
-            "criterion and better on one."
+            f"{len(one.asked)} published or adapted laws meet these conditions; it is at least as good as the others "
+            "on every criterion and better on one."
         )
     return f"It ties with {together([called(law) for law in one.tied])} and is the simplest of these."
 

@@ -1,5 +1,8 @@
 """Impedance on the error quaternion of the shorter rotation: e = 2 sgn(eta) eps = 2 sin(theta/2) k.
 
+Source: the error is Yuan 1988's. Its moment is the gradient of 4 k (1 - |eta|); Caccavale et al. 1999 take that of
+2 eps^T K eps, which vanishes at 180° (`springs/quaternion_energy.py`).
+
 Limitations: at 180° e jumps to -e; there the sign is that of `so3.quaternion_direction`.
 """
 

@@ -7,7 +7,8 @@ With Gp a multiple of I, [eps]x Gp eps is zero, and u = 2 Kp (eta + HARDENING (1
 180°. Its potential is Gp |eps|^2/2 + gamma (1 - eta)^2/2.
 
 Source: Joshi, Kelkar, Wen 1995, which was not read: the formula is from a report on it, and HARDENING is ours. Theirs
-takes the quaternion as it comes, and may turn the longer way; here eta >= 0.
+takes the quaternion as it comes, and may turn the longer way; here eta >= 0, so that the law is adapted. The family is
+not ranked by one HARDENING: `python -P -m bench.studies.constants` varies it.
 
 Limitations: at 180° the command jumps to its opposite.
 """

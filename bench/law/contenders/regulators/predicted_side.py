@@ -9,7 +9,7 @@ tick, after a pause, and when the goal jumps.
 
 Source: Goncalves, Bena, Matveev, Perez-Arancibia, arXiv:2403.07269, whose abstract was read: of two torques they take
 the one whose cost, of control and attitude error, a model predicts to be less. The cost in closed form, the spring and
-MARGIN are ours.
+MARGIN are ours, so that the law is a law of this benchmark.
 
 Proved: local. About one fixed axis the prediction is exact and the cost falls, so that it is global there.
 Limitations: from rest up to MARGIN, 46 degrees, beyond a 180° rotation it keeps turning the longer way; where omega is

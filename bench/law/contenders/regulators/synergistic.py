@@ -12,7 +12,8 @@ Global: the potential in force and |omega|^2/2 fall together as -Kv |omega|^2, a
 them, and KAPPA |s| < 1 keeps the turned body from resting anywhere else.
 
 Sources: Mayhew & Teel 2013, not read; Berkane & Tayebi, arXiv:1502.07386 and (with Abdessameud) 1510.03878, and Wang &
-Tayebi, arXiv:2012.12470, whose abstracts were read. The formulas and all constants are derived here. The angle of Wang
+Tayebi, arXiv:2012.12470, whose abstracts were read. The formulas and all constants are derived here, so that nothing
+of its speed says how fast theirs are: `python -P -m bench.studies.constants` varies KAPPA and GAP. The angle of Wang
 & Tayebi is a state that flows and jumps; a law's memory has no period to let it flow. Held between jumps it cannot
 serve: a weight on the angle that makes it return to 0 near the goal keeps it at 0 on 180° rotations. So the angle is
 KAPPA V, as in angular warping, and its sign is remembered.
