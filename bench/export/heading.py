@@ -9,6 +9,7 @@ from bench.base.provenance import IS_CHECKOUT, ROOT, describe_project
 from bench.engines.counting.costs import FLOPS, cost
 from bench.engines.counting.counted import TOTAL
 from bench.export.subject import COMPENSATOR, IMPEDANCE, SPRING, Subject
+from bench.law.attribution import describe_source
 
 PROJECT = describe_project()
 LICENSE = (
@@ -82,7 +83,7 @@ def heading(subject: Subject, *notes: str) -> str:
 def _attributed(subject: Subject) -> str:
     """Return whose the record is, and its source: "adapted: after A and B"."""
     one = subject.contender if subject.contender is not None else subject.record
-    return f"{one.attribution}: {subject.record.source}"
+    return describe_source(one.attribution, subject.record.source)
 
 
 def _facts(subject: Subject) -> list[str]:

@@ -14,6 +14,7 @@ import pandas as pd
 
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
+from bench.findings.selection.criteria import NOTABLE
 
 STUDY = RESULTS / "constants"
 """What `python -P -m bench.studies.constants` keeps."""
@@ -63,7 +64,7 @@ class Varied(NamedTuple):
     Attributes:
         value: The constant's value.
         ratio: Median over the situations of its 99 % time over that of the default law.
-        rank: Its place among all laws by that ratio, 1 the fastest.
+        rank: One more than the number of laws that are faster by that ratio, and by more than NOTABLE.
         lost: Starts that do not settle, of all situations.
     """
 
@@ -79,24 +80,32 @@ def read_rows(folder: Path = STUDY) -> pd.DataFrame:
     return read(folder, "constants")
 
 
-def median_ratio(times: pd.Series, default_times: pd.Series) -> float:
+def median_ratio(times: pd.Series, beside: pd.Series) -> float:
     """Return the median over situations of a law's time over the default's, of situations where the default settles."""
-    settles = default_times[np.isfinite(default_times)]
+    settles = beside[np.isfinite(beside)]
     return float((times.loc[settles.index] / settles).median())
 
 
 def shipped_ratios(rows: pd.DataFrame, default: str) -> dict[str, float]:
     """Return the median ratio of every law as shipped."""
     shipped = rows[rows["constant"] == AS_SHIPPED]
-    times = {str(law): own.set_index("situation")["time"] for law, own in shipped.groupby("regulator", observed=True)}
-    return {law: median_ratio(own, times[default]) for law, own in times.items()}
+    beside = default_times(rows, default)
+    return {
+        str(law): median_ratio(own.set_index("situation")["time"], beside)
+        for law, own in shipped.groupby("regulator", observed=True)
+    }
+
+
+def default_times(rows: pd.DataFrame, default: str) -> pd.Series:
+    """Return the 99 % time of the default law as shipped, by situation; infinite where it loses a hundredth."""
+    of_default = rows[(rows["constant"] == AS_SHIPPED) & (rows["regulator"] == default)]
+    return of_default.set_index("situation")["time"]
 
 
 def vary(constant: Constant, rows: pd.DataFrame, default: str) -> list[Varied]:
     """Return what each value of a constant does, the shipped one among them, in the order of the values."""
     ratios = shipped_ratios(rows, default)
-    shipped = rows[rows["constant"] == AS_SHIPPED]
-    default_times = shipped[shipped["regulator"] == default].set_index("situation")["time"]
+    beside = default_times(rows, default)
     of_law = rows[rows["regulator"] == constant.law]
     others = [ratio for law, ratio in ratios.items() if law != constant.law]
     found = []
@@ -104,19 +113,27 @@ def vary(constant: Constant, rows: pd.DataFrame, default: str) -> list[Varied]:
         is_shipped = value == constant.shipped
         changed = of_law[(of_law["constant"] == constant.name) & (of_law["value"] == value)]
         own = of_law[of_law["constant"] == AS_SHIPPED] if is_shipped else changed
-        ratio = median_ratio(own.set_index("situation")["time"], default_times)
-        rank = 1 + sum(other < ratio for other in others)
+        ratio = median_ratio(own.set_index("situation")["time"], beside)
+        # Ratios within NOTABLE of each other are ties.
+        rank = 1 + sum(other < (1.0 - NOTABLE) * ratio for other in others)
         found.append(Varied(value, ratio, rank, int(own["lost"].sum())))
     return found
 
 
-def describe(constant: Constant, every: list[Varied]) -> str:
+def describe(constant: Constant, every: list[Varied], default: str) -> str:
     """Say within what ratios and ranks a law lies for the values of a constant that were tried."""
     ratios, ranks = [one.ratio for one in every], [one.rank for one in every]
     low, high = min(one.value for one in every), max(one.value for one in every)
-    span = f"{constant.law} with {constant.name} from {low:g} to {high:g} takes"
     slowest = f"{max(ratios):.2f}" if math.isfinite(max(ratios)) else "infinitely many"
-    times = f"{min(ratios):.2f} to {slowest} times as long as the default law"
+    fastest = f"{min(ratios):.2f}"
+    times = fastest if fastest == slowest else f"{fastest} to {slowest}"
+    said = (
+        f"With {constant.name} from {low:g} to {high:g}, {constant.law} takes {times} times as long as {default} "
+        "(median over the situations)."
+    )
     if min(ranks) == max(ranks):
-        return f"{span} {times}; its rank is {min(ranks)} for each of these values."
-    return f"{span} {times}; its rank is between {min(ranks)} and {max(ranks)}: one value does not rank the law."
+        return f"{said} Its rank among the laws of the map is {min(ranks)} for each of these values."
+    return (
+        f"{said} Its rank among the laws of the map is between {min(ranks)} and {max(ranks)}, so that one value does "
+        "not rank a family of laws."
+    )

@@ -32,3 +32,11 @@ THIS_BENCHMARK = "this benchmark"
 
 AFTER = "after "
 """How the source of an adapted law begins."""
+
+
+def describe_source(attribution: str, source: str) -> str:
+    """Return whose something is, and its source: "adapted: after A and B"."""
+    if attribution == ADAPTED and not source.startswith(AFTER):
+        # A published law in coordinates that its work does not use.
+        return f"{attribution}: {AFTER}{source}"
+    return f"{attribution}: {source}"

@@ -7,6 +7,7 @@ from bench.findings.selection.needs import Measured
 from bench.findings.selection.robots import list_elsewhere
 from bench.findings.selection.sensitivity import vary
 from bench.findings.selection.words import compare, cost, describe_bounds, together
+from bench.law.attribution import describe_source
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import PAPERS_GAINS
 from tasks.situation import KP, NOMINAL
@@ -49,7 +50,7 @@ def _default(found: Measured | None, region: regions.Region) -> tuple[str, ...]:
 def _attributed(law: str) -> str:
     """Return whose a law is, and its works without what else its source says."""
     one = find_contender(law)
-    return f"{one.attribution}: {one.regulator.source.split('; ')[0]}"
+    return describe_source(one.attribution, one.regulator.source.split("; ")[0])
 
 
 def _elsewhere(default: str) -> tuple[str, ...]:

@@ -15,6 +15,7 @@ from bench.export.language import find_language, language_words
 from bench.export.short import write_short
 from bench.export.subject import find_subject
 from bench.findings.proofs.certificate import read_certificates
+from bench.law.attribution import describe_source
 from bench.law.kinds import Law
 from report.figures.kit import html
 from report.figures.kit.spelling import LETTERS, marked_up
@@ -85,7 +86,7 @@ def make_card(
     attribution: whose the law is, where that is not the record's own word (in coordinates that its work has not).
     """
     formula = f'<div class="card-formula">{html.formula(record.formula)}</div>' if record.formula else ""
-    source = html.foreign(f"{attribution or record.attribution}: {record.source}" if record.source else "")
+    source = html.foreign(describe_source(attribution or record.attribution, record.source))
     lines = [set_paragraph(text) for text in said[0].split("\n\n") if text.strip()]
     for head, text in said[1].items():
         set_text = text if isinstance(text, html.Html) else html.foreign(text)  # only ours is markup

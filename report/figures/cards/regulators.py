@@ -16,6 +16,7 @@ from bench.law.contenders import regulators
 from bench.law.contenders.registry import contenders, contenders_of, papers_laws
 from bench.law.kinds import Law
 from report.figures.cards.card import LawPage, Source, docstring, make_card, make_page, say_property, set_words
+from report.figures.cards.constants import describe_constants
 from report.figures.kit import families, html, laws, style
 from report.figures.kit.page import Run
 
@@ -80,6 +81,7 @@ def card(one: Contender, run: Run) -> str:
         "Measured": measured(episodes, one.regulator),
         "Its command": set_words(command),
         "Advised": advised(one.name),
+        "Constants that are ours": describe_constants(one.name),
     }
     look, costs = html.both(style.look(one.name).colour), costs_of(one, run)
     shown = costs.to_html(index=False, classes="plain", border=0, formatters=[html.cell] * len(costs.columns))
