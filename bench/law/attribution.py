@@ -4,7 +4,7 @@ published   one cited work has this very law. Constants that the work leaves ope
             same line: "Schaub, Akella, Junkins 2001; the switch at |sigma|^2 = 1.5 is ours".
             A work that nobody here has opened is marked in the book's references: its law is as later texts state it.
 adapted     parts of published works, combined or changed here: "after A and B". No cited work has this very law, or
-            the work was not read and it cannot be said whether it has.
+            the law of the nearest work is not known here, so that it cannot be said whether it is the same.
 ours        the law was made here and nobody else has reviewed it: "this benchmark, 2026".
 yours       the law of a user's file, whatever the file says: nobody here has compared it with a work.
 
