@@ -5,7 +5,8 @@ The rule was committed before the map was run:
 1. Asked are the laws that settle from every start tried, exact 180° rotations among them, that never first turn away
    from the goal, and that worst-case noise of 0.1 rad does not trap at 180° (`Rule` drops each of these).
 2. One law beats another in a situation if 99 % of its starts settle in a time that is shorter by more than NOTABLE, and
-   the 95 % intervals of the two times do not overlap. All else is a tie.
+   the paired 95 % interval of the ratio of the two times, over the starts that both ran, excludes 1 (`pairs`). All else
+   is a tie.
 3. The simplest of the laws that nothing beats is advised: of least memory, then of fewest operations.
 4. A law of ours is never advised; where it is not beaten, or beats what is advised, that is said.
 5. The default is the law with the widest region: advised in most of the situations that were drawn at random.
@@ -24,6 +25,7 @@ from bench.experiments.tables.read import with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
 from bench.findings.selection.criteria import NOTABLE, jump
+from bench.findings.selection.pairs import find_slower, read_pairs
 from bench.law.contenders.registry import find_contender
 from tasks.situation import COORDINATES, NOMINAL, Situation, read_situation
 
@@ -109,8 +111,11 @@ def with_words(rows: pd.DataFrame) -> pd.DataFrame:
     return with_contender(rows).assign(situation=words)
 
 
-def decide(rows: pd.DataFrame, rule: Rule = RULE) -> Verdict:
-    """Apply the rule to the rows of one situation, a law each."""
+def decide(rows: pd.DataFrame, rule: Rule = RULE, pairs: pd.DataFrame | None = None) -> Verdict:
+    """Apply the rule to the rows of one situation, a law each; pairs: the comparisons of its laws, two by two.
+
+    Without pairs the two intervals must not overlap instead, which leaves more ties.
+    """
     laws = rows["contender"].astype(str).to_numpy()
     memory, is_continuous, is_ours = np.array([facts_of(law) for law in laws]).T
     has = np.isfinite(rows[rule.by].to_numpy(dtype=float))
@@ -127,7 +132,7 @@ def decide(rows: pd.DataFrame, rule: Rule = RULE) -> Verdict:
     asked, own, is_ours = rows[has].assign(memory=memory[has]), laws[has], is_ours[has] == 1
     if is_ours.all():  # or none is left
         return Verdict(None, ours=tuple(own))
-    beaten = find_beaten(asked, rule)
+    beaten = find_beaten(asked, rule, pairs)
     by_published = beaten[:, ~is_ours].any(axis=1)
     order = ["peak"] if rule.least_peak else []
     kept = asked[~is_ours & ~by_published].sort_values([*order, "memory", "operations", "contender"])
@@ -136,11 +141,13 @@ def decide(rows: pd.DataFrame, rule: Rule = RULE) -> Verdict:
     return Verdict(law, tuple(tied), tuple(own[is_ours & ~by_published]), tuple(faster), len(asked))
 
 
-def find_beaten(rows: pd.DataFrame, rule: Rule) -> np.ndarray:
+def find_beaten(rows: pd.DataFrame, rule: Rule, pairs: pd.DataFrame | None = None) -> np.ndarray:
     """Return whether the law of row i is beaten by that of row j, shape (n, n).
 
-    The median and the 99.9 % time have no interval of their own: there the share `tie` alone decides.
+    The median, the 99.9 % time and the effort have no interval: there the share `tie` alone decides.
     """
+    if rule.by == "time" and pairs is not None:
+        return find_slower(pairs, rows["contender"].astype(str).tolist(), rule.tie)
     times = rows[rule.by].to_numpy(dtype=float)
     is_notable = times[None, :] < (1.0 - rule.tie) * times[:, None]
     if rule.by != "time":
@@ -152,8 +159,9 @@ def find_beaten(rows: pd.DataFrame, rule: Rule) -> np.ndarray:
 @functools.lru_cache(maxsize=64)
 def decide_all(folder: Path = STUDY, rule: Rule = RULE) -> dict[Situation, Verdict]:
     """Return the rule's verdict on every situation of a map."""
+    pairs = read_pairs(folder)
     return {
-        read_situation(str(word)): decide(rows, rule)
+        read_situation(str(word)): decide(rows, rule, pairs.get(str(word)))
         for word, rows in read_map(folder).groupby("situation", sort=False, observed=True)
     }
 
