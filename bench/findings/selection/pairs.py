@@ -26,11 +26,34 @@ def read_run(folder: Path) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 @functools.cache
+def read_all_pairs(folder: Path) -> pd.DataFrame:
+    """Return the rows of a map's pairs.parquet."""
+    pairs = read(folder, "pairs")
+    words = {column: pairs[column].astype(str) for column in ("situation", "law", "other")}
+    return pairs.assign(**words)
+
+
+@functools.cache
 def read_pairs(folder: Path) -> dict[str, pd.DataFrame]:
     """Return the rows of a map's pairs.parquet by the word of their situation."""
-    pairs = read(folder, "pairs")
-    pairs = pairs.assign(law=pairs["law"].astype(str), other=pairs["other"].astype(str))
-    return {str(word): rows for word, rows in pairs.groupby("situation", observed=True)}
+    return {str(word): rows for word, rows in read_all_pairs(folder).groupby("situation")}
+
+
+@functools.cache
+def compare_with_all(law: str, folder: Path) -> pd.DataFrame:
+    """Return a row for each situation and other law (`rival`): the ratio of the law's 99 % time to the rival's.
+
+    A log_ratio above 0 says that the rival is faster.
+    """
+    pairs = read_all_pairs(folder)
+    divided = pairs[pairs["law"] == law].rename(columns={"other": "rival"}).drop(columns="law")
+    divisor = pairs[pairs["other"] == law].rename(columns={"law": "rival"}).drop(columns="other")
+    swapped = divisor.assign(
+        log_ratio=-divisor["log_ratio"],
+        low=-divisor["high"],
+        high=-divisor["low"],
+    )
+    return pd.concat([divided, swapped], ignore_index=True)
 
 
 def compare_laws(starts: pd.DataFrame) -> pd.DataFrame:
