@@ -1,4 +1,4 @@
-"""The real-time loop: torques of the exported C++, the theory of late torques, and the committed study."""
+"""The real-time loop: the exported C++, the theory of late torques, the committed study."""
 
 import os
 import time
@@ -54,14 +54,14 @@ def limit_of(applied_s):
 
 
 def late_by(delay):
-    """Return when each tick's torque arrives, if every torque is late by the same share of the period."""
+    """Return when each tick's torque arrives, if all are late by one share of the period."""
     return PERIOD_S * (np.arange(TICKS) + delay)
 
 
 def oracle_radius(gain, delay):
-    """Return the greatest |eigenvalue| of (e, omega, u) over a period, by matrix exponentials of e'' = u."""
+    """Return the greatest |eigenvalue| over a period, by matrix exponentials of e'' = u."""
     drift = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0]])
-    # A new command replaces u; (e, omega) at the tick are kept beside it, in the fourth and fifth place.
+    # A new command replaces u; (e, omega) at the tick are in the fourth and fifth place.
     state = np.zeros((5, 5))
     state[:3, :3] = drift
     remember = np.eye(5)
@@ -80,7 +80,7 @@ def test_limit_of_a_constant_delay_is_that_of_the_eigenvalues(delay):
 
 
 def radius_of_whole_periods(gain, periods):
-    """Return the greatest |eigenvalue| of (e, omega, the commands that wait), the last of which is in force."""
+    """Return the greatest |eigenvalue| of (e, omega, commands that wait), the last in force."""
     size = 2 + periods
     period = np.eye(size, k=-1)
     period[0] = period[1] = period[2] = 0.0
@@ -124,14 +124,14 @@ def test_greatest_limit_is_where_a_complex_pair_takes_over():
 
 
 def test_state_that_is_never_answered_leaves_the_torque_before():
-    # Every second state unanswered is a loop of twice the period with the same law: its Kv T is half, in this period.
+    # It is a loop of twice the period with the same law: its Kv T, with this period, is half.
     applied_s = late_by(0.0)
     applied_s[1::2] = np.nan
     assert limit_of(applied_s) == pytest.approx(1.0, rel=3e-3)
 
 
 def expected_torque(loop, start):
-    """Return D J^+ (a - Jdot qdot) + h by numpy, the law on R by the sine of scipy's rotation vector."""
+    """Return D J^+ (a - Jdot qdot) + h by numpy, the law by the sine of a rotation vector."""
     model, data, (kp, kv) = loop.model, loop.data, PAPERS_GAINS
     J, drift, D = (
         jacobian_of(model, data, "tool"),
@@ -155,7 +155,7 @@ FOLDERS = (
 )
 NEEDS_EIGEN = pytest.mark.skipif(
     not any((folder / "Eigen").is_dir() for folder in FOLDERS),
-    reason="no Eigen here (Debian: apt install libeigen3-dev; elsewhere: name its folder in CPLUS_INCLUDE_PATH)",
+    reason="no Eigen here (apt install libeigen3-dev, or name its folder in CPLUS_INCLUDE_PATH)",
 )
 
 
@@ -215,7 +215,7 @@ def test_replay_of_recorded_delays_is_the_same_episode(loop):
 @pytest.mark.parametrize("substeps", SUBSTEPS)
 @pytest.mark.parametrize("delay", [0.0, 0.1, 0.3, 1.5])
 def test_arm_is_held_exactly_between_torques_whatever_the_substeps(loop, substeps, delay):
-    # MuJoCo's own eight steps would lose the loop without delay at 1.941, and with 0.125 of a period at 2.834.
+    # MuJoCo's own eight steps lose the loop without delay at 1.941, with 1/8 period at 2.834.
     ticks = np.arange(400)
     applied_ns = np.round(PERIOD_NS * (ticks + delay)).astype(np.int64)
     limit = limit_of(1e-9 * applied_ns)

@@ -55,7 +55,7 @@ def find_greatest_kv(applied_s: np.ndarray, period_s: float, greatest: float, la
 
 
 def list_events(applied_s: np.ndarray, period_s: float) -> list[tuple[float, bool, int]]:
-    """Return in order: time since the event before [s], whether it is a tick or an arrival, and the tick's number."""
+    """Return in order: time since the event before [s], whether it is a tick, and which."""
     ticks = np.arange(len(applied_s))
     answered = ticks[np.isfinite(applied_s)]
     instants = np.concatenate((period_s * ticks, applied_s[answered]))
@@ -87,13 +87,13 @@ def is_shrinking(events: list[tuple[float, bool, int]], first: int, kv: float) -
 
 
 def compute_radius(gain: float, delay: float) -> float:
-    """Compute the greatest |z| of a loop with Kv T = gain whose torques are all late by a share of the period."""
+    """Compute the greatest |z| with Kv T = gain and torques late by a share of the period."""
     eigenvalues = np.linalg.eigvals(transition(gain, delay))
     return float(np.abs(eigenvalues).max())
 
 
 def transition(gain: float, delay: float) -> np.ndarray:
-    """Return the map of (e, T omega, T^2 u before) over one period, 3 x 3, with Kv T = gain and a delay in [0, 1]."""
+    """Return the map of (e, T omega, T^2 u before) over a period; Kv T = gain, delay in [0, 1]."""
     command = np.array([-0.25 * gain * gain, -gain, 0.0])
     e, omega, before = np.eye(3)
     for duration, u in ((delay, before), (1.0 - delay, command)):
@@ -103,7 +103,7 @@ def transition(gain: float, delay: float) -> np.ndarray:
 
 
 def find_constant_limit(delay: float) -> float:
-    """Return the Kv T above which a loop is unstable whose torques are all late by this share of the period."""
+    """Return the Kv T above which torques late by this share of the period lose the loop."""
     low = 0.0
     while compute_radius(low + STEP, delay) < 1.0:
         low += STEP

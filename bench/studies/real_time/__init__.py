@@ -1,1 +1,1 @@
-"""A controller in C++ and an arm in MuJoCo, each in a process of its own, in real time over shared memory."""
+"""A controller in C++ and a simulated arm, each in a process of its own, in real time."""

@@ -56,12 +56,12 @@ STARTS = 12
 HORIZON_S = 2.5
 EDGE_RAD = 1e-9
 EDGE_S = 1.0
-"""Length of the episodes that tell whether gains are stable: 1 % above the limit an error grows by exp(10) or more."""
+"""Length of the episodes that tell whether gains are stable."""
 GREATEST = 4.0
-"""Kv times the control period up to which a limit is looked for; the greatest with any constant delay is 3.12."""
+"""Kv T up to which a limit is looked for; the greatest with any constant delay is 3.12."""
 HALVINGS = 9
 LAST = 0.1
-"""Part of an episode, its last, in which a loop that is not stable is farther from the goal than at its start."""
+"""Part of an episode, its last, in which the error of a stable loop is never that of its start."""
 REPLAYED = 3
 """Episodes of an arm and a law whose delays are replayed with every number of substeps."""
 POLICIES = {os.SCHED_OTHER: "SCHED_OTHER", os.SCHED_FIFO: "SCHED_FIFO", os.SCHED_RR: "SCHED_RR"}
@@ -86,20 +86,20 @@ def settling_time(course: Course, start: Start) -> float:
 
 
 def compute_delays(course: Course) -> np.ndarray:
-    """Return how long after each tick the first torque came that answers its state or a later one [s].
+    """Return how long after each tick a torque came that answers its state or a later one [s].
 
     Ticks at the end that no torque answers are left out.
     """
     applied_s = course.applied_s
     never = np.where(np.isnan(applied_s), np.inf, applied_s)
-    # Answers come in the order of the ticks, so that the least of those from a tick on is the next one.
+    # Answers come in the order of the ticks: the least of those from a tick on is the next one.
     first_after = np.minimum.accumulate(never[::-1])[::-1]
     delays = first_after - PERIOD_S * np.arange(len(applied_s))
     return delays[np.isfinite(delays)]
 
 
 def compute_parts(course: Course) -> dict[str, np.ndarray]:
-    """Return the parts of the delay by the clocks of both processes [s], of the states that were answered."""
+    """Return the parts of the delay by both clocks [s], of the states that were answered."""
     records = course.records
     is_answered = records["applied_ns"] != NEVER
     due_ns = PERIOD_NS * np.arange(len(records))[is_answered]
@@ -113,7 +113,7 @@ def compute_parts(course: Course) -> dict[str, np.ndarray]:
 
 
 def summarize_delays(courses: list[Course]) -> dict[str, float]:
-    """Return median, 99 % and maximum of the delay and of its parts [s], as columns of the table."""
+    """Return median, 99 % and maximum of the delay and of its parts [s], by column."""
     series = {"delay": np.concatenate([compute_delays(course) for course in courses])}
     parts = [compute_parts(course) for course in courses]
     for name in parts[0]:
@@ -127,7 +127,7 @@ def summarize_delays(courses: list[Course]) -> dict[str, float]:
 
 
 def beside_home(name: str) -> Start:
-    """Return the start from rest at home, its goal EDGE_RAD away about an axis that leans to all of the base's."""
+    """Return the start from rest at home, its goal EDGE_RAD away about a diagonal of the base."""
     arm = tasks.arm(name)
     quat = Kinematics(arm).pose(arm.home)[1]
     part = math.sin(0.5 * EDGE_RAD) / math.sqrt(3.0)
@@ -170,7 +170,7 @@ def find_replayed_limit(loop: Loop, start: Start, applied_ns: np.ndarray, subste
 
 
 def predict(course: Course, ticks: int | None = None) -> float:
-    """Return the greatest Kv [1/s] by theory with the delays of an episode, or of its first ticks."""
+    """Return the greatest Kv [1/s] by theory with the delays of an episode or its first ticks."""
     return find_greatest_kv(course.applied_s[:ticks], PERIOD_S, GREATEST, LAST)
 
 
@@ -199,7 +199,7 @@ def simulate(arm: str, law: str, joints: int) -> np.ndarray:
 
 
 def compare_outcomes(episodes: list[Episode], simulated: np.ndarray) -> dict[str, Any]:
-    """Return how many settled in real time and in the simulated loop, and how far their settling times are apart."""
+    """Return how many settled in real time and in the simulated loop, and how far apart."""
     real = np.array([settling_time(episode.course, episode.start) for episode in episodes])
     has_settled, should_settle = np.isfinite(real), np.isfinite(simulated)
     both = has_settled & should_settle

@@ -10,6 +10,8 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "shared.hpp"
 
@@ -17,14 +19,18 @@ constexpr int64_t NEVER = -1;
 constexpr int64_t PATIENCE_NS = 10'000'000'000;
 // Sleep ends so long before a tick: a virtual machine needs some 50 us to wake a process.
 constexpr int64_t WAKING_NS = 100'000;
+// A command beyond this [N m] is that of a loop that is lost. MuJoCo refuses 1e10 and what is not
+// finite.
+constexpr double MOST_TORQUE = 1e9;
 
 // What is recorded of a tick. Instants count from the begin of the episode, by the clock;
 // applied_ns by the arm's time.
 struct Record {
     double q[MOST_JOINTS], qdot[MOST_JOINTS];
-    int64_t published_ns;                      // when the state was in shared memory
-    int64_t read_ns, written_ns, noticed_ns;   // by the controller; by the controller; by the arm's process
-    int64_t applied_ns;                        // from when on the arm has the torques that answer this state
+    int64_t published_ns;         // when the state was in shared memory
+    int64_t read_ns, written_ns;  // when the controller had read it, and written torques
+    int64_t noticed_ns;           // when the arm's process saw these
+    int64_t applied_ns;           // from when on the arm has them
 };
 
 struct Setting {
@@ -34,15 +40,22 @@ struct Setting {
 
 class Episode {
   public:
-    Episode(const mjModel *model, mjData *data, Shared &shared, const Setting &setting, Record *records)
-        : model(model), data(data), shared(shared), setting(setting), records(records), n(model->nv) {
+    Episode(const mjModel *model, mjData *data, Shared &shared, const Setting &setting,
+            Record *records)
+        : model(model),
+          data(data),
+          shared(shared),
+          setting(setting),
+          records(records),
+          n(model->nv) {
         mju_copy(wanted, data->ctrl, n);
     }
 
     // Run by the clock; return whether the controller has answered the last state.
     bool run_in_real_time() {
         began_ns = read_clock_ns();
-        for (int64_t tick = 1; tick <= setting.ticks; ++tick) {
+        int64_t tick = 1;
+        for (; tick <= setting.ticks && !is_lost; ++tick) {
             publish(tick);
             for (int64_t substep = 1; substep <= setting.substeps;) {
                 const int64_t end_ns = end_of(tick, substep);
@@ -59,14 +72,16 @@ class Episode {
             }
             sleep_until(end_of(tick, setting.substeps));
         }
-        return wait_for(setting.ticks);
+        leave_out_from(tick);
+        return wait_for(tick - 1);
     }
 
     // Run as fast as it goes. Torques that answer the state of tick i arrive at applied_ns[i - 1]
     // of an earlier episode.
     bool replay(const int64_t *applied_ns) {
         began_ns = read_clock_ns();
-        for (int64_t tick = 1; tick <= setting.ticks; ++tick) {
+        int64_t tick = 1;
+        for (; tick <= setting.ticks && !is_lost; ++tick) {
             const bool is_answered = applied_ns[tick - 1] != NEVER;
             if (is_answered) {
                 publish(tick);
@@ -87,6 +102,7 @@ class Episode {
                 }
             }
         }
+        leave_out_from(tick);
         return true;
     }
 
@@ -101,9 +117,25 @@ class Episode {
     int64_t noticed = 0, applied = 0;  // numbers of answers
     int64_t newest_applied = 0;        // tick of the newest of them
     double wanted[MOST_JOINTS];        // torques of the newest answer
+    bool is_lost = false;
 
     int64_t end_of(int64_t tick, int64_t substep) const {
         return (tick - 1) * setting.period_ns + substep * setting.period_ns / setting.substeps;
+    }
+
+    // The states of a lost arm are not numbers, so that no comparison with them holds.
+    void leave_out_from(int64_t tick) {
+        for (; tick <= setting.ticks; ++tick) {
+            Record &record = records[tick - 1];
+            forget_instants(record);
+            std::fill_n(record.q, MOST_JOINTS, std::numeric_limits<double>::quiet_NaN());
+            std::fill_n(record.qdot, MOST_JOINTS, std::numeric_limits<double>::quiet_NaN());
+        }
+    }
+
+    static void forget_instants(Record &record) {
+        record.published_ns = record.read_ns = record.written_ns = NEVER;
+        record.noticed_ns = record.applied_ns = NEVER;
     }
 
     State keep_state(int64_t tick) {
@@ -113,7 +145,7 @@ class Episode {
         mju_copy(state.qdot, data->qvel, n);
         mju_copy(record.q, data->qpos, n);
         mju_copy(record.qdot, data->qvel, n);
-        record.published_ns = record.read_ns = record.written_ns = record.noticed_ns = record.applied_ns = NEVER;
+        forget_instants(record);
         return state;
     }
 
@@ -170,6 +202,10 @@ class Episode {
 
     void apply(const Answer &answer) {
         mju_copy(wanted, answer.tau, n);
+        for (int joint = 0; joint < n; ++joint) {
+            if (!(std::fabs(wanted[joint]) < MOST_TORQUE)) is_lost = true;
+        }
+        if (is_lost) mju_copy(wanted, data->ctrl, n);
         records[answer.tick - 1].applied_ns = arm_ns;
         newest_applied = answer.tick;
         ++applied;
@@ -193,12 +229,13 @@ class Episode {
 };
 
 extern "C" {
-bool run_in_real_time(const mjModel *model, mjData *data, Shared *shared, const Setting *setting, Record *records) {
+bool run_in_real_time(const mjModel *model, mjData *data, Shared *shared, const Setting *setting,
+                      Record *records) {
     return Episode(model, data, *shared, *setting, records).run_in_real_time();
 }
 
-bool replay(const mjModel *model, mjData *data, Shared *shared, const Setting *setting, Record *records,
-            const int64_t *applied_ns) {
+bool replay(const mjModel *model, mjData *data, Shared *shared, const Setting *setting,
+            Record *records, const int64_t *applied_ns) {
     return Episode(model, data, *shared, *setting, records).replay(applied_ns);
 }
 

@@ -1,8 +1,8 @@
 // A Cartesian controller in a process of its own: torques for the newest state that the arm writes
 // to shared memory.
 //
-//   a = (Kp (p_d - p) - Kv pdot, u) - Jdot qdot     u by the exported law LAW, its header HEADER, gains of the arm's side
-//   tau = D J^+ a + h                               D, h (gravity, Coriolis, damping), J and Jdot by MuJoCo
+//   a = (Kp (p_d - p) - Kv pdot, u) - Jdot qdot     u by the exported law LAW, its header HEADER
+//   tau = D J^+ a + h                          D, h (gravity, Coriolis, damping), J and Jdot by MuJoCo
 //
 // On seven joints the joint rates that the tool does not see are damped by -Kv/2 qdot, as in the
 // benchmark's loop. Call: controller MODEL.mjb SHARED-FILE. It ends when the arm's process writes a
@@ -22,6 +22,8 @@ namespace law = orientation_bench::LAW;
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Vector = Eigen::VectorXd;
 
+constexpr int PROT = PROT_READ | PROT_WRITE;
+
 int main(int, char **words) {
     const mjModel *model = mj_loadModel(words[1], nullptr);
     mjData *data = mj_makeData(model);
@@ -29,7 +31,7 @@ int main(int, char **words) {
     const int site = mj_name2id(model, mjOBJ_SITE, "tool"), body = model->site_bodyid[site];
     const int file = open(words[2], O_RDWR);
     Shared &shared =
-        *static_cast<Shared *>(mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED, file, 0));
+        *static_cast<Shared *>(mmap(nullptr, sizeof(Shared), PROT, MAP_SHARED, file, 0));
     Matrix J(6, n), J_dot(6, n), D(n, n);
     Vector a(6), tau(n);
 #ifdef HAS_MEMORY
@@ -62,10 +64,12 @@ int main(int, char **words) {
         mj_fwdPosition(model, data);
         mj_fwdVelocity(model, data);
         mj_jacSite(model, data, J.data(), J.data() + 3 * n, site);
-        mj_jacDot(model, data, J_dot.data(), J_dot.data() + 3 * n, data->site_xpos + 3 * site, body);
+        const double *point = data->site_xpos + 3 * site;
+        mj_jacDot(model, data, J_dot.data(), J_dot.data() + 3 * n, point, body);
         mj_fullM(model, data, D.data());
-        const Eigen::Map<const Vector> qdot(data->qvel, n), bias(data->qfrc_bias, n), passive(data->qfrc_passive, n);
-        const Eigen::Map<const Eigen::Vector3d> p(data->site_xpos + 3 * site), p_d(shared.p_d);
+        const Eigen::Map<const Vector> qdot(data->qvel, n);
+        const Eigen::Map<const Vector> bias(data->qfrc_bias, n), passive(data->qfrc_passive, n);
+        const Eigen::Map<const Eigen::Vector3d> p(point), p_d(shared.p_d);
         const Eigen::Map<const law::Rows> R(data->site_xmat + 9 * site), R_d(shared.R_d);
         const double kp = shared.kp, kv = shared.kv;
         const Vector twist = J * qdot;
@@ -77,8 +81,8 @@ int main(int, char **words) {
 #endif
         a -= J_dot * qdot;
         const double damping = n > 6 ? 0.5 * kv : 0.0;
-        const Vector x = J.completeOrthogonalDecomposition().solve(a + damping * twist) - damping * qdot;
-        tau = D * x + bias - passive;
+        const Vector wanted = J.completeOrthogonalDecomposition().solve(a + damping * twist);
+        tau = D * (wanted - damping * qdot) + bias - passive;
         const int64_t number = shared.answered.load() + 1;
         Answer &answer = shared.answers[number % SLOTS];
         answer.tick = tick;

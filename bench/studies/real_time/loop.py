@@ -1,4 +1,4 @@
-"""The two processes: the arm, which is this one (`arm.cpp`), and the exported law (`controller.cpp`), at 1 kHz.
+"""The two processes: the arm (this one, with `arm.cpp`) and the exported law (`controller.cpp`).
 
 The arm moves with the clock and is held exactly between torques: they change at the instant at
 which the controller wrote them, whatever the substeps of the simulation. The operating system
@@ -30,7 +30,7 @@ PERIOD_S = 1e-3
 PERIOD_NS = 1_000_000
 NS = 1e-9
 SUBSTEPS = (8, 16, 64)
-"""Steps of the simulated arm in a control period, between which it does not matter: that is measured."""
+"""Steps of the simulated arm in a control period. The study measures that they do not matter."""
 MOST_JOINTS = 7
 SLOTS = 64
 NEVER = -1
@@ -88,13 +88,13 @@ class Course(NamedTuple):
 
     @property
     def applied_s(self) -> np.ndarray:
-        """Return from when on the arm has the torques that answer each tick's state [s]; NaN if it never has."""
+        """Return when the torques that answer each tick's state come [s]; NaN if never."""
         applied_ns = self.records["applied_ns"]
         return np.where(applied_ns == NEVER, np.nan, NS * applied_ns)
 
 
 class Programs(NamedTuple):
-    """Name what is compiled for a law: the controller's program, and the library that moves the arm."""
+    """Hold the compiled files: the controller's program, and the library that moves the arm."""
 
     controller: Path
     arm: Path
@@ -128,13 +128,14 @@ def build_programs(law: str, folder: Path) -> Programs:
 
 
 class Loop:
-    """An arm in real time with its controller; use it in a `with` statement, which ends the other process."""
+    """An arm in real time with its controller, whose process ends with the `with` statement."""
 
     def __init__(self, arm: str, variation: str, programs: Programs):
         description = tasks.arm(arm)
         self.task = tasks.task(TASK, arm)
         self.joints = description.joints
-        # MuJoCo's step matters to the stops of the joints alone: our own steps move the arm, and none is longer.
+        # This step matters to the stops of joints alone: our own steps move the arm.
+        # None of them is longer.
         self.model = mujoco.MjModel.from_xml_string(self.task.xml(PERIOD_S / min(SUBSTEPS)))
         tasks.variation(variation).apply(self.model, description.rated)
         self.data = mujoco.MjData(self.model)
@@ -178,7 +179,7 @@ class Loop:
         return NS * self.library.clock_resolution_ns()
 
     def begin(self, start: Start, gains: Gains) -> None:
-        """Place the arm at a start, its torques those that hold it, and tell the controller the goal."""
+        """Place the arm at a start, its torques those that hold it, and share the goal."""
         data, shared = self.data, self.shared
         mujoco.mj_resetData(self.model, data)
         data.qpos[:], data.qvel[:] = self.task.state(start)
@@ -208,7 +209,10 @@ class Loop:
         return self._course(start, records, is_answered)
 
     def replay(self, start: Start, gains: Gains, applied_ns: np.ndarray, substeps: int) -> Course:
-        """Return the course of an episode whose torques arrive when they did in another one; NEVER: they did not."""
+        """Return the course of an episode whose torques arrive when they did in another one.
+
+        applied_ns: of each tick; NEVER where its state was not answered.
+        """
         setting = self._setting(len(applied_ns), substeps)
         records = np.zeros(setting.ticks, RECORD)
         instants = np.ascontiguousarray(applied_ns, np.int64)

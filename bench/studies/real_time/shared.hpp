@@ -26,8 +26,10 @@ struct Shared {
     Answer answers[SLOTS];  // the answer with number i is in slot i % SLOTS
     double R_d[9], p_d[3], kp, kv;
     int64_t episode;
-    std::atomic<int64_t> tick;      // of the newest state, from 1 in each episode; 0: none yet; negative: the end
-    std::atomic<int64_t> answered;  // number of the newest answer, from 1 in each episode; 0: none yet
+    // Of the newest state, from 1 in each episode; 0: none yet; negative: the end.
+    std::atomic<int64_t> tick;
+    // Number of the newest answer, from 1 in each episode; 0: none yet.
+    std::atomic<int64_t> answered;
     sem_t is_new;
 };
 
