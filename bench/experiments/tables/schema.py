@@ -9,7 +9,7 @@ from bench.experiments.experiment import known_experiments
 RESULTS = WORKPLACE / "results"
 
 NAMES = (
-    *("perturbed", "timings", "libraries", "closed_loop", "verdicts", "real_loop", "contact_limits"),
+    *("perturbed", "timings", "libraries", "closed_loop", "verdicts", "real_time", "contact_limits"),
     *("constants", "situations", "pairs"),
 )
 STUDIED = tuple(read_table(__file__, name) for name in NAMES)
