@@ -13,7 +13,7 @@ process would look like ours to every other process.
 import contextlib
 import hashlib
 import os
-import pickle
+import pickle  # noqa: TID251  numba gives objects of its own, which go to the folder of compiled code and to no results
 import secrets
 import sys
 from pathlib import Path

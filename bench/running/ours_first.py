@@ -49,7 +49,7 @@ def compile_ours(plan: Plan, units: Iterable[Unit]) -> None:
     content = json.dumps(described(without_users, without_users.units)).encode()
     command = module_command(__name__, str(os.getpid()))
     nowhere = subprocess.DEVNULL
-    # Whatever keeps it from its end costs time alone: the law's process then compiles for itself, and says what is wrong.
+    # If it does not come to its end, the law's process compiles for itself, and says what is wrong.
     with contextlib.suppress(subprocess.TimeoutExpired):
         subprocess.run(
             command,
