@@ -81,7 +81,7 @@ class Number(click.ParamType):
             number = int(value) if self.is_whole else float(value)
         except (ValueError, TypeError):
             self._refuse(value, param, ctx)
-        is_named = isinstance(value, float) or value.strip().lower() in INFINITE
+        is_named = not isinstance(value, str) or value.strip().lower() in INFINITE
         if self.infinite and number == math.inf and is_named:
             return number
         # written so that NaN, for which every comparison is false, is refused

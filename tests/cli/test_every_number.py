@@ -79,6 +79,17 @@ def test_word_that_is_no_number_is_refused_in_one_line(words, option):
         assert len(error.value.format_message().splitlines()) == 1
 
 
+@pytest.mark.parametrize(
+    ("words", "option"), NUMBERS, ids=[f"{' '.join(words)} {option.opts[0]}" for words, option in NUMBERS]
+)
+def test_default_and_the_example_of_the_message_are_taken(words, option):
+    command = commands()[words]
+    arguments = ["law" for one in command.params if isinstance(one, click.Argument) and one.required]
+    example = [f"{option.opts[0]}={option.type.example:g}"] if isinstance(option.type, options.Number) else []
+    for given in ([], example):
+        assert command.make_context(words[0], [*arguments, *given]) is not None
+
+
 @pytest.mark.parametrize("word", ["nan", "0", "-1", "99999999999999999999"])
 def test_workers_of_proofs_are_refused_as_those_of_runs(capsys, word):
     line = refused(capsys, "prove", "--workers", word)
