@@ -85,7 +85,7 @@ def test_word_that_is_no_number_is_refused_in_one_line(words, option):
 def test_default_and_the_example_of_the_message_are_taken(words, option):
     command = commands()[words]
     arguments = ["law" for one in command.params if isinstance(one, click.Argument) and one.required]
-    example = [f"{option.opts[0]}={option.type.example:g}"] if isinstance(option.type, options.Number) else []
+    example = [f"{option.opts[0]}={option.type.example}"] if isinstance(option.type, options.Number) else []
     for given in ([], example):
         assert command.make_context(words[0], [*arguments, *given]) is not None
 

@@ -2,6 +2,7 @@
 
 import os
 import stat
+from pathlib import Path
 
 import pytest
 from support.command_line import refused
@@ -54,7 +55,7 @@ def test_what_is_no_regular_file_is_left_as_it_is(tmp_path, kind):
 def test_regular_file_is_replaced(tmp_path):
     path = tmp_path / "out.json"
     path.write_text("before")
-    write_atomically(path, lambda temporary: os.write(os.open(temporary, os.O_WRONLY), b"after"))
+    write_atomically(path, lambda temporary: Path(temporary).write_text("after"))
     assert path.read_text() == "after"
 
 
@@ -69,8 +70,13 @@ def test_command_refuses_it_before_it_works(capsys, tmp_path, words, kind):
 
 @pytest.mark.parametrize(
     ("command", "says"),
-    [("run", "what was finished is kept"), ("map", "what was finished is kept"), ("judge", "keeps nothing")]
-    + [("advise", "keeps nothing"), ("prove", "keeps nothing")],
+    [
+        ("run", "what was finished is kept"),
+        ("map", "what was finished is kept"),
+        ("judge", "keeps nothing"),
+        ("advise", "keeps nothing"),
+        ("prove", "keeps nothing"),
+    ],
 )
 def test_command_that_is_stopped_says_what_becomes_of_its_work(capsys, monkeypatch, command, says):
     def stop(*_, **__):
