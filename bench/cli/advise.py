@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 
 UNITS = {"": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6}
 FORMS = re.compile(r"([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?) *(|s|ms|us)")
+LONGEST_S = 1000.0
+"""The longest horizon of a run: what comes later is never seen."""
+
 TORQUES = ("torque", "torque-no-model")
 
 
@@ -30,26 +33,39 @@ def time(word: object) -> float:
     """Return the seconds of a time: a number of them, or one with a unit, as 5ms."""
     found = FORMS.fullmatch(str(word))
     seconds = float(found[1]) * UNITS[found[2]] if found else math.nan
-    if not 0.0 <= seconds < math.inf:
-        raise click.BadParameter(f"'{word}' is no time of at least 0 (try: 5ms or 0.005)")
+    if not 0.0 <= seconds <= LONGEST_S:
+        raise click.BadParameter(f"'{word}' is no time from 0 to {LONGEST_S:g} s (try: 5ms or 0.005)")
     return seconds
 
 
-POSITIVE = click.FloatRange(0.0, min_open=True)
+BOUND = options.Number(1e-9, 1e9, 30, infinite="no bound")
+"""[rad/s^2]: the lowest turns a body by a radian in half a day, the highest is a thousand times the judge's limit."""
+
+RATE = options.Number(1e-3, 1e7, 1000)
+"""[Hz]: the shortest control period of a run is a microsecond; a tick in more than 1000 s comes after every horizon."""
+
+SPIN = options.Number(0.0, 1e4, 1)
+"""[rad/s]: the judge's speed limit, above which an orientation can no longer be followed at 1 kHz."""
+
+INERTIA = options.Number(1e-3, 1e3, 1)
+"""True over assumed: a factor of a thousand is another robot."""
+
+UNEVENNESS = options.Number(0.0, 0.5, 0.3)
+"""Above 0.5 the smallest of 1 - s, 1, 1 + s is less than the difference of the others, which no body has."""
 
 
 @click.command("advise", epilog=examples("advise"))
-@click.option("--kp", type=POSITIVE, default=100.0, show_default=True, help="Position gain over the inertia [1/s^2].")
-@click.option("--kv", type=POSITIVE, default=20.0, show_default=True, help="Velocity gain over the inertia [1/s].")
-@click.option("--bound", type=POSITIVE, default=math.inf, help="Greatest command [rad/s^2].", show_default="none")
+@click.option("--kp", type=options.KP, default=100.0, show_default=True, help="Position gain over the inertia [1/s^2].")
+@click.option("--kv", type=options.KV, default=20.0, show_default=True, help="Velocity gain over the inertia [1/s].")
+@click.option("--bound", type=BOUND, default=math.inf, help="Greatest command [rad/s^2].", show_default="none")
 @click.option("--delay", type=time, default=0.0, show_default=True, help="From measuring to the effect, as 5ms.")
-@click.option("--rate", type=POSITIVE, default=1000.0, show_default=True, help="Control rate [Hz].")
-@click.option("--spin", type=click.FloatRange(0.0), default=0.0, show_default=True, help="Speed at the start [rad/s].")
+@click.option("--rate", type=RATE, default=1000.0, show_default=True, help="Control rate [Hz].")
+@click.option("--spin", type=SPIN, default=0.0, show_default=True, help="Speed at the start [rad/s].")
 @click.option("--jump", type=time, default=0.0, show_default="none", help="When the goal jumps, after the start.")
-@click.option("--inertia", type=POSITIVE, default=1.0, show_default=True, help="True inertia over the model's.")
+@click.option("--inertia", type=INERTIA, default=1.0, show_default=True, help="True inertia over the model's.")
 @click.option(
     "--unevenness",
-    type=click.FloatRange(0.0, 0.5),
+    type=UNEVENNESS,
     show_default=f"0; {UNCANCELLED.unevenness:g} of torque-no-model",
     help="s of principal moments 1 - s, 1, 1 + s.",
 )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -21,8 +20,8 @@ from bench.cli.screen import console, examples, frame_table
 
 @click.command("prove", epilog=examples("prove"))
 @click.argument("laws", nargs=-1)
-@options.valued("--workers", os.cpu_count() or 1, "Laws at a time.", show_default="cores")
-@click.option("--out", type=options.PATH, help="Write what is proved to this file, as JSON.")
+@options.workers("Laws at a time.")
+@click.option("--out", type=options.NEW_FILE, help="Write what is proved to this file, as JSON.")
 def COMMAND(laws: tuple[str, ...], workers: int, out: Path | None) -> None:
     """Prove what laws' files declare of them, from the source (default: all that are global or almost global).
 
