@@ -133,7 +133,7 @@ def _simulated(wanted: Situation, rule: Rule) -> Answer:
 def _said(found: Answer, wanted: Situation, kp: float) -> list[Paragraph]:
     one, unit = found.verdict, math.sqrt(kp)
     if one.law is None:
-        which = "No published law that was run meets the requirements; the table shows what fails."
+        which = "No published or adapted law that was run meets the requirements; the table shows what fails."
     else:
         row = found.rows[found.rows["contender"] == one.law].iloc[0]
         tied = f" It ties with {listed(one.tied)}." if one.tied else " Nothing ties with it."

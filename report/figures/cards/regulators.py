@@ -10,7 +10,9 @@ from bench.export.heading import RESET, SIDE
 from bench.findings import why
 from bench.findings.claims.tables import share
 from bench.findings.proofs.certificate import read_certificates
-from bench.findings.selection.regions import compare_ours, find_regions, list_ours
+from bench.findings.selection.regions import find_regions, list_ours
+from bench.findings.selection.unbeaten import SPOKEN, compare_with_advised, measure_shares
+from bench.findings.selection.words import percent
 from bench.law.contender import Contender
 from bench.law.contenders import regulators
 from bench.law.contenders.registry import contenders, contenders_of, papers_laws
@@ -23,7 +25,10 @@ UNTRUSTED = (
     "A law of somebody else, by its rows alone: its file came with these results and was not run. If you have read it, "
     "bench trust FILE lets it run, and its card then says what it is."
 )
-LAWS = html.Table("Law | Property | Settles | On the command line", {"Settles": lambda share: f"{100 * share:.1f} %"})
+LAWS = html.Table(
+    "Law | Whose | Property | Settles | On the command line",
+    {"Settles": lambda share: f"{100 * share:.1f} %"},
+)
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 EXAMPLE = re.compile(r" Shown by |, as from |, as at ")
 
@@ -80,7 +85,8 @@ def card(one: Contender, run: Run) -> str:
     }
     look, costs = html.both(style.look(one.name).colour), costs_of(one, run)
     shown = costs.to_html(index=False, classes="plain", border=0, formatters=[html.cell] * len(costs.columns))
-    return make_card(one.regulator, title, (what, fields), look, f'<div class="card-costs" tabindex="0">{shown}</div>')
+    costs_table = f'<div class="card-costs" tabindex="0">{shown}</div>'
+    return make_card(one.regulator, title, (what, fields), look, costs_table, attribution=one.attribution)
 
 
 def costs_of(one: Contender, run: Run) -> pd.DataFrame:
@@ -110,14 +116,23 @@ def measured(episodes: pd.DataFrame, regulator: Law) -> str:
 
 
 def advised(law: str) -> str:
-    """Return the share of the map's drawn situations in which a law is advised, and in which nothing beats it."""
-    found = next((one for one in find_regions() if one.law == law), None)
-    if law in list_ours():
-        ties, beats = compare_ours(law)
-        return f"Not advised, ours: unbeaten in {ties:.0%} of situations, better than the advised law in {beats:.0%}."
-    if found is None:
+    """Return in which share of the drawn situations a law is advised, and in which no law of two sets is faster."""
+    region = next((region for region in find_regions() if region.law == law), None)
+    is_ours = law in list_ours()
+    if region is None and not is_ours:
         return ""
-    return f"Advised in {found.advised:.0%} of situations, and unbeaten in {found.unbeaten:.0%}."
+    shares = measure_shares(law, tie=SPOKEN)
+    beside = (
+        f"In {percent(shares.qualified.value)} it meets the requirements and no law that does is more than "
+        f"{percent(SPOKEN)} faster; among all published and adapted laws the share is {percent(shares.all.value)}."
+    )
+    if is_ours:
+        beats = percent(compare_with_advised(law).value)
+        return (
+            f"Not advised, ours. More than {percent(SPOKEN)} faster than the advised law in {beats} of situations. "
+            f"{beside}"
+        )
+    return f"Advised in {percent(region.advised)} of situations. {beside}" if region else beside
 
 
 def facts(run: Run) -> dict:
@@ -126,12 +141,13 @@ def facts(run: Run) -> dict:
 
 
 def line(one: Contender, run: Run) -> tuple:
-    """Return a link to a law's card, its property and if it is proved, what was measured, its word in commands."""
+    """Return a link to a law's card, whose it is, its property, if that is proved, what was measured, its word."""
     law, known = one.regulator, read_certificates().get(one.regulator.name)
     proved = "proved" if known and known["is_proved"] else "measured"
     uniform = run.any_rows("episodes", contender=one.name, engine=engine_of(one.regulator), start_set="uniform")
     return (
         families.link(one.name, laws.title_of(one)),
+        one.attribution,
         html.together(html.foreign(law.property if law.property == "none" else f"{law.property}, {proved}")),
         (uniform["outcome"] == "settled").mean() if len(uniform) else None,
         f"`{one.name}`",
