@@ -15,7 +15,8 @@ from bench.base.errors import BenchError, print_refusal
 from bench.base.provenance import describe_project
 from bench.cli.screen import examples
 
-click.rich_click.TEXT_MARKUP = "rich"
+# No markup: it would take a unit in brackets, as [rad/s^2], for a tag and drop it.
+click.rich_click.TEXT_MARKUP = None
 click.rich_click.MAX_WIDTH = 110
 click.rich_click.STYLE_OPTIONS_TABLE_PAD_EDGE = False
 

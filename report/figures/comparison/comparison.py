@@ -19,7 +19,7 @@ from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
 
-ALL_LAWS = html.Table("Law | Settles [%] | Median [s] | 99 % [s] | Effort | Peak | A tick | Lost | Held")
+ALL_LAWS = html.Table("Law | Settles [%] | Median [s] | 99 % [s] | Effort | Peak | A tick | Lost | Trapped from [rad]")
 NEAR_DEG = 30, 60
 ANISOTROPIC = "weighted-columns"
 """Its stiffness is the others' on the average over its axes alone."""

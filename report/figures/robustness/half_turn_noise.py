@@ -87,8 +87,7 @@ def facts(run: Run) -> dict:
     middle = float(noisy.index[noisy.index < min(map(keeps, DELTAS))].max())
     return {
         "n": starts(rows),
-        "agree": sum(map(bool, agree)),
-        "decided": len(agree),
+        "agreement": f"all {len(agree)}" if all(agree) else f"{sum(map(bool, agree))} of the {len(agree)}",
         "middle": f"{middle:g}",
         "blind_middle": f"{100 * float(noisy.loc[middle, without_memory].max()):.0f}",
         "memory_middle": f"{100 * float(noisy.loc[middle, on_a_side].min()):.0f}",
