@@ -192,7 +192,8 @@ def recompute_advice():
     elsewhere = list_together([f"{word(one)} ({100 * share:.0f} %)" for one, share, _ in others])
     lead = [word(law), *does, f"{100 * advised:.0f} %", *elsewhere, *ours]
     attribution = IN_WORDS[find_contender(law).attribution]
-    shown = {"default": word(law), "attribution": attribution, "does": does, "ours": ours, "resets": recompute_resets(law)}
+    shown = {"default": word(law), "attribution": attribution, "does": does, "ours": ours}
+    shown["resets"] = recompute_resets(law)
     return shown, {"lead": lead}
 
 
