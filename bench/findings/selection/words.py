@@ -95,9 +95,10 @@ def describe_bounds(bounds: dict[str, list[tuple[float, bool]]]) -> str:
 
 
 def describe_rivals(lines: dict[str, list[Place]], among_all: bool, called: Called = str) -> str:
-    """Say where a law of a set is faster, the fastest one there, and by how much of the time (`unbeaten.follow_lines`).
+    """Say where laws of a set are faster, in brackets which one by the most, and by how much of the time.
 
-    among_all: of all published and adapted laws, else of those that meet the requirements there.
+    lines: of `unbeaten.follow_lines`. among_all: of all published and adapted laws, else of those that meet the
+    requirements there.
     """
     parts = []
     for name, places in lines.items():
@@ -106,13 +107,15 @@ def describe_rivals(lines: dict[str, list[Place]], among_all: bool, called: Call
             rivals = [rival for rival in place.standing.rivals if among_all or rival.qualified]
             if name != "jump" or place.value:  # 0 is no jump
                 fastest.append((place.value, rivals[0] if rivals else None))
-        for law, run in itertools.groupby(fastest, lambda pair: pair[1].law if pair[1] else ""):
+        spans = []
+        for has_rival, run in itertools.groupby(fastest, lambda pair: pair[1] is not None):
             span = list(run)
-            if law:
+            if has_rival:
                 values = _span(COORDINATES[name], span[0][0], span[-1][0])
-                most = max(rival.faster for _, rival in span if rival)
-                up_to = "up to " if len(span) > 1 else ""
-                parts.append(f"{called(law)} at {NAMES[name]} {values} (by {up_to}{percent(most)})")
+                most = max((rival for _, rival in span if rival), key=lambda rival: rival.faster)
+                spans.append(f"{values} ({called(most.law)}, {percent(most.faster)})")
+        if spans:
+            parts.append(f"{NAMES[name]} {together(spans, len(spans))}")
     return "; ".join(parts) or "none"
 
 
@@ -140,16 +143,15 @@ def describe_lines(law: str, called: Called = str, folder: Path = STUDY) -> str:
     """Say where, one number at a time, a law of either set is faster than a law, which one, and by how much."""
     lines = follow_lines(law, folder, tie=SPOKEN)
     qualified, everything = (describe_rivals(lines, among_all, called) for among_all in (False, True))
-    first = "If one number changes at a time,"
+    first = f"If one number changes at a time, no published or adapted law is more than {percent(SPOKEN)} faster"
     if everything == "none":
-        return f"{first} no published or adapted law is more than {percent(SPOKEN)} faster."
+        return f"{first}."
     if qualified == "none":
-        met = f"no law that meets the requirements is more than {percent(SPOKEN)} faster."
-    else:
-        met = f"these laws that meet the requirements are more than {percent(SPOKEN)} faster: {qualified}."
-    if everything == qualified:
-        return f"{first} {met} No other published or adapted law is faster elsewhere."
-    return f"{first} {met} Among all published and adapted laws, the fastest one that is so: {everything}."
+        return f"{first} and meets the requirements. Laws that do not meet them are faster at: {everything}."
+    return (
+        f"{first}, but at: {everything}. (In brackets: the law that is faster by the most, and by how much.) Among the "
+        f"laws that meet the requirements: {qualified}."
+    )
 
 
 def list_faster_ours(folder: Path = STUDY) -> list[str]:
