@@ -221,7 +221,7 @@ def examine(law: Adequacy, known: Ledger, small_s: float, held: dict[str, tuple[
 
 
 def all_pass(results: Iterable[bool | None]) -> bool | None:
-    """Return whether all of some results are passes: one failure decides; else None if one is None, or there is none."""
+    """Return whether all of some results are passes: one failure decides; else None if one is None or none is there."""
     every = list(results)
     if any(result is not None and not result for result in every):
         return False

@@ -167,8 +167,8 @@ def c30(results: Results) -> tuple[Word, Evidence]:
         time with an inertia of so many times the model's, feedback linearization against the rotation matrix, of
         {LIMIT.STARTS} starts each: {told}. A linear system of twice the inertia is slowed by {heavy / linear:.2f}.""",
         sum(map(len, runs)),
-        instead=f"""Whether an error of B or of Bdot is a problem is not tested. A statement of its own, that it needs no
-        better model of the inertia than the rotation-matrix law: {of_inertia}.""",
+        instead=f"""Whether an error of B or of Bdot is a problem is not tested. A statement of its own, that it needs
+        no better model of the inertia than the rotation-matrix law: {of_inertia}.""",
     )
 
 
