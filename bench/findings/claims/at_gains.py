@@ -111,20 +111,30 @@ def turned(runs: dict[str, dict], reference: dict[str, str]) -> dict[str, dict[s
 
 
 def describe(study: dict, words: dict[str, str]) -> str:
-    """Return what the study of seeds, of half the step and of other gains found, in a sentence or two."""
-    runs = study["runs"]
+    """Return what the study of seeds, of half the step and of other gains found, in a sentence or two.
+
+    Its `stale` names the claims whose criteria have changed since: of these it says nothing.
+    """
+    runs, stale = study["runs"], study.get("stale", [])
     seeds = sum(name != HALF_STEP for name in runs)
-    other = turned(runs, words)
+    other = {id: found for id, found in turned(runs, words).items() if id not in stale}
     found = "every verdict stays the same" if not other else f"these change: {', '.join(other)}"
     step = " and with half the step size" if HALF_STEP in runs else ""
-    return f"With {seeds} other random seeds{step}, {found}.{by_gains(study, words)}"
+    return f"With {seeds} other random seeds{step}, {found}.{_lacking(stale)}{by_gains(study, words)}"
+
+
+def _lacking(stale: list[str]) -> str:
+    """Name the claims that the study judged by a criterion which stands no more."""
+    return f" Not tested in it, for their criteria are newer: {', '.join(stale)}." if stale else ""
 
 
 def by_gains(study: dict, words: dict[str, str]) -> str:
     """Which verdicts are other ones at other damping ratios; nothing where no run at other gains was judged."""
-    said = []
+    said, stale = [], study.get("stale", [])
     for one in study.get("gains", ()):
-        changed = (f"{id} ({word})" for id, word in one["words"].items() if word != words[id])
+        changed = (
+            f"{id} ({word})" for id, word in one["words"].items() if word != words[id] and id not in stale
+        )
         ratio = one["kv"] / (2.0 * math.sqrt(one["kp"]))
-        said.append(f"with a damping ratio of {ratio:g}: {', '.join(changed) or 'none'} of {len(one['words'])}")
+        said.append(f"with a damping ratio of {ratio:g}: {', '.join(changed) or 'none'} of {len(one['words'].keys() - set(stale))}")
     return f" Other gains change these verdicts, of those that their runs decide: {'; '.join(said)}." if said else ""
