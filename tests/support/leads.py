@@ -57,7 +57,7 @@ def uniform():
 
 
 def recompute_failure_map():
-    cells = table("map", "maps").query(f"row == 'cell' and law == '{LINEARIZED}' and most_speed == 0")
+    cells = table("map", "maps/kv-20").query(f"row == 'cell' and law == '{LINEARIZED}' and most_speed == 0")
     n, *fine = cells[["starts", "settled", "unconverged"]].sum().astype(int)
     bad = n - sum(fine)
     low, high = binomtest(bad, n).proportion_ci(0.95)

@@ -58,7 +58,6 @@ def facts(run: Run) -> dict:
         "dearer": f"{spent.max() / spent.min():.0f}",
         **near(rows[rows["contender"].isin(laws)]),
         "left": len(set(tried["contender"]) - lost - set(families.CONTROLS)),
-        "directed": int(tried.groupby("contender", observed=True).size().max()),
         "all_laws": ALL_LAWS(compare_laws(run, times, efforts)),
     }
 
