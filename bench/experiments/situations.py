@@ -81,15 +81,15 @@ def plan_of(pairs: Iterable[tuple[Contender, Situation]], seed: int = 0) -> Plan
 def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return the row of a law in a situation."""
     one, at = settings.contender(unit.contender), read_situation(unit.selector)
-    condition, exact = at.condition(), tasks.axis("half-turn-noise").starts(EXACT, settings.seed, 0.0)
-    noisy = at._replace(delay=NOMINAL.delay, period=NOMINAL.period, jump=NOMINAL.jump).condition(NOISE_RAD)
+    condition, exact = at.condition(), exact_half_turns(EXACT, settings.seed)
+    noisy = noisy_condition(at, NOISE_RAD)
     stuck, trapped = (
-        int((_run(settings, one, at, exact, each)["time"] == math.inf).sum()) for each in (condition, noisy)
+        int((run_starts(one, at, exact, each, settings.seed)["time"] == math.inf).sum()) for each in (condition, noisy)
     )
     every, is_moving = starts_of(at.spin, at.jump, settings.seed)[: FIRST if stuck else MOST], at.spin + at.jump > 0.0
-    ended, count = _run(settings, one, at, every[:FIRST], condition), FIRST
+    ended, count = run_starts(one, at, every[:FIRST], condition, settings.seed), FIRST
     while count < len(every) and not is_precise(summarize(ended, is_moving)):
-        more = _run(settings, one, at, every[count : 2 * count], condition)
+        more = run_starts(one, at, every[count : 2 * count], condition, settings.seed)
         ended, count = {name: np.concatenate((ended[name], more[name])) for name in more}, 2 * count
     found = summarize(ended, is_moving)
     facts = {"stuck": stuck, "trapped": trapped, "operations": count_typical(one)}
@@ -135,8 +135,18 @@ def summarize(ended: dict[str, np.ndarray], is_moving: bool) -> dict[str, Any]:
     }
 
 
-def _run(
-    settings: Settings, one: Contender, at: Situation, starts: list[Start], condition: Condition
+def exact_half_turns(count: int, seed: int) -> list[Start]:
+    """Return starts at exact 180° rotations, at rest."""
+    return tasks.axis("half-turn-noise").starts(count, seed, 0.0)
+
+
+def noisy_condition(at: Situation, noise_rad: float) -> Condition:
+    """Return a situation's condition under worst-case noise at 180°, without delay at the shortest period."""
+    return at._replace(delay=NOMINAL.delay, period=NOMINAL.period, jump=NOMINAL.jump).condition(noise_rad)
+
+
+def run_starts(
+    one: Contender, at: Situation, starts: list[Start], condition: Condition, seed: int = 0
 ) -> dict[str, np.ndarray]:
     """Return time (times sqrt(kp); infinite: not settled), angle at first or at the jump, and metrics of each start."""
     from bench.engines.episode import FIRST_METRIC, OUTCOME, SETTLING_TICK
@@ -147,7 +157,7 @@ def _run(
     from tasks.truth import angle
 
     limits = Limits(Gains(KP, at.kv), 1e-6, round(1e6 * HORIZON_S), 1)
-    numbers = run_disturbed(one, starts, condition, limits, metrics(), settings.seed)
+    numbers = run_disturbed(one, starts, condition, limits, metrics(), seed)
     step_s = condition.period_s / perturbed.steps_of(condition)
     is_settled = numbers[:, OUTCOME] == SETTLED
     jumped = numbers[:, perturbed.JUMPED - perturbed.EXTRA]

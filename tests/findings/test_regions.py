@@ -11,7 +11,8 @@ from support.map_rule import map_verdicts
 
 from bench.experiments.experiment import Settings, Unit
 from bench.experiments.situations import mapped_laws, order_interval, rows
-from bench.findings.selection.regions import RULE, Rule, answer, decide, facts_of, read_map, with_words
+from bench.findings.selection.advice import answer
+from bench.findings.selection.regions import RULE, Rule, decide, facts_of, read_map, with_words
 from bench.findings.selection.sensitivity import bound_slower, count_rejected
 from tasks.situation import COORDINATES, NOMINAL, Situation, read_situation
 

@@ -14,9 +14,10 @@ import pandas as pd
 from bench.base.errors import BadResults
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
+from bench.findings.selection.advice import answer
 from bench.findings.selection.criteria import CRITERIA
 from bench.findings.selection.needs import FACTS, Decision, Measured, Need, decide, measure, measured
-from bench.findings.selection.regions import Rule, answer, find_default
+from bench.findings.selection.regions import Rule, find_default
 from bench.findings.selection.tables import by_law, by_standard_inverse, common, tables_of
 from tasks.situation import UNCANCELLED
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.findings.selection import regions
+from bench.findings.selection.advice import answer
 from bench.findings.selection.regions import RULE, STUDY, Rule, decide_all, find_default, find_regions, read_map
 from tasks.situation import NOMINAL, Situation, read_situation
 
@@ -137,7 +138,7 @@ def count_agreeing(folder: Path = STUDY) -> dict[str, float]:
     the map's answers and, after "always_", of the default in every situation.
     """
     verdicts = decide_all(folder / "held-out")
-    given = {at: regions.answer(at, RULE, folder).verdict.law for at in verdicts}
+    given = {at: answer(at, RULE, folder).verdict.law for at in verdicts}
     always = rate(dict.fromkeys(verdicts, find_default(folder)), folder)
     return {
         "of": len(verdicts),

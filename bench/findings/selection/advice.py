@@ -1,0 +1,367 @@
+"""Advice in a situation of a user: closed forms first, then the laws that the map names, simulated in that situation.
+
+1. Near the goal every law is the same linear loop (`sampled_loop`). If it is unstable, or slower than the horizon, or if
+   the bound is too small for any law to arrive within the horizon, no law is advised, and the limits are said.
+2. The map names laws: what it advises in the nearest situation, what nothing beats in the NEIGHBOURS nearest ones, and
+   the fastest published law that lacks what is required. Outside the map every law is tried.
+3. They are simulated in the user's situation, all from the same starts. The map's law is advised if it has what is
+   required and no other is faster by more than NOTABLE, by a paired bootstrap over the starts; else the simplest of
+   those that nothing beats so.
+4. If none of them has what is required, all laws are simulated.
+"""
+
+from __future__ import annotations
+
+import collections
+import math
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from bench.experiments.situations import CROWD, EXACT, HORIZON_S, NOISE_RAD, mapped_laws
+from bench.experiments.tables.statistics import TAIL, quantile, resampled
+from bench.findings.selection.criteria import NOTABLE
+from bench.findings.selection.regions import (
+    NEIGHBOURS,
+    RULE,
+    STUDY,
+    Rule,
+    Verdict,
+    decide,
+    decide_all,
+    facts_of,
+    read_map,
+    with_words,
+)
+from bench.findings.theory.bang_bang import angle_of_share, brake_knee, least_time
+from bench.findings.theory.sampled_loop import Limits, Loop, find_limits, settling_time, spectral_radius
+from bench.law.contender import Contender
+from tasks.situation import COORDINATES, KP, Situation
+
+FIRST, MOST = 1024, 4096
+"""Starts of every law that is tried; and of those among which one is advised."""
+
+SHORT = 6
+"""Laws of the map that are tried, at most."""
+
+TIE = 0.05
+"""Laws whose times differ by less are named as ties."""
+
+HORIZON = HORIZON_S * math.sqrt(KP)
+"""The end of an episode [1/sqrt(kp)]."""
+
+LONG_WAY_PAST = 20.0
+"""Overshoot [deg] of every law that meets the requirements from which on the bound, not the law, is what is wrong."""
+
+
+class NearGoal(NamedTuple):
+    """What closed forms say of a situation, in units of 1/sqrt(kp) and kp.
+
+    radius: of the sampled loop near the goal; 1 and more is unstable. time: until the linear response stays in the
+    band. limits: what would make an unstable loop stable. least: the time of the map's CROWD below which no law can be
+    with this bound; 0 without one, with spin, or where goals jump. knee: from this angle on [rad] a well damped law
+    comes too fast for the bound to brake.
+    """
+
+    radius: float
+    time: float
+    limits: Limits | None
+    least: float
+    knee: float
+
+    @property
+    def is_hopeless(self) -> bool:
+        """Tell whether no law can settle within the horizon."""
+        return self.radius >= 1.0 or max(self.time, self.least) > HORIZON
+
+
+def loop_of(at: Situation) -> Loop:
+    """Return the linear loop of a situation, with kp = 1."""
+    return Loop(1.0, 2.0 * at.zeta, at.period, at.delay, at.inertia, at.unevenness)
+
+
+def look_near_goal(at: Situation) -> NearGoal:
+    """Return what closed forms say of a situation."""
+    loop = loop_of(at)
+    radius = spectral_radius(loop)
+    limits = find_limits(loop) if radius >= 1.0 else None
+    least = 0.0
+    if math.isfinite(at.bound) and not at.spin and not at.jump:
+        # The lightest axis turns the fastest; until the first command arrives nothing turns.
+        least = at.delay + least_time(angle_of_share(CROWD), at.bound / min(loop.moments))
+    knee = brake_knee(at.bound, loop.kp, loop.kv, at.inertia)
+    return NearGoal(radius, settling_time(loop, HORIZON), limits, least, knee)
+
+
+class Outside(NamedTuple):
+    """A number of a situation that lies outside the map: its name, its value, and the range that was run."""
+
+    name: str
+    value: float
+    low: float
+    high: float
+
+
+def find_outside(at: Situation) -> tuple[Outside, ...]:
+    """Return the numbers of a situation that are outside the map; a bound above all others is as good as none."""
+    outside = []
+    for (name, coordinate), value in zip(COORDINATES.items(), at, strict=True):
+        low, high = min(coordinate.levels), max(coordinate.levels)
+        if not low <= value <= high:
+            outside.append(Outside(name, value, low, high))
+    return tuple(outside)
+
+
+class Answer(NamedTuple):
+    """What the map says of a user's situation: the nearest that was run, its verdict and rows, and how sure it is.
+
+    distance: of the scaled numbers; 0: this very situation was run. agree: of the nearest other situations, those in
+    which nothing beats the advised law, and of how many. laws: advised there, or not beaten in the nearest ones.
+    """
+
+    at: Situation
+    verdict: Verdict
+    rows: pd.DataFrame
+    distance: float
+    agree: tuple[int, int]
+    laws: tuple[str, ...]
+
+
+def answer(wanted: Situation, rule: Rule = RULE, folder: Path = STUDY) -> Answer:
+    """Return the verdict on the situation of the map that is nearest to the user's."""
+    verdicts = decide_all(folder, rule)
+    situations = list(verdicts)
+    places = np.array([at.scaled() for at in situations])
+    away = np.linalg.norm(places - np.array(wanted.scaled()), axis=1)
+    order = np.argsort(away, kind="stable")
+    nearest = situations[order[0]]
+    law = verdicts[nearest].law
+    beside = [verdicts[situations[place]] for place in order[1 : NEIGHBOURS + 1]]
+    agreeing = sum(law in verdict.unbeaten for verdict in beside)
+    unbeaten: collections.Counter[str] = collections.Counter()
+    for verdict in (verdicts[nearest], *beside):
+        unbeaten.update(verdict.unbeaten)
+    laws = [name for name, _ in unbeaten.most_common() if name != law]
+    rows = read_map(folder)
+    return Answer(
+        nearest,
+        verdicts[nearest],
+        rows[rows["situation"] == nearest.word],
+        float(away[order[0]]),
+        (agreeing, len(beside)),
+        (law, *laws) if law else tuple(laws),
+    )
+
+
+class Trial(NamedTuple):
+    """A law in a situation: what `situations.run_starts` returns of its starts, and the counts at 180°."""
+
+    law: Contender
+    at: Situation
+    ended: dict[str, np.ndarray]
+    stuck: int
+    trapped: int
+
+    @property
+    def row(self) -> dict[str, Any]:
+        """Return the row of situations.parquet that these starts make."""
+        from bench.experiments.situations import count_typical, summarize
+
+        is_moving = self.at.spin + self.at.jump > 0.0
+        counts = {"stuck": self.stuck, "trapped": self.trapped, "operations": count_typical(self.law)}
+        return {**self.law.words, **self.at._asdict(), **summarize(self.ended, is_moving), **counts}
+
+
+class Trials:
+    """Laws in one situation, each from as many of the same starts as were asked for."""
+
+    def __init__(self, at: Situation, seed: int = 0, report: Callable[[str], None] = lambda law: None):
+        self.at, self.seed, self.report = at, seed, report
+        self.by_law: dict[str, Trial] = {}
+        self.known = {law.name: law for law in mapped_laws()}
+
+    def run(self, law: str, count: int = FIRST) -> Trial:
+        """Return a law's trial of at least so many starts; those that ran before are kept."""
+        from bench.experiments.situations import run_starts, starts_of
+
+        contender, before = self.known[law], self.by_law.get(law)
+        ran = len(before.ended["time"]) if before else 0
+        if before and ran >= count:
+            return before
+        self.report(law)
+        condition = self.at.condition()
+        starts = starts_of(self.at.spin, self.at.jump, self.seed)[ran:count]
+        ended = run_starts(contender, self.at, starts, condition, self.seed)
+        if before:
+            ended = {name: np.concatenate((before.ended[name], more)) for name, more in ended.items()}
+            trial = before._replace(ended=ended)
+        else:
+            stuck, trapped = self._count_held(contender)
+            trial = Trial(contender, self.at, ended, stuck, trapped)
+        self.by_law[law] = trial
+        return trial
+
+    def _count_held(self, contender: Contender) -> tuple[int, int]:
+        """Return how many exact 180° rotations do not settle, and how many where noise is the worst there."""
+        from bench.experiments.situations import exact_half_turns, noisy_condition, run_starts
+
+        starts = exact_half_turns(EXACT, self.seed)
+        counts = []
+        for condition in (self.at.condition(), noisy_condition(self.at, NOISE_RAD)):
+            times = run_starts(contender, self.at, starts, condition, self.seed)["time"]
+            counts.append(int((times == math.inf).sum()))
+        return counts[0], counts[1]
+
+    def rows(self) -> pd.DataFrame:
+        """Return the rows of all laws that ran, with their words."""
+        return with_words(pd.DataFrame([trial.row for trial in self.by_law.values()]))
+
+    def beats(self, law: str, other: str) -> bool:
+        """Tell whether a law is faster than another by more than NOTABLE, and not by the chance of these starts."""
+        times, others = self.by_law[law].ended["time"], self.by_law[other].ended["time"]
+        count = min(len(times), len(others))
+        times, others = times[:count], others[:count]
+        if not quantile(times, CROWD) < (1.0 - NOTABLE) * quantile(others, CROWD):
+            return False
+        with np.errstate(invalid="ignore"):
+            differences = resampled(times, _crowd) - resampled(others, _crowd)
+        # Where neither settles there is no difference.
+        return bool(quantile(np.nan_to_num(differences, nan=0.0, neginf=-math.inf), 1.0 - TAIL) < 0.0)
+
+
+def _crowd(values: np.ndarray, axis: int = -1) -> np.ndarray:
+    return quantile(values, CROWD, axis)
+
+
+class Advice(NamedTuple):
+    """What is advised in a situation.
+
+    law: None if none is. near_goal: by closed forms. outside: numbers outside the map. nearest: the map's answer, None
+    where it was not asked. rows: of each law that was simulated there, a row as in situations.parquet. qualified: laws
+    that have what is required, published ones. ours: our own that have it. tied: qualified within TIE of the advised
+    one, the fastest first. is_whole: every law was simulated. replaced: the map's law, where another is advised, and
+    lacks: whether that is because it lacks what is required.
+    """
+
+    wanted: Situation
+    law: str | None
+    near_goal: NearGoal
+    outside: tuple[Outside, ...] = ()
+    nearest: Answer | None = None
+    rows: pd.DataFrame | None = None
+    qualified: tuple[str, ...] = ()
+    ours: tuple[str, ...] = ()
+    tied: tuple[str, ...] = ()
+    is_whole: bool = False
+    replaced: str | None = None
+    lacks: bool = False
+
+    def row(self, law: str) -> dict[str, Any]:
+        """Return the row of a law that was simulated."""
+        assert self.rows is not None
+        [found] = self.rows[self.rows["contender"] == law].to_dict("records")
+        return {str(name): value for name, value in found.items()}
+
+
+def may_be_advised(law: str) -> bool:
+    """Tell whether a law's source is published or adapted; a law of ours is compared, and not advised."""
+    return not facts_of(law).is_ours
+
+
+def meets(row: pd.DataFrame, rule: Rule) -> bool:
+    """Tell whether the law of a row has what is required."""
+    verdict = decide(row, rule)
+    return bool(verdict.law or verdict.ours)
+
+
+def advise(
+    wanted: Situation,
+    rule: Rule = RULE,
+    is_whole: bool = False,
+    seed: int = 0,
+    report: Callable[[str], None] = lambda law: None,
+    folder: Path = STUDY,
+) -> Advice:
+    """Advise a law; is_whole: simulate every law, whatever closed forms and the map say."""
+    near_goal = look_near_goal(wanted)
+    outside = find_outside(wanted)
+    if near_goal.is_hopeless and not is_whole:
+        return Advice(wanted, None, near_goal, outside)
+    nearest = None if outside else answer(wanted, rule, folder)
+    every = tuple(law.name for law in mapped_laws())
+    laws = every if is_whole or nearest is None else shortlist(nearest, rule)
+    trials = Trials(wanted, seed, report)
+    preferred = nearest.verdict.law if nearest else None
+    chosen = choose(trials, laws, rule, preferred)
+    if chosen is None:
+        laws = every
+        chosen = choose(trials, laws, rule, preferred)
+    rows = trials.rows()
+    qualified = _qualified(trials, rule)
+    published = tuple(law for law in qualified if may_be_advised(law))
+    replaced = preferred if chosen and preferred != chosen else None
+    return Advice(
+        wanted,
+        chosen,
+        near_goal,
+        outside,
+        nearest,
+        rows,
+        published,
+        tuple(law for law in qualified if not may_be_advised(law)),
+        _tied(rows, published, chosen) if chosen else (),
+        set(trials.by_law) == set(every),
+        replaced,
+        replaced is not None and replaced not in published,
+    )
+
+
+def shortlist(nearest: Answer, rule: Rule) -> tuple[str, ...]:
+    """Return the laws that are tried: the map's, and the fastest published one that lacks what is required there."""
+    laws = list(nearest.laws[:SHORT])
+    rows = nearest.rows[nearest.rows["contender"].map(may_be_advised)]
+    for _, row in rows.sort_values("time").iterrows():
+        law = str(row["contender"])
+        if not meets(row.to_frame().T.infer_objects(), rule):
+            laws.append(law)
+            break
+    return tuple(dict.fromkeys(laws))
+
+
+def choose(trials: Trials, laws: Sequence[str], rule: Rule, preferred: str | None) -> str | None:
+    """Return the law that is advised of some; None if none of them has what is required.
+
+    Those among which the choice is are run from MOST starts. Of so many one may be lost: then the choice is repeated.
+    """
+    for law in laws:
+        trials.run(law)
+    while True:
+        qualified = [law for law in _qualified(trials, rule) if may_be_advised(law)]
+        unbeaten = [law for law in qualified if not any(trials.beats(other, law) for other in qualified if other != law)]
+        candidates = unbeaten if preferred not in qualified else [*unbeaten, preferred]
+        short = [law for law in dict.fromkeys(candidates) if len(trials.by_law[law].ended["time"]) < MOST]
+        if not short:
+            break
+        for law in short:
+            trials.run(law, MOST)
+    if not qualified:
+        return None
+    if preferred in unbeaten:
+        return preferred
+    rows = trials.rows().set_index("contender")
+    return min(unbeaten, key=lambda law: (facts_of(law).memory, rows["operations"][law], law))
+
+
+def _qualified(trials: Trials, rule: Rule) -> list[str]:
+    """Return the laws that ran and have what is required, the fastest first."""
+    rows = trials.rows().sort_values(["time", "operations"])
+    return [str(law) for law in rows["contender"] if meets(rows[rows["contender"] == law], rule)]
+
+
+def _tied(rows: pd.DataFrame, published: Sequence[str], law: str) -> tuple[str, ...]:
+    times = rows.set_index("contender")["time"]
+    longest = (1.0 + TIE) * times[law]
+    return tuple(other for other in published if other != law and times[other] <= longest)
