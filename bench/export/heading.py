@@ -18,8 +18,9 @@ LICENSE = (
 )
 WIDTH = 110
 RESET = (
-    "Call reset before the first tick, after a pause, and whenever the goal jumps: the memory outlives the goal, and "
-    "the side that was right for the last goal may be the longer way to the new one."
+    "Call reset before the first tick and after a pause. The memory outlives the goal: when the goal jumps, the side "
+    "that was right for the last goal may be the longer way to the new one. A reset then shortens the path and saves "
+    "no time."
 )
 SIDE = (
     "The side is followed from tick to tick, so the measured orientation must turn by less than 180° between two "

@@ -2,9 +2,10 @@
 
 from typing import Any
 
-from bench.findings.selection.regions import find_bounds, find_default
+from bench.findings.selection import words
+from bench.findings.selection.regions import find_default
+from bench.findings.selection.reset import describe_resets
 from bench.findings.selection.robots import list_elsewhere
-from bench.findings.selection.words import describe_bounds
 from report.figures.answer import which_law
 from report.figures.kit import families, html, media
 from report.figures.kit.page import Run, in_run
@@ -25,7 +26,8 @@ def facts(run: Run) -> dict[str, Any]:
         "fates": html.Html(loop + PLAY),
         "default": families.word(find_default()),
         "does": which_law.describe_default(),
-        "bounds": describe_bounds(find_bounds(find_default())),
+        "lines": words.describe_lines(find_default(), families.word),
+        "resets": describe_resets(find_default()),
         "needs": in_run(list_needs, run),
         "ours": which_law.describe_ours(),
     }

@@ -4,9 +4,19 @@ from bench.cli.options import REFERENCE
 from bench.cli.paragraphs import Paragraph
 from bench.findings.selection import regions
 from bench.findings.selection.needs import Measured
+from bench.findings.selection.reset import describe_resets
 from bench.findings.selection.robots import list_elsewhere
 from bench.findings.selection.sensitivity import vary
-from bench.findings.selection.words import compare, cost, describe_bounds, together
+from bench.findings.selection.unbeaten import SPOKEN, compare_with_advised, measure_shares
+from bench.findings.selection.words import (
+    compare,
+    cost,
+    describe_lines,
+    describe_price,
+    describe_shares,
+    percent,
+    together,
+)
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import PAPERS_GAINS
 from tasks.situation import KP, NOMINAL
@@ -34,9 +44,10 @@ def _default(found: Measured | None, region: regions.Region) -> tuple[str, ...]:
     priced = f" A tick takes {cost(found, region.law)}." if found and region.law in found.laws else ""
     return (
         f"Use the law {region.law} (published: {find_contender(region.law).regulator.source}) for a body that turns "
-        f"freely, in simulation. Of {drawn} situations drawn at random it is advised in {region.advised:.0%}, and "
-        f"nothing published beats it in {region.unbeaten:.0%}.",
-        f"One number at a time: {describe_bounds(regions.find_bounds(region.law))}.",
+        f"freely, in simulation. Of {drawn} situations drawn at random it is advised in {percent(region.advised)}. "
+        f"{describe_shares(region.law)}",
+        describe_lines(region.law),
+        f"{describe_price(region.law)} {describe_resets(region.law)}",
         f"At kp = {PAPERS_GAINS.kp:g} 1/s², kv = {PAPERS_GAINS.kv:g} 1/s 99 % of the starts settle within "
         f"{row['time'] / KP**0.5:.3f} s.{priced} Your own numbers: bench advise --help.",
     )
@@ -54,11 +65,13 @@ def _elsewhere(default: str) -> tuple[str, ...]:
 
 def _ours(law: str, found: Measured | None, default: str) -> str:
     """Return the sentences on a law of ours: its origin, where the map has it, and the run's comparison."""
-    ties, beats = regions.compare_ours(law)
+    shares, beats = measure_shares(law, tie=SPOKEN), compare_with_advised(law)
     return (
-        f"{law} is ours: 2026, simulation only, not reviewed. Nothing published beats it in {ties:.0%} of the drawn "
-        f"situations; it beats the advised law in {beats:.0%}. {_compared(found, law, default)} Reset its memory when "
-        "the goal jumps."
+        f"{law} is ours: 2026, simulation only, not reviewed. It is more than {percent(SPOKEN)} faster than "
+        f"the advised law in {percent(beats.value)} of the drawn situations. In "
+        f"{percent(shares.qualified.value)} it meets the requirements and no published or adapted law that does "
+        f"is more than {percent(SPOKEN)} faster; among all of these laws the share is "
+        f"{percent(shares.all.value)}. {_compared(found, law, default)}"
     )
 
 

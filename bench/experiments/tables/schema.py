@@ -8,7 +8,10 @@ from bench.experiments.experiment import known_experiments
 
 RESULTS = WORKPLACE / "results"
 
-NAMES = ("perturbed", "timings", "libraries", "closed_loop", "verdicts", "real_loop", "contact_limits")
+NAMES = (
+    *("perturbed", "timings", "libraries", "closed_loop", "verdicts", "real_loop", "contact_limits"),
+    *("situations", "pairs"),
+)
 STUDIED = tuple(read_table(__file__, name) for name in NAMES)
 """Tables that no experiment makes: times, results of studies, and other libraries' answers."""
 

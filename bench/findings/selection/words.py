@@ -3,8 +3,19 @@
 import itertools
 import math
 from collections.abc import Callable, Sequence
+from pathlib import Path
 
 from bench.findings.selection.needs import GENERAL, Decision, Measured
+from bench.findings.selection.regions import RULE, STUDY
+from bench.findings.selection.unbeaten import (
+    SPOKEN,
+    Place,
+    find_population,
+    find_price,
+    find_runner_up,
+    follow_lines,
+    measure_shares,
+)
 from tasks.situation import COORDINATES, Coordinate
 
 NAMED = 3
@@ -64,7 +75,10 @@ def name_criteria(names: Sequence[str]) -> str:
 
 
 def describe_bounds(bounds: dict[str, list[tuple[float, bool]]]) -> str:
-    """Say where nothing beats a law, one number away from the nominal situation at a time (`regions.find_bounds`)."""
+    """Say where no law of a set is faster, one number away from the nominal situation at a time.
+
+    bounds: of `unbeaten.find_bounds`. The sentence around this names the set.
+    """
     parts, free = [], []
     for name, every in bounds.items():
         line = [one for one in every if name != "jump" or one[0]]  # 0 is no jump, and no end of a range
@@ -77,6 +91,79 @@ def describe_bounds(bounds: dict[str, list[tuple[float, bool]]]) -> str:
     if free:
         parts.append(f"every {together(free, len(free))} that was tried")
     return "; ".join(parts) or "nowhere"
+
+
+def describe_rivals(lines: dict[str, list[Place]], among_all: bool, called: Called = str) -> str:
+    """Say where a law of a set is faster, the fastest one there, and by how much of the time (`unbeaten.follow_lines`).
+
+    among_all: of all published and adapted laws, else of those that meet the requirements there.
+    """
+    parts = []
+    for name, places in lines.items():
+        fastest = []
+        for place in places:
+            rivals = [rival for rival in place.standing.rivals if among_all or rival.qualified]
+            if name != "jump" or place.value:  # 0 is no jump
+                fastest.append((place.value, rivals[0] if rivals else None))
+        for law, run in itertools.groupby(fastest, lambda pair: pair[1].law if pair[1] else ""):
+            span = list(run)
+            if law:
+                values = _span(COORDINATES[name], span[0][0], span[-1][0])
+                most = max(rival.faster for _, rival in span if rival)
+                up_to = "up to " if len(span) > 1 else ""
+                parts.append(f"{called(law)} at {NAMES[name]} {values} (by {up_to}{percent(most)})")
+    return "; ".join(parts) or "none"
+
+
+def percent(share: float) -> str:
+    """Write a share in whole per cent."""
+    return f"{100 * share:.0f} %"
+
+
+def describe_shares(law: str, folder: Path = STUDY) -> str:
+    """Say in how many drawn situations no law of either set is faster than a law, and in how many it fails itself."""
+    population = find_population(folder)
+    shares = measure_shares(law, folder, tie=SPOKEN)
+    close = measure_shares(law, folder)
+    laws = len(population.qualified) + len(population.excluded)
+    return (
+        f"In {percent(shares.qualified.value)} of {shares.qualified.of} situations drawn at random, no law that meets "
+        f"the requirements is more than {percent(SPOKEN)} faster. Among all {laws} published and adapted laws of the "
+        f"map the share is {percent(shares.all.value)}; {len(population.excluded)} of them fail a requirement in every "
+        f"situation. (If {percent(RULE.tie)} counts as faster: {percent(close.qualified.value)} and "
+        f"{percent(close.all.value)}.) In {percent(shares.losing.value)} of the situations the law itself loses starts."
+    )
+
+
+def describe_lines(law: str, called: Called = str, folder: Path = STUDY) -> str:
+    """Say where, one number at a time, a law of either set is faster than a law, which one, and by how much."""
+    lines = follow_lines(law, folder, tie=SPOKEN)
+    qualified, everything = (describe_rivals(lines, among_all, called) for among_all in (False, True))
+    first = "If one number changes at a time,"
+    if everything == "none":
+        return f"{first} no published or adapted law is more than {percent(SPOKEN)} faster."
+    if qualified == "none":
+        met = f"no law that meets the requirements is more than {percent(SPOKEN)} faster."
+    else:
+        met = f"these laws that meet the requirements are more than {percent(SPOKEN)} faster: {qualified}."
+    if everything == qualified:
+        return f"{first} {met} No other published or adapted law is faster elsewhere."
+    return f"{first} {met} The fastest of all published and adapted laws, where one is: {everything}."
+
+
+def describe_price(law: str, folder: Path = STUDY, called: Called = str) -> str:
+    """Say what a law costs beside the law of the second widest region: command, overshoot, time at equal peak."""
+    price = find_price(law, folder)
+    other = find_runner_up(folder)
+    if other is None:
+        return f"It commands up to {price.peak:.1f} kp."
+    beside = find_price(other, folder)
+    return (
+        f"The price: it commands up to {price.peak:.1f} kp ({called(other)}: {beside.peak:.1f} kp). With gains for the "
+        f"same peak command, 99 % of the starts settle in {price.at_equal_peak:.1f}/√peak ({called(other)}: "
+        f"{beside.at_equal_peak:.1f}/√peak). The median overshoot over the drawn situations is "
+        f"{price.typical_overshoot:.1f}° ({called(other)}: {beside.typical_overshoot:.1f}°)."
+    )
 
 
 NAMES = {

@@ -10,7 +10,9 @@ from bench.export.heading import RESET, SIDE
 from bench.findings import why
 from bench.findings.claims.tables import share
 from bench.findings.proofs.certificate import read_certificates
-from bench.findings.selection.regions import compare_ours, find_regions, list_ours
+from bench.findings.selection.regions import find_regions, list_ours
+from bench.findings.selection.unbeaten import SPOKEN, compare_with_advised, measure_shares
+from bench.findings.selection.words import percent
 from bench.law.contender import Contender
 from bench.law.contenders import regulators
 from bench.law.contenders.registry import contenders, contenders_of, papers_laws
@@ -110,14 +112,23 @@ def measured(episodes: pd.DataFrame, regulator: Law) -> str:
 
 
 def advised(law: str) -> str:
-    """Return the share of the map's drawn situations in which a law is advised, and in which nothing beats it."""
-    found = next((one for one in find_regions() if one.law == law), None)
-    if law in list_ours():
-        ties, beats = compare_ours(law)
-        return f"Not advised, ours: unbeaten in {ties:.0%} of situations, better than the advised law in {beats:.0%}."
-    if found is None:
+    """Return in which share of the drawn situations a law is advised, and in which no law of two sets is faster."""
+    region = next((region for region in find_regions() if region.law == law), None)
+    is_ours = law in list_ours()
+    if region is None and not is_ours:
         return ""
-    return f"Advised in {found.advised:.0%} of situations, and unbeaten in {found.unbeaten:.0%}."
+    shares = measure_shares(law, tie=SPOKEN)
+    beside = (
+        f"In {percent(shares.qualified.value)} it meets the requirements and no law that does is more than "
+        f"{percent(SPOKEN)} faster; among all published and adapted laws the share is {percent(shares.all.value)}."
+    )
+    if is_ours:
+        beats = percent(compare_with_advised(law).value)
+        return (
+            f"Not advised, ours. More than {percent(SPOKEN)} faster than the advised law in {beats} of situations. "
+            f"{beside}"
+        )
+    return f"Advised in {percent(region.advised)} of situations. {beside}" if region else beside
 
 
 def facts(run: Run) -> dict:
