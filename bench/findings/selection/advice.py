@@ -21,18 +21,26 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from bench.experiments.situations import CROWD, EXACT, HORIZON_S, NOISE_RAD, mapped_laws
-from bench.experiments.tables.statistics import TAIL, quantile, resampled
-from bench.findings.selection.criteria import NOTABLE
+from bench.experiments.experiment import Settings
+from bench.experiments.situations import (
+    CROWD,
+    HORIZON_S,
+    count_typical,
+    mapped_laws,
+    run_half_turns,
+    run_starts,
+    summarize_drawn,
+)
+from bench.findings.selection.pairs import compare_times, find_slower
 from bench.findings.selection.regions import (
     NEIGHBOURS,
     RULE,
     STUDY,
     Rule,
     Verdict,
-    decide,
     decide_all,
     facts_of,
+    meets,
     read_map,
     with_words,
 )
@@ -40,6 +48,12 @@ from bench.findings.theory.bang_bang import angle_of_share, brake_knee, least_ti
 from bench.findings.theory.sampled_loop import Limits, Loop, find_limits, settling_time, spectral_radius
 from bench.law.contender import Contender
 from tasks.situation import COORDINATES, KP, Situation
+
+SEED = 2026
+"""Of the draw of the starts."""
+
+PAIR = ["law", "other", "log_ratio", "low", "high"]
+"""What is read of a comparison of two laws."""
 
 FIRST, MOST = 1024, 4096
 """Starts of every law that is tried; and of those among which one is advised."""
@@ -157,83 +171,74 @@ def answer(wanted: Situation, rule: Rule = RULE, folder: Path = STUDY) -> Answer
 
 
 class Trial(NamedTuple):
-    """A law in a situation: what `situations.run_starts` returns of its starts, and the counts at 180°."""
+    """A law in a situation: the numbers of its drawn starts, as `situations.run_starts` gives them, and the counts.
+
+    stuck, trapped: exact 180° rotations that do not settle, and those that do not under worst-case noise.
+    """
 
     law: Contender
     at: Situation
-    ended: dict[str, np.ndarray]
+    drawn: dict[str, np.ndarray]
     stuck: int
     trapped: int
 
     @property
+    def times(self) -> np.ndarray:
+        """Return the settling time of each drawn start [1/sqrt(kp)]; infinite where it does not settle."""
+        return self.drawn["time"]
+
+    @property
     def row(self) -> dict[str, Any]:
         """Return the row of situations.parquet that these starts make."""
-        from bench.experiments.situations import count_typical, summarize
-
-        is_moving = self.at.spin + self.at.jump > 0.0
-        counts = {"stuck": self.stuck, "trapped": self.trapped, "operations": count_typical(self.law)}
-        return {**self.law.words, **self.at._asdict(), **summarize(self.ended, is_moving), **counts}
+        return {
+            **self.law.words,
+            **self.at._asdict(),
+            **summarize_drawn(pd.DataFrame(self.drawn)),
+            "stuck": self.stuck,
+            "trapped": self.trapped,
+            "operations": count_typical(self.law),
+        }
 
 
 class Trials:
     """Laws in one situation, each from as many of the same starts as were asked for."""
 
-    def __init__(self, at: Situation, seed: int = 0, report: Callable[[str], None] = lambda law: None):
-        self.at, self.seed, self.report = at, seed, report
+    def __init__(self, at: Situation, seed: int = SEED, report: Callable[[str], None] = lambda law: None):
+        self.at, self.report = at, report
+        self.settings = Settings("situations", seed=seed)
         self.by_law: dict[str, Trial] = {}
         self.known = {law.name: law for law in mapped_laws()}
 
     def run(self, law: str, count: int = FIRST) -> Trial:
         """Return a law's trial of at least so many starts; those that ran before are kept."""
-        from bench.experiments.situations import run_starts, starts_of
-
-        contender, before = self.known[law], self.by_law.get(law)
-        ran = len(before.ended["time"]) if before else 0
+        before = self.by_law.get(law)
+        ran = len(before.times) if before else 0
         if before and ran >= count:
             return before
         self.report(law)
-        condition = self.at.condition()
-        starts = starts_of(self.at.spin, self.at.jump, self.seed)[ran:count]
-        ended = run_starts(contender, self.at, starts, condition, self.seed)
+        contender = self.known[law]
+        starts = self.at.starts(count, self.settings.seed)[ran:]
+        drawn = run_starts(self.settings, contender, self.at, starts, self.at.condition())
         if before:
-            ended = {name: np.concatenate((before.ended[name], more)) for name, more in ended.items()}
-            trial = before._replace(ended=ended)
+            drawn = {name: np.concatenate((before.drawn[name], numbers)) for name, numbers in drawn.items()}
+            trial = before._replace(drawn=drawn)
         else:
-            stuck, trapped = self._count_held(contender)
-            trial = Trial(contender, self.at, ended, stuck, trapped)
+            exact, noisy = run_half_turns(self.settings, contender, self.at)
+            stuck, trapped = (int((numbers["time"] == math.inf).sum()) for numbers in (exact, noisy))
+            trial = Trial(contender, self.at, drawn, stuck, trapped)
         self.by_law[law] = trial
         return trial
 
-    def _count_held(self, contender: Contender) -> tuple[int, int]:
-        """Return how many exact 180° rotations do not settle, and how many where noise is the worst there."""
-        from bench.experiments.situations import exact_half_turns, noisy_condition, run_starts
-
-        starts = exact_half_turns(EXACT, self.seed)
-        counts = []
-        for condition in (self.at.condition(), noisy_condition(self.at, NOISE_RAD)):
-            times = run_starts(contender, self.at, starts, condition, self.seed)["time"]
-            counts.append(int((times == math.inf).sum()))
-        return counts[0], counts[1]
-
     def rows(self) -> pd.DataFrame:
-        """Return the rows of all laws that ran, with their words."""
-        return with_words(pd.DataFrame([trial.row for trial in self.by_law.values()]))
+        """Return the rows of all laws that ran, with their words, the fastest first."""
+        rows = with_words(pd.DataFrame([trial.row for trial in self.by_law.values()]))
+        return rows.sort_values(["time", "operations"], ignore_index=True)
 
-    def beats(self, law: str, other: str) -> bool:
-        """Tell whether a law is faster than another by more than NOTABLE, and not by the chance of these starts."""
-        times, others = self.by_law[law].ended["time"], self.by_law[other].ended["time"]
-        count = min(len(times), len(others))
-        times, others = times[:count], others[:count]
-        if not quantile(times, CROWD) < (1.0 - NOTABLE) * quantile(others, CROWD):
-            return False
-        with np.errstate(invalid="ignore"):
-            differences = resampled(times, _crowd) - resampled(others, _crowd)
-        # Where neither settles there is no difference.
-        return bool(quantile(np.nan_to_num(differences, nan=0.0, neginf=-math.inf), 1.0 - TAIL) < 0.0)
-
-
-def _crowd(values: np.ndarray, axis: int = -1) -> np.ndarray:
-    return quantile(values, CROWD, axis)
+    def find_unbeaten(self, laws: Sequence[str], rule: Rule) -> list[str]:
+        """Return the laws than which no other of them is faster, notably and not by the chance of these starts."""
+        pairs = pd.DataFrame(compare_times({law: self.by_law[law].times for law in laws}), columns=PAIR)
+        is_beaten = find_slower(pairs, laws, rule.tie).any(axis=1)
+        return [law for law, beaten in zip(laws, is_beaten, strict=True) if not beaten]
 
 
 class Advice(NamedTuple):
@@ -267,21 +272,15 @@ class Advice(NamedTuple):
 
 
 def may_be_advised(law: str) -> bool:
-    """Tell whether a law's source is published or adapted; a law of ours is compared, and not advised."""
+    """Tell whether a law is published or adapted from published work; a law of ours is compared, and not advised."""
     return not facts_of(law).is_ours
-
-
-def meets(row: pd.DataFrame, rule: Rule) -> bool:
-    """Tell whether the law of a row has what is required."""
-    verdict = decide(row, rule)
-    return bool(verdict.law or verdict.ours)
 
 
 def advise(
     wanted: Situation,
     rule: Rule = RULE,
     is_whole: bool = False,
-    seed: int = 0,
+    seed: int = SEED,
     report: Callable[[str], None] = lambda law: None,
     folder: Path = STUDY,
 ) -> Advice:
@@ -300,7 +299,7 @@ def advise(
         laws = every
         chosen = choose(trials, laws, rule, preferred)
     rows = trials.rows()
-    qualified = _qualified(trials, rule)
+    qualified = list_qualified(rows, rule)
     published = tuple(law for law in qualified if may_be_advised(law))
     replaced = preferred if chosen and preferred != chosen else None
     return Advice(
@@ -312,7 +311,7 @@ def advise(
         rows,
         published,
         tuple(law for law in qualified if not may_be_advised(law)),
-        _tied(rows, published, chosen) if chosen else (),
+        list_tied(rows, published, chosen) if chosen else (),
         set(trials.by_law) == set(every),
         replaced,
         replaced is not None and replaced not in published,
@@ -320,15 +319,11 @@ def advise(
 
 
 def shortlist(nearest: Answer, rule: Rule) -> tuple[str, ...]:
-    """Return the laws that are tried: the map's, and the fastest published one that lacks what is required there."""
+    """Return the laws that are tried: the map's, and the fastest other one that lacks what is required there."""
     laws = list(nearest.laws[:SHORT])
-    rows = nearest.rows[nearest.rows["contender"].map(may_be_advised)]
-    for _, row in rows.sort_values("time").iterrows():
-        law = str(row["contender"])
-        if not meets(row.to_frame().T.infer_objects(), rule):
-            laws.append(law)
-            break
-    return tuple(dict.fromkeys(laws))
+    lacking = nearest.rows[~meets(nearest.rows, rule)].sort_values("time")
+    others = [law for law in lacking["contender"].astype(str) if may_be_advised(law)]
+    return tuple(dict.fromkeys([*laws, *others[:1]]))
 
 
 def choose(trials: Trials, laws: Sequence[str], rule: Rule, preferred: str | None) -> str | None:
@@ -339,29 +334,29 @@ def choose(trials: Trials, laws: Sequence[str], rule: Rule, preferred: str | Non
     for law in laws:
         trials.run(law)
     while True:
-        qualified = [law for law in _qualified(trials, rule) if may_be_advised(law)]
-        unbeaten = [law for law in qualified if not any(trials.beats(other, law) for other in qualified if other != law)]
-        candidates = unbeaten if preferred not in qualified else [*unbeaten, preferred]
-        short = [law for law in dict.fromkeys(candidates) if len(trials.by_law[law].ended["time"]) < MOST]
+        qualified = [law for law in list_qualified(trials.rows(), rule) if may_be_advised(law)]
+        if not qualified:
+            return None
+        unbeaten = trials.find_unbeaten(qualified, rule)
+        candidates = [*unbeaten, preferred] if preferred in qualified else unbeaten
+        short = [law for law in candidates if law and len(trials.by_law[law].times) < MOST]
         if not short:
             break
         for law in short:
             trials.run(law, MOST)
-    if not qualified:
-        return None
     if preferred in unbeaten:
         return preferred
-    rows = trials.rows().set_index("contender")
-    return min(unbeaten, key=lambda law: (facts_of(law).memory, rows["operations"][law], law))
+    operations = trials.rows().set_index("contender")["operations"]
+    return min(unbeaten, key=lambda law: (facts_of(law).memory, operations[law], law))
 
 
-def _qualified(trials: Trials, rule: Rule) -> list[str]:
-    """Return the laws that ran and have what is required, the fastest first."""
-    rows = trials.rows().sort_values(["time", "operations"])
-    return [str(law) for law in rows["contender"] if meets(rows[rows["contender"] == law], rule)]
+def list_qualified(rows: pd.DataFrame, rule: Rule) -> list[str]:
+    """Return the laws of some rows that have what is required, in their order."""
+    return rows["contender"][meets(rows, rule)].astype(str).tolist()
 
 
-def _tied(rows: pd.DataFrame, published: Sequence[str], law: str) -> tuple[str, ...]:
+def list_tied(rows: pd.DataFrame, laws: Sequence[str], law: str) -> tuple[str, ...]:
+    """Return the laws that are slower than a law by at most TIE, or faster."""
     times = rows.set_index("contender")["time"]
     longest = (1.0 + TIE) * times[law]
-    return tuple(other for other in published if other != law and times[other] <= longest)
+    return tuple(other for other in laws if other != law and times[other] <= longest)

@@ -201,21 +201,10 @@ class Agreement(NamedTuple):
 def count_agreeing(folder: Path = STUDY) -> Agreement:
     """Compare the answers of the map with the held-out situations, drawn as the map's are by another seed."""
     verdicts = decide_all(folder / "held-out")
-<<<<<<< HEAD
-    given = {at: answer(at, RULE, folder).verdict.law for at in verdicts}
-    always = rate(dict.fromkeys(verdicts, find_default(folder)), folder)
-    return {
-        "of": len(verdicts),
-        "same": sum(given[at] == truth.law for at, truth in verdicts.items()) / len(verdicts),
-        **rate(given, folder),
-        **{f"always_{key}": value for key, value in always.items()},
-    }
-=======
     answers = {at: answer(at, RULE, folder).verdict.law for at in verdicts}
     same = sum(answers[at] == verdict.law for at, verdict in verdicts.items())
     default: dict[Situation, str | None] = dict.fromkeys(verdicts, find_default(folder))
     return Agreement(Share(same, len(verdicts)), rate(answers, folder), rate(default, folder))
->>>>>>> mapdata
 
 
 def rate(answers: dict[Situation, str | None], folder: Path) -> Rated:
