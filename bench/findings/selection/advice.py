@@ -1,7 +1,7 @@
-"""Advice in a situation of a user: closed forms first, then the laws that the map names, simulated in that situation.
+"""Advice in a situation of a user: closed forms first, then the laws that the map names, simulated there.
 
-1. Near the goal every law is the same linear loop (`sampled_loop`). If it is unstable, or slower than the horizon, or if
-   the bound is too small for any law to arrive within the horizon, no law is advised, and the limits are said.
+1. Near the goal every law is the same linear loop (`sampled_loop`). If it is unstable, or slower than the horizon, or
+   if the bound is too small for any law to arrive within the horizon, no law is advised, and the limits are said.
 2. The map names laws: what it advises in the nearest situation, what nothing beats in the NEIGHBOURS nearest ones, and
    the fastest published law that lacks what is required. Outside the map every law is tried.
 3. They are simulated in the user's situation, all from the same starts. The map's law is advised if it has what is
@@ -241,6 +241,16 @@ class Trials:
         return [law for law, beaten in zip(laws, is_beaten, strict=True) if not beaten]
 
 
+class Eased(NamedTuple):
+    """Lower gains of the same damping ratio, at which the bound can brake: the factor of kp, and the law's row there.
+
+    The row's times are in 1/sqrt(factor kp).
+    """
+
+    factor: float
+    row: dict[str, Any]
+
+
 class Advice(NamedTuple):
     """What is advised in a situation.
 
@@ -248,7 +258,7 @@ class Advice(NamedTuple):
     where it was not asked. rows: of each law that was simulated there, a row as in situations.parquet. qualified: laws
     that have what is required, published ones. ours: our own that have it. tied: qualified within TIE of the advised
     one, the fastest first. is_whole: every law was simulated. replaced: the map's law, where another is advised, and
-    lacks: whether that is because it lacks what is required.
+    lacks: whether that is because it lacks what is required. eased: where the bound makes every law overshoot.
     """
 
     wanted: Situation
@@ -263,6 +273,7 @@ class Advice(NamedTuple):
     is_whole: bool = False
     replaced: str | None = None
     lacks: bool = False
+    eased: Eased | None = None
 
     def row(self, law: str) -> dict[str, Any]:
         """Return the row of a law that was simulated."""
@@ -292,30 +303,57 @@ def advise(
     nearest = None if outside else answer(wanted, rule, folder)
     every = tuple(law.name for law in mapped_laws())
     laws = every if is_whole or nearest is None else shortlist(nearest, rule)
-    trials = Trials(wanted, seed, report)
     preferred = nearest.verdict.law if nearest else None
-    chosen = choose(trials, laws, rule, preferred)
-    if chosen is None:
-        laws = every
-        chosen = choose(trials, laws, rule, preferred)
+    trials = Trials(wanted, seed, report)
+    law = choose(trials, laws, rule, preferred)
+    if law is None:
+        law = choose(trials, every, rule, preferred)
+    if near_goal.radius >= 1.0:
+        # A loop may be so little unstable that episodes end before it shows.
+        law = None
     rows = trials.rows()
     qualified = list_qualified(rows, rule)
-    published = tuple(law for law in qualified if may_be_advised(law))
-    replaced = preferred if chosen and preferred != chosen else None
-    return Advice(
+    published = tuple(name for name in qualified if may_be_advised(name))
+    advice = Advice(
         wanted,
-        chosen,
+        law,
         near_goal,
         outside,
         nearest,
         rows,
-        published,
-        tuple(law for law in qualified if not may_be_advised(law)),
-        list_tied(rows, published, chosen) if chosen else (),
-        set(trials.by_law) == set(every),
-        replaced,
-        replaced is not None and replaced not in published,
+        qualified=published,
+        ours=tuple(name for name in qualified if not may_be_advised(name)),
+        is_whole=set(trials.by_law) == set(every),
     )
+    if law is None:
+        return advice
+    return advice._replace(
+        tied=list_tied(rows, published, law),
+        replaced=preferred if preferred != law else None,
+        lacks=preferred not in published,
+        eased=ease(advice, trials.settings.seed),
+    )
+
+
+def ease(advice: Advice, seed: int) -> Eased | None:
+    """Return lower gains if every law that has what is required overshoots, and the bound is why; else None."""
+    at, rows = advice.wanted, advice.rows
+    assert rows is not None
+    assert advice.law is not None
+    overshoot = rows[rows["contender"].isin(advice.qualified)]["overshoot"].min()
+    # The knee of a loop with kp' and kv' of the same damping ratio lies at 180°.
+    factor = advice.near_goal.knee / math.pi
+    if overshoot < LONG_WAY_PAST or factor >= 1.0:
+        return None
+    root = math.sqrt(factor)
+    lower = at._replace(
+        bound=at.bound / factor,
+        delay=at.delay * root,
+        period=at.period * root,
+        spin=at.spin / root,
+        jump=at.jump * root,
+    )
+    return Eased(factor, Trials(lower, seed).run(advice.law).row)
 
 
 def shortlist(nearest: Answer, rule: Rule) -> tuple[str, ...]:
