@@ -237,7 +237,7 @@ class Trials:
     def find_unbeaten(self, laws: Sequence[str], rule: Rule) -> list[str]:
         """Return the laws than which no other of them is faster, notably and not by the chance of these starts."""
         pairs = pd.DataFrame(compare_times({law: self.by_law[law].times for law in laws}), columns=PAIR)
-        is_beaten = find_slower(pairs, laws, rule.tie).any(axis=1)
+        is_beaten = find_slower(pairs, laws, rule.tie).any(axis=1).tolist()
         return [law for law, beaten in zip(laws, is_beaten, strict=True) if not beaten]
 
 

@@ -130,8 +130,9 @@ def decide(rows: pd.DataFrame, rule: Rule = RULE, pairs: pd.DataFrame | None = N
     unbeaten = qualified.assign(memory=memory)[~is_ours & ~is_beaten]
     law, *tied = unbeaten.sort_values([*order, "memory", "operations", "contender"])["contender"].astype(str)
     beats_advised = beaten[laws.index(law)]
-    ours = [name for name, own, lost in zip(laws, is_ours.tolist(), is_beaten.tolist(), strict=True) if own and not lost]
-    faster = [name for name, own, beats in zip(laws, is_ours.tolist(), beats_advised.tolist(), strict=True) if own and beats]
+    names = np.array(laws)
+    ours = names[is_ours & ~is_beaten].tolist()
+    faster = names[is_ours & beats_advised].tolist()
     return Verdict(law, tuple(tied), tuple(ours), tuple(faster), len(laws))
 
 
