@@ -58,8 +58,8 @@ PAIR = ["law", "other", "log_ratio", "low", "high"]
 FIRST, MOST = 1024, 4096
 """Starts of every law that is tried; and of those among which one is advised."""
 
-SHORT = 6
-"""Laws of the map that are tried, at most."""
+LEAST, SHORT = 4, 6
+"""Laws that are tried, at least, and those of them that the map names, at most."""
 
 TIE = 0.05
 """Laws whose times differ by less are named as ties."""
@@ -237,8 +237,8 @@ class Trials:
     def find_unbeaten(self, laws: Sequence[str], rule: Rule) -> list[str]:
         """Return the laws than which no other of them is faster, notably and not by the chance of these starts."""
         pairs = pd.DataFrame(compare_times({law: self.by_law[law].times for law in laws}), columns=PAIR)
-        is_beaten = find_slower(pairs, laws, rule.tie).any(axis=1).tolist()
-        return [law for law, beaten in zip(laws, is_beaten, strict=True) if not beaten]
+        is_slower = find_slower(pairs, laws, rule.tie)
+        return [law for place, law in enumerate(laws) if not is_slower[place].any()]
 
 
 class Eased(NamedTuple):
@@ -294,8 +294,9 @@ def advise(
     seed: int = SEED,
     report: Callable[[str], None] = lambda law: None,
     folder: Path = STUDY,
+    trials: Trials | None = None,
 ) -> Advice:
-    """Advise a law; is_whole: simulate every law, whatever closed forms and the map say."""
+    """Advise a law; is_whole: simulate every law, whatever closed forms and the map say; trials: to be added to."""
     near_goal = look_near_goal(wanted)
     outside = find_outside(wanted)
     if near_goal.is_hopeless and not is_whole:
@@ -304,7 +305,7 @@ def advise(
     every = tuple(law.name for law in mapped_laws())
     laws = every if is_whole or nearest is None else shortlist(nearest, rule)
     preferred = nearest.verdict.law if nearest else None
-    trials = Trials(wanted, seed, report)
+    trials = trials or Trials(wanted, seed, report)
     law = choose(trials, laws, rule, preferred)
     if law is None:
         law = choose(trials, every, rule, preferred)
@@ -359,9 +360,14 @@ def ease(advice: Advice, seed: int) -> Eased | None:
 def shortlist(nearest: Answer, rule: Rule) -> tuple[str, ...]:
     """Return the laws that are tried: the map's, and the fastest other one that lacks what is required there."""
     laws = list(nearest.laws[:SHORT])
-    lacking = nearest.rows[~meets(nearest.rows, rule)].sort_values("time")
-    others = [law for law in lacking["contender"].astype(str) if may_be_advised(law)]
-    return tuple(dict.fromkeys([*laws, *others[:1]]))
+    rows = nearest.rows.sort_values("time")
+    lacking = rows["contender"][~meets(rows, rule)].astype(str)
+    laws += [law for law in lacking if may_be_advised(law)][:1]
+    # A few laws at least, so that what is said of all that were simulated is said of more than one or two.
+    for law in rows["contender"].astype(str):
+        if len(set(laws)) < LEAST and may_be_advised(law):
+            laws.append(law)
+    return tuple(dict.fromkeys(laws))
 
 
 def choose(trials: Trials, laws: Sequence[str], rule: Rule, preferred: str | None) -> str | None:
