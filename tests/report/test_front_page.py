@@ -5,7 +5,6 @@ import re
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from support.pages import RUN
 from support.states import as_rotation, vector
 
 from bench.findings.selection.regions import find_default
