@@ -67,7 +67,7 @@ def heading(subject: Subject, *notes: str) -> str:
         f"{record.title}{of} ({subject.word})",
         "",
         f"Formula   {record.formula}",
-        *([f"Source    {record.source}"] if record.source else []),
+        *_wrapped(f"Source    {_attributed(subject)}" if record.source else ""),
         *_facts(subject),
         *_wrapped(f"Limits    {' '.join(limits[1].split())}" if limits else ""),
         *_wrapped(FRAMES),
@@ -78,6 +78,12 @@ def heading(subject: Subject, *notes: str) -> str:
         "SPDX-License-Identifier: Apache-2.0",
     ]
     return "\n".join(lines)
+
+
+def _attributed(subject: Subject) -> str:
+    """Return whose the record is, and its source: "adapted: after A and B"."""
+    one = subject.contender if subject.contender is not None else subject.record
+    return f"{one.attribution}: {subject.record.source}"
 
 
 def _facts(subject: Subject) -> list[str]:

@@ -25,6 +25,7 @@ def facts(run: Run) -> dict[str, Any]:
     return {
         "fates": html.Html(loop + PLAY),
         "default": families.word(find_default()),
+        "attribution": which_law.describe_attribution(find_default()),
         "does": which_law.describe_default(),
         "lines": words.describe_lines(find_default(), families.word),
         "resets": describe_resets(find_default()),

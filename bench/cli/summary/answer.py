@@ -6,13 +6,14 @@ from bench.findings.selection.needs import Measured
 from bench.findings.selection.reset import describe_resets
 from bench.findings.selection.robots import list_elsewhere
 from bench.findings.selection.sensitivity import vary
-from bench.findings.selection.unbeaten import SPOKEN, compare_with_advised, measure_shares
 from bench.findings.selection.words import (
     compare,
     cost,
+    describe_law_of_ours,
     describe_lines,
     describe_price,
     describe_shares,
+    list_faster_ours,
     percent,
     together,
 )
@@ -25,7 +26,8 @@ def paragraphs(found: Measured | None) -> list[Paragraph]:
     """Return what the map advises, what else to use elsewhere, and how laws of ours and the user's compare."""
     default = regions.find_regions()[0]
     said = [Paragraph("Which law", _default(found, default)), Paragraph("Elsewhere", _elsewhere(default.law))]
-    said += [Paragraph("Ours", (_ours(law, found, default.law),)) for law in regions.list_ours()]
+    for law in list_faster_ours():
+        said.append(Paragraph("Ours", (f"{describe_law_of_ours(law)} {_compared(found, law, default.law)}",)))
     own = [law for law in (found.laws if found else ()) if found and found.tables.contenders[law].regulator.origin]
     said += [Paragraph("Yours", (f"{law}: {_compared(found, law, default.law)}",)) for law in own]
     others = [
@@ -42,14 +44,20 @@ def _default(found: Measured | None, region: regions.Region) -> tuple[str, ...]:
     drawn = sum(map(regions.is_drawn, regions.decide_all()))
     priced = f" A tick takes {cost(found, region.law)}." if found and region.law in found.laws else ""
     return (
-        f"Use the law {region.law} (published: {find_contender(region.law).regulator.source}) for a body that turns "
-        f"freely, in simulation. Of {drawn} situations drawn at random it is advised in {percent(region.advised)}. "
+        f"Use the law {region.law} ({_attributed(region.law)}) for a body that turns freely, in simulation. Of {drawn} "
+        f"situations drawn at random it is advised in {percent(region.advised)}. "
         f"{describe_shares(region.law)}",
         describe_lines(region.law),
         f"{describe_price(region.law)} {describe_resets(region.law)}",
         f"At kp = {PAPERS_GAINS.kp:g} 1/s², kv = {PAPERS_GAINS.kv:g} 1/s 99 % of the starts settle within "
         f"{row['time'] / KP**0.5:.3f} s.{priced} Your own numbers: bench advise --help.",
     )
+
+
+def _attributed(law: str) -> str:
+    """Return whose a law is, and its works without what else its source says."""
+    one = find_contender(law)
+    return f"{one.attribution}: {one.regulator.source.split('; ')[0]}"
 
 
 def _elsewhere(default: str) -> tuple[str, ...]:
@@ -60,18 +68,6 @@ def _elsewhere(default: str) -> tuple[str, ...]:
         tied = f", tied with {together(one.tied)}" if one.tied else ""
         lines.append(f"If {one.words}: {one.law}{tied}.")
     return tuple(lines)
-
-
-def _ours(law: str, found: Measured | None, default: str) -> str:
-    """Return the sentences on a law of ours: its origin, where the map has it, and the run's comparison."""
-    shares, beats = measure_shares(law, tie=SPOKEN), compare_with_advised(law)
-    return (
-        f"{law} is ours: 2026, simulation only, not reviewed. It is more than {percent(SPOKEN)} faster than "
-        f"the advised law in {percent(beats.value)} of the drawn situations. In "
-        f"{percent(shares.qualified.value)} it meets the requirements and no published or adapted law that does "
-        f"is more than {percent(SPOKEN)} faster; among all of these laws the share is "
-        f"{percent(shares.all.value)}. {_compared(found, law, default)}"
-    )
 
 
 def _compared(found: Measured | None, law: str, default: str) -> str:

@@ -68,7 +68,7 @@ class Verdict(NamedTuple):
     """What the rule makes of a situation.
 
     law: the one that is advised, None if none is left. tied: the others that nothing beats, the simplest first. ours:
-    our own laws that nothing published beats. faster: those of them that beat the advised one. asked: how many laws
+    our own laws that no other law beats. faster: those of them that beat the advised one. asked: how many laws
     have what is required.
     """
 

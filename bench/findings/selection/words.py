@@ -6,10 +6,11 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from bench.findings.selection.needs import GENERAL, Decision, Measured
-from bench.findings.selection.regions import RULE, STUDY
+from bench.findings.selection.regions import RULE, STUDY, list_ours
 from bench.findings.selection.unbeaten import (
     SPOKEN,
     Place,
+    compare_with_advised,
     find_population,
     find_price,
     find_runner_up,
@@ -27,11 +28,11 @@ Called = Callable[[str], str]
 def standing(one: Decision, called: Called) -> str:
     """Say that the advised law is alone on the Pareto front, or with which laws it ties."""
     if len(one.asked) == 1:
-        return "No other published law of this run meets these conditions."
+        return "No other published or adapted law of this run meets these conditions."
     if not one.tied:
         return (
-            f"{len(one.asked)} published laws meet these conditions; it is at least as good as the others on every "
-            "criterion and better on one."
+            f"{len(one.asked)} published or adapted laws meet these conditions; it is at least as good as the others "
+            "on every criterion and better on one."
         )
     return f"It ties with {together([called(law) for law in one.tied])} and is the simplest of these."
 
@@ -149,6 +150,28 @@ def describe_lines(law: str, called: Called = str, folder: Path = STUDY) -> str:
     if everything == qualified:
         return f"{first} {met} No other published or adapted law is faster elsewhere."
     return f"{first} {met} The fastest of all published and adapted laws, where one is: {everything}."
+
+
+def list_faster_ours(folder: Path = STUDY) -> list[str]:
+    """Return our own laws that are more than SPOKEN faster than the advised law in some drawn situation."""
+    return [law for law in list_ours(folder) if compare_with_advised(law, folder).number]
+
+
+def describe_ours(called: Called = str, folder: Path = STUDY) -> str:
+    """Say how those of our own laws compare that are faster than the advised law in some drawn situation."""
+    return " ".join(describe_law_of_ours(law, called, folder) for law in list_faster_ours(folder))
+
+
+def describe_law_of_ours(law: str, called: Called = str, folder: Path = STUDY) -> str:
+    """Say in how many drawn situations a law of ours is faster than the advised one, and beaten by no law of a set."""
+    shares = measure_shares(law, folder, tie=SPOKEN)
+    return (
+        f"We do not advise our own law, {called(law)} (2026, simulation only, not reviewed). It is more than "
+        f"{percent(SPOKEN)} faster than the advised law in {percent(compare_with_advised(law, folder).value)} of the "
+        f"situations. In {percent(shares.qualified.value)} it meets the requirements and no published or adapted law "
+        f"that does is more than {percent(SPOKEN)} faster; among all of these laws the share is "
+        f"{percent(shares.all.value)}."
+    )
 
 
 def describe_price(law: str, folder: Path = STUDY, called: Called = str) -> str:

@@ -10,12 +10,13 @@ from bench.findings.selection.robots import Elsewhere, list_elsewhere
 from bench.findings.selection.sensitivity import Rated
 from bench.findings.selection.unbeaten import (
     SPOKEN,
-    compare_with_advised,
     find_bounds,
     find_population,
     measure_shares,
 )
-from bench.findings.selection.words import describe_bounds, percent, together
+from bench.findings.selection.words import describe_bounds, together
+from bench.law.attribution import IN_WORDS
+from bench.law.contenders.registry import find_contender
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
 from tasks.situation import KP, NOMINAL
@@ -114,18 +115,8 @@ def describe_default() -> str:
 
 
 def describe_ours() -> str:
-    """Return how our own laws compare with what is advised."""
-    said = []
-    for law in regions.list_ours():
-        shares, beats = measure_shares(law, tie=SPOKEN), compare_with_advised(law)
-        said.append(
-            f"We do not advise our own law, {families.word(law)} (2026, simulation only, not reviewed). It is more "
-            f"than {percent(SPOKEN)} faster than the advised law in {percent(beats.value)} of the situations. In "
-            f"{percent(shares.qualified.value)} it meets the requirements and no published or adapted law that does "
-            f"is more than {percent(SPOKEN)} faster; among all of these laws the share is "
-            f"{percent(shares.all.value)}."
-        )
-    return " ".join(said)
+    """Return how those of our own laws that are faster than the advised one somewhere compare with it."""
+    return words.describe_ours(families.word)
 
 
 def lead() -> str:
@@ -137,7 +128,13 @@ def lead() -> str:
         if others
         else ""
     )
-    return f"Use **{families.word(first.law)}**. {describe_default()}{where} {describe_ours()}"
+    law = f"**{families.word(first.law)}**, {describe_attribution(first.law)}"
+    return f"Use {law}. {describe_default()}{where} {describe_ours()}"
+
+
+def describe_attribution(law: str) -> str:
+    """Return what a sentence calls a law: published, adapted or ours, in words."""
+    return IN_WORDS[find_contender(law).attribution]
 
 
 def _tuned() -> dict[tuple, list[str]]:

@@ -72,9 +72,20 @@ def make_page(name: str, title: str, card: str, source: Source, word: str = "", 
     return LawPage(name, title, body, dict(files.values()))
 
 
-def make_card(record: Any, title: str, said: tuple[str, Mapping[str, str]], look: str, costs: str = "") -> str:
-    """Return the card of a law; said: the docstring's text, and fields by their heads; look: its colour as CSS."""
+def make_card(
+    record: Any,
+    title: str,
+    said: tuple[str, Mapping[str, str]],
+    look: str,
+    costs: str = "",
+    attribution: str = "",
+) -> str:
+    """Return the card of a law; said: the docstring's text, and fields by their heads; look: its colour as CSS.
+
+    attribution: whose the law is, where that is not the record's own word (in coordinates that its work has not).
+    """
     formula = f'<div class="card-formula">{html.formula(record.formula)}</div>' if record.formula else ""
+    source = html.foreign(f"{attribution or record.attribution}: {record.source}" if record.source else "")
     lines = [set_paragraph(text) for text in said[0].split("\n\n") if text.strip()]
     for head, text in said[1].items():
         set_text = text if isinstance(text, html.Html) else html.foreign(text)  # only ours is markup
@@ -82,7 +93,7 @@ def make_card(record: Any, title: str, said: tuple[str, Mapping[str, str]], look
     return (
         f'<section class="law-card" style="--law: {look}"'
         f' aria-label="{markup.escape(title, quote=True)}">'
-        f'<header><span class="card-source">{html.foreign(record.source)}</span></header>{formula}'
+        f'<header><span class="card-source">{source}</span></header>{formula}'
         f'<div class="card-body"><div class="card-text">{"".join(lines)}{costs}</div></div></section>'
     )
 

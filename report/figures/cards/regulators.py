@@ -25,7 +25,10 @@ UNTRUSTED = (
     "A law of somebody else, by its rows alone: its file came with these results and was not run. If you have read it, "
     "bench trust FILE lets it run, and its card then says what it is."
 )
-LAWS = html.Table("Law | Property | Settles | On the command line", {"Settles": lambda share: f"{100 * share:.1f} %"})
+LAWS = html.Table(
+    "Law | Whose | Property | Settles | On the command line",
+    {"Settles": lambda share: f"{100 * share:.1f} %"},
+)
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 EXAMPLE = re.compile(r" Shown by |, as from |, as at ")
 
@@ -82,7 +85,8 @@ def card(one: Contender, run: Run) -> str:
     }
     look, costs = html.both(style.look(one.name).colour), costs_of(one, run)
     shown = costs.to_html(index=False, classes="plain", border=0, formatters=[html.cell] * len(costs.columns))
-    return make_card(one.regulator, title, (what, fields), look, f'<div class="card-costs" tabindex="0">{shown}</div>')
+    costs_table = f'<div class="card-costs" tabindex="0">{shown}</div>'
+    return make_card(one.regulator, title, (what, fields), look, costs_table, attribution=one.attribution)
 
 
 def costs_of(one: Contender, run: Run) -> pd.DataFrame:
@@ -137,12 +141,13 @@ def facts(run: Run) -> dict:
 
 
 def line(one: Contender, run: Run) -> tuple:
-    """Return a link to a law's card, its property and if it is proved, what was measured, its word in commands."""
+    """Return a link to a law's card, whose it is, its property, if that is proved, what was measured, its word."""
     law, known = one.regulator, read_certificates().get(one.regulator.name)
     proved = "proved" if known and known["is_proved"] else "measured"
     uniform = run.any_rows("episodes", contender=one.name, engine=engine_of(one.regulator), start_set="uniform")
     return (
         families.link(one.name, laws.title_of(one)),
+        one.attribution,
         html.together(html.foreign(law.property if law.property == "none" else f"{law.property}, {proved}")),
         (uniform["outcome"] == "settled").mean() if len(uniform) else None,
         f"`{one.name}`",

@@ -8,7 +8,7 @@ Limitations: up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it keeps t
 way, and so it may without a reset when the goal jumps.
 """
 
-from bench.law import CHORD, DELTA, Display, Law, Look, kernel, spring_damper, turn_on_kept_side
+from bench.law import CHORD, DELTA, PUBLISHED, Display, Law, Look, kernel, spring_damper, turn_on_kept_side
 
 
 @kernel
@@ -27,6 +27,7 @@ REGULATOR = Law(
     name="hybrid",
     title="Hybrid, with memory",
     source="Mayhew, Sanfelice, Teel 2011",
+    attribution=PUBLISHED,
     formula=r"u = 2 K_p\, h\,\epsilon - K_v\,\omega, \quad h^+ = -h \text{ where } h\,\eta < -\delta",
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),

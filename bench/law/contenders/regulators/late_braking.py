@@ -20,7 +20,7 @@ Limitations: up to 60 degrees beyond a 180° rotation it keeps turning the longe
 without a reset when the goal jumps.
 """
 
-from bench.law import Display, Equation, Law, Look, cos, dot, kernel, quaternion_direction, sin, sqrt, turn_matrix
+from bench.law import OURS, Display, Equation, Law, Look, cos, dot, kernel, quaternion_direction, sin, sqrt, turn_matrix
 
 EASED = 0.8
 """Share of the damper that is gone at 180°; under 1, so that it never pushes."""
@@ -60,6 +60,7 @@ REGULATOR = Law(
     name="late-braking",
     title="Late braking",
     source="this benchmark, 2026; after Luh, Walker, Paul 1980 and Mayhew, Sanfelice, Teel 2011",
+    attribution=OURS,
     formula=r"u = \bigl(\tfrac{5+t}{4} K_p + \tfrac45 K_v \max(0,\, \epsilon\cdot\omega)\bigr)\,\epsilon - K_v\,\omega",
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),

@@ -9,14 +9,14 @@ tick, after a pause, and when the goal jumps.
 
 Source: Goncalves, Bena, Matveev, Perez-Arancibia, arXiv:2403.07269, whose abstract was read: of two torques they take
 the one whose cost, of control and attitude error, a model predicts to be less. The cost in closed form, the spring and
-MARGIN are ours.
+MARGIN are ours, so that the law is a law of this benchmark.
 
 Proved: local. About one fixed axis the prediction is exact and the cost falls, so that it is global there.
 Limitations: from rest up to MARGIN, 46 degrees, beyond a 180° rotation it keeps turning the longer way; where omega is
 not along the axis the prediction is not exact; a spinning body may pass the goal once.
 """
 
-from bench.law import ANGLE, Display, Law, Look, acos, atan2, dot, kernel, spring_damper, sqrt, turn_on_kept_side
+from bench.law import ANGLE, OURS, Display, Law, Look, acos, atan2, dot, kernel, spring_damper, sqrt, turn_on_kept_side
 
 PI = acos(-1.0)
 MARGIN = 0.8
@@ -42,7 +42,11 @@ def law(R, omega, goal, gains, memory):
 REGULATOR = Law(
     name="predicted-side",
     title="Predicted side of the rotation vector",
-    source="after Goncalves, Bena, Matveev, Perez-Arancibia, arXiv:2403.07269 (abstract read)",
+    source=(
+        "this benchmark, 2026; after Goncalves, Bena, Matveev, Perez-Arancibia, "
+        "arXiv:2403.07269 (abstract read)"
+    ),
+    attribution=OURS,
     formula=r"u = K_p\,\theta\,k - K_v\,\omega, \quad k^+ = -k \text{ where } \theta - \pi -"
     r" \frac{k \cdot \omega}{K_p/K_v + K_v/2} > \delta",
     law=law,

@@ -9,7 +9,7 @@ Limitations: up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it keeps t
 way, and so it may without a reset when the goal jumps.
 """
 
-from bench.law import ANGLE, DELTA, Display, Law, Look, kernel, turn_on_kept_side
+from bench.law import ADAPTED, ANGLE, DELTA, Display, Law, Look, kernel, turn_on_kept_side
 from bench.law.contenders.regulators.rotation_vector import turn_by_angle
 
 
@@ -24,6 +24,7 @@ REGULATOR = Law(
     name="rotation-vector-memory",
     title="Rotation vector with memory",
     source="after Bullo & Murray 1995 and Mayhew, Sanfelice, Teel 2011",
+    attribution=ADAPTED,
     formula=r"u = K_p\,\theta\,k - K_v\,\omega, \quad \theta \le 2\arccos(-\delta)",
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),

@@ -9,7 +9,7 @@ Limitations: up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it keeps t
 way, and so it may without a reset when the goal jumps.
 """
 
-from bench.law import DELTA, Display, Law, Look, kernel, turn_on_kept_side
+from bench.law import ADAPTED, DELTA, Display, Law, Look, kernel, turn_on_kept_side
 from bench.law.contenders.regulators.sliding import SLIDING, slide
 
 
@@ -24,6 +24,7 @@ REGULATOR = Law(
     name="sliding-memory",
     title="Sliding on the quaternion, with memory",
     source="after Egeland & Godhavn 1994, Lo & Chen 1995 and Mayhew, Sanfelice, Teel 2011",
+    attribution=ADAPTED,
     formula=r"u = -\tfrac{\lambda}{2}(\eta\,\omega + \epsilon \times \omega) - K(\omega - \lambda\,\epsilon),"
     r"\quad \eta \ge -\delta",
     law=law,
