@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from typing import Any
 
 import rich_click as click
 
@@ -26,21 +27,32 @@ def time(word: object) -> float:
     return seconds
 
 
-POSITIVE = click.FloatRange(0.0, min_open=True)
+class Finite(click.FloatRange):
+    """A number in a range; infinite and not a number are in none."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return the number, or refuse it."""
+        number = super().convert(value, param, ctx)
+        if not math.isfinite(number):
+            self.fail(f"{value} is no finite number (try: a number above 0)", param, ctx)
+        return number
+
+
+POSITIVE = Finite(0.0, min_open=True)
 
 
 @click.command("advise", epilog=examples("advise"))
 @click.option("--kp", type=POSITIVE, default=100.0, show_default=True, help="Position gain over the inertia [1/s^2].")
 @click.option("--kv", type=POSITIVE, default=20.0, show_default=True, help="Velocity gain over the inertia [1/s].")
-@click.option("--bound", type=POSITIVE, default=math.inf, help="Greatest command [rad/s^2].", show_default="none")
+@click.option("--bound", type=POSITIVE, default=None, help="Greatest command [rad/s^2].", show_default="none")
 @click.option("--delay", type=time, default=0.0, show_default=True, help="From measuring to the effect, as 5ms.")
 @click.option("--rate", type=POSITIVE, default=1000.0, show_default=True, help="Control rate [Hz].")
-@click.option("--spin", type=click.FloatRange(0.0), default=0.0, show_default=True, help="Speed at the start [rad/s].")
+@click.option("--spin", type=Finite(0.0), default=0.0, show_default=True, help="Speed at the start [rad/s].")
 @click.option("--jump", type=time, default=0.0, show_default="none", help="When the goal jumps, after the start.")
 @click.option("--inertia", type=POSITIVE, default=1.0, show_default=True, help="True inertia over the model's.")
 @click.option(
     "--unevenness",
-    type=click.FloatRange(0.0, 0.5),
+    type=Finite(0.0, 0.5),
     show_default=f"0; {UNCANCELLED.unevenness:g} of torque-no-model",
     help="s of principal moments 1 - s, 1, 1 + s.",
 )
@@ -56,7 +68,7 @@ POSITIVE = click.FloatRange(0.0, min_open=True)
 @click.option("--no-adversary", is_flag=True, help="Do not ask that worst-case noise cannot trap the law at 180°.")
 @click.option("--run", "is_run", is_flag=True, help="Simulate all laws, not only those that the map names.")
 def COMMAND(
-    kp: float, kv: float, bound: float, delay: float, rate: float, spin: float, jump: float, inertia: float,
+    kp: float, kv: float, bound: float | None, delay: float, rate: float, spin: float, jump: float, inertia: float,
     unevenness: float | None, robot: str, no_memory: bool, continuous: bool, no_adversary: bool, is_run: bool,
 ) -> None:  # fmt: skip
     """Say which law to use in your situation, which laws tie with it, and what it costs.
@@ -76,6 +88,7 @@ def COMMAND(
 
     if unevenness is None:
         unevenness = (UNCANCELLED if robot == TORQUES[1] else NOMINAL).unevenness
+    bound = math.inf if bound is None else bound
     root = math.sqrt(kp)
     numbers = kv / (2.0 * root), bound / kp, delay * root, root / rate, inertia, unevenness, spin / root, jump * root
     wanted = rounded(numbers)

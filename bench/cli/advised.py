@@ -13,6 +13,7 @@ from bench.findings.selection.advice import TIE, Advice, Outside, loop_of
 from bench.findings.selection.regions import facts_of
 from bench.findings.selection.words import NAMES
 from bench.findings.theory.sampled_loop import Limits, mode_time
+from bench.law.contenders.registry import find_contender
 from tasks.situation import COORDINATES, KP
 
 LACKS = {
@@ -42,6 +43,11 @@ def paragraphs(advice: Advice, kp: float) -> list[Paragraph]:
         Paragraph("Theory", (_describe_theory(advice, unit),)),
         where,
     ]
+
+
+def attribution(law: str) -> str:
+    """Return whether a law is published, adapted from published work, or ours."""
+    return find_contender(law).attribution
 
 
 def _describe_none(advice: Advice, kp: float) -> list[str]:
@@ -101,8 +107,8 @@ def _describe_law(advice: Advice, unit: float) -> str:
     """Return the sentence on the law: its time, ties, and faster laws with the reason why they are not advised."""
     row = advice.row(str(advice.law))
     own = (
-        f"Use {advice.law}: 99 % of the starts settle in {row['time'] * unit:.3f} s ({row['time_low'] * unit:.3f} to "
-        f"{row['time_high'] * unit:.3f}), simulated in your situation"
+        f"Use {advice.law} ({attribution(str(advice.law))}): 99 % of the starts settle in {row['time'] * unit:.3f} s "
+        f"({row['time_low'] * unit:.3f} to {row['time_high'] * unit:.3f}), simulated in your situation"
     )
     if advice.tied:
         verb = "tie" if len(advice.tied) > 1 else "ties"
@@ -244,7 +250,7 @@ def table(advice: Advice, kp: float) -> pd.DataFrame:
         lacks.append("; ".join(word for column, word in LACKS.items() if row[column]))
     return pd.DataFrame(
         {
-            "law": [f"{law} (ours)" if facts_of(law).is_ours else law for law in laws],
+            "law": [f"{law} ({attribution(law)})" for law in laws],
             "99 % [s]": (rows["time"] * unit).map("{:.3f}".format),
             "peak [rad/s^2]": (rows["peak"] * kp).map("{:.4g}".format),
             "overshoot [deg]": rows["overshoot"].map("{:.1f}".format),

@@ -59,7 +59,7 @@ def test_example_of_the_readme_says_first_that_the_bound_is_what_is_wrong(capsys
 def test_ties_price_and_runner_up_stand_with_the_law(capsys):
     said = advise(capsys)
     answer, _, rest = said.partition("Price ")
-    assert "Use mrp-memory: 99 % of the starts settle in 0.58" in answer
+    assert "Use mrp-memory (adapted): 99 % of the starts settle in 0.58" in answer
     assert "within 5%" in answer
     # 4 kp at a rotation by nearly 180°
     assert re.search(r"greatest command (399|400)(\.\d)? rad/s², overshoot 0\.0°, keeps 4 numbers", rest)
