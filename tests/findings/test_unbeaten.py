@@ -78,7 +78,7 @@ def test_bounds_along_lines_are_those_of_the_rows_and_pairs(among_all):
 
 
 def test_law_that_is_faster_along_a_line_is_named_with_its_share():
-    pairs = table("pairs")
+    pairs = table("pairs", "situations")
     for name, places in unbeaten.follow_lines(DEFAULT, tie=SPOKEN).items():
         for place in places:
             for rival in place.standing.rivals:
@@ -117,12 +117,12 @@ def test_price_is_that_of_the_nominal_and_the_drawn_rows():
 
 
 def test_family_of_the_correction_has_every_finite_comparison_of_the_advised_law():
-    pairs = table("pairs")
+    pairs = table("pairs", "situations")
     advised = {"_".join(f"{value:g}" for value in at): law for at, (law, *_) in map_verdicts().items() if law}
     law = pairs["situation"].map(advised)
     family = pairs[((pairs["law"] == law) | (pairs["other"] == law)) & np.isfinite(pairs["log_ratio"])]
     sign = np.where(family["law"] == law[family.index], 1.0, -1.0)
-    ratio, error = sign * family["log_ratio"], family["error"].clip(lower=1e-12)
+    ratio, error = sign * family["log_ratio"].astype(float), family["error"].astype(float).clip(lower=1e-12)
     p = pd.Series(2.0 * norm.sf((ratio / error).abs())).where(family["error"].notna().to_numpy(), 1.0).sort_values()
     limits = 0.05 / np.arange(len(p), 0, -1)
     kept = p.index[: next((i for i, ok in enumerate(p.to_numpy() <= limits) if not ok), len(p))]

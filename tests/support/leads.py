@@ -13,6 +13,7 @@ import tasks
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
 from bench.findings.selection.robots import VELOCITY
+from bench.law.attribution import IN_WORDS
 from bench.law.contenders.registry import find_contender
 from report.figures.kit.families import word
 from support.advised import is_ours, velocities
@@ -190,7 +191,8 @@ def recompute_advice():
     ours += [percent(free, "all")]
     elsewhere = list_together([f"{word(one)} ({100 * share:.0f} %)" for one, share, _ in others])
     lead = [word(law), *does, f"{100 * advised:.0f} %", *elsewhere, *ours]
-    shown = {"default": word(law), "does": does, "ours": ours, "resets": recompute_resets(law)}
+    attribution = IN_WORDS[find_contender(law).attribution]
+    shown = {"default": word(law), "attribution": attribution, "does": does, "ours": ours, "resets": recompute_resets(law)}
     return shown, {"lead": lead}
 
 

@@ -26,7 +26,7 @@ def map_rows(folder="situations"):
 @functools.cache
 def slower_pairs(notable, folder="situations"):
     """Return the set of (word, slower law, faster law) that differ by more than a share, and not by chance."""
-    pairs, found = table("pairs", folder), set()
+    pairs, found = table("pairs", folder).astype({"log_ratio": float, "low": float, "high": float}), set()
     for row in pairs.itertuples():
         if row.log_ratio > -math.log(1.0 - notable) and row.low > 0.0:
             found.add((row.situation, row.law, row.other))

@@ -18,6 +18,9 @@ from bench.experiments.tables.read import with_contender
 from bench.experiments.tables.statistics import TAIL, quantile, resampled_quantile
 from bench.experiments.tables.store import read
 
+NUMBERS = ("log_ratio", "error", "low", "high")
+"""The columns of pairs.parquet that are numbers of seven digits."""
+
 
 def read_run(folder: Path) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Return the rows of situations.parquet and of pairs.parquet that the starts of a run make."""
@@ -29,8 +32,9 @@ def read_run(folder: Path) -> tuple[pd.DataFrame, pd.DataFrame]:
 def read_all_pairs(folder: Path) -> pd.DataFrame:
     """Return the rows of a map's pairs.parquet."""
     pairs = read(folder, "pairs")
-    words = {column: pairs[column].astype(str) for column in ("situation", "law", "other")}
-    return pairs.assign(**words)
+    # A number of seven digits would be compared with a limit that is rounded to seven digits, too.
+    kinds = dict.fromkeys(("situation", "law", "other"), str) | dict.fromkeys(NUMBERS, float)
+    return pairs.astype(kinds)
 
 
 @functools.cache
@@ -66,8 +70,9 @@ def compare_laws(starts: pd.DataFrame) -> pd.DataFrame:
             for law, rows_of_law in rows.groupby("contender", observed=True)
         }
         found += [{"situation": str(word), **pair} for pair in compare_times(times)]
-    columns = ["situation", "law", "other", "starts", "log_ratio", "error", "low", "high"]
-    return pd.DataFrame(found, columns=columns).astype(dict.fromkeys(columns[4:], np.float32))
+    columns = ["situation", "law", "other", "starts", *NUMBERS]
+    # Rounded as the file keeps them, so that a run decides as its file does.
+    return pd.DataFrame(found, columns=columns).astype(dict.fromkeys(NUMBERS, np.float32))
 
 
 def compare_times(times: dict[str, np.ndarray]) -> list[dict]:

@@ -149,7 +149,7 @@ def describe_lines(law: str, called: Called = str, folder: Path = STUDY) -> str:
         met = f"these laws that meet the requirements are more than {percent(SPOKEN)} faster: {qualified}."
     if everything == qualified:
         return f"{first} {met} No other published or adapted law is faster elsewhere."
-    return f"{first} {met} The fastest of all published and adapted laws, where one is: {everything}."
+    return f"{first} {met} Among all published and adapted laws, the fastest one that is so: {everything}."
 
 
 def list_faster_ours(folder: Path = STUDY) -> list[str]:
