@@ -2,8 +2,8 @@
 
 1. Near the goal every law is the same linear loop (`sampled_loop`). If it is unstable, or slower than the horizon, or
    if the bound is too small for any law to arrive within the horizon, no law is advised, and the limits are said.
-2. The map names laws: what it advises in the nearest situation, what nothing beats in the NEIGHBOURS nearest ones, and
-   the fastest published law that lacks what is required. Outside the map every law is tried.
+2. The map names laws: what it advises in the nearest situation, what nothing beats in the NEIGHBOURS nearest ones,
+   what it advises anywhere, and the fastest law that lacks what is required. Outside the map every law is tried.
 3. They are simulated in the user's situation, all from the same starts. The map's law is advised if it has what is
    required and no other is faster by more than NOTABLE, by a paired bootstrap over the starts; else the simplest of
    those that nothing beats so.
@@ -40,6 +40,7 @@ from bench.findings.selection.regions import (
     Verdict,
     decide_all,
     facts_of,
+    find_regions,
     meets,
     read_map,
     with_words,
@@ -303,7 +304,7 @@ def advise(
         return Advice(wanted, None, near_goal, outside)
     nearest = None if outside else answer(wanted, rule, folder)
     every = tuple(law.name for law in mapped_laws())
-    laws = every if is_whole or nearest is None else shortlist(nearest, rule)
+    laws = every if is_whole or nearest is None else shortlist(nearest, rule, folder)
     preferred = nearest.verdict.law if nearest else None
     trials = trials or Trials(wanted, seed, report)
     law = choose(trials, laws, rule, preferred)
@@ -357,9 +358,14 @@ def ease(advice: Advice, seed: int) -> Eased | None:
     return Eased(factor, Trials(lower, seed).run(advice.law).row)
 
 
-def shortlist(nearest: Answer, rule: Rule) -> tuple[str, ...]:
-    """Return the laws that are tried: the map's, and the fastest other one that lacks what is required there."""
+def shortlist(nearest: Answer, rule: Rule, folder: Path = STUDY) -> tuple[str, ...]:
+    """Return the laws that are tried: the map's, and the fastest other one that lacks what is required there.
+
+    Where many numbers are far from those of the map at once, the nearest situations are not near, and a law that is
+    advised elsewhere may be the best: the few that are advised anywhere are tried, too.
+    """
     laws = list(nearest.laws[:SHORT])
+    laws += [region.law for region in find_regions(folder, rule)]
     rows = nearest.rows.sort_values("time")
     lacking = rows["contender"][~meets(rows, rule)].astype(str)
     laws += [law for law in lacking if may_be_advised(law)][:1]
