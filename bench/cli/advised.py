@@ -159,8 +159,8 @@ def _describe_bound(advice: Advice, kp: float) -> str:
     times = eased["time"] / math.sqrt(lower_kp), here["time"] / math.sqrt(kp)
     return (
         f"With this bound each of the {counted(len(finite), 'law')} that were simulated overshoots by "
-        f"{finite['overshoot'].min():.0f}° or more, and the choice of law matters by {spread:.0%} of the time. Lower kp to "
-        f"about {lower_kp:.3g} 1/s² (kv {lower_kv:.3g} 1/s), or limit the speed: with these gains {advice.law} "
+        f"{finite['overshoot'].min():.0f}° or more, and the choice of law matters by {spread:.0%} of the time. Lower "
+        f"kp to about {lower_kp:.3g} 1/s² (kv {lower_kv:.3g} 1/s), or limit the speed: with these gains {advice.law} "
         f"overshoots by {eased['overshoot']:.0f}° in place of {here['overshoot']:.0f}°, and 99 % of the starts settle "
         f"in {times[0]:.3f} s in place of {times[1]:.3f} s."
     )
