@@ -85,16 +85,13 @@ def rows(settings: Settings, unit: Unit) -> pd.DataFrame:
     """Return a row for each start of a law in a situation: exact 180° rotations, the same with noise, and the drawn."""
     contender, situation = settings.contender(unit.contender), read_situation(unit.selector)
     condition = situation.condition()
-    at_rest = situation._replace(delay=NOMINAL.delay, period=NOMINAL.period, jump=NOMINAL.jump)
-    half_turns = tasks.axis("half-turn-noise").starts(EXACT, settings.seed, 0.0)
-    exact = _run(settings, contender, situation, half_turns, condition)
-    noisy = _run(settings, contender, situation, half_turns, at_rest.condition(NOISE_RAD))
+    exact, noisy = run_half_turns(settings, contender, situation)
     is_stuck = not np.isfinite(exact["time"]).all()
     most = FIRST if is_stuck else MOST
-    drawn = _run(settings, contender, situation, situation.starts(FIRST, settings.seed), condition)
+    drawn = run_starts(settings, contender, situation, situation.starts(FIRST, settings.seed), condition)
     while (count := len(drawn["time"])) < most and not is_precise(drawn["time"]):
         further = situation.starts(2 * count, settings.seed)[count:]
-        more = _run(settings, contender, situation, further, condition)
+        more = run_starts(settings, contender, situation, further, condition)
         drawn = {name: np.concatenate((drawn[name], more[name])) for name in more}
     sets = {"exact": exact, "noisy": noisy, "drawn": drawn}
     frames = [
@@ -163,7 +160,21 @@ def count_typical(one: Contender) -> int:
     return int(whole["flops"] + whole["sin"] + whole["cos"] + whole["acos"] + whole["atan2"])
 
 
-def _run(
+def run_half_turns(
+    settings: Settings, contender: Contender, situation: Situation
+) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    """Return the numbers of exact 180° rotations in a situation, and of the same under worst-case noise at 180°.
+
+    The noise comes without delay at the shortest period.
+    """
+    at_rest = situation._replace(delay=NOMINAL.delay, period=NOMINAL.period, jump=NOMINAL.jump)
+    starts = tasks.axis("half-turn-noise").starts(EXACT, settings.seed, 0.0)
+    exact = run_starts(settings, contender, situation, starts, situation.condition())
+    noisy = run_starts(settings, contender, situation, starts, at_rest.condition(NOISE_RAD))
+    return exact, noisy
+
+
+def run_starts(
     settings: Settings, contender: Contender, situation: Situation, starts: list[Start], condition: Condition
 ) -> dict[str, np.ndarray]:
     """Return the numbers of each start as the columns of settling.parquet have them."""

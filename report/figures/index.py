@@ -29,15 +29,15 @@ def facts(run: Run) -> dict[str, Any]:
         "does": which_law.describe_default(),
         "lines": words.describe_lines(find_default(), families.word),
         "resets": describe_resets(find_default()),
-        "needs": in_run(list_needs, run),
+        "needs": in_run(list_needs),
         "ours": which_law.describe_ours(),
     }
 
 
-def list_needs(run: Run) -> str:
+def list_needs() -> str:
     """Say for each law that is not the default what leads to it."""
     needs: dict[str, list[str]] = {}
-    for one in list_elsewhere(run.folder):
+    for one in list_elsewhere():
         if one.law != find_default():
             needs.setdefault(one.law, []).append(one.words)
     links = {law: families.link(law, families.word(law)).replace('href="../', 'href="', 1) for law in needs}

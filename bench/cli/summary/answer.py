@@ -1,6 +1,5 @@
 """Which law to use, from the map of situations; robots that the map does not cover, and laws compared in the run."""
 
-from bench.cli.options import REFERENCE
 from bench.cli.paragraphs import Paragraph
 from bench.findings.selection import regions
 from bench.findings.selection.needs import Measured
@@ -66,7 +65,7 @@ def _elsewhere(default: str) -> tuple[str, ...]:
     """Return the law for each other region, for robots beside those of the map, and without memory."""
     others = [f"{one.law} ({one.advised:.0%})" for one in regions.find_regions()[1:] if one.advised >= 0.05]
     lines = [f"In other situations: {together(others)}; bench advise says which."] if others else []
-    for one in list_elsewhere(REFERENCE):
+    for one in list_elsewhere():
         tied = f", tied with {together(one.tied)}" if one.tied else ""
         lines.append(f"If {one.words}: {one.law}{tied}.")
     return tuple(lines)

@@ -181,39 +181,6 @@ def decide_all(folder: Path = STUDY, rule: Rule = RULE) -> dict[Situation, Verdi
     }
 
 
-class Answer(NamedTuple):
-    """An answer to a user's situation: the nearest that was run, its verdict and rows, and how sure it is.
-
-    distance: of the scaled numbers; 0: this very situation was run. agree: of the nearest other situations, those in
-    which nothing beats the advised law, and of how many; None of one that was simulated for the user.
-    """
-
-    at: Situation
-    verdict: Verdict
-    rows: pd.DataFrame
-    distance: float
-    agree: tuple[int, int] | None
-
-
-def answer(wanted: Situation, rule: Rule = RULE, folder: Path = STUDY) -> Answer:
-    """Return the verdict on the situation of the map that is nearest to the user's."""
-    verdicts = decide_all(folder, rule)
-    every = list(verdicts)
-    away = np.linalg.norm(_scaled(folder) - np.array(wanted.scaled()), axis=1)
-    nearest = np.argsort(away, kind="stable")
-    at = every[nearest[0]]
-    law = verdicts[at].law
-    beside = [verdicts[every[i]] for i in nearest[1 : NEIGHBOURS + 1]]
-    agree = sum(law in one.unbeaten for one in beside), len(beside)
-    rows = read_map(folder)
-    return Answer(at, verdicts[at], rows[rows["situation"] == at.word], float(away[nearest[0]]), agree)
-
-
-@functools.cache
-def _scaled(folder: Path) -> np.ndarray:
-    return np.array([at.scaled() for at in decide_all(folder)])
-
-
 def is_drawn(at: Situation) -> bool:
     """Tell whether a situation was drawn at random: it differs from the nominal one in several numbers beside zeta."""
     return sum(value != one.nominal for value, one in zip(at[1:], list(COORDINATES.values())[1:], strict=True)) > 1

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from bench.findings.selection import regions
+from bench.findings.selection.advice import answer
 from bench.findings.selection.pairs import compare_with_all
 from bench.findings.selection.regions import RULE, STUDY, Rule, decide_all, find_default, find_regions, read_map
 from bench.findings.selection.unbeaten import SPOKEN, Share, compare_everywhere
@@ -200,7 +201,7 @@ class Agreement(NamedTuple):
 def count_agreeing(folder: Path = STUDY) -> Agreement:
     """Compare the answers of the map with the held-out situations, drawn as the map's are by another seed."""
     verdicts = decide_all(folder / "held-out")
-    answers = {at: regions.answer(at, RULE, folder).verdict.law for at in verdicts}
+    answers = {at: answer(at, RULE, folder).verdict.law for at in verdicts}
     same = sum(answers[at] == verdict.law for at, verdict in verdicts.items())
     default: dict[Situation, str | None] = dict.fromkeys(verdicts, find_default(folder))
     return Agreement(Share(same, len(verdicts)), rate(answers, folder), rate(default, folder))

@@ -75,7 +75,7 @@ def facts(run: Run) -> dict[str, Any]:
             for one in sensitivity.vary()
         ),
         "tuned": TUNED((", ".join(map(_link, laws)), *numbers) for numbers, laws in _tuned().items()),
-        "robots": in_run(lambda: ROBOTS_TABLE(map(describe_robot, list_elsewhere(run.folder)))),
+        "robots": in_run(lambda: ROBOTS_TABLE(map(describe_robot, list_elsewhere()))),
     }
 
 

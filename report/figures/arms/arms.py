@@ -35,7 +35,7 @@ FEW = 4  # names up to this number are said, more are counted; the table has the
 
 def facts(run: Run) -> dict:
     """Return where the arms are from, which law to take, what limits the laws, and what a wrong model leaves."""
-    one = in_run(decide_for, ARM, run.folder)
+    one = in_run(decide_for, ARM)
     return {
         "arms-at-home": media.still(HOMES, "arms"),
         "sources": "\n".join(f"- `{name}`: {prose(tasks.arm(name).source)}" for name in tasks.arm_names()),
