@@ -37,7 +37,7 @@ FREQUENCIES = 4_000
 ANGLES = np.geomspace(1e-3, np.pi, 1_000)
 """Angles of z on the unit circle at which a held loop is looked at; the crossings are interpolated."""
 ITERATIONS = 30
-"""Of the delay of a held loop, at most."""
+"""Greatest number of iterations for the delay of a held loop."""
 
 
 class Hand(NamedTuple):

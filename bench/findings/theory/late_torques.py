@@ -32,7 +32,7 @@ import numpy as np
 from bench.base.bisection import bisect
 
 HALVINGS = 14
-"""Of the interval of Kv T: to 1/4,000 of 4."""
+"""Halvings of the interval of Kv T, whose limit is then known to 4/16,384."""
 STEP = 0.01
 """In Kv T, between the gains at which the first unstable one of a constant delay is looked for."""
 

@@ -52,7 +52,7 @@ from tasks.verdict import first_watch, watched
 STORED = RESULTS / "real-time" / "real_time.parquet"
 LAWS = ("rotation-matrix", "late-braking")
 STARTS = 12
-"""Of an arm and a law, each run with the next of SUBSTEPS."""
+"""Starts for an arm and a law; each runs with the next of SUBSTEPS."""
 HORIZON_S = 2.5
 EDGE_RAD = 1e-9
 EDGE_S = 1.0
