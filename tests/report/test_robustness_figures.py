@@ -1,7 +1,7 @@
 """The pages on robustness, from a small run."""
 
-import re
 import math
+import re
 
 import pytest
 
