@@ -10,7 +10,7 @@ from bench.audit.examined import COUNT_RAD
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.selection.robots import ARM
 from report.figures.kit.families import word
-from support.advised import accelerations, costs, operations, shares_of_time
+from support.advised import accelerations, costs, is_ours, operations, shares_of_time
 from support.tables import table
 
 CARTESIAN, EULER = "hybrid-base", "hybrid/zyx-euler"
@@ -165,7 +165,7 @@ def recompute_new_law():
     rows = rows[np.isinf(rows["bound"]) & (rows[["delay", "unevenness", "spin", "jump"]] == 0.0).all(axis=1)]
     fails = rows.groupby("law")[["lost", "stuck"]].sum().any(axis=1)
     times = (rows["time"] * np.sqrt(rows["peak"])).groupby(rows["law"]).min()[~fails]
-    others = times.drop(LATE)
+    others = times[[not is_ours(law) for law in times.index]]
     as_fast = (others <= times[LATE]).sum()
     assert as_fast == 0  # the sentence names the best of the others then
     said = [99, f"{times[LATE]:.2f}", len(others), f"{others.min():.2f}"]
