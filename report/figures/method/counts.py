@@ -25,7 +25,7 @@ from tasks.situation import NOMINAL
 IN_ENGINE = "in-engine"
 """MuJoCo's actuator: the law of the rotation vector, so chapter 2 does not count it again."""
 
-CONTINUOUS, HELD, SAMPLED = "continuous time", "command held for a period", "sampled, MuJoCo"
+CONTINUOUS, HELD = "continuous time", "command held for a period"
 COUNTS = html.Table("Where | Laws | Which laws | Starts of a law | Time | Lost by the rotation matrix")
 
 
@@ -157,7 +157,7 @@ def count_noise(run: Run) -> Count:
         laws=len(laws),
         which_laws=describe_set(laws, run),
         starts=f"{robustness.starts(rows):,} at each level",
-        time=SAMPLED,
+        time=HELD,
     )
 
 
@@ -201,5 +201,5 @@ def count_perturbed(run: Run) -> Count:
         laws=len(laws),
         which_laws=describe_set(laws, run),
         starts=f"{int(robustness.counted(run, 'delay')['starts'].max()):,} at each level",
-        time=SAMPLED,
+        time=HELD,
     )
