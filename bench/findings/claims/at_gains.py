@@ -136,5 +136,6 @@ def by_gains(study: dict, words: dict[str, str]) -> str:
             f"{id} ({word})" for id, word in one["words"].items() if word != words[id] and id not in stale
         )
         ratio = one["kv"] / (2.0 * math.sqrt(one["kp"]))
-        said.append(f"with a damping ratio of {ratio:g}: {', '.join(changed) or 'none'} of {len(one['words'].keys() - set(stale))}")
+        decided = len(one["words"].keys() - set(stale))
+        said.append(f"with a damping ratio of {ratio:g}: {', '.join(changed) or 'none'} of {decided}")
     return f" Other gains change these verdicts, of those that their runs decide: {'; '.join(said)}." if said else ""

@@ -18,7 +18,7 @@ from bench.findings.claims.standing import ORDERED, Ledger
 from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, interval, settled, settling_times, share, some
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form
-from bench.law.contenders.registry import find_contender
+from bench.law.contenders.registry import all_contenders
 
 LIMIT = read_limits(__file__)
 
@@ -139,7 +139,7 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
     others = [f"{name}, {whose(name)} ({result})" for name, result in tested.items() if not result.passes]
     untimed = [law.name for law in later if not any(law.name in times for times in known.times)]
     counts = Counter(whose(law.name) for law in later)
-    by_others = sum(counts.values()) - counts[OWN]
+    by_others = counts[PUBLISHED] + counts[ADAPTED_HERE]
     word = Word.HOLDS
     if answers:
         word = Word.ANSWERED
@@ -159,13 +159,18 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
     )
 
 
-OWN, ADAPTED_HERE, PUBLISHED = "ours", "adapted", "published"
+OWN, ADAPTED_HERE, PUBLISHED, USERS = "ours", "adapted", "published", "yours"
 """Whose a later law is."""
 
 
 def whose(name: str) -> str:
-    """Return whether a contender's law is ours, adapted here from others' works, or published."""
-    law = find_contender(name).regulator
+    """Return whether a contender's law is published, adapted here from others' works, ours, or a user's own."""
+    known = {one.name: one.regulator for one in all_contenders()}
+    if name not in known:
+        return USERS
+    law = known[name]
+    if attribution := getattr(law, "attribution", ""):
+        return str(attribution)
     if law.is_ours():
         return OWN
     return ADAPTED_HERE if law.source.startswith("after ") else PUBLISHED
