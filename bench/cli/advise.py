@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 import re
-from typing import Any
 
 import rich_click as click
 
+from bench.cli import options
 from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
 from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, frame_table
