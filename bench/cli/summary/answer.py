@@ -3,14 +3,14 @@
 from bench.cli.paragraphs import Paragraph
 from bench.findings.selection import regions
 from bench.findings.selection.needs import Measured
-from bench.findings.selection.reset import describe_resets
 from bench.findings.selection.robots import list_elsewhere
 from bench.findings.selection.sensitivity import vary
+from bench.findings.selection.unbeaten import SPOKEN, find_bounds
 from bench.findings.selection.words import (
     compare,
     cost,
+    describe_bounds,
     describe_law_of_ours,
-    describe_lines,
     describe_price,
     describe_shares,
     list_faster_ours,
@@ -48,8 +48,9 @@ def _default(found: Measured | None, region: regions.Region) -> tuple[str, ...]:
         f"Use the law {region.law} ({_attributed(region.law)}) for a body that turns freely, in simulation. Of {drawn} "
         f"situations drawn at random it is advised in {percent(region.advised)}. "
         f"{describe_shares(region.law)}",
-        describe_lines(region.law),
-        f"{describe_price(region.law)} {describe_resets(region.law)}",
+        f"If one number changes at a time, no law that meets the requirements is more than {percent(SPOKEN)} faster at: "
+        f"{describe_bounds(find_bounds(region.law))}.",
+        describe_price(region.law),
         f"At kp = {PAPERS_GAINS.kp:g} 1/s², kv = {PAPERS_GAINS.kv:g} 1/s 99 % of the starts settle within "
         f"{row['time'] / KP**0.5:.3f} s.{priced} Your own numbers: bench advise --help.",
     )
