@@ -48,8 +48,8 @@ def _default(found: Measured | None, region: regions.Region) -> tuple[str, ...]:
         f"Use the law {region.law} ({_attributed(region.law)}) for a body that turns freely, in simulation. Of {drawn} "
         f"situations drawn at random it is advised in {percent(region.advised)}. "
         f"{describe_shares(region.law)}",
-        f"If one number changes at a time, no law that meets the requirements is more than {percent(SPOKEN)} faster at: "
-        f"{describe_bounds(find_bounds(region.law))}.",
+        f"If one number changes at a time, no law that meets the requirements is more than {percent(SPOKEN)} faster "
+        f"at: {describe_bounds(find_bounds(region.law))}.",
         describe_price(region.law),
         f"At kp = {PAPERS_GAINS.kp:g} 1/s², kv = {PAPERS_GAINS.kv:g} 1/s 99 % of the starts settle within "
         f"{row['time'] / KP**0.5:.3f} s.{priced} Your own numbers: bench advise --help.",
