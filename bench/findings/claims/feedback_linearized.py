@@ -14,7 +14,7 @@ from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.at_gains import on_every_engine
 from bench.findings.claims.probes import EXACT_RAD, at_boundary
 from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, lost_text, settled, settled_of, share, some
-from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
+from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form
 from bench.law.contenders.registry import representation
 from bench.law.inputs import AT_REST, Gains
@@ -39,9 +39,15 @@ def c09(results: Results) -> tuple[Word, Evidence]:
     on_pole, on_wrap = (probes.boundary_distance(near)[place] <= EXACT_RAD for place in ("pole", "wrap"))
     pole, wrap = near[on_pole], near[on_wrap & ~on_pole]
     off = some(near[~on_pole & ~on_wrap], "inexact start of poles and wraps")
-    spun = some(results.spun(CONTENDER), f"random start of {CONTENDER} at a stated speed")
+    spun = results.spun(CONTENDER)
     at_rest = [one.share.high for one in spun if one.speed == 0.0]
-    lost_at_rest = max(some(at_rest, f"random start of {CONTENDER} at rest"))
+    if not at_rest:
+        gains = results.gains()
+        raise NoEvidence(
+            f"random starts of {CONTENDER} from rest with these gains are not tested; map them first: bench map "
+            f"--regulator {CONTENDER} --kp {gains.kp:g} --kv {gains.kv:g} --speed 0 --out results/maps/NAME"
+        )
+    lost_at_rest = max(at_rest)
     goals = results.episodes(LAW, MAIN_ENGINE, "goals")
     goals = some(goals[probes.goal_to_pole(goals) > EXACT_RAD], "goal off the pole")
     long_way = int((goals["path_ratio"] * goals["angle0_rad"] > math.pi).sum())

@@ -65,7 +65,7 @@ def ranked(rows: pd.DataFrame) -> Iterator[tuple]:
         cells = []
         for name, measure in COLUMNS:
             mine = own.loc[(own["controller"] == controller) & (own["start_set"] == name), measure]
-            text = html.MISSING
+            text = html.UNTESTED
             if len(mine):
                 value, low, high = (f"{100 * one:.0f}" for one in share(mine)[2:])
                 text = f"{value} ({low} to {high})".replace(" ", "\N{NO-BREAK SPACE}")

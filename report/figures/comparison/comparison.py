@@ -87,8 +87,8 @@ def compare_laws(run: Run, times: pd.DataFrame, efforts: pd.DataFrame) -> Iterat
             html.number(float(f"{efforts[name].quantile(interpolation='lower'):.3g}")),
             large(own["peak_u"].max()),
             tick(counted, name),
-            f"{int((sure['outcome'] != 'settled').sum())} of {len(sure)}",
-            html.cell(float(held[name][0])) if name in held else html.MISSING,
+            f"{int((sure['outcome'] != 'settled').sum())} of {len(sure)}" if len(sure) else html.UNTESTED,
+            html.cell(float(held[name][0])) if name in held else html.UNTESTED,
         )
 
 
