@@ -7,24 +7,35 @@ A law is called with R = E^T R_d. Where its answer, in normal form, does not men
 goal.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
-from bench.findings.proofs.solver import Solver
-from bench.findings.proofs.theorem import DoesNotFit
+from bench.findings.proofs import dialect
+from bench.findings.proofs.conditions import Condition
+from bench.findings.proofs.reasons import DoesNotFit, LemmaFails
+from bench.findings.proofs.solver import Lemma, Solver, is_below, undecided
 from bench.findings.proofs.trace import Path, Symbols, Traced
 from bench.law.inputs import Gains, Goal
-from bench.law.kinds import ON_MATRIX, Law
+from bench.law.kinds import ACCELERATION, ON_MATRIX, Law
 from bench.law.so3 import Rotation, cross, dot, from_quaternion, rotate, rotate_back
 
 QUATERNION, RATES, GOAL = ("w", "x", "y", "z"), ("omega_x", "omega_y", "omega_z"), ("a", "b", "c", "d")
 
+IS_FINITE = "the command is finite"
+STAYS_PARALLEL = "the memory stays a multiple of q, and is never zero"
+
 
 class Tick(NamedTuple):
-    """A law's answer on one path: u for omega = 0, u, and kept, where its new memory, if it has one, is kept q.
+    """A law's answer on one path and side.
 
-    side: 1 where the law acts on q after the tick, -1 where it acts on -q. known: Z3's conditions of path and side.
-    taken: what a theorem makes of the tick.
+    Attributes:
+        at_rest: The command for omega = 0.
+        u: The command.
+        kept: Where the new memory is kept q; None of a law without memory.
+        path: The path.
+        side: 1 where the law acts on q after the tick, -1 where it acts on -q.
+        known: The conditions of the side, and that the body is not at the goal.
+        taken: What a theorem makes of the tick.
     """
 
     at_rest: tuple
@@ -32,14 +43,15 @@ class Tick(NamedTuple):
     kept: Traced | None
     path: Path
     side: int = 1
-    known: Sequence[Any] = ()
+    known: tuple[Condition, ...] = ()
     taken: Any = None
 
 
 class FreeBody:
     """The symbols of a body and its goal.
 
-    more: symbols of a law's own state. goal_frame: q, rates and answers are in the goal's axes, where R = R_d X.
+    positive: symbols that are above zero, besides the gains. more: symbols of a law's own state. goal_frame: q, rates
+    and answers are in the goal's axes, where R = R_d X. at_180: eta is the number 0.
     """
 
     def __init__(
@@ -48,14 +60,17 @@ class FreeBody:
         more: tuple[str, ...] = (),
         constants: Mapping[float, Any] | None = None,
         goal_frame: bool = False,
+        at_180: bool = False,
     ) -> None:
         names = ("x", "w", "y", "z", *RATES, "kp", "kv", *GOAL, "size", *more)
         self.symbols = Symbols(names, ("kp", "kv", "size", *positive), constants)
         symbol = self.symbols.of
-        self.symbols.relate("x", 1 - symbol["w"] ** 2 - symbol["y"] ** 2 - symbol["z"] ** 2)
+        self.eta = self.symbols.number(0) if at_180 else symbol["w"]
+        self.symbols.relate("x", 1 - self.eta**2 - symbol["y"] ** 2 - symbol["z"] ** 2)
         self.symbols.relate("a", 1 - symbol["b"] ** 2 - symbol["c"] ** 2 - symbol["d"] ** 2)
-        self.q, self.omega = self.symbols[QUATERNION], self.symbols[RATES]
-        self.eta, self.eps, self.gains = self.q[0], self.q[1:], Gains(*self.symbols["kp", "kv"])
+        self.eps, self.omega = self.symbols[QUATERNION[1:]], self.symbols[RATES]
+        self.q = (self.eta, *self.eps)
+        self.gains = Gains(*self.symbols["kp", "kv"])
         self.R_d, E = from_quaternion(self.symbols[GOAL]), from_quaternion(self.q)
         self.goal_frame, self.goal = goal_frame, Goal(self.R_d)
         if goal_frame:
@@ -64,6 +79,7 @@ class FreeBody:
         else:
             self.R = Rotation(*(rotate_back(E, column) for column in self.R_d))
         self.solver = Solver(self.symbols)
+        self.symbols.oracle = self.solver
 
     def command(self, law: Law, rates: tuple, *memory: Any) -> Any:
         """Call a law at this body's orientation, with rates that are given in the frame of q; so is its command."""
@@ -73,32 +89,85 @@ class FreeBody:
             return answer
         return (rotate_back(self.R_d, answer[0]), answer[1]) if memory else rotate_back(self.R_d, answer)
 
-    def ticks(self, law: Law) -> Iterator[Tick]:
-        """Yield what a law on R answers on every path and side on which Z3 finds a state away from the goal.
+    def commands(self, law: Law, *memory: Any) -> Iterator[Path]:
+        """Yield the paths of a law: the answers are those for omega = 0, and for omega.
 
-        A memory is a quaternion on q's side. DoesNotFit: the law acts on coordinates, has a state, or another memory.
+        Errors:
+            DoesNotFit: the law acts on coordinates, has a state, or commands no acceleration of a free body.
+            Untraceable: its source is not of the dialect, or cannot be called with symbols.
         """
-        if law.law is None or law.state is not None or law.coordinates != ON_MATRIX:
-            raise DoesNotFit("it is no law on the rotation matrix without a state")
-        given = () if law.memory is None else (tuple(self.symbols.of["size"] * one for one in self.q),)
+        check_kind(law)
+        dialect.check(law)
         rest = tuple(self.symbols.number(0) for _ in range(3))
 
         def call() -> tuple:
-            return self.command(law, rest, *given), self.command(law, self.omega, *given)
+            return self._checked(self.command(law, rest, *memory)), self._checked(self.command(law, self.omega, *memory))
 
-        is_turned = self.solver.of["w"] * self.solver.of["w"] < 1
-        for path in self.symbols.paths(call):
+        yield from self.symbols.paths(call)
+
+    def _checked(self, answer: Any) -> Any:
+        """Return a law's answer with numbers as values; what is no number is refused."""
+        if isinstance(answer, tuple) and len(answer) == 2:
+            return self._numbers(answer[0], 3), self._numbers(answer[1], 4)
+        return self._numbers(answer, 3)
+
+    def _numbers(self, values: Any, count: int) -> tuple:
+        if not isinstance(values, tuple) or len(values) != count:
+            raise DoesNotFit(f"its source does not return {count} numbers")
+        return tuple(self.symbols.number(value) for value in values)
+
+    def ticks(self, law: Law) -> Iterator[Tick]:
+        """Yield what a law on R answers on every path and side on which there may be a state away from the goal.
+
+        A memory is a multiple of q, which `memory` proves.
+
+        Errors:
+            LemmaFails: a memory does not stay a multiple of q.
+        """
+        memory = () if law.memory is None else (tuple(self.symbols.of["size"] * part for part in self.q),)
+        is_turned = Condition((self.eta**2 - 1).value.numer, "<")
+        for path in self.commands(law, *memory):
             still, moving = path.answer
-            known = [*self.solver.condition(path), is_turned]
             if law.memory is None:
-                ends = [Tick(still, moving, None, path, 1, known)]
+                sides = [(1, None, (is_turned,))]
+                u_at_rest, u = still, moving
             else:
-                kept = moving[1][0] / self.eta
-                if any(one != kept * other for one, other in zip(moving[1], self.q, strict=True)):
-                    raise DoesNotFit("its memory is not the quaternion of the turn")
-                sides = ((side, [*known, self.solver.is_below(-side * kept)]) for side in (1, -1))
-                ends = [Tick(still[0], moving[0], kept, path, *end) for end in sides]
-            yield from (one for one in ends if self.solver.find(*one.known)[0] != "unsat")
+                kept = self.find_multiple(path, moving[1], STAYS_PARALLEL)
+                sides = [(side, kept, (is_turned, is_below(-side * kept))) for side in (1, -1)]
+                u_at_rest, u = still[0], moving[0]
+            for side, kept, known in sides:
+                if self.solver.find(path, *known).answer != "unsat":
+                    yield Tick(u_at_rest, u, kept, path, side, known)
+
+    def find_multiple(self, path: Path, memory: tuple, statement: str) -> Traced:
+        """Return k of a memory k q, which is zero at no state on a path.
+
+        Errors:
+            LemmaFails: the memory is no multiple of q, or may be zero.
+        """
+        kept = dot(memory[1:], self.eps) + memory[0] * self.eta
+        for part, other in zip(memory, self.q, strict=True):
+            self._never(path, Condition((part - kept * other).value.numer, "!="), statement)
+        self._never(path, Condition(kept.value.numer, "="), statement)
+        return kept
+
+    def _never(self, path: Path, fault: Condition, statement: str) -> None:
+        """Raise LemmaFails unless no state on a path has a fault."""
+        if fault.answer() is False:
+            return
+        finding = self.solver.find(path, fault)
+        if finding.answer != "unsat":
+            note = undecided(finding.answer, finding.seconds)
+            raise LemmaFails([Lemma(statement, False, "Z3", finding.seconds, finding.state, note, True)])
+
+    def finite(self, statement: str = IS_FINITE) -> Lemma:
+        """Return the lemma that every root, division and arc tangent of all commands so far is defined."""
+        doubts, seconds = self.symbols.doubts, self.symbols.question_s
+        if not doubts:
+            return Lemma(statement, True, "Z3", seconds)
+        doubt = next((doubt for doubt in doubts if doubt.state), doubts[0])
+        note = doubt.words if doubt.state else f"{doubt.words}: {undecided('unknown', doubt.seconds)}"
+        return Lemma(statement, False, "Z3", seconds, doubt.state, note, True)
 
     def derive(self, value: Traced, u: tuple, more: Mapping[str, Traced] | None = None) -> Traced:
         """Return the derivative of a function of q and omega (and of `more`, by their derivatives) along the motion."""
@@ -114,5 +183,23 @@ class FreeBody:
         return sum(terms, self.symbols.number(0))
 
     def mentions(self, value: Traced, *names: str) -> bool:
-        """Tell whether a value depends on any of these symbols."""
-        return any(self.symbols.derivative(value, name) != 0 for name in names)
+        """Tell whether a value depends on any of these symbols, through a root or an angle too."""
+        meanings = self.symbols.path.meanings
+        waiting = {str(symbol) for symbol in value.value.as_expr().free_symbols}
+        mentioned: set[str] = set()
+        while waiting:
+            name = waiting.pop()
+            mentioned.add(name)
+            if name in meanings:
+                waiting |= {str(symbol) for symbol in meanings[name].free_symbols} - mentioned
+        return bool(mentioned & set(names))
+
+
+def check_kind(law: Law) -> None:
+    """Refuse a law of which no theorem on a free body speaks."""
+    if law.law is None or law.state is not None or law.coordinates != ON_MATRIX:
+        raise DoesNotFit("it is no law on the rotation matrix without a state")
+    if law.level != ACCELERATION:
+        raise DoesNotFit(f"it commands a {law.level}, and the theorems are about an acceleration")
+    if law.origin and law.in_engine:
+        raise DoesNotFit("its command is computed by the engine, not by its source")

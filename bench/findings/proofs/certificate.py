@@ -4,6 +4,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from bench.base.errors import BadLaw
 from bench.base.files import read_json
 from bench.experiments.tables.schema import RESULTS
 from bench.law.contenders.law_file import load_law
@@ -12,86 +13,174 @@ from bench.law.contenders.registry import contenders, contenders_of
 from bench.law.kinds import Law
 
 STORED = RESULTS / "proofs" / "proofs.json"
-LIMIT_S, WAITS_S = 240.0, 600.0
-"""Seconds of processor time for one law, several times what the slowest takes, and on the wall."""
+LEMMA_S, LAW_S = 30.0, 150.0
+"""Seconds on the wall for one question to Z3; of processor time for one law, of which the slowest of ours takes 20."""
+HARD_S = 1200.0
+"""Seconds of processor time after which the system ends a process that does not look at its clock."""
+WAITS = 8
+"""How many times the time for one law it may take on the wall, where other programs run."""
+PROVED, REFUTED, NOT_PROVED = "proved", "refuted", "not proved"
+SCOPE = "in continuous time, with the exact state, no bound of the command, no delay, and the inertia as modelled"
+"""What a property is about, wherever it is said to be proved."""
 WITH_TIME = "spring-and-damper"
 """The theorem whose V bounds the time after the last crossing of the band."""
 
 
 def list_laws() -> list[Law]:
     """Return the laws whose files call them global or almost global: regulators, laws with a state, baselines."""
-    every = [law for kind in ("regulators", "compensators", "baselines") for law in contenders(kind).values()]
-    return [law for law in every if law.property.startswith(("almost global", "global"))]
+    kinds = ("regulators", "compensators", "baselines")
+    laws = [law for kind in kinds for law in contenders(kind).values()]
+    return [law for law in laws if law.property.startswith(("almost global", "global"))]
 
 
 def read_certificates() -> dict[str, dict[str, Any]]:
     """Return what results/proofs keeps: law -> its certificate."""
-    return {one["law"]: one for one in read_json(STORED)["laws"]} if STORED.is_file() else {}
+    if not STORED.is_file():
+        return {}
+    return {certificate["law"]: certificate for certificate in read_json(STORED)["laws"]}
 
 
-def certify_apart(law: Law) -> dict[str, Any]:
-    """Return the certificate of a law, made in a process of its own; BadLaw: it ends that, or does not return."""
-    asked = {"name": law.name, "text": law.text, "origin": law.origin}
-    return next(ask(__name__, asked, WAITS_S, law.origin or law.name))
+def certify_apart(law: Law, lemma_s: float = LEMMA_S, law_s: float = LAW_S) -> dict[str, Any]:
+    """Return the certificate of a law, made in a process of its own, which says why it ended if it did.
+
+    lemma_s, law_s: seconds for one question to Z3, and for the law.
+    """
+    request = {"name": law.name, "text": law.text, "origin": law.origin, "lemma_s": lemma_s, "law_s": law_s}
+    try:
+        return next(ask(__name__, request, WAITS * law_s, law.origin or law.name))
+    except BadLaw as error:
+        return without_proof(law, str(error))
+
+
+def without_proof(law: Law, why: str) -> dict[str, Any]:
+    """Return the certificate of a law of which nothing is proved."""
+    empty: dict[str, Any] = {"theorem": None, "stands": "", "lemmas": [], "V": "", "equilibria": ""}
+    empty |= {"rate": None, "delta": None, "drop": None, "cited": [], "seconds": 0.0}
+    verdict = {"is_proved": False, "verdict": NOT_PROVED, "why": why, "scope": SCOPE}
+    return {"law": law.name, "declared": law.property, **verdict, **empty, "settling": {}, "counterexample": None}
 
 
 def certify(law: Law) -> dict[str, Any]:
     """Return what is proved of a law, as JSON has it.
 
-    is_proved: whether all lemmas hold and prove the property that its file declares. settling: bounds of the settling
-    time from rest, or why there are none. counterexample: a state where the first false lemma is false, and how an
-    episode from there ends.
+    verdict, why: "proved"; "refuted", by a state where a lemma is false and from which an episode fails; or "not
+    proved". scope: what the property is about. cited: what no program checks. settling: bounds of the settling time
+    from rest, or why there are none. counterexample: a state where the first false lemma is false, and how an episode
+    from there ends.
     """
-    from bench.findings.proofs import settling_time
-    from bench.findings.proofs.theorem import DoesNotFit, prove
+    from bench.findings.proofs.theorem import attempt
 
-    proof, settling = prove(law), {}
+    result = attempt(law)
+    proof = result.proof
     if proof is None:
-        return {"law": law.name, "declared": law.property, "is_proved": False, "theorem": None}
-    if proof.is_proved() and proof.theorem == WITH_TIME:
-        try:
-            settling = settling_time.bound(law)._asdict()
-        except DoesNotFit as reason:
-            settling = {"reason": str(reason)}
-    false = next((one for one in proof.lemmas if one.counterexample), None)
+        return without_proof(law, say_why_none(result))
+    false = next((lemma for lemma in proof.lemmas if lemma.counterexample), None)
+    counterexample = replay(law, false) if false else None
+    is_proved = proof.is_proved() and not result.late and proof.stands == law.property
+    verdict, why = PROVED, ""
+    if not is_proved:
+        verdict, why = judge(law, result, counterexample)
     return {
         "law": law.name,
         "declared": law.property,
         **proof._asdict(),
-        "lemmas": [one._asdict() for one in proof.lemmas],
-        "is_proved": proof.is_proved() and proof.stands == law.property,
-        "settling": settling,
-        "counterexample": replay(law, false.counterexample) if false and false.counterexample else None,
+        "cited": list(proof.cited),
+        "lemmas": [lemma._asdict() for lemma in proof.lemmas],
+        "is_proved": is_proved,
+        "verdict": verdict,
+        "why": why,
+        "scope": SCOPE,
+        "settling": bound_settling(law, proof) if is_proved else {},
+        "counterexample": counterexample,
     }
 
 
-def replay(law: Law, state: dict[str, float]) -> dict[str, Any]:
-    """Return a state, and how an episode of the law ends that begins there."""
+def say_why_none(result: Any) -> str:
+    """Return why a law has no proof at all, in words: each theorem's reason once."""
+    if result.late:
+        return f"the time for one law was over (--law-limit) while it decided: {result.late}"
+    return "; ".join(dict.fromkeys(result.reasons.values())) or "no theorem fits"
+
+
+def judge(law: Law, result: Any, counterexample: dict[str, Any] | None) -> tuple[str, str]:
+    """Return the verdict on a law that is not proved, and why."""
+    proof = result.proof
+    failed = next((lemma for lemma in proof.lemmas if not lemma.is_proved), None)
+    if failed is None and result.late:
+        return NOT_PROVED, f"the time for one law was over (--law-limit) while it decided: {result.late}"
+    if failed is None:
+        return NOT_PROVED, f"its file declares '{law.property}', and what is proved is '{proof.stands}'"
+    why = f"{failed.statement}: {failed.note}" if failed.note else f"{failed.statement}: false"
+    if counterexample and counterexample["outcome"] not in ("settled", NOT_RUN):
+        return REFUTED, why
+    return NOT_PROVED, f"{why}, after {failed.seconds:.0f} s"
+
+
+def bound_settling(law: Law, proof: Any) -> dict[str, Any]:
+    """Return bounds of the settling time of a law that is proved, or why there are none."""
+    from bench.findings.proofs import settling_time
+    from bench.findings.proofs.reasons import DoesNotFit, TimeIsUp
+
+    if proof.theorem != WITH_TIME:
+        return {}
+    try:
+        return settling_time.bound(law)._asdict()
+    except DoesNotFit as reason:
+        return {"reason": str(reason)}
+    except TimeIsUp:
+        return {"reason": "the time for one law was over (--law-limit)"}
+
+
+NOT_RUN = "not run"
+"""The outcome where no episode is run: the state's gains are not the paper's."""
+
+
+def replay(law: Law, lemma: Any) -> dict[str, Any]:
+    """Return the state of a false lemma, and how an episode of the law ends that begins there at the paper's gains."""
     from bench.engines.episode import FIRST_METRIC, OUTCOME, Settings
     from bench.engines.metrics.registry import metrics_of
     from bench.engines.simulate import CONTINUOUS, run
+    from bench.findings.proofs.memory import FIRST_TICK, STARTS
     from bench.law.inputs import PAPERS_GAINS
     from tasks.base import Start
     from tasks.rules import RULES, ticks
     from tasks.verdict import OUTCOMES
 
+    state = lemma.counterexample
     w, x, y, z = (state[name] for name in ("w", "x", "y", "z"))
     omega = state["omega_x"], state["omega_y"], state["omega_z"]
-    begun = law if law.memory is None else law._replace(memory=(w, x, y, z))
+    start = Start("counterexample", (w, -x, -y, -z), omega)
+    described = {"quat_wxyz": start.quat_wxyz, "omega": omega, "kp": state["kp"], "kv": state["kv"]}
+    if (state["kp"], state["kv"]) != tuple(PAPERS_GAINS):
+        return described | {"outcome": NOT_RUN, "path_ratio": None}
+    begins_as_declared = law.memory is None or lemma.statement in (STARTS, FIRST_TICK)
+    begun = law if begins_as_declared else law._replace(memory=(w, x, y, z))
     dt_s, metrics = 1e-3, metrics_of(on_arm=False)
     settings = Settings(PAPERS_GAINS, dt_s, ticks(5.0, dt_s), RULES.hold_ticks(dt_s))
-    start = Start("counterexample", (w, -x, -y, -z), omega)
     row = run(CONTINUOUS, contenders_of(begun)[0], "free-body", [start], settings, metrics)[0]
-    measured = {one.column: float(value) for one, value in zip(metrics, row[FIRST_METRIC:], strict=False)}
-    kept = {"quat_wxyz": start.quat_wxyz, "omega": omega, "outcome": OUTCOMES[int(row[OUTCOME])]}
-    return kept | {"path_ratio": measured["path_ratio"]}
+    measured = {metric.column: float(value) for metric, value in zip(metrics, row[FIRST_METRIC:], strict=False)}
+    outcome = {"outcome": OUTCOMES[int(row[OUTCOME])], "path_ratio": measured["path_ratio"]}
+    return described | outcome
 
 
-def certify_asked(asked: dict, path: Path | None) -> dict[str, Any]:
-    """Return the certificate of the law that is named, or whose text is given."""
-    ours = {one.name: one for one in list_laws()} | contenders("regulators")
-    return certify(load_law(path, asked["text"].encode()) if path else ours[asked["name"]])
+def certify_asked(request: dict, path: Path | None) -> dict[str, Any]:
+    """Return the certificate of the law that is named, or whose text is given; it says so if its file is at fault."""
+    from bench.findings.proofs.reasons import LIMITS, DoesNotFit, TimeIsUp, describe_error
+
+    LIMITS.begin(request["lemma_s"], request["law_s"])
+    if path:
+        law = load_law(path, request["text"].encode())
+    else:
+        law = ({law.name: law for law in list_laws()} | contenders("regulators"))[request["name"]]
+    try:
+        return certify(law)
+    except TimeIsUp:
+        return without_proof(law, f"the time for one law was over (--law-limit {request['law_s']:g})")
+    except DoesNotFit as reason:
+        return without_proof(law, str(reason))
+    except Exception as error:
+        return without_proof(law, describe_error(error))
 
 
 if __name__ == "__main__":
-    answer(int(sys.argv[1]), LIMIT_S, certify_asked)
+    answer(int(sys.argv[1]), HARD_S, certify_asked)

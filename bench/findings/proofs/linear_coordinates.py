@@ -7,17 +7,21 @@ eta <= -delta. There |x| and |x'| = (1 + |sigma|^2) |omega|/4 are smaller on the
 Source: Paielli & Bach 1993; Schaub, Akella, Junkins 2001.
 """
 
-from bench.findings.proofs.body import FreeBody, Tick
+from bench.findings.proofs.body import IS_FINITE, FreeBody, Tick
+from bench.findings.proofs.memory import prove_start
 from bench.findings.proofs.question import Question
 from bench.findings.proofs.solver import by_algebra
-from bench.findings.proofs.theorem import DoesNotFit, Proof, Theorem
-from bench.findings.proofs.trace import Traced
+from bench.findings.proofs.theorem import FINITE_JUMPS, DoesNotFit, Proof, Theorem
+from bench.findings.proofs.trace import Traced, is_zero
 from bench.law.kinds import Law
 from bench.law.so3 import dot
+
+FINITE_BELOW_180 = "the command is finite below 180°, where it is not defined"
 
 
 def prove(law: Law) -> Proof:
     """Prove that eps or sigma is linear, and where a body stays."""
+    start = prove_start(law)
     has_memory = law.memory is not None
     body = FreeBody(positive=() if has_memory else ("w",))
     (kp, kv), omega = body.gains, body.omega
@@ -31,7 +35,7 @@ def prove(law: Law) -> Proof:
         found = set()
         for side in (1, -1) if has_memory else (1,):
             pairs = zip(coordinate(side), rates[side], strict=True)
-            if all(body.derive(rate, tick.u) + kv * rate + kp * one == 0 for one, rate in pairs):
+            if all(is_zero(body.derive(rate, tick.u) + kv * rate + kp * one) for one, rate in pairs):
                 found.add(side)
         if not found:
             raise DoesNotFit("neither eps nor sigma obeys a linear equation")
@@ -41,13 +45,14 @@ def prove(law: Law) -> Proof:
     x = r"\sigma" if has_memory else r"\epsilon"
     V = rf"V = \tfrac12|\dot x|^2 + \tfrac12 K_p |x|^2, \quad x = {x}"
     lemmas = [by_algebra("x'' + Kv x' + Kp x = 0", all(one.side in one.taken for one in ask.ticks))]
+    lemmas += [*start, body.finite(IS_FINITE if has_memory else FINITE_BELOW_180)]
     if not has_memory:
-        return Proof(THEOREM.name, "almost global from rest", lemmas, V, "not defined at 180°", 1.0)
+        return Proof(THEOREM.name, "almost global from rest", lemmas, V, "not defined at 180°", 1.0, cited=("that V falls is by reading",))
     size = dot(rates[1], rates[1]) - dot(omega, omega) / (4 * (1 + body.eta) ** 2)
     delta = float(ask.delta)
     drop = 0.5 * ((1 + delta) / (1 - delta) - (1 - delta) / (1 + delta))
     lemmas += [by_algebra("|x'| = |omega|/(2 (1 + eta))", size), *ask.changes_of_side()]
-    return Proof(THEOREM.name, "global with memory", lemmas, V, "none", 1.0, delta, drop)
+    return Proof(THEOREM.name, "global with memory", lemmas, V, "none", 1.0, delta, drop, ("that V falls is by reading", FINITE_JUMPS))
 
 
 THEOREM = Theorem("linear-coordinates", "Coordinates that obey a linear equation", prove, order=2)

@@ -15,10 +15,12 @@ import sympy as sp
 
 from bench.findings.proofs.body import FreeBody
 from bench.findings.proofs.solver import by_algebra
-from bench.findings.proofs.theorem import DoesNotFit, Proof, Theorem
+from bench.findings.proofs.theorem import LASALLE, MEASURE_ZERO, DoesNotFit, Proof, Theorem
 from bench.findings.proofs.trace import Traced
 from bench.law.kinds import Law
 from bench.law.so3 import dot
+
+CITED = (LASALLE, MEASURE_ZERO)
 
 
 def find_quadratic(body: FreeBody, slope: Traced) -> sp.Matrix:
@@ -46,13 +48,15 @@ def prove(law: Law) -> Proof:
     if law.memory is not None:
         raise DoesNotFit("it has a memory")
     body = FreeBody(goal_frame=True)
-    tick, *others = body.ticks(law)
-    if others:
-        raise DoesNotFit("its command has branches")
+    ticks = list(body.ticks(law))
+    if len(ticks) != 1:
+        raise DoesNotFit("its command has branches, or answers at no state")
+    tick = ticks[0]
     kp, kv = body.gains
     M = find_quadratic(body, -dot(body.omega, tick.at_rest) / kp)
     entries = [Fraction(int(one.p), int(one.q)) for one in M.diagonal()]
     lemmas = [
+        body.finite(),
         by_algebra("U' = -u . omega/Kp at rest, U = q^T M q", True),  # or find_quadratic would have refused it
         by_algebra("u - u at rest = -Kv omega", [tick.u[i] - tick.at_rest[i] + kv * body.omega[i] for i in range(3)]),
         by_algebra("M is diagonal with four different entries", M.is_diagonal() and len(set(entries)) == 4),
@@ -60,7 +64,7 @@ def prove(law: Law) -> Proof:
     ]
     listed = ", ".join(f"{float(one):g}" for one in entries)
     V = rf"V = K_p\, q^\top M q + \tfrac12|\omega|^2, \quad M = \operatorname{{diag}}({listed})"
-    return Proof(THEOREM.name, "almost global", lemmas, V, "180° rotations about n_d, o_d and a_d", 1.0)
+    return Proof(THEOREM.name, "almost global", lemmas, V, "180° rotations about n_d, o_d and a_d", 1.0, cited=CITED)
 
 
 THEOREM = Theorem(

@@ -8,7 +8,10 @@ from typing import Any
 from z3 import Real, substitute
 
 from bench.findings.proofs.body import FreeBody, Tick
-from bench.findings.proofs.solver import Lemma, by_algebra
+from bench.findings.proofs.conditions import CLOSED, Condition
+from bench.findings.proofs.reasons import LIMITS
+from bench.findings.proofs.solver import Lemma, ask, by_algebra, undecided
+from bench.findings.proofs.trace import are_same
 from bench.law.kinds import Law
 
 
@@ -16,47 +19,115 @@ class Question:
     """The ticks of a law, and what a theorem makes of each: take(body, tick), made once of those with equal answers."""
 
     def __init__(self, body: FreeBody, law: Law, take: Callable[[FreeBody, Tick], Any]) -> None:
-        self.body, self.has_memory, self.ticks = body, law.memory is not None, list[Tick]()
-        self.eta = body.solver.of["w"]
+        self.body, self.has_memory = body, law.memory is not None
+        self.ticks: list[Tick] = []
         for tick in body.ticks(law):
-            mine = tick.u, tick.at_rest, tick.path.meanings
-            same = (one.taken for one in self.ticks if (one.u, one.at_rest, one.path.meanings) == mine)
-            self.ticks.append(tick._replace(taken=next(same, None) or take(body, tick)))
+            taken = self._taken_before(tick)
+            if taken is None:
+                body.symbols.path = tick.path
+                taken = take(body, tick)
+            self.ticks.append(tick._replace(taken=taken))
 
-    def never(self, statement: str, fault: Callable[[Tick], Any], sides: tuple[int, ...] = (1, -1)) -> Lemma:
-        """Return the lemma that no tick on some sides has a state with a fault, Z3's condition."""
+    def _taken_before(self, tick: Tick) -> Any:
+        """Return what was made of a tick with the same answers; None if there is none."""
+        for known in self.ticks:
+            if (
+                known.path.meanings == tick.path.meanings
+                and are_same(known.u, tick.u)
+                and are_same(known.at_rest, tick.at_rest)
+            ):
+                return known.taken
+        return None
+
+    def never(
+        self,
+        statement: str,
+        faults: Callable[[Tick], list[Condition]],
+        sides: tuple[int, ...] = (1, -1),
+        to_the_edge: bool = False,
+    ) -> Lemma:
+        """Return the lemma that no tick on some sides has a state with one of its faults.
+
+        to_the_edge: states at the edge of a path count, too, where its command may differ: a limit is a fault.
+        """
+        if statement:
+            LIMITS.asked = statement
+        lemma = self._decide(statement, faults, sides, to_the_edge)
+        if statement:
+            LIMITS.lemmas.append(lemma)
+        return lemma
+
+    def _decide(
+        self,
+        statement: str,
+        faults: Callable[[Tick], list[Condition]],
+        sides: tuple[int, ...],
+        to_the_edge: bool,
+    ) -> Lemma:
         seconds = 0.0
         for tick in self.ticks:
-            if tick.side in sides:
-                self.body.symbols.path = tick.path
-                answer, state, lasted = self.body.solver.find(*tick.known, fault(tick))
-                seconds += lasted
-                if answer != "unsat":
-                    return Lemma(statement, False, "Z3", seconds, state)
+            if tick.side not in sides:
+                continue
+            self.body.symbols.path = tick.path
+            path = _with_edge(tick) if to_the_edge else tick.path
+            for possible in faults(tick):
+                fault = Condition(self.body.symbols.without_positive(possible.polynomial), possible.relation)
+                if fault.answer() is False:
+                    continue
+                finding = self.body.solver.find(path, *tick.known, fault)
+                seconds += finding.seconds
+                if finding.answer != "unsat":
+                    note = undecided(finding.answer, finding.seconds)
+                    return Lemma(statement, False, "Z3", seconds, finding.state, note)
         return Lemma(statement, True, "Z3", seconds)
 
     def meets(self, one: Tick, other: Tick) -> bool:
         """Tell whether two paths may have states of the same eta."""
-        apart = [(symbol, Real(f"{name}'")) for name, symbol in self.body.solver.of.items() if name != "w"]
-        known = [substitute(condition, *apart) for condition in other.known]
-        return self.body.solver.find(*one.known, *known)[0] != "unsat"
+        solver = self.body.solver
+        apart = [(symbol, Real(f"{name}'")) for name, symbol in solver.of.items() if name != "w"]
+        formulas = solver.formulas(one.path, *one.known)
+        others = [substitute(formula, *apart) for formula in solver.formulas(other.path, *other.known)]
+        return ask(*formulas, *others)[0] != "unsat"
+
+    def eta_below(self, end: float) -> Condition:
+        """Return the condition eta < end."""
+        return Condition((self.body.eta - self.body.symbols.number(end)).value.numer, "<")
 
     @functools.cached_property
     def delta(self) -> Fraction:
         """The least delta, to 0.001, with no side kept at eta < -delta; 1 if a side is kept everywhere."""
-        return find_least(lambda end: self.never("", lambda _: self.eta < -float(end), (1,)).is_proved, 1000)
+
+        def is_never_kept(end: Fraction) -> bool:
+            return self.never("", lambda _: [self.eta_below(-float(end))], (1,)).is_proved
+
+        return find_least(is_never_kept, 1000)
 
     def changes_of_side(self) -> list[Lemma]:
         """Return the lemmas on where a side is kept and where it changes; none of a law without memory."""
         if not self.has_memory:
             return []
-        is_kept = by_algebra("delta > 0", self.delta > 0)
         kept, changed = 0.0 - float(min(self.delta, Fraction(99, 100))), 0.0 - float(self.delta)
+        is_kept = by_algebra("delta > 0", self.delta > 0)
+        above = Condition(self.eta_below(changed).polynomial, ">")
         return [
             is_kept,
-            self.never(f"a side is kept at eta >= {kept:g} alone", lambda _: self.eta < kept, (1,)),
-            self.never(f"a side changes at eta <= {changed:g} alone", lambda _: self.eta > changed, (-1,)),
+            self.never(f"a side is kept at eta >= {kept:g} alone", lambda _: [self.eta_below(kept)], (1,)),
+            self.never(f"a side changes at eta <= {changed:g} alone", lambda _: [above], (-1,)),
         ]
+
+
+def _with_edge(tick: Tick) -> Any:
+    """Return a tick's path with its edge: what excludes the edge is left out."""
+    decisions = [
+        Condition(condition.polynomial, CLOSED[condition.relation])
+        for condition in tick.path.decisions
+        if condition.relation in CLOSED
+    ]
+    path = type(tick.path)(tick.path.script)
+    path.decisions = decisions
+    path.relations, path.meanings = tick.path.relations, tick.path.meanings
+    path.definitions, path.angles = tick.path.definitions, tick.path.angles
+    return path
 
 
 def find_least(holds: Callable[[Fraction], bool], steps: int) -> Fraction:

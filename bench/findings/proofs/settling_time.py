@@ -26,10 +26,11 @@ from typing import Any, NamedTuple
 import sympy as sp
 from flint import arb
 
+from bench.findings.proofs.conditions import Condition
 from bench.findings.proofs.flow import Equation, Unenclosed, enclose, turned_by
 from bench.findings.proofs.solver import Solver
 from bench.findings.proofs.theorem import DoesNotFit
-from bench.findings.proofs.trace import Symbols, Traced
+from bench.findings.proofs.trace import Angle, Symbols, Traced, is_same, is_zero
 from bench.law.inputs import PAPERS_GAINS, Gains, Goal
 from bench.law.kinds import Law
 from bench.law.so3 import IDENTITY, Rotation, from_quaternion
@@ -52,24 +53,26 @@ def trace_on_axis(law: Law, gains: Gains) -> Any:
     symbols = Symbols(("w", "z", "rate", "half"), ("w", "z", "rate", "half"))
     z, w, rate = symbols["z", "w", "rate"]
     symbols.relate("w", 1 - z**2)
-    symbols.angles[z, w] = symbols.of["half"]
+    symbols.angles.append(Angle(z, w, symbols.of["half"]))
     zero = symbols.number(0)
     R = from_quaternion((w, zero, zero, -z))
     one = tuple(tuple(symbols.number(part) for part in column) for column in IDENTITY)
     memory = () if law.memory is None else (tuple(symbols.number(part) for part in law.memory),)
     solver, found = Solver(symbols), list[Traced]()
+    below_1 = Condition((w - 1).value.numer, "<")
     kp_kv: Any = map(symbols.number, gains)
     given = (R, (zero, zero, rate), Goal(Rotation(*one)), Gains(*kp_kv), *memory)
     evaluate: Any = law.law
     for path in symbols.paths(lambda: evaluate(*given)):
-        if solver.find(*solver.condition(path), solver.of["w"] < 1)[0] == "unsat":
+        if solver.find(path, below_1).answer == "unsat":
             continue
         u = path.answer[0] if memory else path.answer
-        if u[0] != 0 or u[1] != 0:
+        u = tuple(map(symbols.number, u))
+        if not (is_zero(u[0]) and is_zero(u[1])):
             raise DoesNotFit("it does not keep the axis of the turn")
         if path.meanings:
             raise DoesNotFit("its command has a root that does not vanish on the axis")
-        if any(u[2] != other for other in found):
+        if not all(is_same(u[2], other) for other in found):
             raise DoesNotFit("its command has a corner between 0 and 180°")
         found.append(u[2])
     p = sp.Symbol("p", positive=True)

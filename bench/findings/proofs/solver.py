@@ -1,33 +1,64 @@
 """Inequalities of polynomials, decided by Z3: a claim holds where what contradicts it has no solution."""
 
 import time
+from collections.abc import Iterable
 from fractions import Fraction
 from typing import Any, NamedTuple
 
 import z3
 from sympy.polys.rings import PolyElement
 
-from bench.findings.proofs.trace import Path, Symbols, Traced
+from bench.findings.proofs import sampling
+from bench.findings.proofs.conditions import Condition
+from bench.findings.proofs.reasons import LIMITS
+from bench.findings.proofs.trace import Path, Symbols, Traced, is_zero
 from bench.law.inputs import PAPERS_GAINS
 
-PATIENCE_S = 60
-"""After which Z3 gives up on one inequality."""
+FIRST_TRY_S = 3.0
+"""How long Z3 is asked before states are drawn. Nearly every question is answered in less than 0.1 s."""
+CONFIRMING_S = 2.0
+"""How long Z3 may take to confirm a state that was drawn, all its numbers but one fixed."""
 
 
 class Lemma(NamedTuple):
-    """One statement. counterexample: symbol -> number, where it is false; None where it is proved, or not decided."""
+    """One statement of a proof.
+
+    Attributes:
+        statement: What is said.
+        is_proved: Whether it is proved.
+        by: "Z3", "algebra" or "drawn states" (with which it can be refuted alone).
+        seconds: How long that took.
+        counterexample: Symbol -> number, where it is false; None where it is proved, or not decided.
+        note: Why it is not proved, where no state says so.
+        is_basic: Whether every theorem needs it.
+    """
 
     statement: str
     is_proved: bool
     by: str
     seconds: float
     counterexample: dict[str, float] | None = None
+    note: str = ""
+    is_basic: bool = False
 
 
-def ask(*conditions: Any) -> tuple[str, Any, float]:
-    """Return Z3's answer to some conditions, a model if it has one, and its seconds."""
+class Finding(NamedTuple):
+    """What was found on some conditions: "unsat", "sat" with a state, or "unknown"."""
+
+    answer: str
+    state: dict[str, float] | None
+    seconds: float
+
+
+def ask(*conditions: Any, limit_s: float | None = None) -> tuple[str, Any, float]:
+    """Return Z3's answer to some conditions, a model if it has one, and its seconds.
+
+    Errors:
+        TimeIsUp: the time for the law is over.
+    """
+    limit_s = min(LIMITS.question_s if limit_s is None else limit_s, LIMITS.left_s())
     solver, began = z3.Solver(), time.perf_counter()
-    solver.set("timeout", 1000 * PATIENCE_S)
+    solver.set("timeout", max(1, round(1000 * limit_s)))
     solver.add(*conditions)
     answer = solver.check()
     return str(answer), solver.model() if answer == z3.sat else None, time.perf_counter() - began
@@ -36,13 +67,25 @@ def ask(*conditions: Any) -> tuple[str, Any, float]:
 def decide(statement: str, known: list[Any], fault: Any) -> Lemma:
     """Return the lemma that no numbers for which something is known have a fault."""
     answer, _, seconds = ask(*known, fault)
-    return Lemma(statement, answer == "unsat", "Z3", seconds)
+    return Lemma(statement, answer == "unsat", "Z3", seconds, note=undecided(answer, seconds))
+
+
+def undecided(answer: str, seconds: float) -> str:
+    """Return the note on a question that was not decided; nothing of one that was."""
+    return f"Z3 did not decide it in {seconds:.0f} s (--lemma-limit)" if answer == "unknown" else ""
 
 
 def by_algebra(statement: str, holds: Any) -> Lemma:
     """Return a lemma on exact numbers: that something holds, or that expressions are zero in normal form."""
     parts = holds if isinstance(holds, tuple | list) else (holds,)
-    return Lemma(statement, all(part is True or (part is not False and part == 0) for part in parts), "algebra", 0.0)
+    is_proved = all(map(_holds, parts))
+    return Lemma(statement, is_proved, "algebra", 0.0, note="" if is_proved else "it does not hold")
+
+
+def _holds(part: Any) -> bool:
+    if isinstance(part, bool):
+        return part
+    return is_zero(part) if isinstance(part, Traced) else bool(part == 0)
 
 
 class Solver:
@@ -50,53 +93,136 @@ class Solver:
 
     def __init__(self, symbols: Symbols) -> None:
         self.symbols = symbols
-        self.of = {str(one): z3.Real(str(one)) for one in symbols.field.gens}
-        self.given: list[Any] = [self.of[str(one)] > 0 for one in symbols.positive]
+        self.of = {str(generator): z3.Real(str(generator)) for generator in symbols.field.gens}
+        self.names = list(self.of)
+        self.given: list[Any] = [self.of[str(symbol)] > 0 for symbol in symbols.positive]
+        self._terms: dict[PolyElement, Any] = {}
 
     def term(self, polynomial: PolyElement) -> Any:
         """Return a polynomial as Z3 has it."""
-        names = [str(one) for one in self.symbols.field.gens]
+        if polynomial not in self._terms:
+            self._terms[polynomial] = self._make_term(polynomial)
+        return self._terms[polynomial]
+
+    def _make_term(self, polynomial: PolyElement) -> Any:
         terms = []
         for powers, coefficient in polynomial.terms():
-            factors = [self.of[name] for name, power in zip(names, powers, strict=True) for _ in range(power)]
             ratio = Fraction(int(coefficient.numerator), int(coefficient.denominator))
-            terms.append(z3.Product(z3.RealVal(str(ratio)), *factors))
+            factors = [z3.RealVal(str(ratio))]
+            for name, power in zip(self.names, powers, strict=True):
+                factors += [self.of[name]] * power
+            terms.append(z3.Product(*factors))
         return z3.Sum(terms) if terms else z3.RealVal(0)
+
+    def formula(self, condition: Condition) -> Any:
+        """Return a condition as Z3 has it."""
+        term = self.term(condition.polynomial)
+        formulas = {
+            "<": term < 0,
+            "<=": term <= 0,
+            ">": term > 0,
+            ">=": term >= 0,
+            "=": term == 0,
+            "!=": term != 0,
+        }
+        return formulas[condition.relation]
 
     def sign(self, value: Traced) -> Any:
         """Return a term that has the sign of a value."""
-        return self.term(value.value.numer * value.value.denom)
+        return self.term(sign_of(value))
 
     def is_below(self, value: Traced, strictly: bool = True) -> Any:
         """Return Z3's condition that a value is below zero, or at most zero."""
         return self.sign(value) < 0 if strictly else self.sign(value) <= 0
 
-    def is_zero(self, *polynomials: PolyElement) -> Any:
-        """Return Z3's condition that one of some polynomials is zero."""
-        return z3.Or(*(self.term(one) == 0 for one in polynomials))
-
-    def condition(self, path: Path) -> list[Any]:
-        """Return what a path knows, the relations of its symbols, and that atan2(y, x) has the sign of y."""
-        known = [self.term(one) == 0 for one in [*self.symbols.relations, *path.relations]]
-        known += [self.term(one) < 0 if is_negative else self.term(one) >= 0 for one, is_negative in path.decisions]
-        for (y, _), angle in path.angles.items():
-            known += [z3.Implies(self.sign(one * y) > 0, self.sign(one * angle) > 0) for one in (1, -1)]
-        return known
-
-    def find(self, *contradictions: Any) -> tuple[str, dict[str, float] | None, float]:
-        """Return ("unsat", None, s), ("sat", a solution, s) or ("unknown", None, s)."""
-        answer, model, seconds = ask(*self.given, *contradictions)
-        if model is not None:  # one with the paper's gains, if there is one
-            papers = [
-                self.of[name] == z3.RealVal(value) for name, value in PAPERS_GAINS._asdict().items() if name in self.of
+    def facts(self, path: Path) -> list[Any]:
+        """Return what Z3 knows on every path: the relations of the symbols, and what an arc tangent's sign is."""
+        facts = [self.term(relation) == 0 for relation in path.relations]
+        for angle in path.angles:
+            y, x, symbol = self.sign(angle.y), self.sign(angle.x), self.sign(angle.symbol)
+            facts += [
+                z3.Implies(y > 0, symbol > 0),
+                z3.Implies(y < 0, symbol < 0),
+                z3.Implies(z3.And(y == 0, x > 0), symbol == 0),
+                # a little more than pi
+                symbol * 1000 < 3142,
+                symbol * 1000 > -3142,
             ]
-            model = ask(*self.given, *contradictions, *papers)[1] or model
-            return (
-                answer,
-                {name: _number(model.eval(one, model_completion=True)) for name, one in self.of.items()},
-                seconds,
-            )
-        return answer, None, seconds
+        return facts
+
+    def formulas(self, path: Path, *conditions: Condition) -> list[Any]:
+        """Return all that Z3 is told of a path and some conditions."""
+        mentioned = [*path.decisions, *conditions]
+        polynomials = [condition.polynomial for condition in mentioned] + path.relations
+        polynomials += [sign_of(value) for angle in path.angles for value in (angle.y, angle.x)]
+        relations = [relation for relation in self.symbols.relations if _shares(relation, polynomials)]
+        formulas = [self.term(relation) == 0 for relation in relations]
+        formulas += [self.formula(condition) for condition in mentioned]
+        return [*self.given, *formulas, *self.facts(path)]
+
+    def find(self, path: Path, *conditions: Condition, limit_s: float | None = None) -> Finding:
+        """Find a state on a path that meets conditions: first Z3 is asked, then states are drawn, then Z3 again.
+
+        limit_s: seconds for Z3; then nothing is drawn.
+        """
+        formulas = self.formulas(path, *conditions)
+        first_s = FIRST_TRY_S if limit_s is None else limit_s
+        answer, model, seconds = ask(*formulas, limit_s=first_s)
+        if answer == "sat":
+            return Finding(answer, self._with_papers_gains(formulas, model), seconds)
+        if answer == "unsat" or limit_s is not None:
+            return Finding(answer, None, seconds)
+        began = time.perf_counter()
+        for state in sampling.search(self.symbols, path, conditions):
+            confirmed = self._confirm(formulas, state)
+            if confirmed:
+                return Finding("sat", confirmed, seconds + time.perf_counter() - began)
+        answer, model, more = ask(*formulas)
+        seconds = time.perf_counter() - began + seconds
+        return Finding(answer, self._state(model) if model is not None else None, seconds)
+
+    def _with_papers_gains(self, formulas: list[Any], model: Any) -> dict[str, float]:
+        """Return a state of a model, one with the paper's gains if there is one."""
+        gains = PAPERS_GAINS._asdict().items()
+        papers = [self.of[name] == z3.RealVal(value) for name, value in gains if name in self.of]
+        better = ask(*formulas, *papers, limit_s=FIRST_TRY_S)[1] if papers else None
+        return self._state(better or model)
+
+    def _confirm(self, formulas: list[Any], state: dict[str, float]) -> dict[str, float] | None:
+        """Return a drawn state as Z3 confirms it, one number of each unit quaternion left to Z3; None: it does not."""
+        fixed = []
+        for name, value in state.items():
+            if name in sampling.LEFT_OPEN:
+                fixed.append(self.of[name] >= 0 if value >= 0 else self.of[name] <= 0)
+            else:
+                exact = Fraction(value).limit_denominator(10**12)
+                fixed.append(self.of[name] == z3.RealVal(str(exact)))
+        model = ask(*formulas, *fixed, limit_s=CONFIRMING_S)[1]
+        return self._state(model) if model is not None else None
+
+    def _state(self, model: Any) -> dict[str, float]:
+        return {name: _number(model.eval(symbol, model_completion=True)) for name, symbol in self.of.items()}
+
+
+def sign_of(value: Traced) -> PolyElement:
+    """Return a polynomial that has the sign of a value."""
+    return value.value.numer * value.value.denom
+
+
+def is_below(value: Traced, strictly: bool = True) -> Condition:
+    """Return the condition that a value is below zero, or at most zero."""
+    return Condition(sign_of(value), "<" if strictly else "<=")
+
+
+def _shares(relation: PolyElement, polynomials: Iterable[PolyElement]) -> bool:
+    """Tell whether a relation has a symbol of some polynomials: one that has none constrains none of them."""
+    mentioned = _places(relation)
+    return any(mentioned & _places(polynomial) for polynomial in polynomials)
+
+
+def _places(polynomial: PolyElement) -> set[int]:
+    """Return the places of the symbols that a polynomial has."""
+    return {place for powers in polynomial.monoms() for place, power in enumerate(powers) if power}
 
 
 def _number(value: Any) -> float:

@@ -12,7 +12,10 @@ the body never comes there.
 
 A law with memory stores the sign of the quaternion, so eta may be negative. It changes the sign only if eta <=
 -delta. Each change takes at least 2 times the integral of f from -delta to delta from V/Kp. So there are finitely
-many. The memory is the quaternion of now: time is continuous.
+many. The memory is a multiple of the quaternion of now (`memory`): time is continuous.
+
+Where the damping is bounded by no constant, it must be above zero at the edges of paths too: a damper that vanishes
+towards a rate lets a body turn at this rate for ever.
 
 f, a, b, g and delta are what the law's own source gives. Source of the argument: Koditschek 1989; Mayhew, Sanfelice,
 Teel 2011.
@@ -25,16 +28,20 @@ from typing import Any, NamedTuple
 
 import sympy as sp
 
-from bench.findings.proofs.body import GOAL, QUATERNION, RATES, FreeBody, Tick
+from bench.findings.proofs.body import GOAL, IS_FINITE, QUATERNION, RATES, FreeBody, Tick
+from bench.findings.proofs.conditions import Condition
+from bench.findings.proofs.memory import prove_start
 from bench.findings.proofs.question import Question, find_least
-from bench.findings.proofs.solver import Lemma, by_algebra
-from bench.findings.proofs.theorem import DoesNotFit, Proof, Theorem
-from bench.findings.proofs.trace import Traced
+from bench.findings.proofs.solver import Lemma, by_algebra, is_below
+from bench.findings.proofs.theorem import FINITE_JUMPS, LASALLE, MEASURE_ZERO, DoesNotFit, Proof, Theorem
+from bench.findings.proofs.trace import Traced, is_same
 from bench.law.kinds import Law
 from bench.law.so3 import IDENTITY, cross, dot
 
 ETA = sp.Symbol("w")
 FORM = "u = Kp f(eta) eps - a omega + b (eps . omega) eps + g eps x omega"
+NOT_DEFINED = "not defined at 180°"
+FINITE_AT_180 = "the command is finite at 180°"
 
 
 class Command(NamedTuple):
@@ -56,88 +63,157 @@ def take_apart(body: FreeBody, tick: Tick) -> Command:
     b = (dot(eps, damping) / across + a) / square
     g = dot(turned, damping) / (rates * square - across**2)
     for i in range(3):
-        if tick.u[i] != kp * f * eps[i] - a * omega[i] + b * across * eps[i] + g * turned[i]:
+        if not is_same(tick.u[i], kp * f * eps[i] - a * omega[i] + b * across * eps[i] + g * turned[i]):
             raise DoesNotFit(f"its command is not of the form {FORM}")
-    if any(body.mentions(one, *QUATERNION[1:], *GOAL) for one in (f, a, b)) or body.mentions(f, *RATES):
+    if any(body.mentions(value, *QUATERNION[1:], *GOAL) for value in (f, a, b)) or body.mentions(f, *RATES):
         raise DoesNotFit(f"f, a or b of {FORM} depend on the axis or on the goal")
     return Command(f, a, b)
 
 
-def is_damped_less(body: FreeBody, one: Command, c: Fraction, is_along: bool) -> Any:
-    """Return the condition that the damping along or across eps is below c Kv; at most zero where c is zero."""
-    damping = one.a - (1 - body.eta**2) * one.b if is_along else one.a
-    return body.solver.is_below(damping - body.symbols.number(c) * body.gains.kv, c != 0)
+def is_damped_less(body: FreeBody, command: Command, c: Fraction, is_along: bool) -> list[Condition]:
+    """Return the faults of a damping: along or across eps it is below c Kv; not above zero where c is zero."""
+    damping = command.a - (1 - body.eta**2) * command.b if is_along else command.a
+    undefined = [Condition(value.value.denom, "=") for value in (command.a, command.b)]
+    return [is_below(damping - body.symbols.number(c) * body.gains.kv, strictly=c != 0), *undefined]
+
+
+def damping_lemma(body: FreeBody, ask: Question, statement: str, c: Fraction, is_along: bool) -> Lemma:
+    """Return the lemma that the damping along or across eps is at least c Kv, or above zero where c is zero."""
+
+    def faults(tick: Tick) -> list[Condition]:
+        return is_damped_less(body, tick.taken, c, is_along)
+
+    return ask.never(statement, faults, to_the_edge=c == 0)
 
 
 def find_rate(body: FreeBody, ask: Question) -> Fraction:
     """Return the greatest c, to 0.01, with V' <= -c Kv |omega|^2."""
 
     def is_held(lost: Fraction) -> bool:
-        ways = (lambda one, along=along: is_damped_less(body, one.taken, 1 - lost, along) for along in (False, True))
-        return all(ask.never("", way).is_proved for way in ways)
+        return all(damping_lemma(body, ask, "", 1 - lost, is_along).is_proved for is_along in (False, True))
 
     return 1 - find_least(is_held, 100)
 
 
 def prove(law: Law) -> Proof:
     """Prove descent, equilibria and changes of side of a law of this form."""
-    body = FreeBody(positive=() if law.memory is not None else ("w",))
+    start = prove_start(law)
+    has_memory = law.memory is not None
+    body = FreeBody(positive=() if has_memory else ("w",))
     ask = Question(body, law, take_apart)
+    if not ask.ticks:
+        raise DoesNotFit("its source answers at no state")
+    lemmas = [by_algebra(FORM, True), *start, finite_lemma(body, ask)]  # or take_apart would have refused it
+    if not lemmas[-1].is_proved:
+        return Proof(THEOREM.name, "", lemmas, "")
+    lemmas.append(ask.never("f > 0 but at the goal", lambda tick: [is_below(tick.side * tick.taken.f, strictly=False)]))
+    springs = collect_springs(ask)
+    lemmas.append(by_algebra("f is one function of eta", is_one_function(ask, has_memory)))
+    equilibria = "none"
+    if not has_memory and all(lemma.is_proved for lemma in lemmas):
+        equilibria, at_180 = look_at_180(law, springs)
+        lemmas += at_180
     c = find_rate(body, ask)
     least = f">= {float(c):g} Kv" if c else "> 0"
-    springs = {one.taken.f.value.as_expr().subs(one.path.meanings): one for one in ask.ticks if one.side > 0}
-    if any(str(name) not in ("w", "kp", "kv") for one in springs for name in one.free_symbols):
-        raise DoesNotFit("f depends on more than eta")
-    lemmas = [
-        by_algebra(FORM, True),  # or take_apart would have refused it
-        ask.never("the command is finite", lambda one: body.solver.is_zero(*(part.value.denom for part in one.u))),
-        ask.never("f > 0 but at the goal", lambda one: body.solver.is_below(one.side * one.taken.f, strictly=False)),
-        turn(ask.never(f"a {least}", lambda one: is_damped_less(body, one.taken, c, False)), False),
-        turn(ask.never(f"a - (1 - eta^2) b {least}", lambda one: is_damped_less(body, one.taken, c, True)), True),
-        by_algebra("f is one function of eta", is_one_function(ask, law.memory is not None)),
-    ]
-    delta, drop, equilibria = None, None, "none"
-    if law.memory is not None:
-        delta = float(ask.delta)
-        drop = float(2 * sp.Integral(min(springs, key=str), (ETA, -ask.delta, ask.delta)).evalf())
-    else:
-        equilibria, lemma = look_at_180(set(springs))
-        lemmas.append(lemma)
-    f = ", ".join(sorted(sp.latex(sp.simplify(one.subs(ETA, sp.Symbol("eta")))) for one in springs))
+    lemmas.append(turn(damping_lemma(body, ask, f"a {least}", c, False), False))
+    lemmas.append(turn(damping_lemma(body, ask, f"a - (1 - eta^2) b {least}", c, True), True))
+    lemmas += ask.changes_of_side()
+    f = ", ".join(sorted(sp.latex(sp.simplify(spring.subs(ETA, sp.Symbol("eta")))) for spring in springs))
     V = rf"V = K_p U + \tfrac12|\omega|^2, \quad \mathrm dU/\mathrm d\eta = -2 f, \quad f = {f}"
-    stands = "almost global" if law.memory is None else "global with memory"
-    return Proof(THEOREM.name, stands, [*lemmas, *ask.changes_of_side()], V, equilibria, float(c), delta, drop)
+    if has_memory:
+        delta, drop = float(ask.delta), find_drop(springs, ask.delta)
+        cited = (LASALLE, FINITE_JUMPS)
+        return Proof(THEOREM.name, "global with memory", lemmas, V, "none", float(c), delta, drop, cited)
+    cited = (LASALLE, MEASURE_ZERO)
+    return Proof(THEOREM.name, "almost global", lemmas, V, equilibria, float(c), cited=cited)
+
+
+def finite_lemma(body: FreeBody, ask: Question) -> Lemma:
+    """Return the lemma that the command is finite: what it computes, and what is left of it in normal form."""
+    finite = body.finite(IS_FINITE)
+    if not finite.is_proved:
+        return finite
+    left = ask.never(IS_FINITE, lambda tick: [Condition(part.value.denom, "=") for part in tick.u])
+    return left._replace(seconds=left.seconds + finite.seconds)
+
+
+def collect_springs(ask: Question) -> list[Any]:
+    """Return f of every path on which a side is kept, as functions of eta and the gains."""
+    springs = []
+    for tick in ask.ticks:
+        spring = expand_spring(tick)
+        if tick.side > 0 and spring not in springs:
+            springs.append(spring)
+    if any(str(symbol) not in ("w", "kp", "kv") for spring in springs for symbol in spring.free_symbols):
+        raise DoesNotFit("f depends on more than eta")
+    if not springs:
+        raise DoesNotFit("it keeps its side at no state")
+    return springs
+
+
+def expand_spring(tick: Tick) -> Any:
+    """Return f of a path without the path's own symbols."""
+    return tick.taken.f.value.as_expr().subs(tick.path.meanings)
+
+
+def find_drop(springs: list[Any], delta: Fraction) -> float | None:
+    """Return what a change of side takes from V, over Kp; None: f is more than one function."""
+    if len(springs) > 1:
+        return None
+    drop = 2 * sp.Integral(springs[0], (ETA, -delta, delta)).evalf()
+    return float(drop) if drop.is_Float else None
 
 
 def is_one_function(ask: Question, is_smooth: bool) -> bool:
     """Tell whether f is the same wherever eta is; of a law with memory, on every path."""
-    of = [(one.taken.f.value.as_expr().subs(one.path.meanings), one) for one in ask.ticks if one.side > 0]
-    pairs = itertools.combinations(of, 2)
-    return not any(f != g and (is_smooth or ask.meets(one, other)) for (f, one), (g, other) in pairs)
+    kept = [(expand_spring(tick), tick) for tick in ask.ticks if tick.side > 0]
+    for (f, tick), (g, other) in itertools.combinations(kept, 2):
+        if f != g and (is_smooth or ask.meets(tick, other)):
+            return False
+    return True
 
 
-def look_at_180(springs: set[Any]) -> tuple[str, Lemma]:
-    """Return what a law without memory does at 180°, and the lemma that it leaves, or never comes there."""
-    for f in springs:
-        if f.subs(ETA, 0) == 0:
-            return "every 180° rotation", by_algebra("df/deta > 0 at 180°", bool(sp.diff(f, ETA).subs(ETA, 0) > 0))
-        if f.subs(ETA, 0) == sp.zoo:
-            return "not defined at 180°", by_algebra(
-                "U has no bound at 180°", sp.limit(ETA * f, ETA, 0, "+").is_positive
-            )
-    least = min(f.subs(ETA, 0) for f in springs)
-    return "none, but the command jumps at 180°", by_algebra("f > 0 at 180°", bool(least > 0))
+def look_at_180(law: Law, springs: list[Any]) -> tuple[str, list[Lemma]]:
+    """Return what a law without memory does at 180°, and the lemmas that it leaves, or never comes there.
+
+    The function f of every path is looked at, for each may be the one near 180°.
+    """
+    at_180 = [spring.subs(ETA, 0) for spring in springs]
+    if all(value == 0 for value in at_180):
+        slopes = [sp.diff(spring, ETA).subs(ETA, 0) for spring in springs]
+        leaves = by_algebra("df/deta > 0 at 180°", all(map(is_positive, slopes)))
+        return "every 180° rotation", [leaves, finite_at_180(law)]
+    if all(value == sp.zoo for value in at_180):
+        limits = [sp.limit(ETA * spring, ETA, 0, "+") for spring in springs]
+        return NOT_DEFINED, [by_algebra("U has no bound at 180°, where f is not defined", all(map(is_positive, limits)))]
+    leaves = by_algebra("f > 0 at 180°", all(map(is_positive, at_180)))
+    return "none, but the command jumps at 180°", [leaves, finite_at_180(law)]
+
+
+def is_positive(value: Any) -> bool:
+    """Tell whether an expression of positive gains is above zero; not if sympy cannot tell."""
+    gains = {symbol: sp.Symbol(str(symbol), positive=True) for symbol in value.free_symbols}
+    return value.subs(gains).is_positive is True
+
+
+def finite_at_180(law: Law) -> Lemma:
+    """Return the lemma that the command of a law without memory is finite where eta is zero: a body turns through it."""
+    body = FreeBody(at_180=True)
+    for _ in body.commands(law):
+        pass
+    return body.finite(FINITE_AT_180)
 
 
 def turn(lemma: Lemma, is_along: bool) -> Lemma:
-    """Let the body of a counterexample turn along eps or across it, by 5 rad/s."""
-    if lemma.counterexample is None:
+    """Let the body of a counterexample turn along eps or across it, by 5 rad/s, if it is at rest."""
+    state = lemma.counterexample
+    if state is None or any(abs(state[name]) > 1e-9 for name in RATES):
         return lemma
-    eps = [lemma.counterexample[name] for name in QUATERNION[1:]]
+    eps = [state[name] for name in QUATERNION[1:]]
     direction = eps if is_along else cross(eps, min(IDENTITY, key=lambda axis: abs(dot(axis, eps))))
     size = math.sqrt(dot(direction, direction))
-    omega = {name: 5.0 * one / size for name, one in zip(RATES, direction, strict=True)}
-    return lemma._replace(counterexample=lemma.counterexample | omega)
+    omega = {name: 5.0 * part / size for name, part in zip(RATES, direction, strict=True)}
+    return lemma._replace(counterexample=state | omega)
 
 
 THEOREM = Theorem("spring-and-damper", "A spring along the axis of the turn, and a damper", prove)

@@ -4,23 +4,36 @@ import importlib
 import pkgutil
 import time
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from bench.findings import proofs
+from bench.findings.proofs.reasons import LIMITS, DoesNotFit, LemmaFails, TimeIsUp
 from bench.findings.proofs.solver import Lemma
 from bench.law.kinds import Law
 
-
-class DoesNotFit(Exception):
-    """A law that is not of a theorem's form; the reason is its text."""
+LASALLE = "that the body then comes to rest where V' stays zero is LaSalle's invariance principle"
+MEASURE_ZERO = (
+    "that few starts end at an unstable point of rest, a set of measure zero, is the stable manifold theorem"
+)
+FINITE_JUMPS = "that V falls by a constant at each change of side, so that the changes are finitely many, is by reading"
+"""Parts of a proof that no program checks, in the words of a certificate."""
 
 
 class Proof(NamedTuple):
     """What a theorem says of one law.
 
-    stands: the property that its lemmas prove if all hold, as a law's file writes it. V: the function that falls, in
-    TeX. equilibria: away from the goal. rate: the greatest c, to 0.01, of V' <= -c Kv |omega|^2; None if V falls
-    otherwise. delta: -eta where a side that is kept ends; drop: what a change of side takes from V, over Kp.
+    Attributes:
+        theorem: Name of the theorem.
+        stands: The property that its lemmas prove if all hold, as a law's file writes it.
+        lemmas: What a program proved, or did not.
+        V: The function that falls, in TeX.
+        equilibria: Away from the goal.
+        rate: The greatest c, to 0.01, of V' <= -c Kv |omega|^2; None if V falls otherwise.
+        delta: -eta where a side that is kept ends.
+        drop: What a change of side takes from V, over Kp.
+        cited: What is cited, and not checked.
+        seconds: How long the proof took.
     """
 
     theorem: str
@@ -31,17 +44,24 @@ class Proof(NamedTuple):
     rate: float | None = None
     delta: float | None = None
     drop: float | None = None
+    cited: tuple[str, ...] = (LASALLE,)
     seconds: float = 0.0
 
     def is_proved(self) -> bool:
         """Whether every lemma holds."""
-        return all(one.is_proved for one in self.lemmas)
+        return bool(self.lemmas) and all(lemma.is_proved for lemma in self.lemmas)
+
+
+    def is_decided(self) -> bool:
+        """Whether a lemma is false that every theorem needs: the command is finite, the memory is what it is said."""
+        return any(lemma.counterexample and lemma.is_basic for lemma in self.lemmas)
 
 
 class Theorem(NamedTuple):
     """prove(law) -> Proof; raises DoesNotFit.
 
-    laws: for which it is made, by name; empty if it fits by form. order: in which those are tried, the cheap first.
+    laws: for which of ours it is made, by name; empty if it fits by form. order: in which those are tried, the cheap
+    first.
     """
 
     name: str
@@ -51,27 +71,61 @@ class Theorem(NamedTuple):
     order: int = 0
 
 
+@dataclass
+class Attempt:
+    """What came of the theorems that were tried on a law.
+
+    Attributes:
+        proof: The best proof; None if no theorem fits.
+        reasons: Theorem -> why it does not fit.
+        late: What was being proved when the time for the law was over; empty if it was not.
+    """
+
+    proof: Proof | None = None
+    reasons: dict[str, str] = field(default_factory=dict)
+    late: str = ""
+
+
 def list_theorems() -> list[Theorem]:
     """Return the THEOREM of every file beside this one that has one."""
-    modules = (
-        importlib.import_module(f"{proofs.__name__}.{one.name}") for one in pkgutil.iter_modules(proofs.__path__)
-    )
-    found = [module.THEOREM for module in modules if hasattr(module, "THEOREM")]
-    return sorted(found, key=lambda one: one.order)
+    names = [module.name for module in pkgutil.iter_modules(proofs.__path__)]
+    modules = [importlib.import_module(f"{proofs.__name__}.{name}") for name in names]
+    theorems = [module.THEOREM for module in modules if hasattr(module, "THEOREM")]
+    return sorted(theorems, key=lambda theorem: theorem.order)
+
+
+def theorems_for(law: Law) -> list[Theorem]:
+    """Return the theorems to be tried on a law: those that are made for it, if it is ours, else those by form."""
+    named = [theorem for theorem in list_theorems() if law.name in theorem.laws and not law.origin]
+    return named or [theorem for theorem in list_theorems() if not theorem.laws]
+
+
+def attempt(law: Law) -> Attempt:
+    """Try theorems on a law until one is proved: the one made for it, or those that it fits."""
+    result = Attempt()
+    for theorem in theorems_for(law):
+        began = time.perf_counter()
+        LIMITS.lemmas, LIMITS.asked = [], f"the source, traced for the theorem '{theorem.title}'"
+        try:
+            proof = theorem.prove(law)
+        except LemmaFails as failure:
+            proof = Proof(theorem.name, "", failure.lemmas, "")
+        except DoesNotFit as reason:
+            result.reasons[theorem.name] = str(reason)
+            continue
+        except TimeIsUp:
+            result.late = LIMITS.asked
+            if result.proof is None and LIMITS.lemmas:
+                result.proof = Proof(theorem.name, "", list(LIMITS.lemmas), "")
+            return result
+        proof = proof._replace(seconds=time.perf_counter() - began)
+        if proof.is_proved() or result.proof is None:
+            result.proof = proof
+        if proof.is_proved() or proof.is_decided():
+            break
+    return result
 
 
 def prove(law: Law) -> Proof | None:
     """Prove what a theorem says of a law: the one made for it, or the first that holds of those that it fits."""
-    first = None
-    named = [one for one in list_theorems() if law.name in one.laws]
-    for theorem in named or [one for one in list_theorems() if not one.laws]:
-        began = time.perf_counter()
-        try:
-            proof = theorem.prove(law)
-        except DoesNotFit:
-            continue
-        proof = proof._replace(seconds=time.perf_counter() - began)
-        if proof.is_proved():
-            return proof
-        first = first or proof
-    return first
+    return attempt(law).proof

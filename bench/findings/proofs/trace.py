@@ -2,49 +2,113 @@
 
 A value is a quotient of polynomials with rational coefficients, in normal form by relations g^2 = polynomial of its
 symbols (|q| = 1, say). Decimal constants are taken as they are written: 0.8 is 4/5. A square root that is no
-polynomial, an arc tangent, a cosine and a sine become symbols. A comparison is a decision: a path has a list of them.
+polynomial, an arc tangent, a cosine and a sine become symbols.
+
+Every comparison, `==` and the truth of a number among them, is a decision: a path has a list of them, and both ways are
+followed. Before a division, a root, an inverse cosine and an arc tangent the solver is asked whether a state on the
+path makes it undefined, and before anything is cancelled: x/x is a fault where x may be 0. Such a state is a `Doubt`;
+the path then goes on without it.
 """
 
 import math
 import operator
+import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any, NamedTuple
+from pathlib import Path as File
+from typing import Any, NamedTuple, Protocol
 
+import numpy as np
 import sympy as sp
 from sympy.polys.domains import QQ
 from sympy.polys.fields import FracField
 from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyElement
 
+from bench.findings.proofs.conditions import Condition, find_answer
+from bench.findings.proofs.reasons import LIMITS, TimeIsUp, Untraceable, describe_error, is_of_a_law
+
 ROOTS = tuple(f"root{i}" for i in range(4))
-ANGLES, COSINES, SINES = (tuple(f"{word}{i}" for i in range(2)) for word in ("angle", "cosine", "sine"))
+ANGLES = tuple(f"angle{i}" for i in range(2))
+COSINES = tuple(f"cosine{i}" for i in range(2))
+SINES = tuple(f"sine{i}" for i in range(2))
+
+MOST_PATHS = 3000
+"""Paths of one law that are followed: the shipped laws have up to 100."""
+PRUNING_S = 2.0
+"""Seconds in which Z3 may show that a branch is never taken; later than that, it is followed."""
 
 
-class Decision(NamedTuple):
-    """What a path knows: a polynomial is below zero, or it is not."""
+class PathEnds(Exception):
+    """No state is on this path, or its next operation is defined at none."""
 
-    polynomial: PolyElement
-    is_negative: bool
+
+class Oracle(Protocol):
+    """Who answers whether conditions have a solution: `bench.findings.proofs.solver.Solver`."""
+
+    def find(self, path: "Path", *conditions: Condition, limit_s: float | None = None) -> Any:
+        """Return a finding with `answer` ("unsat", "sat", "unknown"), `state` and `seconds`."""
+
+
+class Doubt(NamedTuple):
+    """An operation that is not shown to be defined.
+
+    words: what may be undefined, and in which line. state: where it is undefined; None if Z3 did not decide.
+    """
+
+    words: str
+    state: dict[str, float] | None
+    seconds: float
+
+
+class Angle(NamedTuple):
+    """An arc tangent atan2(y, x) that became a symbol."""
+
+    y: "Traced"
+    x: "Traced"
+    symbol: "Traced"
+
+
+class Definition(NamedTuple):
+    """How a symbol that a path introduced is computed: "root", "angle", "cosine" or "sine" of some values."""
+
+    name: str
+    kind: str
+    of: tuple["Traced", ...]
 
 
 @dataclass
 class Path:
     """One way through a function's branches: what it answered, and under which conditions.
 
-    script, taken: the decisions it had to begin with, and all that were made. relations: polynomials that are zero.
-    meanings: what the symbols of roots and angles stand for. angles: (y, x) -> atan2(y, x). turns: angles of cosines.
+    Attributes:
+        script: The decisions it had to begin with.
+        answer: What the function returned; None if no state is on the path.
+        taken: All decisions that were made.
+        decisions: What they say, and that roots are not negative.
+        relations: Polynomials that are zero.
+        meanings: What the symbols of roots and angles stand for.
+        definitions: The same, to compute them with numbers.
+        angles: Arc tangents.
+        turns: Angles of cosines.
     """
 
     script: list[bool]
     answer: Any = None
+    is_over: bool = False
     taken: list[bool] = field(default_factory=list)
-    decisions: list[Decision] = field(default_factory=list)
+    decisions: list[Condition] = field(default_factory=list)
     relations: list[PolyElement] = field(default_factory=list)
     meanings: dict[str, Any] = field(default_factory=dict)
-    angles: dict[tuple, "Traced"] = field(default_factory=dict)
+    definitions: list[Definition] = field(default_factory=list)
+    angles: list[Angle] = field(default_factory=list)
     turns: list["Traced"] = field(default_factory=list)
+
+    def key(self) -> tuple:
+        """Return what its conditions depend on."""
+        angles = tuple((angle.y.value, angle.x.value) for angle in self.angles)
+        return tuple(self.decisions), tuple(self.relations), angles
 
 
 class Symbols:
@@ -60,13 +124,23 @@ class Symbols:
         constants: Mapping[float, str | Fraction] | None = None,
     ) -> None:
         self.field = FracField((*ROOTS, *ANGLES, *COSINES, *SINES, *names), QQ, lex)
-        self.of = {str(one): Traced(one, self) for one in self.field.gens}
+        self.of = {str(generator): Traced(generator, self) for generator in self.field.gens}
         self.positive = [self.of[name].value.numer for name in positive]
         self.constants = dict(constants or {})
         self.relations: list[PolyElement] = []
-        self.angles: dict[tuple, Traced] = {}
-        """(y, x) -> symbol: angles that are known on every path."""
+        self.angles: list[Angle] = []
+        """Angles that are known on every path."""
         self.path = Path([])
+        self.is_tracing = False
+        """Whether a law runs: only then is a comparison a decision, and a division a question."""
+        self.oracle: Oracle | None = None
+        self.doubts: list[Doubt] = []
+        self.requirements: list[Condition] = []
+        """What must not hold, where there is no oracle to ask."""
+        self.questions = 0
+        self.question_s = 0.0
+        self._answers: dict[tuple, Any] = {}
+        self._results: dict[tuple, Any] = {}
 
     def __getitem__(self, names: tuple[str, ...]) -> Any:
         return tuple(self.of[name] for name in names)
@@ -76,27 +150,67 @@ class Symbols:
         self.relations.append((self.of[square_of] ** 2 - polynomial).value.numer)
 
     def paths(self, function: Callable[[], Any]) -> Iterator[Path]:
-        """Call a function of no arguments once for each path through its decisions."""
+        """Call a function of no arguments once for each path through its decisions.
+
+        Errors:
+            Untraceable: it cannot be called with symbols, or has too many paths.
+        """
         script: list[bool] | None = []
+        count = 0
         while script is not None:
-            self.path = Path(script, angles=dict(self.angles))
-            self.path.answer = function()
-            yield self.path
-            taken = self.path.taken
-            while taken and not taken[-1]:
-                taken = taken[:-1]
-            script = [*taken[:-1], False] if taken else None
+            LIMITS.left_s()
+            count += 1
+            if count > MOST_PATHS:
+                raise Untraceable(f"its source has more than {MOST_PATHS} paths")
+            path = Path(script, angles=list(self.angles))
+            self._follow(path, function)
+            if not path.is_over:
+                yield path
+            script = _next_script(path.taken)
+
+    def _follow(self, path: Path, function: Callable[[], Any]) -> None:
+        """Call a function on a path, and keep its answer there."""
+        self.path = path
+        self.is_tracing = True
+        try:
+            path.answer = function()
+        except PathEnds:
+            path.is_over = True
+        except (Untraceable, TimeIsUp):
+            raise
+        except Exception as error:
+            raise Untraceable(f"its source cannot be called with symbols ({describe_error(error)})") from error
+        finally:
+            self.is_tracing = False
 
     def reduce(self, value: Any) -> "Traced":
         """Return a quotient in normal form; the leading terms are squares of different symbols, a Groebner basis."""
         relations = self.path.relations + self.relations
-        numer, denom = (part.rem(relations) if relations else part for part in (value.numer, value.denom))
+        numer, denom = value.numer, value.denom
+        if relations:
+            numer, denom = numer.rem(relations), denom.rem(relations)
+        if not denom:
+            raise Untraceable("it divides by an expression that is zero by the relations of its roots")
         return Traced(self.field(numer) / self.field(denom), self)
+
+    def compute(self, operation: Callable[[Any, Any], Any], left: Any, right: Any) -> "Traced":
+        """Return the result of an operation in normal form: each is made once, for paths have their begins in common."""
+        key = (operation, left, right, tuple(self.path.relations))
+        result = self._results.get(key)
+        if result is None:
+            result = self._results[key] = self.reduce(operation(left, right)).value
+        return Traced(result, self)
 
     def number(self, value: Any) -> "Traced":
         """Return a number as a value: a float as the decimal that it is written as."""
         if isinstance(value, Traced):
             return value
+        if isinstance(value, np.floating):
+            value = float(value)
+        if not isinstance(value, int | float | Fraction):
+            raise Untraceable(f"it computes with {value!r}, which is no number")
+        if isinstance(value, float) and not math.isfinite(value):
+            raise Untraceable(f"it computes with {value!r}, which is no finite number")
         value = self.constants.get(value, value)
         if isinstance(value, str):
             return self.of[value]
@@ -107,25 +221,110 @@ class Symbols:
         """Return the partial derivative by a symbol; roots and angles count as constants."""
         return self.reduce(value.value.diff(self.of[name].value))
 
-    def is_negative(self, value: "Traced") -> bool:
-        """Decide whether a value is below zero: a number has a sign, else the path decides."""
-        polynomial = value.value.numer * value.value.denom
-        for one in self.positive:
-            while polynomial and not polynomial.rem([one]):
-                polynomial = polynomial.quo(one)
-        if polynomial.is_ground:
-            return polynomial.LC < 0
-        path, leading = self.path, polynomial.LC
-        for known, answer in path.decisions:
-            if known * leading == polynomial * known.LC and leading * known.LC > 0:
-                return answer
-        answer = path.script[len(path.taken)] if len(path.taken) < len(path.script) else True
+    # decisions
+
+    def decide(self, value: "Traced", relation: str) -> bool:
+        """Decide whether a value has a relation to zero: a number has it or not, else the path decides."""
+        if not self.is_tracing:
+            raise RuntimeError("a comparison of symbols outside a law's source: use is_zero or is_same")
+        condition = Condition(self.without_positive(value.value.numer * value.value.denom), relation).normal()
+        known = condition.answer()
+        if known is None:
+            known = find_answer(self.path.decisions, condition)
+        if known is not None:
+            return known
+        return self._branch(condition)
+
+    def _branch(self, condition: Condition) -> bool:
+        """Follow the way that the path's script says, or a new one: the first that may have a state."""
+        path = self.path
+        place = len(path.taken)
+        is_new = place >= len(path.script)
+        answer = True if is_new else path.script[place]
+        if is_new and self._is_impossible(condition):
+            answer = False
+        elif not answer and place == len(path.script) - 1 and self._is_impossible(condition.opposite()):
+            path.taken.append(answer)
+            raise PathEnds
         path.taken.append(answer)
-        path.decisions.append(Decision(polynomial, answer))
+        path.decisions.append(condition if answer else condition.opposite())
         return answer
+
+    def choose(self) -> bool:
+        """Decide what no number of the trace decides: both ways are followed, without a condition."""
+        path = self.path
+        place = len(path.taken)
+        answer = path.script[place] if place < len(path.script) else True
+        path.taken.append(answer)
+        return answer
+
+    def is_negative(self, value: "Traced") -> bool:
+        """Decide whether a value is below zero."""
+        return self.decide(value, "<")
+
+    def without_positive(self, polynomial: PolyElement) -> PolyElement:
+        """Return a polynomial without the factors that are positive."""
+        for factor in self.positive:
+            while polynomial and not polynomial.rem([factor]):
+                polynomial = polynomial.quo(factor)
+        return polynomial
+
+    def _is_impossible(self, condition: Condition) -> bool:
+        """Tell whether Z3 shows that no state on the path meets a condition."""
+        if self.oracle is None:
+            return False
+        return self._ask(condition, PRUNING_S).answer == "unsat"
+
+    def _ask(self, condition: Condition, limit_s: float | None = None) -> Any:
+        """Return the oracle's finding on the path and a condition; each question is asked once."""
+        assert self.oracle is not None
+        key = (self.path.key(), condition, limit_s)
+        if key not in self._answers:
+            self._answers[key] = self.oracle.find(self.path, condition, limit_s=limit_s)
+        return self._answers[key]
+
+    # domains
+
+    def require_not(self, fault: Condition, words: str) -> None:
+        """Ask whether a state on the path has a fault, before an operation that is undefined there."""
+        if not self.is_tracing:
+            return
+        fault = Condition(self.without_positive(fault.polynomial), fault.relation).normal()
+        is_certain = fault.answer()
+        if is_certain is None:
+            is_certain = find_answer(self.path.decisions, fault)
+        if is_certain is False:
+            return
+        if self.oracle is None:
+            self.requirements.append(fault)
+            return
+        finding = self._ask(fault)
+        self.questions += 1
+        self.question_s += finding.seconds
+        if finding.answer != "unsat":
+            self.doubts.append(Doubt(f"{words}{find_place()}", finding.state, finding.seconds))
+        if is_certain:
+            raise PathEnds
+        self.path.decisions.append(fault.opposite())
+
+    def require_divisor(self, divisor: "Traced") -> None:
+        """Ask whether a divisor may be zero."""
+        numer = divisor.value.numer
+        if len(numer.terms()) > 1 or numer.is_ground:
+            self.require_not(Condition(numer, "="), "a division by zero")
+            return
+        # a product of symbols is zero where one of them is
+        for place, power in enumerate(numer.LM):
+            if power:
+                factor = self.field.gens[place].numer
+                self.require_not(Condition(factor, "="), "a division by zero")
+
+    # functions
 
     def root_of(self, polynomial: PolyElement) -> "Traced":
         """Return the square root of a polynomial, squares taken out of it by their size."""
+        if polynomial.is_ground and not polynomial:
+            return self.number(0)
         constant, factors = polynomial.factor_list()
         outside, inside = self.number(1), polynomial.ring(1)
         for factor, power in factors:
@@ -134,6 +333,9 @@ class Symbols:
             k, root, rest = self._take_square(factor ** (power % 2))
             constant, outside, inside = constant * k, outside * root, inside * rest
         k, root, inside = self._take_square(inside if constant > 0 else -inside)
+        if inside == -1 or k < 0:
+            # minus a square: it has a root where the square is zero, so that nothing may be taken out
+            return self._root_symbol(polynomial)
         ratio, outside = Fraction(str(abs(constant) * k)), outside * root
         exact = Fraction(math.isqrt(ratio.numerator), math.isqrt(ratio.denominator))
         if exact**2 == ratio:
@@ -152,43 +354,97 @@ class Symbols:
         return QQ(1), self.number(1), factor
 
     def _root_symbol(self, polynomial: PolyElement) -> "Traced":
+        """Return the symbol of the root of a polynomial: a new one, unless the path has it."""
         path, meaning = self.path, sp.sqrt(polynomial.as_expr())
-        known = next((name for name, one in path.meanings.items() if one == meaning), None)
-        if known is None:
-            known = ROOTS[sum(name in ROOTS for name in path.meanings)]
-            path.meanings[known] = meaning
-            path.relations.append((self.of[known] ** 2).value.numer - polynomial)
-            path.decisions.append(Decision(self.of[known].value.numer, False))
-        return self.of[known]
+        for name, known in path.meanings.items():
+            if known == meaning:
+                return self.of[name]
+        used = sum(name in ROOTS for name in path.meanings)
+        if used == len(ROOTS):
+            raise Untraceable(f"its source has more than {len(ROOTS)} square roots on one path")
+        name = ROOTS[used]
+        symbol = self.of[name]
+        path.meanings[name] = meaning
+        path.definitions.append(Definition(name, "root", (Traced(self.field(polynomial), self),)))
+        path.relations.append((symbol**2).value.numer - polynomial)
+        path.decisions.append(Condition(symbol.value.numer, ">="))
+        return symbol
 
     def angle_of(self, y: "Traced", x: "Traced") -> "Traced":
         """Return atan2(y, x) as a symbol, the same for every positive multiple of both."""
-        for (y_0, x_0), symbol in self.path.angles.items():
-            if y * x_0 == x * y_0 and not self.is_negative(x * x_0):
-                return symbol
+        self._require_point(y, x)
+        for known in self.path.angles:
+            if is_same(y * known.x, x * known.y):
+                # (y, x) is k (y_0, x_0), and this has the sign of k
+                multiple = x * known.x + y * known.y
+                if self.decide(multiple, ">"):
+                    return known.symbol
         scale = self.number(1)
         if y.value.denom == x.value.denom:
-            scale = abs(self.reduce(self.field(y.value.numer.gcd(x.value.numer)) / self.field(y.value.denom)))
-        name, (y, x) = ANGLES[len(self.path.angles)], (y / scale, x / scale)
-        self.path.angles[y, x] = self.of[name]
+            common = y.value.numer.gcd(x.value.numer)
+            if not common.is_ground:
+                scale = abs(Traced(self.field(common), self))
+        if len(self.path.angles) == len(ANGLES):
+            raise Untraceable(f"its source has more than {len(ANGLES)} arc tangents on one path")
+        name = ANGLES[len(self.path.angles)]
+        symbol = self.of[name]
+        self.path.definitions.append(Definition(name, "angle", (y, x)))
+        y, x = self._without_tracing(lambda: (y / scale, x / scale))
+        self.path.angles.append(Angle(y, x, symbol))
         self.path.meanings[name] = sp.atan2(y.value.as_expr(), x.value.as_expr())
-        return self.of[name]
+        return symbol
+
+    def _require_point(self, y: "Traced", x: "Traced") -> None:
+        """Ask whether both arguments of an arc tangent may be zero."""
+        if not self.is_tracing:
+            return
+        size = self._without_tracing(lambda: y * y + x * x)
+        self.require_not(Condition(size.value.numer, "="), "an arc tangent of (0, 0)")
+
+    def _without_tracing(self, compute: Callable[[], Any]) -> Any:
+        """Compute something that the law does not compute."""
+        self.is_tracing = False
+        try:
+            return compute()
+        finally:
+            self.is_tracing = True
 
     def circle_of(self, angle: "Traced") -> tuple["Traced", "Traced"]:
         """Return (cosine, sine) of an angle as symbols with cosine^2 + sine^2 = 1."""
         turns = self.path.turns
-        place = next((i for i, one in enumerate(turns) if one == angle), len(turns))
+        place = next((i for i, turn in enumerate(turns) if is_same(turn, angle)), len(turns))
+        if place == len(COSINES):
+            raise Untraceable(f"its source has cosines of more than {len(COSINES)} angles on one path")
         cosine, sine = self.of[COSINES[place]], self.of[SINES[place]]
         if place == len(turns):
             turns.append(angle)
             self.path.relations.append((cosine**2 + sine**2 - 1).value.numer)
+            self.path.definitions.append(Definition(COSINES[place], "cosine", (angle,)))
+            self.path.definitions.append(Definition(SINES[place], "sine", (angle,)))
         return cosine, sine
+
+
+def _next_script(taken: list[bool]) -> list[bool] | None:
+    """Return the decisions of the next path: the last one that was true is false; None: there is no next path."""
+    while taken and not taken[-1]:
+        taken = taken[:-1]
+    return [*taken[:-1], False] if taken else None
+
+
+def find_place() -> str:
+    """Return the file and the line of the law that runs; nothing if no file of a law is on the stack."""
+    frame = sys._getframe(1)
+    while frame is not None:
+        if is_of_a_law(frame.f_code.co_filename) and not frame.f_code.co_filename.endswith("law/scalar.py"):
+            return f" ({File(frame.f_code.co_filename).name}, line {frame.f_lineno})"
+        frame = frame.f_back
+    return ""
 
 
 def _operation(compute: Callable[[Any, Any], Any], is_reflected: bool = False) -> Callable[..., "Traced"]:
     def apply(self: "Traced", other: Any) -> "Traced":
         pair = self.value, self.symbols.number(other).value
-        return self.symbols.reduce(compute(*(pair[::-1] if is_reflected else pair)))
+        return self.symbols.compute(compute, *(pair[::-1] if is_reflected else pair))
 
     return apply
 
@@ -200,42 +456,70 @@ class Traced:
     __add__ = __radd__ = _operation(operator.add)
     __mul__ = __rmul__ = _operation(operator.mul)
     __sub__, __rsub__ = _operation(operator.sub), _operation(operator.sub, True)
-    __truediv__, __rtruediv__ = _operation(operator.truediv), _operation(operator.truediv, True)
     __hash__ = object.__hash__
 
     def __init__(self, value: Any, symbols: Symbols) -> None:
         self.value, self.symbols = value, symbols
 
+    def __truediv__(self, other: Any) -> "Traced":
+        divisor = self.symbols.number(other)
+        self.symbols.require_divisor(divisor)
+        return self.symbols.compute(operator.truediv, self.value, divisor.value)
+
+    def __rtruediv__(self, other: Any) -> "Traced":
+        return self.symbols.number(other) / self
+
     def __neg__(self) -> "Traced":
         return Traced(-self.value, self.symbols)
 
-    def __pow__(self, power: int) -> "Traced":
-        return self.symbols.reduce(self.value**power)
+    def __pos__(self) -> "Traced":
+        return self
+
+    def __pow__(self, power: Any) -> "Traced":
+        if isinstance(power, Traced) or power != int(power):
+            raise Untraceable(f"it raises a number to the power {power!r}, which is not a whole number")
+        if power < 0:
+            return 1 / self ** (-int(power))
+        return self.symbols.reduce(self.value ** int(power))
 
     def __abs__(self) -> "Traced":
         return -self if self.symbols.is_negative(self) else self
 
-    def __eq__(self, other: object) -> bool:
-        return not (self - other).value
+    # comparisons: each is a decision, followed both ways
+
+    def __bool__(self) -> bool:
+        return self.symbols.decide(self, "!=")
+
+    def __eq__(self, other: Any) -> bool:
+        return self.symbols.decide(self - other, "=")
+
+    def __ne__(self, other: Any) -> bool:
+        return self.symbols.decide(self - other, "!=")
 
     def __lt__(self, other: Any) -> bool:
-        return self.symbols.is_negative(self - other)
+        return self.symbols.decide(self - other, "<")
 
     def __gt__(self, other: Any) -> bool:
-        return self.symbols.is_negative(other - self)
+        return self.symbols.decide(self - other, ">")
 
     def __ge__(self, other: Any) -> bool:
-        return not self < other
+        return self.symbols.decide(self - other, ">=")
 
     def __le__(self, other: Any) -> bool:
-        return not self > other
+        return self.symbols.decide(self - other, "<=")
 
     def __repr__(self) -> str:
         return str(self.value)
 
+    # functions of the law dialect
+
     def sqrt(self) -> "Traced":
         """Return the square root, of numerator and denominator."""
-        return self.symbols.root_of(self.value.numer) / self.symbols.root_of(self.value.denom)
+        symbols, numer, denom = self.symbols, self.value.numer, self.value.denom
+        symbols.require_not(Condition(numer * denom, "<"), "a square root of a number below zero")
+        if not denom.is_ground and symbols.is_negative(Traced(symbols.field(denom), symbols)):
+            numer, denom = -numer, -denom
+        return symbols.root_of(numer) / symbols.root_of(denom)
 
     def cos(self) -> "Traced":
         """Return the cosine as a symbol."""
@@ -245,6 +529,43 @@ class Traced:
         """Return the sine as a symbol."""
         return self.symbols.circle_of(self)[1]
 
+    def acos(self) -> "Traced":
+        """Return the inverse cosine as the angle of the point (self, sqrt(1 - self^2))."""
+        numer, denom = self.value.numer, self.value.denom
+        outside = Condition(denom**2 - numer**2, "<")
+        self.symbols.require_not(outside, "an inverse cosine of a number outside [-1, 1]")
+        return (1 - self * self).sqrt().atan2(self)
+
     def atan2(self, x: Any) -> "Traced":
         """Return the angle of the point (x, self)."""
         return self.symbols.angle_of(self, self.symbols.number(x))
+
+    def ratan2(self, y: Any) -> "Traced":
+        """Return the angle of the point (self, y)."""
+        return self.symbols.number(y).atan2(self)
+
+    def copysign(self, sign: Any) -> "Traced":
+        """Return the size of this number with a sign; zero has either sign, and both are followed."""
+        size, sign = abs(self), self.symbols.number(sign)
+        if sign < 0 or (sign == 0 and self.symbols.choose()):
+            return -size
+        return size
+
+    def rcopysign(self, magnitude: Any) -> "Traced":
+        """Return the size of another number with the sign of this one."""
+        return self.symbols.number(magnitude).copysign(self)
+
+
+def is_zero(value: Traced) -> bool:
+    """Tell whether a value is zero in normal form, wherever its path's conditions hold."""
+    return not value.value
+
+
+def is_same(value: Any, other: Any) -> bool:
+    """Tell whether two values are equal in normal form."""
+    return is_zero(value - other)
+
+
+def are_same(values: tuple, others: tuple) -> bool:
+    """Tell whether each of some values is the same as the other at its place."""
+    return len(values) == len(others) and all(map(is_same, values, others))
