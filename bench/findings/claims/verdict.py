@@ -47,6 +47,8 @@ def does(word: Word, number: int) -> str:
     """Return what so many statements with a word do."""
     if (word, number) == (Word.ANSWERED, 1):
         return "was open in 1988 and is answered since"
+    if number == 1 and word in (Word.UNTESTABLE, Word.UNTESTED):
+        return f"is {word}"
     return str(word) if number == 1 else PLURAL[word]
 
 
