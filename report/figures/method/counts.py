@@ -5,15 +5,15 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
-from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.maps import counted
+from bench.findings.maps import at_gains, count_in
 from bench.findings.selection.needs import measured
 from bench.findings.selection.regions import read_map
 from bench.findings.selection.sensitivity import tune
 from bench.findings.selection.words import together
 from bench.findings.theory.thresholds import HALF_TURN
 from bench.law.contenders.registry import contenders
+from bench.law.inputs import PAPERS_GAINS
 from report.figures.comparison import comparison
 from report.figures.failures import failure_map
 from report.figures.kit import families, html
@@ -180,7 +180,7 @@ def count_three_laws(run: Run) -> Count:
 
 def count_random(run: Run) -> Count:
     """Count the laws and the random starts of the maps of failures."""
-    rows = counted(read.table(RESULTS / "maps", "map"))
+    rows = at_gains(count_in(RESULTS / "maps"), PAPERS_GAINS)
     at_rest = rows[rows["most_speed"] == 0.0]
     matrix = at_rest[at_rest["contender"] == MATRIX]
     return Count(
