@@ -39,13 +39,8 @@ def law(**changed):
     return adequacy.Adequacy(**{**usual, **changed})
 
 
-@pytest.fixture(autouse=True)
-def two_laws_on_angles(monkeypatch):
-    monkeypatch.setattr(adequacy, "THREE", ("rotation-matrix", "a", "b"))
-
-
 def examined(held=HELD_BY_NONE, ledger=LEDGER, **changed):
-    return adequacy.examine(law(**changed), ledger, 0.58, held)
+    return adequacy.examine(law(**changed), ledger, 0.58, held, on_angles=("a", "b"))
 
 
 def test_law_with_every_row_passes():

@@ -199,12 +199,19 @@ class Tested(NamedTuple):
         return "; ".join(parts) or "passes"
 
 
-def examine(law: Adequacy, known: Ledger, small_s: float, held: dict[str, tuple[int, int]]) -> Tested:
+def examine(
+    law: Adequacy,
+    known: Ledger,
+    small_s: float,
+    held: dict[str, tuple[int, int]],
+    on_angles: tuple[str, ...] = THREE[1:],
+) -> Tested:
     """Return how a law does in the tests of C27's criterion.
 
     held: starts at 180° that noise holds there, by law; a law that is not among them was not tried under noise.
+    on_angles: the laws than which it must cost less.
     """
-    costs = [known.stand(law.name, other) for other in THREE[1:] if other != law.name]
+    costs = [known.stand(law.name, other) for other in on_angles if other != law.name]
     results = {
         "a": law.settled >= SETTLED_SHARE,
         "b": _settles_directed_and_spun(law),

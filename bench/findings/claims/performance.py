@@ -160,7 +160,6 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
 
 
 OWN, ADAPTED_HERE, PUBLISHED, USERS = "ours", "adapted", "published", "yours"
-"""Whose a later law is."""
 
 
 def whose(name: str) -> str:
