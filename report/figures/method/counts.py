@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
+from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.maps import at_gains, count_in
 from bench.findings.selection.needs import measured
