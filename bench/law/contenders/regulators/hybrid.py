@@ -1,8 +1,8 @@
 """The square-root law with one quaternion of memory: global, with no point of rest but the goal.
 
-The error quaternion is on the side that `bench.law.side` keeps: near a 180° rotation the law goes on as it has begun,
-so that noise does not hold it there. The memory outlives the goal: reset it before the first tick, after a pause, and
-when the goal jumps.
+The error quaternion is on the side that `bench.law.side` keeps: near a 180° rotation the law goes on as it
+has begun, so that noise does not hold it there. The memory outlives the goal: reset it before the first tick
+and after a pause. When the goal jumps, a reset shortens the way and saves no time.
 
 Limitations: up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it keeps turning the longer
 way, and so it may without a reset when the goal jumps.

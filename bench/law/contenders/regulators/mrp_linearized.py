@@ -1,8 +1,9 @@
 """Feedback linearization in the modified Rodrigues parameters of the turn to the goal: no trigonometry, no pole.
 
-With sigma = tan(theta/4) k of the turn from R to a fixed R_d, sigmaddot = -Kv sigmadot - Kp sigma. Beyond 180°
-the shadow set, -sigma/|sigma|^2, is the shorter; a sheet is kept until |sigma|^2 is over SWITCH, so that the law does
-not chatter there. The memory outlives the goal: reset it before the first tick, after a pause, and when the goal jumps.
+With sigma = tan(theta/4) k of the turn from R to a fixed R_d, sigmaddot = -Kv sigmadot - Kp sigma. Beyond
+180° the shadow set, -sigma/|sigma|^2, is the shorter; a sheet is kept until |sigma|^2 is over SWITCH, so that
+the law does not chatter there. The memory outlives the goal: reset it before the first tick and after a
+pause. When the goal jumps, a reset shortens the way and saves no time.
 
 Source: Schaub, Akella, Junkins 2001. That a sheet is kept until SWITCH is ours.
 

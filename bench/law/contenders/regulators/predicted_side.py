@@ -1,11 +1,12 @@
 """The rotation vector on the side whose predicted cost is less, the rate of turning counted.
 
-A straight spring obeys thetaddot = -Kp theta - Kv thetadot about a fixed axis. Of that motion, from the angle theta to
-go and the rate r towards the goal, the integral of theta^2 + (thetaddot/Kp)^2 over all time is quadratic in both; for
-the two sides, theta and 2 pi - theta with opposite rates, it differs by (4 pi/Kp) ((theta - pi) S - r), with
-S = Kp/Kv + Kv/2. So a body that spins away from the goal faster than S (pi - theta) goes on around. The side of the
-last tick is kept until the other is better by MARGIN, an angle. The memory outlives the goal: reset it before the first
-tick, after a pause, and when the goal jumps.
+A straight spring obeys thetaddot = -Kp theta - Kv thetadot about a fixed axis. Of that motion, from the angle
+theta to go and the rate r towards the goal, the integral of theta^2 + (thetaddot/Kp)^2 over all time is
+quadratic in both; for the two sides, theta and 2 pi - theta with opposite rates, it differs by (4 pi/Kp)
+((theta - pi) S - r), with S = Kp/Kv + Kv/2. So a body that spins away from the goal faster than S (pi -
+theta) goes on around. The side of the last tick is kept until the other is better by MARGIN, an angle. The
+memory outlives the goal: reset it before the first tick and after a pause. When the goal jumps, a reset
+shortens the way and saves no time.
 
 Source: Goncalves, Bena, Matveev, Perez-Arancibia, arXiv:2403.07269, whose abstract was read: of two torques they take
 the one whose cost, of control and attitude error, a model predicts to be less. The cost in closed form, the spring and

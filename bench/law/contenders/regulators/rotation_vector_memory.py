@@ -1,7 +1,8 @@
 """The rotation vector of the turn to the goal, its side kept in memory: e = theta k, theta up to 227 degrees.
 
-The straight spring of `rotation_vector`, on the quaternion that `bench.law.side` keeps. The memory outlives the goal:
-reset it before the first tick, after a pause, and when the goal jumps.
+The straight spring of `rotation_vector`, on the quaternion that `bench.law.side` keeps. The memory outlives
+the goal: reset it before the first tick and after a pause. When the goal jumps, a reset shortens the way and
+saves no time.
 
 Global: V = Kp theta^2/2 + |omega|^2/2 has Vdot = -Kv |omega|^2, the force is zero at the goal alone, and a change of
 side takes theta from 2 acos(-DELTA) to 2 acos(DELTA), 133 degrees, and so takes from V.

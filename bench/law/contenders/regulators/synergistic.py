@@ -1,12 +1,13 @@
 """Synergistic hybrid: two potentials that are at rest at different places, and a memory of which is in force.
 
-With V = 1/2 (k_1 (1 - n.n_d) + k_2 (1 - o.o_d) + k_3 (1 - a.a_d)), k = WEIGHTS, and s its pull, the body is seen as
-turned further about its own axis b = R AXIS by q KAPPA V, q = 1 or -1: U_q = V of the turned body R_q. Both U_q have
-the goal for a minimum. Where one is at rest elsewhere, near a 180° rotation about n_d, o_d or a_d, the other is lower
-by 0.16 at least, and q changes where it is lower by GAP: no other point of rest is left. U_+ - U_- = -2 sin(KAPPA V)
-b.s: to compare them takes no second potential. The pull is of 2 TOP (1 - sqrt(1 - U_q/TOP)), which grows like the
-distance: that of V itself fades towards a 180° rotation. The memory outlives the goal: reset it before the first tick,
-after a pause, and when the goal jumps.
+With V = 1/2 (k_1 (1 - n.n_d) + k_2 (1 - o.o_d) + k_3 (1 - a.a_d)), k = WEIGHTS, and s its pull, the body is
+seen as turned further about its own axis b = R AXIS by q KAPPA V, q = 1 or -1: U_q = V of the turned body
+R_q. Both U_q have the goal for a minimum. Where one is at rest elsewhere, near a 180° rotation about n_d, o_d
+or a_d, the other is lower by 0.16 at least, and q changes where it is lower by GAP: no other point of rest is
+left. U_+ - U_- = -2 sin(KAPPA V) b.s: to compare them takes no second potential. The pull is of 2 TOP (1 -
+sqrt(1 - U_q/TOP)), which grows like the distance: that of V itself fades towards a 180° rotation. The memory
+outlives the goal: reset it before the first tick and after a pause. When the goal jumps, a reset shortens the
+way and saves no time.
 
 Global: the potential in force and |omega|^2/2 fall together as -Kv |omega|^2, a change of q takes GAP Kp or more from
 them, and KAPPA |s| < 1 keeps the turned body from resting anywhere else.
