@@ -11,7 +11,12 @@ from bench.findings import why
 from bench.findings.claims.tables import share
 from bench.findings.proofs.certificate import read_certificates
 from bench.findings.selection.regions import find_regions, list_ours
-from bench.findings.selection.unbeaten import SPOKEN, compare_with_advised, measure_shares
+from bench.findings.selection.unbeaten import (
+    SPOKEN,
+    compare_with_advised,
+    find_price,
+    measure_shares,
+)
 from bench.findings.selection.words import percent
 from bench.law.contender import Contender
 from bench.law.contenders import regulators
@@ -134,7 +139,12 @@ def advised(law: str) -> str:
             f"Not advised, ours. More than {percent(SPOKEN)} faster than the advised law in {beats} of situations. "
             f"{beside}"
         )
-    return f"Advised in {percent(region.advised)} of situations. {beside}" if region else beside
+    price = find_price(law)
+    costs = (
+        f"In the nominal situation it commands up to {price.peak:.1f} kp. With gains for the same peak "
+        f"command, 99 % of the starts settle in {price.at_equal_peak:.1f}/√peak."
+    )
+    return f"Advised in {percent(region.advised)} of situations. {beside} {costs}"
 
 
 def facts(run: Run) -> dict:
