@@ -6,13 +6,15 @@ Time is counted in 1/sqrt(kp), commands in kp: at equal numbers every kp gives t
 from __future__ import annotations
 
 import math
+import zlib
 from collections import namedtuple
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 
-from tasks.axis import spread
-from tasks.base import Start
-from tasks.condition import Condition, known_axes
+import numpy as np
+
+from tasks.base import AT_REST, IDENTITY, Start
+from tasks.condition import Condition
 
 KP = 100.0
 """At which situations are simulated [1/s^2]: the paper's."""
@@ -102,13 +104,28 @@ class Situation(_VALUES):
         )
 
     def starts(self, count: int, seed: int) -> list[Start]:
-        """Return orientations spread evenly over SO(3), with the spin or the jumping goals of the situation."""
-        speed = self.spin * math.sqrt(KP)
-        every = known_axes()["spin"].starts(count, seed, speed) if speed else spread(count, seed, 0.0)
+        """Draw starts independently of each other: the first `count` of the situation's sequence.
+
+        Orientations have the Haar measure; spins have the situation's speed and uniform directions; a goal that the
+        situation lets jump is a second draw of the Haar measure. Each situation has a sequence of its own, the same
+        for every law: statistics over starts (order statistics, Wilks' bound, the paired bootstrap) need independent
+        draws, and shares over drawn situations need situations whose starts are independent as well.
+        """
+        digest = zlib.crc32(self.word.encode())
+        # A generator each, filled row by row: so that the first rows do not depend on how many are drawn.
+        of_start, of_spin, of_goal = (np.random.default_rng((seed, digest, part)) for part in range(3))
+        orientations = _draw_unit_vectors(of_start, count, 4)
+        spins = [AT_REST] * count
+        if self.spin:
+            speed = self.spin * math.sqrt(KP)
+            spins = list(map(tuple, (speed * _draw_unit_vectors(of_spin, count, 3)).tolist()))
+        goals = [IDENTITY] * count
         if self.jump:
-            jumping = known_axes()["goal-jump"].starts(count, seed, self.jump)
-            every = [one._replace(omega=other.omega) for one, other in zip(jumping, every, strict=True)]
-        return every
+            goals = list(map(tuple, _draw_unit_vectors(of_goal, count, 4).tolist()))
+        return [
+            Start(f"drawn-{number:05d}", tuple(quat_wxyz), spin, goal)
+            for number, (quat_wxyz, spin, goal) in enumerate(zip(orientations.tolist(), spins, goals, strict=True))
+        ]
 
     def scaled(self) -> tuple[float, ...]:
         """Return the place of every number between its extreme levels, times its weight."""
@@ -122,6 +139,15 @@ class Situation(_VALUES):
             if name == "zeta" or value != one.nominal
         ]
         return ", ".join(parts)
+
+
+def _draw_unit_vectors(rng: np.random.Generator, count: int, dimensions: int) -> np.ndarray:
+    """Draw points of the unit sphere, uniform and independent, shape (count, dimensions).
+
+    Four dimensions are unit quaternions, and a uniform one is a rotation of the Haar measure.
+    """
+    drawn = rng.standard_normal((count, dimensions))
+    return drawn / np.linalg.norm(drawn, axis=1, keepdims=True)
 
 
 NOMINAL = Situation()

@@ -22,7 +22,7 @@ def audit(
     frame: str | None = None,
     sign: str | None = None,
     stiffness: float = 1.0,
-    accept: tuple[str, ...] = (),
+    allow: tuple[str, ...] = (),
     name: str = "",
 ) -> Report:
     """Return the convention of an orientation error f(R, R_d) or f(q, q_d), and what is wrong with it.
@@ -32,7 +32,7 @@ def audit(
         frame: "base" or "body", if it must be that one.
         sign: "to-goal" (from R to R_d) or "from-goal", if it must be that one.
         stiffness: |f|/theta near the goal that the caller's gains reckon with.
-        accept: names of faults that are meant, as ("norm-clip",).
+        allow: names of faults that are intended, as ("norm-clip",).
         name: what the report calls the function.
 
     Errors:
@@ -41,4 +41,4 @@ def audit(
     from bench.audit.convention import Stated
     from bench.audit.examine import examine
 
-    return examine(function, Stated(takes, frame, sign, stiffness, accept), name or getattr(function, "__name__", "f"))
+    return examine(function, Stated(takes, frame, sign, stiffness, allow), name or getattr(function, "__name__", "f"))

@@ -121,7 +121,8 @@ def audit_and_exit(request: dict[str, Any], board: np.ndarray, answer: IO[bytes]
         return loaded[-1]
 
     try:
-        stated = Stated(**request["stated"] | {"accept": tuple(request["stated"].get("accept", ()))})
+        allowed = tuple(request["stated"].get("allow", ()))
+        stated = Stated(**request["stated"] | {"allow": allowed})
         said = describe_report(target, examine(fresh(), stated, target, fresh, lambda call: note_calls(call, board)))
     except BenchError as error:
         said = {"refused": str(error)}

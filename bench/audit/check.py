@@ -7,7 +7,7 @@ from typing import Any
 
 from bench.audit.apart import CALLS, LIMIT_S, audit_apart
 
-STATED = ("takes", "frame", "sign", "stiffness", "accept")
+STATED = ("takes", "frame", "sign", "stiffness", "allow")
 """Options that are arguments of `bench.audit.audit`."""
 DESCRIPTION = """\
 Find the convention of an orientation error and its faults, each with a pair of orientations that reproduces it.
@@ -21,11 +21,12 @@ A C function, void f(const double[9], const double[9], double[3]):
    {prog} libmine.so:my_error
 A class whose instance is called:
    {prog} my_controller.py:Controller
-The error must be in the base frame, and its clip is intended:
-   {prog} my.py:f --frame base --accept norm-clip
+The error must be in the base frame, and its goal is never 180° away:
+   {prog} my.py:f --frame base --allow dead-at-180
 
-A fault is what no controller wants. A note is a property that one may want, as the sine's zero at 180°, or what no
-encoder shows. Exit code 1: a fault that is not accepted; a function that ends the process or hangs has one.
+A fault harms a controller. If one is intended, as the clip of a vector, allow it by its name. A note harms none: what
+no encoder shows, or that the function refuses input that is no rotation. Exit code 1: a fault that is not allowed; a
+function that ends the process or hangs has one.
 In pytest, where the wheel orientation-audit is installed: pytest --orientation-error my_file.py:my_error"""
 
 
@@ -37,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--frame", metavar="WORD", help="the frame that it must be in: base or body")
     add("--sign", metavar="WORD", help="where it must point: to-goal or from-goal")
     add("--stiffness", type=float, default=1.0, metavar="NUMBER", help="slope that your gains reckon with (1)")
-    add("--accept", action="append", default=[], metavar="FAULT", help="a fault that is intended; repeatable")
+    add("--allow", action="append", default=[], metavar="FAULT", help="a fault that is intended; repeatable")
     add("--limit", type=float, default=LIMIT_S, metavar="SECONDS", help=f"seconds that it may take ({LIMIT_S:g})")
 
 

@@ -47,12 +47,12 @@ class Stated(NamedTuple):
     frame: str | None = None
     sign: str | None = None
     stiffness: float = 1.0
-    accept: tuple[str, ...] = ()
+    allow: tuple[str, ...] = ()
 
     def check(self, faults: list[str]) -> None:
         """Refuse what is in no list."""
         words = (("input", self.takes, TAKES), ("frame", self.frame, FRAMES), ("sign", self.sign, SIGNS))
-        for kind, given, known in (*words, *(("fault", one, faults) for one in self.accept)):
+        for kind, given, known in (*words, *(("fault", one, faults) for one in self.allow)):
             if given is not None and given not in known:
                 raise UnknownWord(kind, given, list(known))
         if not 0.0 < self.stiffness < float("inf"):

@@ -56,10 +56,10 @@ def findings(examined: Examined) -> tuple[Finding, ...]:
     """Return what is wrong with it, faults first, without what others explain."""
     found = [(one, one.find(examined)) for one in every_fault()]
     names = {one.name for one, what in found if what}
-    if VOID in names - set(examined.stated.accept):  # every other answer is in doubt
+    if VOID in names - set(examined.stated.allow):  # every other answer is in doubt
         found = [(one, what) for one, what in found if one.name == VOID]
     kept = [
-        Finding(one, what, one.name in examined.stated.accept)
+        Finding(one, what, one.name in examined.stated.allow)
         for one, what in found
         if what and not names & set(one.unless)
     ]

@@ -14,8 +14,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("orientation error")
     function = "check it, FILE.py:NAME, MODULE:NAME or LIBRARY.so:SYMBOL; repeatable"
     group.addoption("--orientation-error", action="append", default=[], metavar="FUNCTION", help=function)
-    accept = "a fault of it that is meant; repeatable"
-    group.addoption("--orientation-error-accept", action="append", default=[], metavar="FAULT", help=accept)
+    allow = "a fault that is intended, as dead-at-180; repeatable"
+    group.addoption("--orientation-error-allow", action="append", default=[], metavar="FAULT", help=allow)
+    parser.addini("orientation_error_allow", "faults that are intended, as dead-at-180", type="args", default=[])
     limit = f"seconds that its audit may take ({LIMIT_S:g})"
     group.addoption("--orientation-error-limit", type=float, default=LIMIT_S, metavar="SECONDS", help=limit)
 
@@ -28,9 +29,10 @@ def pytest_collection_modifyitems(session: pytest.Session, config: pytest.Config
 
 def checks(session: pytest.Session, target: str) -> list[pytest.Item]:
     """Return one test a fault, over one report."""
-    accept = session.config.getoption("orientation_error_accept")
+    config = session.config
+    allowed = [*config.getini("orientation_error_allow"), *config.getoption("orientation_error_allow")]
     try:
-        said = audit_apart(target, {"accept": accept}, session.config.getoption("orientation_error_limit"))
+        said = audit_apart(target, {"allow": allowed}, config.getoption("orientation_error_limit"))
     except BadFunction as error:
         raise pytest.UsageError(str(error)) from error
     names = sorted(path.stem.replace("_", "-") for path in Path(__file__).with_name("faults").glob("[a-z]*.py"))

@@ -6,7 +6,7 @@ import numpy as np
 
 from bench.audit.calls import Call
 from bench.audit.convention import Convention
-from bench.audit.examined import NOTE, Evidence
+from bench.audit.examined import FAULT, NOTE, Evidence
 from bench.audit.faults import Finding
 
 
@@ -21,8 +21,18 @@ class Report(NamedTuple):
 
     @property
     def faults(self) -> tuple[str, ...]:
-        """Names of the faults that are not accepted."""
+        """Names of the faults that are not allowed."""
         return tuple(one.fault.name for one in self.findings if one.is_fault)
+
+    @property
+    def allowed(self) -> tuple[str, ...]:
+        """Names of the faults that are allowed."""
+        return tuple(one.fault.name for one in self.findings if severity(one) == ALLOWED)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Names of the notes."""
+        return tuple(one.fault.name for one in self.findings if severity(one) == NOTE)
 
     def text(self) -> str:
         """Return the whole report."""
@@ -32,10 +42,19 @@ class Report(NamedTuple):
         """Verdict and convention."""
         none = "not looked for" if self.pairs == 0 else "none that is known explains its answers"
         said = self.convention.text() if self.convention else none
-        verdict = f"FAULTS: {', '.join(self.faults)}" if self.faults else "no fault found"
         pairs = f" ({self.pairs} pairs)" if self.pairs else ""
         called = "" if self.call == Call(self.call.takes) else f"\nCalled as {self.code()}"
-        return f"{self.name}: {verdict}{pairs}{called}\nConvention found: {said}"
+        return f"{self.name}: {self.verdict()}{pairs}{called}\nConvention found: {said}"
+
+    def verdict(self) -> str:
+        """Name the faults, those that are allowed, and the notes."""
+        parts = [f"FAULTS: {', '.join(self.faults)}" if self.faults else "no fault found"]
+        if self.allowed:
+            parts.append(f"{len(self.allowed)} allowed: {', '.join(self.allowed)}")
+        if self.notes:
+            counted = "1 note" if len(self.notes) == 1 else f"{len(self.notes)} notes"
+            parts.append(f"{counted}: {', '.join(self.notes)}")
+        return ("; " if self.faults else ", ").join(parts)
 
     def code(self) -> str:
         """Return how the function is called."""
@@ -53,6 +72,16 @@ class Report(NamedTuple):
             "convention": self.convention._asdict() if self.convention else None,
             "findings": [as_dict(one) for one in self.findings],
         }
+
+
+ALLOWED = "allowed"
+
+
+def severity(finding: Finding) -> str:
+    """Return the word for a finding: fault, allowed or note."""
+    if finding.is_allowed and finding.found.severity == FAULT:
+        return ALLOWED
+    return finding.found.severity
 
 
 def paragraph(report: Report, finding: Finding) -> str:
@@ -91,7 +120,7 @@ def as_dict(finding: Finding) -> dict[str, Any]:
     evidence = found.evidence
     return {
         "name": fault.name,
-        "severity": "accepted" if finding.is_accepted and found.severity != NOTE else found.severity,
+        "severity": severity(finding),
         "title": fault.title,
         "text": found.text,
         "effect": found.effect or fault.effect,

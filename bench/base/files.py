@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+import stat
 import tempfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -13,9 +14,11 @@ from bench.base.errors import BadResults
 def write_atomically(path: Path, write: Callable[..., object]) -> None:
     """Call write(temporary path), then put the file in its place; when this returns, it outlives a loss of power.
 
-    BadResults if the folder cannot be made or written, or the disk is full; no temporary file stays.
+    BadResults if the folder cannot be made or written, the disk is full, or something else than a regular file is
+    there already; no temporary file stays.
     """
     path = Path(path)
+    refuse_irregular(path)
     try:
         make_folder(path.parent)
         handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".tmp")
@@ -35,6 +38,34 @@ def write_atomically(path: Path, write: Callable[..., object]) -> None:
             raise refused(path, error) from error
         raise
 
+
+def refuse_irregular(path: Path) -> None:
+    """Raise BadResults if there is something at the path that is no regular file.
+
+    The new file is renamed to the path. A rename replaces whatever is there: it would turn /dev/null into a text file.
+    A link is refused too. Renaming would replace the link and not the file that it leads to, and to write through it
+    would let a folder that came from elsewhere name any file of the user's.
+    """
+    try:
+        mode = path.lstat().st_mode
+    except (FileNotFoundError, NotADirectoryError):
+        return  # nothing is there; if the folder cannot be made, making it says so
+    except OSError as error:
+        raise refused(path, error) from error
+    if not stat.S_ISREG(mode):
+        kind = next((word for is_kind, word in KINDS if is_kind(mode)), "no regular file")
+        raise BadResults(f"{path}: it is {kind}, and only a regular file is replaced; name another file with --out")
+
+
+KINDS = (
+    (stat.S_ISLNK, "a link"),
+    (stat.S_ISDIR, "a folder"),
+    (stat.S_ISCHR, "a device"),
+    (stat.S_ISBLK, "a device"),
+    (stat.S_ISFIFO, "a pipe"),
+    (stat.S_ISSOCK, "a socket"),
+)
+"""What may be at a path beside a regular file, in words."""
 
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 """The disk, a share of it, or what one file may take."""

@@ -11,21 +11,43 @@ from bench.base.errors import BadResults
 
 
 @contextlib.contextmanager
-def held(folder: Path, waits: bool = False, flock: Callable = fcntl.flock) -> Iterator[None]:
-    """Hold a folder; wait for another process that holds it, or raise BadResults.
+def held(folder: Path, flock: Callable = fcntl.flock) -> Iterator[None]:
+    """Hold a folder; BadResults names the process that holds it already. Nobody waits for a lock, here or elsewhere.
 
     Some network file systems lock no folder: this is printed, and the run goes on.
     """
     handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)  # not inherited by the programs that a run starts
     try:
         try:
-            flock(handle, fcntl.LOCK_EX if waits else fcntl.LOCK_EX | fcntl.LOCK_NB)
+            flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
+            holder = find_holder(folder)
+            who = f"another run (process {holder})" if holder else "another run"
             cure = "wait for its end, stop it, or choose another folder with --out"
-            raise BadResults(f"{folder}: another run is writing into it; {cure}") from None
+            raise BadResults(f"{folder}: {who} is writing into it; {cure}") from None
         except OSError as error:
             result = "so that nothing keeps a second run out of it; start none there"
             print(f"{folder}: cannot be locked ({error.strerror or error}), {result}", file=sys.stderr)
         yield
     finally:
         os.close(handle)
+
+
+LOCKS = Path("/proc/locks")
+"""Every lock of the machine, a line each: "1: FLOCK ADVISORY WRITE 123 fd:01:456 0 EOF", with process and inode."""
+
+
+def find_holder(folder: Path, locks: Path = LOCKS) -> int | None:
+    """Return the process that holds a folder; None where the system does not say (only Linux does)."""
+    inode = folder.stat().st_ino
+    try:
+        lines = locks.read_text(encoding="ascii").splitlines()
+    except OSError:
+        return None
+    for line in lines:
+        words = line.split()
+        is_held = len(words) == 8 and words[1] == "FLOCK"  # a line of a process that waits has one word more
+        if is_held and words[5].rpartition(":")[2] == str(inode):
+            # A process of another container has no number here; the system then gives 0 or -1.
+            return int(words[4]) if int(words[4]) > 0 else None
+    return None

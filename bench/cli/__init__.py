@@ -15,7 +15,8 @@ from bench.base.errors import BenchError, print_refusal
 from bench.base.provenance import describe_project
 from bench.cli.screen import examples
 
-click.rich_click.TEXT_MARKUP = "rich"
+# No markup: it would take a unit in brackets, as [rad/s^2], for a tag and drop it.
+click.rich_click.TEXT_MARKUP = None
 click.rich_click.MAX_WIDTH = 110
 click.rich_click.STYLE_OPTIONS_TABLE_PAD_EDGE = False
 
@@ -44,6 +45,14 @@ FILES = {"listing": "list"}
 """Modules whose command has another name: one named `list` would hide Python's."""
 
 
+RESUMING = ("run", "map")
+"""Commands whose folder keeps each unit of work when it is done; the others write at their end, or nothing."""
+
+RESUMED = "what was finished is kept, and the same command goes on from there"
+LOST = "this command keeps nothing of what was not finished, and begins anew"
+"""What becomes of the work when Ctrl-C ends a command."""
+
+
 def main(words: list[str] | None = None) -> int:
     """Run one command; its exit code."""
     words = sys.argv[1:] if words is None else words
@@ -61,7 +70,7 @@ def main(words: list[str] | None = None) -> int:
         where = context.command_path if context else "bench"
         return print_refusal(reason if "(try: " in reason else f"{reason} (try: {where} --help)")
     except (KeyboardInterrupt, click.Abort):
-        print("stopped; what was finished is kept, and the same command goes on from there", file=sys.stderr)
+        print(f"stopped; {RESUMED if given in RESUMING else LOST}", file=sys.stderr)
         return 130
     except Exception as error:
         from tasks.errors import TaskError  # with numpy, so only when there is a mistake

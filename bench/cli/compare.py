@@ -26,7 +26,7 @@ from tasks.errors import TaskError
 @options.law
 @click.option("--no-timing", is_flag=True, help="Do not compare time.")
 @click.option("--benchmarks", type=click.Path(path_type=Path), metavar="FOLDER", help="Keep base.json and head.json.")
-@click.option("--summary", type=click.Path(path_type=Path), metavar="FILE", help="Markdown for a pull request.")
+@click.option("--summary", type=options.NEW_FILE, metavar="FILE", help="Markdown for a pull request.")
 def COMMAND(summary: Path | None, **asked: Any) -> None:
     """Compare HEAD with BASE, each a results folder or a git revision: what got worse, by how much, how sure.
 

@@ -1,10 +1,11 @@
 """`export`: laws as code for your own controller."""
 
+import functools
 from pathlib import Path
 
 import rich_click as click
 
-from bench.base.errors import BadResults
+from bench.base.files import write_atomically
 from bench.cli import options
 from bench.cli.screen import console, examples, shown_path
 
@@ -45,9 +46,9 @@ def COMMAND(law: str, language: str, out: Path | None, laws: options.Files) -> N
 
 
 def _write(folder: Path, files: dict[str, str]) -> None:
-    try:
-        for name, text in files.items():
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            (folder / name).write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise BadResults(f"--out {folder}: cannot be written ({error.strerror}); name a folder that can") from error
+    for name, text in files.items():
+        write_atomically(folder / name, functools.partial(_fill, text))
+
+
+def _fill(text: str, path: Path) -> None:
+    Path(path).write_text(text, encoding="utf-8")

@@ -12,7 +12,7 @@ from bench.findings.judgement import Judgement
 
 @click.command("judge", epilog=examples("judge"))
 @click.argument("law")
-@options.valued("--law-limit", 5.0, "Time limit per unit [s].", type=click.FloatRange(0.1))
+@options.valued("--law-limit", 5.0, "Time limit per unit [s].", type=options.LAW_LIMIT)
 def COMMAND(law: str, law_limit: float) -> None:
     """Judge a law on the free body and explain the result. It takes seconds and writes no file.
 

@@ -17,14 +17,14 @@ from bench.experiments.tables.schema import RESULTS
 from bench.law.inputs import Gains
 from bench.running.schedulers import check_scheduler
 
-MOST, SPEED = 10**10, click.FloatRange(0.0, 100.0)
+STARTS, SPEED = options.Number(1, 10**10, 10**7, is_whole=True), options.Number(0.0, 100.0, 1)
 ENGINE = click.Choice(["ideal-rk4", "ideal-held"])
 
 
 @click.command("map", epilog=examples("map"))
 @options.law
 @options.regulator
-@options.valued("--starts", 10**7, "Of each law.", type=click.IntRange(1, MOST))
+@options.valued("--starts", 10**7, "Of each law.", type=STARTS)
 @options.valued(
     "--spin", 0.0, "Initial speeds in rad/s are uniform up to this, directions uniform on the sphere.", type=SPEED
 )
@@ -37,7 +37,7 @@ ENGINE = click.Choice(["ideal-rk4", "ideal-held"])
 )
 @options.valued("--engine", "ideal-rk4", "Continuous plant, or one sampled with a held command.", type=ENGINE)
 @options.simulated
-@options.valued("--horizon", 10.0, "Longest simulated time in seconds.", "horizon_s")
+@options.valued("--horizon", 10.0, "Longest simulated time in seconds.", "horizon_s", type=options.HORIZON)
 @options.carried_out
 @options.valued("--out", RESULTS / "latest-map", "Folder.", type=options.PATH, show_default="results/latest-map")
 def COMMAND(

@@ -1,13 +1,17 @@
 """Options that several commands share."""
 
 import functools
+import math
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any, NoReturn, TypeAlias
 
 import rich_click as click
 
+from bench.base.errors import BadResults
+from bench.base.files import refuse_irregular
+from bench.experiments.choice import LONGEST_DT_S, MOST_STARTS, MOST_WORKERS, SHORTEST_DT_S
 from bench.experiments.tables.schema import RESULTS
 from bench.law.contender import Contender
 from bench.law.contenders import registry
@@ -25,6 +29,109 @@ def several(option: str, name: str, meaning: str, metavar: str = "NAME", **more:
 
 
 PATH = click.Path(path_type=Path)
+
+
+class NewFile(click.Path):
+    """A file to be written: nothing is there, or a regular file. Refused before the command works for minutes."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Path:
+        """Return the path; UsageError for a device, a pipe, a link or a folder."""
+        path = Path(os.fsdecode(super().convert(value, param, ctx)))
+        try:
+            refuse_irregular(path)
+        except (BadResults, ValueError) as error:
+            option = param.opts[0] if param else "file"
+            raise click.UsageError(f"{option} {error}", ctx) from error
+        return path
+
+
+NEW_FILE = NewFile(path_type=Path)
+
+
+class Number(click.ParamType):
+    """A number within bounds. Click's own FloatRange takes NaN, which is neither below nor above any bound.
+
+    Args:
+        low: Smallest number that is allowed.
+        high: Greatest number that is allowed.
+        example: A usual number, which the message names as the cure.
+        is_open: Whether `low` itself is refused.
+        is_whole: Whether the number is an integer.
+        infinite: What infinity means, such as "no bound"; where it is empty, infinity is refused.
+    """
+
+    name = "number"
+
+    def __init__(
+        self,
+        low: float,
+        high: float,
+        example: float,
+        *,
+        is_open: bool = False,
+        is_whole: bool = False,
+        infinite: str = "",
+    ):
+        self.low, self.high, self.example = low, high, example
+        self.is_open, self.is_whole, self.infinite = is_open, is_whole, infinite
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float | int:
+        """Return the number; UsageError with what was given, what is allowed and the cure."""
+        try:
+            number = int(value) if self.is_whole else float(value)
+        except (ValueError, TypeError):
+            self._refuse(value, param, ctx)
+        is_named = not isinstance(value, str) or value.strip().lower() in INFINITE
+        if self.infinite and number == math.inf and is_named:
+            return number
+        # written so that NaN, for which every comparison is false, is refused
+        is_above = number > self.low if self.is_open else number >= self.low
+        if not (is_above and number <= self.high):
+            self._refuse(value, param, ctx)
+        return number
+
+    def describe(self) -> str:
+        """Return what is allowed, in words."""
+        kind = "a whole number" if self.is_whole else "a number"
+        low = f"more than {self.low:g} and" if self.is_open else f"from {_short(self.low)}"
+        high = f"{'at most' if self.is_open else 'to'} {_short(self.high)}"
+        return f"give {kind} {low} {high}" + (f", or inf for {self.infinite}" if self.infinite else "")
+
+    def _refuse(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> NoReturn:
+        option = param.opts[0] if param else "number"
+        cure = f"(try: {option} {_short(self.example)})"
+        raise click.UsageError(f"{option} '{str(value)[:SHOWN]}': {self.describe()} {cure}", ctx)
+
+
+INFINITE = ("inf", "+inf", "infinity")
+"""Words for infinity. 1e400 is infinite too for Python's float, but whoever writes it means another number."""
+
+SHOWN = 40
+"""Signs of a refused word that are shown."""
+
+
+def _short(number: float) -> str:
+    return str(number) if isinstance(number, int) else f"{number:g}"
+
+
+KP = Number(1e-6, 1e6, 100)
+"""Position gain [1/s^2]. The time scale of a motion is 1/sqrt(kp): below 1e-6 it is more than 1000 s, the longest
+horizon; above 1e6 it is shorter than the usual control period of 1 ms."""
+
+KV = Number(1e-6, 1e6, 20)
+"""Velocity gain [1/s]. Bounded alike: 1/kv is the time in which a speed decays."""
+
+PERIOD = Number(SHORTEST_DT_S, LONGEST_DT_S, 0.001)
+HORIZON = Number(SHORTEST_DT_S, 1000.0, 10)
+"""Simulated seconds; that it has at least one tick is checked with the period (choice.check_numbers)."""
+
+SEED = Number(0, 2**32 - 1, 0, is_whole=True)
+COUNT = Number(1, MOST_STARTS, 100, is_whole=True)
+WORKERS = Number(1, MOST_WORKERS, os.cpu_count() or 1, is_whole=True)
+
+LAW_LIMIT = Number(0.01, 86_400.0, 30)
+"""Processor time [s] for a unit of a user's law: from a hundredth, in which no process of it starts, to a day."""
+
 Words: TypeAlias = tuple[str, ...]
 Files: TypeAlias = tuple[Path, ...]
 
@@ -57,14 +164,19 @@ def stacked(*options: Callable) -> Callable:
     return lambda command: functools.reduce(lambda made, option: option(made), reversed(options), command)
 
 
+def workers(meaning: str) -> Callable:
+    """Return the option that says how many work at once."""
+    return valued("--workers", os.cpu_count() or 1, meaning, type=WORKERS, show_default="cores")
+
+
 simulated = stacked(
-    valued("--dt", 1e-3, "Control period in seconds.", "dt_s"),
-    valued("--kp", 100.0, "Position gain [1/s^2]."),
-    valued("--kv", 20.0, "Velocity gain [1/s]."),
-    valued("--seed", 0, "Seed of the sampled starts."),
+    valued("--dt", 1e-3, "Control period in seconds.", "dt_s", type=PERIOD),
+    valued("--kp", 100.0, "Position gain [1/s^2].", type=KP),
+    valued("--kv", 20.0, "Velocity gain [1/s].", type=KV),
+    valued("--seed", 0, "Seed of the sampled starts.", type=SEED),
 )
 carried_out = stacked(
-    valued("--workers", os.cpu_count() or 1, "Threads.", show_default="cores"),
+    workers("Threads."),
     click.option(
         "--scheduler",
         default=THREADS,

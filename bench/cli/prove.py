@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -18,13 +17,16 @@ from bench.cli import options
 from bench.cli.progress import progress
 from bench.cli.screen import console, examples, frame_table
 
+SECONDS = options.Number(0.1, 1e5, 30)
+"""A question that takes a day is not answered; a tenth of a second is no time to answer one."""
+
 
 @click.command("prove", epilog=examples("prove"))
 @click.argument("laws", nargs=-1)
-@options.valued("--workers", os.cpu_count() or 1, "Laws at a time.", show_default="cores")
-@options.valued("--lemma-limit", 30.0, "Time limit of one question to Z3 [s].", type=click.FloatRange(0.1))
-@options.valued("--law-limit", 150.0, "Time limit of one law [s].", type=click.FloatRange(1.0))
-@click.option("--out", type=options.PATH, help="Write what is proved to this file, as JSON.")
+@options.workers("Laws at a time.")
+@options.valued("--lemma-limit", 30.0, "Time limit of one question to Z3 [s].", type=SECONDS)
+@options.valued("--law-limit", 150.0, "Time limit of one law [s].", type=SECONDS)
+@click.option("--out", type=options.NEW_FILE, help="Write what is proved to this file, as JSON.")
 def COMMAND(laws: tuple[str, ...], workers: int, lemma_limit: float, law_limit: float, out: Path | None) -> None:
     """Prove what laws' files declare of them, from the source (default: all that are global or almost global).
 
@@ -57,8 +59,8 @@ def COMMAND(laws: tuple[str, ...], workers: int, lemma_limit: float, law_limit: 
             console().print(f"{made['law']}: {text}")
     console().print(f"A property is proved {certificate.SCOPE}.")
     console().print(
-        f"sampled: episodes that settle at the paper's gains with the command held for {1e3 * certificate.SAMPLED_S:g} ms, "
-        "of the starts tried. That is measured, not proved."
+        "sampled: episodes that settle at the paper's gains, of the starts tried, with the command held for "
+        f"{1e3 * certificate.SAMPLED_S:g} ms. That is measured, not proved."
     )
     for text in list_cited(certificates):
         console().print(f"Cited, and not checked by a program: {text}.")

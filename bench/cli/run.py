@@ -35,19 +35,22 @@ from bench.running.schedulers import check_scheduler
 @options.several("--engine", "engines", "Only this engine")
 @click.option(
     "--count",
-    type=int,
+    type=options.COUNT,
     help="At most so many starts of each set or level (sampled sets take any number), or poses in contact.",
 )
 @options.simulated
 @click.option(
-    "--horizon", "horizon_s", type=float, help="Longest simulated time in seconds; the suite's own by default."
+    "--horizon",
+    "horizon_s",
+    type=options.HORIZON,
+    help="Longest simulated time in seconds; the suite's own by default.",
 )
 @click.option("--integrator", show_default=f"{WITHOUT}; in contact {IN_CONTACT}", metavar="NAME", help="MuJoCo's.")
 @options.carried_out
 @click.option("--out", type=options.PATH, default=options.LATEST, show_default="results/latest", help="Folder.")
 @click.option(
     "--law-limit",
-    type=click.FloatRange(min=0.0, min_open=True),
+    type=options.LAW_LIMIT,
     metavar="SECONDS",
     show_default="30, and ten times what ours take",
     help="A --law that takes longer for a unit of work is stopped there, and its rows say hung.",

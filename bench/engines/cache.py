@@ -4,14 +4,13 @@ numba's cache looks only at the file of the function it caches, so an edited law
 code; here the folder is a digest of all our sources and the versions that matter.
 """
 
-import contextlib
+import hashlib
 import os
 import shutil
-from collections.abc import Iterator
 from pathlib import Path
 
-from bench.base.lock import held
-from bench.base.provenance import kept_in, source_digest
+from bench.base.processes import RUNS_A_LAW
+from bench.base.provenance import ARITHMETIC, cpu_name, kept_in, source_digest, vectors
 
 KEPT = 8
 """States of the sources whose compiled code is kept, the newest first: some 15 MB each."""
@@ -29,7 +28,7 @@ def _chosen() -> Path:
         return Path(named)
     folder = home() / source_digest()
     os.environ["NUMBA_CACHE_DIR"] = str(folder)
-    if not folder.exists() and home().is_dir():
+    if not folder.exists() and home().is_dir() and not RUNS_A_LAW:
         by_age = sorted(home().iterdir(), key=lambda path: path.stat().st_mtime, reverse=True)
         for path in by_age[KEPT - 1 :]:
             shutil.rmtree(path, ignore_errors=True)
@@ -42,9 +41,11 @@ os.environ["NUMBA_DISABLE_INTEL_SVML"] = "1"
 """Numba would take sines of several lanes from Intel's vector library if that is installed; they are not libm's."""
 
 
-@contextlib.contextmanager
-def to_itself() -> Iterator[None]:
-    """Others wait, threads and processes: of two that write its index at once, one would find the other's code."""
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    with held(FOLDER, waits=True):
-        yield
+def mark_of(words: tuple[str, ...]) -> Path:
+    """Return the file that says that all code of these words is kept, for these sources and this processor.
+
+    It says only that nobody need compile ahead. Code that was removed since then is compiled where it is needed.
+    """
+    arithmetic = [os.environ.get(name) for name in ARITHMETIC]
+    decides = repr((words, source_digest(), cpu_name(), vectors(), arithmetic))
+    return FOLDER / "marks" / hashlib.sha256(decides.encode()).hexdigest()[:32]

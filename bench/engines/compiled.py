@@ -14,8 +14,8 @@ from typing import Any
 
 import numba
 from numba import _dynfunc, float64, int64, types
+from numba.core import caching
 from numba.core.bytecode import FunctionIdentity
-from numba.core.caching import IndexDataCacheFile
 from numba.core.codegen import JITCodeLibrary
 from numba.core.cpu import CPUContext
 from numba.extending import overload, register_jitable
@@ -23,9 +23,9 @@ from numba.np import linalg
 
 from bench.base.errors import BadLaw
 from bench.engines.arrays import Four, Three
-from bench.engines.cache import to_itself
 from bench.engines.curve import Curves
 from bench.engines.episode import Numbers
+from bench.engines.kept_code import KeptCode
 from bench.engines.typed import PART, type_of
 from bench.law import scalar
 from bench.law.chain import Chain, Scratch
@@ -47,18 +47,8 @@ third took from the cache became one, so that a law was silently run with parts 
 place, no two processes meet; a fork begins at another one too."""
 
 
-def _one_at_a_time(method: Callable) -> Callable:
-    @functools.wraps(method)
-    def alone(*words: Any) -> Any:
-        with to_itself():
-            return method(*words)
-
-    return alone
-
-
-for _access in ("load", "save"):
-    setattr(IndexDataCacheFile, _access, _one_at_a_time(getattr(IndexDataCacheFile, _access)))
-"""Only the files wait for one another: processes compile at the same time."""
+caching.IndexDataCacheFile = KeptCode
+"""The files of compiled code are ours, see kept_code.py."""
 
 _look_for_blas, linalg.ensure_blas = linalg.ensure_blas, lambda: None
 importlib.import_module("numba.np.arraymath")

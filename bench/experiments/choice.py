@@ -99,10 +99,16 @@ def check_word(kind: str, word: str, known: list[str]) -> None:
         raise UnknownWord(kind, word, sorted(known))
 
 
+MOST_WORKERS = 256
+"""Threads of a run: more than the cores of the machines that we know."""
+
+
 def check_workers(workers: int) -> None:
     """Refuse a number of threads that cannot work."""
-    if not 1 <= workers <= 256:
-        raise BadNumber(f"--workers {workers}: give between 1 and 256 threads (the number of cores is best)")
+    if not 1 <= workers <= MOST_WORKERS:
+        raise BadNumber(
+            f"--workers {workers}: give between 1 and {MOST_WORKERS} threads (the number of cores is best)"
+        )
 
 
 SHORTEST_DT_S, LONGEST_DT_S = 1e-6, 0.1

@@ -40,12 +40,12 @@ EDGES = np.array([math.cos(math.radians(5.0 * ring) / 2.0) for ring in range(1, 
 """|w| of the quaternion at the rings' edges, falling."""
 
 MOST_LOST = 1000
-"""Lost and unconverged starts that are kept of a law and speed."""
+"""Lost and unconverged starts that are kept of a law, gains and speed."""
 
 CELL, SLOWEST, LOST = "cell", "slowest", "lost"
 PLACE = ["ring_deg", "band", "azimuth"]
 STATE = [*(f"quat_{part}" for part in "wxyz"), *(f"omega0_{axis}" for axis in "xyz")]
-LAW = [*CONTENDER_KEY, "engine", "seed", "least_speed", "most_speed"]
+LAW = [*CONTENDER_KEY, "kp", "kv", "engine", "seed", "least_speed", "most_speed"]
 
 
 def plan_of(
@@ -102,8 +102,17 @@ def _of_block(settings: Settings, unit: Unit, number: int) -> pd.DataFrame:
         }
     )
     every = pd.concat([starts.assign(row=row) for row in (CELL, SLOWEST, LOST)], ignore_index=True)
-    law = one.words | {"engine": unit.engine, "seed": settings.seed, "least_speed": least, "most_speed": most}
-    return _reduced(every[~((every["row"] == LOST) & (every["settled"] == 1))].assign(**law))
+    law = {
+        **one.words,
+        "kp": settings.gains.kp,
+        "kv": settings.gains.kv,
+        "engine": unit.engine,
+        "seed": settings.seed,
+        "least_speed": least,
+        "most_speed": most,
+    }
+    is_settled_start = (every["row"] == LOST) & (every["settled"] == 1)
+    return _reduced(every[~is_settled_start].assign(**law))
 
 
 def start_rows(quats: np.ndarray, omegas: np.ndarray) -> np.ndarray:

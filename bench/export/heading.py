@@ -9,6 +9,7 @@ from bench.base.provenance import IS_CHECKOUT, ROOT, describe_project
 from bench.engines.counting.costs import FLOPS, cost
 from bench.engines.counting.counted import TOTAL
 from bench.export.subject import COMPENSATOR, IMPEDANCE, SPRING, Subject
+from bench.law.attribution import describe_source
 
 PROJECT = describe_project()
 LICENSE = (
@@ -18,8 +19,9 @@ LICENSE = (
 )
 WIDTH = 110
 RESET = (
-    "Call reset before the first tick, after a pause, and whenever the goal jumps: the memory outlives the goal, and "
-    "the side that was right for the last goal may be the longer way to the new one."
+    "Call reset before the first tick and after a pause. The memory outlives the goal: when the goal jumps, the side "
+    "that was right for the last goal may be the longer way to the new one. A reset then shortens the path and saves "
+    "no time."
 )
 SIDE = (
     "The side is followed from tick to tick, so the measured orientation must turn by less than 180° between two "
@@ -66,7 +68,7 @@ def heading(subject: Subject, *notes: str) -> str:
         f"{record.title}{of} ({subject.word})",
         "",
         f"Formula   {record.formula}",
-        *([f"Source    {record.source}"] if record.source else []),
+        *_wrapped(f"Source    {_attributed(subject)}" if record.source else ""),
         *_facts(subject),
         *_wrapped(f"Limits    {' '.join(limits[1].split())}" if limits else ""),
         *_wrapped(FRAMES),
@@ -77,6 +79,12 @@ def heading(subject: Subject, *notes: str) -> str:
         "SPDX-License-Identifier: Apache-2.0",
     ]
     return "\n".join(lines)
+
+
+def _attributed(subject: Subject) -> str:
+    """Return whose the record is, and its source: "adapted: after A and B"."""
+    one = subject.contender if subject.contender is not None else subject.record
+    return describe_source(one.attribution, subject.record.source)
 
 
 def _facts(subject: Subject) -> list[str]:

@@ -8,11 +8,31 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
+from bench.base.errors import NoTable
 from bench.experiments.tables.read import with_contender
 from bench.experiments.tables.statistics import Estimate
 from bench.experiments.tables.store import read
+from bench.law.inputs import Gains
 
 SPEEDS = ["least_speed", "most_speed"]
+KEY = ["contender", "kp", "kv", "engine", *SPEEDS]
+"""What one count is of."""
+
+
+def read_maps(folder: Path) -> pd.DataFrame:
+    """Return the rows of every map in a folder of maps, a folder each, in the order of their names."""
+    paths = sorted(folder.glob("*/map.parquet"))
+    frames = [read(path.parent, "map") for path in paths]
+    if not frames:
+        raise NoTable(f"{folder}: there is no map in it; make one with bench map --out {folder}/NAME")
+    words = [name for name in frames[0] if isinstance(frames[0][name].dtype, pd.CategoricalDtype)]
+    together = pd.concat([frame.astype(dict.fromkeys(words, str)) for frame in frames], ignore_index=True)
+    return together.astype(dict.fromkeys(words, "category"))
+
+
+def at_gains(rows: pd.DataFrame, gains: Gains) -> pd.DataFrame:
+    """Return the rows that were simulated with these gains; there may be none."""
+    return rows[(rows["kp"] == gains.kp) & (rows["kv"] == gains.kv)]
 
 
 @functools.cache
@@ -25,20 +45,20 @@ def lost_share(lost: int, of: int) -> Estimate:
 
 
 def counted(rows: pd.DataFrame) -> pd.DataFrame:
-    """How many starts a law and speed has, and how many of them are lost or do not converge.
+    """How many starts a law, gains and speed have, and how many of them are lost or do not converge.
 
-    Columns: contender, least_speed, most_speed [rad/s], starts, settled, unconverged, lost.
+    Columns: contender, kp, kv, engine, least_speed, most_speed [rad/s], starts, settled, unconverged, lost.
     """
     cells = with_contender(rows[rows["row"] == "cell"])
     numbers = ["starts", "settled", "unconverged"]
-    found = cells.groupby(["contender", *SPEEDS], sort=False, observed=True)[numbers].sum().reset_index()
+    found = cells.groupby(KEY, sort=False, observed=True)[numbers].sum().reset_index()
     return found.assign(lost=found["starts"] - found["settled"] - found["unconverged"])
 
 
 @functools.lru_cache(maxsize=1)
 def count_in(folder: Path) -> pd.DataFrame:
     """Return `counted` of the maps in a folder, once for the runs at all gains."""
-    return counted(read(folder, "map"))
+    return counted(read_maps(folder))
 
 
 def lost_between(lost: int, unconverged: int, of: int) -> Estimate:
@@ -48,8 +68,8 @@ def lost_between(lost: int, unconverged: int, of: int) -> Estimate:
 
 
 def by_law(rows: pd.DataFrame) -> pd.DataFrame:
-    """Return a row a law and speed: starts that converge and are lost, in ppm with interval, and the slowest."""
-    key = ["contender", *SPEEDS]
+    """Return a row a law, gains and speed: starts that converge and are lost, in ppm with interval, and the slowest."""
+    key = KEY
     slowest = with_contender(rows[rows["row"] == "slowest"]).sort_values("settling_time_s")
     last = slowest.drop_duplicates(key, keep="last")[[*key, "settling_time_s", "ring_deg"]]
     found = counted(rows).merge(last, how="left", on=key)
@@ -79,9 +99,14 @@ class Spun(NamedTuple):
     share: Estimate
 
 
-def spun(numbers: pd.DataFrame, law: str) -> list[Spun]:
-    """Return a law's starts at stated speeds from what `counted` gives, the slowest first; none if it is in no map."""
-    own = numbers[(numbers["contender"] == law) & (numbers["least_speed"] == numbers["most_speed"])]
+def spun(numbers: pd.DataFrame, law: str, gains: Gains, engine: str) -> list[Spun]:
+    """Return a law's starts at stated speeds from what `counted` gives, the slowest first.
+
+    There are none where no map has the law with these gains by this engine: it was not tested then.
+    """
+    of_law = at_gains(numbers, gains)
+    of_law = of_law[(of_law["contender"] == law) & (of_law["engine"] == engine)]
+    own = of_law[of_law["least_speed"] == of_law["most_speed"]]
     columns = own.sort_values("most_speed")[["most_speed", "starts", "lost", "unconverged"]]
     return [
         Spun(speed, starts, unconverged, lost_between(lost, unconverged, starts))

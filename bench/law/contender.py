@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from bench.base.errors import Incompatible
+from bench.law.attribution import ADAPTED, PUBLISHED
 from bench.law.display import Equation
 from bench.law.kinds import ON_MATRIX, Coordinates, Impedance, Inverse, Jacobian, Law
 
@@ -46,6 +47,13 @@ class Contender(NamedTuple):
     def is_elsewhere(self) -> bool:
         """Whether it acts on coordinates that the paper sets aside (Murphy 1988, 2.2)."""
         return self.representation is not None and not self.representation.papers
+
+    @property
+    def attribution(self) -> str:
+        """Whose it is (`bench.law.attribution`): a published law in coordinates that its work has not is adapted."""
+        if self.is_elsewhere and self.regulator.attribution == PUBLISHED:
+            return ADAPTED
+        return self.regulator.attribution
 
     @property
     def short(self) -> str:

@@ -2,11 +2,14 @@
 
 Shapes: a vector is a tuple of 3 numbers, R a `Rotation`, E a tuple of 3 coordinates (4 of a quaternion). A buffer is an
 array A[i, j] or b[i] of numbers: float64, or counting scalars. Base frame, radians, seconds, SI units.
+
+Each has an `attribution`: published, adapted or ours (`bench.law.attribution`).
 """
 
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+from bench.law.attribution import OURS, YOURS
 from bench.law.display import Display
 from bench.law.inputs import PAPERS_GAINS, Gains
 
@@ -15,9 +18,6 @@ ON_MATRIX = "rotation-matrix"
 
 ACCELERATION, TORQUE, VELOCITY, POSITION = "acceleration", "torque", "velocity", "position"
 """Levels: what a controller commands. Of a position, it simulates the plant that moves there."""
-
-OURS = "this benchmark"
-"""How the source of a law begins that was made here."""
 
 
 class State(NamedTuple):
@@ -60,6 +60,7 @@ class Law(NamedTuple):
     assemble: of a baseline (contenders/baselines), assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory)
     in place of (2.2) and (3.7). through: the Jacobian and the inverse of one that acts on the joints; else empty.
     papers: its place among the paper's three laws; 0 of another. control: a negative one, here because it must fail.
+    attribution: published, adapted or ours, as `bench.law.attribution` defines them; yours of a user's file.
     """
 
     name: str
@@ -89,10 +90,11 @@ class Law(NamedTuple):
     papers: int = 0
     control: bool = False
     display: Display = Display()
+    attribution: str = YOURS
 
     def is_ours(self) -> bool:
-        """Whether the law was made here and nobody else has reviewed it: its source then begins with OURS."""
-        return self.source.startswith(OURS)
+        """Whether the law was made here and nobody else has reviewed it: such a law is never advised."""
+        return self.attribution == OURS
 
 
 class Coordinates(NamedTuple):
@@ -136,6 +138,7 @@ class Coordinates(NamedTuple):
     about: tuple[int, int, int] | None = (0, 1, 2)
     papers: bool = False
     display: Display = Display()
+    attribution: str = YOURS
 
     @property
     def goal_chart(self) -> Callable:
@@ -171,6 +174,7 @@ class Jacobian(NamedTuple):
     takes: str
     kernels_in: Callable
     needs_derivatives: bool = False
+    attribution: str = YOURS
 
 
 class Inverse(NamedTuple):
@@ -192,6 +196,7 @@ class Inverse(NamedTuple):
     gives: str = "acceleration"
     refuses: Callable[[int, int], str] = lambda rows, n: ""
     uses_inertia: bool = False
+    attribution: str = YOURS
 
 
 class Impedance(NamedTuple):
@@ -214,6 +219,7 @@ class Impedance(NamedTuple):
     law_in: Callable | None = None
     relative: bool = False
     design: Callable | Any = None
+    attribution: str = YOURS
 
 
 class Spring(NamedTuple):
@@ -233,3 +239,4 @@ class Spring(NamedTuple):
     potential: Callable | None = None
     frames: tuple[str, ...] = ("tool",)
     stiffness: float = 1.0
+    attribution: str = YOURS

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
+from bench.law.attribution import PUBLISHED
 from bench.law.inputs import Gains
 from bench.law.kinds import Law
 from bench.law.scalar import kernel, sqrt
@@ -177,4 +178,4 @@ def read_shipped(path: Path) -> Law:
         damping = 2.0 * words.pop("damping_ratio") * stiffness**0.5
     shipped = AsShipped(error, **{name: words.pop(name) for name in AsShipped._fields if name in words})
     words |= {"name": path.stem.replace("_", "-"), "property": "none", "gains": Gains(stiffness, damping)}
-    return Law(**words, law=law_of(error), memory=NEAR, shipped=shipped)
+    return Law(**words, law=law_of(error), memory=NEAR, shipped=shipped, attribution=PUBLISHED)

@@ -1,11 +1,15 @@
 """The side of a 180° rotation that a law keeps in memory: which of the two quaternions of a turn it acts on.
 
-Every turn has two unit quaternions, (eta, eps) and its opposite. A law of the shorter one jumps at a 180° rotation, and
-noise can hold it there. With the hysteresis below it jumps later, and only once: the quaternion is followed from tick
-to tick, and its sign changes only where eta has fallen below -delta. No continuous law without memory is global (Bhat &
-Bernstein 2000). The memory outlives the goal: reset it before the first tick, after a pause, and when the goal jumps.
+Every turn has two unit quaternions, (eta, eps) and its opposite. A law of the shorter one jumps at a 180°
+rotation, and noise can hold it there. With the hysteresis below it jumps later, and only once: the quaternion
+is followed from tick to tick, and its sign changes only where eta has fallen below -delta. No continuous law
+without memory is global (Bhat & Bernstein 2000). The memory outlives the goal: reset it before the first tick
+and after a pause. When the goal jumps, a reset shortens the way and saves no time.
 
-Source: Mayhew, Sanfelice, Teel 2011; the hysteresis is theirs, delta is ours.
+Source: Mayhew, Sanfelice, Teel 2011. The hysteresis is theirs: a side h changes where
+h eta < -delta, here with the quaternion lifted anew in every tick. delta = 0.4 is, by all appearance, theirs too: a
+public code for example 7.7 of Markley and Crassidis, "the first example" of that paper, has it
+(7ganam/attitude-determinatio-and-control-system, ch7/example7_7a.m, at ac4f373d).
 """
 
 from bench.law.scalar import kernel, sqrt

@@ -95,7 +95,7 @@ def main(parent: int, content: dict) -> None:
 
     Forks do it, LIFE requests each: the run finds the error of one that fails when it compiles for itself.
     """
-    threading.Thread(target=_end_without, args=(parent,), daemon=True).start()
+    threading.Thread(target=end_without, args=(parent,), daemon=True).start()
     for name in ENGINES:
         importlib.import_module(f"bench.engines.{name}")
     from bench.experiments.costs import count_operations
@@ -112,7 +112,7 @@ def main(parent: int, content: dict) -> None:
             os.waitpid(child, 0)
             print(*some, sep="\n", flush=True)
             continue
-        threading.Thread(target=_end_without, args=(os.getppid(),), daemon=True).start()
+        threading.Thread(target=end_without, args=(os.getppid(),), daemon=True).start()
         for number in some:
             with contextlib.suppress(Exception):
                 work[number]()
@@ -120,7 +120,8 @@ def main(parent: int, content: dict) -> None:
         os._exit(0)
 
 
-def _end_without(parent: int) -> None:
+def end_without(parent: int) -> None:
+    """End this process when that one, its parent, has ended."""
     while os.getppid() == parent:
         time.sleep(0.2)
     os._exit(1)  # in the middle of a compilation; a file of the cache is there whole or not at all

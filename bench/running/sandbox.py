@@ -12,6 +12,7 @@ rows are `crashed` in this run, and the same command tries them again.
 import contextlib
 import json
 import sys
+import threading
 from collections.abc import Iterator
 
 import pyarrow as pa
@@ -21,6 +22,7 @@ from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
 from bench.experiments.tables.packed import pack
 from bench.experiments.tables.store import joined, lost_table, table_of_unit
+from bench.running.ours_first import compile_ours
 from bench.running.sandbox_line import Ended, Forged, Killed, Lost, Mistake, Pool, Process
 from bench.running.wire_format import described
 from tasks.verdict import CRASHED, HUNG, OUTCOMES
@@ -59,6 +61,7 @@ class Sandbox(contextlib.AbstractContextManager):
         self._tried: dict[Unit, pa.Table] = {}
         self._unready: dict[str | tuple[str, ...], Lost] = {}
         self._pool = Pool()
+        self._compiling, self._is_compiled = threading.Lock(), False
 
     def __exit__(self, *_: object) -> None:
         self._pool.end_all()
@@ -170,8 +173,16 @@ class Sandbox(contextlib.AbstractContextManager):
         return process
 
     def _begin(self, law: str) -> Process:
+        self._compile_ours()
         mine = [one for one in self.plan.units if one.law == law]
         return Process(law, self.plan.settings, json.dumps(described(self.plan, mine)).encode())
+
+    def _compile_ours(self) -> None:
+        """Compile our code that the laws need before the first process of one starts; see `ours_first`."""
+        with self._compiling:
+            if not self._is_compiled:
+                compile_ours(self.plan, [unit for unit in self.plan.units if self.has(unit)])
+                self._is_compiled = True
 
     def _known(self, unit: Unit, lost: Lost) -> Lost:
         """Return why a unit is lost; note that it is to be tried again if its law may not be why."""

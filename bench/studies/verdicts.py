@@ -3,7 +3,8 @@
 The words are stored in results/verdicts. A seed draws other starts and poses; what follows from no draw (operations,
 contact, boundaries) is the reference's. At half the step all that steps is run again, contact too. Each run is judged
 in this process, by the tables that it made and the reference's for the rest, and written when it is done: another call
-goes on where one was stopped.
+goes on where one was stopped. Claims under `stale` in the file have newer criteria than its runs, and wait for the
+next whole study, which names none.
 """
 
 import dataclasses

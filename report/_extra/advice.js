@@ -58,7 +58,7 @@
   }
   function words(point) {
     const one = verdict(point);
-    if (one.law < 0) return `${point.words}: no published law meets the requirements.`;
+    if (one.law < 0) return `${point.words}: no published or adapted law meets the requirements.`;
     const ties = one.tied.length ? ` It ties with ${one.tied.map(law => data.laws[law].name).join(", ")}.` : "";
     const ours = one.ours.length ? ` ${one.ours.map(law => data.laws[law].name).join(", ")} (ours) ${one.faster ? "is faster" : "ties"}.` : "";
     return `${point.words}: ${data.laws[one.law].name}, 99 % settle in ${one.time}/√kp.${ties}${ours}`;

@@ -2,9 +2,10 @@
 
 from typing import Any
 
-from bench.findings.selection.regions import find_bounds, find_default
+from bench.findings.selection import words
+from bench.findings.selection.regions import find_default
+from bench.findings.selection.reset import describe_resets
 from bench.findings.selection.robots import list_elsewhere
-from bench.findings.selection.words import describe_bounds
 from report.figures.answer import which_law
 from report.figures.kit import families, html, media
 from report.figures.kit.page import Run, in_run
@@ -24,17 +25,19 @@ def facts(run: Run) -> dict[str, Any]:
     return {
         "fates": html.Html(loop + PLAY),
         "default": families.word(find_default()),
+        "attribution": which_law.describe_attribution(find_default()),
         "does": which_law.describe_default(),
-        "bounds": describe_bounds(find_bounds(find_default())),
-        "needs": in_run(list_needs, run),
+        "lines": words.describe_lines(find_default(), families.word),
+        "resets": describe_resets(find_default()),
+        "needs": in_run(list_needs),
         "ours": which_law.describe_ours(),
     }
 
 
-def list_needs(run: Run) -> str:
+def list_needs() -> str:
     """Say for each law that is not the default what leads to it."""
     needs: dict[str, list[str]] = {}
-    for one in list_elsewhere(run.folder):
+    for one in list_elsewhere():
         if one.law != find_default():
             needs.setdefault(one.law, []).append(one.words)
     links = {law: families.link(law, families.word(law)).replace('href="../', 'href="', 1) for law in needs}

@@ -17,7 +17,7 @@ ERRORS = Path(__file__).with_name("errors.python").read_text(encoding="utf-8")
         ("ends", ["ends-process"], "ended the process (exit code 0)"),
         ("reads_nowhere", ["ends-process"], "ended the process (SIGSEGV)"),
         ("loops", ["hangs"], "had not returned after"),
-        ("prints", [], "no fault found"),
+        ("prints", ["dead-at-180"], "FAULTS: dead-at-180 ("),
         ("cached", ["memory"], "another answer"),
         ("cached_by_rounding", ["memory"], "another answer"),
     ],

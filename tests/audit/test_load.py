@@ -44,7 +44,7 @@ def library(tmp_path_factory):
 @pytest.mark.parametrize("name", ["columns", "Called", "Controller"])
 def test_function_and_class_of_a_file_are_asked(file, name):
     report = audit(load(f"{file}:{name}"))
-    assert (report.convention.form, report.faults) == ("sine", ())
+    assert (report.convention.form, report.faults) == ("sine", ("dead-at-180",))
 
 
 def test_c_function_of_matrices_is_that_of_python(library, file):
@@ -120,7 +120,7 @@ def test_answer_that_no_array_holds_is_refused_in_its_own_words():
         audit(lambda R, R_d: Tensor())
 
 
-@pytest.mark.parametrize("words", [{"takes": "quat"}, {"frame": "world"}, {"sign": "plus"}, {"accept": ("norm-clop",)}])
+@pytest.mark.parametrize("words", [{"takes": "quat"}, {"frame": "world"}, {"sign": "plus"}, {"allow": ("norm-clop",)}])
 def test_unknown_word_is_refused_with_the_known_ones(file, words):
     with pytest.raises(UnknownWord, match="known: "):
         audit(load(f"{file}:columns"), **words)
@@ -135,15 +135,27 @@ def test_stiffness_that_is_not_positive_is_refused(file, stiffness):
 # --------------------------------------------------------------------------- the command
 
 
-def test_command_ends_with_1_on_a_fault_and_0_if_it_is_accepted(capsys, file):
-    assert bench(capsys, "audit", f"{file}:half").code == 1
-    assert bench(capsys, "audit", f"{file}:half", "--accept", "stiffness").code == 0
-    assert bench(capsys, "audit", f"{file}:half", "--stiffness", "0.5").code == 0
+def test_command_ends_with_1_on_a_fault_and_0_if_every_one_is_allowed(capsys, file):
+    half, dead, weak = f"{file}:half", ("--allow", "dead-at-180"), ("--allow", "stiffness")
+    assert bench(capsys, "audit", half).code == 1
+    assert bench(capsys, "audit", half, *dead).code == 1
+    assert bench(capsys, "audit", half, *dead, *weak).code == 0
+    assert bench(capsys, "audit", half, *dead, "--stiffness", "0.5").code == 0
+
+
+def test_command_ends_with_1_for_an_error_that_vanishes_at_180_unless_that_is_allowed(capsys, file):
+    faulty = bench(capsys, "audit", "check", f"{file}:columns")
+    assert (faulty.code, "columns: FAULTS: dead-at-180 (" in faulty.out) == (1, True)
+    allowed = bench(capsys, "audit", "check", f"{file}:columns", "--allow", "dead-at-180")
+    assert (allowed.code, "columns: no fault found, 1 allowed: dead-at-180 (" in allowed.out) == (0, True)
 
 
 def test_command_refuses_a_mistake_on_one_line(capsys, file):
     assert "has no 'colums'" in refused(capsys, "audit", "check", f"{file}:colums")
     assert "'world' is unknown" in refused(capsys, "audit", f"{file}:half", "--frame", "world")
+    unknown = refused(capsys, "audit", f"{file}:half", "--allow", "dead-at-18")
+    assert "'dead-at-18' is unknown" in unknown
+    assert all(fault.name in unknown for fault in every_fault())
     assert "(Not a directory); name another file" in refused(capsys, "audit", f"{file}:half", "--json", file / "x.json")
 
 
@@ -151,12 +163,12 @@ def test_examples_of_the_help_are_words_that_the_command_takes(capsys, file):
     lines = re.findall(r"^   bench (audit check) \S+(.*)", bench(capsys, "audit", "check", "--help").out, re.MULTILINE)
     assert len(lines) == 4
     for command, options in lines:
-        assert bench(capsys, *command.split(), f"{file}:columns", *options.split()).code == 0
+        assert bench(capsys, *command.split(), f"{file}:chord", *options.split()).code == 0
 
 
 def test_terminal_sees_the_number_of_calls(file):
     ours, theirs = pty.openpty()
-    words = [sys.executable, "-m", "bench", "audit", "check", f"{file}:columns"]
+    words = [sys.executable, "-m", "bench", "audit", "check", f"{file}:chord"]
     subprocess.run(words, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=theirs, check=True)
     os.close(theirs)
     assert re.search(rb"[1-9][0-9,]* of about 6,000 calls: ", os.read(ours, 1 << 16))
@@ -197,16 +209,32 @@ def run(pytester, monkeypatch):
 
 
 def test_each_fault_is_a_test_beside_the_others(run):
-    result = run("--orientation-error", "mine.py:columns", "-v")
+    result = run("--orientation-error", "mine.py:chord", "-v")
     result.assert_outcomes(passed=1 + len(every_fault()))
-    result.stdout.fnmatch_lines(["*mine.py:columns[[]dead-at-180[]] PASSED*"])
+    result.stdout.fnmatch_lines(["*mine.py:chord[[]dead-at-180[]] PASSED*"])
+
+
+def test_error_that_vanishes_at_180_fails_unless_an_option_or_the_ini_file_allows_it(run, pytester):
+    words = ("--orientation-error", "mine:columns")
+    result = run(*words)
+    result.assert_outcomes(passed=len(every_fault()), failed=1)
+    result.stdout.fnmatch_lines(["fault dead-at-180: *", "*FAILED*mine:columns[[]dead-at-180[]]*"])
+    run(*words, "--orientation-error-allow", "dead-at-180").assert_outcomes(passed=1 + len(every_fault()))
+    pytester.makeini("[pytest]\norientation_error_allow = dead-at-180\n")
+    run(*words).assert_outcomes(passed=1 + len(every_fault()))
+
+
+def test_unknown_fault_that_is_allowed_is_an_error_of_usage_with_the_known_ones(run):
+    result = run("--orientation-error", "mine:columns", "--orientation-error-allow", "dead-at-18")
+    assert result.ret == pytest.ExitCode.USAGE_ERROR
+    result.stderr.fnmatch_lines(["ERROR: *'dead-at-18' is unknown*dead-at-180*"])
 
 
 def test_fault_fails_its_own_test_and_says_the_cure(run):
-    result = run("--orientation-error", "mine:half")
+    result = run("--orientation-error", "mine:weak_chord")
     result.assert_outcomes(passed=len(every_fault()), failed=1)
-    result.stdout.fnmatch_lines(["fault stiffness: *", "*Cure: *", "*FAILED*mine:half[[]stiffness[]]*"])
-    assert run("--orientation-error", "mine:half", "--orientation-error-accept", "stiffness").ret == 0
+    result.stdout.fnmatch_lines(["fault stiffness: *", "*Cure: *", "*FAILED*mine:weak_chord[[]stiffness[]]*"])
+    assert run("--orientation-error", "mine:weak_chord", "--orientation-error-allow", "stiffness").ret == 0
 
 
 def test_mistake_is_an_error_of_usage(run):

@@ -44,16 +44,49 @@ def test_evidence_is_what_the_function_says(function, faults):
         (scipy_in_body_from_goal, {"frame": "base", "sign": "to-goal"}, ("transpose",)),
         (numpy_chord, {"takes": "xyzw"}, ("quaternion-order",)),
         (half_stiff, {"stiffness": 0.5}, ()),
-        (norm_clip, {"accept": ("norm-clip",)}, ()),
-        (axis_clip, {"accept": ("norm-clip",)}, ("axis-clip",)),
+        (norm_clip, {"allow": ("norm-clip",)}, ()),
+        (axis_clip, {"allow": ("norm-clip",)}, ("axis-clip",)),
     ],
 )
 def test_what_is_stated_decides_what_is_a_fault(function, stated, faults):
     assert audit(function, **stated).faults == faults
 
 
-def test_accepted_fault_stays_in_the_report():
-    assert "accepted norm-clip" in audit(norm_clip, accept=("norm-clip",)).text()
+def test_allowed_fault_stays_in_the_report():
+    report = audit(norm_clip, allow=("norm-clip",), name="clipped")
+    assert report.head().startswith("clipped: no fault found, 1 allowed: norm-clip (")
+    assert "\nallowed norm-clip: " in report.text()
+
+
+def cross_product(R, R_d):
+    return 0.5 * np.cross(R.T, R_d.T).sum(axis=0)
+
+
+def test_error_that_vanishes_at_180_by_its_form_is_a_fault_unless_it_is_allowed():
+    report = audit(cross_product)
+    assert (report.faults, report.notes, report.allowed) == (("dead-at-180",), (), ())
+    assert "for 240 of 240 rotations by exactly 180°: its form is zero there" in report.text()
+    assert "if the goal is never 180° away, allow dead-at-180" in report.text()
+    allowed = audit(cross_product, allow=("dead-at-180",))
+    assert (allowed.faults, allowed.allowed) == ((), ("dead-at-180",))
+
+
+@pytest.mark.parametrize("power", [0.5, 1.0, 2.0])
+def test_form_of_no_name_that_dies_away_before_180_has_the_fault_too(power):
+    def dies(R, R_d):
+        e = scipy_in_base(R, R_d)
+        theta = np.linalg.norm(e)
+        return e * np.cos(0.5 * theta) ** power if theta < np.pi else np.zeros(3)
+
+    assert "dead-at-180" in audit(dies).faults
+
+
+def test_error_that_is_small_before_180_but_not_zero_there_is_not_dead():
+    def small(R, R_d):
+        e = scipy_in_base(R, R_d)
+        return e * (1.0 - 0.999 * np.linalg.norm(e) / np.pi)
+
+    assert "dead-at-180" not in {finding.fault.name for finding in audit(small).findings}
 
 
 def arc_cosine_unclipped(q, q_d):
@@ -82,7 +115,8 @@ def test_numbers_that_overflow_print_no_warning(recwarn):
 
 def test_refusal_of_input_that_is_off_is_a_note_and_another_answer_a_fault():
     report = audit(refuses)
-    assert ([one.fault.name for one in report.findings], report.faults) == (["non-unit"], ())
+    assert (report.notes, report.faults) == (("non-unit",), ())
+    assert "no fault found, 1 note: non-unit (" in report.head()
     assert "non-unit" in audit(arc_cosine_unclipped).faults
 
 

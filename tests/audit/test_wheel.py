@@ -90,11 +90,16 @@ def test_wheel_is_small_needs_numpy_alone_and_may_be_published(wheel, said):
 def test_commands_of_its_readme_run_in_a_project_with_packages_of_our_names(run, said, tmp_path):
     check, tests, actions, law = re.findall(r"^```sh\n(.*)\n```", said, re.MULTILINE)
     checked, refused = run(*check.split()), run(*check.replace("check", "chek").split())
-    assert (checked.returncode, "FAULTS: stiffness" in checked.stdout, checked.stderr) == (1, True, "")
+    assert (checked.returncode, "FAULTS: dead-at-180, stiffness" in checked.stdout, checked.stderr) == (1, True, "")
     assert (refused.returncode, refused.stdout, refused.stderr.count("\n")) == (2, "", 1)
-    for words, failed in ((tests, 1), (tests.replace("my_error:", "my_error.py:"), 1), ("pytest", 0)):
+    allowed = run(*check.split(), "--allow", "dead-at-180", "--stiffness", "2")
+    assert (allowed.returncode, "no fault found, 1 allowed: dead-at-180" in allowed.stdout) == (0, True)
+    of_file = tests.replace("my_error:", "my_error.py:")
+    allowing = f"{tests} --orientation-error-allow dead-at-180"
+    for words, failed in ((tests, 2), (of_file, 2), (allowing, 1), ("pytest", 0)):
         tested = run(*words.split())
-        assert (tested.returncode, "1 failed" in tested.stdout) == (failed, bool(failed)), tested.stdout + tested.stderr
+        assert tested.returncode == int(failed > 0), tested.stdout + tested.stderr
+        assert (f"{failed} failed" in tested.stdout) == (failed > 0), tested.stdout
     R = Rotation.from_rotvec(np.random.default_rng(1).normal(size=(301, 3)))
     action = (R[1:] * R[:-1].inv()).as_rotvec() / 0.5
     np.savez(tmp_path / "log.npz", R=R[:-1].as_matrix(), R_next=R[1:].as_matrix(), action=action)

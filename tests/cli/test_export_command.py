@@ -76,4 +76,5 @@ def test_operator_that_other_languages_lack_is_refused_with_what_is_allowed(caps
 
 def test_export_into_what_is_no_folder_is_refused(capsys, tmp_path):
     (tmp_path / "file").write_text("")
-    assert "name a folder" in refused(capsys, "export", "rotation-matrix", "--to", "c", "--out", tmp_path / "file")
+    words = ("export", "rotation-matrix", "--to", "c", "--out", tmp_path / "file")
+    assert "choose another folder" in refused(capsys, *words)

@@ -42,7 +42,7 @@ def test_summary_of_the_reference_fits_the_screen_and_begins_with_the_law(refere
     lines = python("-m", "bench", "show", REFERENCE).splitlines()
     assert (len(lines) <= LINES, max(map(len, lines)) <= COLUMNS) == (True, True)
     assert lines[0].startswith("Which law ")
-    assert f"Use the law {find_default()} (published" in lines[0]
+    assert f"Use the law {find_default()} (adapted: after" in lines[0]
     for head in ("Elsewhere", "Ours", "Claims", "What failed", "This run", "Next"):
         assert any(line.startswith(head) for line in lines)
 

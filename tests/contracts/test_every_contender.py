@@ -28,8 +28,6 @@ EVERY = [
 ]
 PLAIN = {"refuses", "polynomial", "bound"}
 """Functions of a record that no loop calls."""
-MADE_HERE = {"springs"}
-"""Kinds that may have no source."""
 
 on_every = pytest.mark.parametrize(("kind", "one"), EVERY)
 
@@ -46,7 +44,7 @@ def read_comment(kind, one):
 @on_every
 def test_contender_says_what_it_is_and_where_it_is_from(kind, one):
     assert one.title
-    assert one.source or kind in MADE_HERE
+    assert one.source
     assert getattr(one, "formula", "none")
     assert read_comment(kind, one)
 

@@ -13,9 +13,10 @@ from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import Results
 from bench.findings.on_arms import best
 from bench.findings.selection.needs import is_unheld, measured, settles_everywhere
-from bench.findings.selection.regions import decide_all, find_bounds, find_default, find_regions
+from bench.findings.selection.regions import decide_all, find_default, find_regions
 from bench.findings.selection.robots import ARM, VELOCITY, decide_for
-from bench.findings.selection.words import describe_bounds
+from bench.findings.selection.unbeaten import find_bounds
+from bench.findings.selection.words import describe_bounds, describe_lines, describe_shares
 from report.figures import index
 from report.figures.answer import which_law
 from report.figures.arms import arm_rows, arms
@@ -69,7 +70,8 @@ def test_time_of_laws_alone_is_what_tells_whole_controllers_apart():
 def test_front_page_lead_and_table_name_the_advised_law_and_its_bounds():
     law, shown = find_default(), index.facts(RUN)
     assert shown["default"] == families.word(law)
-    assert shown["bounds"] == describe_bounds(find_bounds(law))
+    assert shown["lines"] == describe_lines(law, families.word)
+    assert describe_shares(law) in shown["does"]
     assert f"Use **{families.word(law)}**" in which_law.lead()
     lines = str(which_law.facts(RUN)["regions"]).splitlines()[2:]
     for one, line in zip(find_regions(), lines, strict=False):  # the smallest regions have no line
@@ -85,7 +87,7 @@ def test_law_that_is_advised_for_an_arm_is_among_the_best_of_its_page(measure):
 
 def test_cards_say_in_how_many_situations_a_law_is_advised():
     for one in find_regions():
-        assert f"Advised in {one.advised:.0%}" in regulators.advised(one.law)
+        assert f"Advised in {100 * one.advised:.0f} %" in regulators.advised(one.law)
     assert regulators.advised("late-braking").startswith("Not advised, ours")
     assert regulators.advised("gibbs") == ""
 

@@ -10,7 +10,7 @@ import pytest
 import tasks
 from bench.experiments.experiment import Settings, Unit, rows_of
 from bench.experiments.impedance import STIFFNESSES, ZETA
-from bench.experiments.impedance_modes import find_longest_delay
+from bench.experiments.impedance_modes import SHIPPED, find_longest_delay
 from bench.findings.theory import impedance_modes as theory
 from bench.law.control.unshaped import DAMPINGS
 from tasks.kinematics import Kinematics
@@ -99,3 +99,52 @@ def test_longest_delay_is_that_of_continuous_theory(arm):
     rows = rows[rows["variation"] != "ideal-motors"]
     # theory takes half a tick for what is a tick in steps: it errs by the square of omega dt, 0.3 with the least motors
     np.testing.assert_allclose(rows["longest_delay_s"], rows["longest_delay_s_theory"], rtol=0.03)
+
+
+def held_modulus(P, Q, dt, delay):
+    """Return the greatest |eigenvalue| of places, rates and past commands over a period of an exact hold."""
+    n = len(P)
+    whole = int(delay / dt)
+    late = delay - whole * dt
+    size = 2 * n + n * (whole + 1)
+    blocks = np.eye(size).reshape(-1, n, size)
+    x, v = blocks[0], blocks[1]
+    commands = [-(P @ x + Q @ v), *blocks[2:]]
+    for duration, command in ((late, commands[whole + 1]), (dt - late, commands[whole])):
+        x = x + duration * v + 0.5 * duration * duration * command
+        v = v + duration * command
+    period = np.vstack((x, v, *commands[: whole + 1]))
+    return np.abs(np.linalg.eigvals(period)).max()
+
+
+@pytest.mark.parametrize(
+    ("omega", "zeta"),
+    [(10, 1.0), (20, 1.0), (50, 1.0), (100, 1.0), (300, 1.0), (100, 0.5), (100, 2.0), (50, 4.0), (400, 0.7)],
+)
+def test_longest_held_delay_of_one_axis_is_that_of_the_eigenvalues(omega, zeta):
+    P, Q, dt = np.array([[omega**2.0]]), np.array([[2.0 * zeta * omega]]), 1e-3
+    delay = theory.longest_held_delay(P, Q, dt)
+    assert held_modulus(P, Q, dt, 0.999 * delay) < 1.0 < held_modulus(P, Q, dt, 1.001 * delay)
+    assert all(held_modulus(P, Q, dt, share * delay) < 1.0 for share in np.linspace(0.0, 0.99, 34))
+
+
+@pytest.mark.parametrize("stiffness", SHIPPED.values(), ids=list(SHIPPED))
+def test_longest_held_delay_of_a_hand_is_that_of_the_eigenvalues(stiffness):
+    dt = 1e-3
+    P, Q = theory.hand_matrices(theory.hand_of("panda", "nominal"), "diagonal", stiffness, ZETA)
+    delay = theory.longest_held_delay(P, Q, dt)
+    assert held_modulus(P, Q, dt, 0.999 * delay) < 1.0 < held_modulus(P, Q, dt, 1.001 * delay)
+
+
+@pytest.mark.parametrize("zeta", [0.5, 1.0, 2.0])
+def test_longest_held_tick_of_one_axis_is_known_in_closed_form(zeta):
+    # Held: z = -1 at q dt = 2, or z on the circle at q = p dt/2. MuJoCo's: z = -1 at 4 - 2 q dt - p dt^2 = 0.
+    omega = 100.0
+    P, Q = np.array([[omega**2]]), np.array([[2.0 * zeta * omega]])
+    q, p = 2.0 * zeta * omega, omega**2
+    assert theory.longest_held_tick(P, Q) == pytest.approx(min(2.0 / q, 2.0 * q / p), rel=1e-6)
+    assert theory.longest_tick(P, Q) == pytest.approx((np.sqrt(q * q + 4.0 * p) - q) / p, rel=1e-6)
+
+
+def test_loop_that_is_unstable_without_delay_has_no_longest_delay():
+    assert np.isnan(theory.longest_held_delay(np.array([[1e6]]), np.array([[2.1e3]]), 1e-3))

@@ -202,7 +202,7 @@ def test_improvement_that_is_not_dramatic_at_other_gains_depends_on_them():
     other = Results(None, {"episodes": slow["episodes"].assign(kv=10.0)})
     verdict = judged("C31", experiments={"other_gains": lambda results: [other]}, **reference())
     assert verdict.word == Word.DEPENDS
-    assert verdict.correction == verdict.claim.instead
+    assert "At Kp = 100, Kv = 10:" in verdict.correction
     assert "Kv = 10: does not hold" in str(verdict.evidence)
 
 

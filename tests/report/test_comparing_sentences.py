@@ -98,7 +98,7 @@ SENTENCES = {
     "alone": (
         plant_decision,
         [
-            (((), ("a",)), "No other published law"),
+            (((), ("a",)), "No other published or adapted law"),
             (((), ("a", "b")), "at least as good as the others on every criterion and better on one"),
             ((("b",), ("a", "b")), "It ties with b and is the simplest"),
         ],

@@ -5,7 +5,6 @@ import re
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
-from support.pages import RUN
 from support.states import as_rotation, vector
 
 from bench.findings.selection.regions import find_default
@@ -33,7 +32,7 @@ def test_code_to_paste_is_the_advised_law_over_random_states():
 
 
 def test_front_page_names_every_need_with_its_law():
-    found, said = list_elsewhere(RUN.folder), index.list_needs(RUN)
+    found, said = list_elsewhere(), index.list_needs()
     assert {robot.takes in " ".join(one.words for one in found) for robot in ROBOTS.values()} == {True}
     for one in found:
         named = re.findall(r"laws/([\w-]+)\.html", said.partition(one.words)[0]) if one.words in said else [""]

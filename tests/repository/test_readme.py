@@ -5,12 +5,14 @@ import subprocess
 
 import pytest
 from support.command_line import bench
+from support.map_rule import NOTABLE, SPOKEN, shares_of, widest
 
 from bench.base.provenance import ROOT
 from bench.experiments.tables import store
-from bench.findings.selection.regions import Rule, compare_ours, find_bounds, find_default, find_regions
+from bench.findings.selection.regions import Rule, find_default
 from bench.findings.selection.robots import ARM, decide_for
-from bench.findings.selection.words import describe_bounds
+from bench.findings.selection.unbeaten import find_bounds
+from bench.findings.selection.words import describe_bounds, describe_ours, describe_price, describe_shares
 from bench.law.contenders.registry import find_contender
 
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -71,14 +73,43 @@ def test_audit_says_what_the_readme_says_of_the_error(capsys, here):
     assert "slope at the goal 0.5" in said.out
 
 
-def test_answer_is_the_one_that_the_map_gives():
-    [answer] = re.findall(r"\*\*The answer\.\*\* (.*?)\n\n", TEXT, re.DOTALL)
-    said, [widest, *_] = " ".join(answer.split()), find_regions()
-    default, forgetful, continuous, arm, own = re.findall(r"`([\w-]+)`", said)
-    assert (default, arm) == (widest.law, decide_for(ARM, ROOT / "results" / "reference").law)
+def answer_table():
+    """Return the rows of the README's table of answers: (controller, law, attribution)."""
+    return re.findall(r"^\| (.+?) \| `([\w-]+)` \((\w+)\) \|", TEXT, re.MULTILINE)
+
+
+def test_laws_of_the_table_are_those_that_the_map_and_the_arms_give():
+    default, weak_motors, forgetful, continuous, arm = [law for _, law, _ in answer_table()]
+    assert default == widest()[0][0]
+    assert weak_motors == widest()[1][0]
     assert forgetful == find_default(rule=Rule(forgetful=True))
     assert continuous == find_default(rule=Rule(continuous=True))
-    assert find_contender(own).regulator.is_ours()
-    ties, beats = (f"{share:.0%}".replace("%", " %") for share in compare_ours(own))
-    for words in (f"{widest.unbeaten:.0%}".replace("%", " %"), ties, beats, describe_bounds(find_bounds(default))):
-        assert words in said
+    assert arm == decide_for(ARM).law
+
+
+def test_table_says_of_each_law_whose_it_is():
+    for _, law, attribution in answer_table():
+        assert find_contender(law).attribution == attribution
+
+
+@pytest.mark.parametrize("describe", [describe_shares, describe_price, lambda law: describe_ours()])
+def test_sentences_on_the_default_are_those_of_the_map(describe):
+    assert describe(widest()[0][0]) in " ".join(TEXT.split())
+
+
+def test_bounds_are_those_of_the_map():
+    assert describe_bounds(find_bounds(widest()[0][0])) in " ".join(TEXT.split())
+
+
+def test_shares_of_the_default_are_those_of_the_rows_and_pairs():
+    """The rule is written a second time in `support.map_rule`, which reads rows and pairs alone."""
+    said = re.search(
+        r"In (\d+) % of (\d+) situations .*? the share is (\d+) %;"
+        r".*?If 1 % counts as faster: (\d+) % and (\d+) %.\) In (\d+) % of the situations the law itself loses",
+        " ".join(TEXT.split()),
+    )
+    law = widest()[0][0]
+    spoken, close = shares_of(law, SPOKEN), shares_of(law, NOTABLE)
+    counts = spoken["qualified"], spoken["all"], close["qualified"], close["all"], spoken["losing"]
+    qualified, everything, *others = [f"{100 * count / spoken['of']:.0f}" for count in counts]
+    assert said.groups() == (qualified, str(spoken["of"]), everything, *others)

@@ -35,7 +35,7 @@ def test_it_leaves_a_loop_a_law_and_counts_in_the_cache(tmp_path):
     units = [next(one for one in EVERY.units if one.engine == "ideal-held")]
     assert set(compile_apart(tmp_path, units, "hybrid")) == {0, 1}
     assert {path.stem.partition("-")[2] for path in (tmp_path / "costs").iterdir()} == {"hybrid"}
-    assert {"binding", "loop"} <= {path.name.split(".")[0] for path in tmp_path.rglob("*.nbi")}
+    assert {"binding", "loop"} <= {path.name.split(".")[0] for path in tmp_path.rglob("*.nbc")}
 
 
 def test_what_is_beyond_a_life_is_done_by_the_next_fork(tmp_path):

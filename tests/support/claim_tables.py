@@ -47,7 +47,8 @@ def _spun():
     for law in ("rotation-matrix", "linearized-euler/zyx-euler", "feedback-linearized/zyx-euler"):
         for speed in (0.0, 20.0):
             lost = 50 if speed and law.startswith("feedback") else 0
-            speeds = {"contender": law, "least_speed": speed, "most_speed": speed}
+            speeds = {"contender": law, "kp": 100.0, "kv": 20.0, "engine": "ideal-rk4"}
+            speeds |= {"least_speed": speed, "most_speed": speed}
             yield {**speeds, "starts": 10_000, "settled": 10_000 - lost, "unconverged": 0, "lost": lost}
 
 
@@ -222,7 +223,8 @@ def later_laws() -> Frames:
             for law, ratio in ratios.items()
         ],
         "counted": [
-            {"contender": of[law]["contender"], "least_speed": 20.0, "most_speed": 20.0, "starts": 10_000}
+            {"contender": of[law]["contender"], "kp": 100.0, "kv": 20.0, "engine": "ideal-rk4"}
+            | {"least_speed": 20.0, "most_speed": 20.0, "starts": 10_000}
             | {"settled": 10_000, "unconverged": 0, "lost": 0}
             for law in ran
         ],

@@ -13,9 +13,10 @@ import tasks
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
 from bench.findings.selection.robots import VELOCITY
+from bench.law.attribution import IN_WORDS
 from bench.law.contenders.registry import find_contender
 from report.figures.kit.families import word
-from support.advised import velocities
+from support.advised import is_ours, velocities
 from support.leads_of_arms import (
     CONTROLS,
     LATE,
@@ -29,9 +30,19 @@ from support.leads_of_arms import (
     recompute_times,
     recompute_torque_at_pole,
 )
-from support.map_rule import drawn_verdicts, widest
+from support.map_rule import (
+    NOTABLE,
+    SPOKEN,
+    is_of_draw,
+    map_rows,
+    map_verdicts,
+    shares_of,
+    slower_pairs,
+    widest,
+)
 from support.tables import table
 from tasks.condition import condition_at
+from tasks.situation import COORDINATES
 
 
 def list_together(words):
@@ -46,7 +57,7 @@ def uniform():
 
 
 def recompute_failure_map():
-    cells = table("map", "maps").query(f"row == 'cell' and law == '{LINEARIZED}' and most_speed == 0")
+    cells = table("map", "maps/kv-20").query(f"row == 'cell' and law == '{LINEARIZED}' and most_speed == 0")
     n, *fine = cells[["starts", "settled", "unconverged"]].sum().astype(int)
     bad = n - sum(fine)
     low, high = binomtest(bad, n).proportion_ci(0.95)
@@ -118,21 +129,77 @@ def recompute_velocities():
     return {"log_limit": f"{rows['k_dt'].iloc[0]:.3g}", "lead": said}
 
 
+def percent(counts, name):
+    """Write a share of counted situations."""
+    return f"{100 * counts[name] / counts['of']:.0f} %"
+
+
+def recompute_shares(law):
+    """Return what is said of a law's shares: both sets from 5 % on, then from 1 %, with how many laws are compared."""
+    near, close = shares_of(law, SPOKEN), shares_of(law, NOTABLE)
+    rows = map_rows()
+    rows = rows[[is_of_draw(at) for at in rows[[*COORDINATES]].itertuples(index=False, name=None)]]
+    anywhere = rows.groupby("law")["qualified"].any()
+    others = anywhere[[not is_ours(name) for name in anywhere.index]]
+    said = [percent(near, "qualified"), near["of"], "5 %", len(others), percent(near, "all"), (~others).sum()]
+    said += ["1 %", percent(close, "qualified"), percent(close, "all"), percent(near, "losing")]
+    return said
+
+
+def recompute_price(law, other):
+    """Return what is said of a law's price beside another's."""
+    rows = map_rows()
+    is_drawn = [is_of_draw(at) for at in rows[[*COORDINATES]].itertuples(index=False, name=None)]
+    is_nominal = (rows[[*COORDINATES]] == [one.nominal for one in COORDINATES.values()]).all(axis=1)
+    overshoots = rows[is_drawn].groupby("law")["overshoot"].median()
+    nominal = rows[is_nominal].set_index("law")
+    equal = nominal["time"] * np.sqrt(nominal["peak"])
+    said = []
+    for numbers, digits in ((nominal["peak"], 1), (equal, 1), (overshoots, 1)):
+        said += [99] if numbers is equal else []
+        said += [f"{numbers[law]:.{digits}f}", word(other), f"{numbers[other]:.{digits}f}"]
+    return said
+
+
+def recompute_resets(law):
+    """Return what is said of a reset of the memory."""
+    rows = table("perturbed", "robustness").query("law == @law and 0 < level <= 0.2")
+    kept, reset = (rows[rows["axis"] == axis] for axis in ("goal-jump", "goal-jump-reset"))
+    shares = [f"{100 * own['long'].sum() / own['far'].sum():.1f} %" for own in (kept, reset)]
+    times = [f"{time:.3f}" for own in (reset, kept) for time in (own["median_s"].min(), own["median_s"].max())]
+    return ["0.2", shares[1], "1.5", shares[0], kept["far"].sum(), "0.5", *times]
+
+
 def recompute_advice():
     """Return what is said of the law of the widest region, of the other regions, and of ours."""
-    (law, advised, unbeaten), *others = widest()
-    rows, drawn = table("situations", "situations"), drawn_verdicts()
+    (law, advised, _), *others = widest()
+    rows = table("situations", "situations")
     nominal = rows[(rows["zeta"] == 1.0) & (rows["law"] == law) & (rows["period"] == 0.01)]
     nominal = nominal[
         np.isinf(nominal["bound"]) & (nominal[["delay", "unevenness", "spin", "jump"]] == 0.0).all(axis=1)
     ]
     [time] = nominal.loc[nominal["inertia"] == 1.0, "time"]
-    does = [0.1, 180, f"{100 * unbeaten:.0f} %", 100, 99, f"{time / 10:.2f} s"]
-    free, beating = (sum(LATE in one[i] for one in drawn) / len(drawn) for i in (2, 3))
-    ours = [word(LATE), 2026, f"{100 * (1 - free):.0f} %", f"{100 * beating:.0f} %"]
+    does = [100, 99, f"{time / 10:.2f} s", 0.1, 180, *recompute_shares(law), *recompute_price(law, others[0][0])]
+    free, rows = shares_of(LATE, SPOKEN), map_rows()
+    advised_laws = {at: verdict[0] for at, verdict in map_verdicts().items() if is_of_draw(at) and verdict[0]}
+    qualified = rows[(rows["law"] == LATE) & rows["qualified"]].set_index("word")
+    beats = 0
+    for at, other in advised_laws.items():
+        name = "_".join(f"{value:g}" for value in at)
+        beats += name in qualified.index and (name, other, LATE) in slower_pairs(SPOKEN)
+    ours = [word(LATE), 2026, "5 %", f"{100 * beats / free['of']:.0f} %", percent(free, "qualified"), "5 %"]
+    ours += [percent(free, "all")]
     elsewhere = list_together([f"{word(one)} ({100 * share:.0f} %)" for one, share, _ in others])
     lead = [word(law), *does, f"{100 * advised:.0f} %", *elsewhere, *ours]
-    return {"default": word(law), "does": does, "ours": ours}, {"lead": lead}
+    attribution = IN_WORDS[find_contender(law).attribution]
+    shown = {
+        "default": word(law),
+        "attribution": attribution,
+        "does": does,
+        "ours": ours,
+        "resets": recompute_resets(law),
+    }
+    return shown, {"lead": lead}
 
 
 def recompute_verdicts():
@@ -142,7 +209,8 @@ def recompute_verdicts():
         for word_of_first in (one.word for one in verdict.claim.earlier[:1]):
             first[verdict.claim.id] = str(word_of_first or verdict.evidence.earlier[0])
     order = {"holds": [], "holds with a correction": [], "does not hold": []}
-    order |= {"open in 1988; answered since": [1988], "depends on the gains": [], "not testable": []}
+    order |= {"open in 1988; answered since": [1988], "depends on the gains": [], "depends on the reading": []}
+    order |= {"not testable": [], "not tested": []}
     said = [
         [number for word, more in order.items() if (n := list(words.values()).count(word)) for number in (n, *more)]
         for words in (now, first)

@@ -10,7 +10,7 @@ from bench.audit.examined import COUNT_RAD
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.selection.robots import ARM
 from report.figures.kit.families import word
-from support.advised import accelerations, costs, operations, shares_of_time
+from support.advised import accelerations, costs, is_ours, operations, shares_of_time
 from support.tables import table
 
 CARTESIAN, EULER = "hybrid-base", "hybrid/zyx-euler"
@@ -165,8 +165,11 @@ def recompute_new_law():
     rows = rows[np.isinf(rows["bound"]) & (rows[["delay", "unevenness", "spin", "jump"]] == 0.0).all(axis=1)]
     fails = rows.groupby("law")[["lost", "stuck"]].sum().any(axis=1)
     times = (rows["time"] * np.sqrt(rows["peak"])).groupby(rows["law"]).min()[~fails]
-    others = times.drop(LATE)
-    said = [99, f"{times[LATE]:.2f}", (others <= times[LATE]).sum(), len(others)]
+    others = times[[not is_ours(law) for law in times.index]]
+    as_fast = (others <= times[LATE]).sum()
+    assert as_fast == 0  # the sentence names the best of the others then
+    said = [99, f"{times[LATE]:.2f}", len(others), f"{others.min():.2f}"]
+    roots, calls = costs().loc[LATE, "sqrt"], operations(LATE)[1]
     return {
         "slowest": f"{late[1.0]:.3f}",
         "linear": f"{linear[1.0]:.3f}",
@@ -174,6 +177,5 @@ def recompute_new_law():
         "later_of": [*kvs],
         "pull": f"{brake_late(-np.linspace(0, np.pi, 100_001), 0.0, 1.0, 2.0).max():.2f}",
         "at_peak": said,
-        "roots": costs().loc[LATE, "sqrt"],
-        "calls": operations(LATE)[1],
+        "operations": [operations(LATE)[0], {1: "one square root"}[roots], {0: "no trigonometric function"}[calls]],
     }

@@ -2,6 +2,7 @@
 
 import collections
 import functools
+import math
 
 import numpy as np
 
@@ -11,18 +12,37 @@ from support.tables import table
 from tasks.situation import COORDINATES
 
 RULE_COLUMNS = ("lost", "stuck", "unwound", "trapped")
+NOTABLE, SPOKEN = 0.01, 0.05
+
+
+def map_rows(folder="situations"):
+    """Return the rows of a map with the word of their situation, and whether the law has what is required."""
+    rows = table("situations", folder)
+    words = ["_".join(f"{value:g}" for value in values) for values in rows[[*COORDINATES]].to_numpy()]
+    qualified = (rows[[*RULE_COLUMNS]] == 0).all(axis=1) & np.isfinite(rows["time"])
+    return rows.assign(word=words, qualified=qualified)
 
 
 @functools.cache
-def map_verdicts():
+def slower_pairs(notable, folder="situations"):
+    """Return the set of (word, slower law, faster law) that differ by more than a share, and not by chance."""
+    pairs, found = table("pairs", folder).astype({"log_ratio": float, "low": float, "high": float}), set()
+    for row in pairs.itertuples():
+        if row.log_ratio > -math.log(1.0 - notable) and row.low > 0.0:
+            found.add((row.situation, row.law, row.other))
+        if row.log_ratio < math.log(1.0 - notable) and row.high < 0.0:
+            found.add((row.situation, row.other, row.law))
+    return found
+
+
+@functools.cache
+def map_verdicts(folder="situations"):
     """Return situation -> (advised law, unbeaten published laws, unbeaten ones of ours, those that beat the first)."""
-    rows, found = table("situations", "situations"), {}
-    for at, own in rows.groupby([*COORDINATES]):
-        asked = own[(own[[*RULE_COLUMNS]] == 0).all(axis=1) & np.isfinite(own["time"])].set_index("law")
+    slower, found = slower_pairs(NOTABLE, folder), {}
+    for (word, *at), own in map_rows(folder).groupby(["word", *COORDINATES]):
+        asked = own[own["qualified"]].set_index("law")
         ours = [law for law in asked.index if is_ours(law)]
-        times = asked[["time", "time_low", "time_high"]].to_numpy()
-        is_beaten = (times[:, 0] < 0.99 * times[:, :1]) & (times[:, 2] < times[:, 1:2])
-        beats = {law: set(asked.index[is_beaten[:, i]]) for i, law in enumerate(asked.index)}
+        beats = {law: {other for other in asked.index if (word, other, law) in slower} for law in asked.index}
         published = [law for law in asked.index if law not in ours]
         beaten = {law for one in published for law in beats[one]}
         kept = sorted(
@@ -31,14 +51,19 @@ def map_verdicts():
         )
         law = kept[0] if kept else None
         free = tuple(one for one in ours if one not in beaten) if law else tuple(ours)
-        found[at] = law, frozenset(kept), free, tuple(one for one in ours if law in beats[one])
+        found[tuple(at)] = law, frozenset(kept), free, tuple(one for one in ours if law in beats[one])
     return found
 
 
-def drawn_verdicts():
-    """Return the verdicts on situations that differ from the nominal one in two numbers beside the damping ratio."""
+def is_of_draw(at):
+    """Tell whether a situation differs from the nominal one in two numbers beside the damping ratio."""
     nominal = [one.nominal for one in COORDINATES.values()][1:]
-    return [one for at, one in map_verdicts().items() if sum(a != b for a, b in zip(at[1:], nominal, strict=True)) > 1]
+    return sum(a != b for a, b in zip(at[1:], nominal, strict=True)) > 1
+
+
+def drawn_verdicts():
+    """Return the verdicts on the drawn situations."""
+    return [one for at, one in map_verdicts().items() if is_of_draw(at)]
 
 
 def widest():
@@ -48,3 +73,22 @@ def widest():
     unbeaten = {law: sum(law in kept for _, kept, *_ in drawn) for law in count}
     shares = {law: (number / len(drawn), unbeaten[law] / len(drawn)) for law, number in count.items()}
     return sorted(((law, *own) for law, own in shares.items()), key=lambda one: (-one[1], one[0]))
+
+
+@functools.cache
+def shares_of(law, notable):
+    """Return counts of drawn situations: unbeaten among the qualified, among all, failing, losing, and how many."""
+    rows = map_rows()
+    rows = rows[[is_of_draw(at) for at in rows[[*COORDINATES]].itertuples(index=False, name=None)]]
+    slower = slower_pairs(notable)
+    counts = collections.Counter()
+    for word, own in rows.groupby("word"):
+        own = own.set_index("law")
+        faster = [other for other in own.index if not is_ours(other) and (word, law, other) in slower]
+        meets = own["qualified"][law]
+        counts["qualified"] += meets and not any(own["qualified"][other] for other in faster)
+        counts["all"] += meets and not faster
+        counts["failing"] += not meets
+        counts["losing"] += own["lost"][law] > 0
+        counts["of"] += 1
+    return dict(counts)

@@ -35,16 +35,16 @@ class Fault(NamedTuple):
 
 
 class Finding(NamedTuple):
-    """A fault of a function."""
+    """A fault of a function; `is_allowed`: its author says that it is intended."""
 
     fault: Fault
     found: Found
-    is_accepted: bool = False
+    is_allowed: bool = False
 
     @property
     def is_fault(self) -> bool:
         """Tell whether it makes the audit fail."""
-        return self.found.severity == FAULT and not self.is_accepted
+        return self.found.severity == FAULT and not self.is_allowed
 
 
 @functools.cache

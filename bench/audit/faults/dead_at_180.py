@@ -8,21 +8,32 @@ unless: not-a-number, raises, long-way, misaligned
 
 import numpy as np
 
-from bench.audit.examined import FAULT, NOTE, Examined, Found
+from bench.audit.examined import Examined, Found
 
 ZERO = 1e-6
 """Share of slope times pi: six decades below the requested error; rounding leaves 1e-15, a scalar part of it 1e-8."""
 TWENTIETH = 0.05
 BEFORE_RAD = 0.01
+CURE_OF_A_FORM = (
+    "take another form, as twice the vector part of q_d q*, with the sign of its scalar part and 1 for the sign of 0; "
+    "if the goal is never 180° away, allow dead-at-180"
+)
 
 
 def find_known(examined: Examined) -> Found | None:
-    """|e| is zero at 180°; a property of its form if e dies away before, as sin(theta) does."""
-    here = examined.at("at-180")
-    dead = here & (examined.size <= ZERO * examined.slope * np.pi)
+    """|e| is zero at 180°, by rounding or a sign of 0, or because its form dies away there, as sin(theta) does."""
+    at_180 = examined.at("at-180")
+    dead = at_180 & (examined.size <= ZERO * examined.slope * np.pi)
+    found = examined.first(dead, f"e = 0 for {dead.sum()} of {at_180.sum()} rotations by exactly 180°")
+    if found is None or not is_of_the_form(examined):
+        return found
+    # What its form says is zero, too: there is no right answer to print beside it.
+    evidence = found.evidence and found.evidence._replace(right="")
+    return found._replace(text=f"{found.text}: its form is zero there", evidence=evidence, cure=CURE_OF_A_FORM)
+
+
+def is_of_the_form(examined: Examined) -> bool:
+    """Tell whether the error dies away before 180°, as a form that is zero there does."""
     near = examined.size[np.abs(examined.pairs.distance - BEFORE_RAD) < 1e-9]
-    is_form = examined.form in ("", "sine") and bool(np.nanmedian(near) < TWENTIETH * examined.slope * np.pi)
-    text = f"e = 0 for {dead.sum()} of {here.sum()} rotations by exactly 180°"
-    if is_form:
-        text += "; its form itself vanishes there"
-    return examined.first(dead, text, right=not is_form, severity=NOTE if is_form else FAULT)
+    dies_away = bool(np.nanmedian(near) < TWENTIETH * examined.slope * np.pi)
+    return examined.form in ("", "sine") and dies_away

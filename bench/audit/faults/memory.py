@@ -1,7 +1,7 @@
 """state, or noise: the same pair has two answers.
 
 effect: the error depends on what came before; this audit asks each pair for itself, and is void
-cure: audit the function without its filter; hysteresis between the two signs of q may be meant, and accepted
+cure: audit the function without its filter; hysteresis between the two signs of q may be meant: allow it then
 law: quaternion-shortest
 """
 

@@ -1,7 +1,7 @@
 """clipped in length.
 
 effect: beyond the limit the stiffness felt falls with the angle while the damping stays: a slow return
-cure: clip the command, not the error; or accept it, for it bends nothing
+cure: clip the command, not the error; or allow it, for it bends nothing
 unless: axis-clip
 """
 

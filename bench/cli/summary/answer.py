@@ -1,12 +1,23 @@
 """Which law to use, from the map of situations; robots that the map does not cover, and laws compared in the run."""
 
-from bench.cli.options import REFERENCE
 from bench.cli.paragraphs import Paragraph
 from bench.findings.selection import regions
 from bench.findings.selection.needs import Measured
 from bench.findings.selection.robots import list_elsewhere
 from bench.findings.selection.sensitivity import vary
-from bench.findings.selection.words import compare, cost, describe_bounds, together
+from bench.findings.selection.unbeaten import SPOKEN, find_bounds
+from bench.findings.selection.words import (
+    compare,
+    cost,
+    describe_bounds,
+    describe_law_of_ours,
+    describe_price,
+    describe_shares,
+    list_faster_ours,
+    percent,
+    together,
+)
+from bench.law.attribution import describe_source
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import PAPERS_GAINS
 from tasks.situation import KP, NOMINAL
@@ -16,7 +27,8 @@ def paragraphs(found: Measured | None) -> list[Paragraph]:
     """Return what the map advises, what else to use elsewhere, and how laws of ours and the user's compare."""
     default = regions.find_regions()[0]
     said = [Paragraph("Which law", _default(found, default)), Paragraph("Elsewhere", _elsewhere(default.law))]
-    said += [Paragraph("Ours", (_ours(law, found, default.law),)) for law in regions.list_ours()]
+    for law in list_faster_ours():
+        said.append(Paragraph("Ours", (f"{describe_law_of_ours(law)} {_compared(found, law, default.law)}",)))
     own = [law for law in (found.laws if found else ()) if found and found.tables.contenders[law].regulator.origin]
     said += [Paragraph("Yours", (f"{law}: {_compared(found, law, default.law)}",)) for law in own]
     others = [
@@ -33,33 +45,31 @@ def _default(found: Measured | None, region: regions.Region) -> tuple[str, ...]:
     drawn = sum(map(regions.is_drawn, regions.decide_all()))
     priced = f" A tick takes {cost(found, region.law)}." if found and region.law in found.laws else ""
     return (
-        f"Use the law {region.law} (published: {find_contender(region.law).regulator.source}) for a body that turns "
-        f"freely, in simulation. Of {drawn} situations drawn at random it is advised in {region.advised:.0%}, and "
-        f"nothing published beats it in {region.unbeaten:.0%}.",
-        f"One number at a time: {describe_bounds(regions.find_bounds(region.law))}.",
+        f"Use the law {region.law} ({_attributed(region.law)}) for a body that turns freely, in simulation. Of {drawn} "
+        f"situations drawn at random it is advised in {percent(region.advised)}. "
+        f"{describe_shares(region.law)}",
+        f"If one number changes at a time, no law that meets the requirements is more than {percent(SPOKEN)} faster "
+        f"at: {describe_bounds(find_bounds(region.law))}.",
+        describe_price(region.law),
         f"At kp = {PAPERS_GAINS.kp:g} 1/s², kv = {PAPERS_GAINS.kv:g} 1/s 99 % of the starts settle within "
         f"{row['time'] / KP**0.5:.3f} s.{priced} Your own numbers: bench advise --help.",
     )
+
+
+def _attributed(law: str) -> str:
+    """Return whose a law is, and its works without what else its source says."""
+    one = find_contender(law)
+    return describe_source(one.attribution, one.regulator.source.split("; ")[0])
 
 
 def _elsewhere(default: str) -> tuple[str, ...]:
     """Return the law for each other region, for robots beside those of the map, and without memory."""
     others = [f"{one.law} ({one.advised:.0%})" for one in regions.find_regions()[1:] if one.advised >= 0.05]
     lines = [f"In other situations: {together(others)}; bench advise says which."] if others else []
-    for one in list_elsewhere(REFERENCE):
+    for one in list_elsewhere():
         tied = f", tied with {together(one.tied)}" if one.tied else ""
         lines.append(f"If {one.words}: {one.law}{tied}.")
     return tuple(lines)
-
-
-def _ours(law: str, found: Measured | None, default: str) -> str:
-    """Return the sentences on a law of ours: its origin, where the map has it, and the run's comparison."""
-    ties, beats = regions.compare_ours(law)
-    return (
-        f"{law} is ours: 2026, simulation only, not reviewed. Nothing published beats it in {ties:.0%} of the drawn "
-        f"situations; it beats the advised law in {beats:.0%}. {_compared(found, law, default)} Reset its memory when "
-        "the goal jumps."
-    )
 
 
 def _compared(found: Measured | None, law: str, default: str) -> str:

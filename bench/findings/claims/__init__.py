@@ -54,8 +54,8 @@ def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
     found = keep(results.folder, "claims", find) if results.folder and results.is_as_stored else find()
     claims = {one.id: one for one in all_claims()}
     decided = [
-        Verdict(claims[id], Word(word), Evidence(sentence, rows, tuple(tables)))
-        for id, word, sentence, rows, tables in found["decided"]
+        Verdict(claims[id], Word(word), Evidence(sentence, rows, tuple(tables), instead))
+        for id, word, sentence, rows, tables, instead in found["decided"]
     ]
     return decided, found["lacks"]
 

@@ -12,12 +12,15 @@ from typing import Any
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results, evidence
 from bench.findings.claims.verdict import NoEvidence, Word
+from bench.law.inputs import Gains
 
+REFERENCE = RESULTS / "reference"
 GAINS = RESULTS / "gains"
 """Runs of the same starts at other gains, a folder each."""
 
 RULE = (
-    "The same is decided on every run of results/gains: where they do not all give one word, it depends on the gains."
+    "The same is decided on results/reference and on every run of results/gains, whatever run is judged: where they do "
+    "not all give one word, it depends on the gains; gains at which it was not tested do not count, and are named."
 )
 
 STORED = RESULTS / "verdicts" / "verdicts.json"
@@ -27,29 +30,52 @@ HALF_STEP = "half-step"
 
 
 def other_gains(results: Results) -> list[Results]:
-    """Return the runs of results/gains; none for tables alone, or for one of these runs itself."""
-    folder = results.folder
-    if folder is None or folder.resolve().parent == GAINS.resolve():
+    """Return the runs of results/gains and results/reference; none for tables alone.
+
+    They are the same whatever the run is, so that every run gives a claim one word.
+    """
+    if results.folder is None:
         return []
-    return [Results(path.parent) for path in sorted(GAINS.glob("*/episodes.parquet"))]
+    folders = [REFERENCE, *(path.parent for path in sorted(GAINS.glob("*/episodes.parquet")))]
+    return [Results(folder) for folder in folders]
 
 
 def at_every_gain(decide: Callable) -> Callable:
     """Wrap a judging function to ask the runs at other gains too; if its word differs, it depends on the gains."""
+    return _at_every_gain(decide, lambda words: words[0] if len(set(words)) == 1 else Word.DEPENDS)
 
+
+def weakest_at_every_gain(decide: Callable) -> Callable:
+    """Wrap a judging function to ask the runs at other gains too; the weakest word of all gains is the claim's."""
+    return _at_every_gain(decide, lambda words: max(words, key=list(Word).index))
+
+
+def _at_every_gain(decide: Callable, combine: Callable[[list[Word]], Word]) -> Callable:
     @functools.wraps(decide)
     def judge(results: Results) -> Any:
         others = results.found_by(other_gains, results)
         if not others:
             return decide(results)
-        found = {one.gains(): decide(one) for one in (results, *others)}
-        words = [word for word, _ in found.values()]
-        told = " ".join(f"At Kp = {kp:g}, Kv = {kv:g}: {word}. {said}" for (kp, kv), (word, said) in found.items())
-        tables = found[results.gains()][1].tables
-        word = words[0] if len(set(words)) == 1 else Word.DEPENDS
-        return word, evidence(told, sum(said.rows for _, said in found.values()), tables)
+        own = results.gains()
+        found = {one.gains(): decide(one) for one in others if one.gains() != own}
+        found = dict(sorted({**found, own: decide(results)}.items()))
+        # What was not tested at some gains says nothing of what would come out there.
+        words = [word for word, _ in found.values() if word != Word.UNTESTED]
+        word = combine(words) if words else Word.UNTESTED
+        told = " ".join(f"At {_told(gains)}: {word}. {said}" for gains, (word, said) in found.items())
+        true_at: dict[str, list[str]] = {}
+        for gains, (_, said) in found.items():
+            if said.instead:
+                true_at.setdefault(said.instead, []).append(_told(gains))
+        instead = " ".join(f"At {'; '.join(at)}: {text}" for text, at in true_at.items())
+        rows = sum(said.rows for _, said in found.values())
+        return word, evidence(told, rows, found[own][1].tables, "" if word == Word.HOLDS else instead)
 
     return judge
+
+
+def _told(gains: Gains) -> str:
+    return f"Kp = {gains.kp:g}, Kv = {gains.kv:g}"
 
 
 def on_every_engine(decide: Callable) -> Callable:
@@ -85,20 +111,31 @@ def turned(runs: dict[str, dict], reference: dict[str, str]) -> dict[str, dict[s
 
 
 def describe(study: dict, words: dict[str, str]) -> str:
-    """Return what the study of seeds, of half the step and of other gains found, in a sentence or two."""
-    runs = study["runs"]
+    """Return what the study of seeds, of half the step and of other gains found, in a sentence or two.
+
+    Its `stale` names the claims whose criteria have changed since: of these it says nothing.
+    """
+    runs, stale = study["runs"], study.get("stale", [])
     seeds = sum(name != HALF_STEP for name in runs)
-    other = turned(runs, words)
+    other = {id: found for id, found in turned(runs, words).items() if id not in stale}
     found = "every verdict stays the same" if not other else f"these change: {', '.join(other)}"
     step = " and with half the step size" if HALF_STEP in runs else ""
-    return f"With {seeds} other random seeds{step}, {found}.{by_gains(study, words)}"
+    return f"With {seeds} other random seeds{step}, {found}.{_lacking(stale)}{by_gains(study, words)}"
+
+
+def _lacking(stale: list[str]) -> str:
+    """Name the claims that the study judged by a criterion which stands no more."""
+    return f" Not tested in it, for their criteria are newer: {', '.join(stale)}." if stale else ""
 
 
 def by_gains(study: dict, words: dict[str, str]) -> str:
     """Which verdicts are other ones at other damping ratios; nothing where no run at other gains was judged."""
-    said = []
+    said, stale = [], study.get("stale", [])
     for one in study.get("gains", ()):
-        changed = (f"{id} ({word})" for id, word in one["words"].items() if word != words[id])
+        changed = (
+            f"{id} ({word})" for id, word in one["words"].items() if word != words[id] and id not in stale
+        )
         ratio = one["kv"] / (2.0 * math.sqrt(one["kp"]))
-        said.append(f"with a damping ratio of {ratio:g}: {', '.join(changed) or 'none'} of {len(one['words'])}")
+        decided = len(one["words"].keys() - set(stale))
+        said.append(f"with a damping ratio of {ratio:g}: {', '.join(changed) or 'none'} of {decided}")
     return f" Other gains change these verdicts, of those that their runs decide: {'; '.join(said)}." if said else ""

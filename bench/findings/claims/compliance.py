@@ -36,7 +36,7 @@ def c22(results: Results) -> tuple[Word, Evidence]:
     return word, found._replace(sentence=f"{axes} {found.sentence}")
 
 
-@side_by_side.by_papers_form
+@side_by_side.by_either_form
 def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
     """Measured compliance of one angle against that of one axis, as it is and turned by the angles before."""
     rows = side_by_side.beside_base(results, COORDINATES, LIMIT.ONE_AXIS, forms)
@@ -54,7 +54,11 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
     turns = (Turn.from_euler("ZYX", each).as_matrix() for each in (earlier, rows[list(LIMIT.ANGLES)].to_numpy()))
     differs_turned, differs_in_hand = (side_by_side.apart(C, side_by_side.turned(base, Q)) for Q in turns)
     word = word_of((differs[away] <= LIMIT.SAME).all(), (differs_turned[away] <= LIMIT.SAME).all())
-    judged = rows.assign(same=differs <= LIMIT.SAME, same_in_hand=differs_in_hand <= LIMIT.SAME)[away]
+    judged = rows.assign(
+        same=differs <= LIMIT.SAME,
+        same_turned=differs_turned <= LIMIT.SAME,
+        same_in_hand=differs_in_hand <= LIMIT.SAME,
+    )[away]
     ends = rows.loc[~away, "outcome"].astype(str).value_counts()
     close = ", ".join(f"{n} {end}" for end, n in ends.items()) or "no pose"
     return word, evidence(
@@ -63,6 +67,8 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         the angles before, the Cartesian one differs by at most {_greatest(differs_turned[away]):.1e}. The same as about
         the hand's own axes {_by_order(judged, "same_in_hand")}. Closer to the pole: {close}.""",
         len(rows),
+        instead=f"""One angle is one axis of the base {_by_order(judged, "same")} poses and forms, and one axis turned
+        by the angles before it {_by_order(judged, "same_turned")}.""",
     )
 
 

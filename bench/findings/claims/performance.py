@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
@@ -17,6 +18,7 @@ from bench.findings.claims.standing import ORDERED, Ledger
 from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, interval, settled, settling_times, share, some
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form
+from bench.law.contenders.registry import all_contenders
 
 LIMIT = read_limits(__file__)
 
@@ -44,14 +46,25 @@ def c12(results: Results) -> tuple[Word, Evidence]:
     literal = known.accountings[0].get(LIMIT.LITERAL)  # the law that is compared shares sines and folds Bdot
     as_printed = f"(2.15) as printed, term by term, takes {literal}." if literal else ""
     priced = f"; in these times a call takes {known.price:.0f} flops" if np.isfinite(known.price) else ""
-    return word_of(all(in_order), all(np.logical_or(in_order, [one.is_disputed for one in pairs]))), evidence(
-        f"""Time a tick over the rotation matrix's: {timed}; its intervals part
-        {sum(bool(one.by_time) for one in pairs)} of {len(pairs)} pairs. Flops and calls: {paper}; with the goal's
-        angles taken from its matrix: {total}; the columns decide {sum(0 not in one.by_columns for one in pairs)} of
-        {len(pairs)} pairs{priced}. By flops alone, calls left out: {"; ".join(others) or "the same order"}.
-        {as_printed}""",
+    timed_pairs = sum(bool(pair.by_time) for pair in pairs)
+    is_ordered = all(pair.sign == ORDERED for pair in pairs)
+    by_one_measure = timed_pairs == len(pairs) and not others and all(in_order)
+    parted = [
+        f"{short} from {other}"
+        for pair, (short, other) in zip(pairs, itertools.pairwise(NAMES), strict=True)
+        if pair.by_time
+    ]
+    instead = f"""The order is that of time and operations together. Time parts {" and ".join(parted) or "no two laws"};
+        operations decide the rest. By flops alone, calls left out: {"; ".join(others) or "the same order"}."""
+    word = word_of(by_one_measure, is_ordered or all(np.logical_or(in_order, [pair.is_disputed for pair in pairs])))
+    return word, evidence(
+        f"""Time a tick over the rotation matrix's: {timed}; its intervals part {timed_pairs} of {len(pairs)} pairs.
+        Flops and calls: {paper}; with the goal's angles taken from its matrix: {total}; the columns decide
+        {sum(0 not in pair.by_columns for pair in pairs)} of {len(pairs)} pairs{priced}. By flops alone, calls left out:
+        {"; ".join(others) or "the same order"}. {as_printed}""",
         len(THREE) * (len(known.accountings) + len(known.times)),
         ("costs", "timings") if known.times else ("costs",),
+        instead if word == Word.CORRECTED else "",
     )
 
 
@@ -65,24 +78,42 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
     if not set(THREE) <= set(by_name):
         raise NoEvidence(f"not all of {', '.join(THREE)} ran by {engine}: run a suite without narrowing it")
     three, known = [by_name[name] for name in THREE], adequacy.of_three(results)
-    lacks = [set(adequacy.missed(one, known, linear, {})) for one in three]
-    both = {name: lack for name, lack in zip(NAMES, lacks, strict=True) if not lack & set(adequacy.BOTH)}
+    every = {name: adequacy.examine(law, known, linear, {}) for name, law in zip(NAMES, three, strict=True)}
+    asked = {name: tested.among(adequacy.BOTH) for name, tested in every.items()}
+    adequate = [name for name, tested in asked.items() if tested.passes]
+    open_yet = [name for name, tested in asked.items() if tested.may_pass]
+    is_isolated = all(every[name].failed & {"e", "h"} for name in adequate)
+    word = word_of(not adequate, is_isolated)
+    if open_yet and word != Word.FAILS:
+        word = Word.UNTESTED
+    if adequate:
+        beside_it = " but for isolated orientations, or by one measure of cost alone" if is_isolated else ""
+        instead = f"{' and '.join(adequate)} is adequate in both{beside_it}."
+    else:
+        instead = "None of the three is adequate in both."
+    if open_yet:
+        lacking = "; ".join(f"{name} ({asked[name]})" for name in open_yet)
+        instead = f"Whether one is adequate in both is not tested: {lacking}."
     beside = probes.beside_pole(0.1, THREE[-1], results.gains(), results.dt_s)
-    return word_of(not both, all(lack & {"e", "h"} for lack in both.values())), evidence(
-        f"""{"; ".join(_placed(one, known) for one in three)}. Adequate in both: {", ".join(both) or "none"}. Settling
+    return word, evidence(
+        f"""{"; ".join(_placed(law, known) for law in three)}. Adequate in both: {", ".join(adequate) or "none"}.
+        {"; ".join(f"{name}: {tested}" for name, tested in asked.items())}. Settling
         time of a small error: {linear:.3f} s. Not counted: feedback-linearized fails from
         {int((~settled(beside)).sum())} of {len(beside)} starts spinning at {probes.SPEED:g} rad/s beside a pole.""",
-        len(THREE) + sum(one.rows for one in three),
+        len(THREE) + sum(law.rows for law in three),
         ("episodes", "costs", "timings") if known.times else ("episodes", "costs"),
+        instead,
     )
 
 
-def _placed(one: Adequacy, known: Ledger) -> str:
+def _placed(law: Adequacy, known: Ledger) -> str:
+    """Return what was measured of a law, in a sentence."""
+    spun = "; ".join(map(tables.lost_text, law.spun[-1:])) or "not tested"
     return (
-        f"{one.name.partition('/')[0]} {one.settled:.2%} settled, {one.lost} ({one.lost_exact}) lost, of spinning ones "
-        f"{'; '.join(map(tables.lost_text, one.spun[-1:])) or 'none is known'}, {adequacy.NEARLY_ALL:.0%} in "
-        f"{one.pace.value:.2f} s ({one.pace.low:.2f} to {one.pace.high:.2f}), {one.cost} flops and calls, "
-        f"time {known.over(one.name, THREE[0])}"
+        f"{law.name.partition('/')[0]} {law.settled:.2%} settled, {law.lost} of {law.directed} directed starts lost, "
+        f"{law.lost_exact} of {law.exact} on a boundary itself, of spinning ones {spun}, {adequacy.NEARLY_ALL:.0%} in "
+        f"{law.pace.value:.2f} s ({law.pace.low:.2f} to {law.pace.high:.2f}), {law.cost} flops and calls, "
+        f"time {known.over(law.name, THREE[0])}"
     )
 
 
@@ -96,25 +127,52 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
     known, small = adequacy.of_three(results), closed_form.linear_settling(*results.gains())
     if not known.times:
         raise NoEvidence("no law was timed, and flops and calls alone give no cost: run bench time")
-    lacks = {one.name: adequacy.missed(one, known, small, held) for one in later}
-    adequate = [one.name for one in later if not set(lacks[one.name]) & set(adequacy.BOTH)]
-    answers = [
-        f"{one.name} (time {known.over(one.name, THREE[0])}, {one.cost} flops and calls, {one.settled:.2%} of {one.n} "
-        f"starts settle, {adequacy.NEARLY_ALL:.0%} in {one.pace.value:.2f} s, way at most {one.detour:.2f} times the "
-        "shortest)"
-        for one in later
-        if not lacks[one.name]
+    tested = {law.name: adequacy.examine(law, known, small, held) for law in later}
+    adequate = [name for name, result in tested.items() if result.among(adequacy.BOTH).passes]
+    answers = [law for law in later if tested[law.name].passes]
+    told = [
+        f"{law.name}, {whose(law.name)} (time {known.over(law.name, THREE[0])}, {law.cost} flops and calls, "
+        f"{law.settled:.2%} of {law.n} starts settle, {adequacy.NEARLY_ALL:.0%} in {law.pace.value:.2f} s, way at most "
+        f"{law.detour:.2f} times the shortest)"
+        for law in answers
     ]
-    lacking = "; ".join(f"{name} ({', '.join(missed)})" for name, missed in lacks.items() if missed) or "nothing"
-    untimed = [one.name for one in later if not any(one.name in times for times in known.times)]
-    return Word.ANSWERED if answers else Word.HOLDS, evidence(
-        f"""Of {len(later)} later laws adequate in both cost and performance: {", ".join(adequate) or "none"}. All eight
-        tests: {"; ".join(answers) or "none"}. What each other lacks: {lacking}. The paper's laws on angles take
+    others = [f"{name}, {whose(name)} ({result})" for name, result in tested.items() if not result.passes]
+    untimed = [law.name for law in later if not any(law.name in times for times in known.times)]
+    counts = Counter(whose(law.name) for law in later)
+    by_others = counts[PUBLISHED] + counts[ADAPTED_HERE]
+    word = Word.HOLDS
+    if answers:
+        word = Word.ANSWERED
+    elif any(result.may_pass for result in tested.values()):
+        word = Word.UNTESTED
+    named = ", ".join(f"{law.name} ({whose(law.name)})" for law in answers)
+    instead = f"These laws pass all eight tests: {named}." if answers else ""
+    return word, evidence(
+        f"""Of {by_others} later laws by others, {counts[ADAPTED_HERE]} of them adapted here, and {counts[OWN]} of ours,
+        these are adequate in both cost and performance: {", ".join(adequate) or "none"}. All eight tests:
+        {"; ".join(told) or "none"}. Each other: {"; ".join(others) or "none"}. The paper's laws on angles take
         {" and ".join(known.over(name, THREE[0]) for name in THREE[1:])} times the rotation matrix's time; not timed,
         so that operations decide: {", ".join(untimed) or "none"}. In these times a call takes {known.price:.0f} flops.
         A small error settles in {small:.3f} s, and {adequacy.SLOW * small:.3f} s is the slowest that is adequate.""",
-        sum(one.rows + held.get(one.name, (0, 0))[1] for one in later),
+        sum(law.rows + held.get(law.name, (0, 0))[1] for law in later),
+        instead=instead,
     )
+
+
+OWN, ADAPTED_HERE, PUBLISHED, USERS = "ours", "adapted", "published", "yours"
+
+
+def whose(name: str) -> str:
+    """Return whether a contender's law is published, adapted here from others' works, ours, or a user's own."""
+    known = {one.name: one.regulator for one in all_contenders()}
+    if name not in known:
+        return USERS
+    law = known[name]
+    if attribution := getattr(law, "attribution", ""):
+        return str(attribution)
+    if law.is_ours():
+        return OWN
+    return ADAPTED_HERE if law.source.startswith("after ") else PUBLISHED
 
 
 def _of_the_three(results: Results) -> list[pd.DataFrame]:
@@ -138,6 +196,9 @@ def c31(results: Results) -> tuple[Word, Evidence]:
         f"""Settled: {told}. Time in which {LIMIT.NEARLY_ALL:.0%} settle over that of feedback linearization:
         {sooner}.""",
         3 * len(laws[-1]),
+        instead=f"""With the rotation-matrix law, the time in which {LIMIT.NEARLY_ALL:.0%} of the starts settle is
+        {interval(ratios[0], ".2f")} times as long; {matrix.k} of {matrix.n} starts settle, and {mine.k} with feedback
+        linearization.""",
     )
 
 
@@ -177,12 +238,14 @@ def c36(results: Results) -> tuple[Word, Evidence]:
     """Return which tests of performance each of the three lacks, exact boundary points included."""
     small, known = closed_form.linear_settling(*results.gains()), adequacy.of_three(results)
     three = some([one for one in adequacy.every(results, MAIN_ENGINE) if one.name in THREE], "law of the paper")
-    lacks = {one.name: set(adequacy.missed(one, known, small, {})) & set(LIMIT.TESTS) for one in three}
+    tested = {law.name: adequacy.examine(law, known, small, {}).among(LIMIT.TESTS) for law in three}
     told = "; ".join(
-        f"{one.name.partition('/')[0]} lacks {', '.join(sorted(lacks[one.name])) or 'nothing'} ({one.settled:.2%} of "
+        f"{one.name.partition('/')[0]} {tested[one.name]} ({one.settled:.2%} of "
         f"{one.n:,} settle, {one.lost} of {one.directed} directed starts are lost, {one.lost_exact} on a boundary "
         f"itself, 99% settle in {one.pace.value:.2f} s)"
         for one in three
     )
-    is_none = len(three) == len(THREE) and all(lacks.values())
-    return word_of(is_none, False), evidence(f"{told}.", sum(one.rows for one in three))
+    word = word_of(len(three) == len(THREE) and all(result.failed for result in tested.values()), False)
+    if word == Word.FAILS and not any(result.passes for result in tested.values()):
+        word = Word.UNTESTED
+    return word, evidence(f"{told}.", sum(law.rows for law in three))

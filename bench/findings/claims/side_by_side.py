@@ -29,6 +29,27 @@ DECIDES = f"""
     """
 
 
+def by_either_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[..., tuple[Word, Evidence]]:
+    """Wrap a judging function of (results, forms): if both ways to control forces give one word, that is the word.
+
+    Else it depends on the reading, for the paper's sentence says of neither that it is meant.
+    """
+
+    @functools.wraps(decide)
+    def judge(results: Results) -> Any:
+        word, papers = decide(results, (PAPERS_FORM,))
+        other, ours = decide(results, ACCELERATION_FORMS)
+        instead = f"By commanded accelerations: {other}. {ours.instead} With forces by the Jacobian transpose: {word}. "
+        return word if word == other else Word.READING, evidence(
+            f"""Forces by the Jacobian transpose, {word}: {papers} By commanded accelerations, {other}: {ours}""",
+            papers.rows + ours.rows,
+            papers.tables,
+            instead + papers.instead if word != other else "",
+        )
+
+    return judge
+
+
 def by_papers_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[..., tuple[Word, Evidence]]:
     """Wrap a judging function of (results, forms) to ask the paper's force control, then commanded accelerations."""
 

@@ -51,11 +51,15 @@ Times = list[dict[str, Estimate]]
 
 
 class Standing(NamedTuple):
-    """Whether a pair is in the stated order: by time, by columns in each accounting, and at the price of a call."""
+    """Whether a pair is in the stated order: by time, by columns in each accounting, and at the price of a call.
+
+    is_known: whether times or a price are there to decide where columns do not.
+    """
 
     by_time: int
     by_columns: tuple[int, ...]
     priced: tuple[int, ...]
+    is_known: bool = True
 
     @property
     def sign(self) -> int:
@@ -89,10 +93,14 @@ class Ledger(NamedTuple):
         """How a pair stands, the cheaper by the claim first."""
         pairs = [(one[cheap], one[dear]) for one in self.accountings]
         sums = (other.weighed(self.price) - one.weighed(self.price) for one, other in pairs)
+        timed = [one for one in self.times if cheap in one and dear in one]
+        columns = tuple(by_columns(*pair) for pair in pairs)
+        are_equal = all(one == other for one, other in pairs)
         return Standing(
-            agreed(by_times(one[cheap], one[dear], self.least) for one in self.times if cheap in one and dear in one),
-            tuple(by_columns(*pair) for pair in pairs),
+            agreed(by_times(one[cheap], one[dear], self.least) for one in timed),
+            columns,
             tuple(int(np.nan_to_num(np.sign(more))) for more in sums),  # undecided where the price is not known
+            is_known=bool(timed) or are_equal or 0 not in columns or np.isfinite(self.price),
         )
 
     def over(self, name: str, other: str) -> str:

@@ -58,7 +58,7 @@ class Results:
         self.timings_folder, self.maps_folder = timings, maps
         self.experiments = experiments or {}
         self._chosen: dict[tuple, pd.DataFrame] = {}
-        self._spun: dict[str, list[Spun]] = {}
+        self._spun: dict[tuple[str, str], list[Spun]] = {}
 
     def found_by(self, experiment: Callable, *given: Any) -> Any:
         """Return what an experiment finds, or what stands in its place."""
@@ -100,16 +100,19 @@ class Results:
         row = some(self.table("episodes", **read.FREE_BODY, engine=MAIN_ENGINE), f"episode by {MAIN_ENGINE}").iloc[0]
         return Gains(float(row["kp"]), float(row["kv"]))
 
-    def spun(self, law: str) -> list[Spun]:
-        """Return starts of a law at stated speeds, from the maps in the repository; maybe none."""
+    def spun(self, law: str, engine: str = MAIN_ENGINE) -> list[Spun]:
+        """Return starts of a law at stated speeds, with the run's gains, from the maps in the repository.
+
+        There are none where no map has the law with these gains by this engine.
+        """
         from bench.findings.maps import count_in, counted, spun
 
-        if law not in self._spun:
+        if (law, engine) not in self._spun:
             if "counted" not in self.frames:
                 given = self.frames.get("map")
                 self.frames["counted"] = count_in(self.maps_folder) if given is None else counted(given)
-            self._spun[law] = spun(self.frames["counted"], law)
-        return self._spun[law]
+            self._spun[law, engine] = spun(self.frames["counted"], law, self.gains(), engine)
+        return self._spun[law, engine]
 
     @functools.cached_property
     def _plan(self) -> dict:
@@ -229,6 +232,6 @@ def settled_of(frame: pd.DataFrame) -> str:
     return f"{int(settled(frame).sum())} of {len(frame)}"
 
 
-def evidence(sentence: str, rows: int, tables: tuple[str, ...] = ()) -> Evidence:
-    """Evidence whose sentence may be broken into lines as the file likes."""
-    return Evidence(" ".join(sentence.split()), int(rows), tables)
+def evidence(sentence: str, rows: int, tables: tuple[str, ...] = (), instead: str = "") -> Evidence:
+    """Evidence whose sentences may be broken into lines as the file likes."""
+    return Evidence(" ".join(sentence.split()), int(rows), tables, " ".join(instead.split()))

@@ -26,7 +26,9 @@ class Word(StrEnum):
     FAILS = "does not hold"
     ANSWERED = "open in 1988; answered since"
     DEPENDS = "depends on the gains"
+    READING = "depends on the reading"
     UNTESTABLE = "not testable"
+    UNTESTED = "not tested"
 
 
 PLURAL = {
@@ -35,7 +37,9 @@ PLURAL = {
     Word.FAILS: "do not hold",
     Word.ANSWERED: "were open in 1988 and are answered since",
     Word.DEPENDS: "depend on the gains",
+    Word.READING: "depend on the reading",
     Word.UNTESTABLE: "are not testable",
+    Word.UNTESTED: "are not tested",
 }
 
 
@@ -43,6 +47,8 @@ def does(word: Word, number: int) -> str:
     """Return what so many statements with a word do."""
     if (word, number) == (Word.ANSWERED, 1):
         return "was open in 1988 and is answered since"
+    if number == 1 and word in (Word.UNTESTABLE, Word.UNTESTED):
+        return f"is {word}"
     return str(word) if number == 1 else PLURAL[word]
 
 
@@ -67,11 +73,13 @@ class Evidence(NamedTuple):
 
     sentence: plain prose, every number in it computed. rows: table rows, states and episodes looked at. tables: where
     they come from, if not those that the claim's texts name; "experiment" for what the claim computes itself.
+    instead: what is true, written from the rows; empty where the claim's own text says it.
     """
 
     sentence: str
     rows: int
     tables: tuple[str, ...] = ()
+    instead: str = ""
 
     def __str__(self) -> str:
         return self.sentence
@@ -193,6 +201,8 @@ class Verdict(NamedTuple):
     @property
     def correction(self) -> str:
         """What is true of the paper's sentence where it does not hold as it stands; else nothing."""
+        if self.evidence.instead:
+            return self.evidence.instead
         if self.word in (Word.FAILS, Word.DEPENDS):
             return self.claim.instead or self.claim.correction
         return self.claim.correction if self.word == Word.CORRECTED else ""

@@ -7,6 +7,7 @@ A law is called with R = E^T R_d. Where its answer, in normal form, does not men
 goal.
 """
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
@@ -14,7 +15,7 @@ from bench.findings.proofs import dialect
 from bench.findings.proofs.conditions import Condition
 from bench.findings.proofs.reasons import DoesNotFit, LemmaFails
 from bench.findings.proofs.solver import Lemma, Solver, is_below, undecided
-from bench.findings.proofs.trace import Path, Symbols, Traced, is_same, is_zero
+from bench.findings.proofs.trace import Path, Symbols, Traced
 from bench.law.inputs import Gains, Goal
 from bench.law.kinds import ACCELERATION, ON_MATRIX, Law
 from bench.law.so3 import Rotation, cross, dot, from_quaternion, rotate, rotate_back
@@ -101,7 +102,8 @@ class FreeBody:
         rest = tuple(self.symbols.number(0) for _ in range(3))
 
         def call() -> tuple:
-            return self._checked(self.command(law, rest, *memory)), self._checked(self.command(law, self.omega, *memory))
+            at_rest = self._checked(self.command(law, rest, *memory))
+            return at_rest, self._checked(self.command(law, self.omega, *memory))
 
         yield from self.symbols.paths(call)
 
@@ -129,11 +131,11 @@ class FreeBody:
         for path in self.commands(law, *memory):
             still, moving = path.answer
             if law.memory is None:
-                sides = [(1, None, (is_turned,))]
+                sides: list[tuple[int, Traced | None, tuple[Condition, ...]]] = [(1, None, (is_turned,))]
                 u_at_rest, u = still, moving
             else:
-                kept = self.find_multiple(path, moving[1], STAYS_PARALLEL)
-                sides = [(side, kept, (is_turned, is_below(-side * kept))) for side in (1, -1)]
+                multiple = self.find_multiple(path, moving[1], STAYS_PARALLEL)
+                sides = [(side, multiple, (is_turned, is_below(-side * multiple))) for side in (1, -1)]
                 u_at_rest, u = still[0], moving[0]
             for side, kept, known in sides:
                 if self.solver.find(path, *known).answer != "unsat":
@@ -201,5 +203,7 @@ def check_kind(law: Law) -> None:
         raise DoesNotFit("it is no law on the rotation matrix without a state")
     if law.level != ACCELERATION:
         raise DoesNotFit(f"it commands a {law.level}, and the theorems are about an acceleration")
-    if law.origin and law.in_engine:
-        raise DoesNotFit("its command is computed by the engine, not by its source")
+    if law.origin and (law.in_engine or law.law_in or law.assemble or law.shipped):
+        raise DoesNotFit("its command is computed by more than the function `law` of its source")
+    if not all(0.0 < gain < math.inf for gain in law.gains):
+        raise DoesNotFit(f"its gains {tuple(law.gains)} are not positive")

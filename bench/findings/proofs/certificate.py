@@ -21,7 +21,10 @@ HARD_S = 1200.0
 WAITS = 8
 """How many times the time for one law it may take on the wall, where other programs run."""
 PROVED, REFUTED, NOT_PROVED = "proved", "refuted", "not proved"
-SCOPE = "in continuous time, with the exact state, no bound of the command, no delay, and the inertia as modelled"
+SCOPE = (
+    "in continuous time, with exact numbers and the exact state, no bound of the command, no delay, and the inertia as "
+    "modelled"
+)
 """What a property is about, wherever it is said to be proved."""
 WITH_TIME = "spring-and-damper"
 """The theorem whose V bounds the time after the last crossing of the band."""
@@ -58,7 +61,8 @@ def without_proof(law: Law, why: str) -> dict[str, Any]:
     empty: dict[str, Any] = {"theorem": None, "stands": "", "lemmas": [], "V": "", "equilibria": ""}
     empty |= {"rate": None, "delta": None, "drop": None, "cited": [], "seconds": 0.0}
     verdict = {"is_proved": False, "verdict": NOT_PROVED, "why": why, "scope": SCOPE}
-    return {"law": law.name, "declared": law.property, **verdict, **empty, "settling": {}, "sampled": {}, "counterexample": None}
+    empty |= {"settling": {}, "sampled": {}, "counterexample": None}
+    return {"law": law.name, "declared": law.property, **verdict, **empty}
 
 
 def certify(law: Law) -> dict[str, Any]:
@@ -213,7 +217,8 @@ def certify_asked(request: dict, path: Path | None) -> dict[str, Any]:
 
 
 def _certify_asked(request: dict, path: Path | None) -> dict[str, Any]:
-    from bench.findings.proofs import dialect
+    # all of the prover is imported before a user's file runs, which might put something else in its place
+    from bench.findings.proofs import dialect, settling_time, theorem  # noqa: F401
     from bench.findings.proofs.reasons import LIMITS, DoesNotFit, TimeIsUp, describe_error
 
     LIMITS.begin(request["lemma_s"], request["law_s"])

@@ -36,11 +36,21 @@ ALLOWED = (
 )
 """Parts of a function's source that the dialect has."""
 
-MODULES = ("bench.law", "math", "numpy", "typing", "__future__")
+LAW = ("so3", "scalar", "side", "inputs", "kinds", "display", "linalg")
+MODULES = ("bench.law", *(f"bench.law.{name}" for name in LAW), "math", "numpy", "typing", "__future__")
+REGULATORS = "bench.law.contenders.regulators."
 """What a law's file may import from, if it is to be proved."""
 FORBIDDEN = frozenset(
-    "exec eval compile open input setattr getattr delattr globals locals vars __import__ breakpoint random".split()
+    (
+        "exec", "eval", "compile", "open", "input",
+        "setattr", "getattr", "delattr", "globals",
+        "locals", "vars", "__import__", "breakpoint", "random",
+    )
 )
+STATEMENTS = (ast.Global, ast.Nonlocal, ast.Delete, ast.ClassDef, ast.AsyncFunctionDef, ast.Try, ast.With)
+"""Statements that no file needs whose law is to be proved."""
+RISKY = frozenset(("random", "load", "fromfile", "memmap", "seterr", "modules", "settrace", "setprofile", "contenders"))
+"""Attributes by which a file could make its constants by chance, or reach the prover."""
 
 
 def check(law: Law) -> None:
@@ -71,9 +81,10 @@ def _check_function(function: Any) -> list[Any]:
             raise _refusal(node, where, f"it sets {node.id}")
         if isinstance(node, ast.Attribute | ast.Subscript) and not isinstance(node.ctx, ast.Load):
             raise _refusal(node, where, "it changes what it was given, or what lasts from call to call")
+    functions = []
     for default in function.__defaults__ or ():
-        _check_value(default, where)
-    return list(_check_names(function, tree, where))
+        functions += _check_value(default, where)
+    return functions + list(_check_names(function, tree, where))
 
 
 def _read(function: types.FunctionType) -> ast.FunctionDef:
@@ -88,6 +99,7 @@ def _read(function: types.FunctionType) -> ast.FunctionDef:
         raise Untraceable(f"its function {function.__name__} is not written as def {code.co_name}(...)")
     definition.decorator_list = []  # what they made of it is the function that is given
     definition.returns = None
+    definition.args.defaults = []  # what they are is checked by their values
     for argument in ast.walk(definition.args):
         if isinstance(argument, ast.arg):
             argument.annotation = None
@@ -103,9 +115,10 @@ def _check_names(function: types.FunctionType, tree: ast.FunctionDef, where: str
     modules = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.Attribute):
-            owner = known.get(node.value.id) if isinstance(node.value, ast.Name) else None
-            if isinstance(owner, types.ModuleType) and node.value.id not in local:
-                modules.add(node.value.id)
+            name = node.value.id if isinstance(node.value, ast.Name) else ""
+            owner = known.get(name)
+            if isinstance(owner, types.ModuleType) and name not in local:
+                modules.add(name)
                 yield from _check_value(getattr(owner, node.attr, None), f"{where}, line {node.lineno}")
             elif node.attr not in FIELDS:
                 raise _refusal(node, where, f"it reads .{node.attr}")
@@ -127,9 +140,7 @@ def _check_value(value: Any, where: str) -> list[Any]:
             raise Untraceable(f"{where}: its constant {value!r} is no finite number")
         return []
     if type(value) in (tuple, *RECORDS):
-        for part in value:
-            _check_value(part, where)
-        return []
+        return [function for part in value for function in _check_value(part, where)]
     if isinstance(value, types.FunctionType):
         return [value]
     raise Untraceable(f"{where}: it uses {_shown(value)}, which is not of the law dialect (see bench/law/scalar.py)")
@@ -166,14 +177,14 @@ def _faults_of(node: ast.AST) -> Iterator[str]:
     else:
         names = []
     for name in names:
-        if not any(name == module or name.startswith(f"{module}.") for module in MODULES):
+        if name not in MODULES and not name.startswith(REGULATORS):
             yield f"it imports {name or 'a file beside it'}"
-    if isinstance(node, ast.Global | ast.Nonlocal | ast.Delete | ast.ClassDef | ast.AsyncFunctionDef | ast.Try | ast.With):
+    if isinstance(node, STATEMENTS):
         yield f"it has a {type(node).__name__} statement"
     if isinstance(node, ast.Name) and node.id in FORBIDDEN:
         yield f"it uses {node.id}"
     if isinstance(node, ast.Attribute):
-        if node.attr.startswith("_") or node.attr in ("random", "load", "fromfile", "memmap", "seterr"):
+        if node.attr.startswith("_") or node.attr in RISKY:
             yield f"it reads .{node.attr}"
         if not isinstance(node.ctx, ast.Load):
             yield f"it sets .{node.attr}"

@@ -61,7 +61,8 @@ def prove(law: Law) -> Proof:
     lemmas = [by_algebra("V' = -c Kv |omega_F|^2, c constant and positive", is_constant)]
     lemmas += [begins, body.finite()]
     shown = r"V = 2 K_p (1 - \eta^2) + 4 K_v^2 (1 - \eta_F^2) + \tfrac12|\omega|^2"
-    return Proof(THEOREM.name, "almost global from rest where Kp < 2 Kv^2", lemmas, shown, "every 180° rotation", cited=CITED)
+    stands = "almost global from rest where Kp < 2 Kv^2"
+    return Proof(THEOREM.name, stands, lemmas, shown, "every 180° rotation", cited=CITED)
 
 
 THEOREM = Theorem("following-frame", "A frame that follows the body, in place of its rate", prove, ("velocity-free",))

@@ -68,7 +68,8 @@ def prove(law: Law) -> Proof:
         decide("V' < 0 but at rest at the goal or on a 180° rotation", known, solver.is_below(-bound, strictly=False)),
     ]
     shown = r"V = 2 K_p (1 - \eta^2) - c\,e \cdot \omega + \tfrac12|\omega|^2 + \tfrac12 h |x - x_d|^2"
-    return Proof(THEOREM.name, f"almost global where Kv^2 < {RATIO} Kp", lemmas, shown, "every 180° rotation", cited=(LASALLE, MEASURE_ZERO))
+    stands, cited = f"almost global where Kv^2 < {RATIO} Kp", (LASALLE, MEASURE_ZERO)
+    return Proof(THEOREM.name, stands, lemmas, shown, "every 180° rotation", cited=cited)
 
 
 THEOREM = Theorem("integral", "A sine of the angle with an integral", prove, ("integral",))

@@ -9,13 +9,14 @@ Source: Paielli & Bach 1993; Schaub, Akella, Junkins 2001.
 
 from bench.findings.proofs.body import IS_FINITE, FreeBody, Tick
 from bench.findings.proofs.memory import prove_start
-from bench.findings.proofs.question import Question
+from bench.findings.proofs.question import Question, agreement_lemma
 from bench.findings.proofs.solver import by_algebra
 from bench.findings.proofs.theorem import FINITE_JUMPS, DoesNotFit, Proof, Theorem
 from bench.findings.proofs.trace import Traced, is_zero
 from bench.law.kinds import Law
 from bench.law.so3 import dot
 
+V_FALLS = "that V = |x'|^2/2 + Kp |x|^2/2 falls where x'' + Kv x' + Kp x = 0 is by reading"
 FINITE_BELOW_180 = "the command is finite below 180°, where it is not defined"
 
 
@@ -48,13 +49,17 @@ def prove(law: Law) -> Proof:
     V = rf"V = \tfrac12|\dot x|^2 + \tfrac12 K_p |x|^2, \quad x = {x}"
     lemmas = [by_algebra("x'' + Kv x' + Kp x = 0", all(one.side in one.taken for one in ask.ticks))]
     lemmas += [*start, body.finite(IS_FINITE if has_memory else FINITE_BELOW_180)]
+    lemmas.append(agreement_lemma(body, law, ask))
     if not has_memory:
-        return Proof(THEOREM.name, "almost global from rest", lemmas, V, "not defined at 180°", 1.0, cited=("that V falls is by reading",))
+        return Proof(
+            THEOREM.name, "almost global from rest", lemmas, V, "not defined at 180°", 1.0, cited=(V_FALLS,)
+        )
     size = dot(rates[1], rates[1]) - dot(omega, omega) / (4 * (1 + body.eta) ** 2)
     delta = float(ask.delta)
     drop = 0.5 * ((1 + delta) / (1 - delta) - (1 - delta) / (1 + delta))
     lemmas += [by_algebra("|x'| = |omega|/(2 (1 + eta))", size), *ask.changes_of_side()]
-    return Proof(THEOREM.name, "global with memory", lemmas, V, "none", 1.0, delta, drop, ("that V falls is by reading", FINITE_JUMPS))
+    cited = (V_FALLS, FINITE_JUMPS)
+    return Proof(THEOREM.name, "global with memory", lemmas, V, "none", 1.0, delta, drop, cited)
 
 
 THEOREM = Theorem("linear-coordinates", "Coordinates that obey a linear equation", prove, order=2)

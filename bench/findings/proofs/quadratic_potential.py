@@ -14,12 +14,12 @@ from fractions import Fraction
 import sympy as sp
 
 from bench.findings.proofs.body import FreeBody
+from bench.findings.proofs.question import Question, agreement_lemma
 from bench.findings.proofs.solver import by_algebra
 from bench.findings.proofs.theorem import LASALLE, MEASURE_ZERO, DoesNotFit, Proof, Theorem
 from bench.findings.proofs.trace import Traced
 from bench.law.kinds import Law
 from bench.law.so3 import dot
-
 
 CITED = (LASALLE, MEASURE_ZERO)
 
@@ -49,7 +49,8 @@ def prove(law: Law) -> Proof:
     if law.memory is not None:
         raise DoesNotFit("it has a memory")
     # asked first without the goal's axes, where polynomials are short
-    if any(path.taken for path in itertools.islice(FreeBody().commands(law), 1)):
+    plain = FreeBody()
+    if any(path.taken for path in itertools.islice(plain.commands(law), 1)):
         raise DoesNotFit("its command has branches")
     body = FreeBody(goal_frame=True)
     ticks = list(body.ticks(law))
@@ -61,6 +62,7 @@ def prove(law: Law) -> Proof:
     entries = [Fraction(int(one.p), int(one.q)) for one in M.diagonal()]
     lemmas = [
         body.finite(),
+        agreement_lemma(plain, law, Question(plain, law, lambda *_: True)),
         by_algebra("U' = -u . omega/Kp at rest, U = q^T M q", True),  # or find_quadratic would have refused it
         by_algebra("u - u at rest = -Kv omega", [tick.u[i] - tick.at_rest[i] + kv * body.omega[i] for i in range(3)]),
         by_algebra("M is diagonal with four different entries", M.is_diagonal() and len(set(entries)) == 4),

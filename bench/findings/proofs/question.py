@@ -1,18 +1,23 @@
 """Questions to all paths of a law: is there a state with a fault? A law with memory has two sides."""
 
 import functools
+import time
 from collections.abc import Callable
 from fractions import Fraction
 from typing import Any, NoReturn
 
+import numpy as np
 from z3 import Real, substitute
 
-from bench.findings.proofs.body import FreeBody, Tick
+from bench.findings.proofs import sampling
+from bench.findings.proofs.body import GOAL, QUATERNION, RATES, FreeBody, Tick
 from bench.findings.proofs.conditions import CLOSED, Condition
 from bench.findings.proofs.reasons import LIMITS, DoesNotFit, LemmaFails
 from bench.findings.proofs.solver import Lemma, ask, by_algebra, undecided
 from bench.findings.proofs.trace import are_same
+from bench.law.inputs import Gains, Goal
 from bench.law.kinds import Law
+from bench.law.so3 import Rotation, from_quaternion, rotate_back
 
 
 class Question:
@@ -52,14 +57,16 @@ class Question:
         faults: Callable[[Tick], list[Condition]],
         sides: tuple[int, ...] = (1, -1),
         to_the_edge: bool = False,
+        to_180: bool = False,
     ) -> Lemma:
         """Return the lemma that no tick on some sides has a state with one of its faults.
 
         to_the_edge: states at the edge of a path count, too, where its command may differ: a limit is a fault.
+        to_180: so do states at eta = 0, where eta is positive on all paths.
         """
         if statement:
             LIMITS.asked = statement
-        lemma = self._decide(statement, faults, sides, to_the_edge)
+        lemma = self._decide(statement, faults, sides, to_the_edge, to_180)
         if statement:
             LIMITS.lemmas.append(lemma)
         return lemma
@@ -70,6 +77,7 @@ class Question:
         faults: Callable[[Tick], list[Condition]],
         sides: tuple[int, ...],
         to_the_edge: bool,
+        to_180: bool,
     ) -> Lemma:
         seconds = 0.0
         for tick in self.ticks:
@@ -78,10 +86,12 @@ class Question:
             self.body.symbols.path = tick.path
             path = _with_edge(tick) if to_the_edge else tick.path
             for possible in faults(tick):
-                fault = Condition(self.body.symbols.without_positive(possible.polynomial), possible.relation)
+                fault = possible
+                if not to_180:  # where eta = 0 counts, it is no factor to be left out
+                    fault = Condition(self.body.symbols.without_positive(possible.polynomial), possible.relation)
                 if fault.answer() is False:
                     continue
-                finding = self.body.solver.find(path, *tick.known, fault)
+                finding = self.body.solver.find(path, *tick.known, fault, to_180=to_180)
                 seconds += finding.seconds
                 if finding.answer != "unsat":
                     note = undecided(finding.answer, finding.seconds)
@@ -135,6 +145,44 @@ def _with_edge(tick: Tick) -> Any:
     path.relations, path.meanings = tick.path.relations, tick.path.meanings
     path.definitions, path.angles = tick.path.definitions, tick.path.angles
     return path
+
+
+AGREES = "the law's numbers are those of its trace, at states drawn at random"
+STATES_A_PATH, TOLERANCE = 8, 1e-6
+"""Drawn states on each path, and the difference of commands over the largest, several digits above rounding."""
+
+
+def agreement_lemma(body: FreeBody, law: Law, ask: Question) -> Lemma:
+    """Compare the law, called with numbers, with its trace: a check of the trace, and of what rounding does.
+
+    Where most states of a path differ the lemma is false; single ones may be on the other side of a comparison.
+    """
+    began = time.perf_counter()
+    values = sampling.draw_states(body.symbols, np.random.default_rng(11), 3000)
+    for tick in ask.ticks:
+        states = sampling.states_on(body.symbols, tick.path, [*tick.path.decisions, *tick.known], values, STATES_A_PATH)
+        wrong = [state for state in states if not agrees(body, law, tick, state)]
+        if 2 * len(wrong) > len(states):
+            seconds = time.perf_counter() - began
+            return Lemma(AGREES, False, "drawn states", seconds, wrong[0], "its numbers differ from exact arithmetic")
+    return Lemma(AGREES, True, "drawn states", time.perf_counter() - began)
+
+
+def agrees(body: FreeBody, law: Law, tick: Tick, state: dict[str, float]) -> bool:
+    """Tell whether a law answers at a state as its trace does."""
+    expected = [float(sampling.evaluate_ratio(body.symbols, part, state)) for part in tick.u]
+    number = np.float64
+    q, goal = (tuple(number(state[name]) for name in names) for names in (QUATERNION, GOAL))
+    omega = tuple(number(state[name]) for name in RATES)
+    E, R_d = from_quaternion(q), from_quaternion(goal)
+    R = Rotation(*(rotate_back(E, column) for column in R_d))
+    memory = () if law.memory is None else (tuple(number(state["size"]) * part for part in q),)
+    evaluate: Any = law.law
+    with np.errstate(all="ignore"):
+        answer = evaluate(R, omega, Goal(R_d), Gains(number(state["kp"]), number(state["kv"])), *memory)
+    u = answer[0] if memory else answer
+    scale = max(1e-9, *map(abs, expected), state["kv"] * max(map(abs, omega)))
+    return all(abs(float(part) - other) <= TOLERANCE * scale for part, other in zip(u, expected, strict=True))
 
 
 def find_least(holds: Callable[[Fraction], bool], steps: int) -> Fraction:

@@ -42,6 +42,15 @@ def search(symbols: Symbols, path: Path, conditions: tuple[Condition, ...]) -> I
         yield {name: float(numbers[place]) for name, numbers in values.items()}
 
 
+def states_on(
+    symbols: Symbols, path: Path, conditions: list[Condition], values: Values, most: int
+) -> list[dict[str, float]]:
+    """Return some of the drawn states that are on a path, with the path's own symbols."""
+    defined = define(symbols, path, values)
+    places = np.flatnonzero(meets(symbols, conditions, defined))[:most]
+    return [{name: float(numbers[place]) for name, numbers in defined.items()} for place in places]
+
+
 def draw_states(symbols: Symbols, draw: np.random.Generator, count: int) -> Values:
     """Draw states: orientations, a third of them near 180° and a third near the goal; rates and gains of any size."""
     names = [name for name in symbols.of if not name.startswith(("root", "angle", "cosine", "sine"))]
@@ -84,7 +93,7 @@ def _near_the_ends(values: Values, draw: np.random.Generator) -> Values:
     return {"w": w, **{name: values[name] * left for name in ("x", "y", "z")}}
 
 
-def evaluate(symbols: Symbols, polynomial: PolyElement, values: Values) -> Any:
+def evaluate(symbols: Symbols, polynomial: PolyElement, values: Any) -> Any:
     """Return a polynomial at states."""
     names = [str(generator) for generator in symbols.field.gens]
     total: Any = 0.0
@@ -97,7 +106,7 @@ def evaluate(symbols: Symbols, polynomial: PolyElement, values: Values) -> Any:
     return total
 
 
-def evaluate_ratio(symbols: Symbols, value: Any, values: Values) -> Any:
+def evaluate_ratio(symbols: Symbols, value: Any, values: Any) -> Any:
     """Return a traced value at states."""
     return evaluate(symbols, value.value.numer, values) / evaluate(symbols, value.value.denom, values)
 

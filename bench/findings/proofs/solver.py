@@ -150,22 +150,28 @@ class Solver:
             ]
         return facts
 
-    def formulas(self, path: Path, *conditions: Condition) -> list[Any]:
-        """Return all that Z3 is told of a path and some conditions."""
+    def formulas(self, path: Path, *conditions: Condition, to_180: bool = False) -> list[Any]:
+        """Return all that Z3 is told of a path and some conditions; to_180: eta may be zero where it is positive."""
         mentioned = [*path.decisions, *conditions]
         polynomials = [condition.polynomial for condition in mentioned] + path.relations
         polynomials += [sign_of(value) for angle in path.angles for value in (angle.y, angle.x)]
         relations = [relation for relation in self.symbols.relations if _shares(relation, polynomials)]
         formulas = [self.term(relation) == 0 for relation in relations]
         formulas += [self.formula(condition) for condition in mentioned]
-        return [*self.given, *formulas, *self.facts(path)]
+        given = self.given
+        if to_180:
+            names = [str(symbol) for symbol in self.symbols.positive]
+            given = [self.of[name] >= 0 if name == "w" else self.of[name] > 0 for name in names]
+        return [*given, *formulas, *self.facts(path)]
 
-    def find(self, path: Path, *conditions: Condition, limit_s: float | None = None) -> Finding:
+    def find(
+        self, path: Path, *conditions: Condition, limit_s: float | None = None, to_180: bool = False
+    ) -> Finding:
         """Find a state on a path that meets conditions: first Z3 is asked, then states are drawn, then Z3 again.
 
         limit_s: seconds for Z3; then nothing is drawn.
         """
-        formulas = self.formulas(path, *conditions)
+        formulas = self.formulas(path, *conditions, to_180=to_180)
         first_s = FIRST_TRY_S if limit_s is None else limit_s
         answer, model, seconds = ask(*formulas, limit_s=first_s)
         if answer == "sat":
@@ -177,7 +183,7 @@ class Solver:
             confirmed = self._confirm(formulas, state)
             if confirmed:
                 return Finding("sat", confirmed, seconds + time.perf_counter() - began)
-        answer, model, more = ask(*formulas)
+        answer, model, _ = ask(*formulas)
         seconds = time.perf_counter() - began + seconds
         return Finding(answer, self._state(model) if model is not None else None, seconds)
 

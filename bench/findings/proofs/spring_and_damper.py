@@ -31,7 +31,7 @@ import sympy as sp
 from bench.findings.proofs.body import GOAL, IS_FINITE, QUATERNION, RATES, FreeBody, Tick
 from bench.findings.proofs.conditions import Condition
 from bench.findings.proofs.memory import prove_start
-from bench.findings.proofs.question import Question, find_least
+from bench.findings.proofs.question import Question, agreement_lemma, find_least
 from bench.findings.proofs.solver import Lemma, by_algebra, is_below
 from bench.findings.proofs.theorem import FINITE_JUMPS, LASALLE, MEASURE_ZERO, DoesNotFit, Proof, Theorem
 from bench.findings.proofs.trace import Traced, is_same
@@ -83,7 +83,7 @@ def damping_lemma(body: FreeBody, ask: Question, statement: str, c: Fraction, is
     def faults(tick: Tick) -> list[Condition]:
         return is_damped_less(body, tick.taken, c, is_along)
 
-    return ask.never(statement, faults, to_the_edge=c == 0)
+    return ask.never(statement, faults, to_the_edge=c == 0, to_180=c == 0)
 
 
 def find_rate(body: FreeBody, ask: Question) -> Fraction:
@@ -106,7 +106,8 @@ def prove(law: Law) -> Proof:
     lemmas = [by_algebra(FORM, True), *start, finite_lemma(body, ask)]  # or take_apart would have refused it
     if not lemmas[-1].is_proved:
         return Proof(THEOREM.name, "", lemmas, "")
-    lemmas.append(ask.never("f > 0 but at the goal", lambda tick: [is_below(tick.side * tick.taken.f, strictly=False)]))
+    lemmas.append(spring_lemma(ask))
+    lemmas.append(agreement_lemma(body, law, ask))
     springs = collect_springs(ask)
     lemmas.append(by_algebra("f is one function of eta", is_one_function(ask, has_memory)))
     equilibria = "none"
@@ -128,13 +129,27 @@ def prove(law: Law) -> Proof:
     return Proof(THEOREM.name, "almost global", lemmas, V, equilibria, float(c), cited=cited)
 
 
+def spring_lemma(ask: Question) -> Lemma:
+    """Return the lemma that the spring pulls, at the edges of paths too: where f fades, a body may come to rest."""
+
+    def faults(tick: Tick) -> list[Condition]:
+        return [is_below(tick.side * tick.taken.f, strictly=False)]
+
+    return ask.never("f > 0 but at the goal", faults, to_the_edge=True)
+
+
 def finite_lemma(body: FreeBody, ask: Question) -> Lemma:
     """Return the lemma that the command is finite: what it computes, and what is left of it in normal form."""
     finite = body.finite(IS_FINITE)
     if not finite.is_proved:
         return finite
-    left = ask.never(IS_FINITE, lambda tick: [Condition(part.value.denom, "=") for part in tick.u])
-    return left._replace(seconds=left.seconds + finite.seconds)
+
+    def faults(tick: Tick) -> list[Condition]:
+        return [Condition(part.value.denom, "=") for part in tick.u]
+
+    # at the edges too: there a force without a bound would give a body any energy
+    bounded = ask.never(IS_FINITE, faults, to_the_edge=True)
+    return bounded._replace(seconds=bounded.seconds + finite.seconds)
 
 
 def collect_springs(ask: Question) -> list[Any]:
@@ -185,7 +200,8 @@ def look_at_180(law: Law, springs: list[Any]) -> tuple[str, list[Lemma]]:
         return "every 180° rotation", [leaves, finite_at_180(law)]
     if all(value == sp.zoo for value in at_180):
         limits = [sp.limit(ETA * spring, ETA, 0, "+") for spring in springs]
-        return NOT_DEFINED, [by_algebra("U has no bound at 180°, where f is not defined", all(map(is_positive, limits)))]
+        statement = "U has no bound at 180°, where f is not defined"
+        return NOT_DEFINED, [by_algebra(statement, all(map(is_positive, limits)))]
     leaves = by_algebra("f > 0 at 180°", all(map(is_positive, at_180)))
     return "none, but the command jumps at 180°", [leaves, finite_at_180(law)]
 
@@ -197,7 +213,7 @@ def is_positive(value: Any) -> bool:
 
 
 def finite_at_180(law: Law) -> Lemma:
-    """Return the lemma that the command of a law without memory is finite where eta is zero: a body turns through it."""
+    """Return the lemma that the command of a law without memory is finite at eta = 0, where bodies turn through."""
     body = FreeBody(at_180=True)
     for _ in body.commands(law):
         pass

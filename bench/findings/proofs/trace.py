@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path as File
+from types import FrameType
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -194,7 +195,7 @@ class Symbols:
         return Traced(self.field(numer) / self.field(denom), self)
 
     def compute(self, operation: Callable[[Any, Any], Any], left: Any, right: Any) -> "Traced":
-        """Return the result of an operation in normal form: each is made once, for paths have their begins in common."""
+        """Return the result of an operation in normal form: each is made once, for paths begin alike."""
         key = (operation, left, right, tuple(self.path.relations))
         result = self._results.get(key)
         if result is None:
@@ -211,10 +212,10 @@ class Symbols:
             raise Untraceable(f"it computes with {value!r}, which is no number")
         if isinstance(value, float) and not math.isfinite(value):
             raise Untraceable(f"it computes with {value!r}, which is no finite number")
-        value = self.constants.get(value, value)
-        if isinstance(value, str):
-            return self.of[value]
-        exact = Fraction(repr(value)) if isinstance(value, float) else Fraction(value)
+        meaning: Any = self.constants.get(float(value), value)
+        if isinstance(meaning, str):
+            return self.of[meaning]
+        exact = Fraction(repr(meaning)) if isinstance(meaning, float) else Fraction(meaning)
         return Traced(self.field(QQ(exact.numerator, exact.denominator)), self)
 
     def derivative(self, value: "Traced", name: str) -> "Traced":
@@ -433,7 +434,7 @@ def _next_script(taken: list[bool]) -> list[bool] | None:
 
 def find_place() -> str:
     """Return the file and the line of the law that runs; nothing if no file of a law is on the stack."""
-    frame = sys._getframe(1)
+    frame: FrameType | None = sys._getframe(1)
     while frame is not None:
         if is_of_a_law(frame.f_code.co_filename) and not frame.f_code.co_filename.endswith("law/scalar.py"):
             return f" ({File(frame.f_code.co_filename).name}, line {frame.f_lineno})"

@@ -20,8 +20,8 @@ from typing import Any
 from flint import arb
 
 from bench.findings.proofs.body import FreeBody
-from bench.findings.proofs.quadratic_potential import find_quadratic
 from bench.findings.proofs.conditions import Condition
+from bench.findings.proofs.quadratic_potential import find_quadratic
 from bench.findings.proofs.solver import by_algebra, sign_of
 from bench.findings.proofs.theorem import FINITE_JUMPS, LASALLE, Proof, Theorem
 from bench.findings.proofs.trace import Traced

@@ -5,7 +5,8 @@ The rule was committed before the map was run:
 1. Asked are the laws that settle from every start tried, exact 180° rotations among them, that never first turn away
    from the goal, and that worst-case noise of 0.1 rad does not trap at 180° (`Rule` drops each of these).
 2. One law beats another in a situation if 99 % of its starts settle in a time that is shorter by more than NOTABLE, and
-   the 95 % intervals of the two times do not overlap. All else is a tie.
+   the paired 95 % interval of the ratio of the two times, over the starts that both ran, excludes 1 (`pairs`). All else
+   is a tie.
 3. The simplest of the laws that nothing beats is advised: of least memory, then of fewest operations.
 4. A law of ours is never advised; where it is not beaten, or beats what is advised, that is said.
 5. The default is the law with the widest region: advised in most of the situations that were drawn at random.
@@ -24,8 +25,9 @@ from bench.experiments.tables.read import with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
 from bench.findings.selection.criteria import NOTABLE, jump
+from bench.findings.selection.pairs import find_slower, read_pairs
 from bench.law.contenders.registry import find_contender
-from tasks.situation import COORDINATES, NOMINAL, Situation, read_situation
+from tasks.situation import COORDINATES, Situation, read_situation
 
 STUDY = RESULTS / "situations"
 """What `python -P -m bench.studies.situations` keeps."""
@@ -66,7 +68,7 @@ class Verdict(NamedTuple):
     """What the rule makes of a situation.
 
     law: the one that is advised, None if none is left. tied: the others that nothing beats, the simplest first. ours:
-    our own laws that nothing published beats. faster: those of them that beat the advised one. asked: how many laws
+    our own laws that no other law beats. faster: those of them that beat the advised one. asked: how many laws
     have what is required.
     """
 
@@ -109,13 +111,40 @@ def with_words(rows: pd.DataFrame) -> pd.DataFrame:
     return with_contender(rows).assign(situation=words)
 
 
-def decide(rows: pd.DataFrame, rule: Rule = RULE) -> Verdict:
-    """Apply the rule to the rows of one situation, a law each."""
-    laws = rows["contender"].astype(str).to_numpy()
-    memory, is_continuous, is_ours = np.array([facts_of(law) for law in laws]).T
+def decide(rows: pd.DataFrame, rule: Rule = RULE, pairs: pd.DataFrame | None = None) -> Verdict:
+    """Apply the rule to the rows of one situation, a law each; pairs: the comparisons of its laws, two by two.
+
+    Without pairs the two intervals must not overlap instead, which leaves more ties.
+    """
+    has = meets(rows, rule)
+    qualified = rows[has]
+    laws = qualified["contender"].astype(str).tolist()
+    facts = [facts_of(law) for law in laws]
+    is_ours = np.array([fact.is_ours for fact in facts], dtype=bool)
+    if is_ours.all():  # or none is left
+        return Verdict(None, ours=tuple(laws))
+    beaten = find_beaten(qualified, rule, pairs)
+    is_beaten = np.any(beaten[:, ~is_ours], axis=1)
+    order = ["peak"] if rule.least_peak else []
+    memory = [fact.memory for fact in facts]
+    unbeaten = qualified.assign(memory=memory)[~is_ours & ~is_beaten]
+    law, *tied = unbeaten.sort_values([*order, "memory", "operations", "contender"])["contender"].astype(str)
+    beats_advised = beaten[laws.index(law)]
+    names = np.array(laws)
+    ours = names[is_ours & ~is_beaten].tolist()
+    faster = names[is_ours & beats_advised].tolist()
+    return Verdict(law, tuple(tied), tuple(ours), tuple(faster), len(laws))
+
+
+def meets(rows: pd.DataFrame, rule: Rule = RULE) -> np.ndarray:
+    """Return whether the law of each row meets the requirements of a rule in the situation of the row."""
+    facts = [facts_of(law) for law in rows["contender"].astype(str)]
+    memory = np.array([fact.memory for fact in facts], dtype=int)
     has = np.isfinite(rows[rule.by].to_numpy(dtype=float))
     if rule.everywhere:
-        has &= (rows["lost"] == 0).to_numpy() & (rule.continuous | (rows["stuck"] == 0).to_numpy())
+        has &= (rows["lost"] == 0).to_numpy()
+        # Exact 180° rotations hold every continuous law without memory.
+        has &= rule.continuous | (rows["stuck"] == 0).to_numpy()
     if rule.direct:
         has &= (rows["unwound"] == 0).to_numpy()
     if rule.adversary and not (rule.forgetful or rule.continuous):
@@ -123,24 +152,17 @@ def decide(rows: pd.DataFrame, rule: Rule = RULE) -> Verdict:
     if rule.forgetful or rule.continuous:
         has &= memory == 0
     if rule.continuous:
-        has &= is_continuous == 1
-    asked, own, is_ours = rows[has].assign(memory=memory[has]), laws[has], is_ours[has] == 1
-    if is_ours.all():  # or none is left
-        return Verdict(None, ours=tuple(own))
-    beaten = find_beaten(asked, rule)
-    by_published = beaten[:, ~is_ours].any(axis=1)
-    order = ["peak"] if rule.least_peak else []
-    kept = asked[~is_ours & ~by_published].sort_values([*order, "memory", "operations", "contender"])
-    law, *tied = kept["contender"].astype(str)
-    faster = own[is_ours & beaten[own.tolist().index(law)]]
-    return Verdict(law, tuple(tied), tuple(own[is_ours & ~by_published]), tuple(faster), len(asked))
+        has &= np.array([fact.is_continuous for fact in facts], dtype=bool)
+    return has
 
 
-def find_beaten(rows: pd.DataFrame, rule: Rule) -> np.ndarray:
+def find_beaten(rows: pd.DataFrame, rule: Rule, pairs: pd.DataFrame | None = None) -> np.ndarray:
     """Return whether the law of row i is beaten by that of row j, shape (n, n).
 
-    The median and the 99.9 % time have no interval of their own: there the share `tie` alone decides.
+    The median, the 99.9 % time and the effort have no interval: there the share `tie` alone decides.
     """
+    if rule.by == "time" and pairs is not None:
+        return find_slower(pairs, rows["contender"].astype(str).tolist(), rule.tie)
     times = rows[rule.by].to_numpy(dtype=float)
     is_notable = times[None, :] < (1.0 - rule.tie) * times[:, None]
     if rule.by != "time":
@@ -152,43 +174,11 @@ def find_beaten(rows: pd.DataFrame, rule: Rule) -> np.ndarray:
 @functools.lru_cache(maxsize=64)
 def decide_all(folder: Path = STUDY, rule: Rule = RULE) -> dict[Situation, Verdict]:
     """Return the rule's verdict on every situation of a map."""
+    pairs = read_pairs(folder)
     return {
-        read_situation(str(word)): decide(rows, rule)
+        read_situation(str(word)): decide(rows, rule, pairs.get(str(word)))
         for word, rows in read_map(folder).groupby("situation", sort=False, observed=True)
     }
-
-
-class Answer(NamedTuple):
-    """An answer to a user's situation: the nearest that was run, its verdict and rows, and how sure it is.
-
-    distance: of the scaled numbers; 0: this very situation was run. agree: of the nearest other situations, those in
-    which nothing beats the advised law, and of how many; None of one that was simulated for the user.
-    """
-
-    at: Situation
-    verdict: Verdict
-    rows: pd.DataFrame
-    distance: float
-    agree: tuple[int, int] | None
-
-
-def answer(wanted: Situation, rule: Rule = RULE, folder: Path = STUDY) -> Answer:
-    """Return the verdict on the situation of the map that is nearest to the user's."""
-    verdicts = decide_all(folder, rule)
-    every = list(verdicts)
-    away = np.linalg.norm(_scaled(folder) - np.array(wanted.scaled()), axis=1)
-    nearest = np.argsort(away, kind="stable")
-    at = every[nearest[0]]
-    law = verdicts[at].law
-    beside = [verdicts[every[i]] for i in nearest[1 : NEIGHBOURS + 1]]
-    agree = sum(law in one.unbeaten for one in beside), len(beside)
-    rows = read_map(folder)
-    return Answer(at, verdicts[at], rows[rows["situation"] == at.word], float(away[nearest[0]]), agree)
-
-
-@functools.cache
-def _scaled(folder: Path) -> np.ndarray:
-    return np.array([at.scaled() for at in decide_all(folder)])
 
 
 def is_drawn(at: Situation) -> bool:
@@ -217,22 +207,6 @@ def find_regions(folder: Path = STUDY, rule: Rule = RULE, some: Sequence[Situati
 def find_default(folder: Path = STUDY, rule: Rule = RULE) -> str:
     """Return the law of the widest region."""
     return find_regions(folder, rule)[0].law
-
-
-def find_bounds(law: str, folder: Path = STUDY, rule: Rule = RULE) -> dict[str, list[tuple[float, bool]]]:
-    """Return, along each line through the nominal situation, the values that were run and whether nothing beats it."""
-    verdicts = decide_all(folder, rule)
-    found: dict[str, list[tuple[float, bool]]] = {}
-    for name, nominal in zip(NAMES, NOMINAL, strict=True):
-        line = [at for at in verdicts if at._replace(**{name: nominal}) == NOMINAL]
-        found[name] = sorted((getattr(at, name), law in verdicts[at].unbeaten) for at in line)
-    return found
-
-
-def compare_ours(law: str, folder: Path = STUDY, rule: Rule = RULE) -> tuple[float, float]:
-    """Return the shares of drawn situations in which nothing published beats our law, and it beats the advised one."""
-    drawn = [one for at, one in decide_all(folder, rule).items() if is_drawn(at)]
-    return sum(law in one.ours for one in drawn) / len(drawn), sum(law in one.faster for one in drawn) / len(drawn)
 
 
 def list_ours(folder: Path = STUDY) -> list[str]:

@@ -12,11 +12,13 @@ from typing import NamedTuple
 import pandas as pd
 
 from bench.base.errors import BadResults
+from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
+from bench.findings.selection.advice import answer
 from bench.findings.selection.criteria import CRITERIA
 from bench.findings.selection.needs import FACTS, Decision, Measured, Need, decide, measure, measured
-from bench.findings.selection.regions import Rule, answer, find_default
+from bench.findings.selection.regions import Rule, find_default
 from bench.findings.selection.tables import by_law, by_standard_inverse, common, tables_of
 from tasks.situation import UNCANCELLED
 
@@ -78,7 +80,14 @@ ROBOTS = {
 ARM, VELOCITY, POSITION = ROBOTS.values()
 
 
-def decide_for(robot: Robot, folder: Path) -> Decision | None:
+RUN = RESULTS / "reference"
+"""The run by which robots beside those of the map are advised: for the terminal, the front page and every table.
+
+A run of one's own has other starts, and so other ties: read of it, the terminal and the book gave different laws.
+"""
+
+
+def decide_for(robot: Robot, folder: Path = RUN) -> Decision | None:
     """Return what is advised for a robot by the run in a folder; None where the run has no such rows."""
     try:
         return decide(robot.need, measured(folder, robot.measure))
@@ -96,8 +105,8 @@ class Elsewhere(NamedTuple):
     page: str = "01-which-error"
 
 
-def list_elsewhere(folder: Path) -> list[Elsewhere]:
-    """Return the law for robots and controllers that are not those of the default, by the map and by a run."""
+def list_elsewhere() -> list[Elsewhere]:
+    """Return the law for robots and controllers that are not those of the default, by the map and by RUN."""
     uneven = answer(UNCANCELLED).verdict
     found = [
         Elsewhere("you command torques, and cancel no inertia", uneven.law or "none", uneven.tied, uneven.asked),
@@ -105,7 +114,8 @@ def list_elsewhere(folder: Path) -> list[Elsewhere]:
         Elsewhere("the command must be continuous", find_default(rule=Rule(continuous=True))),
     ]
     for robot in ROBOTS.values():
-        one = decide_for(robot, folder)
-        if one and one.law:
-            found.append(Elsewhere(f"your robot takes {robot.takes}", one.law, one.tied, len(one.asked), robot.page))
+        decision = decide_for(robot)
+        if decision and decision.law:
+            words = f"your robot takes {robot.takes}"
+            found.append(Elsewhere(words, decision.law, decision.tied, len(decision.asked), robot.page))
     return found

@@ -6,9 +6,13 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+import pandas as pd
 
 from bench.findings.selection import regions
+from bench.findings.selection.advice import answer
+from bench.findings.selection.pairs import compare_with_all
 from bench.findings.selection.regions import RULE, STUDY, Rule, decide_all, find_default, find_regions, read_map
+from bench.findings.selection.unbeaten import SPOKEN, Share, compare_everywhere
 from tasks.situation import NOMINAL, Situation, read_situation
 
 RULES = {  # ours, and those that a critic would choose
@@ -62,26 +66,62 @@ def count_halves(folder: Path = STUDY) -> tuple[int, int]:
     return sum(find_regions(folder, RULE, [drawn[i] for i in half])[0].law == default for half in halves), HALVES
 
 
-def correct(folder: Path = STUDY) -> tuple[int, int]:
-    """Return how many comparisons of the map the advised law wins, and how many are left if all are corrected at once.
+class Corrected(NamedTuple):
+    """Comparisons of the advised law of every situation with every other law of the map there, corrected all at once.
 
-    By S. Holm, Scand. J. Statist. 6, 1979. A difference of two 99 % times has the standard error that their 95 %
-    intervals give, as for independent starts; p is two-sided.
+    compared: all that have a finite ratio; winners, ties and losers alike. different: those whose ratio is still not 1
+    after the correction. won: of these, the advised law is faster by more than NOTABLE. lost: it is slower by more.
+    won_before, lost_before: by the paired interval of each comparison alone.
+    """
+
+    compared: int
+    different: int
+    won: int
+    lost: int
+    won_before: int
+    lost_before: int
+
+
+@functools.cache
+def correct(folder: Path = STUDY) -> Corrected:
+    """Correct all comparisons of advised laws by S. Holm, Scand. J. Statist. 6, 1979.
+
+    p is two-sided, by the paired standard error of the ratio's logarithm; where a resample has an infinite time, there
+    is no such error, and the comparison counts as not different.
     """
     from scipy.stats import norm
 
-    p_values: list[float] = []
-    for word, rows in read_map(folder).groupby("situation", observed=True):
-        one = decide_all(folder)[read_situation(str(word))]
-        if one.law is None:
-            continue
-        names, times = rows["contender"].astype(str), rows["time"]
-        own = rows[names == one.law].iloc[0]
-        is_beaten = np.isfinite(times) & (own["time_high"] < rows["time_low"]) & ~names.isin(one.unbeaten)
-        beaten = rows[is_beaten & (own["time"] < (1.0 - RULE.tie) * times)]
-        errors = ((each["time_high"] - each["time_low"]) / 3.92 for each in (own, beaten))
-        p_values += (2.0 * norm.sf((beaten["time"] - own["time"]) / np.hypot(*errors).clip(1e-12))).tolist()
-    return len(p_values), count_rejected(np.array(p_values))
+    advised = [(situation.word, verdict.law) for situation, verdict in decide_all(folder).items() if verdict.law]
+    frames = []
+    for law in sorted({law for _, law in advised}):
+        words = {word for word, other in advised if other == law}
+        pairs = compare_with_all(law, folder)
+        frames.append(pairs[pairs["situation"].isin(words) & np.isfinite(pairs["log_ratio"])])
+    family = pd.concat(frames, ignore_index=True)
+    ratio, error = family["log_ratio"].to_numpy(dtype=float), family["error"].to_numpy(dtype=float)
+    p_values = np.where(np.isnan(error), 1.0, 2.0 * norm.sf(np.abs(ratio) / np.maximum(error, TINY)))
+    is_different = reject(p_values)
+    # A positive ratio says that the other law is faster.
+    is_won, is_lost = ratio < math.log1p(-RULE.tie), ratio > -math.log1p(-RULE.tie)
+    return Corrected(
+        len(family),
+        int(is_different.sum()),
+        int((is_different & is_won).sum()),
+        int((is_different & is_lost).sum()),
+        int((is_won & (family["high"] < 0.0)).sum()),
+        int((is_lost & (family["low"] > 0.0)).sum()),
+    )
+
+
+TINY = 1e-12
+"""Least standard error: that of laws whose resamples all have the same ratio is zero."""
+
+
+def reject(p_values: np.ndarray, level: float = LEVEL) -> np.ndarray:
+    """Return which hypotheses Holm's step-down procedure rejects."""
+    is_rejected = np.zeros(len(p_values), dtype=bool)
+    is_rejected[np.argsort(p_values, kind="stable")[: count_rejected(p_values, level)]] = True
+    return is_rejected
 
 
 def count_rejected(p_values: np.ndarray, level: float = LEVEL) -> int:
@@ -95,8 +135,8 @@ def count_rejected(p_values: np.ndarray, level: float = LEVEL) -> int:
 def bound_slower(starts: int) -> float:
     """Return the share of starts that may be slower than the slowest of so many, at most, with 95 % confidence.
 
-    1 - 0.05^(1/n): none of n draws exceeds what a greater share exceeds, but with a chance below 5 % (S. Wilks, Ann.
-    Math. Statist. 12, 1941).
+    1 - 0.05^(1/n): none of n independent draws exceeds what a greater share exceeds, but with a chance below 5 % (S.
+    Wilks, Ann. Math. Statist. 12, 1941). The starts of a situation are such draws (`Situation.starts`).
     """
     return 1.0 - 0.05 ** (1.0 / starts)
 
@@ -130,38 +170,65 @@ def tune(folder: Path = STUDY) -> list[Tuned]:
     return sorted(found, key=lambda one: one.time)
 
 
-def count_agreeing(folder: Path = STUDY) -> dict[str, float]:
-    """Compare the answers of the map with the held-out situations, which were run once.
+class Rated(NamedTuple):
+    """How good an advice is in the held-out situations.
 
-    Return of: how many; same: share whose nearest row advises the law that their own rows do; what `rate` returns of
-    the map's answers and, after "always_", of the default in every situation.
+    qualified, all: share in which the advised law meets the requirements and no law of that set (`unbeaten`) is faster,
+    or no law is advised and none should be. slower: share in which a qualified law is faster by more than SPOKEN.
+    half, most: median and 95 % of the share of time that the advised law takes longer than the fastest qualified law.
     """
+
+    qualified: Share
+    all: Share
+    slower: Share
+    half: float
+    most: float
+
+
+class Agreement(NamedTuple):
+    """The map's answers against the held-out situations, which were run once.
+
+    same: share whose nearest row of the map advises the law that their own rows do. map: how good the map's answers
+    are. default: how good the default is, advised everywhere.
+    """
+
+    same: Share
+    map: Rated
+    default: Rated
+
+
+@functools.cache
+def count_agreeing(folder: Path = STUDY) -> Agreement:
+    """Compare the answers of the map with the held-out situations, drawn as the map's are by another seed."""
     verdicts = decide_all(folder / "held-out")
-    given = {at: regions.answer(at, RULE, folder).verdict.law for at in verdicts}
-    always = rate(dict.fromkeys(verdicts, find_default(folder)), folder)
-    return {
-        "of": len(verdicts),
-        "same": sum(given[at] == truth.law for at, truth in verdicts.items()) / len(verdicts),
-        **rate(given, folder),
-        **{f"always_{key}": value for key, value in always.items()},
-    }
+    answers = {at: answer(at, RULE, folder).verdict.law for at in verdicts}
+    same = sum(answers[at] == verdict.law for at, verdict in verdicts.items())
+    default: dict[Situation, str | None] = dict.fromkeys(verdicts, find_default(folder))
+    return Agreement(Share(same, len(verdicts)), rate(answers, folder), rate(default, folder))
 
 
-def rate(given: dict[Situation, str | None], folder: Path) -> dict[str, float]:
-    """Return how good an advice is in the held-out situations.
-
-    unbeaten: share in which nothing beats the advised law; half, most: median and 95 % of the time that the advised law
-    takes longer than the fastest published law that meets the requirements.
-    """
-    rows, verdicts, later = read_map(folder / "held-out"), decide_all(folder / "held-out"), []
-    for at, truth in verdicts.items():
-        times = rows[rows["situation"] == at.word].set_index("contender")["time"]
-        best = min((times[law] for law in truth.unbeaten if not regions.facts_of(law).is_ours), default=math.nan)
-        later.append(times.get(given[at], math.inf) / best - 1.0 if truth.law else math.nan)
-    some = np.array([one for one in later if one == one])
-    unbeaten = sum(given[at] in truth.unbeaten or given[at] is truth.law for at, truth in verdicts.items())
-    return {
-        "unbeaten": unbeaten / len(verdicts),
-        "half": float(np.quantile(some, 0.5)),
-        "most": float(np.quantile(some, 0.95, method="inverted_cdf")),
-    }
+def rate(answers: dict[Situation, str | None], folder: Path) -> Rated:
+    """Return how good answers are in the held-out situations."""
+    held_out = folder / "held-out"
+    rows, verdicts = read_map(held_out), decide_all(held_out)
+    counts = {"qualified": 0, "all": 0, "slower": 0}
+    longer = []
+    for situation, verdict in verdicts.items():
+        law = answers[situation]
+        if law is None or verdict.law is None:
+            is_right = law is verdict.law
+            counts["qualified"] += is_right
+            counts["all"] += is_right
+        else:
+            standing = compare_everywhere(law, held_out)[situation]
+            spoken = compare_everywhere(law, held_out, tie=SPOKEN)[situation]
+            counts["qualified"] += standing.is_unbeaten(among_all=False)
+            counts["all"] += standing.is_unbeaten(among_all=True)
+            counts["slower"] += not spoken.is_unbeaten(among_all=False)
+        if verdict.law is not None:
+            times = rows[rows["situation"] == situation.word].set_index("contender")["time"]
+            best = min(times[name] for name in verdict.unbeaten)
+            longer.append(times.get(law, math.inf) / best - 1.0)
+    shares = {name: Share(count, len(verdicts)) for name, count in counts.items()}
+    half, most = (float(np.quantile(longer, level, method="inverted_cdf")) for level in (0.5, 0.95))
+    return Rated(shares["qualified"], shares["all"], shares["slower"], half, most)

@@ -3,8 +3,20 @@
 import itertools
 import math
 from collections.abc import Callable, Sequence
+from pathlib import Path
 
 from bench.findings.selection.needs import GENERAL, Decision, Measured
+from bench.findings.selection.regions import RULE, STUDY, list_ours
+from bench.findings.selection.unbeaten import (
+    SPOKEN,
+    Place,
+    compare_with_advised,
+    find_population,
+    find_price,
+    find_runner_up,
+    follow_lines,
+    measure_shares,
+)
 from tasks.situation import COORDINATES, Coordinate
 
 NAMED = 3
@@ -16,11 +28,11 @@ Called = Callable[[str], str]
 def standing(one: Decision, called: Called) -> str:
     """Say that the advised law is alone on the Pareto front, or with which laws it ties."""
     if len(one.asked) == 1:
-        return "No other published law of this run meets these conditions."
+        return "No other published or adapted law of this run meets these conditions."
     if not one.tied:
         return (
-            f"{len(one.asked)} published laws meet these conditions; it is at least as good as the others on every "
-            "criterion and better on one."
+            f"{len(one.asked)} published or adapted laws meet these conditions; it is at least as good as the others "
+            "on every criterion and better on one."
         )
     return f"It ties with {together([called(law) for law in one.tied])} and is the simplest of these."
 
@@ -64,7 +76,10 @@ def name_criteria(names: Sequence[str]) -> str:
 
 
 def describe_bounds(bounds: dict[str, list[tuple[float, bool]]]) -> str:
-    """Say where nothing beats a law, one number away from the nominal situation at a time (`regions.find_bounds`)."""
+    """Say where no law of a set is faster, one number away from the nominal situation at a time.
+
+    bounds: of `unbeaten.find_bounds`. The sentence around this names the set.
+    """
     parts, free = [], []
     for name, every in bounds.items():
         line = [one for one in every if name != "jump" or one[0]]  # 0 is no jump, and no end of a range
@@ -77,6 +92,103 @@ def describe_bounds(bounds: dict[str, list[tuple[float, bool]]]) -> str:
     if free:
         parts.append(f"every {together(free, len(free))} that was tried")
     return "; ".join(parts) or "nowhere"
+
+
+def describe_rivals(lines: dict[str, list[Place]], among_all: bool, called: Called = str) -> str:
+    """Say where laws of a set are faster, in brackets which one by the most, and by how much of the time.
+
+    lines: of `unbeaten.follow_lines`. among_all: of all published and adapted laws, else of those that meet the
+    requirements there.
+    """
+    parts = []
+    for name, places in lines.items():
+        fastest = []
+        for place in places:
+            rivals = [rival for rival in place.standing.rivals if among_all or rival.qualified]
+            if name != "jump" or place.value:  # 0 is no jump
+                fastest.append((place.value, rivals[0] if rivals else None))
+        spans = []
+        for has_rival, run in itertools.groupby(fastest, lambda pair: pair[1] is not None):
+            span = list(run)
+            if has_rival:
+                values = _span(COORDINATES[name], span[0][0], span[-1][0])
+                most = max((rival for _, rival in span if rival), key=lambda rival: rival.faster)
+                spans.append(f"{values} ({called(most.law)}, {percent(most.faster)})")
+        if spans:
+            parts.append(f"{NAMES[name]} {together(spans, len(spans))}")
+    return "; ".join(parts) or "none"
+
+
+def percent(share: float) -> str:
+    """Write a share in whole per cent."""
+    return f"{100 * share:.0f} %"
+
+
+def describe_shares(law: str, folder: Path = STUDY) -> str:
+    """Say in how many drawn situations no law of either set is faster than a law, and in how many it fails itself."""
+    population = find_population(folder)
+    shares = measure_shares(law, folder, tie=SPOKEN)
+    close = measure_shares(law, folder)
+    laws = len(population.qualified) + len(population.excluded)
+    return (
+        f"In {percent(shares.qualified.value)} of {shares.qualified.of} situations drawn at random, no law that meets "
+        f"the requirements is more than {percent(SPOKEN)} faster. Among all {laws} published and adapted laws of the "
+        f"map the share is {percent(shares.all.value)}; {len(population.excluded)} of them fail a requirement in every "
+        f"situation. (If {percent(RULE.tie)} counts as faster: {percent(close.qualified.value)} and "
+        f"{percent(close.all.value)}.) In {percent(shares.losing.value)} of the situations the law itself loses starts."
+    )
+
+
+def describe_lines(law: str, called: Called = str, folder: Path = STUDY) -> str:
+    """Say where, one number at a time, a law of either set is faster than a law, which one, and by how much."""
+    lines = follow_lines(law, folder, tie=SPOKEN)
+    qualified, everything = (describe_rivals(lines, among_all, called) for among_all in (False, True))
+    first = f"If one number changes at a time, no published or adapted law is more than {percent(SPOKEN)} faster"
+    if everything == "none":
+        return f"{first}."
+    if qualified == "none":
+        return f"{first} and meets the requirements. Laws that do not meet them are faster at: {everything}."
+    return (
+        f"{first}, but at: {everything}. (In brackets: the law that is faster by the most, and by how much.) Among the "
+        f"laws that meet the requirements: {qualified}."
+    )
+
+
+def list_faster_ours(folder: Path = STUDY) -> list[str]:
+    """Return our own laws that are more than SPOKEN faster than the advised law in some drawn situation."""
+    return [law for law in list_ours(folder) if compare_with_advised(law, folder).number]
+
+
+def describe_ours(called: Called = str, folder: Path = STUDY) -> str:
+    """Say how those of our own laws compare that are faster than the advised law in some drawn situation."""
+    return " ".join(describe_law_of_ours(law, called, folder) for law in list_faster_ours(folder))
+
+
+def describe_law_of_ours(law: str, called: Called = str, folder: Path = STUDY) -> str:
+    """Say in how many drawn situations a law of ours is faster than the advised one, and beaten by no law of a set."""
+    shares = measure_shares(law, folder, tie=SPOKEN)
+    return (
+        f"We do not advise our own law, {called(law)} (2026, simulation only, not reviewed). It is more than "
+        f"{percent(SPOKEN)} faster than the advised law in {percent(compare_with_advised(law, folder).value)} of the "
+        f"situations. In {percent(shares.qualified.value)} it meets the requirements and no published or adapted law "
+        f"that does is more than {percent(SPOKEN)} faster; among all of these laws the share is "
+        f"{percent(shares.all.value)}."
+    )
+
+
+def describe_price(law: str, folder: Path = STUDY, called: Called = str) -> str:
+    """Say what a law costs beside the law of the second widest region: command, overshoot, time at equal peak."""
+    price = find_price(law, folder)
+    other = find_runner_up(folder)
+    if other is None:
+        return f"It commands up to {price.peak:.1f} kp."
+    beside = find_price(other, folder)
+    return (
+        f"The price: it commands up to {price.peak:.1f} kp ({called(other)}: {beside.peak:.1f} kp). With gains for the "
+        f"same peak command, 99 % of the starts settle in {price.at_equal_peak:.1f}/√peak ({called(other)}: "
+        f"{beside.at_equal_peak:.1f}/√peak). The median overshoot over the drawn situations is "
+        f"{price.typical_overshoot:.1f}° ({called(other)}: {beside.typical_overshoot:.1f}°)."
+    )
 
 
 NAMES = {

@@ -14,6 +14,7 @@ from typing import Any
 
 from bench import law
 from bench.base.errors import BadLaw
+from bench.law.attribution import YOURS
 from bench.law.contender import Contender
 from bench.law.contenders.registry import contenders, contenders_of, representation
 from bench.law.display import COLOURS, LINES, MARKERS, Equation, Look
@@ -91,7 +92,8 @@ def load_law(path: Path, text: bytes | None = None) -> Law:
     check_fields(own, path)
     if own.name in contenders("regulators"):
         raise BadLaw(f"--law {path}: the name '{own.name}' is one of ours; give your REGULATOR another name")
-    return own._replace(origin=str(path), text=text.decode())
+    # Whatever the file says of itself: nobody here has compared a user's law with a work.
+    return own._replace(origin=str(path), text=text.decode(), attribution=YOURS)
 
 
 def _new_imports(text: bytes) -> str:

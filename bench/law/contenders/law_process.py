@@ -29,10 +29,10 @@ from pathlib import Path
 from typing import NoReturn
 
 from bench.base.errors import BadLaw, BenchError
-from bench.base.processes import module_command
+from bench.base.processes import LAW_PROCESS, law_environment, module_command
 from bench.law.contenders.law_file import keep_text
 
-TOKEN, FOLDER = "ORIENTATION_BENCH_LAW_PROCESS", "orientation-bench-law-"
+TOKEN, FOLDER = LAW_PROCESS, "orientation-bench-law-"
 PROCESSES = Path("/proc")
 MEMORY, MAPPED, FILE = 4 << 30, 8 << 30, 1 << 28
 """Bytes of data that a law's process may have: compiling all engines takes 1.6e9, most of which is never touched; of
@@ -54,7 +54,7 @@ class LawProcess:
         self.token = secrets.token_hex(8)
         # no threads of the linear algebra, which would not be in a fork; and a terminal's Ctrl-C is the run's to answer
         self.folder = tempfile.TemporaryDirectory(prefix=FOLDER, ignore_cleanup_errors=True)
-        environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", TOKEN: self.token, "TMPDIR": self.folder.name}
+        environment = law_environment(self.token) | {"OPENBLAS_NUM_THREADS": "1", "TMPDIR": self.folder.name}
         nowhere = subprocess.DEVNULL
         with theirs:
             self.process = subprocess.Popen(

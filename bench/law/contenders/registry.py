@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from bench.base.errors import BadLaw, Incompatible, UnknownWord
+from bench.law.attribution import SHIPPED_ATTRIBUTIONS
 from bench.law.contender import Contender, contender
 from bench.law.kinds import ON_MATRIX, Coordinates, Impedance, Inverse, Jacobian, Law, Spring
 
@@ -31,7 +32,10 @@ FOLDERS: dict[str, Any] = {
 
 @functools.cache
 def contenders(folder: str) -> dict[str, Any]:
-    """Return word -> what the files of a folder hold, in alphabetical order; BadLaw: one lacks its constant."""
+    """Return word -> what the files of a folder hold, in alphabetical order.
+
+    BadLaw: a file lacks its constant, is named otherwise than its constant, or does not say whose it is.
+    """
     package = importlib.import_module(f"{__package__}.{folder}")
     constant, kind = folder.removesuffix("s").upper(), FOLDERS[folder]
     found = {path.stem: package.read(path) for path in Path(package.__path__[0]).glob("*.toml")}
@@ -43,6 +47,11 @@ def contenders(folder: str) -> dict[str, Any]:
         word = module_info.name.replace("_", "-")
         if value.name != word:
             raise BadLaw(f"{module.__file__}: {constant}.name is '{value.name}', but the file's name makes it '{word}'")
+        if value.attribution not in SHIPPED_ATTRIBUTIONS:
+            raise BadLaw(
+                f"{module.__file__}: {constant}.attribution is '{value.attribution}'; a file of this repository says "
+                f"{', '.join(SHIPPED_ATTRIBUTIONS)} (see bench/law/attribution.py)"
+            )
         found[module_info.name] = value
     return {name.replace("_", "-"): value for name, value in sorted(found.items())}
 

@@ -15,6 +15,7 @@ Limitations: where J loses rank, Lambda, and with it D of two designs, is not fi
 Source: Hogan 1985; Albu-Schaeffer et al. 2003; frankaemika/libfranka@155ddac8, cartesian_impedance_control.cpp.
 """
 
+from bench.law.attribution import OURS, PUBLISHED
 from bench.law.kinds import Impedance
 from bench.law.linalg import dot_rows, factor, gram, multiply, multiply_transposed, orthogonalize, solve_factored
 from bench.law.operational_space import whiten
@@ -122,6 +123,7 @@ DAMPINGS = {
             "libfranka, impedance example",
             r"D = 2\zeta\operatorname{diag}(\sqrt{K_i})",
             design=damp_by_stiffness,
+            attribution=PUBLISHED,
         ),
         Impedance(
             "double-diagonalization",
@@ -129,13 +131,15 @@ DAMPINGS = {
             "Albu-Schaeffer et al. 2003",
             r"D = 2\zeta Q \operatorname{diag}(\omega_i) Q^\top",
             design=damp_modes,
+            attribution=PUBLISHED,
         ),
         Impedance(
             "per-axis",
             "A ratio for each axis",
-            "",
+            "this benchmark, 2026",
             r"D = 2\zeta\operatorname{diag}(\sqrt{K_i \Lambda_{ii}})",
             design=damp_axes,
+            attribution=OURS,
         ),
     )
 }

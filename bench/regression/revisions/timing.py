@@ -10,6 +10,7 @@ Limitations: a law that is slower by less than a tenth is not found, unless it h
 import contextlib
 import json
 import os
+import secrets
 import socket
 import subprocess
 import sys
@@ -23,6 +24,7 @@ import numpy as np
 
 from bench.base.errors import Incompatible
 from bench.base.files import read_json
+from bench.base.processes import law_environment
 from bench.law.contenders.law_process import confine
 from bench.regression.revisions.timed import OTHER_ENDED
 
@@ -84,7 +86,7 @@ def run_benchmarks(sides: list[Side], words: tuple[str, ...] = (), rounds: int =
             asked = {"laws": list(map(str, side.laws)), "only": side.only, "names": side.names, "rounds": rounds}
             asked |= {"words": [*words, f"--benchmark-json={folder / f'{at}.json'}"]}
             asked |= {"line": ends[at].fileno() if len(sides) > 1 else None, "begins": at == 0}
-            processes.append(_start(side.path, asked, log))
+            processes.append(_start(side, asked, log, folder / f"compiled-{at}"))
             stack.callback(processes[-1].kill)
         for end in ends:
             end.close()
@@ -96,9 +98,15 @@ def run_benchmarks(sides: list[Side], words: tuple[str, ...] = (), rounds: int =
         return [read_json(file) if file.is_file() else {"benchmarks": []} for file in files]
 
 
-def _start(checkout: Path, asked: dict[str, Any], log: IO[str]) -> subprocess.Popen:
+def _start(side: Side, asked: dict[str, Any], log: IO[str], compiled: Path) -> subprocess.Popen:
+    """Start the process of a side; compiled: a folder for what it compiles beside users' laws."""
+    checkout = side.path
+    inherited_variables = dict(os.environ)
+    if side.laws:
+        # A user's law may change what is compiled beside it, and an older revision keeps that: so it is kept nowhere.
+        inherited_variables = law_environment(secrets.token_hex(8)) | {"NUMBA_CACHE_DIR": str(compiled)}
     # under variables of pytest-xdist, pytest-benchmark would switch itself off
-    ours = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}
+    ours = {name: value for name, value in inherited_variables.items() if not name.startswith("PYTEST_")}
     more = {"PYTHONPATH": str(checkout), "PYTHONHASHSEED": "0", "ORIENTATION_BENCH_TIMED": json.dumps(asked)}
     words, inherited = [sys.executable, "-P", str(PROGRAM)], [asked["line"]] if asked["line"] else []
     how: dict[str, Any] = {"pass_fds": inherited, "stdout": log, "stderr": log, "preexec_fn": confine}

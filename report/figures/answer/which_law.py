@@ -4,15 +4,27 @@ from typing import Any
 
 from bench.experiments.situations import FIRST, MOST, NOISE_RAD
 from bench.findings.proofs.certificate import read_certificates
-from bench.findings.selection import regions, sensitivity
-from bench.findings.selection.regions import decide_all, facts_of, find_bounds, find_regions, is_drawn, read_map
+from bench.findings.selection import regions, sensitivity, words
+from bench.findings.selection.regions import decide_all, facts_of, find_regions, is_drawn, read_map
 from bench.findings.selection.robots import Elsewhere, list_elsewhere
+from bench.findings.selection.sensitivity import Rated
+from bench.findings.selection.unbeaten import (
+    SPOKEN,
+    find_bounds,
+    find_population,
+    measure_shares,
+)
 from bench.findings.selection.words import describe_bounds, together
+from bench.law.attribution import IN_WORDS
+from bench.law.contenders.registry import find_contender
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
 from tasks.situation import KP, NOMINAL
 
-REGIONS = html.Table("Law | Advised [%]:.0f | Unbeaten [%]:.0f | Unbeaten, if one number changes, at")
+REGIONS = html.Table(
+    "Law | Advised [%]:.0f | Unbeaten among the qualified [%]:.0f | Unbeaten among all [%]:.0f | "
+    "Loses starts [%]:.0f | No qualified law is faster, if one number changes, at"
+)
 RULES = html.Table("Rule | Law advised most | Advised [%]:.0f | Unbeaten [%]:.0f | Advice changes [%]:.0f")
 TUNED = html.Table(
     "Law | kv = 2√kp [1/√kp]:.2f | best zeta:.2f | its time [1/√kp]:.2f | best zeta at equal peak:.2f | "
@@ -26,9 +38,10 @@ ROBOTS_TABLE = html.Table("If | use | Tied with | Laws compared | Rows")
 def facts(run: Run) -> dict[str, Any]:
     """Return the advice in a few sentences, the numbers about it, and regions, rules, tuned laws and other robots."""
     verdicts = decide_all()
-    beaten, left = sensitivity.correct()
+    corrected = sensitivity.correct()
     halves, of = sensitivity.count_halves()
     held = sensitivity.count_agreeing()
+    population = find_population()
     return {
         "lead": lead(),
         "situations": len(verdicts),
@@ -37,55 +50,72 @@ def facts(run: Run) -> dict[str, Any]:
         "mapped": read_map()["contender"].nunique(),
         "first": FIRST,
         "most_starts": MOST,
-        "beaten": beaten,
-        "left": left,
+        "spoken": f"{100 * SPOKEN:.0f}",
+        "qualified": len(population.qualified),
+        "excluded": together([families.word(law) for law in population.excluded], len(population.excluded)),
+        "published": len(population.qualified) + len(population.excluded),
+        "compared": f"{corrected.compared:,}",
+        **{name: getattr(corrected, name) for name in ("won", "lost", "won_before", "lost_before")},
         "halves": halves,
         "of_halves": of,
         "slower": f"{100 * sensitivity.bound_slower(FIRST):.1f}",
         "noise": f"{NOISE_RAD:g}",
-        "held": held["of"],
+        "held": held.same.of,
+        "same": str(held.same),
+        **_rated("map", held.map),
+        **_rated("default", held.default),
         "proved": sum(one["is_proved"] for one in read_certificates().values()),
         "provable": len(read_certificates()),
-        "same": f"{100 * held['same']:.0f}",
-        "unbeaten": f"{100 * held['unbeaten']:.0f}",
-        "later": f"{100 * held['half']:.1f}",
-        **{name: f"{100 * held[name]:.0f}" for name in ("most", "always_unbeaten", "always_most")},
-        "regions": REGIONS(
-            (_link(one.law), 100 * one.advised, 100 * one.unbeaten, describe_bounds(find_bounds(one.law)))
-            for one in find_regions()
-            if one.advised >= LEAST
-        ),
+        "lines": words.describe_lines(find_regions()[0].law, families.word),
+        "price": words.describe_price(find_regions()[0].law, called=families.word),
+        "regions": REGIONS(_region(one) for one in find_regions() if one.advised >= LEAST),
         "rules": RULES(
             (one.words, _link(one.law), 100 * one.advised, 100 * one.unbeaten, 100 * one.changed)
             for one in sensitivity.vary()
         ),
         "tuned": TUNED((", ".join(map(_link, laws)), *numbers) for numbers, laws in _tuned().items()),
-        "robots": in_run(lambda: ROBOTS_TABLE(map(describe_robot, list_elsewhere(run.folder)))),
+        "robots": in_run(lambda: ROBOTS_TABLE(map(describe_robot, list_elsewhere()))),
     }
+
+
+def _rated(name: str, rated: Rated) -> dict[str, str]:
+    """Return the numbers of an advice in the held-out situations."""
+    return {
+        f"{name}_qualified": str(rated.qualified),
+        f"{name}_all": str(rated.all),
+        f"{name}_slower": str(rated.slower),
+        f"{name}_half": f"{100 * rated.half:.1f}",
+        f"{name}_most": f"{100 * rated.most:.0f}",
+    }
+
+
+def _region(region: regions.Region) -> tuple:
+    """Return the row of a region."""
+    shares = measure_shares(region.law)
+    return (
+        _link(region.law),
+        100 * region.advised,
+        100 * shares.qualified.value,
+        100 * shares.all.value,
+        100 * shares.losing.value,
+        describe_bounds(find_bounds(region.law)),
+    )
 
 
 def describe_default() -> str:
     """Return what the law of the widest region does."""
-    one, rows = find_regions()[0], read_map()
-    [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == one.law)].to_dict("records")
+    law, rows = find_regions()[0].law, read_map()
+    [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == law)].to_dict("records")
     return (
-        f"The body settles from every start that we tried, and noise up to {NOISE_RAD:g} rad cannot keep it at 180°. "
-        f"Of situations (gains, delays) drawn at random, no published law is faster in {100 * one.unbeaten:.0f} %. "
-        f"With kp = {KP:g} 1/s² and critical damping, 99 % of the starts settle within {row['time'] / KP**0.5:.2f} s."
+        f"With kp = {KP:g} 1/s², critical damping and no bound, the body settles from every start that we tried, "
+        f"99 % of them within {row['time'] / KP**0.5:.2f} s, and noise up to {NOISE_RAD:g} rad cannot keep it at 180°. "
+        f"{words.describe_shares(law)} {words.describe_price(law, called=families.word)}"
     )
 
 
 def describe_ours() -> str:
-    """Return how our own laws compare with what is advised."""
-    said = []
-    for law in regions.list_ours():
-        ties, beats = regions.compare_ours(law)
-        said.append(
-            f"We do not advise our own law, {families.word(law)} (2026, simulation only, not reviewed): in "
-            f"{100 * (1 - ties):.0f} % of the situations a published law is faster. In {100 * beats:.0f} % our law is "
-            "faster than the advised law."
-        )
-    return " ".join(said)
+    """Return how those of our own laws that are faster than the advised one somewhere compare with it."""
+    return words.describe_ours(families.word)
 
 
 def lead() -> str:
@@ -97,7 +127,13 @@ def lead() -> str:
         if others
         else ""
     )
-    return f"Use **{families.word(first.law)}**, a published law. {describe_default()}{where} {describe_ours()}"
+    law = f"**{families.word(first.law)}**, {describe_attribution(first.law)}"
+    return f"Use {law}. {describe_default()}{where} {describe_ours()}"
+
+
+def describe_attribution(law: str) -> str:
+    """Return what a sentence calls a law: published, adapted or ours, in words."""
+    return IN_WORDS[find_contender(law).attribution]
 
 
 def _tuned() -> dict[tuple, list[str]]:

@@ -35,7 +35,7 @@ FEW = 4  # names up to this number are said, more are counted; the table has the
 
 def facts(run: Run) -> dict:
     """Return where the arms are from, which law to take, what limits the laws, and what a wrong model leaves."""
-    one = in_run(decide_for, ARM, run.folder)
+    one = in_run(decide_for, ARM)
     return {
         "arms-at-home": media.still(HOMES, "arms"),
         "sources": "\n".join(f"- `{name}`: {prose(tasks.arm(name).source)}" for name in tasks.arm_names()),
@@ -65,7 +65,7 @@ def ranked(rows: pd.DataFrame) -> Iterator[tuple]:
         cells = []
         for name, measure in COLUMNS:
             mine = own.loc[(own["controller"] == controller) & (own["start_set"] == name), measure]
-            text = html.MISSING
+            text = html.UNTESTED
             if len(mine):
                 value, low, high = (f"{100 * one:.0f}" for one in share(mine)[2:])
                 text = f"{value} ({low} to {high})".replace(" ", "\N{NO-BREAK SPACE}")

@@ -58,13 +58,14 @@ def pass_pole(run: Run) -> pd.DataFrame:
 
 def count_at_pole(both: pd.DataFrame) -> dict:
     """Return how many starts fail, and how much more torque the Euler Jacobian needs; and a row an arm."""
+    hammered = ~both["fails"] & (both["harder"] > HAMMERED)
     return {
         "pole": POLE(compare_at_pole(both)),
         "pole_n": len(both),
         "pole_fails": int(both["fails"].sum()),
-        "pole_fails_m": int(both["fails_matrix"].sum()),
+        "pole_fails_m": int(both["fails_matrix"].sum()) or "none",
         "hammer": f"{HAMMERED:g}",
-        "hammered": int((both["fails"] | (both["harder"] > HAMMERED)).sum()),
+        "hammered": int(hammered.sum()),
         "harder": html.number(float(f"{both['harder'].median():.2g}")),
     }
 
@@ -95,8 +96,9 @@ def count_spoilt(rows: pd.DataFrame) -> str:
     fine = rows[rows["condition"] <= WELL_CONDITIONED]
     by = 100.0 * (fine["condition_analytic"] > BAD).groupby(fine["arm"].astype(str)).mean()
     return (
-        f"We took poses where the geometric Jacobian has a condition number of at most {WELL_CONDITIONED:g}. That of "
-        f"the Euler Jacobian exceeds {BAD:g} in {by.min():.1f} to {by.max():.1f} % of them, depending on the arm."
+        f"We took poses where the geometric Jacobian has a condition number of at most {WELL_CONDITIONED:g}. In "
+        f"{by.min():.1f} to {by.max():.1f} % of these poses, depending on the arm, the condition number of the Euler "
+        f"Jacobian exceeds {BAD:g}."
     )
 
 

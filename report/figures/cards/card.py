@@ -14,7 +14,8 @@ from pygments.lexers import PythonLexer
 from bench.export.language import find_language, language_words
 from bench.export.short import write_short
 from bench.export.subject import find_subject
-from bench.findings.proofs.certificate import read_certificates
+from bench.findings.proofs.certificate import describe_sampled, read_certificates
+from bench.law.attribution import describe_source
 from bench.law.kinds import Law
 from report.figures.kit import html
 from report.figures.kit.spelling import LETTERS, marked_up
@@ -72,9 +73,20 @@ def make_page(name: str, title: str, card: str, source: Source, word: str = "", 
     return LawPage(name, title, body, dict(files.values()))
 
 
-def make_card(record: Any, title: str, said: tuple[str, Mapping[str, str]], look: str, costs: str = "") -> str:
-    """Return the card of a law; said: the docstring's text, and fields by their heads; look: its colour as CSS."""
+def make_card(
+    record: Any,
+    title: str,
+    said: tuple[str, Mapping[str, str]],
+    look: str,
+    costs: str = "",
+    attribution: str = "",
+) -> str:
+    """Return the card of a law; said: the docstring's text, and fields by their heads; look: its colour as CSS.
+
+    attribution: whose the law is, where that is not the record's own word (in coordinates that its work has not).
+    """
     formula = f'<div class="card-formula">{html.formula(record.formula)}</div>' if record.formula else ""
+    source = html.foreign(describe_source(attribution or record.attribution, record.source))
     lines = [set_paragraph(text) for text in said[0].split("\n\n") if text.strip()]
     for head, text in said[1].items():
         set_text = text if isinstance(text, html.Html) else html.foreign(text)  # only ours is markup
@@ -82,24 +94,28 @@ def make_card(record: Any, title: str, said: tuple[str, Mapping[str, str]], look
     return (
         f'<section class="law-card" style="--law: {look}"'
         f' aria-label="{markup.escape(title, quote=True)}">'
-        f'<header><span class="card-source">{html.foreign(record.source)}</span></header>{formula}'
+        f'<header><span class="card-source">{source}</span></header>{formula}'
         f'<div class="card-body"><div class="card-text">{"".join(lines)}{costs}</div></div></section>'
     )
 
 
 def say_property(law: Law) -> dict[str, str]:
-    """Return the property of a law: as proved from its source, with V and by what, or as not proved."""
-    one = read_certificates().get(law.name)
+    """Return the property of a law: what is proved from its source, by what, about what, and what is cited."""
+    certificate = read_certificates().get(law.name)
     text = PROPERTIES.get(law.property, f"{law.property[:1].upper()}{law.property[1:]}.")
-    if not one or not one["is_proved"] or one["declared"] != law.property:
+    if not certificate or not certificate["is_proved"] or certificate["declared"] != law.property:
         return {"Proved" if law.property == "none" else "Measured, not proved": text}
-    by = " and ".join(sorted({lemma["by"] for lemma in one["lemmas"]}))
-    text += f" The lemmas are proved from its source by {by} in {one['seconds']:.1f} s."
-    text += f" Equilibria away from the goal: {one['equilibria']}."
-    if "upper" in one["settling"]:
-        upper = f"{one['settling']['upper']:.4f} s"
+    lemmas = certificate["lemmas"]
+    by = " and ".join(sorted({lemma["by"] for lemma in lemmas}))
+    text += f" This is {certificate['scope']}."
+    text += f" A program proved {len(lemmas)} lemmas from its source, by {by}, in {certificate['seconds']:.1f} s."
+    text += f" Cited, and not checked by a program: {'; '.join(certificate['cited'])}."
+    text += f" Equilibria away from the goal: {certificate['equilibria']}."
+    if "upper" in certificate["settling"]:
+        upper = f"{certificate['settling']['upper']:.4f} s"
         text += f" From rest it settles to 2 % of the angle within {upper} at the paper's gains, proved by Arb."
-    return {"Proved": html.Html(f"{set_words(text)} {html.formula(one['V'])}")}
+    text += f" {describe_sampled(certificate)}"
+    return {"Proved": html.Html(f"{set_words(text)} {html.formula(certificate['V'])}")}
 
 
 def docstring(file: Path) -> tuple[str, str]:

@@ -10,12 +10,20 @@ from bench.export.heading import RESET, SIDE
 from bench.findings import why
 from bench.findings.claims.tables import share
 from bench.findings.proofs.certificate import read_certificates
-from bench.findings.selection.regions import compare_ours, find_regions, list_ours
+from bench.findings.selection.regions import find_regions, list_ours
+from bench.findings.selection.unbeaten import (
+    SPOKEN,
+    compare_with_advised,
+    find_price,
+    measure_shares,
+)
+from bench.findings.selection.words import percent
 from bench.law.contender import Contender
 from bench.law.contenders import regulators
 from bench.law.contenders.registry import contenders, contenders_of, papers_laws
 from bench.law.kinds import Law
 from report.figures.cards.card import LawPage, Source, docstring, make_card, make_page, say_property, set_words
+from report.figures.cards.constants import describe_constants
 from report.figures.kit import families, html, laws, style
 from report.figures.kit.page import Run
 
@@ -23,7 +31,10 @@ UNTRUSTED = (
     "A law of somebody else, by its rows alone: its file came with these results and was not run. If you have read it, "
     "bench trust FILE lets it run, and its card then says what it is."
 )
-LAWS = html.Table("Law | Property | Settles | On the command line", {"Settles": lambda share: f"{100 * share:.1f} %"})
+LAWS = html.Table(
+    "Law | Whose | Property | Settles | On the command line",
+    {"Settles": lambda share: f"{100 * share:.1f} %"},
+)
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 EXAMPLE = re.compile(r" Shown by |, as from |, as at ")
 
@@ -77,10 +88,12 @@ def card(one: Contender, run: Run) -> str:
         "Measured": measured(episodes, one.regulator),
         "Its command": set_words(command),
         "Advised": advised(one.name),
+        "Constants that are ours": describe_constants(one.name),
     }
     look, costs = html.both(style.look(one.name).colour), costs_of(one, run)
     shown = costs.to_html(index=False, classes="plain", border=0, formatters=[html.cell] * len(costs.columns))
-    return make_card(one.regulator, title, (what, fields), look, f'<div class="card-costs" tabindex="0">{shown}</div>')
+    costs_table = f'<div class="card-costs" tabindex="0">{shown}</div>'
+    return make_card(one.regulator, title, (what, fields), look, costs_table, attribution=one.attribution)
 
 
 def costs_of(one: Contender, run: Run) -> pd.DataFrame:
@@ -110,14 +123,28 @@ def measured(episodes: pd.DataFrame, regulator: Law) -> str:
 
 
 def advised(law: str) -> str:
-    """Return the share of the map's drawn situations in which a law is advised, and in which nothing beats it."""
-    found = next((one for one in find_regions() if one.law == law), None)
-    if law in list_ours():
-        ties, beats = compare_ours(law)
-        return f"Not advised, ours: unbeaten in {ties:.0%} of situations, better than the advised law in {beats:.0%}."
-    if found is None:
+    """Return in which share of the drawn situations a law is advised, and in which no law of two sets is faster."""
+    region = next((region for region in find_regions() if region.law == law), None)
+    is_ours = law in list_ours()
+    if region is None and not is_ours:
         return ""
-    return f"Advised in {found.advised:.0%} of situations, and unbeaten in {found.unbeaten:.0%}."
+    shares = measure_shares(law, tie=SPOKEN)
+    beside = (
+        f"In {percent(shares.qualified.value)} it meets the requirements and no law that does is more than "
+        f"{percent(SPOKEN)} faster; among all published and adapted laws the share is {percent(shares.all.value)}."
+    )
+    if is_ours:
+        beats = percent(compare_with_advised(law).value)
+        return (
+            f"Not advised, ours. More than {percent(SPOKEN)} faster than the advised law in {beats} of situations. "
+            f"{beside}"
+        )
+    price = find_price(law)
+    costs = (
+        f"In the nominal situation it commands up to {price.peak:.1f} kp. With gains for the same peak "
+        f"command, 99 % of the starts settle in {price.at_equal_peak:.1f}/√peak."
+    )
+    return f"Advised in {percent(region.advised)} of situations. {beside} {costs}"
 
 
 def facts(run: Run) -> dict:
@@ -126,12 +153,13 @@ def facts(run: Run) -> dict:
 
 
 def line(one: Contender, run: Run) -> tuple:
-    """Return a link to a law's card, its property and if it is proved, what was measured, its word in commands."""
+    """Return a link to a law's card, whose it is, its property, if that is proved, what was measured, its word."""
     law, known = one.regulator, read_certificates().get(one.regulator.name)
     proved = "proved" if known and known["is_proved"] else "measured"
     uniform = run.any_rows("episodes", contender=one.name, engine=engine_of(one.regulator), start_set="uniform")
     return (
         families.link(one.name, laws.title_of(one)),
+        one.attribution,
         html.together(html.foreign(law.property if law.property == "none" else f"{law.property}, {proved}")),
         (uniform["outcome"] == "settled").mean() if len(uniform) else None,
         f"`{one.name}`",

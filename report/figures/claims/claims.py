@@ -6,7 +6,16 @@ from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import prose
 
-ORDER = (Word.FAILS, Word.DEPENDS, Word.CORRECTED, Word.UNTESTABLE, Word.ANSWERED, Word.HOLDS)
+ORDER = (
+    Word.FAILS,
+    Word.DEPENDS,
+    Word.READING,
+    Word.CORRECTED,
+    Word.UNTESTED,
+    Word.UNTESTABLE,
+    Word.ANSWERED,
+    Word.HOLDS,
+)
 """Order of the table's rows."""
 
 VERDICTS = html.Table("Claim | What the paper states, in our words | Verdict | What is true instead")

@@ -19,7 +19,7 @@ from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
 
-ALL_LAWS = html.Table("Law | Settles [%] | Median [s] | 99 % [s] | Effort | Peak | A tick | Lost | Held")
+ALL_LAWS = html.Table("Law | Settles [%] | Median [s] | 99 % [s] | Effort | Peak | A tick | Lost | Trapped from [rad]")
 NEAR_DEG = 30, 60
 ANISOTROPIC = "weighted-columns"
 """Its stiffness is the others' on the average over its axes alone."""
@@ -58,7 +58,6 @@ def facts(run: Run) -> dict:
         "dearer": f"{spent.max() / spent.min():.0f}",
         **near(rows[rows["contender"].isin(laws)]),
         "left": len(set(tried["contender"]) - lost - set(families.CONTROLS)),
-        "directed": int(tried.groupby("contender", observed=True).size().max()),
         "all_laws": ALL_LAWS(compare_laws(run, times, efforts)),
     }
 
@@ -88,8 +87,8 @@ def compare_laws(run: Run, times: pd.DataFrame, efforts: pd.DataFrame) -> Iterat
             html.number(float(f"{efforts[name].quantile(interpolation='lower'):.3g}")),
             large(own["peak_u"].max()),
             tick(counted, name),
-            f"{int((sure['outcome'] != 'settled').sum())} of {len(sure)}",
-            html.cell(float(held[name][0])) if name in held else html.MISSING,
+            f"{int((sure['outcome'] != 'settled').sum())} of {len(sure)}" if len(sure) else html.UNTESTED,
+            html.cell(float(held[name][0])) if name in held else html.UNTESTED,
         )
 
 

@@ -10,7 +10,8 @@ from matplotlib.ticker import FixedLocator, NullLocator
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import settled
-from bench.findings.maps import counted, lost_share
+from bench.findings.maps import at_gains, counted, lost_share, read_maps
+from bench.law.inputs import PAPERS_GAINS
 from report.figures.kit import html, laws, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX
@@ -30,7 +31,8 @@ ASIDE = 0.16  # decades: dots of the rail are spread over its height, or hundred
 
 def facts(run: Run) -> dict:
     """Return how much each law loses, the paper's three laws from every angle, and where the failures begin."""
-    mapped = counted(read.table(RESULTS / "maps", "map"))  # the maps that came with the benchmark
+    maps = read_maps(RESULTS / "maps")  # those that came with the benchmark
+    mapped = counted(at_gains(maps, PAPERS_GAINS))
     own = mapped[(mapped["contender"] == LINEARIZED) & (mapped["most_speed"] == 0.0)]  # at rest
     value, low, high = (100.0 * one for one in lost_share(int(own["lost"].sum()), int(own["starts"].sum())))
     return {

@@ -20,9 +20,14 @@ VERDICTS = {
     "does not hold": "fails",
     "open in 1988; answered since": "answered",
     "depends on the gains": "untestable",
+    "depends on the reading": "untestable",
+    "not tested": "untestable",
     "not testable": "untestable",
 }
 MISSING = "–"
+UNTESTED = "not tested"
+"""In a cell of what a run has no row of: it is neither a pass nor a failure."""
+
 COUNT = re.compile(r"\d+ of \d+")  # a line of it alone, as 24 of 24, does not break
 
 ROUNDED_FROM, SCIENTIFIC_FROM = 1e3, 1e9  # three figures of a number in between would read 1.23e+03

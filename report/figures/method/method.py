@@ -1,4 +1,4 @@
-"""What the page on method says: whether engines agree, and by which rules operations are counted."""
+"""What the page on method says: whether engines agree, how operations are counted, whose the laws are."""
 
 from typing import Any
 
@@ -7,9 +7,11 @@ import pandas as pd
 from bench.engines.counting import RULES as COUNT_RULES
 from bench.findings.selection.needs import CHATTER
 from bench.findings.theory.closed_form import linear_settling
+from bench.law.attribution import ADAPTED, OURS, PUBLISHED
+from bench.law.contenders.registry import contenders
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
-from report.figures.kit.spelling import prose
+from report.figures.kit.spelling import listed, prose
 from tasks.rules import RULES
 
 KEY = ["contender", "start_set", "start_id"]
@@ -35,7 +37,23 @@ def facts(run: Run) -> dict[str, Any]:
         ),
         "hold_s": f"{RULES.hold_s:g}",
         "chatter": f"{CHATTER:g}",
+        **count_attributions(),
         "count_rules": "\n".join(f"1. {prose(rule)}" for rule in COUNT_RULES),
+    }
+
+
+def count_attributions() -> dict[str, Any]:
+    """Return how many laws of the catalogue are published, adapted and ours, and the names of the last two."""
+    laws = contenders("regulators")
+    groups: dict[str, list[str]] = {PUBLISHED: [], ADAPTED: [], OURS: []}
+    for law in laws.values():
+        groups[law.attribution].append(law.display.short or law.name)
+    counts = {word: len(names) for word, names in groups.items()}
+    return {
+        "laws": len(laws),
+        **counts,
+        "adapted_laws": listed(groups[ADAPTED]),
+        "ours_laws": listed(groups[OURS]),
     }
 
 

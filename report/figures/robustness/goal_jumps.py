@@ -1,4 +1,4 @@
-"""Goals that jump while the body moves: how often a law then unwinds, with its memory kept or reset."""
+"""Goals that jump while the body moves: how often a law then unwinds, and when it settles, its memory kept or reset."""
 
 import math
 
@@ -6,16 +6,16 @@ import pandas as pd
 
 from bench.findings.perturbed import DETOUR, FAR_RAD
 from bench.findings.selection.regions import find_default
+from bench.findings.selection.reset import KEPT, RESET, SOON_S, describe_resets
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
 from report.figures.robustness.half_turn_noise import regulator_of
 from report.figures.robustness.robustness import along, counted, laws
 
-KEPT, RESET = "goal-jump", "goal-jump-reset"
-SOON_S = 0.2
-"""Latest jump that finds the body far from its first goal [s]: two time constants 1/10 s."""
-
-PATHS = html.Table("Law | Long, kept [%]:.1f | Long, reset [%]:.1f | Longest, kept [°]:.0f | Longest, reset [°]:.0f")
+PATHS = html.Table(
+    "Law | Long, kept [%]:.1f | Long, reset [%]:.1f | Longest, kept [°]:.0f | Longest, reset [°]:.0f | "
+    "Median time, kept [s]:.3f | Median time, reset [s]:.3f"
+)
 
 
 def soon(run: Run, axis: str) -> pd.DataFrame:
@@ -24,9 +24,13 @@ def soon(run: Run, axis: str) -> pd.DataFrame:
     return rows[(rows["level"] > 0.0) & (rows["level"] <= SOON_S) & rows["contender"].isin(known)]
 
 
-def measure(rows: pd.DataFrame) -> tuple[float, float]:
-    """Return the share of paths over DETOUR times the angle at the jump [%], and the longest path [deg]."""
-    return 100.0 * rows["long"].sum() / rows["far"].sum(), math.degrees(rows["path_rad"].max())
+def measure(rows: pd.DataFrame) -> tuple[float, float, float]:
+    """Return the share of paths over DETOUR times the angle at the jump [%], the longest path [deg], and the time.
+
+    The time is the greatest median settling time of a level [s].
+    """
+    share = 100.0 * rows["long"].sum() / rows["far"].sum()
+    return share, math.degrees(rows["path_rad"].max()), rows["median_s"].max()
 
 
 def compare_paths(run: Run, kept: pd.DataFrame, reset: pd.DataFrame) -> list[tuple]:
@@ -41,14 +45,13 @@ def compare_paths(run: Run, kept: pd.DataFrame, reset: pd.DataFrame) -> list[tup
 
 
 def facts(run: Run) -> dict:
-    """Return how many starts jump, when, which ratio counts, and the default's and other laws' long paths [%]."""
+    """Return how many starts jump, when, which ratio counts, and what a reset changes for each law."""
     kept, reset = soon(run, KEPT), soon(run, RESET)
-    long = [measure(rows[rows["contender"] == find_default()])[0] for rows in (kept, reset)]
     return {
         "n": int(kept["starts"].max()),
         "times": " or ".join(f"{1000.0 * level:g}" for level in sorted(kept["level"].unique())),
         "detour": f"{DETOUR:g}",
         "near": f"{FAR_RAD:g}",
         "paths": PATHS(compare_paths(run, kept, reset)),
-        **dict(zip(("kept", "reset"), (f"{share:.1f}" for share in long), strict=True)),
+        "resets": describe_resets(find_default()),
     }

@@ -73,6 +73,16 @@ def regulator_of(law: str) -> Law:
     return find_contender(law, read.own_laws()).regulator
 
 
+def describe_caught(shares: pd.DataFrame, laws: list[str]) -> str:
+    """Return which laws with a memory noise holds, and the share of starts that leave at the level where it begins."""
+    told = []
+    for law in laws:
+        share = shares[law][shares[law] < 1.0].iloc[0]
+        level = shares[law][shares[law] < 1.0].index[0]
+        told.append(f"{families.word(law)} leaves 180° from {100 * share:.0f} % of them at δ = {level:g} rad")
+    return "; ".join(told) or "none does not leave"
+
+
 def facts(run: Run) -> dict:
     """Whom noise holds, by theory and in the episodes, in numbers and drawn; laws with memory and without."""
     rows = along(run, HALF_TURN)
@@ -83,15 +93,19 @@ def facts(run: Run) -> dict:
     agree = [(level >= begin) == (noisy.loc[level, law] < 0.5) for law, begin in known.items() for level in noisy.index]
     on_a_side = [law for law in own if law in DELTAS]
     without_memory = [law for law in own if not regulator_of(law).memory]
+    with_memory = [law for law in own if law not in without_memory]
+    # those with a memory that some noise below every kept side's limit holds nevertheless
+    caught = [law for law in with_memory if noisy.loc[noisy.index < min(map(keeps, DELTAS)), law].min() < 1.0]
     jumping = [begin for law, begin in known.items() if law in without_memory and begin > 0.0]
     middle = float(noisy.index[noisy.index < min(map(keeps, DELTAS))].max())
     return {
         "n": starts(rows),
-        "agree": sum(map(bool, agree)),
-        "decided": len(agree),
+        "agreement": f"all {len(agree)}" if all(agree) else f"{sum(map(bool, agree))} of the {len(agree)}",
         "middle": f"{middle:g}",
         "blind_middle": f"{100 * float(noisy.loc[middle, without_memory].max()):.0f}",
+        "sided": len(on_a_side),
         "memory_middle": f"{100 * float(noisy.loc[middle, on_a_side].min()):.0f}",
+        "caught": describe_caught(noisy, caught),
         "least": f"{min(jumping):.2g}",
         "most": f"{max(jumping):.2g}",
         **{law: f"{keeps(law):.3f}" for law in ("hybrid", "late-braking", "mrp-linearized")},

@@ -8,7 +8,7 @@ Vdot = -Kv qdot' M qdot, whatever the arm: it comes to rest at q_d from everywhe
 Limitations: the tool goes where the joints take it, and its response depends on the pose.
 """
 
-from bench.law import Inverse, Jacobian, Law, kernel
+from bench.law import PUBLISHED, Inverse, Jacobian, Law, kernel
 
 
 @kernel
@@ -37,7 +37,8 @@ INERTIA = Inverse("inertia-at-home", "Inertia at home", "", r"\tau = M a", resol
 BASELINE = Law(
     name="joint-pd",
     title="Joint PD with gravity compensation",
-    source="Takegaki & Arimoto 1981",
+    source="Takegaki & Arimoto 1981; the scale M of the gains is ours",
+    attribution=PUBLISHED,
     formula=r"\tau = M (K_p (q_d - q) - K_v \dot q) + g(q)",
     assemble=assemble,
     through=(JOINTS, INERTIA),

@@ -17,7 +17,7 @@ Source: Goodarzi, Lee, Lee 2013, Geometric nonlinear PID control of a quadrotor 
 omega + c e_R). The gains are this benchmark's.
 """
 
-from bench.law import Law, State, double_sine, kernel
+from bench.law import ADAPTED, Law, State, double_sine, kernel
 
 INTEGRAL, LEAD = 1.0 / 3.0, 4.0 / 9.0
 """Integral gain over Kp, c over Kv: they make the three poles one where Kv^2 = 4 Kp."""
@@ -45,7 +45,8 @@ def law(R, omega, goal, gains, state):
 COMPENSATOR = Law(
     name="integral",
     title="Sine of the angle, with an integral",
-    source="Goodarzi, Lee & Lee 2013",
+    source="after Goodarzi, Lee & Lee 2013; the base frame of the integral and the gains are ours",
+    attribution=ADAPTED,
     formula=r"u = K_p\,e - K_v\,\omega - \tfrac13 K_p x, \quad \dot x = \omega - \tfrac49 K_v\,e",
     law=law,
     property="almost global where Kv^2 < 5 Kp",

@@ -9,7 +9,7 @@ is (1 + |sin beta|)/(1 - |sin beta|).
 Limitations: where B^-1 does not exist; a moment is lost there.
 """
 
-from bench.law import Impedance, driven, kernel
+from bench.law import ADAPTED, Impedance, driven, kernel
 
 
 def law_in(representation):
@@ -31,7 +31,11 @@ def law_in(representation):
 IMPEDANCE = Impedance(
     name="coordinates",
     title="Coordinates of the base frame",
-    source="Hogan 1985; Caccavale et al. 1999 (Euler angles); Murphy 1988, (3.7), (3.12)",
+    source=(
+        "after Hogan 1985, Caccavale et al. 1999 (Euler angles; abstract read) and Murphy "
+        "1988, (3.7), (3.12)"
+    ),
+    attribution=ADAPTED,
     formula=r"u = B \bigl(B^\top m/m_o + K_p (E_d - E) - K_v \dot E\bigr) + \dot B \dot E",
     law_in=law_in,
 )

@@ -4,7 +4,7 @@ Limitations: where B^-1 of the relative orientation does not exist; with Z-Y-X a
 goal.
 """
 
-from bench.law import IDENTITY, Impedance, kernel, relative, rotate, rotate_back
+from bench.law import ADAPTED, IDENTITY, Impedance, kernel, relative, rotate, rotate_back
 from bench.law.contenders.impedances import coordinates
 
 
@@ -24,7 +24,8 @@ def law_in(representation):
 IMPEDANCE = Impedance(
     name="coordinates-relative",
     title="Coordinates seen from the goal",
-    source="Caccavale et al. 1999 (Euler angles of the relative orientation)",
+    source="after Caccavale et al. 1999 (Euler angles of the relative orientation; abstract read)",
+    attribution=ADAPTED,
     formula=r"u = R_d\,u_r(R_d^\top R,\ R_d^\top \omega,\ R_d^\top m)",
     law_in=law_in,
     relative=True,

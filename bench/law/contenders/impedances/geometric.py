@@ -3,7 +3,7 @@
 Limitations: at 180° rotations from the goal the spring gives way to nothing.
 """
 
-from bench.law import AT_REST, Goal, Impedance, kernel
+from bench.law import ADAPTED, AT_REST, Goal, Impedance, kernel
 from bench.law.contenders.regulators.rotation_matrix import law as regulate
 
 
@@ -17,7 +17,8 @@ def law(R, omega, m, R_d, gains, inertia):
 IMPEDANCE = Impedance(
     name="geometric",
     title="Columns of R",
-    source="Luh, Walker, Paul 1980; Caccavale et al. 1999",
+    source="after Luh, Walker, Paul 1980 (the error) and Caccavale et al. 1999 (abstract read)",
+    attribution=ADAPTED,
     formula=r"u = m/m_o + \tfrac{1}{2} K_p\,(n \times n_d + o \times o_d + a \times a_d) - K_v\,\omega",
     law=law,
 )

@@ -1,9 +1,12 @@
 """Impedance on the error quaternion of the shorter rotation: e = 2 sgn(eta) eps = 2 sin(theta/2) k.
 
+Source: the error is Yuan 1988's. Its moment is the gradient of 4 k (1 - |eta|); Caccavale et al. 1999 take that of
+2 eps^T K eps, which vanishes at 180° (`springs/quaternion_energy.py`).
+
 Limitations: at 180° e jumps to -e; there the sign is that of `so3.quaternion_direction`.
 """
 
-from bench.law import Impedance, driven, kernel, quaternion_direction, relative, rotate, sqrt
+from bench.law import ADAPTED, Impedance, driven, kernel, quaternion_direction, relative, rotate, sqrt
 
 
 @kernel
@@ -18,7 +21,8 @@ def law(R, omega, m, R_d, gains, inertia):
 IMPEDANCE = Impedance(
     name="quaternion",
     title="Quaternion to the goal",
-    source="Yuan 1988; Caccavale et al. 1999",
+    source="after Yuan 1988 (the error, on a mass and damper)",
+    attribution=ADAPTED,
     formula=r"u = m/m_o + 2 K_p\,\operatorname{sgn}(\eta)\,\epsilon - K_v\,\omega",
     law=law,
 )

@@ -3,7 +3,7 @@
 Limitations: at 180° e jumps to -e.
 """
 
-from bench.law import Impedance, driven, kernel, relative, rotate
+from bench.law import ADAPTED, Impedance, driven, kernel, relative, rotate
 from bench.law.contenders.representations.rotation_vector import chart
 
 
@@ -17,7 +17,8 @@ def law(R, omega, m, R_d, gains, inertia):
 IMPEDANCE = Impedance(
     name="rotation-vector",
     title="Rotation vector to the goal",
-    source="Caccavale et al. 1999 (angle/axis)",
+    source="after Caccavale et al. 1999 (angle/axis; abstract read)",
+    attribution=ADAPTED,
     formula=r"u = m/m_o + K_p\,\theta k - K_v\,\omega",
     law=law,
 )

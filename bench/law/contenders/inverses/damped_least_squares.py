@@ -7,7 +7,7 @@ at sigma = 0.2, half at sigma = lambda, and never nothing.
 Limitations: only where J itself is not finite; everywhere it gives less than was commanded.
 """
 
-from bench.law import GREATEST_GAIN, Inverse, kernel, smaller_gram, solve_gram, weigh
+from bench.law import GREATEST_GAIN, PUBLISHED, Inverse, kernel, smaller_gram, solve_gram, weigh
 
 DAMPING = 0.5 / GREATEST_GAIN
 """lambda: sigma / (sigma^2 + lambda^2) is largest at sigma = lambda, where it is 1 / (2 lambda) = GREATEST_GAIN."""
@@ -27,7 +27,11 @@ def resolve(J, a, D, x, rows, n, scratch):
 INVERSE = Inverse(
     name="damped-least-squares",
     title="Damped least squares",
-    source="Nakamura & Hanafusa 1986; Wampler 1986",
+    source=(
+        "Nakamura & Hanafusa 1986; lambda = 0.02 and the unit of length are ours; also "
+        "Wampler 1986"
+    ),
+    attribution=PUBLISHED,
     formula=r"\ddot q = J_W^\top (J_W J_W^\top + \lambda^2 I)^{-1}\, W a, \quad J_W = W J",
     resolve=resolve,
 )

@@ -16,6 +16,7 @@ from functools import partial
 
 from bench.law import (
     GREATEST_GAIN,
+    PUBLISHED,
     Inverse,
     copysign,
     exceeds,
@@ -95,7 +96,11 @@ def damp(S, A, y, before, n):
 INVERSE = Inverse(
     name="damped-least-squares-variable",
     title="Damped least squares, variable",
-    source="Chiaverini, Siciliano, Egeland 1994; Nakamura & Hanafusa 1986",
+    source=(
+        "Chiaverini, Siciliano, Egeland 1994; the estimate of sigma and both limits are "
+        "ours; also Nakamura & Hanafusa 1986"
+    ),
+    attribution=PUBLISHED,
     formula=r"\lambda^2 = \lambda_{\max}^2 \max\bigl(0,\; 1 - \sigma_{\min}^2 / \epsilon^2\bigr)",
     resolve=resolve,
     refuses=partial(refuse_seven, ": its least singular value is 0 at every pose and says nothing"),

@@ -6,7 +6,7 @@ see. From D = L L^T and Y = L^-1 J^T, Lambda^-1 = Y^T Y, so that D is never inve
 Limitations: where J loses rank Lambda is not finite; like pseudo-inverse it squares the condition number of J.
 """
 
-from bench.law import Inverse, factor, gram, kernel, multiply_transposed, solve_factored
+from bench.law import PUBLISHED, Inverse, factor, gram, kernel, multiply_transposed, solve_factored
 from bench.law.operational_space import whiten
 
 
@@ -37,6 +37,7 @@ INVERSE = Inverse(
     name="dynamically-consistent",
     title="Dynamically consistent",
     source="Khatib 1987",
+    attribution=PUBLISHED,
     formula=r"\tau = J^\top \Lambda\, a, \quad \Lambda = (J D^{-1} J^\top)^{-1}",
     resolve=resolve,
     gives="torque",

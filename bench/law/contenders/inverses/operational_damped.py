@@ -7,7 +7,7 @@ Limitations: as operational-clamped. A weak direction takes at most 1 / (2 sqrt(
 strongest one, clamped 100 times, each as |L^-1 tau| for the same acceleration.
 """
 
-from bench.law import Inverse, kernel
+from bench.law import PUBLISHED, Inverse, kernel
 from bench.law.operational_space import compose, decompose, eigenvalue, greatest_eigenvalue
 
 LOWER, UPPER = 1e-5, 1e-4
@@ -29,6 +29,7 @@ INVERSE = Inverse(
     name="operational-damped",
     title="Operational space, damped",
     source="isaac-sim/IsaacLab#7903",
+    attribution=PUBLISHED,
     formula=r"\tau = J^\top \Lambda a, \quad \lambda_i = 1 / (\sigma_i^2 + \delta(\sigma_i^2 / \sigma_{\max}^2))",
     resolve=resolve,
     gives="torque",

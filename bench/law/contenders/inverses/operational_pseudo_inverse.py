@@ -7,7 +7,7 @@ the greatest: beside a singularity that is the inverse.)
 Limitations: at both thresholds the torque jumps; along the directions left out there is none.
 """
 
-from bench.law import Inverse, kernel
+from bench.law import PUBLISHED, Inverse, kernel
 from bench.law.operational_space import compose, decompose, eigenvalue, greatest_eigenvalue
 
 SINGULAR, TOLERANCE = 1e-2, 1e-2
@@ -30,7 +30,8 @@ def resolve(J, a, D, x, rows, n, scratch):
 INVERSE = Inverse(
     name="operational-pseudo-inverse",
     title="Operational space, pseudo-inverse",
-    source="Khatib 1987; kevinzakka/mjctrl, opspace.py",
+    source="kevinzakka/mjctrl, opspace.py; also Khatib 1987",
+    attribution=PUBLISHED,
     formula=r"\tau = J^\top (J D^{-1} J^\top)^{+} a",
     resolve=resolve,
     gives="torque",

@@ -9,7 +9,7 @@ Limitations: as `solve` does where J loses rank, and sooner: the equations squar
 
 from functools import partial
 
-from bench.law import Inverse, kernel, refuse_seven, smaller_gram, solve_gram
+from bench.law import PUBLISHED, Inverse, kernel, refuse_seven, smaller_gram, solve_gram
 
 
 @kernel
@@ -24,7 +24,8 @@ def resolve(J, a, D, x, rows, n, scratch):
 INVERSE = Inverse(
     name="pseudo-inverse",
     title="Pseudo-inverse",
-    source="Whitney 1972; Penrose 1955",
+    source="Whitney 1972; also Penrose 1955",
+    attribution=PUBLISHED,
     formula=r"\ddot q = J^{+} a, \quad J^{+} = J^\top (J J^\top)^{-1} \text{ or } (J^\top J)^{-1} J^\top",
     resolve=resolve,
     refuses=partial(refuse_seven, ": both J J^T and J^T J are singular"),

@@ -3,7 +3,7 @@
 Limitations: where J is singular x is not finite, and towards it x grows like 1 / sigma_min(J) without bound.
 """
 
-from bench.law import Inverse, kernel, refuse_seven, solve
+from bench.law import PUBLISHED, Inverse, kernel, refuse_seven, solve
 
 
 @kernel
@@ -27,7 +27,8 @@ def refuses(rows: int, n: int) -> str:
 INVERSE = Inverse(
     name="solve",
     title="Inverse",
-    source="Murphy 1988, (2.2), (3.7); Luh, Walker, Paul 1980",
+    source="Murphy 1988, (2.2), (3.7); also Luh, Walker, Paul 1980",
+    attribution=PUBLISHED,
     formula=r"\ddot q = J^{-1} a",
     resolve=resolve,
     refuses=refuses,

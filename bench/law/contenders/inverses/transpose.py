@@ -6,7 +6,7 @@ the arm is no unit mass: it does not linearize, its stiffness depends on the pos
 Limitations: the motion is that of another plant, slower or faster by the arm's own inertia.
 """
 
-from bench.law import Inverse, kernel, multiply_transposed
+from bench.law import PUBLISHED, Inverse, kernel, multiply_transposed
 
 
 @kernel
@@ -18,7 +18,8 @@ def resolve(J, a, D, x, rows, n, scratch):
 INVERSE = Inverse(
     name="transpose",
     title="Transpose",
-    source="Takegaki & Arimoto 1981; Craig 1986",
+    source="Takegaki & Arimoto 1981; also Craig 1986",
+    attribution=PUBLISHED,
     formula=r"\tau = J^\top a",
     resolve=resolve,
     gives="torque",

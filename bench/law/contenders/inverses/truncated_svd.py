@@ -10,6 +10,7 @@ directions left out is not done at all.
 
 from bench.law import (
     GREATEST_GAIN,
+    PUBLISHED,
     Inverse,
     dot_rows,
     exceeds,
@@ -55,7 +56,11 @@ def solve_truncated(J_W, a_W, x, rows, n):
 INVERSE = Inverse(
     name="truncated-svd",
     title="Truncated SVD",
-    source="Golub & Kahan 1965; Hestenes 1958",
+    source=(
+        "Golub & Kahan 1965; the tolerance 0.04 and the unit of length are ours; also "
+        "Hestenes 1958"
+    ),
+    attribution=PUBLISHED,
     formula=r"\ddot q = \sum_{\sigma_i > \epsilon} \frac{u_i \cdot W a}{\sigma_i}\, v_i, \quad W J = U \Sigma V^\top",
     resolve=resolve,
 )

@@ -8,7 +8,7 @@ Limitations: where the coordinates are singular, B^-1 and with it J_E are not fi
 singular.
 """
 
-from bench.law import AT_REST, Jacobian, kernel
+from bench.law import AT_REST, PUBLISHED, Jacobian, kernel
 from bench.law.contenders.jacobians.geometric import fill as fill_geometric
 
 STILL_QUATERNION = (0.0, 0.0, 0.0, 0.0)
@@ -43,6 +43,7 @@ JACOBIAN = Jacobian(
     name="analytic",
     title="Analytic, converted",
     source="Murphy 1988, (3.3)-(3.7)",
+    attribution=PUBLISHED,
     formula=r"J_E = \operatorname{diag}(I, B^{-1})\, J, \quad "
     r"\dot J_E \dot q = \bigl(\ddot p,\; B^{-1} (\dot\omega - \dot B \dot E)\bigr)\big|_{\ddot q = 0}",
     takes="coordinates",

@@ -7,7 +7,7 @@ as `analytic` to rounding: what the literature before the paper did, and the pri
 Limitations: as `analytic` does.
 """
 
-from bench.law import Jacobian, Rotation, cross, kernel
+from bench.law import PUBLISHED, Jacobian, Rotation, cross, kernel
 from bench.law.contenders.jacobians.geometric import fill as fill_geometric
 
 
@@ -58,6 +58,7 @@ JACOBIAN = Jacobian(
     name="analytic-differentiated",
     title="Analytic, differentiated",
     source="Murphy 1988, (3.5)",
+    attribution=PUBLISHED,
     formula=r"(J_E)_i = \begin{pmatrix} z_i \times (p - p_i) \\ "
     r"\tfrac{\partial E}{\partial R}\, [z_i]_\times R \end{pmatrix}",
     takes="coordinates",

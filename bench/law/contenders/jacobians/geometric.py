@@ -3,7 +3,7 @@
 Limitations: it loses rank where the arm itself is singular.
 """
 
-from bench.law import Jacobian, cross, kernel
+from bench.law import PUBLISHED, Jacobian, cross, kernel
 
 
 @kernel
@@ -27,7 +27,8 @@ def express(chain, a):
 JACOBIAN = Jacobian(
     name="geometric",
     title="Geometric",
-    source="Whitney 1972; Murphy 1988, (2.2)",
+    source="Whitney 1972; also Murphy 1988, (2.2)",
+    attribution=PUBLISHED,
     formula=r"J_i = \begin{pmatrix} z_i \times (p - p_i) \\ z_i \end{pmatrix}",
     takes="angular-acceleration",
     kernels_in=lambda representation: (fill, express),

@@ -5,7 +5,7 @@ not either, as the weight on translations is the same in every direction.
 Limitations: where the geometric one does.
 """
 
-from bench.law import Jacobian, cross, kernel, rotate_back
+from bench.law import PUBLISHED, Jacobian, cross, kernel, rotate_back
 
 
 @kernel
@@ -32,7 +32,8 @@ def express(chain, a):
 JACOBIAN = Jacobian(
     name="geometric-body",
     title="Geometric, tool frame",
-    source="Whitney 1972; Craig 1986",
+    source="Whitney 1972; also Craig 1986",
+    attribution=PUBLISHED,
     formula=r"\operatorname{diag}(R^\top, R^\top)\, J",
     takes="angular-acceleration",
     kernels_in=lambda representation: (fill, express),

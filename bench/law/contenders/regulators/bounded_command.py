@@ -13,7 +13,7 @@ Limitations: rests at exact 180° rotations; takes |omega|/Kp to stop a fast spi
 1/Kv.
 """
 
-from bench.law import SINE, Display, Equation, Law, Look, dot, double_sine, kernel, spring_damper, sqrt
+from bench.law import ADAPTED, SINE, Display, Equation, Law, Look, dot, double_sine, kernel, spring_damper, sqrt
 
 
 @kernel
@@ -28,6 +28,7 @@ REGULATOR = Law(
     name="bounded-command",
     title="Bounded command, by the sine of the angle",
     source="after Su & Zheng 2011",
+    attribution=ADAPTED,
     formula=r"u = K_p\,e - K_v\,\omega / \sqrt{1 + (K_v |\omega| / K_p)^2}",
     law=law,
     property="almost global",

@@ -3,7 +3,7 @@
 Limitations: where a coordinate jumps.
 """
 
-from bench.law import Display, Law, Look, kernel, minus, spring_damper
+from bench.law import ADAPTED, Display, Law, Look, kernel, minus, spring_damper
 
 
 def law_in(representation):
@@ -23,7 +23,8 @@ def law_in(representation):
 REGULATOR = Law(
     name="euler-gradient",
     title="Euler gradient",
-    source="Ablation of Murphy 1988, (2.15)",
+    source="after Murphy 1988, (2.15), without its term Bdot Edot",
+    attribution=ADAPTED,
     formula=r"u = K_p\, B\,(E_d - E) - K_v\,\omega",
     law_in=law_in,
     coordinates=("zyx-euler",),

@@ -4,7 +4,7 @@ The same command as feedback-linearized to rounding; listed so that its price ca
 Limitations: as feedback-linearized does.
 """
 
-from bench.law import Display, Law, Look, cos, kernel, sin
+from bench.law import PUBLISHED, Display, Law, Look, cos, kernel, sin
 
 
 @kernel
@@ -58,6 +58,7 @@ REGULATOR = Law(
     name="feedback-linearized-literal",
     title="Feedback-linearized, as printed",
     source="Murphy 1988, (2.15)",
+    attribution=PUBLISHED,
     formula=r"u = B\,\bigl(u_E - \tfrac{d}{dt}(B^{-1})\,\omega\bigr)",
     law_in=law_in,
     coordinates=("zyx-euler",),

@@ -4,7 +4,18 @@ Limitations: the command, 2 Kp tan(theta/2), grows without bound towards 180 deg
 Starts that the maps count as lost exceed the judge's limit on the command: their share depends on that limit.
 """
 
-from bench.law import TANGENT, Display, Law, Look, double_sine, half_cosine_squared, kernel, spring_damper, trace
+from bench.law import (
+    PUBLISHED,
+    TANGENT,
+    Display,
+    Law,
+    Look,
+    double_sine,
+    half_cosine_squared,
+    kernel,
+    spring_damper,
+    trace,
+)
 
 
 @kernel
@@ -18,7 +29,8 @@ def law(R, omega, goal, gains):
 REGULATOR = Law(
     name="gibbs",
     title="Rodrigues parameters (Gibbs)",
-    source="Rodrigues 1840; Tsiotras 1996",
+    source="Tsiotras 1996; parameters: Rodrigues 1840",
+    attribution=PUBLISHED,
     formula=r"u = 2 K_p\, s/(1 + t) - K_v\,\omega",
     law=law,
     property="almost global",

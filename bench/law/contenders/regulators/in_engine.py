@@ -7,7 +7,7 @@ are pushed opposite ways.
 Limitations: at 180° the command jumps to its opposite.
 """
 
-from bench.law import Display, Law, Look, atan2, dot, kernel, spring_damper, sqrt, turn_quaternion
+from bench.law import PUBLISHED, Display, Law, Look, atan2, dot, kernel, spring_damper, sqrt, turn_quaternion
 
 
 @kernel
@@ -23,6 +23,7 @@ REGULATOR = Law(
     name="in-engine",
     title="MuJoCo's orientation actuator",
     source="MuJoCo documentation, XML reference, actuator/orientation (3.11)",
+    attribution=PUBLISHED,
     formula=r"u = K_p \log(R_d R^\top) - K_v\,\omega",
     law=law,
     property="almost global",

@@ -7,12 +7,13 @@ With Gp a multiple of I, [eps]x Gp eps is zero, and u = 2 Kp (eta + HARDENING (1
 180°. Its potential is Gp |eps|^2/2 + gamma (1 - eta)^2/2.
 
 Source: Joshi, Kelkar, Wen 1995, which was not read: the formula is from a report on it, and HARDENING is ours. Theirs
-takes the quaternion as it comes, and may turn the longer way; here eta >= 0.
+takes the quaternion as it comes, and may turn the longer way; here eta >= 0, so that the law is adapted. The family is
+not ranked by one HARDENING: `python -P -m bench.studies.constants` varies it.
 
 Limitations: at 180° the command jumps to its opposite.
 """
 
-from bench.law import Display, Equation, Law, Look, cos, kernel, sin, spring_damper, sqrt, turn_quaternion
+from bench.law import ADAPTED, Display, Equation, Law, Look, cos, kernel, sin, spring_damper, sqrt, turn_quaternion
 
 HARDENING = 2.0
 """gamma over Gp."""
@@ -31,7 +32,11 @@ def law(R, omega, goal, gains):
 REGULATOR = Law(
     name="joshi-kelkar-wen",
     title="Hardening quaternion spring",
-    source="Joshi, Kelkar, Wen 1995 (not read; after a report on it)",
+    source=(
+        "after Joshi, Kelkar, Wen 1995 (not read; after a report on it); gamma/Gp = 2 and "
+        "the shorter side are ours"
+    ),
+    attribution=ADAPTED,
     formula=r"u = \tfrac12 \bigl((\eta I + [\epsilon]_\times) G_p + \gamma (1 - \eta) I\bigr)\,\epsilon - G_r\,\omega",
     law=law,
     property="almost global",

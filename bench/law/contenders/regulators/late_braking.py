@@ -9,18 +9,19 @@ never above (4/3) sqrt(2/3) = 1.09, and at 180°, where the sine is 0, it is 1. 
 Kv (1 - (4/5) sin^2(theta/2)), a fifth of Kv at 180°; every other motion feels all of Kv. So a far body gains
 speed, and brakes late.
 
-Within 120 degrees (t >= 0) eps = s/(2 sqrt(1 + t)), s = 2 sin(theta) k off the diagonal of E. Beyond, eps comes of the
-largest diagonal element of E (`so3.quaternion_direction`), with the sign that keeps it on the side of the last tick. So
-a side changes 60 degrees past a 180° rotation and not before, and no error of orientation under 60 degrees can change
-it back and forth, if e + phi/2 < 90 degrees for an error e and a turn phi within a tick. The memory outlives the goal:
-reset it before the first tick, after a pause, and when the goal jumps.
+Within 120 degrees (t >= 0) eps = s/(2 sqrt(1 + t)), s = 2 sin(theta) k off the diagonal of E. Beyond, eps
+comes of the largest diagonal element of E (`so3.quaternion_direction`), with the sign that keeps it on the
+side of the last tick. So a side changes 60 degrees past a 180° rotation and not before, and no error of
+orientation under 60 degrees can change it back and forth, if e + phi/2 < 90 degrees for an error e and a turn
+phi within a tick. The memory outlives the goal: reset it before the first tick and after a pause. When the
+goal jumps, a reset shortens the way and saves no time.
 
 Global: V = Kp U + |omega|^2/2 with U' = f has Vdot <= -(Kv/5) |omega|^2, and a change of side takes (13/6) Kp from it.
 Limitations: up to 60 degrees beyond a 180° rotation it keeps turning the longer way, and so it may
 without a reset when the goal jumps.
 """
 
-from bench.law import Display, Equation, Law, Look, cos, dot, kernel, quaternion_direction, sin, sqrt, turn_matrix
+from bench.law import OURS, Display, Equation, Law, Look, cos, dot, kernel, quaternion_direction, sin, sqrt, turn_matrix
 
 EASED = 0.8
 """Share of the damper that is gone at 180°; under 1, so that it never pushes."""
@@ -60,6 +61,7 @@ REGULATOR = Law(
     name="late-braking",
     title="Late braking",
     source="this benchmark, 2026; after Luh, Walker, Paul 1980 and Mayhew, Sanfelice, Teel 2011",
+    attribution=OURS,
     formula=r"u = \bigl(\tfrac{5+t}{4} K_p + \tfrac45 K_v \max(0,\, \epsilon\cdot\omega)\bigr)\,\epsilon - K_v\,\omega",
     law=law,
     memory=(1.0, 0.0, 0.0, 0.0),

@@ -5,7 +5,7 @@ can be asked for. Limitations: far from zero angles, where B is no longer the pe
 pole.
 """
 
-from bench.law import Display, Law, Look, kernel, minus, spring_damper
+from bench.law import PUBLISHED, Display, Law, Look, kernel, minus, spring_damper
 
 
 def law_in(representation):
@@ -26,7 +26,8 @@ def law_in(representation):
 REGULATOR = Law(
     name="linearized-euler",
     title="Linearized Euler",
-    source="Murphy 1988, (2.14)",
+    source="Murphy 1988, (2.14); that goals other than zero may be asked for is ours",
+    attribution=PUBLISHED,
     formula=r"u = P\,\bigl(K_p (E_d - E) - K_d \dot E\bigr), \quad P: (\alpha, \beta, \gamma) \mapsto "
     r"(\gamma, \beta, \alpha)",
     law_in=law_in,

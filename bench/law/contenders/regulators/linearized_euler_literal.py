@@ -4,7 +4,7 @@
 alpha. Limitations: unstable at the goal itself.
 """
 
-from bench.law import Display, Law, Look, kernel, minus, spring_damper
+from bench.law import ADAPTED, Display, Law, Look, kernel, minus, spring_damper
 
 
 def law_in(representation):
@@ -24,7 +24,8 @@ def law_in(representation):
 REGULATOR = Law(
     name="linearized-euler-literal",
     title="Linearized Euler, as printed",
-    source="Murphy 1988, 2.3, without the permutation of (2.14): negative control",
+    source="after Murphy 1988, 2.3, without the permutation of (2.14): negative control",
+    attribution=ADAPTED,
     formula=r"u = K_p (E_d - E) - K_d \dot E",
     law_in=law_in,
     coordinates=("zyx-euler",),

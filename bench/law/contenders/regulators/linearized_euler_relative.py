@@ -3,7 +3,7 @@
 Limitations: as linearized-euler does, but at the same errors for every goal.
 """
 
-from bench.law import Display, Law, Look, kernel, relative, rotate, rotate_back
+from bench.law import ADAPTED, Display, Law, Look, kernel, relative, rotate, rotate_back
 
 
 def law_in(representation):
@@ -28,7 +28,8 @@ def law_in(representation):
 REGULATOR = Law(
     name="linearized-euler-relative",
     title="Linearized Euler, from the goal",
-    source="Murphy 1988, 2.4",
+    source="after Murphy 1988, 2.4, which proposes it in words",
+    attribution=ADAPTED,
     formula=r"u = R_d\, P\,(-K_p E - K_d \dot E), \quad E = E(R_d^\top R)",
     law_in=law_in,
     coordinates=("zyx-euler",),

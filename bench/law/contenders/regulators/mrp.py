@@ -3,7 +3,7 @@
 Limitations: at 180° the command jumps to its opposite.
 """
 
-from bench.law import QUARTER, Display, Law, Look, kernel, spring_damper, sqrt, turn_quaternion
+from bench.law import PUBLISHED, QUARTER, Display, Law, Look, kernel, spring_damper, sqrt, turn_quaternion
 
 
 @kernel
@@ -23,7 +23,8 @@ def law(R, omega, goal, gains):
 REGULATOR = Law(
     name="mrp",
     title="Modified Rodrigues parameters (MRP)",
-    source="Tsiotras 1996; Schaub & Junkins 2018",
+    source="Schaub & Junkins 2018; also Tsiotras 1996",
+    attribution=PUBLISHED,
     formula=r"u = 4 K_p\,\sigma - K_v\,\omega, \quad \sigma = \tan(\theta/4)\,k",
     law=law,
     property="almost global",

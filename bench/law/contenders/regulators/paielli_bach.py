@@ -9,6 +9,7 @@ Starts that the maps count as lost exceed the judge's limit on the command: thei
 
 from bench.law import (
     LINEAR_SINE,
+    PUBLISHED,
     Display,
     Law,
     Look,
@@ -32,7 +33,8 @@ def law(R, omega, goal, gains):
 REGULATOR = Law(
     name="paielli-bach",
     title="Paielli–Bach, linear in the quaternion",
-    source="Paielli & Bach 1993",
+    source="Paielli & Bach 1993 (re-derived)",
+    attribution=PUBLISHED,
     formula=r"u = (2 K_p - \tfrac{1}{2}|\omega|^2)\, s/(1 + t) - K_v\,\omega",
     law=law,
     property="almost global from rest",

@@ -4,7 +4,7 @@ Limitations: at 180° the command jumps to its opposite. sgn(0) is 1 here: a law
 there for ever.
 """
 
-from bench.law import CHORD, Display, Law, Look, kernel, spring_damper, sqrt, turn_quaternion
+from bench.law import CHORD, PUBLISHED, Display, Law, Look, kernel, spring_damper, sqrt, turn_quaternion
 
 
 @kernel
@@ -18,7 +18,8 @@ def law(R, omega, goal, gains):
 REGULATOR = Law(
     name="quaternion-shortest",
     title="Shortest quaternion",
-    source="Yuan 1988; Wie, Weiss, Arapostathis 1989",
+    source="Yuan 1988; also Wie, Weiss, Arapostathis 1989",
+    attribution=PUBLISHED,
     formula=r"u = 2 K_p\,\operatorname{sgn}(\eta)\,\epsilon - K_v\,\omega",
     law=law,
     property="almost global",

@@ -8,7 +8,7 @@ after a pause, and when the goal jumps.
 Limitations: it settles everywhere but goes the wrong way.
 """
 
-from bench.law import CHORD, Display, Law, Look, kernel, spring_damper, sqrt, turn_quaternion
+from bench.law import CHORD, PUBLISHED, Display, Law, Look, kernel, spring_damper, sqrt, turn_quaternion
 
 
 @kernel
@@ -27,7 +27,11 @@ def law(R, omega, goal, gains, memory):
 REGULATOR = Law(
     name="quaternion-unwinding",
     title="Quaternion without sign",
-    source="Wen & Kreutz-Delgado 1991; Bhat & Bernstein 2000",
+    source=(
+        "Wen & Kreutz-Delgado 1991; that it begins on the longer side is ours; unwinding: "
+        "Bhat & Bernstein 2000"
+    ),
+    attribution=PUBLISHED,
     formula=r"u = 2 K_p\,\epsilon - K_v\,\omega",
     law=law,
     memory=(-1.0, 0.0, 0.0, 0.0),

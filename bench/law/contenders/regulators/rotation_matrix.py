@@ -4,7 +4,7 @@ Limitations: every 180° rotation is a point of rest, for there sin(theta) = 0; 
 it.
 """
 
-from bench.law import SINE, Display, Law, Look, cross, kernel
+from bench.law import PUBLISHED, SINE, Display, Law, Look, cross, kernel
 
 
 @kernel
@@ -29,7 +29,8 @@ def law(R, omega, goal, gains):
 REGULATOR = Law(
     name="rotation-matrix",
     title="Rotation matrix (Luh, Walker, Paul)",
-    source="Luh, Walker, Paul 1980; Murphy 1988, (2.12)-(2.13)",
+    source="Luh, Walker, Paul 1980; also Murphy 1988, (2.12)-(2.13)",
+    attribution=PUBLISHED,
     formula=r"u = \tfrac{1}{2} K_p\,(n \times n_d + o \times o_d + a \times a_d) - K_v\,\omega",
     law=law,
     property="almost global",

@@ -3,7 +3,7 @@
 Limitations: at 180° the command jumps to its opposite.
 """
 
-from bench.law import ANGLE, Display, Law, Look, atan2, dot, kernel, spring_damper, sqrt, turn_quaternion
+from bench.law import ANGLE, PUBLISHED, Display, Law, Look, atan2, dot, kernel, spring_damper, sqrt, turn_quaternion
 
 
 @kernel
@@ -28,7 +28,8 @@ def law(R, omega, goal, gains):
 REGULATOR = Law(
     name="rotation-vector",
     title="Rotation vector",
-    source="Bullo & Murray 1995; Caccavale et al. 1999 (angle/axis)",
+    source="Bullo & Murray 1995; also Caccavale et al. 1999 (angle/axis)",
+    attribution=PUBLISHED,
     formula=r"u = K_p \log(R_d R^\top) - K_v\,\omega",
     law=law,
     property="almost global",

@@ -7,15 +7,16 @@ the body never turns faster than SLEW Kp/Kv, 5 rad/s at the paper's gains: |omeg
 cascades of this kind. V = Kp U + |omega|^2/2, U' = min(2 sin(theta/2), SLEW), falls as -Kv |omega|^2.
 
 Source: Wie & Lu 1995; neither the paper nor the book after it was read: the formula u = -J (2 k sat(eps) + c omega) is
-from later reports on it. SLEW is ours: 1 limits the rate from 60 degrees on.
+from later reports on it, and there each component is cut. To cut the whole vector, and SLEW, are ours: 1 limits the
+rate from 60 degrees on. The law is not ranked by one SLEW: `python -P -m bench.studies.constants` varies it.
 
 Limitations: at 180° the command jumps to its opposite; from far away it takes theta Kv/(SLEW Kp).
 """
 
-from bench.law import Display, Equation, Law, Look, dot, kernel, sin, spring_damper, sqrt, turn_quaternion
+from bench.law import ADAPTED, Display, Equation, Law, Look, dot, kernel, sin, spring_damper, sqrt, turn_quaternion
 
 SLEW = 1.0
-"""Greatest rate of turning, over Kp/Kv."""
+"""Greatest rate of turning, over Kp/Kv; ours."""
 
 
 @kernel
@@ -32,7 +33,11 @@ def law(R, omega, goal, gains):
 REGULATOR = Law(
     name="slew-limited",
     title="Slew-limited quaternion cascade",
-    source="Wie & Lu 1995 (not read; after later reports)",
+    source=(
+        "after Wie & Lu 1995 (not read; after later reports); the cut of the whole vector "
+        "and its rate, 1 Kp/Kv, are ours"
+    ),
+    attribution=ADAPTED,
     formula=r"u = K_v\Bigl(\operatorname{sat}_{\omega_{\max}}\bigl(2 \tfrac{K_p}{K_v}\,\epsilon\bigr) - \omega\Bigr)",
     law=law,
     property="almost global",

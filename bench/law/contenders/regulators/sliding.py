@@ -8,7 +8,7 @@ d is taken for 0, and K lambda eps, which is 2 Kp eps, stays that.
 Limitations: at 180° the command jumps to its opposite.
 """
 
-from bench.law import CHORD, Display, Equation, Law, Look, cos, cross, kernel, sqrt, turn_quaternion
+from bench.law import CHORD, PUBLISHED, Display, Equation, Law, Look, cos, cross, kernel, sqrt, turn_quaternion
 
 
 @kernel
@@ -55,7 +55,11 @@ SLIDING = Equation(
 REGULATOR = Law(
     name="sliding",
     title="Sliding on the quaternion",
-    source="Egeland & Godhavn 1994; Lo & Chen 1995",
+    source=(
+        "Egeland & Godhavn 1994 (re-derived); lambda and K from Kp and Kv are ours; also Lo "
+        "& Chen 1995"
+    ),
+    attribution=PUBLISHED,
     formula=r"u = -\tfrac{\lambda}{2}(\eta\,\omega + \epsilon \times \omega) - K(\omega - \lambda\,\epsilon)",
     law=law,
     property="almost global",

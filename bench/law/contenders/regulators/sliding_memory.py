@@ -1,7 +1,7 @@
 """Sliding on omega = lambda eps, the side of the quaternion (eta, eps) kept in memory.
 
-The law of `sliding`, on the quaternion that `bench.law.side` keeps. The memory outlives the goal: reset it before the
-first tick, after a pause, and when the goal jumps.
+The law of `sliding`, on the quaternion that `bench.law.side` keeps. The memory outlives the goal: reset it
+before the first tick and after a pause. When the goal jumps, a reset shortens the way and saves no time.
 
 Global: V = 4 Kp (1 - eta) + |omega|^2/2 has Vdot = -(K + (lambda/2) eta) |omega|^2, where K >= lambda/2 and eta >=
 -DELTA; eps is zero at the goal alone, and a change of side takes 8 DELTA Kp from V.
@@ -9,7 +9,7 @@ Limitations: up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it keeps t
 way, and so it may without a reset when the goal jumps.
 """
 
-from bench.law import DELTA, Display, Law, Look, kernel, turn_on_kept_side
+from bench.law import ADAPTED, DELTA, Display, Law, Look, kernel, turn_on_kept_side
 from bench.law.contenders.regulators.sliding import SLIDING, slide
 
 
@@ -24,6 +24,7 @@ REGULATOR = Law(
     name="sliding-memory",
     title="Sliding on the quaternion, with memory",
     source="after Egeland & Godhavn 1994, Lo & Chen 1995 and Mayhew, Sanfelice, Teel 2011",
+    attribution=ADAPTED,
     formula=r"u = -\tfrac{\lambda}{2}(\eta\,\omega + \epsilon \times \omega) - K(\omega - \lambda\,\epsilon),"
     r"\quad \eta \ge -\delta",
     law=law,

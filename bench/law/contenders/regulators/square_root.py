@@ -9,7 +9,19 @@ diagonal element (`so3.turn_quaternion`).
 Limitations: at 180° the command jumps to its opposite, and on it the sign is a rule's.
 """
 
-from bench.law import CHORD, Display, Law, Look, double_sine, kernel, spring_damper, sqrt, trace, turn_quaternion
+from bench.law import (
+    CHORD,
+    PUBLISHED,
+    Display,
+    Law,
+    Look,
+    double_sine,
+    kernel,
+    spring_damper,
+    sqrt,
+    trace,
+    turn_quaternion,
+)
 
 
 @kernel
@@ -29,6 +41,7 @@ REGULATOR = Law(
     name="square-root",
     title="Square root of the trace",
     source="Lee 2012; equal to Yuan 1988",
+    attribution=PUBLISHED,
     formula=r"u = K_p\, s / \sqrt{1 + t} - K_v\,\omega",
     law=law,
     property="almost global",

@@ -1,18 +1,20 @@
 """Synergistic hybrid: two potentials that are at rest at different places, and a memory of which is in force.
 
-With V = 1/2 (k_1 (1 - n.n_d) + k_2 (1 - o.o_d) + k_3 (1 - a.a_d)), k = WEIGHTS, and s its pull, the body is seen as
-turned further about its own axis b = R AXIS by q KAPPA V, q = 1 or -1: U_q = V of the turned body R_q. Both U_q have
-the goal for a minimum. Where one is at rest elsewhere, near a 180° rotation about n_d, o_d or a_d, the other is lower
-by 0.16 at least, and q changes where it is lower by GAP: no other point of rest is left. U_+ - U_- = -2 sin(KAPPA V)
-b.s: to compare them takes no second potential. The pull is of 2 TOP (1 - sqrt(1 - U_q/TOP)), which grows like the
-distance: that of V itself fades towards a 180° rotation. The memory outlives the goal: reset it before the first tick,
-after a pause, and when the goal jumps.
+With V = 1/2 (k_1 (1 - n.n_d) + k_2 (1 - o.o_d) + k_3 (1 - a.a_d)), k = WEIGHTS, and s its pull, the body is
+seen as turned further about its own axis b = R AXIS by q KAPPA V, q = 1 or -1: U_q = V of the turned body
+R_q. Both U_q have the goal for a minimum. Where one is at rest elsewhere, near a 180° rotation about n_d, o_d
+or a_d, the other is lower by 0.16 at least, and q changes where it is lower by GAP: no other point of rest is
+left. U_+ - U_- = -2 sin(KAPPA V) b.s: to compare them takes no second potential. The pull is of 2 TOP (1 -
+sqrt(1 - U_q/TOP)), which grows like the distance: that of V itself fades towards a 180° rotation. The memory
+outlives the goal: reset it before the first tick and after a pause. When the goal jumps, a reset shortens the
+way and saves no time.
 
 Global: the potential in force and |omega|^2/2 fall together as -Kv |omega|^2, a change of q takes GAP Kp or more from
 them, and KAPPA |s| < 1 keeps the turned body from resting anywhere else.
 
 Sources: Mayhew & Teel 2013, not read; Berkane & Tayebi, arXiv:1502.07386 and (with Abdessameud) 1510.03878, and Wang &
-Tayebi, arXiv:2012.12470, whose abstracts were read. The formulas and all constants are derived here. The angle of Wang
+Tayebi, arXiv:2012.12470, whose abstracts were read. The formulas and all constants are derived here, so that nothing
+of its speed says how fast theirs are: `python -P -m bench.studies.constants` varies KAPPA and GAP. The angle of Wang
 & Tayebi is a state that flows and jumps; a law's memory has no period to let it flow. Held between jumps it cannot
 serve: a weight on the angle that makes it return to 0 near the goal keeps it at 0 on 180° rotations. So the angle is
 KAPPA V, as in angular warping, and its sign is remembered.
@@ -20,7 +22,7 @@ KAPPA V, as in angular warping, and its sign is remembered.
 Limitations: the turn is curved, and longer than about one axis; stiffness depends on the axis.
 """
 
-from bench.law import Display, Law, Look, Rotation, cos, cross, dot, kernel, rotate, sin, sqrt
+from bench.law import ADAPTED, Display, Law, Look, Rotation, cos, cross, dot, kernel, rotate, sin, sqrt
 from bench.law.contenders.regulators.weighted_columns import WEIGHTS, pull_columns
 
 SHARE = 2.0 / (1.0 / WEIGHTS[0] + 1.0 / WEIGHTS[1] + 1.0 / WEIGHTS[2])
@@ -83,7 +85,11 @@ def law(R, omega, goal, gains, memory):
 REGULATOR = Law(
     name="synergistic",
     title="Synergistic hybrid, two potentials",
-    source="after Berkane & Tayebi, arXiv:1502.07386, and Wang & Tayebi, arXiv:2012.12470 (abstracts read)",
+    source=(
+        "after Berkane & Tayebi, arXiv:1502.07386, and Wang & Tayebi, arXiv:2012.12470 "
+        "(abstracts read); potentials and constants are ours"
+    ),
+    attribution=ADAPTED,
     formula=r"u = K_p\,\bigl(s_q - q\,\kappa\,(b \cdot s_q)\,s\bigr)/\sqrt{1 - U_q/U_0} - K_v\,\omega, \quad q^+ = -q"
     r" \text{ where } U_q - U_{-q} > \delta",
     law=law,

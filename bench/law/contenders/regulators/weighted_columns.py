@@ -6,7 +6,7 @@ are saddles. The price is a stiffness that depends on the axis: about column i h
 Limitations: at those three 180° rotations, exactly.
 """
 
-from bench.law import Display, Law, Look, cross, kernel
+from bench.law import PUBLISHED, Display, Law, Look, cross, kernel
 
 WEIGHTS = (0.8, 1.0, 1.2)
 """Distinct, and their sum 3, so that the stiffness is kp on the average: 1.1, 1.0 and 0.9 of it."""
@@ -34,7 +34,11 @@ def law(R, omega, goal, gains):
 REGULATOR = Law(
     name="weighted-columns",
     title="Weighted columns",
-    source="Chillingworth, Marsden, Wan 1982; Chaturvedi, Sanyal, McClamroch 2011",
+    source=(
+        "Chaturvedi, Sanyal, McClamroch 2011; the weights 0.8, 1 and 1.2 are ours; also "
+        "Chillingworth, Marsden, Wan 1982"
+    ),
+    attribution=PUBLISHED,
     formula=r"u = \tfrac{1}{2} K_p\,(k_1\, n \times n_d + k_2\, o \times o_d + k_3\, a \times a_d) - K_v\,\omega",
     law=law,
     property="almost global",

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from bench.law import (
     LINEAR_MRP,
+    PUBLISHED,
     Coordinates,
     Display,
     Look,
@@ -114,7 +115,8 @@ def margin(R):
 REPRESENTATION = Coordinates(
     name="mrp",
     title="Modified Rodrigues parameters",
-    source="Wiener 1962; Tsiotras 1996; Schaub & Junkins 2003",
+    source="Wiener 1962; also Tsiotras 1996; also Schaub & Junkins 2003",
+    attribution=PUBLISHED,
     formula=r"E = \sigma = \tan\tfrac{\theta}{4}\, k, \quad |\sigma| \le 1",
     symbols=("sigma_x", "sigma_y", "sigma_z"),
     **functions_of(globals()),

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from bench.law import (
     CHORD,
+    PUBLISHED,
     Coordinates,
     Display,
     Look,
@@ -97,7 +98,8 @@ def margin(R):
 REPRESENTATION = Coordinates(
     name="quaternion",
     title="Unit quaternion",
-    source="Shepperd 1978; Wie, Weiss, Arapostathis 1989",
+    source="Shepperd 1978; also Wie, Weiss, Arapostathis 1989",
+    attribution=PUBLISHED,
     formula=r"E = (\cos\tfrac{\theta}{2},\; \sin\tfrac{\theta}{2}\, k), \quad \dot E = \tfrac12\, (0, \omega)\, E",
     symbols=("w", "x", "y", "z"),
     **functions_of(globals()),

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from bench.law import (
     ANGLE,
+    PUBLISHED,
     Coordinates,
     Display,
     Look,
@@ -204,7 +205,8 @@ def margin(R):
 REPRESENTATION = Coordinates(
     name="rotation-vector",
     title="Rotation vector",
-    source="Bullo & Murray 1995; Caccavale, Siciliano, Villani 1999",
+    source="Bullo & Murray 1995; also Caccavale, Siciliano, Villani 1999",
+    attribution=PUBLISHED,
     formula=r"E = \phi = \theta\, k, \quad |\phi| \le \pi, \quad \omega = J_l(\phi)\, \dot\phi",
     symbols=("phi_x", "phi_y", "phi_z"),
     **functions_of(globals()),

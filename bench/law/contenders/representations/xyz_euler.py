@@ -4,7 +4,7 @@ Singular where cos(beta) = 0: at beta = +90 deg only alpha + gamma, at -90 deg o
 B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
 """
 
-from bench.law import Coordinates, Display, Look, Rotation, atan2, cos, functions_of, kernel, sin, sqrt
+from bench.law import PUBLISHED, Coordinates, Display, Look, Rotation, atan2, cos, functions_of, kernel, sin, sqrt
 from bench.law.euler import EulerChart, fields_of, first_angle
 
 
@@ -94,6 +94,7 @@ REPRESENTATION = Coordinates(
     name="xyz-euler",
     title="X-Y-Z Euler angles",
     source="Craig 1986",
+    attribution=PUBLISHED,
     formula=r"R = R_x(\alpha)\, R_y(\beta)\, R_z(\gamma), \quad E = (\alpha, \beta, \gamma)",
     **functions_of(globals()),
     **fields_of(elements),

@@ -4,7 +4,7 @@ Singular where cos(beta) = 0: at beta = +90 deg only alpha - gamma, at -90 deg o
 B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
 """
 
-from bench.law import Coordinates, Display, Look, Rotation, atan2, cos, functions_of, kernel, sin, sqrt
+from bench.law import PUBLISHED, Coordinates, Display, Look, Rotation, atan2, cos, functions_of, kernel, sin, sqrt
 from bench.law.euler import ABOUT_Z, EulerChart, fields_of, first_angle
 
 
@@ -49,7 +49,8 @@ def elements(R):
 REPRESENTATION = Coordinates(
     name="zyx-euler",
     title="Z-Y-X Euler angles",
-    source="Murphy 1988, (2.8)-(2.11); Craig 1986",
+    source="Murphy 1988, (2.8)-(2.11); also Craig 1986",
+    attribution=PUBLISHED,
     formula=r"R = R_z(\alpha)\, R_y(\beta)\, R_x(\gamma), \quad E = (\alpha, \beta, \gamma)",
     **functions_of(globals()),
     **ABOUT_Z,

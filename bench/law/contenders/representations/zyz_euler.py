@@ -4,7 +4,7 @@ Singular where sin(beta) = 0, the identity included: at beta = 0 only alpha + ga
 determined, and B^-1 does not exist. alpha and gamma jump by 2 pi at +-pi.
 """
 
-from bench.law import Coordinates, Display, Look, Rotation, atan2, cos, functions_of, kernel, sin, sqrt
+from bench.law import PUBLISHED, Coordinates, Display, Look, Rotation, atan2, cos, functions_of, kernel, sin, sqrt
 from bench.law.euler import ABOUT_Z, EulerChart, fields_of, first_angle
 
 
@@ -49,7 +49,8 @@ def elements(R):
 REPRESENTATION = Coordinates(
     name="zyz-euler",
     title="Z-Y-Z Euler angles",
-    source="Murphy 1988, 2.2; Craig 1986",
+    source="Murphy 1988, 2.2; also Craig 1986",
+    attribution=PUBLISHED,
     formula=r"R = R_z(\alpha)\, R_y(\beta)\, R_z(\gamma), \quad E = (\alpha, \beta, \gamma)",
     **functions_of(globals()),
     **ABOUT_Z,

@@ -3,7 +3,7 @@
 Limitations: where K has different eigenvalues its work over a closed path is not zero.
 """
 
-from bench.law import Spring, kernel, times
+from bench.law import ADAPTED, Spring, kernel, times
 
 
 @kernel
@@ -16,8 +16,9 @@ def moment(q, K):
 SPRING = Spring(
     "double-vector-part",
     "K times twice the vector part",
-    "",
+    "after libfranka, impedance example, with a factor 2",
     r"-2K\epsilon",
     moment,
     frames=("tool", "goal"),
+    attribution=ADAPTED,
 )

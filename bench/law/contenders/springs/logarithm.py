@@ -3,7 +3,7 @@
 Limitations: where K has different eigenvalues its work over a closed path is not zero; jumps at 180 degrees.
 """
 
-from bench.law import Spring, kernel, rotation_vector, times
+from bench.law import PUBLISHED, Spring, kernel, rotation_vector, times
 
 
 @kernel
@@ -13,4 +13,12 @@ def moment(q, K):
     return (-e[0], -e[1], -e[2])
 
 
-SPRING = Spring("logarithm", "K times the logarithm", "", r"-K\phi", moment, frames=("tool", "goal"))
+SPRING = Spring(
+    "logarithm",
+    "K times the logarithm",
+    "Cartesian-Impedance-Controller (Mayr, Salt-Ducaju)",
+    r"-K\phi",
+    moment,
+    frames=("tool", "goal"),
+    attribution=PUBLISHED,
+)

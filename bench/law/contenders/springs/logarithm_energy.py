@@ -9,7 +9,7 @@ Limitations: jumps at 180 degrees.
 Source: Bullo, Murray 1995, Proportional derivative control on the Euclidean group (differential of the logarithm).
 """
 
-from bench.law import Spring, divide_by_left_jacobian, dot, kernel, rotation_vector, times
+from bench.law import ADAPTED, Spring, divide_by_left_jacobian, dot, kernel, rotation_vector, times
 
 
 @kernel
@@ -30,8 +30,9 @@ def potential(q, K):
 SPRING = Spring(
     "logarithm-energy",
     "Energy of the logarithm",
-    "Bullo and Murray 1995",
+    "after Bullo and Murray 1995 (differential of the logarithm)",
     r"-J^\top K\phi",
     moment,
     potential,
+    attribution=ADAPTED,
 )

@@ -11,7 +11,7 @@ Limitations: at 180 degrees about the eigenvectors of K it vanishes.
 Source: Caccavale, Natale, Siciliano, Villani 1999, IEEE Transactions on Robotics and Automation 15(2), section IV.
 """
 
-from bench.law import Spring, cross, dot, kernel, times
+from bench.law import PUBLISHED, Spring, cross, dot, kernel, times
 
 
 @kernel
@@ -37,4 +37,5 @@ SPRING = Spring(
     r"-2(\eta I - [\epsilon]_\times)K\epsilon",
     moment,
     potential,
+    attribution=PUBLISHED,
 )

@@ -6,7 +6,7 @@ numbers are two springs.
 Limitations: where K has different eigenvalues its work over a closed path is not zero.
 """
 
-from bench.law import Spring, kernel, times
+from bench.law import PUBLISHED, Spring, kernel, times
 
 
 @kernel
@@ -24,4 +24,5 @@ SPRING = Spring(
     moment,
     frames=("tool", "goal"),
     stiffness=0.5,
+    attribution=PUBLISHED,
 )
