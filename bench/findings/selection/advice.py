@@ -51,7 +51,7 @@ from bench.law.contender import Contender
 from tasks.situation import COORDINATES, KP, Situation
 
 SEED = 2026
-"""Of the draw of the starts."""
+"""Seed of the draw of the starts."""
 
 PAIR = ["law", "other", "log_ratio", "low", "high"]
 """What is read of a comparison of two laws."""
