@@ -14,8 +14,8 @@ from bench.base.errors import BadResults
 def write_atomically(path: Path, write: Callable[..., object]) -> None:
     """Call write(temporary path), then put the file in its place; when this returns, it outlives a loss of power.
 
-    BadResults if the folder cannot be made or written, the disk is full, or something else than a regular file is
-    there already; no temporary file stays.
+    BadResults if the folder cannot be made or written, the disk is full, or something else than a
+    regular file is there already; no temporary file stays.
     """
     path = Path(path)
     refuse_irregular(path)
@@ -42,9 +42,10 @@ def write_atomically(path: Path, write: Callable[..., object]) -> None:
 def refuse_irregular(path: Path) -> None:
     """Raise BadResults if there is something at the path that is no regular file.
 
-    The new file is renamed to the path. A rename replaces whatever is there: it would turn /dev/null into a text file.
-    A link is refused too. Renaming would replace the link and not the file that it leads to, and to write through it
-    would let a folder that came from elsewhere name any file of the user's.
+    The new file is renamed to the path. A rename replaces whatever is there: it would turn
+    /dev/null into a text file. A link is refused too. Renaming would replace the link and not the
+    file that it leads to, and to write through it would let a folder that came from elsewhere name
+    any file of the user's.
     """
     try:
         mode = path.lstat().st_mode

@@ -11,7 +11,8 @@ LAW_PROCESS = "ORIENTATION_BENCH_LAW_PROCESS"
 RUNS_A_LAW = LAW_PROCESS in os.environ
 """Whether this process runs a user's law, and so keeps nothing for other processes: no compiled code, no rows.
 
-It is read when this module is imported, which is before the first line of the law: the law may change the environment.
+It is read when this module is imported, which is before the first line of the law: the law may
+change the environment.
 """
 
 BEGIN = """import runpy, sys
@@ -28,6 +29,7 @@ def module_command(module: str, *words: str) -> list[str]:
 def law_environment(token: str) -> dict[str, str]:
     """Return the environment of a process that runs a user's law, which is found again by the token.
 
-    It writes no byte code either: what it would write next to our sources is run by every later process.
+    It writes no byte code either: what it would write next to our sources is run by every later
+    process.
     """
     return {**os.environ, "PYTHONDONTWRITEBYTECODE": "1", LAW_PROCESS: token}

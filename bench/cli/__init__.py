@@ -49,7 +49,7 @@ RESUMING = ("run", "map")
 """Commands whose folder keeps each unit of work when it is done; the others write at their end, or nothing."""
 
 RESUMED = "what was finished is kept, and the same command goes on from there"
-LOST = "this command keeps nothing of what was not finished, and begins anew"
+LOST = "this command keeps nothing of what was not finished, and starts from the beginning"
 """What becomes of the work when Ctrl-C ends a command."""
 
 

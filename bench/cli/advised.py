@@ -9,7 +9,8 @@ from bench.base.on_first_use import pd
 from bench.cli.paragraphs import Paragraph, listed
 from bench.cli.screen import counted
 from bench.experiments.situations import HORIZON_S, mapped_laws
-from bench.findings.selection.advice import TIE, Advice, Outside, loop_of
+from bench.findings.selection.advice import TIE, Advice, loop_of
+from bench.findings.selection.nearest import Outside
 from bench.findings.selection.regions import facts_of
 from bench.findings.selection.words import NAMES
 from bench.findings.theory.sampled_loop import Limits, mode_time

@@ -1,13 +1,14 @@
 """Compiled code on disk: one file for each function and signature, in place of numba's index with numbered files.
 
-numba keeps an index of all signatures of a function, and the index names the files of code by counting. Two processes
-that write such an index at once must wait for one another, or a third finds the code of one function under the name of
-another. Here the name of a file follows from what the file holds. Nobody waits, so nobody can be made to wait by a
-process that holds a lock or was stopped.
+numba keeps an index of all signatures of a function, and the index names the files of code by
+counting. Two processes that write such an index at once must wait for one another, or a third finds
+the code of one function under the name of another. Here the name of a file follows from what the
+file holds. Nobody waits, so nobody can be made to wait by a process that holds a lock or was
+stopped.
 
-A process that runs a user's law reads these files and writes none. The law may have changed a constant of a module of
-ours, on purpose or not. numba compiles constants into the code, and its key does not name them: code compiled in such a
-process would look like ours to every other process.
+A process that runs a user's law reads these files and writes none. The law may have changed a
+constant of a module of ours, on purpose or not. numba compiles constants into the code, and its key
+does not name them: code compiled in such a process would look like ours to every other process.
 """
 
 import contextlib

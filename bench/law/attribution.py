@@ -1,4 +1,4 @@
-"""Whose a law is: published, adapted or ours. Every contender that is shipped here says one of the three.
+"""Attribution of a law: published, adapted or ours. Every contender that is shipped here says one of the three.
 
 published   one cited work has this very law. Constants that the work leaves open, or that we chose, are named in the
             same line: "Schaub, Akella, Junkins 2001; the switch at |sigma|^2 = 1.5 is ours".

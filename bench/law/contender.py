@@ -50,7 +50,7 @@ class Contender(NamedTuple):
 
     @property
     def attribution(self) -> str:
-        """Whose it is (`bench.law.attribution`): a published law in coordinates that its work has not is adapted."""
+        """Attribution (`bench.law.attribution`): a published law in coordinates that its work has not is adapted."""
         if self.is_elsewhere and self.regulator.attribution == PUBLISHED:
             return ADAPTED
         return self.regulator.attribution

@@ -7,7 +7,7 @@ without memory is global (Bhat & Bernstein 2000). The memory outlives the goal: 
 and after a pause. When the goal jumps, a reset shortens the way and saves no time.
 
 Source: Mayhew, Sanfelice, Teel 2011. The hysteresis is theirs: a side h changes where
-h eta < -delta, here with the quaternion lifted anew in every tick. delta = 0.4 is, by all appearance, theirs too: a
+h eta < -delta, here with the quaternion lifted again in every tick. delta = 0.4 is, by all appearance, theirs too: a
 public code for example 7.7 of Markley and Crassidis, "the first example" of that paper, has it
 (7ganam/attitude-determinatio-and-control-system, ch7/example7_7a.m, at ac4f373d).
 """

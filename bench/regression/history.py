@@ -33,7 +33,8 @@ def find_files(folder: Path = FOLDER) -> list[Path]:
 def read_history(folder: Path = FOLDER) -> pd.DataFrame:
     """Return a row for each benchmark of each build, in the order of the commits.
 
-    kernel_steps, low, high: time of a tick over a step of the reference kernel. flops: of the typical branch, or NaN.
+    kernel_steps, low, high: time of a tick over a step of the reference kernel. flops: of the
+    typical branch, or NaN.
     """
     rows = []
     for path in find_files(folder):

@@ -44,7 +44,8 @@ def make_parts(out: Path, parts: Mapping[str, Callable[[], Any]]) -> dict[str, A
             write_json(beside, {"sources": digest, "parts": made})
             print(f"{name}: {time.process_time() - began:.0f} s of CPU", flush=True)
     beside.unlink(missing_ok=True)
-    return made
+    # In the order of `parts`: what was kept comes back sorted by name, and a stopped study is to give the same bytes.
+    return {name: made[name] for name in parts}
 
 
 def keep_table(name: str, out: Path, rows: pd.DataFrame, table: str = "", **about: Any) -> None:

@@ -18,12 +18,12 @@ from bench.findings.selection.advice import (
     advise,
     answer,
     choose,
-    find_outside,
     list_tied,
     look_near_goal,
     shortlist,
 )
 from bench.findings.selection.checked import summarize_checked
+from bench.findings.selection.nearest import find_outside
 from bench.findings.selection.regions import RULE, Rule
 from bench.studies.advice_check import COUNT, SEED, draw
 from tasks.situation import COORDINATES, KP, NOMINAL, Situation

@@ -47,7 +47,7 @@ def test_another_value_is_another_law(law):
 
 
 def test_every_constant_that_a_source_calls_ours_is_varied():
-    """Of laws of the map; weights, the longer side and the choice of gains are no numbers of this kind."""
+    """Constants of laws of the map; weights, the longer side and the choice of gains are no numbers of this kind."""
     varied = {one.law for one in CONSTANTS}
     numbers = ("gamma", "rate", "switch", "constants are ours")
     for name, law in contenders("regulators").items():

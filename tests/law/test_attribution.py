@@ -53,7 +53,7 @@ def test_law_of_a_user_is_yours_whatever_its_file_says(tmp_path):
 
 
 def test_file_here_that_says_no_word_is_refused(monkeypatch):
-    """As a law that somebody copies into regulators/ without a word on whose it is."""
+    """Take a law that somebody copies into regulators/ without a word on whose it is."""
     monkeypatch.setattr(gibbs, "REGULATOR", gibbs.REGULATOR._replace(attribution=YOURS))
     with pytest.raises(BadLaw, match="attribution is 'yours'; a file of this repository says published, adapted"):
         registry.contenders.__wrapped__("regulators")

@@ -16,7 +16,7 @@ TICKS, BODIES, STEP_RAD = 1000, 3, 0.25
 
 
 def lift(quaternion, last):
-    """Of the two quaternions of an orientation, the one on the side of the last one."""
+    """Return the quaternion of an orientation that is on the side of the last one."""
     return quaternion if quaternion @ last >= 0.0 else -quaternion
 
 

@@ -9,6 +9,9 @@ from bench.base.provenance import ROOT
 FILES = [path for folder in ("tests", "bench/studies") for path in sorted((ROOT / folder).rglob("*.py"))]
 
 PLANTED = {
+    "tests/cli/test_written_files.py": "a command that is interrupted at once",
+    "tests/law/test_attribution.py": "a law whose file has no attribution",
+    "tests/studies/test_situations.py": "few laws and small runs, so that a study takes seconds",
     "tests/regression/test_regress_times.py": "a commit of the history, which only git knows",
     "tests/report/test_comparing_sentences.py": "what a page reads, made false for one sentence",
 }

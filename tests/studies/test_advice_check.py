@@ -4,8 +4,9 @@ import math
 
 import pytest
 
-from bench.findings.selection.advice import find_outside, look_near_goal
+from bench.findings.selection.advice import look_near_goal
 from bench.findings.selection.checked import read_checked, summarize_checked
+from bench.findings.selection.nearest import find_outside
 from bench.studies.advice_check import COUNT, SEED, check, draw
 from tasks.situation import read_situation
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 OURS = str(Path(__file__).parent)
-"""Where the prover's own files are: a reason names a line of the law, and none of these."""
+"""The prover's own files are here: a reason names a line of the law, and no line of these."""
 
 
 class DoesNotFit(Exception):

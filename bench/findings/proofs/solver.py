@@ -151,7 +151,7 @@ class Solver:
         return facts
 
     def formulas(self, path: Path, *conditions: Condition, to_180: bool = False) -> list[Any]:
-        """Return all that Z3 is told of a path and some conditions; to_180: eta may be zero where it is positive."""
+        """Return all that Z3 is given of a path and some conditions; to_180: eta may be zero where it is positive."""
         mentioned = [*path.decisions, *conditions]
         polynomials = [condition.polynomial for condition in mentioned] + path.relations
         polynomials += [sign_of(value) for angle in path.angles for value in (angle.y, angle.x)]

@@ -12,7 +12,6 @@
 
 from __future__ import annotations
 
-import collections
 import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -31,27 +30,24 @@ from bench.experiments.situations import (
     run_starts,
     summarize_drawn,
 )
+from bench.findings.selection.nearest import Answer, Outside, answer, find_outside
 from bench.findings.selection.pairs import compare_times, find_slower
 from bench.findings.selection.regions import (
-    NEIGHBOURS,
     RULE,
     STUDY,
     Rule,
-    Verdict,
-    decide_all,
     facts_of,
     find_regions,
     meets,
-    read_map,
     with_words,
 )
 from bench.findings.theory.bang_bang import angle_of_share, brake_knee, least_time
 from bench.findings.theory.sampled_loop import Limits, Loop, find_limits, settling_time, spectral_radius
 from bench.law.contender import Contender
-from tasks.situation import COORDINATES, KP, Situation
+from tasks.situation import KP, Situation
 
 SEED = 2026
-"""Of the draw of the starts."""
+"""Seed of the draw of the starts."""
 
 PAIR = ["law", "other", "log_ratio", "low", "high"]
 """What is read of a comparison of two laws."""
@@ -109,66 +105,6 @@ def look_near_goal(at: Situation) -> NearGoal:
         least = at.delay + least_time(angle_of_share(CROWD), at.bound / min(loop.moments))
     knee = brake_knee(at.bound, loop.kp, loop.kv, at.inertia)
     return NearGoal(radius, settling_time(loop, HORIZON), limits, least, knee)
-
-
-class Outside(NamedTuple):
-    """A number of a situation that lies outside the map: its name, its value, and the range that was run."""
-
-    name: str
-    value: float
-    low: float
-    high: float
-
-
-def find_outside(at: Situation) -> tuple[Outside, ...]:
-    """Return the numbers of a situation that are outside the map; a bound above all others is as good as none."""
-    outside = []
-    for (name, coordinate), value in zip(COORDINATES.items(), at, strict=True):
-        low, high = min(coordinate.levels), max(coordinate.levels)
-        if not low <= value <= high:
-            outside.append(Outside(name, value, low, high))
-    return tuple(outside)
-
-
-class Answer(NamedTuple):
-    """What the map says of a user's situation: the nearest that was run, its verdict and rows, and how sure it is.
-
-    distance: of the scaled numbers; 0: this very situation was run. agree: of the nearest other situations, those in
-    which nothing beats the advised law, and of how many. laws: advised there, or not beaten in the nearest ones.
-    """
-
-    at: Situation
-    verdict: Verdict
-    rows: pd.DataFrame
-    distance: float
-    agree: tuple[int, int]
-    laws: tuple[str, ...]
-
-
-def answer(wanted: Situation, rule: Rule = RULE, folder: Path = STUDY) -> Answer:
-    """Return the verdict on the situation of the map that is nearest to the user's."""
-    verdicts = decide_all(folder, rule)
-    situations = list(verdicts)
-    places = np.array([at.scaled() for at in situations])
-    away = np.linalg.norm(places - np.array(wanted.scaled()), axis=1)
-    order = np.argsort(away, kind="stable")
-    nearest = situations[order[0]]
-    law = verdicts[nearest].law
-    beside = [verdicts[situations[place]] for place in order[1 : NEIGHBOURS + 1]]
-    agreeing = sum(law in verdict.unbeaten for verdict in beside)
-    unbeaten: collections.Counter[str] = collections.Counter()
-    for verdict in (verdicts[nearest], *beside):
-        unbeaten.update(verdict.unbeaten)
-    laws = [name for name, _ in unbeaten.most_common() if name != law]
-    rows = read_map(folder)
-    return Answer(
-        nearest,
-        verdicts[nearest],
-        rows[rows["situation"] == nearest.word],
-        float(away[order[0]]),
-        (agreeing, len(beside)),
-        (law, *laws) if law else tuple(laws),
-    )
 
 
 class Trial(NamedTuple):

@@ -44,7 +44,7 @@ class Resets(NamedTuple):
 
 
 class Pairs(NamedTuple):
-    """The same starts of a run with the memory kept and reset. differ: pairs whose settling times differ.
+    """Starts of a run with the memory kept, and the same starts with it reset. differ: pairs whose times differ.
 
     later: of these, pairs in which the reset settles later; shorter: in which its path is shorter. delay_s: the median
     of the time by which the reset settles later where the two differ [s].

@@ -15,8 +15,8 @@ from bench.base.errors import BadResults
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
-from bench.findings.selection.advice import answer
 from bench.findings.selection.criteria import CRITERIA
+from bench.findings.selection.nearest import answer
 from bench.findings.selection.needs import FACTS, Decision, Measured, Need, decide, measure, measured
 from bench.findings.selection.regions import Rule, find_default
 from bench.findings.selection.tables import by_law, by_standard_inverse, common, tables_of

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from bench.findings.selection import regions
-from bench.findings.selection.advice import answer
+from bench.findings.selection.nearest import answer
 from bench.findings.selection.pairs import compare_with_all
 from bench.findings.selection.regions import RULE, STUDY, Rule, decide_all, find_default, find_regions, read_map
 from bench.findings.selection.unbeaten import SPOKEN, Share, compare_everywhere

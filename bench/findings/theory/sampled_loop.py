@@ -34,7 +34,7 @@ FACTOR = 1.04
 """Between neighbours of the values among which a limit is looked for."""
 
 HALVINGS = 24
-"""Of the interval between such neighbours: to 3e-9 of it."""
+"""Halvings of the interval between such neighbours: to 3e-9 of it."""
 
 QUICKER = 100.0
 """How much higher a rate is looked at, at most."""

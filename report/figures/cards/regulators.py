@@ -139,6 +139,8 @@ def advised(law: str) -> str:
             f"Not advised, ours. More than {percent(SPOKEN)} faster than the advised law in {beats} of situations. "
             f"{beside}"
         )
+    if region is None:
+        return beside
     price = find_price(law)
     costs = (
         f"In the nominal situation it commands up to {price.peak:.1f} kp. With gains for the same peak "

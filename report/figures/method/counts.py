@@ -1,4 +1,4 @@
-"""One table of how many laws and starts there are, and where: other pages refer to it and do not count anew."""
+"""One table of how many laws and starts there are, and where: other pages refer to it and do not count again."""
 
 from collections.abc import Iterator
 from typing import Any, NamedTuple

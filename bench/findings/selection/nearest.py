@@ -1,0 +1,73 @@
+"""The situation of the map that is nearest to a user's, and the numbers of a user that the map does not cover."""
+
+from __future__ import annotations
+
+import collections
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from bench.findings.selection.regions import NEIGHBOURS, RULE, STUDY, Rule, Verdict, decide_all, read_map
+from tasks.situation import COORDINATES, Situation
+
+
+class Outside(NamedTuple):
+    """A number of a situation that lies outside the map: its name, its value, and the range that was run."""
+
+    name: str
+    value: float
+    low: float
+    high: float
+
+
+def find_outside(at: Situation) -> tuple[Outside, ...]:
+    """Return the numbers of a situation that are outside the map; a bound above all others is as good as none."""
+    outside = []
+    for (name, coordinate), value in zip(COORDINATES.items(), at, strict=True):
+        low, high = min(coordinate.levels), max(coordinate.levels)
+        if not low <= value <= high:
+            outside.append(Outside(name, value, low, high))
+    return tuple(outside)
+
+
+class Answer(NamedTuple):
+    """What the map says of a user's situation: the nearest that was run, its verdict and rows, and how sure it is.
+
+    distance: of the scaled numbers; 0: this very situation was run. agree: of the nearest other situations, those in
+    which nothing beats the advised law, and of how many. laws: advised there, or not beaten in the nearest ones.
+    """
+
+    at: Situation
+    verdict: Verdict
+    rows: pd.DataFrame
+    distance: float
+    agree: tuple[int, int]
+    laws: tuple[str, ...]
+
+
+def answer(wanted: Situation, rule: Rule = RULE, folder: Path = STUDY) -> Answer:
+    """Return the verdict on the situation of the map that is nearest to the user's."""
+    verdicts = decide_all(folder, rule)
+    situations = list(verdicts)
+    places = np.array([at.scaled() for at in situations])
+    away = np.linalg.norm(places - np.array(wanted.scaled()), axis=1)
+    order = np.argsort(away, kind="stable")
+    nearest = situations[order[0]]
+    law = verdicts[nearest].law
+    beside = [verdicts[situations[place]] for place in order[1 : NEIGHBOURS + 1]]
+    agreeing = sum(law in verdict.unbeaten for verdict in beside)
+    unbeaten: collections.Counter[str] = collections.Counter()
+    for verdict in (verdicts[nearest], *beside):
+        unbeaten.update(verdict.unbeaten)
+    laws = [name for name, _ in unbeaten.most_common() if name != law]
+    rows = read_map(folder)
+    return Answer(
+        nearest,
+        verdicts[nearest],
+        rows[rows["situation"] == nearest.word],
+        float(away[order[0]]),
+        (agreeing, len(beside)),
+        (law, *laws) if law else tuple(laws),
+    )
