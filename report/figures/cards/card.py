@@ -14,7 +14,7 @@ from pygments.lexers import PythonLexer
 from bench.export.language import find_language, language_words
 from bench.export.short import write_short
 from bench.export.subject import find_subject
-from bench.findings.proofs.certificate import describe_sampled, read_certificates
+from bench.findings.proofs.certificate import DRAWN, describe_sampled, read_certificates
 from bench.law.attribution import describe_source
 from bench.law.kinds import Law
 from report.figures.kit import html
@@ -105,7 +105,7 @@ def say_property(law: Law) -> dict[str, str]:
     text = PROPERTIES.get(law.property, f"{law.property[:1].upper()}{law.property[1:]}.")
     if not certificate or not certificate["is_proved"] or certificate["declared"] != law.property:
         return {"Proved" if law.property == "none" else "Measured, not proved": text}
-    lemmas = certificate["lemmas"]
+    lemmas = [lemma for lemma in certificate["lemmas"] if lemma["by"] != DRAWN]
     by = " and ".join(sorted({lemma["by"] for lemma in lemmas}))
     text += f" This is {certificate['scope']}."
     text += f" A program proved {len(lemmas)} lemmas from its source, by {by}, in {certificate['seconds']:.1f} s."
