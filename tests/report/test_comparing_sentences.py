@@ -105,7 +105,7 @@ SENTENCES = {
     ),
     "order": (plant_order, [((1, 2, 3), "dearest, as the paper"), ((3, 2, 1), "dearest, other than the paper")]),
     "loops": (plant_loops, [({}, "3 dead, 4 away"), ({"dead": 0, "away": 1}, "0 dead, 55 away")]),
-    "stable": (plant_fact(as_arms_run.facts, "practice_tick"), [({}, "3.6 to 41"), ({"longest_dt_s": 1e-3}, "1 to 1")]),
+    "stable": (plant_fact(as_arms_run.facts, "felt_most"), [({}, "7.1"), ({"ratio": 3.0}, "3")]),
     "noise": (plant_fact(half_turn_noise.facts, "blind_middle"), [({}, "25"), ({"outcome": "settled"}, "100")]),
     "least": (plant_fact(failure_map.facts, "least"), [({}, "135"), ({"alpha0": 2.0}, "114")]),
     "ours": (plant_comparison, [({}, "better by effort"), ({"effort": 1e9}, "worse by effort")]),

@@ -48,14 +48,12 @@ def recompute_compliance():
 def recompute_impedance():
     rows = table("impedance-modes")
     rows = rows[rows["variation"] != "ideal-motors"]
-    franka = rows.query("arm == 'panda' and damping == 'diagonal' and stiffness_n_m == 600")["longest_dt_s"] * 1000
     felt = {name: own["ratio"] for name, own in rows.groupby("damping")}
     double = felt["double-diagonalization"]
     return {
         "felt_least": f"{felt['diagonal'].min():.2g}",
         "felt_most": f"{felt['diagonal'].max():.2g}",
         "double": f"{double.min():.3f} to {double.max():.3f}",
-        "practice_tick": f"{franka.min():.2g} to {franka.max():.2g}",
     }
 
 
