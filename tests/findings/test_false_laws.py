@@ -223,6 +223,12 @@ FALSE = {
         .replace("@kernel", "def looks(kv):\n    return -kv if isinstance(kv, float) else kv\n\n\n@kernel", 1),
         "isinstance",
     ),
+    "function-by-keyword-default": (
+        write("    kv = helper(kv)")
+        .replace("goal, gains)", "goal, gains, *, helper=looks)")
+        .replace("@kernel", "def looks(kv):\n    return -kv if isinstance(kv, float) else kv\n\n\n@kernel", 1),
+        "isinstance",
+    ),
     "pole-at-an-edge": (
         write("    eta = 0.5 * w / sqrt(t)\n    if eta > 0.5:\n        kp = kp / (eta - 0.5)"),
         "the command is finite",

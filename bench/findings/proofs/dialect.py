@@ -105,6 +105,7 @@ def _read(function: types.FunctionType) -> ast.FunctionDef:
     definition.decorator_list = []  # what they made of it is the function that is given
     definition.returns = None
     definition.args.defaults = []  # what they are is checked by their values
+    definition.args.kw_defaults = [None] * len(definition.args.kwonlyargs)
     for argument in ast.walk(definition.args):
         if isinstance(argument, ast.arg):
             argument.annotation = None
