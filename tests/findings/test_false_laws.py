@@ -1,9 +1,16 @@
 """Laws that do not do what they declare, each false in one way: none is proved, and the reason is said."""
 
+import inspect
+import signal
+import time
+
 import pytest
 
 from bench.findings.proofs.certificate import certify_asked
+from bench.findings.proofs.dialect import check_file
+from bench.findings.proofs.reasons import Untraceable
 from bench.law.contenders.law_file import load_law
+from bench.law.contenders.registry import contenders
 
 HEAD = """\
 from bench.law import Law, acos, atan2, copysign, cos, dot, kernel, sin, spring_damper, sqrt, turn_quaternion
@@ -112,7 +119,43 @@ FALSE = {
         write("    s = dot(omega, omega)\n    if s > 4.0:\n        kv = kv * (s - 4.0)"),
         "a > 0",
     ),
+    # limits: what a state never reaches, but comes close to
+    "spring-to-zero-at-120": (
+        write("    eta = 0.5 * w / sqrt(t)\n    f = 1.0\n    if eta < 0.5:\n        f = 0.5 - eta\n    kp = f * kp"),
+        "f > 0",
+    ),
+    "dry-friction": (
+        write("    s = dot(omega, omega)\n    if s > 0.0:\n        kv = kv + 4.0 * kp / sqrt(s)"),
+        "the command is finite",
+    ),
+    "singular-goal": (
+        write("    c = 1.0 - 0.5 * w / sqrt(t)\n    if c > 0.0:\n        kp = kp / (c * c)"),
+        "near the goal",
+    ),
+    "kick-at-the-goal": (write("    if w * w >= 4.0 * t:\n        return (1e5, 1e5, 1e5)"), "point of rest"),
+    "root-of-zero-times-a-negative": (
+        write("    if kp == 100.0:\n        d = kp - 100.0\n        r = sqrt(d * d * (-1.0 - kv))\n        kv = -kv"),
+        "zero times",
+    ),
+    # floats
+    "rounded-gain": (write("    if (kp + 1e17) - 1e17 != kp:\n        kv = -kv"), "numbers"),
     # memory
+    "short-first-memory": (
+        write_hybrid(
+            "    if len(memory) == 1:\n"
+            f"    {GOOD_HYBRID}\n"
+            "    return spring_damper(kp / root, v, -kv, omega), memory",
+            "(1.0,)",
+        ),
+        "",
+    ),
+    "shrinking-memory": (
+        write_hybrid(
+            f"    s = 0.1 * sqrt({LENGTH}) / (2.0 * root)\n"
+            "    return spring_damper(kp / root, v, kv, omega), (s * w, s * v[0], s * v[1], s * v[2])"
+        ),
+        "length",
+    ),
     "keeps-its-first": (write_hybrid("    return spring_damper(kp / root, v, kv, omega), memory"), "first memory"),
     "forgets-at-a-rate": (
         write_hybrid(
@@ -134,7 +177,7 @@ FALSE = {
             "    s = grown / root\n"
             "    return spring_damper(kp / root, v, kv, omega), (s * w, s * v[0], s * v[1], s * v[2])"
         ),
-        "a > 0",
+        "length",
     ),
     "changes-side-everywhere": (
         write_hybrid("    return spring_damper(kp / root, v, kv, omega), (-w, -v[0], -v[1], -v[2])"),
@@ -150,6 +193,20 @@ FALSE = {
     ),
     "counts-its-calls": (write("    CALLS.append(1)\n    if len(CALLS) > 9000:\n        kv = -kv", "CALLS = []"), ""),
     "global-state": (write("    global CALLS\n    CALLS = CALLS + 1", "CALLS = 0"), "Global"),
+    "function-in-a-tuple": (
+        write(
+            "    kv = HELPERS[0](kv)",
+            "def helper(kv):\n    return -kv if isinstance(kv, float) else kv\nHELPERS = (helper,)",
+        ),
+        "isinstance",
+    ),
+    "changes-the-check": (
+        write(
+            "    if isinstance(kv, float):\n        kv = -kv",
+            "from bench.findings.proofs import dialect\ndialect.check = lambda law: None",
+        ),
+        "imports",
+    ),
     "changes-the-prover": (
         write("    kp = kp", "from bench.findings.proofs import theorem\ntheorem.Proof.is_proved = lambda self: True"),
         "",
@@ -163,6 +220,12 @@ FALSE = {
     "function-by-default": (
         write("    kv = helper(kv)")
         .replace("goal, gains)", "goal, gains, helper=looks)")
+        .replace("@kernel", "def looks(kv):\n    return -kv if isinstance(kv, float) else kv\n\n\n@kernel", 1),
+        "isinstance",
+    ),
+    "function-by-keyword-default": (
+        write("    kv = helper(kv)")
+        .replace("goal, gains)", "goal, gains, *, helper=looks)")
         .replace("@kernel", "def looks(kv):\n    return -kv if isinstance(kv, float) else kv\n\n\n@kernel", 1),
         "isinstance",
     ),
@@ -184,7 +247,7 @@ FALSE = {
     ),
     "constant-by-chance": (
         write("    kv = kv * SIGN", "import numpy as np\n\nSIGN = 1.0 if np.random.random() < 2.0 else -1.0"),
-        "random",
+        "imports numpy",
     ),
     "equal-tuples": (write("    if omega == (0.0, 0.0, 1.0):\n        kv = -kv"), ""),
     "chained": (write("    if 1.0 < omega[0] < 1.001:\n        kv = -kv"), "a > 0"),
@@ -240,7 +303,52 @@ def test_good_law_with_a_harmless_comparison_is_proved(certify):
     assert certify(write("    if kp == 100.0:\n        kv = 2.0 * kv"))["verdict"] == "proved"
 
 
+IMPORTS = (
+    "from bench.findings.proofs import dialect",
+    "import bench.law",
+    "from bench.law import contenders",
+    "from bench.law.scalar import math",
+    "import numpy",
+    "from typing import get_type_hints",
+    "from .math import sqrt",
+)
+
+
+@pytest.mark.parametrize("line", IMPORTS)
+def test_file_that_imports_more_than_names_of_laws_is_refused(line):
+    with pytest.raises(Untraceable, match="it imports"):
+        check_file(line)
+
+
+CLAIMED = [law for law in contenders("regulators").values() if law.property.startswith(("almost global", "global"))]
+
+
+@pytest.mark.parametrize("law", CLAIMED, ids=lambda law: law.name)
+def test_files_of_our_laws_may_be_proved(law):
+    check_file(inspect.getsource(inspect.getmodule(law.law)))
+
+
 def test_file_of_a_false_law_loads(tmp_path):
     path = tmp_path / "a_law.py"
     path.write_text(write("    kp = kp"), encoding="utf-8")
     assert load_law(path).property == "almost global"
+
+
+LONG_ALGEBRA = """\
+    y = 1.0 + R[0][0] + 2.0 * R[1][0] + 3.0 * R[2][1]
+    for i in range(40):
+        y = y * (y + omega[0] + v[1] * i)
+    kp = kp + 0.0 * y"""
+
+
+def test_time_for_a_law_ends_algebra_too(tmp_path):
+    text = write(LONG_ALGEBRA)
+    path = tmp_path / "long_law.py"
+    path.write_text(text, encoding="utf-8")
+    began = time.process_time()
+    certificate = certify_asked(
+        {"text": text, "name": "false-law", "origin": str(path), "lemma_s": 1.0, "law_s": 1.0}, path
+    )
+    assert "--law-limit" in certificate["why"]
+    assert time.process_time() - began < 30.0
+    assert signal.getitimer(signal.ITIMER_PROF) == (0.0, 0.0)

@@ -24,6 +24,9 @@ QUATERNION, RATES, GOAL = ("w", "x", "y", "z"), ("omega_x", "omega_y", "omega_z"
 
 IS_FINITE = "the command is finite"
 STAYS_PARALLEL = "the memory stays a multiple of q, and is never zero"
+KEEPS_LENGTH = "the memory's length does not depend on its last length, or is the same"
+"""A length that grows or shrinks from tick to tick is lost in floats: a tenth each, and after 324 ticks it is zero."""
+RESTS = "the goal is a point of rest"
 
 
 class Tick(NamedTuple):
@@ -135,8 +138,10 @@ class FreeBody:
                 u_at_rest, u = still, moving
             else:
                 multiple = self.find_multiple(path, moving[1], STAYS_PARALLEL)
+                self._require_same_length(path, multiple)
                 sides = [(side, multiple, (is_turned, is_below(-side * multiple))) for side in (1, -1)]
                 u_at_rest, u = still[0], moving[0]
+            self._require_rest(path, u_at_rest)
             for side, kept, known in sides:
                 if self.solver.find(path, *known).answer != "unsat":
                     yield Tick(u_at_rest, u, kept, path, side, known)
@@ -153,11 +158,23 @@ class FreeBody:
         self._never(path, Condition(kept.value.numer, "="), statement)
         return kept
 
-    def _never(self, path: Path, fault: Condition, statement: str) -> None:
-        """Raise LemmaFails unless no state on a path has a fault."""
+    def _require_same_length(self, path: Path, multiple: Traced) -> None:
+        """Raise LemmaFails if a memory grows or shrinks from tick to tick."""
+        if self.mentions(multiple, "size"):
+            size = self.symbols.of["size"]
+            self._never(path, Condition((multiple**2 - size**2).value.numer, "!="), KEEPS_LENGTH)
+
+    def _require_rest(self, path: Path, u_at_rest: tuple) -> None:
+        """Raise LemmaFails if a body that is at rest at the goal is driven."""
+        at_goal = Condition((self.eta**2 - 1).value.numer, "=")
+        for part in u_at_rest:
+            self._never(path, Condition(part.value.numer, "!="), RESTS, at_goal)
+
+    def _never(self, path: Path, fault: Condition, statement: str, *where: Condition) -> None:
+        """Raise LemmaFails unless no state on a path, where other conditions hold, has a fault."""
         if fault.answer() is False:
             return
-        finding = self.solver.find(path, fault)
+        finding = self.solver.find(path, *where, fault)
         if finding.answer != "unsat":
             note = undecided(finding.answer, finding.seconds)
             raise LemmaFails([Lemma(statement, False, "Z3", finding.seconds, finding.state, note, True)])

@@ -75,15 +75,18 @@ def certify(law: Law) -> dict[str, Any]:
     from rest, or why there are none. counterexample: a state where the first false lemma is false, and how an episode
     from there ends.
     """
+    from bench.findings.proofs.reasons import LIMITS
     from bench.findings.proofs.theorem import attempt
 
     result = attempt(law)
     proof = result.proof
     if proof is None:
         return without_proof(law, say_why_none(result))
+    is_proved = proof.is_proved() and not result.late and proof.stands == law.property
+    settling = bound_settling(law, proof) if is_proved else {}
+    LIMITS.stop()  # episodes follow, and the compilation of engines
     false = next((lemma for lemma in proof.lemmas if lemma.counterexample), None)
     counterexample = replay(law, false) if false else None
-    is_proved = proof.is_proved() and not result.late and proof.stands == law.property
     verdict, why = PROVED, ""
     if not is_proved:
         verdict, why = judge(law, result, counterexample)
@@ -97,7 +100,7 @@ def certify(law: Law) -> dict[str, Any]:
         "verdict": verdict,
         "why": why,
         "scope": SCOPE,
-        "settling": bound_settling(law, proof) if is_proved else {},
+        "settling": settling,
         "sampled": measure_sampled(law) if is_proved else {},
         "counterexample": counterexample,
     }
@@ -238,6 +241,8 @@ def _certify_asked(request: dict, path: Path | None) -> dict[str, Any]:
         return without_proof(law, str(reason))
     except Exception as error:
         return without_proof(law, describe_error(error))
+    finally:
+        LIMITS.stop()
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ So the functions that a law calls are read, and what is not of the dialect is re
 """
 
 import ast
+import importlib
 import inspect
 import math
 import textwrap
@@ -37,9 +38,12 @@ ALLOWED = (
 """Parts of a function's source that the dialect has."""
 
 LAW = ("so3", "scalar", "side", "inputs", "kinds", "display", "linalg")
-MODULES = ("bench.law", *(f"bench.law.{name}" for name in LAW), "math", "numpy", "typing", "__future__")
+MODULES = ("bench.law", *(f"bench.law.{name}" for name in LAW), "math", "__future__")
 REGULATORS = "bench.law.contenders.regulators."
-"""What a law's file may import from, if it is to be proved."""
+"""What a law's file may import names from, if it is to be proved.
+
+numpy has the system among its modules, and typing evaluates texts.
+"""
 FORBIDDEN = frozenset(
     (
         "exec", "eval", "compile", "open", "input",
@@ -82,7 +86,8 @@ def _check_function(function: Any) -> list[Any]:
         if isinstance(node, ast.Attribute | ast.Subscript) and not isinstance(node.ctx, ast.Load):
             raise _refusal(node, where, "it changes what it was given, or what lasts from call to call")
     functions = []
-    for default in function.__defaults__ or ():
+    by_place, by_keyword = function.__defaults__ or (), function.__kwdefaults__ or {}
+    for default in (*by_place, *by_keyword.values()):
         functions += _check_value(default, where)
     return functions + list(_check_names(function, tree, where))
 
@@ -100,6 +105,7 @@ def _read(function: types.FunctionType) -> ast.FunctionDef:
     definition.decorator_list = []  # what they made of it is the function that is given
     definition.returns = None
     definition.args.defaults = []  # what they are is checked by their values
+    definition.args.kw_defaults = [None] * len(definition.args.kwonlyargs)
     for argument in ast.walk(definition.args):
         if isinstance(argument, ast.arg):
             argument.annotation = None
@@ -168,23 +174,32 @@ def check_file(text: str) -> None:
             raise Untraceable(f"line {getattr(node, 'lineno', 0)} of its file: {why}; such a file is not proved")
 
 
+def _faults_of_import(node: ast.ImportFrom) -> Iterator[str]:
+    """Yield why an import of names is refused: a module among them would give all that it imports itself."""
+    name = node.module or ""
+    if node.level or (name not in MODULES and not name.startswith(REGULATORS)):
+        yield f"it imports {name or 'a file beside it'}"
+        return
+    module = importlib.import_module(name)
+    for alias in node.names:
+        value = getattr(module, alias.name, None)
+        if value is None or isinstance(value, types.ModuleType):
+            yield f"it imports {alias.name} from {name}"
+
+
 def _faults_of(node: ast.AST) -> Iterator[str]:
     """Yield why a part of a file is refused."""
     if isinstance(node, ast.Import):
-        names = [alias.name for alias in node.names]
-    elif isinstance(node, ast.ImportFrom):
-        names = [node.module or ""]
-    else:
-        names = []
-    for name in names:
-        if name not in MODULES and not name.startswith(REGULATORS):
-            yield f"it imports {name or 'a file beside it'}"
+        yield from (f"it imports {alias.name}" for alias in node.names if alias.name != "math")
+    if isinstance(node, ast.ImportFrom):
+        yield from _faults_of_import(node)
     if isinstance(node, STATEMENTS):
         yield f"it has a {type(node).__name__} statement"
     if isinstance(node, ast.Name) and node.id in FORBIDDEN:
         yield f"it uses {node.id}"
     if isinstance(node, ast.Attribute):
-        if node.attr.startswith("_") or node.attr in RISKY:
+        is_private = node.attr.startswith("_") and node.attr != "_replace"  # which makes a new tuple
+        if is_private or node.attr in RISKY:
             yield f"it reads .{node.attr}"
         if not isinstance(node.ctx, ast.Load):
             yield f"it sets .{node.attr}"

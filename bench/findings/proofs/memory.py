@@ -8,6 +8,7 @@ is the step, which `FreeBody.ticks` makes: with a memory k q, after one tick the
 from bench.findings.proofs.body import FreeBody
 from bench.findings.proofs.reasons import DoesNotFit, LemmaFails
 from bench.findings.proofs.solver import Lemma
+from bench.law.inputs import NO_MEMORY
 from bench.law.kinds import Law
 
 STARTS = "from the first memory and any q, one tick makes the memory a multiple of q"
@@ -27,7 +28,8 @@ def prove_start(law: Law) -> list[Lemma]:
     if not any(law.memory):
         raise DoesNotFit(f"its first memory {tuple(law.memory)} is no quaternion: all its numbers are zero")
     body = FreeBody()
-    memory = tuple(body.symbols.number(part) for part in law.memory)
+    declared = (*law.memory, *NO_MEMORY[len(law.memory) :])  # as the engines give it
+    memory = tuple(body.symbols.number(part) for part in declared)
     for path in body.commands(law, memory):
         _, (_, next_memory) = path.answer
         body.find_multiple(path, next_memory, STARTS)

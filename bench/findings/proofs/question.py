@@ -58,15 +58,16 @@ class Question:
         sides: tuple[int, ...] = (1, -1),
         to_the_edge: bool = False,
         to_180: bool = False,
+        where: tuple[Condition, ...] = (),
     ) -> Lemma:
         """Return the lemma that no tick on some sides has a state with one of its faults.
 
         to_the_edge: states at the edge of a path count, too, where its command may differ: a limit is a fault.
-        to_180: so do states at eta = 0, where eta is positive on all paths.
+        to_180: so do states at eta = 0, where eta is positive on all paths. where: what else holds there.
         """
         if statement:
             LIMITS.asked = statement
-        lemma = self._decide(statement, faults, sides, to_the_edge, to_180)
+        lemma = self._decide(statement, faults, sides, to_the_edge, to_180, where)
         if statement:
             LIMITS.lemmas.append(lemma)
         return lemma
@@ -78,6 +79,7 @@ class Question:
         sides: tuple[int, ...],
         to_the_edge: bool,
         to_180: bool,
+        where: tuple[Condition, ...],
     ) -> Lemma:
         seconds = 0.0
         for tick in self.ticks:
@@ -91,7 +93,7 @@ class Question:
                     fault = Condition(self.body.symbols.without_positive(possible.polynomial), possible.relation)
                 if fault.answer() is False:
                     continue
-                finding = self.body.solver.find(path, *tick.known, fault, to_180=to_180)
+                finding = self.body.solver.find(path, *tick.known, *where, fault, to_180=to_180)
                 seconds += finding.seconds
                 if finding.answer != "unsat":
                     note = undecided(finding.answer, finding.seconds)

@@ -1,11 +1,14 @@
 """Why a law has no proof: it is not of a theorem's form, its source cannot be traced, a lemma fails, or time is up."""
 
 import math
+import signal
 import time
 import traceback
 from pathlib import Path
 from typing import Any
 
+LOOKS_AGAIN_S = 1.0
+"""Seconds of processor time after which a law whose time is over is interrupted again."""
 OURS = str(Path(__file__).parent)
 """The prover's own files are here: a reason names a line of the law, and no line of these."""
 
@@ -48,9 +51,22 @@ class Limits:
         self.asked = ""
 
     def begin(self, question_s: float, law_s: float) -> None:
-        """Start the clock of a law."""
+        """Start the clock of a law. When it is over, TimeIsUp is raised wherever Python is: in algebra, too.
+
+        It is raised again after each further second until `stop`, for a destructor would lose it.
+        """
         self.question_s = question_s
         self.ends = time.process_time() + law_s
+        signal.signal(signal.SIGPROF, self._look)
+        signal.setitimer(signal.ITIMER_PROF, law_s, LOOKS_AGAIN_S)
+
+    def stop(self) -> None:
+        """Stop the clock: what follows is no part of a law's time."""
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        self.ends = math.inf
+
+    def _look(self, *_: Any) -> None:
+        self.left_s()
 
     def left_s(self) -> float:
         """Return the seconds left for this law; TimeIsUp: none."""

@@ -15,7 +15,7 @@ A law with memory stores the sign of the quaternion, so eta may be negative. It 
 many. The memory is a multiple of the quaternion of now (`memory`): time is continuous.
 
 Where the damping is bounded by no constant, it must be above zero at the edges of paths too: a damper that vanishes
-towards a rate lets a body turn at this rate for ever.
+towards a rate lets a body turn at this rate for ever. V needs a bound near the goal, and so does f |eps|.
 
 f, a, b, g and delta are what the law's own source gives. Source of the argument: Koditschek 1989; Mayhew, Sanfelice,
 Teel 2011.
@@ -38,6 +38,8 @@ from bench.findings.proofs.trace import Traced, is_same
 from bench.law.kinds import Law
 from bench.law.so3 import IDENTITY, cross, dot
 
+NEAR_GOAL, LARGEST = 0.98, 1000.0
+"""eta^2 from which on f |eps| has a bound, and the bound; times (1 + Kp + Kv)^2/(Kp Kv) if f depends on the gains."""
 ETA = sp.Symbol("w")
 FORM = "u = Kp f(eta) eps - a omega + b (eps . omega) eps + g eps x omega"
 NOT_DEFINED = "not defined at 180°"
@@ -106,7 +108,7 @@ def prove(law: Law) -> Proof:
     lemmas = [by_algebra(FORM, True), *start, finite_lemma(body, ask)]  # or take_apart would have refused it
     if not lemmas[-1].is_proved:
         return Proof(THEOREM.name, "", lemmas, "")
-    lemmas.append(spring_lemma(ask))
+    lemmas += [spring_lemma(ask), bounded_lemma(body, ask)]
     lemmas.append(agreement_lemma(body, law, ask))
     springs = collect_springs(ask)
     lemmas.append(by_algebra("f is one function of eta", is_one_function(ask, has_memory)))
@@ -136,6 +138,22 @@ def spring_lemma(ask: Question) -> Lemma:
         return [is_below(tick.side * tick.taken.f, strictly=False)]
 
     return ask.never("f > 0 but at the goal", faults, to_the_edge=True)
+
+
+def bounded_lemma(body: FreeBody, ask: Question) -> Lemma:
+    """Return the lemma that the spring's pull has a bound near the goal: else U may have none."""
+    near_goal = Condition((body.symbols.number(NEAR_GOAL) - body.eta**2).value.numer, "<")
+    kp, kv = body.gains
+
+    def faults(tick: Tick) -> list[Condition]:
+        f = tick.taken.f
+        most = body.symbols.number(LARGEST)
+        if body.mentions(f, "kp", "kv"):
+            most = most * (1 + kp + kv) ** 2 / (kp * kv)
+        is_large = is_below(most**2 - f**2 * (1 - body.eta**2))
+        return [is_large, Condition(f.value.denom, "=")]
+
+    return ask.never("f |eps| has a bound near the goal", faults, where=(near_goal,))
 
 
 def finite_lemma(body: FreeBody, ask: Question) -> Lemma:

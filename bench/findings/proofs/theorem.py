@@ -114,6 +114,7 @@ def attempt(law: Law) -> Attempt:
             result.reasons[theorem.name] = str(reason)
             continue
         except TimeIsUp:
+            LIMITS.stop()
             result.late = LIMITS.asked
             if result.proof is None and LIMITS.lemmas:
                 result.proof = Proof(theorem.name, "", list(LIMITS.lemmas), "")

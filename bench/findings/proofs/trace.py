@@ -343,7 +343,12 @@ class Symbols:
             outside = outside * self.number(exact)
         else:
             inside = inside * QQ(ratio.numerator, ratio.denominator)
-        return outside if inside == 1 else outside * self._root_symbol(inside)
+        if inside == 1:
+            return outside
+        # where a square that was taken out is zero, the rest may be below zero, and the root is defined
+        # all the same
+        self.require_not(Condition(inside, "<"), "a square root of zero times a number below zero")
+        return outside * self._root_symbol(inside)
 
     def _take_square(self, factor: PolyElement) -> tuple:
         """Return (k, |g|, 1) of a factor k g^2 whose square a relation has replaced, else (1, 1, factor)."""
