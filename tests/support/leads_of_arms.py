@@ -3,12 +3,15 @@
 import json
 
 import numpy as np
+from scipy.linalg import expm
+from scipy.optimize import brentq
 from scipy.stats import binomtest
 
 import tasks
 from bench.audit.examined import COUNT_RAD
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.selection.robots import ARM
+from bench.findings.theory.impedance_modes import hand_matrices, hand_of
 from report.figures.kit.families import word
 from support.advised import accelerations, costs, is_ours, operations, shares_of_time
 from support.tables import table
@@ -48,13 +51,32 @@ def recompute_compliance():
 def recompute_impedance():
     rows = table("impedance-modes")
     rows = rows[rows["variation"] != "ideal-motors"]
+    franka = rows.query("arm == 'panda' and damping == 'diagonal' and stiffness_n_m == 600")
+    designs = franka.drop_duplicates(["variation", "stiffness_nm_rad", "zeta"])
+    held = [1000.0 * held_period(design) for design in designs.to_dict("records")]
     felt = {name: own["ratio"] for name, own in rows.groupby("damping")}
     double = felt["double-diagonalization"]
     return {
         "felt_least": f"{felt['diagonal'].min():.2g}",
         "felt_most": f"{felt['diagonal'].max():.2g}",
         "double": f"{double.min():.3f} to {double.max():.3f}",
+        "practice_tick": f"{min(held):.2g} to {max(held):.2g}",
     }
+
+
+def held_period(design):
+    """Return the period [s] at which |z| reaches 1 in a loop whose command is held, by the matrix exponential."""
+    stiffness = design["stiffness_n_m"], design["stiffness_nm_rad"]
+    hand = hand_of(str(design["arm"]), str(design["variation"]))
+    P, Q = hand_matrices(hand, str(design["damping"]), stiffness, design["zeta"])
+    still, moves = np.zeros((6, 6)), np.eye(6)
+    plant = np.block([[still, moves, still], [still, still, moves], [still, still, still]])
+
+    def excess(period):
+        step = expm(period * plant)[:12]
+        return np.abs(np.linalg.eigvals(step[:, :12] - step[:, 12:] @ np.hstack([P, Q]))).max() - 1.0
+
+    return brentq(excess, 1e-5, 1.0)
 
 
 def share(passes):
