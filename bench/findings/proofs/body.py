@@ -13,9 +13,11 @@ from typing import Any, NamedTuple
 
 from bench.findings.proofs import dialect
 from bench.findings.proofs.conditions import Condition
+from bench.findings.proofs.paths import Path
 from bench.findings.proofs.reasons import DoesNotFit, LemmaFails
 from bench.findings.proofs.solver import Lemma, Solver, is_below, undecided
-from bench.findings.proofs.trace import Path, Symbols, Traced
+from bench.findings.proofs.trace import Symbols
+from bench.findings.proofs.traced_number import Traced
 from bench.law.inputs import Gains, Goal
 from bench.law.kinds import ACCELERATION, ON_MATRIX, Law
 from bench.law.so3 import Rotation, cross, dot, from_quaternion, rotate, rotate_back

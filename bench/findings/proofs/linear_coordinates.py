@@ -12,7 +12,7 @@ from bench.findings.proofs.memory import prove_start
 from bench.findings.proofs.question import Question, agreement_lemma
 from bench.findings.proofs.solver import by_algebra
 from bench.findings.proofs.theorem import FINITE_JUMPS, DoesNotFit, Proof, Theorem
-from bench.findings.proofs.trace import Traced, is_zero
+from bench.findings.proofs.traced_number import Traced, is_zero
 from bench.law.kinds import Law
 from bench.law.so3 import dot
 

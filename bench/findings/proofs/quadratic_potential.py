@@ -17,7 +17,7 @@ from bench.findings.proofs.body import FreeBody
 from bench.findings.proofs.question import Question, agreement_lemma
 from bench.findings.proofs.solver import by_algebra
 from bench.findings.proofs.theorem import LASALLE, MEASURE_ZERO, DoesNotFit, Proof, Theorem
-from bench.findings.proofs.trace import Traced
+from bench.findings.proofs.traced_number import Traced
 from bench.law.kinds import Law
 from bench.law.so3 import dot
 

@@ -14,7 +14,7 @@ from bench.findings.proofs.body import GOAL, QUATERNION, RATES, FreeBody, Tick
 from bench.findings.proofs.conditions import CLOSED, Condition
 from bench.findings.proofs.reasons import LIMITS, DoesNotFit, LemmaFails
 from bench.findings.proofs.solver import Lemma, ask, by_algebra, undecided
-from bench.findings.proofs.trace import are_same
+from bench.findings.proofs.traced_number import are_same
 from bench.law.inputs import Gains, Goal
 from bench.law.kinds import Law
 from bench.law.so3 import Rotation, from_quaternion, rotate_back

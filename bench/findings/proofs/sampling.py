@@ -10,7 +10,8 @@ import numpy as np
 from sympy.polys.rings import PolyElement
 
 from bench.findings.proofs.conditions import Condition
-from bench.findings.proofs.trace import Path, Symbols
+from bench.findings.proofs.paths import Path
+from bench.findings.proofs.trace import Symbols
 from bench.law.inputs import PAPERS_GAINS
 
 STATES = 20_000

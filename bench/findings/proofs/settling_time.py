@@ -28,9 +28,11 @@ from flint import arb
 
 from bench.findings.proofs.conditions import Condition
 from bench.findings.proofs.flow import Equation, Unenclosed, enclose, turned_by
+from bench.findings.proofs.paths import Angle
 from bench.findings.proofs.solver import Solver
 from bench.findings.proofs.theorem import DoesNotFit
-from bench.findings.proofs.trace import Angle, Symbols, Traced, is_same, is_zero
+from bench.findings.proofs.trace import Symbols
+from bench.findings.proofs.traced_number import Traced, is_same, is_zero
 from bench.law.inputs import PAPERS_GAINS, Gains, Goal
 from bench.law.kinds import Law
 from bench.law.so3 import IDENTITY, Rotation, from_quaternion

@@ -10,8 +10,10 @@ from sympy.polys.rings import PolyElement
 
 from bench.findings.proofs import sampling
 from bench.findings.proofs.conditions import Condition
+from bench.findings.proofs.paths import Path
 from bench.findings.proofs.reasons import LIMITS
-from bench.findings.proofs.trace import Path, Symbols, Traced, is_zero
+from bench.findings.proofs.trace import Symbols
+from bench.findings.proofs.traced_number import Traced, is_zero
 from bench.law.inputs import PAPERS_GAINS
 
 FIRST_TRY_S = 3.0

@@ -34,7 +34,7 @@ from bench.findings.proofs.memory import prove_start
 from bench.findings.proofs.question import Question, agreement_lemma, find_least
 from bench.findings.proofs.solver import Lemma, by_algebra, is_below
 from bench.findings.proofs.theorem import FINITE_JUMPS, LASALLE, MEASURE_ZERO, DoesNotFit, Proof, Theorem
-from bench.findings.proofs.trace import Traced, is_same
+from bench.findings.proofs.traced_number import Traced, is_same
 from bench.law.kinds import Law
 from bench.law.so3 import IDENTITY, cross, dot
 

@@ -11,14 +11,12 @@ the path then goes on without it.
 """
 
 import math
-import operator
 import sys
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path as File
 from types import FrameType
-from typing import Any, NamedTuple, Protocol
+from typing import Any
 
 import numpy as np
 import sympy as sp
@@ -28,7 +26,9 @@ from sympy.polys.orderings import lex
 from sympy.polys.rings import PolyElement
 
 from bench.findings.proofs.conditions import Condition, find_answer
+from bench.findings.proofs.paths import Angle, Definition, Doubt, Oracle, Path, PathEnds
 from bench.findings.proofs.reasons import LIMITS, TimeIsUp, Untraceable, describe_error, is_of_a_law
+from bench.findings.proofs.traced_number import Traced, is_same
 
 ROOTS = tuple(f"root{i}" for i in range(4))
 ANGLES = tuple(f"angle{i}" for i in range(2))
@@ -39,77 +39,6 @@ MOST_PATHS = 3000
 """Paths of one law that are followed: the shipped laws have up to 100."""
 PRUNING_S = 2.0
 """Seconds in which Z3 may show that a branch is never taken; later than that, it is followed."""
-
-
-class PathEnds(Exception):
-    """No state is on this path, or its next operation is defined at none."""
-
-
-class Oracle(Protocol):
-    """Who answers whether conditions have a solution: `bench.findings.proofs.solver.Solver`."""
-
-    def find(self, path: "Path", *conditions: Condition, limit_s: float | None = None) -> Any:
-        """Return a finding with `answer` ("unsat", "sat", "unknown"), `state` and `seconds`."""
-
-
-class Doubt(NamedTuple):
-    """An operation that is not shown to be defined.
-
-    words: what may be undefined, and in which line. state: where it is undefined; None if Z3 did not decide.
-    """
-
-    words: str
-    state: dict[str, float] | None
-    seconds: float
-
-
-class Angle(NamedTuple):
-    """An arc tangent atan2(y, x) that became a symbol."""
-
-    y: "Traced"
-    x: "Traced"
-    symbol: "Traced"
-
-
-class Definition(NamedTuple):
-    """How a symbol that a path introduced is computed: "root", "angle", "cosine" or "sine" of some values."""
-
-    name: str
-    kind: str
-    of: tuple["Traced", ...]
-
-
-@dataclass
-class Path:
-    """One way through a function's branches: what it answered, and under which conditions.
-
-    Attributes:
-        script: The decisions it had to begin with.
-        answer: What the function returned; None if no state is on the path.
-        taken: All decisions that were made.
-        decisions: What they say, and that roots are not negative.
-        relations: Polynomials that are zero.
-        meanings: What the symbols of roots and angles stand for.
-        definitions: The same, to compute them with numbers.
-        angles: Arc tangents.
-        turns: Angles of cosines.
-    """
-
-    script: list[bool]
-    answer: Any = None
-    is_over: bool = False
-    taken: list[bool] = field(default_factory=list)
-    decisions: list[Condition] = field(default_factory=list)
-    relations: list[PolyElement] = field(default_factory=list)
-    meanings: dict[str, Any] = field(default_factory=dict)
-    definitions: list[Definition] = field(default_factory=list)
-    angles: list[Angle] = field(default_factory=list)
-    turns: list["Traced"] = field(default_factory=list)
-
-    def key(self) -> tuple:
-        """Return what its conditions depend on."""
-        angles = tuple((angle.y.value, angle.x.value) for angle in self.angles)
-        return tuple(self.decisions), tuple(self.relations), angles
 
 
 class Symbols:
@@ -146,7 +75,7 @@ class Symbols:
     def __getitem__(self, names: tuple[str, ...]) -> Any:
         return tuple(self.of[name] for name in names)
 
-    def relate(self, square_of: str, polynomial: "Traced") -> None:
+    def relate(self, square_of: str, polynomial: Traced) -> None:
         """Let the square of a symbol be a polynomial of symbols that come later."""
         self.relations.append((self.of[square_of] ** 2 - polynomial).value.numer)
 
@@ -184,7 +113,7 @@ class Symbols:
         finally:
             self.is_tracing = False
 
-    def reduce(self, value: Any) -> "Traced":
+    def reduce(self, value: Any) -> Traced:
         """Return a quotient in normal form; the leading terms are squares of different symbols, a Groebner basis."""
         relations = self.path.relations + self.relations
         numer, denom = value.numer, value.denom
@@ -194,7 +123,7 @@ class Symbols:
             raise Untraceable("it divides by an expression that is zero by the relations of its roots")
         return Traced(self.field(numer) / self.field(denom), self)
 
-    def compute(self, operation: Callable[[Any, Any], Any], left: Any, right: Any) -> "Traced":
+    def compute(self, operation: Callable[[Any, Any], Any], left: Any, right: Any) -> Traced:
         """Return the result of an operation in normal form: each is made once, for paths begin alike."""
         key = (operation, left, right, tuple(self.path.relations))
         result = self._results.get(key)
@@ -202,7 +131,7 @@ class Symbols:
             result = self._results[key] = self.reduce(operation(left, right)).value
         return Traced(result, self)
 
-    def number(self, value: Any) -> "Traced":
+    def number(self, value: Any) -> Traced:
         """Return a number as a value: a float as the decimal that it is written as."""
         if isinstance(value, Traced):
             return value
@@ -218,13 +147,13 @@ class Symbols:
         exact = Fraction(repr(meaning)) if isinstance(meaning, float) else Fraction(meaning)
         return Traced(self.field(QQ(exact.numerator, exact.denominator)), self)
 
-    def derivative(self, value: "Traced", name: str) -> "Traced":
+    def derivative(self, value: Traced, name: str) -> Traced:
         """Return the partial derivative by a symbol; roots and angles count as constants."""
         return self.reduce(value.value.diff(self.of[name].value))
 
     # decisions
 
-    def decide(self, value: "Traced", relation: str) -> bool:
+    def decide(self, value: Traced, relation: str) -> bool:
         """Decide whether a value has a relation to zero: a number has it or not, else the path decides."""
         if not self.is_tracing:
             raise RuntimeError("a comparison of symbols outside a law's source: use is_zero or is_same")
@@ -259,7 +188,7 @@ class Symbols:
         path.taken.append(answer)
         return answer
 
-    def is_negative(self, value: "Traced") -> bool:
+    def is_negative(self, value: Traced) -> bool:
         """Decide whether a value is below zero."""
         return self.decide(value, "<")
 
@@ -308,7 +237,7 @@ class Symbols:
             raise PathEnds
         self.path.decisions.append(fault.opposite())
 
-    def require_divisor(self, divisor: "Traced") -> None:
+    def require_divisor(self, divisor: Traced) -> None:
         """Ask whether a divisor may be zero."""
         numer = divisor.value.numer
         if len(numer.terms()) > 1 or numer.is_ground:
@@ -322,7 +251,7 @@ class Symbols:
 
     # functions
 
-    def root_of(self, polynomial: PolyElement) -> "Traced":
+    def root_of(self, polynomial: PolyElement) -> Traced:
         """Return the square root of a polynomial, squares taken out of it by their size."""
         if polynomial.is_ground and not polynomial:
             return self.number(0)
@@ -359,7 +288,7 @@ class Symbols:
                 return factor.LC / square.LC, abs(symbol), factor.ring(1)
         return QQ(1), self.number(1), factor
 
-    def _root_symbol(self, polynomial: PolyElement) -> "Traced":
+    def _root_symbol(self, polynomial: PolyElement) -> Traced:
         """Return the symbol of the root of a polynomial: a new one, unless the path has it."""
         path, meaning = self.path, sp.sqrt(polynomial.as_expr())
         for name, known in path.meanings.items():
@@ -376,7 +305,7 @@ class Symbols:
         path.decisions.append(Condition(symbol.value.numer, ">="))
         return symbol
 
-    def angle_of(self, y: "Traced", x: "Traced") -> "Traced":
+    def angle_of(self, y: Traced, x: Traced) -> Traced:
         """Return atan2(y, x) as a symbol, the same for every positive multiple of both."""
         self._require_point(y, x)
         for known in self.path.angles:
@@ -400,7 +329,7 @@ class Symbols:
         self.path.meanings[name] = sp.atan2(y.value.as_expr(), x.value.as_expr())
         return symbol
 
-    def _require_point(self, y: "Traced", x: "Traced") -> None:
+    def _require_point(self, y: Traced, x: Traced) -> None:
         """Ask whether both arguments of an arc tangent may be zero."""
         if not self.is_tracing:
             return
@@ -415,7 +344,7 @@ class Symbols:
         finally:
             self.is_tracing = True
 
-    def circle_of(self, angle: "Traced") -> tuple["Traced", "Traced"]:
+    def circle_of(self, angle: Traced) -> tuple[Traced, Traced]:
         """Return (cosine, sine) of an angle as symbols with cosine^2 + sine^2 = 1."""
         turns = self.path.turns
         place = next((i for i, turn in enumerate(turns) if is_same(turn, angle)), len(turns))
@@ -445,133 +374,3 @@ def find_place() -> str:
             return f" ({File(frame.f_code.co_filename).name}, line {frame.f_lineno})"
         frame = frame.f_back
     return ""
-
-
-def _operation(compute: Callable[[Any, Any], Any], is_reflected: bool = False) -> Callable[..., "Traced"]:
-    def apply(self: "Traced", other: Any) -> "Traced":
-        pair = self.value, self.symbols.number(other).value
-        return self.symbols.compute(compute, *(pair[::-1] if is_reflected else pair))
-
-    return apply
-
-
-class Traced:
-    """A number of the law dialect, as a rational function; `tally` is what `bench.law.scalar` asks for."""
-
-    tally = None
-    __add__ = __radd__ = _operation(operator.add)
-    __mul__ = __rmul__ = _operation(operator.mul)
-    __sub__, __rsub__ = _operation(operator.sub), _operation(operator.sub, True)
-    __hash__ = object.__hash__
-
-    def __init__(self, value: Any, symbols: Symbols) -> None:
-        self.value, self.symbols = value, symbols
-
-    def __truediv__(self, other: Any) -> "Traced":
-        divisor = self.symbols.number(other)
-        self.symbols.require_divisor(divisor)
-        return self.symbols.compute(operator.truediv, self.value, divisor.value)
-
-    def __rtruediv__(self, other: Any) -> "Traced":
-        return self.symbols.number(other) / self
-
-    def __neg__(self) -> "Traced":
-        return Traced(-self.value, self.symbols)
-
-    def __pos__(self) -> "Traced":
-        return self
-
-    def __pow__(self, power: Any) -> "Traced":
-        if isinstance(power, Traced) or power != int(power):
-            raise Untraceable(f"it raises a number to the power {power!r}, which is not a whole number")
-        if power < 0:
-            return 1 / self ** (-int(power))
-        return self.symbols.reduce(self.value ** int(power))
-
-    def __abs__(self) -> "Traced":
-        return -self if self.symbols.is_negative(self) else self
-
-    # comparisons: each is a decision, followed both ways
-
-    def __bool__(self) -> bool:
-        return self.symbols.decide(self, "!=")
-
-    def __eq__(self, other: Any) -> bool:
-        return self.symbols.decide(self - other, "=")
-
-    def __ne__(self, other: Any) -> bool:
-        return self.symbols.decide(self - other, "!=")
-
-    def __lt__(self, other: Any) -> bool:
-        return self.symbols.decide(self - other, "<")
-
-    def __gt__(self, other: Any) -> bool:
-        return self.symbols.decide(self - other, ">")
-
-    def __ge__(self, other: Any) -> bool:
-        return self.symbols.decide(self - other, ">=")
-
-    def __le__(self, other: Any) -> bool:
-        return self.symbols.decide(self - other, "<=")
-
-    def __repr__(self) -> str:
-        return str(self.value)
-
-    # functions of the law dialect
-
-    def sqrt(self) -> "Traced":
-        """Return the square root, of numerator and denominator."""
-        symbols, numer, denom = self.symbols, self.value.numer, self.value.denom
-        symbols.require_not(Condition(numer * denom, "<"), "a square root of a number below zero")
-        if not denom.is_ground and symbols.is_negative(Traced(symbols.field(denom), symbols)):
-            numer, denom = -numer, -denom
-        return symbols.root_of(numer) / symbols.root_of(denom)
-
-    def cos(self) -> "Traced":
-        """Return the cosine as a symbol."""
-        return self.symbols.circle_of(self)[0]
-
-    def sin(self) -> "Traced":
-        """Return the sine as a symbol."""
-        return self.symbols.circle_of(self)[1]
-
-    def acos(self) -> "Traced":
-        """Return the inverse cosine as the angle of the point (self, sqrt(1 - self^2))."""
-        numer, denom = self.value.numer, self.value.denom
-        outside = Condition(denom**2 - numer**2, "<")
-        self.symbols.require_not(outside, "an inverse cosine of a number outside [-1, 1]")
-        return (1 - self * self).sqrt().atan2(self)
-
-    def atan2(self, x: Any) -> "Traced":
-        """Return the angle of the point (x, self)."""
-        return self.symbols.angle_of(self, self.symbols.number(x))
-
-    def ratan2(self, y: Any) -> "Traced":
-        """Return the angle of the point (self, y)."""
-        return self.symbols.number(y).atan2(self)
-
-    def copysign(self, sign: Any) -> "Traced":
-        """Return the size of this number with a sign; zero has either sign, and both are followed."""
-        size, sign = abs(self), self.symbols.number(sign)
-        if sign < 0 or (sign == 0 and self.symbols.choose()):
-            return -size
-        return size
-
-    def rcopysign(self, magnitude: Any) -> "Traced":
-        """Return the size of another number with the sign of this one."""
-        return self.symbols.number(magnitude).copysign(self)
-
-
-def is_zero(value: Traced) -> bool:
-    """Tell whether a value is zero in normal form, wherever its path's conditions hold."""
-    return not value.value
-
-
-def is_same(value: Any, other: Any) -> bool:
-    """Tell whether two values are equal in normal form."""
-    return is_zero(value - other)
-
-
-def are_same(values: tuple, others: tuple) -> bool:
-    """Tell whether each of some values is the same as the other at its place."""
-    return len(values) == len(others) and all(map(is_same, values, others))

@@ -24,7 +24,7 @@ from bench.findings.proofs.conditions import Condition
 from bench.findings.proofs.quadratic_potential import find_quadratic
 from bench.findings.proofs.solver import by_algebra, sign_of
 from bench.findings.proofs.theorem import FINITE_JUMPS, LASALLE, Proof, Theorem
-from bench.findings.proofs.trace import Traced
+from bench.findings.proofs.traced_number import Traced
 from bench.law.kinds import Law
 from bench.law.so3 import cross, from_quaternion
 
