@@ -21,7 +21,7 @@ HARD_S = 1200.0
 WAITS = 8
 """How many times the time for one law it may take on the wall, where other programs run."""
 DRAWN = "drawn states"
-"""By what a lemma is checked and not proved: that a law's numbers are those of its trace."""
+"""Method of a lemma that is checked and not proved: a law's numbers are those of its trace."""
 PROVED, REFUTED, NOT_PROVED = "proved", "refuted", "not proved"
 SCOPE = (
     "in continuous time, with exact numbers and the exact state, no bound of the command, no delay, and the inertia as "
