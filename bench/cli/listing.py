@@ -100,7 +100,7 @@ def find_claims() -> Mapping[str, Any]:
 
 
 KINDS = {
-    "regulators": Kind("Regulators", "regulators", "coordinates property attribution source"),
+    "regulators": Kind("Regulators", "regulators", "coordinates property attribution origin source"),
     "representations": Kind("Representations", "representations", "symbols source"),
     "jacobians": Kind("Jacobians", "jacobians", "takes title source"),
     "inverses": Kind("Inverses", "inverses", "gives title source"),
