@@ -42,7 +42,9 @@ def test_release_is_the_same_everywhere():
     version = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
     cited = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     date = re.search(r'^date-released: "(\d{4}-\d\d-\d\d)"$', cited, re.MULTILINE)[1]
-    newest = re.search(r"^## (.*)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)[1]
+    headings = re.findall(r"^## (.*)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)
+    # What is not released yet stands above the releases.
+    newest = next(heading for heading in headings if heading != "[Unreleased]")
     assert f"\nversion: {version}\n" in cited
     assert newest == f"[{version}] - {date}"
 
