@@ -78,7 +78,7 @@ def COMMAND(
 ) -> None:  # fmt: skip
     """Say which law to use in your situation, which laws tie with it, and what it costs.
 
-    Closed forms are asked first: where every law is unstable, the answer is "No law", with the limits. The map of
+    Closed forms come first: where every law is unstable, the answer is "No law", with the limits. The map of
     results/situations then names some laws, and these are simulated in your situation; outside the map, and with
     --run, all are. Laws that settle from every start without unwinding, and that noise cannot trap at 180°, are
     compared by the time in which 99 % of the starts settle; the map's law is advised unless another one is faster. A
