@@ -1,4 +1,4 @@
-"""The kept side of a turn against the rule of Mayhew, Sanfelice and Teel (2011), written anew with SciPy.
+"""The kept side of a turn against the rule of Mayhew, Sanfelice and Teel (2011), written again with SciPy.
 
 Theirs has two parts: the quaternion of the error is lifted continuously, and a side h in {1, -1} changes where
 h eta < -delta. Here one memory does both. Nothing of `bench.law` is called to build the expected side.
