@@ -21,7 +21,8 @@ from bench.findings.selection.needs import CHATTER
 from bench.findings.theory.thresholds import near_goal
 from bench.law.contenders.registry import contenders
 
-FAILURES, SIDE, ENDS, ROBUSTNESS = "05-euler-angles", "04-side-by-side", "appendix-method", "06-delay-noise-saturation"
+FAILURES, SIDE = "02-three-regulators", "appendix-side-by-side"
+ENDS, ROBUSTNESS = "appendix-method", "08-delay-noise-limits"
 
 SENTENCES: dict[str, dict[str, dict[str, str]]]
 SENTENCES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))

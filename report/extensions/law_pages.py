@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-FOLDER, CODE, LIVE = "laws", "laws/code", "pages/03-try-it"
+FOLDER, CODE, LIVE = "laws", "laws/code", "pages/10-try-it"
 
 
 def collected(app: Any) -> Iterator[tuple[str, dict, str]]:

@@ -39,11 +39,11 @@ def test_starts_that_the_rotation_matrix_loses_are_those_of_the_rows():
 
 def test_sets_are_described_by_their_difference():
     basis = counts.list_chapter_4(RUN)
-    assert counts.describe_set(basis, RUN) == "those of chapter 4"
+    assert counts.describe_set(basis, RUN) == "those compared side by side"
     fewer = counts.describe_set(basis - {"rotation-matrix"}, RUN)
-    assert re.fullmatch("those of chapter 4, without rotation matrix", fewer, re.IGNORECASE)
+    assert re.fullmatch("those compared side by side, without rotation matrix", fewer, re.IGNORECASE)
 
 
 def test_pages_that_count_laws_refer_to_the_table():
-    for name in ("02-what-an-error-must-do", "04-side-by-side", "06-delay-noise-saturation"):
+    for name in ("06-what-an-error-must-do", "appendix-side-by-side", "08-delay-noise-limits"):
         assert "(#laws-and-starts)" in (REPORT / f"pages/{name}.md").read_text(encoding="utf-8")

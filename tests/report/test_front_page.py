@@ -40,7 +40,7 @@ def test_front_page_names_every_need_with_its_law():
 
 
 @pytest.mark.skipif(not (REPORT / "_build/html/index.html").is_file(), reason="the report is not built")
-@pytest.mark.parametrize(("page", "up"), [("index", ""), ("pages/01-which-error", "../"), ("laws/mrp", "../")])
+@pytest.mark.parametrize(("page", "up"), [("index", ""), ("pages/07-which-error", "../"), ("laws/mrp", "../")])
 def test_shared_link_has_a_description_and_a_picture(page, up):
     text = (REPORT / f"_build/html/{page}.html").read_text(encoding="utf-8")
     tags = dict(re.findall(r'<meta (?:name|property)="(description|og:\w+)" content="([^"]*)">', text))

@@ -5,7 +5,7 @@ import screenshots
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.support.ui import WebDriverWait
 
-PAGE = screenshots.SITE / "pages" / "03-try-it.html"
+PAGE = screenshots.SITE / "pages" / "10-try-it.html"
 PHONE, DESK = screenshots.View("light", 360), screenshots.View("dark", 1280)
 ARROW_RIGHT, HOME, END, ENTER = "\ue014", "\ue011", "\ue010", "\ue007"
 
@@ -66,7 +66,7 @@ def test_a_dot_of_the_ball_is_a_start_that_plays(driver):
 
 
 def test_chapter_shows_the_ball_of_its_scene(driver):
-    chapter = PAGE.with_name("02-what-an-error-must-do.html")
+    chapter = PAGE.with_name("06-what-an-error-must-do.html")
     screenshots.open_page(driver, chapter, DESK)
     driver.execute_script("document.querySelector('.ball-view').scrollIntoView()")
     driver.switch_to.frame(driver.find_element("css selector", ".ball-view iframe"))

@@ -10,7 +10,7 @@ from bench.experiments.tables import read
 from tasks.condition import Condition
 from tasks.verdict import OUTCOMES
 
-PAGE = screenshots.SITE / "pages" / "03-try-it.html"
+PAGE = screenshots.SITE / "pages" / "10-try-it.html"
 STARTS, ROUNDED = 1000, 0.03
 
 # The settling times of the ball's starts, by the workers that colour it, and their colours.

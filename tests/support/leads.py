@@ -64,7 +64,6 @@ def recompute_failure_map():
     return {
         "mapped_l": f"{100 * bad / n:.2f} % ({100 * low:.2f} to {100 * high:.2f})",
         "mapped": n,
-        "jacobians.harder": recompute_torque_at_pole(),
     }
 
 
@@ -220,18 +219,19 @@ def recompute_verdicts():
 
 COMPUTED = {
     "index": lambda: recompute_advice()[0],
-    "05-euler-angles": recompute_failure_map,
-    "appendix-cost": recompute_times,
+    "02-three-regulators": recompute_failure_map,
+    "04-euler-jacobian": lambda: {"harder": recompute_torque_at_pole()},
+    "03-cost": recompute_times,
     "appendix-arms": recompute_arms,
-    "07-compliance-and-contact": recompute_compliance,
-    "02-what-an-error-must-do": recompute_noise,
-    "04-side-by-side": recompute_comparison,
-    "06-delay-noise-saturation": recompute_thresholds,
+    "05-compliance-and-contact": recompute_compliance,
+    "06-what-an-error-must-do": recompute_noise,
+    "appendix-side-by-side": recompute_comparison,
+    "08-delay-noise-limits": recompute_thresholds,
     "appendix-velocity": recompute_velocities,
     "appendix-impedance": recompute_impedance,
-    "08-libraries": recompute_libraries,
-    "01-which-error": lambda: recompute_advice()[1],
-    "10-late-braking": recompute_new_law,
-    "09-murphy-1988": recompute_verdicts,
+    "09-libraries": recompute_libraries,
+    "07-which-error": lambda: recompute_advice()[1],
+    "appendix-late-braking": recompute_new_law,
+    "01-murphy-1988": recompute_verdicts,
 }
 """Page -> key -> its text, or numbers and words of it."""

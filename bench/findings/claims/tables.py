@@ -28,7 +28,7 @@ SETTLED = "settled"
 WHOLE = "run the suite 'quick', 'default' or 'full' without narrowing it"
 
 PAPERS_COORDINATES = ("", "zyx-euler")
-"""None, or Z-Y-X angles: what chapter 2 runs its laws in. In others they are later laws."""
+"""None, or Z-Y-X angles: what chapter 6 runs its laws in. In others they are later laws."""
 
 
 TIMED = (

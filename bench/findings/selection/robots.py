@@ -102,7 +102,7 @@ class Elsewhere(NamedTuple):
     law: str
     tied: tuple[str, ...] = ()
     compared: int = 0
-    page: str = "01-which-error"
+    page: str = "07-which-error"
 
 
 def list_elsewhere() -> list[Elsewhere]:

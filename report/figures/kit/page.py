@@ -1,6 +1,6 @@
 """A page's modules pasted into it, and the words where the run does not hold what the page shows.
 
-The page pages/08-libraries.md has the module libraries/libraries.py (the front page, `index`), whose facts(run) gives
+The page pages/09-libraries.md has the module libraries/libraries.py (the front page, `index`), whose facts(run) gives
 what it pastes, key by key. Further modules on a page give what it pastes under their own word: `spread` of
 responses.responses is pasted as `responses.spread`. A value that is None, a key that is left out, and what needs a
 table that the run lacks (NoEvidence) are not in this run, and the page says so. A key that the page does not paste is

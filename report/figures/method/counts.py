@@ -24,7 +24,7 @@ from report.figures.robustness import robustness
 from tasks.situation import NOMINAL
 
 IN_ENGINE = "in-engine"
-"""MuJoCo's actuator: the law of the rotation vector, so chapter 2 does not count it again."""
+"""MuJoCo's actuator: the law of the rotation vector, so chapter 6 does not count it again."""
 
 CONTINUOUS, HELD = "continuous time", "command held for a period"
 COUNTS = html.Table("Where | Laws | Which laws | Starts of a law | Time | Lost by the rotation matrix")
@@ -69,15 +69,15 @@ def describe_lost(lost: int, starts: int) -> str:
 
 
 def list_chapter_4(run: Run) -> set[str]:
-    """Return the laws that chapter 4 compares, which the other rows are described by."""
+    """Return the laws that are compared side by side, which the other rows are described by."""
     return set(comparison.uniform(run)["contender"].astype(str)) - set(families.CONTROLS)
 
 
 def describe_set(laws: set[str], run: Run) -> str:
-    """Describe laws by what they lack and add to those of chapter 4."""
+    """Describe laws by what they lack and add to those compared side by side."""
     basis = list_chapter_4(run)
     lacking, added = families.in_order(basis - laws), families.in_order(laws - basis)
-    words = "those of chapter 4"
+    words = "those compared side by side"
     if lacking:
         words += f", without {together([families.word(law) for law in lacking])}"
     if added:
@@ -96,7 +96,7 @@ def count_map(run: Run) -> Count:
     rows = read_map()
     nominal = rows[(rows["contender"] == MATRIX) & (rows["situation"] == NOMINAL.word)].iloc[0]
     return Count(
-        where="[Chapter 1](01-which-error.md), the map",
+        where="[Chapter 7](07-which-error.md), the map",
         laws=rows["contender"].nunique(),
         which_laws=describe_set(set(rows["contender"].astype(str)), run),
         starts=f"{rows['starts'].min():,} to {rows['starts'].max():,} in a situation",
@@ -108,7 +108,7 @@ def count_map(run: Run) -> Count:
 def count_at_equal_peak() -> Count:
     """Count the laws of the map that are compared at their best damping ratio."""
     return Count(
-        where="Chapter 1, [table of settling times](#tab-tuned); [chapter 10](10-late-braking.md)",
+        where="Chapter 7, [table of settling times](#tab-tuned); [the page on late braking](appendix-late-braking.md)",
         laws=len(tune()),
         which_laws="of the map that settle from every start of the nominal situation",
         starts="as the map",
@@ -125,14 +125,14 @@ def count_settling(run: Run) -> Iterator[Count]:
     sure = read.converged(directed)
     a_law = directed.groupby("contender", observed=True).size()
     yield Count(
-        where="[Chapter 2](02-what-an-error-must-do.md), laws that settle",
+        where="[Chapter 6](06-what-an-error-must-do.md), laws that settle",
         laws=len(laws),
         which_laws=describe_set(set(laws), run),
-        starts="as chapter 4",
+        starts="as in the comparison of all laws",
         time=CONTINUOUS,
     )
     yield Count(
-        where="[Chapter 4](04-side-by-side.md), evenly spread starts",
+        where="[The comparison of all laws](appendix-side-by-side.md), evenly spread starts",
         laws=len(list_chapter_4(run)),
         which_laws="all that ran from these starts, without those that are wrong on purpose",
         starts=f"{uniform['start_id'].nunique():,}",
@@ -140,7 +140,7 @@ def count_settling(run: Run) -> Iterator[Count]:
         lost=lose(uniform),
     )
     yield Count(
-        where="Chapter 4, column *Lost*: directed starts",
+        where="The comparison of all laws, column *Lost*: directed starts",
         laws=directed["contender"].nunique(),
         which_laws=describe_set(set(directed["contender"].astype(str)), run),
         starts=f"{a_law.min():,} to {a_law.max():,}",
@@ -154,7 +154,7 @@ def count_noise(run: Run) -> Count:
     rows = robustness.along(run, HALF_TURN)
     laws = set(robustness.laws(rows, controls=False))
     return Count(
-        where="Chapter 2, [noise at 180°](#noise-at-the-half-turn)",
+        where="Chapter 6, [noise at 180°](#noise-at-the-half-turn)",
         laws=len(laws),
         which_laws=describe_set(laws, run),
         starts=f"{robustness.starts(rows):,} at each level",
@@ -170,7 +170,7 @@ def count_three_laws(run: Run) -> Count:
     a_law = a_law[a_law > 0]
     span = f"{a_law.min():,}" if a_law.min() == a_law.max() else f"{a_law.min():,} to {a_law.max():,}"
     return Count(
-        where="[Chapter 5](05-euler-angles.md), [figure](#fig-three-laws)",
+        where="[Chapter 2](02-three-regulators.md), [figure](#fig-three-laws)",
         laws=len(a_law),
         which_laws="of Murphy",
         starts=f"{span}, evenly spread and directed",
@@ -185,7 +185,7 @@ def count_random(run: Run) -> Count:
     at_rest = rows[rows["most_speed"] == 0.0]
     matrix = at_rest[at_rest["contender"] == MATRIX]
     return Count(
-        where="Chapter 5, random starts",
+        where="Chapter 2, random starts",
         laws=at_rest["contender"].nunique(),
         which_laws=describe_set(set(at_rest["contender"].astype(str)), run),
         starts=f"{int(at_rest['starts'].min()):,}",
@@ -198,7 +198,7 @@ def count_perturbed(run: Run) -> Count:
     """Count the laws and starts of the perturbations."""
     laws = set(robustness.found(run)) - set(families.CONTROLS)
     return Count(
-        where="[Chapter 6](06-delay-noise-saturation.md), perturbations",
+        where="[Chapter 8](08-delay-noise-limits.md), perturbations",
         laws=len(laws),
         which_laws=describe_set(laws, run),
         starts=f"{int(robustness.counted(run, 'delay')['starts'].max()):,} at each level",
