@@ -2,7 +2,16 @@
 
 from bench.findings.theory.thresholds import HALF_TURN
 from report.figures.kit.page import Run
-from report.figures.robustness.half_turn_noise import SHOWN, WITH, WITHOUT, leaving, split_by_memory, starts, strips
+from report.figures.robustness.half_turn_noise import (
+    SHOWN,
+    WITH,
+    WITHOUT,
+    count,
+    leaving,
+    split_by_memory,
+    starts,
+    strips,
+)
 from report.figures.robustness.robustness import along, laws
 
 
@@ -14,11 +23,12 @@ def facts(run: Run) -> dict:
     first = float(noisy.index.min())
     trapped = [law for law in groups.get(WITHOUT, []) if noisy.loc[first, law] == 0.0]
     leave = [law for law in groups.get(WITH, []) if noisy.loc[first, law] == 1.0]
+    without_memory = count(len(trapped), len(groups.get(WITHOUT, [])))
+    with_memory = count(len(leave), len(groups.get(WITH, [])))
     return {
         "finding": (
-            f"Noise of {first:g} rad traps the body at 180° with {len(trapped)} of the {len(groups.get(WITHOUT, []))} "
-            f"other laws without memory, and every start leaves 180° with {len(leave)} of the "
-            f"{len(groups.get(WITH, []))} others with memory"
+            f"Noise of {first:g} rad traps the body at 180° with {without_memory} other laws without memory, and every "
+            f"start leaves 180° with {with_memory} others with memory"
         ),
         "starts": starts(rows),
         "others": strips(rows, others),

@@ -69,11 +69,9 @@ def strips(rows: pd.DataFrame, shown: list[str], narrow: bool) -> Drawing:
         words.append(f"{families.word(law)} {settled}{theory}")
     axes.set(xscale="log", xlim=(FOOT, TOP), ylim=(max(places.values()) + 0.7, -0.7))
     axes.set_xlabel("sensor error at 180° [rad]" if narrow else "worst error of the sensor at 180° [rad]")
-    named = {
-        **{place: title for title, place in titles.items()},
-        **{at: families.word(law) for law, at in places.items()},
-    }
-    axes.set_yticks([*named], [*named.values()], fontsize=10)
+    heads = {place: title for title, place in titles.items()}
+    names = {place: families.word(law) for law, place in places.items()}
+    axes.set_yticks([*heads, *names], [*heads.values(), *names.values()], fontsize=10)
     for label in axes.get_yticklabels()[: len(titles)]:
         label.set_fontweight("bold")
     # 0.3 and its like lie too close to their neighbours on a phone
@@ -148,6 +146,11 @@ def regulator_of(law: str) -> Law:
     return find_contender(law, read.own_laws()).regulator
 
 
+def count(part: int, of: int) -> str:
+    """Return "all 12", "9 of the 12" or "none of the 12"."""
+    return f"all {of}" if part == of else f"{part or 'none'} of the {of}"
+
+
 def trap(noisy: pd.DataFrame, law: str) -> str:
     """Return the share of starts that leave at the first noise at which not all do, in words."""
     trapping = noisy[law][noisy[law] < 1.0]
@@ -165,7 +168,7 @@ def describe_trapped(rows: pd.DataFrame) -> str:
     trapped = [law for law in without_memory if noisy.loc[first, law] == 0.0]
     resisted = [float(level) for level in noisy.index if (noisy.loc[level, on_a_side] == 1.0).all()]
     return (
-        f"Noise of {first:g} rad traps the body at 180° with {len(trapped)} of the {len(without_memory)} laws without "
+        f"Noise of {first:g} rad traps the body at 180° with {count(len(trapped), len(without_memory))} laws without "
         f"memory; the {len(on_a_side)} laws that store a side and whose limit is known leave 180° from every start up "
         f"to {max(resisted, default=0.0):g} rad"
     )
