@@ -109,12 +109,14 @@ def c23(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     least = float(np.nanmin(differs[general], initial=np.inf))
     special = _by_order(rows.assign(same=differs <= LIMIT.SAME)[~general], "same") or "at no pose: there is none"
     return word, evidence(
-        f"""With no angle zero they part at {count_of(int(parted.sum()), len(parted), "poses and forms")}, by {least:.2f} of the
-        Cartesian compliance or more; with one zero they correspond {special}. {LEVEL_PAIR.capitalize()}, at
-        {int(level.sum())} poses and forms up to |beta| = {math.degrees(beta.max()):.0f} degrees on
-        {rows["arm"].nunique()} arms: both planes lie as predicted to {_greatest(tilt):.1e} rad, and what a moment about
-        the level axis leaks into z is as predicted to {_greatest(missed):.1e}: {_greatest(leak):.2f} at most, where tan
-        |beta| is {_greatest(np.tan(beta)):.2f}; along the base's axes {_greatest(by_base):.2g}.""",
+        f"""With no angle zero they part at
+        {count_of(int(parted.sum()), len(parted), "poses and forms")}, by {least:.2f} of the
+        Cartesian compliance or more; with one zero they correspond {special}.
+        {LEVEL_PAIR.capitalize()}, at {int(level.sum())} poses and forms up to |beta| =
+        {math.degrees(beta.max()):.0f} degrees on {rows["arm"].nunique()} arms: both planes lie as
+        predicted to {_greatest(tilt):.1e} rad, and what a moment about the level axis leaks into z
+        is as predicted to {_greatest(missed):.1e}: {_greatest(leak):.2f} at most, where tan |beta|
+        is {_greatest(np.tan(beta)):.2f}; along the base's axes {_greatest(by_base):.2g}.""",
         len(rows),
         measured=f"""they differ at {count_of(int(parted.sum()), len(parted), "poses")} with no angle zero, by
         {percent(least)} % or more""",
@@ -150,8 +152,8 @@ def c24(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         {done["leak"].min():.1f} to {done["leak"].max():.1f} times as much as about x. Z-Y-X is one at
         {_problems(zyx)}, where it yields {zyx["yields"].min():.3f} or more.""",
         len(zyz) + len(zyx),
-        measured=f"""{done["leak"].min():.1f} to {done["leak"].max():.1f} times as much rotation about z as about x, at
-        {_problems(near)}""",
+        measured=f"""Z-Y-Z: {done["leak"].min():.1f} to {done["leak"].max():.1f} times as much
+        rotation about z as about x, at {_problems(near)}""",
     )
 
 

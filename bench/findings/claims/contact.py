@@ -55,10 +55,11 @@ def c25(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     simple = rows[rows["turns"] < 2]
     listed = "; ".join(_told(task, own) for task, own in complex_ones.groupby("task"))
     return word, evidence(
-        f"""{count_of(sum(depends), len(depends), "tasks").capitalize()} in which two turns comply depend on the
-        Jacobian, by {len(complex_ones)} pairs on {complex_ones["arm"].nunique()} arms: {listed}. Of the pairs that part Euler is the
-        worse in {count_of(int(parted["euler_is_worse"].sum()), len(parted), "pairs")}{agreed}. Where fewer turns comply
-        {count_of(int(simple["parts"].sum()), len(simple), "pairs")} part.""",
+        f"""{count_of(sum(depends), len(depends), "tasks").capitalize()} in which two turns comply
+        depend on the Jacobian, by {len(complex_ones)} pairs on {complex_ones["arm"].nunique()}
+        arms: {listed}. Of the pairs that part Euler is the worse in
+        {count_of(int(parted["euler_is_worse"].sum()), len(parted), "pairs")}{agreed}. Where fewer
+        turns comply {count_of(int(simple["parts"].sum()), len(simple), "pairs")} part.""",
         len(rows),
         measured=f"""{count_of(int(turned["parts"].sum()), len(turned), "pairs")} with a frame turned by
         {LIMIT.TURNED_DEG:g}° or more differ, {count_of(int(straight["parts"].sum()), len(straight), "").strip()} with a
@@ -138,11 +139,11 @@ def c47(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     yields = done == len(rows) and force <= LIMIT.MISSED and moment <= FLOORS["rad"]
     return word_of(yields and turn <= LIMIT.HELD_RAD, yields), evidence(
         f"""{count_of(done, len(rows), "runs").capitalize()} of {pressed["task"].iloc[0]} and
-        {aligned["task"].iloc[0]} end as they should.
-        The force normal to the plane is off by at most {percent(force)} % of {LIMIT.FORCE_N:g} N, root mean square; a tool
-        that complies about two axes lies flush to {moment:.1e} rad; what is held has turned by at most {turn:.1e} rad
+        {aligned["task"].iloc[0]} end as they should. The force normal to the plane is off by at
+        most {percent(force)} % of {LIMIT.FORCE_N:g} N, root mean square; a tool that complies about
+        two axes lies flush to {moment:.1e} rad; what is held has turned by at most {turn:.1e} rad
         at the end.""",
         len(rows),
-        measured=f"""force off by at most {percent(force)} % of {LIMIT.FORCE_N:g} N; a rotation that is held is off by up to
-        {turn:.2g} rad""",
+        measured=f"""force off by at most {percent(force)} % of {LIMIT.FORCE_N:g} N; a rotation that
+        is held is off by up to {turn:.2g} rad""",
     )

@@ -194,11 +194,12 @@ def c33(results: Results) -> tuple[Word, Evidence]:
     price, told, is_more, is_few, by_joints = adequacy.ledger(results).price, [], [], [], []
     for joints in INVERSES:
         base, euler = (results.found_by(in_contact, f"{one}+{PAPERS_FORM}", joints) for one in (BASE, EULER))
-        weighed = f", {euler.weighed(price) / base.weighed(price) - 1:.0%} more with a call at its price in C12's times"
+        dearer = euler.weighed(price) / base.weighed(price) - 1
+        weighed = f", {100 * dearer:.0f} % more with a call at its price in C12's times"
         more = euler.flops / base.flops - 1
         is_more.append(by_columns(base, euler) == ORDERED)
         is_few.append(more <= LIMIT.FEW)
-        by_joints.append(f"{percent(more)} % (on {joints} joints)")
+        by_joints.append(f"{percent(more)} % ({joints} joints)")
         told.append(
             f"on {joints} joints {base} on the common Jacobian, {euler} on Euler's: {percent(more)} % more flops and "
             f"{euler.calls - base.calls} calls{weighed if math.isfinite(price) else ''}"
@@ -206,7 +207,7 @@ def c33(results: Results) -> tuple[Word, Evidence]:
     return word_of(all(is_more) and all(is_few), all(is_more)), evidence(
         f"Flops and calls a tick: {'; '.join(told)}.",
         2 * len(told),
-        measured=f"{' and '.join(by_joints)} more operations",
+        measured=f"{' or '.join(by_joints)} more operations",
     )
 
 
@@ -231,7 +232,7 @@ def c46(results: Results) -> tuple[Word, Evidence]:
         law = {one: of_stage(own, "regulate") for one, own in rows.items()}
         is_less += [by_columns(total[BY_EULER], total[one]) == ORDERED for one in (BY_COMMON, ON_MATRIX)]
         whole = {one: total[one] for one in (BY_COMMON, ON_MATRIX, BY_EULER)}
-        sizes.append(f"{surplus(whole, whole)} % more operations on {joints} joints")
+        sizes.append(f"{surplus(whole, whole)} % ({joints} joints)")
         is_left.append(law[BY_EULER].flops <= LIMIT.MUCH * law[ON_MATRIX].flops)
         told.append(
             f"on {joints} joints (3.7) takes {total[BY_EULER]} flops and calls, (2.2) with (2.15) {total[BY_COMMON]}, "
@@ -241,5 +242,6 @@ def c46(results: Results) -> tuple[Word, Evidence]:
     return word_of(all(is_less) and all(is_left), all(is_left)), evidence(
         f"Typical ticks: {'; '.join(told)}.",
         3 * len(told),
-        measured=f"{', '.join(sizes)}; the law alone {law[BY_EULER].flops} instead of {law[ON_MATRIX].flops}",
+        measured=f"""{' or '.join(sizes)} more operations; the law alone {law[BY_EULER].flops} instead of
+        {law[ON_MATRIX].flops}""",
     )

@@ -103,7 +103,7 @@ def c10(results: Results) -> tuple[Word, Evidence]:
         {slope:.3f}, to {grown:.1e} rad/s^2. Across +-pi the command jumps by {float(jumps.min()):.4f} to
         {float(jumps.max()):.4f} times 2 pi Kp.""",
         len(commands) + len(exact) + len(jumps),
-        measured=f"""{count_of(finite, len(commands), "commands")} at exact poles are finite; jumps by
+        measured=f"""{count_of(finite, len(commands), "commands")} at exact poles are finite; u jumps by
         {float(jumps.max()):.4f} times 2 pi Kp at +-pi""",
     )
 

@@ -145,9 +145,10 @@ def c29(results: Results) -> tuple[Word, Evidence]:
     )
     is_tight, is_loose = (small <= SMALL_ANGLES + ticks).all(), (small <= LOOSE_SETTLING + ticks).all()
     return word_of(is_tight, is_loose), evidence(
-        f"""{LIMIT.DIRECTIONS} axes at {len(GAINS)} pairs of gains: at most {by_angle} from the closed form
-        ({closed_form.linear_settling(*gains):.4f} s at the run's gains). Every time is within {LOOSE_SETTLING:.0%}
-        up to {within:g} rad of {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} tried.""",
+        f"""{LIMIT.DIRECTIONS} axes at {len(GAINS)} pairs of gains: at most {by_angle} from the
+        closed form ({closed_form.linear_settling(*gains):.4f} s at the run's gains). Every time is
+        within {100 * LOOSE_SETTLING:.0f} % up to {within:g} rad of
+        {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} tried.""",
         LIMIT.DIRECTIONS * (small.size + len(LIMIT.LARGER_RAD)),
         measured=f"""times off the linear model's by at most {percent(small.max())} % up to {max(SMALL_ANGLES):g} rad
         ({LIMIT.DIRECTIONS} axes)""",
@@ -195,10 +196,11 @@ def c38(results: Results) -> tuple[Word, Evidence]:
     is_slowed, loses = typical >= LIMIT.OFF, unsettled.low > 0.0
     word = word_of(is_alone_linear and is_slowed and loses, is_alone_linear and (is_slowed or loses))
     return word, evidence(
-        f"""Of {len(rows):,} uniform starts at {LIMIT.BEYOND_RAD:g} rad or more {percent_interval(unsettled)} are lost;
-        the others settle {percent(typical)} % off the linear time, in the median,
-        {percent(float(np.mean(off >= LIMIT.OFF)))} % of them {LIMIT.OFF:.0%} or more off it. Turns of one angle alone,
-        up to {max(LIMIT.ALONE_RAD):g} rad, settle within {percent(alone)} % of it.""",
+        f"""Of {len(rows):,} uniform starts at {LIMIT.BEYOND_RAD:g} rad or more
+        {percent_interval(unsettled)} are lost; the others settle {percent(typical)} % off the
+        linear time, in the median, {percent(float(np.mean(off >= LIMIT.OFF)))} % of them
+        {100 * LIMIT.OFF:.0f} % or more off it. Turns of one angle alone, up to
+        {max(LIMIT.ALONE_RAD):g} rad, settle within {percent(alone)} % of it.""",
         len(rows) + 3 * len(LIMIT.ALONE_RAD),
         instead=f"""{percent(unsettled.value)} % of the starts outside the region are lost, and the median settling time
         is {percent(typical)} % off.""",
@@ -252,7 +254,7 @@ def c45(results: Results) -> tuple[Word, Evidence]:
         f"""Central differences of (2.11) at zero: by u the permutation of (2.14) to {rounding(off)}; by the angles and
         their rates zero to {rounding(rest)}.""",
         2 * 9,
-        measured=f"off the permutation by at most {rounding(off)}; other derivatives at most {rounding(rest)}",
+        measured=f"differs from the permutation by at most {rounding(off)}; other derivatives at most {rounding(rest)}",
     )
 
 

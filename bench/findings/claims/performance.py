@@ -53,6 +53,7 @@ def c12(results: Results) -> tuple[Word, Evidence]:
     )
     totals = ", ".join(str(known.accountings[0][name]) for name in THREE)
     times = [known.over(name, THREE[0]) for name in THREE[1:]]
+    ratios = f"time 1, {', '.join(times)}" if known.times else "not timed"
     timed = ", ".join(f"{short} {known.over(name, THREE[0])}" for short, name in zip(NAMES[1:], THREE[1:], strict=True))
     orders = [
         [short for _, short in sorted((one[name].flops, short) for short, name in zip(NAMES, THREE, strict=True))]
@@ -74,14 +75,15 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         operations decide the rest. By flops alone, calls left out: {"; ".join(others) or "the same order"}."""
     word = word_of(by_one_measure, is_ordered or all(np.logical_or(in_order, [pair.is_disputed for pair in pairs])))
     return word, evidence(
-        f"""Time a tick over the rotation matrix's: {timed}; its intervals part {count_of(timed_pairs, len(pairs), "pairs")}.
-        Flops and calls: {paper}; with the goal's angles taken from its matrix: {total}; the columns decide
-        {count_of(sum(0 not in pair.by_columns for pair in pairs), len(pairs), "pairs")}{priced}. By flops alone, calls left out:
-        {"; ".join(others) or "the same order"}. {as_printed}""",
+        f"""Time a tick over the rotation matrix's: {timed}; its intervals part
+        {count_of(timed_pairs, len(pairs), "pairs")}. Flops and calls: {paper}; with the goal's
+        angles taken from its matrix: {total}; the columns decide
+        {count_of(sum(0 not in pair.by_columns for pair in pairs), len(pairs), "pairs")}{priced}. By
+        flops alone, calls left out: {"; ".join(others) or "the same order"}. {as_printed}""",
         len(THREE) * (len(known.accountings) + len(known.times)),
         ("costs", "timings") if known.times else ("costs",),
         instead if word == Word.CORRECTED else "",
-        f"operations and calls {totals}; {', '.join(times)}{' times the first' if known.times else ''}",
+        f"operations and calls {totals}; {ratios}",
     )
 
 
@@ -119,8 +121,8 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
         len(THREE) + sum(law.rows for law in three),
         ("episodes", "costs", "timings") if known.times else ("episodes", "costs"),
         instead,
-        f"""99 % in {tables.interval_or_never(three[0].pace, ".2f", " s")}, {" and ".join(adequate) or "none"}
-        adequate""",
+        f"""{" and ".join(adequate) or "none"} adequate, first law
+        {tables.interval_or_never(three[0].pace, ".2f", " s")} for 99 %""",
         (PLACES, *(_placed(law, asked[name], known) for name, law in zip(NAMES, three, strict=True))),
     )
 
@@ -178,7 +180,7 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
         word = Word.ANSWERED
     elif any(result.may_pass for result in tested.values()):
         word = Word.UNTESTED
-    named = ", ".join(f"{title_of(law.name)} ({whose(law.name)})" for law in answers)
+    named = "; ".join(f"{title_of(law.name)} ({whose(law.name)})" for law in answers)
     without = [result for name, result in tested.items() if is_without_memory(name) and not result.may_pass]
     passing = sum(result.passes for result in without)
     rest = f"without memory {count_of(passing, len(without), '').strip()}" if without else "without memory: not tested"
@@ -272,9 +274,9 @@ def c31(results: Results) -> tuple[Word, Evidence]:
         f"""Of {matrix.n:,} uniform starts {percent(matrix.value)} % settle with the rotation-matrix law,
         {percent(linearized.value)} % with the linearized one, {percent(mine.value)} % with feedback linearization.""",
         3 * len(laws[-1]),
-        instead=f"""{LIMIT.NEARLY_ALL:.0%} of the starts settle {longer[0]} times as late with the rotation-matrix law,
-        which settles {count_of(matrix.k, matrix.n, "starts")}.""",
-        measured=f"99 % of starts {longer[0]} times as late",
+        instead=f"""{100 * LIMIT.NEARLY_ALL:.0f} % of the starts settle {longer[0]} times as late
+        with the rotation-matrix law, which settles {count_of(matrix.k, matrix.n, "starts")}.""",
+        measured=f"first law {longer[0]} times as late for 99 %",
         numbers=(
             ("Law", "Uniform starts that settle", "Its time for 99 % of the starts over feedback linearization's"),
             *zip(NAMES, settles, (*longer, "1"), strict=True),

@@ -158,10 +158,11 @@ def c43(results: Results) -> tuple[Word, Evidence]:
     tilts = np.abs(np.sin(first[:, 1]))
     uneven = float(np.median(np.sqrt((1 + tilts) / (1 - tilts))))  # singular values of B: 1 and sqrt(1 -+ |sin beta|)
     return word_of(longer.value >= LIMIT.LONGER and uneven >= LIMIT.UNEVEN, False), evidence(
-        f"""Between {LIMIT.MATRICES} pairs of random orientations the straight way in Z-Y-X angles is
-        {longer.value:.2f} times the shortest, in the median; in the rotation vector of the difference it is the shortest. Equal errors of three
-        Z-Y-X angles turn a hand {uneven:.2f} times as far in one direction as in another, in the median; as errors of
-        a small rotation vector they are even. Compliance: C22 to C25.""",
+        f"""Between {LIMIT.MATRICES} pairs of random orientations the straight way in Z-Y-X angles
+        is {longer.value:.2f} times the shortest, in the median; in the rotation vector of the
+        difference it is the shortest. Equal errors of three Z-Y-X angles turn a hand {uneven:.2f}
+        times as far in one direction as in another, in the median; as errors of a small rotation
+        vector they are even. Compliance: C22 to C25.""",
         2 * LIMIT.MATRICES,
         measured=f"""the way in Z-Y-X angles is {interval(longer, ".2f")} times the shortest, the median of
         {LIMIT.MATRICES} pairs""",

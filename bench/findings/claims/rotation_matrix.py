@@ -16,7 +16,7 @@ from bench.findings.claims.tables import (
     Results,
     count_of,
     evidence,
-    interval,
+    interval_or_never,
     percent,
     percent_interval,
     settled,
@@ -114,12 +114,13 @@ def c03(results: Results, engine: str) -> tuple[Word, Evidence]:
     is_infinite = bool((np.abs(stay["final_angle_rad"] - np.pi) <= LIMIT.AT_HALF_TURN).any())
     grows = growth.low > 0.0
     return word_of(grows and off <= LIMIT.SLOPE_TIGHT and is_infinite, grows and off <= LIMIT.SLOPE_LOOSE), evidence(
-        f"""Settling time rises by {growth.value:.3f} s ({growth.low:.3f} to {growth.high:.3f}) per rad of the initial
-        angle; towards 180° by {float(slope):.4f} s a decade (closed form {closed:.4f} s), to
-        {float(slowest):.2f} s at 1e-12 rad.
-        {count_of(len(stay), len(exact), "exact 180° rotations").capitalize()} never settle in {float(exact["horizon_s"].min()):g} s.""",
+        f"""Settling time rises by {growth.value:.3f} s ({growth.low:.3f} to {growth.high:.3f}) per
+        rad of the initial angle; towards 180° by {float(slope):.4f} s a decade (closed form
+        {closed:.4f} s), to {float(slowest):.2f} s at 1e-12 rad.
+        {count_of(len(stay), len(exact), "exact 180° rotations").capitalize()} never settle in
+        {float(exact["horizon_s"].min()):g} s.""",
         len(uniform) + len(turns),
-        measured=f"""{interval(growth, ".3f")} s longer per rad;
+        measured=f"""{interval_or_never(growth, ".3f", " s")} longer per rad;
         {count_of(len(stay), len(exact), "exact 180° rotations")} never settle""",
     )
 

@@ -67,7 +67,15 @@ class Results:
 
     def table(self, name: str, **words: str) -> pd.DataFrame:
         """Rows of one table that have these words, chosen once and shared; there may be none."""
-        self.chosen.append((name, query_of(words)))
+        return self._note(name, query_of(words), self._choose(name, words))
+
+    def _note(self, name: str, condition: str, rows: pd.DataFrame) -> pd.DataFrame:
+        """Keep the condition of rows that were asked for, if there are any, and return the rows."""
+        if len(rows):
+            self.chosen.append((name, condition))
+        return rows
+
+    def _choose(self, name: str, words: dict[str, str]) -> pd.DataFrame:
         asked = (name, *sorted(words.items()))
         if asked not in self._chosen:
             if name not in self.frames:
@@ -79,17 +87,20 @@ class Results:
 
     def free_body(self, name: str, **words: str) -> pd.DataFrame:
         """Rows of one table that have these words and are about the free body, in the paper's coordinates."""
-        frame = self.table(name, **read.FREE_BODY, **words)
-        self.chosen[-1] = name, query_of({**words, **read.FREE_BODY, "representation": PAPERS_COORDINATES})
+        return self._note(name, _free_body_query(words), self._choose_free_body(name, words))
+
+    def _choose_free_body(self, name: str, words: dict[str, str]) -> pd.DataFrame:
+        frame = self._choose(name, {**read.FREE_BODY, **words})
         return frame[frame["representation"].isin(PAPERS_COORDINATES)]
 
     def episodes(self, regulator: str, engine: str, *start_sets: str) -> pd.DataFrame:
         """Return episodes of a law on the free body from some start sets; NoEvidence: fewer than a whole suite has."""
-        frame = self.free_body("episodes", task="free-body", regulator=regulator, engine=engine)
+        words = {"task": "free-body", "regulator": regulator, "engine": engine}
+        frame, condition = self._choose_free_body("episodes", words), _free_body_query(words)
         if start_sets:
-            _, condition = self.chosen[-1]
-            self.chosen[-1] = "episodes", f"{condition} and {query_of({'start_set': start_sets})}"
             frame = frame[frame["start_set"].isin(start_sets)]
+            condition = f"{condition} and {query_of({'start_set': start_sets})}"
+        self._note("episodes", condition, frame)
         some(frame, f"episode of {regulator} by {engine} from {', '.join(start_sets) or 'any start set'}")
         self.check_starts(frame, f"{regulator} by {engine}", least_starts(engine), *start_sets)
         return frame
@@ -178,6 +189,11 @@ def query_of(words: Mapping[str, str | Sequence[str]]) -> str:
         is_one = isinstance(word, str)
         conditions.append(f"{column} == {word!r}" if is_one else f"{column} in {list(word)}")
     return " and ".join(conditions)
+
+
+def _free_body_query(words: Mapping[str, str]) -> str:
+    """Return the condition of rows about the free body in the paper's coordinates."""
+    return query_of({**words, **read.FREE_BODY, "representation": PAPERS_COORDINATES})
 
 
 def count_of(k: int, n: int, noun: str) -> str:
