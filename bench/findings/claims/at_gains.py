@@ -11,7 +11,7 @@ from typing import Any
 
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results, evidence
-from bench.findings.claims.verdict import NoEvidence, Word
+from bench.findings.claims.verdict import Evidence, NoEvidence, Word
 from bench.law.inputs import Gains
 
 REFERENCE = RESULTS / "reference"
@@ -69,9 +69,48 @@ def _at_every_gain(decide: Callable, combine: Callable[[list[Word]], Word]) -> C
                 true_at.setdefault(said.instead, []).append(_told(gains))
         instead = " ".join(f"At {'; '.join(at)}: {text}" for text, at in true_at.items())
         rows = sum(said.rows for _, said in found.values())
-        return word, evidence(told, rows, found[own][1].tables, "" if word == Word.HOLDS else instead)
+        return word, evidence(
+            told,
+            rows,
+            found[own][1].tables,
+            "" if word == Word.HOLDS else instead,
+            _measured(own, found),
+            _numbers({gains: said for gains, (_, said) in found.items()}),
+        )
 
     return judge
+
+
+def _measured(own: Gains, found: dict[Gains, tuple[Word, Evidence]]) -> str:
+    """Return what was measured at a run's own gains, and the gains at which the word is another one."""
+    own_word, said = found[own]
+    is_same_stiffness = all(gains.kp == own.kp for gains in found)
+    others: dict[Word, list[Gains]] = {}
+    for gains, (word, _) in found.items():
+        if word != own_word:
+            others.setdefault(word, []).append(gains)
+    at_own = f"Kv {own.kv:g}" if is_same_stiffness else _short(own)
+    parts = [f"{at_own}: {said.measured}"]
+    for word, at in others.items():
+        where = ", ".join(map(_short, at))
+        if is_same_stiffness:
+            where = f"Kv {', '.join(f'{gains.kv:g}' for gains in at)}"
+        parts.append(f"{word} at {where}")
+    return "; ".join(parts)
+
+
+def _short(gains: Gains) -> str:
+    return f"Kp {gains.kp:g}, Kv {gains.kv:g}"
+
+
+def _numbers(said: dict[Gains, Evidence]) -> list[tuple[str, ...]]:
+    """Return the tables of all gains in one, the gains before each row; nothing where there is none."""
+    tables = {gains: evidence.numbers for gains, evidence in said.items() if evidence.numbers}
+    if not tables:
+        return []
+    heads = next(iter(tables.values()))[0]
+    rows = [(_short(gains), *row) for gains, (_, *rows) in tables.items() for row in rows]
+    return [("Gains", *heads), *rows]
 
 
 def _told(gains: Gains) -> str:

@@ -64,6 +64,10 @@ def word_of(holds: object, corrected: object) -> Word:
     return Word.HOLDS if holds else Word.CORRECTED if corrected else Word.FAILS
 
 
+LONGEST_MEASURED = 100
+"""Characters of a measured value: a cell of a table reads it at a glance."""
+
+
 class NoEvidence(BenchError):
     """A claim asked of tables that hold nothing about it: an error, never a pass."""
 
@@ -74,12 +78,18 @@ class Evidence(NamedTuple):
     sentence: plain prose, every number in it computed. rows: table rows, states and episodes looked at. tables: where
     they come from, if not those that the claim's texts name; "experiment" for what the claim computes itself.
     instead: what is true, written from the rows; empty where the claim's own text says it.
+    measured: the number that decides, with its noun and unit, and its 95 % interval where it is of a sample: one short
+    phrase. numbers: a table of all numbers, heads first, where prose would be a log. chosen: the rows that were read of
+    each table, a condition as pandas.DataFrame.query takes it; empty where all rows were read.
     """
 
     sentence: str
     rows: int
     tables: tuple[str, ...] = ()
     instead: str = ""
+    measured: str = ""
+    numbers: tuple[tuple[str, ...], ...] = ()
+    chosen: tuple[tuple[str, str], ...] = ()
 
     def __str__(self) -> str:
         return self.sentence
@@ -146,8 +156,11 @@ def claim(id: str) -> Callable[[Callable], Claim]:
 
         @functools.wraps(judge)
         def judged(results: Any) -> tuple[Word, Evidence]:
+            results.chosen.clear()
             word, found = judge(results)
-            return word, found if found.tables else found._replace(tables=tables)
+            found = found._replace(tables=found.tables or tables)
+            chosen = (rows for rows in results.chosen if rows[0] in found.tables)
+            return word, found._replace(chosen=tuple(dict.fromkeys(chosen)))
 
         written = {name: text(words) for name, words in texts.items()}
         return Claim(id, judge=judged, readings=readings, earlier=earlier, **written)
@@ -206,6 +219,11 @@ class Verdict(NamedTuple):
         if self.word in (Word.FAILS, Word.DEPENDS):
             return self.claim.instead or self.claim.correction
         return self.claim.correction if self.word == Word.CORRECTED else ""
+
+    @property
+    def measured(self) -> str:
+        """The evidence's."""
+        return self.evidence.measured or str(Word.UNTESTED)
 
     @property
     def first(self) -> Word:
