@@ -157,14 +157,14 @@ def describe(study: dict, words: dict[str, str]) -> str:
     runs, stale = study["runs"], study.get("stale", [])
     seeds = sum(name != HALF_STEP for name in runs)
     other = {id: found for id, found in turned(runs, words).items() if id not in stale}
-    found = "every verdict stays the same" if not other else f"these change: {', '.join(other)}"
+    found = "every verdict that was tested stays the same" if not other else f"these change: {', '.join(other)}"
     step = " and with half the step size" if HALF_STEP in runs else ""
     return f"With {seeds} other random seeds{step}, {found}.{_lacking(stale)}{by_gains(study, words)}"
 
 
 def _lacking(stale: list[str]) -> str:
     """Name the claims that the study judged by a criterion which stands no more."""
-    return f" Not tested in it, for their criteria are newer: {', '.join(stale)}." if stale else ""
+    return f" Not tested, because their criteria are newer: {', '.join(stale)}." if stale else ""
 
 
 def by_gains(study: dict, words: dict[str, str]) -> str:

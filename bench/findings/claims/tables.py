@@ -197,7 +197,9 @@ def _free_body_query(words: Mapping[str, str]) -> str:
 
 
 def count_of(k: int, n: int, noun: str) -> str:
-    """Return 'all 17 poles', 'none of 17 poles' or '3 of 17 poles'; the noun is in the plural."""
+    """Return 'all 17 poles', 'both poles', 'none of 17 poles' or '3 of 17 poles'; the noun is in the plural."""
+    if k == n == 2:
+        return f"both {noun}"
     many = {n: "all", 0: "none of"}.get(k, f"{k:,} of")
     return f"{many} {n:,} {noun}"
 
