@@ -8,9 +8,9 @@ from bench.findings.claims import Verdict, Word
 from bench.findings.claims.verdict import does
 from report.figures.claims.places import read_places
 from report.figures.kit import html
+from report.figures.kit.law_names import call_laws
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import listed, prose
-from report.figures.replication.conclusions import call_laws
 
 VERDICTS = html.Table("Claim | What the paper states, in our words | Verdict | Measured | Where")
 

@@ -10,10 +10,10 @@ from bench.findings.claims.errata import COVERAGE, ERRATA, UNTESTABLE, Erratum, 
 from bench.findings.claims.verdict import MISPRINTS
 from report.figures.claims.places import read_places
 from report.figures.kit import html
+from report.figures.kit.law_names import call_laws
+from report.figures.kit.offered import OFFERED_BYTES, SITE_DATA
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose, typeset
-from report.figures.method.provenance import OFFERED_BYTES, SITE_DATA
-from report.figures.replication.conclusions import call_laws
 
 SENTENCES = html.Table("Section | The paper | Why it is not tested")
 PARTS = html.Table("The paper | What it says | Claims and errata | Pages")
