@@ -240,13 +240,12 @@ class Share(NamedTuple):
 
 def share(facts: pd.Series) -> Share:
     """Return how many of some yes-or-no rows are yes; NoEvidence: there are no rows."""
-    from scipy.stats import binomtest
+    from bench.experiments.tables.statistics import wilson
 
     k, n = int(facts.sum()), len(facts)
     if n == 0:
         raise NoEvidence("a share of no rows at all")
-    interval = binomtest(k, n).proportion_ci(method="wilson")
-    return Share(k, n, k / n, float(interval.low), float(interval.high))
+    return Share(k, n, k / n, *wilson(k, n))
 
 
 def interval(one: Share | Estimate, form: str) -> str:
