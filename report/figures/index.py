@@ -33,8 +33,8 @@ def facts(run: Run) -> dict[str, Any]:
         "hero": in_run(lambda: failure_map.hero(run.rows("episodes", engine="ideal-rk4"))),
         "conclusions": in_run(lambda: SHORT(list_in_short(run))),
         "answer": describe_answer(answer),
-        "price": prose(call_laws(answer.price)),
-        "condition": prose(call_laws(answer.condition)),
+        "price": describe_price(answer),
+        "condition": prose(call_laws(answer.condition)) if answer.is_tested else "It is not tested.",
         "needs": NEEDS(list_needs(answer)),
         "cite": describe_citation(),
     }
@@ -157,6 +157,11 @@ def describe_answer(answer: Answer) -> str:
     law = link_law(answer.law)
     whose = IN_WORDS.get(answer.attribution, answer.attribution)
     return f"Use **{law}**, {whose}. {prose(call_laws(answer.reason))} Tested on {prose(call_laws(answer.tested))}."
+
+
+def describe_price(answer: Answer) -> str:
+    """Say what the law costs."""
+    return f"It {prose(call_laws(answer.price))}." if answer.is_tested else "It is not tested."
 
 
 def list_needs(answer: Answer) -> Iterator[tuple]:

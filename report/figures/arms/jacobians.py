@@ -12,6 +12,7 @@ from bench.experiments.suites import IDEAL_MOTORS
 from bench.findings.claims.adequacy import tallied
 from bench.findings.claims.controller_costs import BY_EULER, INVERSES, ON_MATRIX, controller_costs
 from bench.findings.claims.euler_jacobian import WELL_CONDITIONED
+from bench.findings.replication import compare_jacobians
 from bench.law.contenders.registry import papers_coordinates
 from report.figures.arms import arm_rows
 from report.figures.arms.arm_rows import name_arm
@@ -49,6 +50,7 @@ def facts(run: Run) -> dict[str, Any]:
         "pole-loop": media.loop(FILM),
         **describe_film(),
         **(in_run(lambda: count_at_pole(pass_pole(run))) or {}),
+        **(in_run(compare_torque, run) or {}),
         "operations": in_run(lambda: describe_operations(run)),
     }
 
@@ -69,6 +71,13 @@ def pass_pole(run: Run) -> pd.DataFrame:
     )
 
 
+def compare_torque(run: Run) -> dict[str, str]:
+    """Return how much more torque the Euler Jacobian needs in the median move, with its 95 % interval."""
+    harder = compare_jacobians(run).harder
+    value, low, high = (html.number(float(f"{ratio:.2g}")) for ratio in harder)
+    return {"harder": value, "harder_interval": f"{low} to {high}"}
+
+
 def count_at_pole(both: pd.DataFrame) -> dict:
     """Return how many starts fail, and how much more torque the Euler Jacobian needs; and a row an arm."""
     hammered = ~both["fails"] & (both["harder"] > HAMMERED)
@@ -80,7 +89,6 @@ def count_at_pole(both: pd.DataFrame) -> dict:
         "hammer": f"{HAMMERED:g}",
         "hammered": int(hammered.sum()),
         "weak": describe_weak_motors(both),
-        "harder": html.number(float(f"{both['harder'].median():.2g}")),
     }
 
 
@@ -90,7 +98,7 @@ def compare_at_pole(both: pd.DataFrame) -> Iterator[tuple]:
         cells = []
         for end in ("_matrix", ""):
             torque = float(f"{own[f'peak_torque_ratio{end}'].median():.2g}")
-            cells += [f"{(~own[f'fails{end}']).sum()} of {len(own)}", torque]
+            cells += [count_words(int((~own[f"fails{end}"]).sum()), len(own)), torque]
         yield name_arm(arm), len(own), *cells
 
 
@@ -152,6 +160,13 @@ def describe_operations(run: Run) -> str:
             f"arctangent."
         )
     return " ".join(sentences)
+
+
+def count_words(part: int, whole: int) -> str:
+    """Write how many of some moves: all, none, or a count of the whole."""
+    if part == whole:
+        return f"all {whole}"
+    return f"{part} of {whole}" if part else "none"
 
 
 def describe_first(rows: pd.DataFrame) -> str:
