@@ -6,7 +6,7 @@
 
   function value(cell) {
     const text = cell ? cell.innerText.trim() : "";
-    const number = text.replace(/[\s\u00a0\u202f,]/g, "").replace("\u2212", "-").match(/^[<>=]*(-?\d+(?:\.\d+)?(?:e-?\d+)?)/);
+    const number = text.replace(/^none\b/, "0").replace(/[\s\u00a0\u202f,]/g, "").replace("\u2212", "-").match(/^[<>=]*(-?\d+(?:\.\d+)?(?:e-?\d+)?)/);
     return { text, number: number ? Number(number[1]) : null, isLast: text === "" || text === "\u2013" || text === "never" };
   }
 

@@ -108,7 +108,7 @@ def count_map(run: Run) -> Count:
 def count_at_equal_peak() -> Count:
     """Count the laws of the map that are compared at their best damping ratio."""
     return Count(
-        where="Chapter 7, [table of settling times](#tab-tuned); [the page on late braking](appendix-late-braking.md)",
+        where="Chapter 7, [equal peak command](#fig-equal-peak); [the page on late braking](appendix-late-braking.md)",
         laws=len(tune()),
         which_laws="of the map that settle from every start of the nominal situation",
         starts="as the map",
