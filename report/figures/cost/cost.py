@@ -24,10 +24,10 @@ LEAN = {"lean": FEEDBACK, "literal": next(one.name for one in all_contenders() i
 
 # kind -> (columns of costs.parquet, colour, colour of the numbers on it)
 KINDS = {
-    "add": (("add",), "#56b4e9", style.ON_COLOUR),
-    "multiply": (("mul",), "#0072b2", style.PAPER),
-    "divide, root": (("div", "sqrt"), "#cc79a7", style.ON_COLOUR),
-    "transcendental": (("sin", "cos", "atan2", "acos"), "#d55e00", style.PAPER),
+    "add": (("add",), style.SUMS, style.ON_COLOUR),
+    "multiply": (("mul",), style.PRODUCTS, style.PAPER),
+    "divide, root": (("div", "sqrt"), style.QUOTIENTS, style.ON_COLOUR),
+    "transcendental": (("sin", "cos", "atan2", "acos"), style.FUNCTIONS, style.PAPER),
 }
 CALLS = KINDS["transcendental"][0]
 NARROW_LETTERS = 20
