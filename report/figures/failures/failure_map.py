@@ -13,6 +13,7 @@ from matplotlib.ticker import FixedLocator, NullLocator
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import settled
+from bench.findings.conclusions import read_texts
 from bench.findings.maps import at_gains, counted, lost_share, read_maps
 from bench.findings.selection.regions import find_default
 from bench.law.inputs import PAPERS_GAINS
@@ -28,16 +29,16 @@ DRAWN = 1000
 """Uniform dots a panel: the first of a low-discrepancy sequence, which cover SO(3) evenly at any number."""
 
 SINCE = "Since 1988: with memory"
-MURPHYS_WORDS = {
-    MATRIX: ("stable … but had varying settling times", "2.4"),
-    LINEARIZED: ("satisfactory only in a linear region", "2.5"),
-    FEEDBACK: ("a linear response … excluding the boundary points", "2.4"),
-    SINCE: ("further work … other forms of orientation representation", "4"),
+CONCLUSIONS = {
+    MATRIX: "rotation-matrix",
+    LINEARIZED: "linearized-euler",
+    FEEDBACK: "feedback-linearized",
+    SINCE: "open-question",
 }
-"""Law -> the paper's words on it and their section; for the law of today, the paper's wish."""
-QUOTE_WIDTH = {False: 27, True: 46}
+"""Panel -> the paper's conclusion whose words stand over it."""
+QUOTE_WIDTH = {False: 28, True: 55}
 """Letters in a line over a panel, on a page and on a phone."""
-MOST_LINES = {27: 3, 46: 2}
+MOST_LINES = {28: 3, 55: 1}
 """Lines of the longest quotation at that width."""
 QUOTE_LINE_PT = 12.5
 
@@ -89,8 +90,13 @@ class Panel(NamedTuple):
 
 def list_panels() -> list[Panel]:
     """Return the paper's three laws in its order, and the law that is advised today."""
-    papers = [Panel(name, title, *MURPHYS_WORDS[name]) for name, title in laws.TITLES.items()]
-    return [*papers, Panel(find_default(), SINCE, *MURPHYS_WORDS[SINCE])]
+    contenders = [*laws.TITLES, find_default()]
+    panels = []
+    for contender, (title, conclusion) in zip(contenders, CONCLUSIONS.items(), strict=True):
+        texts = read_texts()[conclusion]
+        quote = texts["short"].replace("...", "…")
+        panels.append(Panel(contender, laws.TITLES.get(contender, title), quote, texts["section"]))
+    return panels
 
 
 def find_common_starts(episodes: pd.DataFrame) -> dict[str, pd.DataFrame]:
