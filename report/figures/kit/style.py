@@ -136,10 +136,6 @@ def look(name: str) -> Look:
     return Look(colour_of(name), marker, line)
 
 
-look_among_all = look
-"""Older name."""
-
-
 def mark(text: str) -> int:
     """Return a text's own number of 32 bits, equal in every process."""
     return zlib.crc32(text.encode())
