@@ -15,7 +15,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path as Outline
 from scipy.spatial import Voronoi
@@ -211,7 +210,8 @@ def draw_plane(points: Sequence[Point], letters: dict[str, str], narrow: bool) -
         own = [cell for cell, point in zip(cells.corners, points, strict=True) if point.law == law]
         if own:
             keys.append(_draw_region(axes, own, law, letters))
-    axes.add_collection(LineCollection(cells.borders, colors=style.PAPER, linewidths=0.8))
+    borders = Outline.make_compound_path(*(Outline(border) for border in cells.borders))
+    axes.add_patch(PathPatch(borders, fill=False, edgecolor=style.PAPER, linewidth=0.8))
     places = [(point.x, point.y) for point in points]
     style.dots(axes, *zip(*places, strict=True), style.PAPER, 1.6, alpha=0.6, zorder=3)
     for law, x, y in place_letters(points, top):
