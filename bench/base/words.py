@@ -16,3 +16,8 @@ def count_of(part: int, whole: int, nouns: str) -> str:
     if part == whole:
         return f"all {whole:,} {nouns}"
     return f"{part:,} of the {whole:,} {nouns}" if part else f"none of the {whole:,} {nouns}"
+
+
+def capitalize(text: str) -> str:
+    """Return a text as the start of a sentence: its first letter large, the others as they are."""
+    return f"{text[:1].upper()}{text[1:]}"

@@ -7,7 +7,7 @@ from support.rendered import fill, list_blocks, plain
 from support.wording import find_counts_not_in_words, find_head_faults, find_numbers_without_noun
 
 from bench.base.provenance import ROOT
-from bench.base.words import count, count_of
+from bench.base.words import capitalize, count, count_of
 
 PROSE = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "SECURITY.md")]
 BOOK = [ROOT / "report/index.md", *sorted((ROOT / "report/pages").glob("*.md"))]
@@ -86,6 +86,8 @@ def test_counts_are_words_for_none_and_all_and_take_their_noun():
     assert count_of(3, 14, "laws") == "3 of the 14 laws"
     assert count_of(14, 14, "laws") == "all 14 laws"
     assert count_of(0, 0, "laws") == "no laws"
+    assert capitalize(count_of(1, 2, "MRP laws")) == "1 of the 2 MRP laws"
+    assert capitalize(count_of(2, 2, "MRP laws")) == "All 2 MRP laws"
     for part in (-1, 15):
         with pytest.raises(ValueError, match="is no part of them"):
             count_of(part, 14, "laws")
