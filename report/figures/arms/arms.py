@@ -134,8 +134,8 @@ def lead(uniform: pd.DataFrame) -> str:
     return (
         "Motors give at most their rated torque, and joints stop at the ends of their ranges. From evenly spread "
         f"starts, {leading(uniform, 'settled').replace('(2.2) ', '')} of its episodes settle. On the arms that run with "
-        f"three pairs of gains, the share of episodes that settle with any law is {listed(levels)}. A joint was at the "
-        f"end of its range in {percent_stopped(uniform):.0f} % of the episodes that do not settle. The arm on which the fewest "
+        f"three pairs of gains, the share of episodes that settle with any law is {listed(levels or [html.UNTESTED])}. "
+        f"A joint was at the end of its range in {percent_stopped(uniform):.0f} % of the episodes that do not settle. The arm on which the fewest "
         f"episodes settle is the {ends[0]}; the arm with the most is the {ends[1]}."
     )
 

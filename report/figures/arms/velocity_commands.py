@@ -45,7 +45,7 @@ def facts(run: Run) -> dict:
 
 def named(laws: Iterable[str]) -> str:
     """Laws by their short words."""
-    names = [families.word(name) for name in families.in_order(laws)]
+    names = [families.word(name).replace(",", "") for name in families.in_order(laws)]
     return listed(names) if names else "no law"
 
 
