@@ -7,7 +7,7 @@ from support.rendered import fill, list_blocks, plain
 from support.wording import find_counts_not_in_words, find_head_faults, find_numbers_without_noun
 
 from bench.base.provenance import ROOT
-from bench.base.words import capitalize, count, count_of
+from bench.findings.amounts import capitalize, count, count_of
 
 PROSE = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "SECURITY.md")]
 BOOK = [ROOT / "report/index.md", *sorted((ROOT / "report/pages").glob("*.md"))]

@@ -6,9 +6,9 @@ import numpy as np
 import pandas as pd
 
 from bench.base.files import read_json
-from bench.base.words import count_of
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
+from bench.findings.amounts import count_of
 from bench.findings.theory.late_torques import find_alternating_limit, find_constant_limit
 from bench.studies.real_time.__main__ import GREATEST, HALVINGS
 from bench.studies.real_time.loop import PERIOD_S
@@ -64,7 +64,9 @@ def facts(_: Run) -> dict:
         "apart_ms": f"{1e3 * study['time_difference_s'].max():.1f}",
         "gap": f"{100 * live_gaps.max():.1f}",
         "replay_gap": f"{100 * replay_gaps.max():.1f}",
-        "medians": listed(f"{html.number(round(median))}/s with {substeps} substeps" for substeps, median in medians.items()),
+        "medians": listed(
+            f"{html.number(round(median))}/s with {substeps} substeps" for substeps, median in medians.items()
+        ),
         "substeps_gap": f"{100 * (medians.max() / medians.min() - 1.0):.1f}",
         "replay_substeps_gap": f"{100 * spread_of_replays(study):.1g}",
         "step": f"{100 * GREATEST / 2**HALVINGS / PERIOD_S / study['kv_measured'].median():.1g}",

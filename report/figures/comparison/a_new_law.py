@@ -5,9 +5,9 @@ import math
 import numpy as np
 import pandas as pd
 
-from bench.base.words import count_of
 from bench.experiments.tables import read
 from bench.export.short import write_short
+from bench.findings.amounts import count_of
 from bench.findings.proofs.certificate import read_certificates
 from bench.findings.selection.regions import facts_of, find_default
 from bench.findings.selection.sensitivity import tune

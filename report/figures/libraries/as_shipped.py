@@ -7,8 +7,8 @@ from typing import Any
 import pandas as pd
 
 from bench.base.files import read_json
-from bench.base.words import count, count_of
 from bench.experiments.shipped import BENT_DEG, FELT_RAD
+from bench.findings.amounts import count, count_of
 from bench.findings.remedy import KEEP, fix_of
 from bench.law.contenders.registry import contenders
 from bench.law.kinds import POSITION, TORQUE, VELOCITY, Law

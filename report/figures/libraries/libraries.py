@@ -12,9 +12,9 @@ from typing import Any
 import pandas as pd
 
 from bench.base.files import read_json
-from bench.base.words import capitalize, count_of
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
+from bench.findings.amounts import capitalize, count_of
 from bench.findings.remedy import KEEP, fix_of
 from bench.studies.libraries.judge import COUNT_RAD, FORMS, SINGLE_RAD, WRONG_AXIS_RAD
 from report.figures.kit import html, spelling

@@ -5,9 +5,9 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
-from bench.base.words import count_of
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
+from bench.findings.amounts import count_of
 from bench.findings.maps import at_gains, count_in
 from bench.findings.selection.needs import measured
 from bench.findings.selection.regions import read_map

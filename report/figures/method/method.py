@@ -4,8 +4,8 @@ from typing import Any
 
 import pandas as pd
 
-from bench.base.words import count, count_of
 from bench.engines.counting import RULES as COUNT_RULES
+from bench.findings.amounts import count, count_of
 from bench.findings.selection.needs import CHATTER
 from bench.findings.theory.closed_form import linear_settling
 from bench.law.attribution import ADAPTED, OURS, PUBLISHED
