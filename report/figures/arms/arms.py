@@ -133,10 +133,10 @@ def lead(uniform: pd.DataFrame) -> str:
     ends = [f"{arm_rows.name_arm(arm)} ({100 * by_arm[arm]:.0f} %)" for arm in (by_arm.idxmin(), by_arm.idxmax())]
     return (
         "Motors give at most their rated torque, and joints stop at the ends of their ranges. From evenly spread "
-        f"starts, {leading(uniform, 'settled').replace('(2.2) ', '')} of its episodes settle. On the arms that run with "
+        f"starts, {leading(uniform, 'settled').replace('(2.2) ', '')} of its episodes settle. On arms that run with "
         f"three pairs of gains, the share of episodes that settle with any law is {listed(levels or [html.UNTESTED])}. "
-        f"A joint was at the end of its range in {percent_stopped(uniform):.0f} % of the episodes that do not settle. The arm on which the fewest "
-        f"episodes settle is the {ends[0]}; the arm with the most is the {ends[1]}."
+        f"A joint was at the end of its range in {percent_stopped(uniform):.0f} % of the episodes that do not settle. "
+        f"The arm on which the fewest episodes settle is the {ends[0]}; the arm with the most is the {ends[1]}."
     )
 
 
