@@ -19,7 +19,7 @@ SPACE = re.compile(
 CODE = re.compile(r'<span class="pre">[^<]{19,}</span>')
 """A name that is long; a shorter one fits into any cell."""
 JOINT = re.compile(r"(?<=[\w)][_/(,])(?=\w)|(?<=[\w)]\.)(?=[^\W\d])")
-"""Where it may break: not within 1.0."""
+"""Joints of a long name, at which it may break; 1.0 has none."""
 VERBATIM = (nodes.literal, nodes.math, nodes.raw)
 
 

@@ -38,7 +38,7 @@ FIX_WORDS = (
     (re.compile(r"^(`[^`]+`) for (`[^`]+`)$"), r"\1 instead of \2"),
     (re.compile(r"^(`[^`]+`) of it$"), r"\1 of the quaternion"),
 )
-"""What verdicts.parquet has for a fix, and what a reader who has not seen the code is told."""
+"""What verdicts.parquet has for a fix, and the words of a page for it."""
 ORDER = (ZERO, SHEET, LONG_WAY, MISALIGNED, DIGITS)
 """Order of the faults, by what they do to a controller."""
 
