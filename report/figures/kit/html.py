@@ -31,6 +31,7 @@ UNTESTED = "not tested"
 COUNT = re.compile(r"\d+ of \d+")  # a line of it alone, as 24 of 24, does not break
 
 ROUNDED_FROM, SCIENTIFIC_FROM = 1e3, 1e9  # three figures of a number in between would read 1.23e+03
+SPACED_FROM = 10_000
 LEADING_MINUS = re.compile(r"-[\d.\u221e]")
 TAKEN = re.compile(r"[&<>\"'\\$`*_{}\[\]|~#!^@]")
 """What HTML, Markdown, MyST or TeX take for their own."""
@@ -99,7 +100,7 @@ def cell(value: Any, form: str | Callable[[Any], str] | None = None) -> str:
 
 
 def number(value: Any) -> str:
-    """Return a number to three figures, or in full where it is whole, with thin spaces between thousands."""
+    """Return a number to three figures, or in full where it is whole, with thin spaces from 10,000 on."""
     if not isinstance(value, numbers.Real):
         return str(value)
     value = float(value)
@@ -107,7 +108,8 @@ def number(value: Any) -> str:
         return "\u221e" if value > 0 else "-\u221e"
     is_whole = float(value).is_integer() or ROUNDED_FROM <= abs(value) < SCIENTIFIC_FROM
     if is_whole and abs(value) < SCIENTIFIC_FROM:
-        return f"{round(value):,}".replace(",", "\u202f")
+        whole = round(value)
+        return f"{whole:,}".replace(",", "\u202f") if abs(whole) >= SPACED_FROM else str(whole)
     return f"{value:.3g}"
 
 

@@ -13,14 +13,11 @@ from bench.experiments.tables import read
 from bench.experiments.tables.schema import all_tables
 from report.figures.cost.cost import timings
 from report.figures.kit import html
+from report.figures.kit.offered import OFFERED_BYTES, SITE_DATA
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import listed
 
-OFFERED_BYTES = 8_000_000
-"""A larger file is named, not offered: the site stays small enough to be mailed or put on a stick."""
 CITATION = ROOT / "CITATION.cff"
-SITE_DATA = "../data"
-"""Seen from a page in pages/; report/build.py copies there what pages link to."""
 FACTS = html.Table("Property of the run | Value")
 FILES = html.Table("File | Number of rows | Size [kB]", {"Size [kB]": lambda size: html.number(round(size))})
 EPISODES = {

@@ -1,0 +1,26 @@
+"""What `show --details` says in sentences before its tables: the advice in full, what failed, the claims."""
+
+from pathlib import Path
+
+from bench.cli.paragraphs import Paragraph, print_paragraphs
+from bench.cli.summary import answer, failures
+from bench.findings.claims import Results
+from bench.findings.claims.verdict import NoEvidence
+from bench.findings.kept import keep
+from bench.findings.selection.needs import measure
+
+
+def print_sentences(folder: Path) -> None:
+    """Print the advice with its set and bounds, how laws compare in the run, and what failed part by part."""
+    results = Results(folder)
+    results.table("episodes")  # refuses a run that has not finished
+    said = keep(folder, "answer", lambda: _find_answer(results))["said"]
+    print_paragraphs(*(Paragraph(head, tuple(sentences)) for head, sentences in said), failures.paragraph(results))
+
+
+def _find_answer(results: Results) -> dict:
+    """Return the heads and sentences of the answer, as JSON holds them."""
+    try:
+        return {"said": answer.paragraphs(measure(results))}
+    except NoEvidence:
+        return {"said": answer.paragraphs(None)}
