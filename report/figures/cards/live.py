@@ -82,7 +82,8 @@ def still(word: str) -> str:
     said = json.loads((media.FOLDER / "live.json").read_text(encoding="utf-8"))[word]
     preset, alt = PRESETS[word], markup.escape(" ".join(said))
     picture = f'<img src="{media.SOURCE}/live-{word}.png" alt="{alt}" loading="lazy">'
-    return f"<figure>{picture}<figcaption><b>{preset['title']}.</b> {preset['watch']}</figcaption></figure>"
+    title = f'<span class="caption-number">{preset["title"]}.</span>'
+    return f"<figure>{picture}<figcaption>{title} {preset['watch']}</figcaption></figure>"
 
 
 def data(names: list[str], every: list[tuple[str, str, Start]], costs: Any) -> dict:
