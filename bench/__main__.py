@@ -1,22 +1,27 @@
-"""Run the command line: `bench`, which the installation makes, or `python -m bench` in the checkout."""
+"""Run the command line: `bench`, which the installation makes, or `python -m bench` in the checkout.
 
-import io
-import os
+Only what is needed to say so is imported before Ctrl-C is caught: in the first tenths of a second it ends nothing but
+imports.
+"""
+
 import sys
 
 
 def main() -> int:
     """Return the command line; imported late, so that importing this module costs nothing.
 
-    A sign that the terminal's encoding lacks, as ° in ASCII, is printed as a question mark.
+    A sign that the terminal's encoding lacks is spelled: 180° in ASCII is 180 deg.
     """
-    os.environ["PYTHONSAFEPATH"] = "1"  # nor does a process of Dask or multiprocessing import from the working folder
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="replace")
     try:
+        import os
+
+        os.environ["PYTHONSAFEPATH"] = "1"  # nor does a process of Dask or multiprocessing import from this folder
+        from bench.base.signs import spell_where_needed
+
+        spell_where_needed(sys.stdout, sys.stderr)
         from bench.cli import main as command_line
     except KeyboardInterrupt:
+        print("stopped; nothing was begun", file=sys.stderr)
         return 130
     except ModuleNotFoundError as error:
         if (error.name or "bench").partition(".")[0] in ("bench", "tasks"):

@@ -44,8 +44,9 @@ def pytest_collection_modifyitems(items):
 
 @pytest.fixture(scope="session", autouse=True)
 def state_of_its_own(tmp_path_factory):
-    """Laws that tests run are none of this user's."""
+    """Laws that tests run are none of this user's, and lines are as wide as in a file: pytest's workers set COLUMNS."""
     with pytest.MonkeyPatch.context() as patch:
+        patch.delenv("COLUMNS", raising=False)
         patch.setenv("XDG_STATE_HOME", str(tmp_path_factory.mktemp("state")))
         yield
 

@@ -3,7 +3,6 @@
 import argparse
 import importlib
 import importlib.metadata
-import io
 import json
 import re
 import sys
@@ -12,6 +11,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from bench.base.errors import BadFunction, BenchError, UnknownWord, print_refusal
+from bench.base.signs import spell_where_needed
 
 COMMANDS = {
     "check": ("check", "find the convention of an orientation error, and its faults"),
@@ -70,9 +70,7 @@ def run_command(words: Sequence[str], prog: str, version: str) -> int:
 
 def main() -> int:
     """Run the installed command and return its exit code, with every mistake on one line."""
-    for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="replace")
+    spell_where_needed(sys.stdout, sys.stderr)
     try:
         return run_command(sys.argv[1:], "orientation-audit", importlib.metadata.version("orientation-audit"))
     except BenchError as error:

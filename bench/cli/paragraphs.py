@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from bench.base.provenance import read_provenance
-from bench.cli.screen import console, counted, shown_path
+from bench.cli.screen import console, counted, shown_path, spelled
 
 WIDTH = 100
 """Longest line, where the screen is wider."""
@@ -29,7 +29,7 @@ def print_paragraphs(*every: Paragraph) -> None:
     for head, sentences in every:
         for place, sentence in enumerate(sentences):
             by.initial_indent = f"{'' if place else head:{HEAD}}"
-            for line in by.wrap(sentence):
+            for line in by.wrap(spelled(sentence, screen)):
                 screen.print(line, soft_wrap=True)
 
 

@@ -1,4 +1,7 @@
-"""Printing: one console, the same width rules everywhere, plain text when the output is not a terminal."""
+"""Printing: one console, the same width rules everywhere, plain text when the output is not a terminal.
+
+A screen without UTF-8 gets ASCII: `spelled` writes its units and signs as words, before a line is broken.
+"""
 
 import os
 import shlex
@@ -13,16 +16,32 @@ from rich.measure import Measurement
 from rich.table import Table
 from rich.text import Text
 
+from bench.base.signs import spell
+
 PIPED = 200
-"""Characters a line where no terminal says how many it has."""
+"""Characters a line where neither a terminal nor COLUMNS says how many it has."""
 
 
-def console(stderr: bool = False) -> Console:
-    """Return a console, wide enough for tables in a file; it prints brackets, as in [1/s^2], unchanged."""
-    made = Console(stderr=stderr, highlight=False, markup=False, emoji=False)
-    if not made.is_terminal:
+class Screen(Console):
+    """A console that prints brackets, as in [1/s^2], unchanged, and spells what its encoding lacks."""
+
+    def print(self, *objects: Any, **how: Any) -> None:
+        """Print texts, tables and other things that rich knows."""
+        shown = [spelled(one, self) if isinstance(one, str) else one for one in objects]
+        super().print(*shown, **how)
+
+
+def console(stderr: bool = False) -> Screen:
+    """Return a console: as wide as the terminal or COLUMNS says, else wide enough for tables in a file."""
+    made = Screen(stderr=stderr, highlight=False, markup=False, emoji=False)
+    if not (made.is_terminal or os.environ.get("COLUMNS", "").isdigit()):
         made.width = PIPED
     return made
+
+
+def spelled(text: str, screen: Console) -> str:
+    """Return a text as a screen can print it: in ASCII where it has no UTF-8, as 1/sqrt(kp), rad/s^2, 180 deg."""
+    return spell(text) if screen.options.ascii_only else text
 
 
 def shown_path(path: Path) -> str:
@@ -70,10 +89,11 @@ class Frame:
 
     def __rich_console__(self, screen: Console, options: ConsoleOptions) -> Iterator[RenderableType]:
         if self.title:
-            yield Text(self.title, "bold")
-        first, *others = blocks = _blocks(self.columns, screen, options)
+            yield Text(spelled(self.title, screen), "bold")
+        columns = [_spelled_column(column, screen) for column in self.columns]
+        first, *others = blocks = _blocks(columns, screen, options)
         if others:
-            yield Text(f"{len(self.columns) - len(first)} of {len(self.columns)} columns do not fit and are below.")
+            yield Text(f"{len(columns) - len(first)} of {len(columns)} columns do not fit and are below.")
         for place, block in enumerate(blocks):
             if place:
                 yield Text()
@@ -93,6 +113,10 @@ def frame_table(frame: Any, title: str = "") -> Frame:
         cells = ["" if value is None or value != value else str(value) for value in frame[name]]
         columns.append(Column(str(name), cells, frame[name].dtype.kind in "iuf"))
     return Frame(columns, title)
+
+
+def _spelled_column(column: Column, screen: Console) -> Column:
+    return column._replace(name=spelled(column.name, screen), cells=[spelled(cell, screen) for cell in column.cells])
 
 
 def _blocks(columns: list[Column], screen: Console, options: ConsoleOptions) -> list[list[Column]]:

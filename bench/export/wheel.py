@@ -19,7 +19,10 @@ from bench.export.language import find_language
 from bench.export.subject import find_subject, subject_words
 
 PACKAGE = "orientation_audit"
-NAMES = {"bench.audit": PACKAGE, "bench/audit": PACKAGE, "bench.base.errors": f"{PACKAGE}.errors"}
+SHARED = ("errors", "signs")
+"""Modules of `bench.base` that the audit uses."""
+NAMES = {"bench.audit": PACKAGE, "bench/audit": PACKAGE}
+NAMES |= {f"bench.base.{module}": f"{PACKAGE}.{module}" for module in SHARED}
 """What the sources are called here -> in the wheel."""
 EPOCH = "315532800"
 """Date of the files in a wheel, 1980-01-01. With it, and with modes as below, the same sources make the same bytes."""
@@ -29,7 +32,8 @@ def write_sources(folder: Path) -> None:
     """Write the project that the wheel is built from into a folder."""
     package = folder / PACKAGE
     shutil.copytree(ROOT / "bench" / "audit", package, ignore=shutil.ignore_patterns("__pycache__"))
-    shutil.copy(ROOT / "bench" / "base" / "errors.py", package)
+    for module in SHARED:
+        shutil.copy(ROOT / "bench" / "base" / f"{module}.py", package)
     for path in package.rglob("*.py"):
         text = path.read_text(encoding="utf-8")
         for ours, theirs in NAMES.items():

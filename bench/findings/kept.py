@@ -16,6 +16,9 @@ from bench.base.files import read_json, write_json
 from bench.base.provenance import everything_digest, kept_in
 from bench.experiments.tables.schema import RESULTS
 
+COMMITTED = ("gains", "maps", "timings", "reference", "situations")
+"""Folders of results/ that runs are compared with."""
+
 KEPT = 64
 """Files that are kept, the newest: some 50 kB each."""
 
@@ -50,9 +53,9 @@ def _sum(found: object) -> str:
 
 
 def _digest(folder: Path) -> str:
-    """Return the digest of a run, of what it is compared with (gains, maps, timings, reference), and of source."""
+    """Return the digest of a run, of what it is compared with (COMMITTED), and of source."""
     digest = hashlib.sha256(everything_digest().encode())
-    committed = ((RESULTS / name, "**/*") for name in ("gains", "maps", "timings", "reference"))
+    committed = ((RESULTS / name, "**/*") for name in COMMITTED)
     for root, pattern in ((folder, "*"), *committed):
         for path in sorted(root.glob(pattern)):
             if path.suffix in (".parquet", ".json") and path.is_file():

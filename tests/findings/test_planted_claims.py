@@ -10,11 +10,14 @@ import pytest
 from support.claim_tables import TABLES, contact, reference
 from support.tables import EXPERIMENTS, changed, decided, judged, look_up
 
+from bench.base.files import read_json
 from bench.experiments.tables import read
 from bench.findings.claims import side_by_side
 from bench.findings.claims.controller_costs import BY_COMMON, BY_EULER, ON_MATRIX, words
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence, Word
+from bench.findings.conclusions import read_texts, weakest_word
+from bench.studies.verdicts import STORED
 
 DATA = tomllib.loads(Path(__file__).with_name("planted_claims.toml").read_text(encoding="utf-8"))
 FOUND = {
@@ -217,3 +220,39 @@ def test_no_time_changes_the_word_of_c26(euler):
     verdict = planted("C26", lambda frames: {"timings": pd.DataFrame(rows)})
     assert verdict.word == Word.HOLDS
     assert "times part 2 of them" in str(verdict.evidence)
+
+
+STORED_WORDS = {id: Word(word) for id, word in read_json(STORED)["reference"].items()}
+
+TURNED = [
+    ("rotation-matrix", "C01", "fails", "episodes: {first} -> outcome = 'diverged'"),
+    (
+        "linearized-euler",
+        "C37",
+        "corrected",
+        "episodes: {euler} and start_set == 'uniform' and number % 3 > 0 -> {lost}",
+    ),
+    ("feedback-linearized", "C31", "fails", "episodes: {feedback_uniform} and number % 10 == 0 -> {lost}"),
+    ("cost", "C26", "fails", "costs: {by_euler} and stage == 'total' -> flops = 829"),
+    ("no-regulator", "C17", "fails", "episodes: law == 'rotation-matrix' -> {fast}"),
+    ("euler-jacobian", "C18", "fails", "poses: margin >= 0 -> condition_analytic = 8.0; largest = 1.0"),
+    ("compliance", "C22", "corrected", "as_base: {of_euler}"),
+    ("open-question", "C27", "holds", "episodes: {later} and start_set == 'uniform' -> outcome = 'stuck'"),
+]
+"""A conclusion, one of its claims, the word that the conclusion gets, and what is planted in the claim's tables."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "id", "follows", "edit"), TURNED, ids=lambda text: str(text).partition(":")[0])
+def test_conclusion_is_turned_by_what_is_planted_in_one_of_its_claims(name, id, follows, edit):
+    claims = read_texts()[name]["claims"]
+    before = weakest_word(STORED_WORDS, claims)
+    turned = STORED_WORDS | {id: planted(id, write_out(edit)).word}
+    assert weakest_word(turned, claims) == Word[follows.upper()] != before
+
+
+@pytest.mark.parametrize("name", read_texts())
+def test_conclusion_is_not_tested_without_a_word_on_one_of_its_claims(name):
+    claims = read_texts()[name]["claims"]
+    lacking = {id: word for id, word in STORED_WORDS.items() if id != claims[-1]}
+    assert weakest_word(lacking, claims) == Word.UNTESTED != weakest_word(STORED_WORDS, claims)

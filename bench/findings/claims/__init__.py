@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
+from bench.base.errors import NoTable
 from bench.experiments.tables import read as published
 from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results
 from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Verdict, Word, decide, does
@@ -47,7 +48,7 @@ def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
             try:
                 _, word, evidence = decide(one, results)
                 decided.append((one.id, word, *evidence))
-            except NoEvidence as error:
+            except (NoEvidence, NoTable) as error:
                 lacks[one.id] = str(error)
         return {"decided": decided, "lacks": lacks}
 

@@ -202,6 +202,12 @@ def c31(results: Results) -> tuple[Word, Evidence]:
     )
 
 
+def feedback_gain(results: Results) -> Any:
+    """Return how many times as long 99 % of the starts take with the rotation-matrix law, at the run's gains."""
+    matrix, _, feedback = _of_the_three(results)
+    return _gain(settling_times(feedback), settling_times(matrix))
+
+
 def _gain(own: np.ndarray, other: np.ndarray) -> Any:
     """Return the other's time in which nearly all settle over its own; resampled by starts."""
 

@@ -1,0 +1,295 @@
+"""The answer in one place: which law to use today, how it was tested, under which condition, and what it costs.
+
+README, the front page, `show`, `advise` and the tables take their words from `find_answer`. Every law in it is the
+result of a rule (`selection.regions`, `selection.robots`), every reason and price is read from rows. Where the map of
+situations or the run is missing, the words say "not tested".
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+from bench.base.errors import BadResults, UnknownWord
+from bench.findings.claims.adequacy import HELD_RAD
+from bench.findings.claims.verdict import NoEvidence
+from bench.findings.kept import keep
+from bench.findings.selection import regions
+from bench.findings.selection.needs import Decision, measured
+from bench.findings.selection.regions import STUDY, Rule, facts_of, find_default, find_regions
+from bench.findings.selection.robots import ROBOTS, RUN, Robot, decide_for
+from bench.findings.selection.unbeaten import (
+    SPOKEN,
+    find_bounds,
+    find_population,
+    find_price,
+    follow_lines,
+    measure_shares,
+)
+from bench.findings.selection.words import describe_bounds, percent, together
+from bench.law.contenders.registry import find_contender
+from tasks.situation import COORDINATES, NOMINAL
+
+NOT_TESTED = "not tested"
+ANY_START = "commands torque, any start"
+
+
+class Need(NamedTuple):
+    """A row of the table of advice: what the controller is, the law for it, whose law it is, why, and its price.
+
+    name: a word that stays the same when the sentences change.
+    """
+
+    controller: str
+    law: str
+    attribution: str
+    why: str
+    price: str
+    name: str = "default"
+
+
+class Answer(NamedTuple):
+    """Which law to use.
+
+    attribution: published, adapted or ours. reason: why this law. tested: the set on which it was compared. condition:
+    where no law that meets the requirements is faster. price: what it costs. needs: a row a kind of controller, the
+    usual one first. Every text is NOT_TESTED where there is no map of situations.
+    """
+
+    law: str
+    attribution: str
+    reason: str
+    tested: str
+    condition: str
+    price: str
+    needs: tuple[Need, ...]
+
+    @property
+    def is_tested(self) -> bool:
+        """Whether there was a map of situations to choose from."""
+        return self.law != NOT_TESTED
+
+
+def find_answer(situations: Path = STUDY, run: Path = RUN) -> Answer:
+    """Return which law to use, by the map of situations in a folder, and by a run for robots that the map lacks.
+
+    The answer of what came with the benchmark is kept for the next call: it takes seconds.
+    """
+    if (situations, run) != (STUDY, RUN) or not run.is_dir():
+        return _find(situations, run)
+    stored = keep(run, "use-today", lambda: _find(situations, run)._asdict())
+    needs = tuple(Need(*need) for need in stored["needs"])
+    return Answer(**{**stored, "needs": needs})
+
+
+def _find(situations: Path, run: Path) -> Answer:
+    robots = tuple(_list_robots(run))
+    try:
+        law = find_default(situations)
+    except (BadResults, IndexError):
+        # No map, or a map in which no law was drawn at random: nothing was compared.
+        return Answer(*[NOT_TESTED] * 6, (_untested(ANY_START), *robots))
+    needs = (_usual(law, situations), *_list_mapped(law, situations))
+    return Answer(
+        law,
+        attribute(law),
+        _reason(law, situations),
+        _tested(situations),
+        _condition(law, situations),
+        _price_of_default(law, situations),
+        (*needs, *robots),
+    )
+
+
+def attribute(law: str) -> str:
+    """Return whether a law is published, adapted, ours, or yours where this repository does not have it."""
+    try:
+        return str(find_contender(law).attribution)
+    except UnknownWord:
+        return "yours"
+
+
+def _untested(controller: str, name: str = "default") -> Need:
+    return Need(controller, NOT_TESTED, NOT_TESTED, NOT_TESTED, NOT_TESTED, name)
+
+
+def _reason(law: str, folder: Path) -> str:
+    shares = measure_shares(law, folder, tie=SPOKEN)
+    return (
+        f"In {percent(1.0 - shares.failing.value)} of the random situations it settles from every start tried, does "
+        f"not first turn away from the goal, and is not trapped at 180° by a sensor error of {HELD_RAD:g} rad. In "
+        f"{shares.qualified} of them no law that also does this is more than {percent(SPOKEN)} faster."
+    )
+
+
+def _tested(folder: Path) -> str:
+    drawn = sum(map(regions.is_drawn, regions.decide_all(folder)))
+    population = find_population(folder)
+    laws = len(population.qualified) + len(population.excluded)
+    return (
+        f"{drawn} situations drawn at random (gains, command limit, delay, control period, inertia, spin, jump of the "
+        f"goal), {laws} published and adapted laws, simulation of a body that turns freely"
+    )
+
+
+def _condition(law: str, folder: Path) -> str:
+    bounds = describe_bounds(find_bounds(law, folder=folder))
+    return (
+        f"You command torque and cancel the inertia. If one number changes at a time, no law that meets the "
+        f"requirements is more than {percent(SPOKEN)} faster at: {bounds}."
+    )
+
+
+def _price_of_default(law: str, folder: Path) -> str:
+    overshoot = find_price(law, folder).typical_overshoot
+    return f"{_join(_list_costs(law, folder))}; median overshoot {overshoot:.1f}° in the random situations"
+
+
+def _usual(law: str, folder: Path) -> Need:
+    shares = measure_shares(law, folder, tie=SPOKEN)
+    why = (
+        f"in {percent(1.0 - shares.failing.value)} of {shares.failing.of} random situations it settles from every "
+        f"start and is not trapped at 180°; in {percent(shares.qualified.value)} no such law is more than "
+        f"{percent(SPOKEN)} faster"
+    )
+    return Need(ANY_START, law, attribute(law), why, _join(_list_costs(law, folder)))
+
+
+def _list_mapped(default: str, folder: Path) -> Iterator[Need]:
+    """Yield what the map advises where a number or a requirement is another one."""
+    bounded = _find_bounded(default, folder)
+    if bounded:
+        bound = COORDINATES["bound"].text
+        limits = f"{bounded.low:g} to {bound.format(bounded.high)}"
+        if bounded.low == bounded.high:
+            limits = bound.format(bounded.low)
+        controller = f"the same, with motors that limit the command to {limits}"
+        why = f"up to {percent(bounded.faster)} faster there"
+        yield _by_map("weak-motors", controller, bounded.law, default, folder, why)
+    for name, controller, rule in (
+        ("no-memory", "commands torque, stores nothing", Rule(forgetful=True)),
+        ("continuous", "its command must be continuous", Rule(continuous=True)),
+    ):
+        law, others = find_default(folder, rule), find_regions(folder, rule)
+        why = f"advised in {percent(others[0].advised)} of the random situations among the laws that fit"
+        yield _by_map(name, controller, law, default, folder, why)
+
+
+class Bounded(NamedTuple):
+    """A law that is faster than the default where the command is limited to `low` up to `high` [kp].
+
+    faster: by at most this share of the default's time.
+    """
+
+    law: str
+    low: float
+    high: float
+    faster: float
+
+
+def _find_bounded(default: str, folder: Path) -> Bounded | None:
+    """Return the law that is advised at most of the bounds where the default is beaten; only the bound changes.
+
+    None: at every bound the default is unbeaten, or nothing is advised in its place.
+    """
+    verdicts = regions.decide_all(folder)
+    at_bound = {at.bound: verdict for at, verdict in verdicts.items() if at._replace(bound=NOMINAL.bound) == NOMINAL}
+    found: dict[str, list[Bounded]] = {}
+    for place in follow_lines(default, folder, tie=SPOKEN)["bound"]:
+        law = at_bound[place.value].law
+        faster = [rival.faster for rival in place.standing.rivals if rival.law == law and rival.qualified]
+        if law and faster:
+            found.setdefault(law, []).append(Bounded(law, place.value, place.value, faster[0]))
+    if not found:
+        return None
+    law = max(found, key=lambda one: (len(found[one]), one))
+    bounds = [place.low for place in found[law]]
+    return Bounded(law, min(bounds), max(bounds), max(place.faster for place in found[law]))
+
+
+def _by_map(name: str, controller: str, law: str, default: str, folder: Path, why: str) -> Need:
+    costs = _list_costs(law, folder)
+    slower = find_price(law, folder).time / find_price(default, folder).time
+    if slower > 1.0 + SPOKEN:
+        costs.append(f"{slower:.1f} times as slow as {default} without a command limit")
+    return Need(controller, law, attribute(law), why, _join(costs), name)
+
+
+def _list_costs(law: str, folder: Path) -> list[str]:
+    """Return what a law costs in the nominal situation: numbers kept, greatest command, starts that it does not leave.
+
+    From the law's row of the map.
+    """
+    rows = regions.read_map(folder)
+    [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == law)].to_dict("records")
+    memory = facts_of(law).memory
+    costs = [f"keeps {memory} numbers"] if memory else []
+    costs.append(f"commands up to {row['peak']:.1f} kp")
+    if row["stuck"]:
+        costs.append("stuck at exactly 180°")
+    elif row["trapped"]:
+        costs.append(f"a sensor error of {HELD_RAD:g} rad can trap it at 180°")
+    if row["lost"]:
+        costs.append("loses starts")
+    return costs
+
+
+def _list_robots(run: Path) -> Iterator[Need]:
+    """Yield what a run advises for robots beside those of the map."""
+    for name, robot in ROBOTS.items():
+        controller = _CONTROLLERS[name]
+        try:
+            decision = decide_for(robot, run)
+        except BadResults:
+            decision = None
+        if decision is None or decision.law is None:
+            yield _untested(controller, name)
+            continue
+        why, price = _describe_decision(decision), _price_on_robot(robot, decision.law, run)
+        yield Need(controller, decision.law, attribute(decision.law), why, price, name)
+
+
+_CONTROLLERS = {
+    "arm": "drives an arm whose goal is never exactly 180° away",
+    "velocity": "commands velocities",
+    "position": "commands positions that are followed with a lag",
+}
+
+
+def _describe_decision(decision: Decision) -> str:
+    if len(decision.asked) == 1:
+        return "the only law tried that meets the requirements"
+    if decision.tied:
+        return f"ties with {together(decision.tied)}, and is the simplest of the {len(decision.asked)} laws tried"
+    return f"no other of the {len(decision.asked)} laws tried is better"
+
+
+def _price_on_robot(robot: Robot, law: str, run: Path) -> str:
+    """Return what a law costs there: numbers kept, and whether exact 180° rotations or noise hold it."""
+    memory = facts_of(law).memory
+    costs = [f"keeps {memory} numbers" if memory else "keeps nothing"]
+    lost = measured(run, robot.measure).number("lost", law)
+    if not math.isnan(lost) and lost:
+        costs.append("stuck at exactly 180°, slow near it")
+    elif not memory:
+        noise = _least_noise(law, run)
+        if noise is not None and math.isfinite(noise):
+            costs.append(f"a sensor error of {noise:g} rad can trap it at 180°")
+    return _join(costs)
+
+
+def _least_noise(law: str, run: Path) -> float | None:
+    """Return the least noise tried that traps a law on the free body; None where that was not tried."""
+    from bench.findings.claims.tables import Results
+    from bench.findings.failure_places import least_trapping_noise
+
+    try:
+        return least_trapping_noise(Results(run), law)
+    except (BadResults, NoEvidence):
+        return None
+
+
+def _join(parts: list[str]) -> str:
+    return ", ".join(parts)

@@ -1,0 +1,218 @@
+"""The paper's eight conclusions, and what a run says of each: a word from its claims, and one number with its interval.
+
+The word of a conclusion is the weakest word of its claims, in the order of `Word`: a conclusion holds if all that it
+rests on holds. If the run cannot decide one of its claims, the conclusion is not tested.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+import tomllib
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from bench.base.errors import NoTable
+from bench.experiments.tables.statistics import Estimate
+from bench.findings import replication
+from bench.findings.answer import attribute, find_answer
+from bench.findings.claims import Results, judge_possible
+from bench.findings.claims.adequacy import PAPERS, THREE
+from bench.findings.claims.performance import feedback_gain
+from bench.findings.claims.verdict import NoEvidence, Word
+from bench.findings.failure_places import describe_failures
+from bench.findings.kept import keep
+from bench.findings.selection.words import together
+
+MATRIX, LINEARIZED, FEEDBACK = THREE
+
+
+class Conclusion(NamedTuple):
+    """One of the paper's eight conclusions, and what a run says of it.
+
+    quote: the paper's words, and short: some of them. claims: what it rests on. verdict: the weakest word of these.
+    finding: what came out, in a sentence with one number. subject: what a figure or a page of it is called.
+    """
+
+    name: str
+    quote: str
+    section: str
+    short: str
+    claims: tuple[str, ...]
+    verdict: str
+    finding: str
+    subject: str
+
+
+@functools.cache
+def read_texts() -> dict[str, dict[str, Any]]:
+    """Return what conclusions.toml says, by the name of the conclusion."""
+    text = Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")
+    return {name: {**said, "quote": " ".join(said["quote"].split())} for name, said in tomllib.loads(text).items()}
+
+
+def conclude(results: Results) -> list[Conclusion]:
+    """Return the conclusions in the paper's order, judged on a run."""
+    verdicts, _ = judge_possible(results)
+    words = {verdict.id: verdict.word for verdict in verdicts}
+    is_kept = results.folder is not None and results.is_as_stored
+    if is_kept and results.folder:
+        findings = keep(results.folder, "conclusions", lambda: find_all(results))
+    else:
+        findings = find_all(results)
+    return [
+        Conclusion(
+            name=name,
+            quote=text["quote"],
+            section=text["section"],
+            short=text["short"],
+            claims=tuple(text["claims"]),
+            verdict=str(weakest_word(words, text["claims"])),
+            finding=findings[name],
+            subject=text["subject"],
+        )
+        for name, text in read_texts().items()
+    ]
+
+
+def weakest_word(words: Mapping[str, Word], claims: Sequence[str]) -> Word:
+    """Return the weakest word of some claims; UNTESTED if one of them has none."""
+    if any(claim not in words for claim in claims):
+        return Word.UNTESTED
+    return max((words[claim] for claim in claims), key=list(Word).index)
+
+
+def find_all(results: Results) -> dict[str, str]:
+    """Return the sentence of every conclusion; one that begins with 'Not tested' where the run lacks its rows."""
+    return {name: _find_or_say(FINDINGS[name], results) for name in read_texts()}
+
+
+def _find_or_say(find: Callable[[Results], str], results: Results) -> str:
+    try:
+        return find(results)
+    except (NoEvidence, NoTable) as error:
+        return f"Not tested: {str(error).partition(': ')[0]}."
+
+
+def interval(number: Estimate, form: str = ".2f", unit: str = "") -> str:
+    """Write a number with its 95 % interval: "1.68 s (1.56 to 1.93 s)"."""
+    ends = [_write(end, form, unit) for end in (number.low, number.high)]
+    return f"{_write(number.value, form, unit)} ({ends[0].removesuffix(unit)} to {ends[1]})"
+
+
+def _write(value: float, form: str, unit: str) -> str:
+    return f"{value:{form}}{unit}" if math.isfinite(value) else "never"
+
+
+def percents(share: Any) -> str:
+    """Write a share with its 95 % interval in per cent: "93.1 % (91.4 to 94.5 %)"."""
+    return f"{100 * share.value:.3g} % ({100 * share.low:.3g} to {100 * share.high:.3g} %)"
+
+
+def _rows_of(results: Results, law: str) -> Any:
+    rows = replication.starts_at_rest(results)
+    return rows[rows["contender"].astype(str) == law]
+
+
+def _fails_at(results: Results, law: str, subject: str = "it") -> str:
+    places = [place.replace(" deg", "°") for place in describe_failures(_rows_of(results, law))]
+    return f"{subject} fails at {together(places, len(places))}" if places else f"{subject} settles from every start"
+
+
+def _find_matrix(results: Results) -> str:
+    settling = replication.measure_settling(_rows_of(results, MATRIX))
+    if math.isinf(settling.nearly_all.value):
+        return f"{percents(settling.share)} of the random starts settle; {_fails_at(results, MATRIX)}."
+    time = interval(settling.nearly_all, unit=" s")
+    return f"99 % of the random starts settle within {time}; {_fails_at(results, MATRIX)}."
+
+
+def _find_linearized(results: Results) -> str:
+    settling = replication.measure_settling(_rows_of(results, LINEARIZED))
+    return f"{percents(settling.share)} of the random starts settle; {_fails_at(results, LINEARIZED)}."
+
+
+def _find_feedback(results: Results) -> str:
+    gain, gains = feedback_gain(results), results.gains()
+    return (
+        f"With the rotation-matrix law, 99 % of the starts take {interval(gain)} times as long to settle "
+        f"as with feedback linearization (kp = {gains.kp:g}, kv = {gains.kv:g}); "
+        f"{_fails_at(results, FEEDBACK, 'feedback linearization')}."
+    )
+
+
+def _find_cost(results: Results) -> str:
+    examined = replication.examine_laws(results)
+    ratio = replication.time_over(examined.ledger, FEEDBACK, MATRIX)
+    if ratio is None:
+        raise NoEvidence("no law of the paper was timed: run bench time")
+    return (
+        f"A control step of feedback linearization takes {interval(ratio, '.1f')} times as long as a step of the "
+        f"rotation-matrix law. {_name_answers(examined, 'cost less than both laws on Euler angles and perform better')}"
+    )
+
+
+def _find_no_regulator(results: Results) -> str:
+    examined, gains = replication.examine_laws(results), results.gains()
+    if MATRIX not in examined.laws:
+        raise NoEvidence(f"{MATRIX} did not run from the starts that the claim needs")
+    pace = examined.laws[MATRIX].pace
+    slower = Estimate(*(time / examined.small_s for time in pace))
+    return (
+        f"The cheapest law, rotation matrix, needs {interval(slower, '.1f')} times the settling time of a small error "
+        f"for 99 % of the starts (kp = {gains.kp:g}, kv = {gains.kv:g}). "
+        f"{_name_answers(examined, 'are adequate in both')}"
+    )
+
+
+def _find_jacobian(results: Results) -> str:
+    both = replication.compare_jacobians(results)
+    return (
+        f"Past gimbal lock the Euler Jacobian needs {interval(both.harder, '.0f')} times the peak torque of the "
+        f"geometric Jacobian (median of {both.moves} moves of {both.arms} arms)."
+    )
+
+
+def _find_compliance(results: Results) -> str:
+    wrong = replication.measure_wrong_axis(results)
+    return (
+        f"If two axes comply, the end effector turns about an axis that is {wrong.middle:.0f}° off at a tilt of "
+        f"β = {wrong.tilt_deg:.0f}° ({wrong.off[0]:.0f}° to {wrong.off[-1]:.0f}° on {len(wrong.off)} arms)."
+    )
+
+
+def _find_answers(results: Results) -> str:
+    examined, advised = replication.examine_laws(results), find_answer().law
+    if advised not in examined.laws:
+        return f"{_name_answers(examined, 'pass every test')} The advised law, {advised}, was not tested in this run."
+    settling = replication.measure_settling(_rows_of(results, advised))
+    passes = "" if advised in examined.answers else f" The advised law does not: {examined.tested[advised]}."
+    return (
+        f"{_name_answers(examined, 'pass every test')}{passes} With {advised}, {percents(settling.share)} of the "
+        f"random starts settle."
+    )
+
+
+def _name_answers(examined: replication.Examined, what: str) -> str:
+    """Name the later laws that pass all tests of C27, the advised one first, and whose they are."""
+    advised = find_answer().law
+    names = sorted(examined.answers, key=lambda name: name != advised)
+    if not names:
+        is_open = any(one.may_pass for name, one in examined.tested.items() if name not in PAPERS)
+        return "Whether a later law passes every test is not tested." if is_open else "No later law passes every test."
+    laws = together([f"{name} ({attribute(name)})" for name in names])
+    return f"These later laws {what}: {laws}." if len(names) > 1 else f"One later law does: {laws}."
+
+
+FINDINGS: dict[str, Callable[[Results], str]] = {
+    "rotation-matrix": _find_matrix,
+    "linearized-euler": _find_linearized,
+    "feedback-linearized": _find_feedback,
+    "cost": _find_cost,
+    "no-regulator": _find_no_regulator,
+    "euler-jacobian": _find_jacobian,
+    "compliance": _find_compliance,
+    "open-question": _find_answers,
+}
+"""The sentence of each conclusion: finds it in a run; NoEvidence or NoTable: the run lacks its rows."""
