@@ -38,6 +38,7 @@
     film.hidden = film.controls = false;
     attend(film);
   }
+  addEventListener("beforeprint", () => films.forEach(load)); // for their posters
   new MutationObserver(() => films.filter(film => film.dataset.loaded).forEach(load))
     .observe(root, { attributeFilter: ["data-theme"] });
 })();

@@ -10,9 +10,7 @@ from typing import NamedTuple
 
 ENTRY = re.compile(rb"(\d{10}) \d{5} n")
 STREAM = re.compile(rb"\bstream\r?\n")
-NUMBER_OR_WORD = re.compile(
-    rb"\((?:\\.|[^\\()])*\)|<[0-9A-Fa-f\s]*>|\[|\]|/[^\s/<>\[\]()]+|[-+]?[\d.]+|[A-Za-z'\"*]+"
-)
+NUMBER_OR_WORD = re.compile(rb"\((?:\\.|[^\\()])*\)|<[0-9A-Fa-f\s]*>|\[|\]|/[^\s/<>\[\]()]+|[-+]?[\d.]+|[A-Za-z'\"*]+")
 REFERENCE = re.compile(rb"(\d+) 0 R")
 PAINTING = {b"f", b"F", b"f*", b"B", b"B*", b"b", b"b*", b"S", b"s"}
 MOVES = {b"m": 2, b"l": 2, b"c": 6, b"v": 4, b"y": 4}
