@@ -207,7 +207,7 @@ def recompute_advice():
     ours = [word(LATE), 2026, "5 %", f"{100 * beats / free['of']:.0f} %", percent(free, "qualified"), "5 %"]
     ours += [percent(free, "all")]
     attribution = IN_WORDS[find_contender(law).attribution]
-    lead = [word(law), attribution, *recompute_reason(law), *recompute_costs(law)]
+    lead = [word(law), attribution, *recompute_costs(law)]
     shown = {
         "default": word(law),
         "attribution": attribution,
@@ -215,7 +215,7 @@ def recompute_advice():
         "ours": ours,
         "resets": recompute_resets(law),
     }
-    return shown, {"lead": lead}
+    return shown, {"lead": lead, "reason": recompute_reason(law)}
 
 
 def recompute_verdicts():
