@@ -17,8 +17,7 @@ from bench.findings.claims.adequacy import HELD_RAD, PAPERS
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.kept import keep
 from bench.findings.selection import regions
-from bench.findings.selection.nearest import answer as answer_nearest
-from bench.findings.selection.nearest import find_outside
+from bench.findings.selection.nearest import decide_nearest, find_outside
 from bench.findings.selection.needs import Decision, measured
 from bench.findings.selection.regions import STUDY, Rule, facts_of, find_default, find_regions
 from bench.findings.selection.robots import ROBOTS, RUN, Robot, decide_for
@@ -319,24 +318,14 @@ def advise_gains(gains: Gains, situations: Path = STUDY) -> str:
     if outside:
         return f"{own}: {NOT_TESTED} in the map (damping ratios {outside[0].low:g} to {outside[0].high:g}); {ask}"
     try:
-        nearest = _advise_nearest(wanted.zeta, situations)
+        nearest, verdict = decide_nearest(wanted, folder=situations)
     except BadResults:
         return f"{own}: {NOT_TESTED}, there is no map of situations; {ask}"
-    if nearest["law"] is None:
+    if verdict.law is None:
         return f"{own}: no law of the map meets the requirements; {ask}"
-    law, beside = str(nearest["law"]), nearest["zeta"]
-    near = "" if math.isclose(beside, wanted.zeta, rel_tol=1e-6) else f", tested at damping ratio {beside:g}"
-    return f"{own}: {law} ({attribute(law)}){near}; motors, delay: {ask}"
-
-
-def _advise_nearest(zeta: float, situations: Path) -> dict:
-    """Return the law that the map advises at a damping ratio, and the ratio that was run; of ours it is kept."""
-
-    def find() -> dict:
-        nearest = answer_nearest(NOMINAL._replace(zeta=zeta), folder=situations)
-        return {"law": nearest.verdict.law, "zeta": nearest.at.zeta}
-
-    return keep(situations, f"at-damping-{zeta:.6g}", find) if situations == STUDY else find()
+    is_same = math.isclose(nearest.zeta, wanted.zeta, rel_tol=1e-6)
+    near = "" if is_same else f", tested at damping ratio {nearest.zeta:g}"
+    return f"{own}: {verdict.law} ({attribute(verdict.law)}){near}; motors, delay: {ask}"
 
 
 LATER = 6
