@@ -4,12 +4,14 @@ A value is the text that a key shows, or a list: every number of that text, and 
 """
 
 import collections
+import tomllib
 
 import numpy as np
 import pandas as pd
 from scipy.stats import binomtest
 
 import tasks
+from bench.base.provenance import ROOT
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
 from bench.findings.selection.robots import VELOCITY
@@ -21,6 +23,7 @@ from support.leads_of_arms import (
     CONTROLS,
     LATE,
     LINEARIZED,
+    MATRIX,
     read_json,
     recompute_arms,
     recompute_compliance,
@@ -29,6 +32,7 @@ from support.leads_of_arms import (
     recompute_new_law,
     recompute_times,
     recompute_torque_at_pole,
+    torque_ratios_at_pole,
 )
 from support.map_rule import (
     NOTABLE,
@@ -160,25 +164,20 @@ def recompute_price(law, other):
     return said
 
 
-def recompute_resets(law):
-    """Return what is said of a reset of the memory."""
-    rows = table("perturbed", "robustness").query("law == @law and 0 < level <= 0.2")
-    kept, reset = (rows[rows["axis"] == axis] for axis in ("goal-jump", "goal-jump-reset"))
-    shares = [f"{100 * own['long'].sum() / own['far'].sum():.1f} %" for own in (kept, reset)]
-    times = [f"{time:.3f}" for own in (reset, kept) for time in (own["median_s"].min(), own["median_s"].max())]
-    return ["0.2", shares[1], "1.5", shares[0], kept["far"].sum(), "0.5", *times]
-
-
-def recompute_advice():
-    """Return what is said of the law of the widest region, of the other regions, and of ours."""
-    (law, advised, _), *others = widest()
+def recompute_default():
+    """Return what is said of the law of the widest region, in chapter 7."""
+    (law, _, _), *others = widest()
     rows = table("situations", "situations")
     nominal = rows[(rows["zeta"] == 1.0) & (rows["law"] == law) & (rows["period"] == 0.01)]
     nominal = nominal[
         np.isinf(nominal["bound"]) & (nominal[["delay", "unevenness", "spin", "jump"]] == 0.0).all(axis=1)
     ]
     [time] = nominal.loc[nominal["inertia"] == 1.0, "time"]
-    does = [100, 99, f"{time / 10:.2f} s", 0.1, 180, *recompute_shares(law), *recompute_price(law, others[0][0])]
+    return [100, 99, f"{time / 10:.2f} s", 0.1, 180, *recompute_shares(law), *recompute_price(law, others[0][0])]
+
+
+def recompute_ours():
+    """Return what is said of our own law beside the advised one."""
     free, rows = shares_of(LATE, SPOKEN), map_rows()
     advised_laws = {at: verdict[0] for at, verdict in map_verdicts().items() if is_of_draw(at) and verdict[0]}
     qualified = rows[(rows["law"] == LATE) & rows["qualified"]].set_index("word")
@@ -187,18 +186,69 @@ def recompute_advice():
         name = "_".join(f"{value:g}" for value in at)
         beats += name in qualified.index and (name, other, LATE) in slower_pairs(SPOKEN)
     ours = [word(LATE), 2026, "5 %", f"{100 * beats / free['of']:.0f} %", percent(free, "qualified"), "5 %"]
-    ours += [percent(free, "all")]
+    return [*ours, percent(free, "all")]
+
+
+def recompute_advice():
+    """Return the lead of chapter 7: the law of the widest region, the other regions, and ours."""
+    (law, advised, _), *others = widest()
     elsewhere = list_together([f"{word(one)} ({100 * share:.0f} %)" for one, share, _ in others])
-    lead = [word(law), *does, f"{100 * advised:.0f} %", *elsewhere, *ours]
-    attribution = IN_WORDS[find_contender(law).attribution]
-    shown = {
-        "default": word(law),
-        "attribution": attribution,
-        "does": does,
-        "ours": ours,
-        "resets": recompute_resets(law),
-    }
-    return shown, {"lead": lead}
+    return {"lead": [word(law), *recompute_default(), f"{100 * advised:.0f} %", *elsewhere, *recompute_ours()]}
+
+
+def recompute_use_today():
+    """Return what the front page says of the law to use, and of its price."""
+    law = widest()[0][0]
+    shares = shares_of(law, SPOKEN)
+    low, high = binomtest(int(shares["qualified"]), shares["of"]).proportion_ci(0.95)
+    rows = map_rows()
+    is_ours_too = rows.groupby("law")["qualified"].any().index.map(is_ours)
+    is_nominal = (rows[[*COORDINATES]] == [one.nominal for one in COORDINATES.values()]).all(axis=1)
+    is_drawn = [is_of_draw(at) for at in rows[[*COORDINATES]].itertuples(index=False, name=None)]
+    [peak] = rows[is_nominal & (rows["law"] == law)]["peak"]
+    overshoot = rows[is_drawn].query("law == @law")["overshoot"].median()
+    meets = f"{100 - 100 * shares['failing'] / shares['of']:.0f} %"
+    beaten = [percent(shares, "qualified"), f"{100 * low:.0f} to {100 * high:.0f} %", "5 %"]
+    answer = [word(law), IN_WORDS[find_contender(law).attribution], meets, 180, "0.1 rad", *beaten]
+    answer += [shares["of"], int((~is_ours_too).sum())]
+    memory = len(find_contender(law).regulator.memory)
+    return {"answer": answer, "price": [f"{memory} numbers", f"{peak:.1f} kp", f"{overshoot:.1f}°"]}
+
+
+def recompute_abstract():
+    """Return the numbers of the abstract."""
+    about, rows = read_json("reference/provenance.json"), table("episodes")
+    at_rest = rows.query("engine == 'ideal-rk4' and task == 'free-body' and converged != 'no'")
+    at_rest = at_rest[at_rest["start_set"].isin(("uniform", "half-turn", "poles", "wraps", "box"))]
+    half_turns = at_rest[(at_rest["law"] == MATRIX) & (np.pi - at_rest["angle0_rad"] < 1e-13)]
+    failed = (half_turns["outcome"] != "settled").sum()
+    linearized = at_rest[(at_rest["law"] == LINEARIZED) & (at_rest["start_set"] == "uniform")]
+    lost = (linearized["outcome"] != "settled").sum()
+    low, high = binomtest(int(lost), len(linearized)).proportion_ci(0.95, method="wilson")
+    verdicts = recompute_verdicts()
+    said = [1988, about["episodes"] + about["trials"] + about["troubled"], f"{rows['arm'][rows['arm'] != ''].nunique()} arms"]
+    said += [verdicts["decided"], *verdicts["words"], f"{len(read_history())} criteria"]
+    said += [f"all {failed}" if failed == len(half_turns) else f"{failed} of {len(half_turns)}", 180]
+    said += [f"{100 * lost / len(linearized):.1f} %", f"{100 * low:.1f} to {100 * high:.1f} %", len(linearized)]
+    harder = np.sort(torque_ratios_at_pole())
+    said += [f"{harder[(len(harder) - 1) // 2]:.0f} times", f"{len(harder)} moves", "answered"]
+    return {"abstract": [*said, *list_answers()]}
+
+
+def read_history():
+    """Return the claims with an earlier criterion."""
+    with (ROOT / "bench/findings/claims/history.toml").open("rb") as file:
+        return tomllib.load(file)
+
+
+def list_answers():
+    """Return three later laws that pass all tests of C27 and how many more, as its evidence has them."""
+    [verdict] = [one for one in claims.judge_all(RESULTS / "reference") if one.id == "C27"]
+    instead = verdict.evidence.instead.partition(": ")[2].rstrip(".")
+    names = [one.partition(" (")[0] for one in instead.split(", ")]
+    law = widest()[0][0]
+    first = sorted(names, key=lambda name: name != law)
+    return [*(word(name) for name in first[:3]), f"{len(names) - 3} more"] if len(names) > 4 else map(word, first)
 
 
 def recompute_verdicts():
@@ -218,9 +268,9 @@ def recompute_verdicts():
 
 
 COMPUTED = {
-    "index": lambda: recompute_advice()[0],
+    "index": lambda: recompute_abstract() | recompute_use_today(),
     "02-three-regulators": recompute_failure_map,
-    "04-euler-jacobian": lambda: {"harder": recompute_torque_at_pole()},
+    "04-euler-jacobian": recompute_torque_at_pole,
     "03-cost": recompute_times,
     "appendix-arms": recompute_arms,
     "05-compliance-and-contact": recompute_compliance,
@@ -230,7 +280,7 @@ COMPUTED = {
     "appendix-velocity": recompute_velocities,
     "appendix-impedance": recompute_impedance,
     "09-libraries": recompute_libraries,
-    "07-which-error": lambda: recompute_advice()[1],
+    "07-which-error": recompute_advice,
     "appendix-late-braking": recompute_new_law,
     "01-murphy-1988": recompute_verdicts,
 }

@@ -40,7 +40,7 @@ def curves(rows: pd.DataFrame, narrow: bool) -> Drawing:
     angles = np.linspace(LEAST_RAD, math.pi - NEAREST_RAD, CURVE)
     beside, words = [], []
     for equation, names in groups(rows).items():
-        colours = (style.look_among_all(name).colour for name in names)
+        colours = (style.look(name).colour for name in names)
         colour = next((one for one in colours if one != style.REST), style.REST)
         alpha = 0.5 if colour == style.REST else 1.0
         times = np.array([settling(equation, float(angle), kp, kv, tolerance) for angle in angles])

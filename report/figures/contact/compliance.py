@@ -24,7 +24,7 @@ from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
 
 PROBE = "wrench-probe"
-COLOURS = {PAPERS: "#0072b2", PAPERS_EULER: "#d55e00"}
+COLOURS = {PAPERS: style.CARTESIAN, PAPERS_EULER: style.EULER}
 NAMES = {PAPERS: "Cartesian", PAPERS_EULER: "Euler"}
 BETAS = (0, 30, 60, 85)
 ORDER = "about x and y"

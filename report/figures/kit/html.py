@@ -59,7 +59,7 @@ def badge(verdict: str) -> Html:
 
 def law(name: str, text: str | None = None) -> Html:
     """Return the name of a regulator with the colour it has in every figure."""
-    light = style.look_among_all(name).colour
+    light = style.look(name).colour
     key = f'<span class="key" style="--key: {both(light)}"></span>'
     first, space, others = foreign(text or name).partition(" ")
     return Html(f'<span class="law"><span class="together">{key}{first}</span>{space}{others}</span>')

@@ -37,7 +37,7 @@ def strips(rows: pd.DataFrame, narrow: bool) -> Drawing:
     figure, axes = style.panels(height=0.2 * len(own) + 0.9, narrow=narrow)
     words = []
     for place, law in enumerate(own):
-        colour, begin = style.look_among_all(law).colour, least(law, *gains(rows))
+        colour, begin = style.look(law).colour, least(law, *gains(rows))
         if not math.isnan(begin):
             axes.plot(
                 [max(begin, FOOT), TOP], [place] * 2, color=colour, alpha=0.35, linewidth=7, solid_capstyle="butt"

@@ -20,7 +20,7 @@ from report.figures.kit.page import Run, in_run
 
 AXES = tuple(tasks.axis_names())
 
-FAULT, FINE = "#d55e00", "#b9c3cf"
+FAULT, FINE = style.FAULT, style.FINE
 
 Found = dict[str, dict[Way, Threshold]]
 
