@@ -1,4 +1,4 @@
-"""The front page: conclusions and answer as they are judged, code that is the advised law, and a link with a picture."""
+"""The front page: conclusions and answer as they are judged, the advised law as code, a shared link with a picture."""
 
 import re
 import shutil

@@ -202,7 +202,6 @@ def recompute_use_today():
     shares = shares_of(law, SPOKEN)
     low, high = binomtest(int(shares["qualified"]), shares["of"]).proportion_ci(0.95)
     rows = map_rows()
-    is_ours_too = rows.groupby("law")["qualified"].any().index.map(is_ours)
     is_nominal = (rows[[*COORDINATES]] == [one.nominal for one in COORDINATES.values()]).all(axis=1)
     is_drawn = [is_of_draw(at) for at in rows[[*COORDINATES]].itertuples(index=False, name=None)]
     [peak] = rows[is_nominal & (rows["law"] == law)]["peak"]
@@ -210,7 +209,7 @@ def recompute_use_today():
     meets = f"{100 - 100 * shares['failing'] / shares['of']:.0f} %"
     beaten = [percent(shares, "qualified"), f"{100 * low:.0f} to {100 * high:.0f} %", "5 %"]
     answer = [word(law), IN_WORDS[find_contender(law).attribution], meets, 180, "0.1 rad", *beaten]
-    answer += [shares["of"], int((~is_ours_too).sum())]
+    answer += [shares["of"], sum(not is_ours(name) for name in rows["law"].unique())]
     memory = len(find_contender(law).regulator.memory)
     return {"answer": answer, "price": [f"{memory} numbers", f"{peak:.1f} kp", f"{overshoot:.1f}°"]}
 
@@ -226,7 +225,8 @@ def recompute_abstract():
     lost = (linearized["outcome"] != "settled").sum()
     low, high = binomtest(int(lost), len(linearized)).proportion_ci(0.95, method="wilson")
     verdicts = recompute_verdicts()
-    said = [1988, about["episodes"] + about["trials"] + about["troubled"], f"{rows['arm'][rows['arm'] != ''].nunique()} arms"]
+    arms = rows.loc[rows["arm"] != "", "arm"].nunique()
+    said = [1988, about["episodes"] + about["trials"] + about["troubled"], f"{arms} arms"]
     said += [verdicts["decided"], *verdicts["words"], f"{len(read_history())} criteria"]
     said += [f"all {failed}" if failed == len(half_turns) else f"{failed} of {len(half_turns)}", 180]
     said += [f"{100 * lost / len(linearized):.1f} %", f"{100 * low:.1f} to {100 * high:.1f} %", len(linearized)]

@@ -88,7 +88,7 @@ def list_in_short(run: Run) -> Iterator[tuple]:
 
 @functools.cache
 def find_names() -> re.Pattern[str]:
-    """Return a pattern that finds the name of a law, as the terminal prints it, but not in "the rotation-matrix law"."""
+    """Return a pattern that finds a law's name as the terminal prints it, not in "the rotation-matrix law"."""
     names = sorted((contender.name for contender in all_contenders()), key=len, reverse=True)
     return re.compile(rf"(?<![\w/-])({'|'.join(map(re.escape, names))})(?![\w/-]| law)")
 
