@@ -10,7 +10,7 @@ from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.statistics import Estimate
 from bench.findings import claims
 from bench.findings.claims.at_gains import at_every_gain
-from bench.findings.claims.performance import is_without_memory, title_of
+from bench.findings.claims.performance import is_without_memory, whose
 from bench.findings.claims.tables import (
     Results,
     count_of,
@@ -74,7 +74,7 @@ def test_open_question_is_answered_by_the_default_law_among_others(verdicts):
     assert answer.word == Word.ANSWERED
     assert default in passing
     assert answer.correction.startswith("Yes: ")
-    assert all(f"{title_of(law)} (" in answer.correction for law in passing)
+    assert all(f"{law} ({whose(law)})" in answer.correction for law in passing)
     assert ("Without memory none can" in answer.correction) == (not any(map(is_without_memory, passing)))
 
 

@@ -89,7 +89,7 @@ def test_table_writes_its_columns_in_their_order_with_their_formats_numbers_righ
     assert rows(pd.DataFrame([row])).splitlines() == [
         "| Law | Settled [%] | Error | k | n | rest |",
         "| :-- | --: | --: | :-- | --: | --: |",
-        "| a\\|b | 12.3 | <5> | 1 | 5\u202f000 | – |",
+        "| a\\|b | 12.3 | <5> | 1 | 5000 | – |",
     ]
     assert rows([tuple(row.values())[::-1]]) == rows(pd.DataFrame([row]))
 
@@ -103,9 +103,13 @@ def test_table_refuses_a_format_for_no_column():
     ("value", "text"),
     [
         (7.0, "7"),
-        (1234.5, "1\u202f234"),
+        (1234.5, "1234"),
+        (12345.0, "12\u202f345"),
         (-0.14286, "\u22120.143"),
         (2.5e12, "2.5·10¹²"),
+        (9.9e-5, "9.9·10⁻⁵"),
+        (-4.12e-4, "\u22124.1·10⁻⁴"),
+        (0.00412, "0.00412"),
         (None, "–"),
         ("e-5", "e-5"),
         (True, "True"),

@@ -108,7 +108,8 @@ def recompute_thresholds():
                 each[axis, not grows][law] = (held[-1], is_kept.all()) if len(held) else None
     known = {law for own in each.values() for law, held in own.items() if held}
     apart = [way for way, own in sorted(each.items()) if len({own[law] for law in known}) > 1]
-    return {"apart": "; ".join(f"{tasks.axis(axis).title.lower()}{' (downwards)' * falls}" for axis, falls in apart)}
+    titles = [f"{tasks.axis(axis).title.lower()}{' (downwards)' * falls}" for axis, falls in apart]
+    return {"apart": "; ".join(titles), "changed_situations.default": word(widest()[0][0])}
 
 
 def recompute_noise():
@@ -164,6 +165,32 @@ def recompute_price(law, other):
     return said
 
 
+def recompute_reason(law):
+    """Return the numbers of why a law is advised: where it meets all that is asked, and where no such law is faster."""
+    near = shares_of(law, SPOKEN)
+    low, high = binomtest(near["qualified"], near["of"]).proportion_ci(0.95)
+    meets = round(100 * (1 - near["failing"] / near["of"]))
+    return [meets, 180, 0.1, *(round(100 * share) for share in (near["qualified"] / near["of"], low, high)), 5]
+
+
+def recompute_costs(law):
+    """Return the numbers that a law keeps, its greatest command over kp, and its typical overshoot [deg]."""
+    rows = map_rows().query("law == @law")
+    is_drawn = [is_of_draw(at) for at in rows[[*COORDINATES]].itertuples(index=False, name=None)]
+    is_nominal = (rows[[*COORDINATES]] == [one.nominal for one in COORDINATES.values()]).all(axis=1)
+    peak, overshoot = rows.loc[is_nominal, "peak"].item(), rows.loc[is_drawn, "overshoot"].median()
+    return [len(find_contender(law).regulator.memory), round(peak, 1), round(overshoot, 1)]
+
+
+def recompute_resets(law):
+    """Return what is said of a reset of the memory."""
+    rows = table("perturbed", "robustness").query("law == @law and 0 < level <= 0.2")
+    kept, reset = (rows[rows["axis"] == axis] for axis in ("goal-jump", "goal-jump-reset"))
+    shares = [f"{100 * own['long'].sum() / own['far'].sum():.1f} %" for own in (kept, reset)]
+    times = [f"{time:.3f}" for own in (reset, kept) for time in (own["median_s"].min(), own["median_s"].max())]
+    return ["0.2", shares[1], "1.5", shares[0], kept["far"].sum(), "0.5", *times]
+
+
 def recompute_default():
     """Return what is said of the law of the widest region, in chapter 7."""
     (law, _, _), *others = widest()
@@ -190,28 +217,19 @@ def recompute_ours():
 
 
 def recompute_advice():
-    """Return the lead of chapter 7: the law of the widest region, the other regions, and ours."""
-    (law, advised, _), *others = widest()
-    elsewhere = list_together([f"{word(one)} ({100 * share:.0f} %)" for one, share, _ in others])
-    return {"lead": [word(law), *recompute_default(), f"{100 * advised:.0f} %", *elsewhere, *recompute_ours()]}
+    """Return what chapter 7 says of the law of the widest region, and of ours."""
+    law = widest()[0][0]
+    lead = [word(law), IN_WORDS[find_contender(law).attribution], *recompute_reason(law), *recompute_costs(law)]
+    return {"lead": lead, "does": recompute_default(), "ours": recompute_ours()}
 
 
 def recompute_use_today():
     """Return what the front page says of the law to use, and of its price."""
     law = widest()[0][0]
-    shares = shares_of(law, SPOKEN)
-    low, high = binomtest(int(shares["qualified"]), shares["of"]).proportion_ci(0.95)
-    rows = map_rows()
-    is_nominal = (rows[[*COORDINATES]] == [one.nominal for one in COORDINATES.values()]).all(axis=1)
-    is_drawn = [is_of_draw(at) for at in rows[[*COORDINATES]].itertuples(index=False, name=None)]
-    [peak] = rows[is_nominal & (rows["law"] == law)]["peak"]
-    overshoot = rows[is_drawn].query("law == @law")["overshoot"].median()
-    meets = f"{100 - 100 * shares['failing'] / shares['of']:.0f} %"
-    beaten = [percent(shares, "qualified"), f"{100 * low:.0f} to {100 * high:.0f} %", "5 %"]
-    answer = [word(law), IN_WORDS[find_contender(law).attribution], meets, 180, "0.1 rad", *beaten]
-    answer += [shares["of"], sum(not is_ours(name) for name in rows["law"].unique())]
-    memory = len(find_contender(law).regulator.memory)
-    return {"answer": answer, "price": [f"{memory} numbers", f"{peak:.1f} kp", f"{overshoot:.1f}°"]}
+    attribution = IN_WORDS[find_contender(law).attribution]
+    laws = sum(not is_ours(name) for name in map_rows()["law"].unique())
+    answer = [word(law), attribution, *recompute_reason(law), shares_of(law, SPOKEN)["of"], laws]
+    return {"answer": answer, "price": recompute_costs(law)}
 
 
 def recompute_abstract():
@@ -244,8 +262,8 @@ def read_history():
 def list_answers():
     """Return three later laws that pass all tests of C27 and how many more, as its evidence has them."""
     [verdict] = [one for one in claims.judge_all(RESULTS / "reference") if one.id == "C27"]
-    instead = verdict.evidence.instead.partition(": ")[2].rstrip(".")
-    names = [one.partition(" (")[0] for one in instead.split(", ")]
+    passing = verdict.evidence.instead.partition(": ")[2].partition(". ")[0]
+    names = [answer.partition(" (")[0] for answer in passing.split("; ")]
     law = widest()[0][0]
     first = sorted(names, key=lambda name: name != law)
     return [*(word(name) for name in first[:3]), f"{len(names) - 3} more"] if len(names) > 4 else map(word, first)
@@ -276,7 +294,7 @@ COMPUTED = {
     "05-compliance-and-contact": recompute_compliance,
     "06-what-an-error-must-do": recompute_noise,
     "appendix-side-by-side": recompute_comparison,
-    "08-delay-noise-limits": recompute_thresholds,
+    "08-delay-noise-limits": lambda: recompute_thresholds() | {"goal_jumps.resets": recompute_resets(widest()[0][0])},
     "appendix-velocity": recompute_velocities,
     "appendix-impedance": recompute_impedance,
     "09-libraries": recompute_libraries,

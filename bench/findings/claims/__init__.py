@@ -60,6 +60,17 @@ def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
     return decided, found["lacks"]
 
 
+def judge_each(results: Results) -> list[Verdict]:
+    """Return a verdict on every claim: 'not tested' where the run lacks what it needs, with what is lacking."""
+    decided, lacks = judge_possible(results)
+    verdicts = {verdict.id: verdict for verdict in decided}
+    for claim in all_claims():
+        if claim.id in lacks:
+            evidence = Evidence(f"This run cannot decide it: {lacks[claim.id]}.", 0)
+            verdicts[claim.id] = Verdict(claim, Word.UNTESTED, evidence)
+    return [verdicts[claim.id] for claim in all_claims()]
+
+
 def _evidence_of(stored: list) -> Evidence:
     """Return an evidence from its values as JSON holds them, where a tuple is a list."""
     evidence = Evidence(*stored)

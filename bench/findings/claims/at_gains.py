@@ -63,11 +63,11 @@ def _at_every_gain(decide: Callable, combine: Callable[[list[Word]], Word]) -> C
         words = [word for word, _ in found.values() if word != Word.UNTESTED]
         word = combine(words) if words else Word.UNTESTED
         told = " ".join(f"At {_told(gains)}: {word}. {said}" for gains, (word, said) in found.items())
-        true_at: dict[str, list[str]] = {}
+        true_at: dict[str, list[Gains]] = {}
         for gains, (_, said) in found.items():
             if said.instead:
-                true_at.setdefault(said.instead, []).append(_told(gains))
-        instead = " ".join(f"At {'; '.join(at)}: {text}" for text, at in true_at.items())
+                true_at.setdefault(said.instead, []).append(gains)
+        instead = " ".join(f"At {_told_all(at)}: {text}" for text, at in true_at.items())
         rows = sum(said.rows for _, said in found.values())
         return word, evidence(
             told,
@@ -111,6 +111,14 @@ def _numbers(said: dict[Gains, Evidence]) -> list[tuple[str, ...]]:
     heads = next(iter(tables.values()))[0]
     rows = [(_short(gains), *row) for gains, (_, *rows) in tables.items() for row in rows]
     return [("Gains", *heads), *rows]
+
+
+def _told_all(at: list[Gains]) -> str:
+    """Return some gains: 'Kp = 100, Kv = 14, 20 and 30'; the stiffness is said once where it is the same."""
+    *others, last = at
+    if not others or any(gains.kp != last.kp for gains in others):
+        return "; ".join(map(_told, at))
+    return f"Kp = {last.kp:g}, Kv = {', '.join(f'{gains.kv:g}' for gains in others)} and {last.kv:g}"
 
 
 def _told(gains: Gains) -> str:
@@ -157,14 +165,14 @@ def describe(study: dict, words: dict[str, str]) -> str:
     runs, stale = study["runs"], study.get("stale", [])
     seeds = sum(name != HALF_STEP for name in runs)
     other = {id: found for id, found in turned(runs, words).items() if id not in stale}
-    found = "every verdict stays the same" if not other else f"these change: {', '.join(other)}"
+    found = "every verdict that was tested stays the same" if not other else f"these change: {', '.join(other)}"
     step = " and with half the step size" if HALF_STEP in runs else ""
     return f"With {seeds} other random seeds{step}, {found}.{_lacking(stale)}{by_gains(study, words)}"
 
 
 def _lacking(stale: list[str]) -> str:
     """Name the claims that the study judged by a criterion which stands no more."""
-    return f" Not tested in it, for their criteria are newer: {', '.join(stale)}." if stale else ""
+    return f" Not tested, because their criteria are newer: {', '.join(stale)}." if stale else ""
 
 
 def by_gains(study: dict, words: dict[str, str]) -> str:

@@ -180,7 +180,7 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
         word = Word.ANSWERED
     elif any(result.may_pass for result in tested.values()):
         word = Word.UNTESTED
-    named = "; ".join(f"{title_of(law.name)} ({whose(law.name)})" for law in answers)
+    named = "; ".join(told)
     without = [result for name, result in tested.items() if is_without_memory(name) and not result.may_pass]
     passing = sum(result.passes for result in without)
     rest = f"without memory {count_of(passing, len(without), '').strip()}" if without else "without memory: not tested"
@@ -237,15 +237,6 @@ def _known() -> dict[str, Contender]:
 def whose(name: str) -> str:
     """Return whether a contender's law is published, adapted here from others' works, ours, or a user's own."""
     return _known()[name].attribution if name in _known() else YOURS
-
-
-def title_of(name: str) -> str:
-    """Return the title of a contender's law, with its coordinates where it has some; a user's law has its name."""
-    if name not in _known():
-        return name
-    contender = _known()[name]
-    coordinates = contender.representation
-    return f"{contender.regulator.title} in {coordinates.title}" if coordinates else contender.regulator.title
 
 
 def is_without_memory(name: str) -> bool:

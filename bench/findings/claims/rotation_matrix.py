@@ -61,7 +61,7 @@ def c01(results: Results, engine: str) -> tuple[Word, Evidence]:
     is_stray = uniform.n - uniform.k <= LIMIT.STRAY_SHARE * uniform.n
     return word_of(not unstable and exactly == len(left), not unstable and is_stray), evidence(
         f"""{count_of(unstable, len(frame), "starts").capitalize()} diverge or gain energy. {len(left)} do not settle;
-        exactly a 180° rotation from the goal are {count_of(exactly, len(left), "of them")}. Of uniform starts
+        {count_of(exactly, len(left), "of these")} begin exactly 180° from the goal. Of uniform starts
         {uniform} settle.""",
         len(frame),
         measured=f"""{percent_interval(uniform)} of {uniform.n:,} uniform starts settle;

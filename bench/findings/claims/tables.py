@@ -197,7 +197,9 @@ def _free_body_query(words: Mapping[str, str]) -> str:
 
 
 def count_of(k: int, n: int, noun: str) -> str:
-    """Return 'all 17 poles', 'none of 17 poles' or '3 of 17 poles'; the noun is in the plural."""
+    """Return 'all 17 poles', 'both poles', 'none of 17 poles' or '3 of 17 poles'; the noun is in the plural."""
+    if k == n == 2:
+        return f"both {noun}"
     many = {n: "all", 0: "none of"}.get(k, f"{k:,} of")
     return f"{many} {n:,} {noun}"
 
@@ -238,13 +240,12 @@ class Share(NamedTuple):
 
 def share(facts: pd.Series) -> Share:
     """Return how many of some yes-or-no rows are yes; NoEvidence: there are no rows."""
-    from scipy.stats import binomtest
+    from bench.experiments.tables.statistics import wilson
 
     k, n = int(facts.sum()), len(facts)
     if n == 0:
         raise NoEvidence("a share of no rows at all")
-    interval = binomtest(k, n).proportion_ci(method="wilson")
-    return Share(k, n, k / n, float(interval.low), float(interval.high))
+    return Share(k, n, k / n, *wilson(k, n))
 
 
 def interval(one: Share | Estimate, form: str) -> str:

@@ -8,6 +8,7 @@ history.toml.
 import functools
 import importlib
 import inspect
+import re
 import tomllib
 from collections.abc import Callable
 from enum import StrEnum
@@ -106,6 +107,10 @@ class Earlier(NamedTuple):
     word: Word
 
 
+SECTION = re.compile(r"\d+(?:\.\d+)?")
+"""The first section that a claim's `section` names."""
+
+
 class Claim(NamedTuple):
     """One sentence of the paper and how it is decided.
 
@@ -130,6 +135,13 @@ class Claim(NamedTuple):
     instead: str = ""
     written: str = ""
     earlier: tuple[Earlier, ...] = ()
+
+    @property
+    def paper_order(self) -> tuple:
+        """What claims are sorted by to have them in the order of the paper: the abstract is first, section 2 next."""
+        found = SECTION.search(self.section)
+        number = tuple(map(int, found[0].split("."))) if found else ()
+        return number, self.id
 
     @property
     def place(self) -> str:

@@ -48,15 +48,10 @@ TWINS = {
     "#80314e": "#fa1a54",  # wine
     "#963cfc": "#e491ff",  # violet
     "#ae8f13": "#f8d837",  # yellow
-    # what is no law: faults, Jacobians
+    # of controllers and Jacobians, and a word that no law of ours uses
     "#0072b2": "#5cb8f0",  # blue
     "#d55e00": "#ff9350",  # vermillion
-    "#009e73": "#3fd0a4",  # bluish green
-    "#cc79a7": "#eda3cb",  # reddish purple
     "#e69f00": "#f5bd45",  # orange
-    "#56b4e9": "#9fd4f5",  # sky blue
-    "#a39400": "#e9dd4f",  # yellow, darkened: Okabe and Ito's own vanishes on white
-    "#b9c3cf": "#475263",  # settled: what needs no attention
     "#000001": "#ffffff",  # stuck: the strongest contrast there is
 }
 
@@ -92,8 +87,6 @@ YOURS = INK
 
 CARTESIAN, EULER = "#0072b2", "#d55e00"
 """Of controllers and Jacobians: on Cartesian axes, and on Euler angles."""
-FAULT, FINE = "#d55e00", "#b9c3cf"
-"""Of outcomes: what does not withstand, and what does."""
 
 
 class Look(NamedTuple):
@@ -132,10 +125,6 @@ def look(name: str) -> Look:
     spare = [*itertools.product(SPARE_MARKERS, SPARE_LINES)]
     marker, line = spare[mark(word) % len(spare)]
     return Look(colour_of(name), marker, line)
-
-
-look_among_all = look
-"""Older name."""
 
 
 def mark(text: str) -> int:

@@ -1,7 +1,5 @@
 """The paper's eight conclusions as rows, and how many of its statements hold."""
 
-import functools
-import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
@@ -9,8 +7,8 @@ from bench.findings import claims
 from bench.findings.claims import judge_possible
 from bench.findings.claims.verdict import Verdict
 from bench.findings.conclusions import Conclusion, conclude
-from bench.law.contenders.registry import all_contenders
-from report.figures.kit import families, html
+from report.figures.kit import html
+from report.figures.kit.law_names import call_laws
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import prose
 
@@ -84,18 +82,6 @@ def list_in_short(run: Run) -> Iterator[tuple]:
         words = f"**{SUBJECTS[conclusion.name]}:** “{prose(conclusion.short)}” ({conclusion.section})"
         verdict = html.badge(conclusion.verdict)
         yield words, verdict, prose(call_laws(conclusion.finding)), refer(conclusion)
-
-
-@functools.cache
-def find_names() -> re.Pattern[str]:
-    """Return a pattern that finds a law's name as the terminal prints it, not in "the rotation-matrix law"."""
-    names = sorted((contender.name for contender in all_contenders()), key=len, reverse=True)
-    return re.compile(rf"(?<![\w/-])({'|'.join(map(re.escape, names))})(?![\w/-]| law)")
-
-
-def call_laws(text: str) -> str:
-    """Return a text with the laws called as the book calls them: MRP with memory, not mrp-memory."""
-    return find_names().sub(lambda name: families.word(name[0]), text)
 
 
 def link_claims(ids: Iterable[str]) -> str:
