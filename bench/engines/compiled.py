@@ -27,6 +27,7 @@ from bench.engines.curve import Curves
 from bench.engines.episode import Numbers
 from bench.engines.kept_code import KeptCode
 from bench.engines.typed import PART, type_of
+from bench.engines.uncompiled import explain_failure
 from bench.law import scalar
 from bench.law.chain import Chain, Scratch
 from bench.law.control.setpoint import ContactParameters, Rows, Setpoint
@@ -201,15 +202,4 @@ def own_law(origin: str) -> Iterator[bool]:
     except Exception as error:
         if not origin:
             raise
-        raise BadLaw(
-            f"--law {origin}: the law cannot be compiled ({_deepest_reason(error)}); keep to the dialect of "
-            "bench/law/scalar.py, functions marked @kernel, or run it uncompiled with --engine reference"
-        ) from error
-
-
-def _deepest_reason(error: Exception) -> str:
-    """Return the line of numba's report that is about the law; it reports each caller before the callee."""
-    lines = [line.strip() for line in str(error).splitlines() if line.strip()] or [type(error).__name__]
-    deepest = max((i for i, line in enumerate(lines[:-1]) if "Failed in nopython mode" in line), default=-1)
-    reason, *after = lines[deepest + 1 :]
-    return f"{reason} {after[0].removeprefix('>>> ')}" if reason.endswith("signature:") and after else reason
+        raise BadLaw(f"--law {origin}: the law cannot be compiled: {explain_failure(error)}") from error

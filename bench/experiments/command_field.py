@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bench.experiments.episodes import prepare
+from bench.experiments.exchanged import find_order
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit, own_last
 from bench.experiments.field import ZERO, Field, about, size
 from bench.experiments.traces import laws
@@ -39,6 +40,9 @@ SAME, BOUNDED = 1e-3, 1e3
 """Shares: by the first a stiffness may differ from what it is taken for; above the second it is a jump or a pole."""
 
 AXES, GEODESICS, SAMPLES, HALVINGS, PULLED = 200, 60, 48, 40, np.radians((30.0, 90.0))
+
+EXCHANGED, ODD = "exchanged-", ("unbounded", "uneven", "none")
+"""Before the order of a quaternion's components, as a word of a stiffness; and words for which one is looked for."""
 
 LEFT, POLE, BESIDE_RAD = 1e-3, 1e3, 1e-6
 """|u|/kp that is left of a jump when its interval is 1e-13 rad long: no slope under 1e10 is taken for one; from which
@@ -101,7 +105,10 @@ def _near_goal(field: Field) -> Iterator[Finding]:
         beside = np.array([multiply(tuple(about(np.array((0.6, 0.0, 0.8)), TURN_RAD)), goal)] * 3)
         up, down = (field(beside, goal, sign * RATE * base) for sign in (1.0, -1.0))
         D.append((down - up).T * gains.kp / (2.0 * RATE * gains.kv))
-    yield _compared("stiffness", np.array(K), field.one.regulator.stiffness)
+    stiffness = _compared("stiffness", np.array(K), field.one.regulator.stiffness)
+    is_odd = what == "pushes" or stiffness.what in ODD
+    order = find_order(field) if is_odd else ""
+    yield stiffness._replace(what=f"{EXCHANGED}{order}") if order else stiffness
     yield _compared("damping", np.array(D), (1.0, 1.0, 1.0))
 
 

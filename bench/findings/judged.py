@@ -9,6 +9,7 @@ import pandas as pd
 
 from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
+from bench.experiments.experiment import Unit
 from bench.experiments.plan import Plan
 from bench.experiments.tables.read import table, with_contender
 from bench.experiments.tables.schema import RESULTS
@@ -34,19 +35,53 @@ Parts = dict[tuple[str, str], list[pd.DataFrame]]
 def judged(regulators: Iterable[Law], limit_s: float = LIMIT_S) -> list[Judgement]:
     """Return the judgement of every law; a unit is hung after limit_s of processor time. BadLaw: a file is no law."""
     laws = contenders_of(*regulators)
-    plan, parts = plan_of(laws), defaultdict(list)
+    plan = plan_of(laws)
+    parts: Parts = defaultdict(list)
     with Sandbox(plan, limit_s, TRIED) as sandbox:
-        sandbox.check()
-        given_up = set()  # of a law that hangs the rest would take minutes more
-        for unit in plan.units:
-            if unit.contender in given_up or (unit.experiment == "robustness" and sandbox.notes):
-                continue
-            made = sandbox.rows(unit).to_pandas()
-            parts[unit.contender, unit.experiment].append(made)
-            if sandbox.notes and unit.experiment == "free-body" and made["outcome"].isin(LOST).all():
-                given_up.add(unit.contender)
+        look_at_commands(plan, sandbox, parts)
+        explained = {one.name for one in laws if find_cause(one, parts)}
+        run_episodes(dataclasses.replace(plan, units=without(plan.units, explained)), sandbox, parts)
         is_lost, reasons = bool(sandbox.notes), sandbox.reasons
     return [judgement(one, parts, is_lost, reasons.get(one.name, "")) for one in laws]
+
+
+def look_at_commands(plan: Plan, sandbox: Sandbox, parts: Parts) -> None:
+    """Add the command field of every law, which takes seconds: a fault that explains all shows there."""
+    fields = plan.of("command-field")
+    sandbox.check(fields)
+    for unit in fields:
+        parts[unit.contender, unit.experiment].append(sandbox.rows(unit).to_pandas())
+
+
+def run_episodes(plan: Plan, sandbox: Sandbox, parts: Parts) -> None:
+    """Add the episodes of laws, then those under perturbations: not of a law that hangs, nor if no start settles."""
+    sandbox.check(plan.of("free-body"))
+    hanging = set()  # the rest of a law that hangs would take minutes more
+    for unit in plan.of("free-body"):
+        if unit.contender in hanging:
+            continue
+        made = sandbox.rows(unit).to_pandas()
+        parts[unit.contender, unit.experiment].append(made)
+        if sandbox.notes and made["outcome"].isin(LOST).all():
+            hanging.add(unit.contender)
+    if sandbox.notes:
+        return
+    settling = {law for (law, name), own in parts.items() if name == "free-body" and any(map(why.is_settling, own))}
+    perturbed = [unit for unit in plan.of("robustness") if unit.contender in settling]
+    sandbox.check(perturbed)
+    for unit in perturbed:
+        parts[unit.contender, unit.experiment].append(sandbox.rows(unit).to_pandas())
+
+
+def find_cause(one: Contender, parts: Parts) -> str:
+    """Return the word of the fault of a law that explains all its episodes; empty if there is none."""
+    [field] = parts[one.name, "command-field"]
+    return why.find_cause(field, one.regulator.memory is not None)
+
+
+def without(units: Iterable[Unit], laws: set[str]) -> tuple[Unit, ...]:
+    """Return the units of all laws but these."""
+    return tuple(unit for unit in units if unit.contender not in laws)
 
 
 def find_reason(one: Contender, episodes: pd.DataFrame) -> str:
@@ -70,19 +105,22 @@ def judgement(one: Contender, parts: Parts, is_lost: bool = False, reason: str =
         for name in ("command-field", "free-body", "robustness")
     )
     declared = one.regulator.property
-    robust = () if is_lost else why.perturbed(perturbed)  # the first loss ends them: the rest was not tried
-    said = (*why.sentences(field, declared), *why.ends(episodes, declared), *robust)
+    moves = why.ends(episodes, declared) if len(episodes) else []
+    robust = [] if is_lost else why.perturbed(perturbed)  # the first loss ends them: the rest was not tried
+    cause = why.find_cause(field, one.regulator.memory is not None)
+    skipped = why.not_run(cause, episodes, is_lost)
+    said = (*why.sentences(field, declared, cause), *moves, *robust, *skipped)
     if any(each.fault == why.FAULTS["crashed"] for each in said):  # where it raises its command is no number
         said = tuple(each for each in said if each.fault != "no number")
     heading = why.head_lost(one.name, episodes, reason or find_reason(one, episodes))
-    return Judgement(one.name, said, _beside(field, with_contender(episodes)), is_lost, heading)
+    return Judgement(one.name, said, _beside(field, episodes), is_lost, heading)
 
 
 def _beside(field: pd.DataFrame, episodes: pd.DataFrame) -> tuple[dict[str, Any], ...]:
-    if field.empty:
+    if field.empty or episodes.empty:
         return ()
     reference = RESULTS / "reference"
     run = table(reference, "episodes")
     run = run[(run["arm"] == "") & (run["engine"] == ENGINE) & run["start_set"].isin(START_SETS)]
-    lines = why.beside(field, episodes, table(reference, "command-field"), run).to_dict("records")
+    lines = why.beside(field, with_contender(episodes), table(reference, "command-field"), run).to_dict("records")
     return tuple({key: None if value != value else value for key, value in line.items()} for line in lines)

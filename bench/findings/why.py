@@ -13,6 +13,8 @@ import numpy as np
 import pandas as pd
 
 import tasks
+from bench.audit.faults.stiffness import UNITS
+from bench.experiments.command_field import EXCHANGED
 from bench.experiments.tables.read import with_contender
 from bench.experiments.tables.statistics import quantile
 from bench.findings.judgement import Said
@@ -20,6 +22,7 @@ from bench.findings.perturbed import WITHSTANDS, by_level, thresholds
 from bench.findings.selection.needs import CHATTER
 from bench.findings.theory.thresholds import near_goal
 from bench.law.contenders.registry import contenders
+from tasks.rules import RULES
 
 FAILURES, SIDE = "02-three-regulators", "appendix-side-by-side"
 ENDS, ROBUSTNESS = "appendix-method", "08-delay-noise-limits"
@@ -35,28 +38,95 @@ MOST, NEAR_RAD = 3, 0.01
 """Laws shown beside it. From 180°: what lies nearer, a law that is "almost global" may lose; Paielli and
 Bach's does, to 0.005 rad."""
 
+EVERYWHERE = ("zero", "no-number")
+"""Causes that are one thing in every state."""
+
+AT_GOAL = ("goal", "stiffness", "damping")
+SAID_WITH = {"exchanged": ("stiffness", "damping")}
+"""Findings that are said where one fault explains the rest; exchanged components explain what is wrong at the goal."""
+
+UNIT_RELATIVE = 1e-3
+"""Share by which a stiffness may differ from that of another unit: no gain is set better than to a thousandth."""
+
 FAULTS = {"oscillating": "oscillation", "creeping": "creeping", "stuck": "stuck"}
 FAULTS |= {"crashed": "raises or exits", "hung": "does not return"}
 """Fault by outcome; starts of any other outcome are called lost."""
 
 
-def sentences(rows: pd.DataFrame, declared: str) -> list[Said]:
-    """Return what its rows of command-field.parquet say of a law; declared: its `property`."""
+def sentences(rows: pd.DataFrame, declared: str, cause: str = "") -> list[Said]:
+    """Return what its rows of command-field.parquet say of a law; declared: its `property`.
+
+    cause: the fault that explains all others (`find_cause`); then only it and what is known of the goal are said.
+    """
     if rows.empty:
         return [Said("Its command was not looked at: it crashed or hung.", FAILURES, "broken")]
-    whats, said = dict(zip(rows["finding"].astype(str), rows["what"].astype(str), strict=True)), []
-    if whats["dead-half-turns"] != "none" == whats["no-number-half-turns"] and whats["jump-half-turns"] == "jump":
-        whats["dead-half-turns"] = "between"
-    if declared == "global with memory" and whats["jump-half-turns"] == "jump":
-        whats["jump-half-turns"] = "kept"
+    whats = find_words(rows, declared)
+    if cause in EVERYWHERE:
+        return [_say(SENTENCES["everywhere"][cause], {})]
+    said = []
     for row, (finding, what) in zip(rows.to_dict("records"), whats.items(), strict=True):
         known = SENTENCES[finding].get(what) or SENTENCES[finding].get("*" if what != "none" else "")
-        if known is not None:
-            is_excused = finding in ("dead-half-turns", "no-number-half-turns") and what != "between"
-            is_declared = is_excused and declared.startswith("almost global")
-            fault = "" if is_declared else known.get("fault", "")
-            said.append(Said(known["text"].format(**describe_row(row)), known["page"], fault))
+        if known is None or (cause and finding not in SAID_WITH.get(cause, AT_GOAL)):
+            continue
+        is_excused = finding in ("dead-half-turns", "no-number-half-turns") and what != "between"
+        is_declared = is_excused and declared.startswith("almost global")
+        said.append(_say(known, describe_row(row), is_fault=not is_declared))
     return said
+
+
+def find_words(rows: pd.DataFrame, declared: str) -> dict[str, str]:
+    """Return the word of each finding of a law, as SENTENCES has it: some words follow from several findings."""
+    whats = dict(zip(rows["finding"].astype(str), rows["what"].astype(str), strict=True))
+    is_jump = whats["jump-half-turns"] == "jump"
+    # sign(0) taken as 0 makes a law with two sides dead on the whole border between them, not at single places
+    is_border = whats["dead-half-turns"].startswith(("every", "plane"))
+    if is_border and is_jump and whats["no-number-half-turns"] == "none":
+        whats["dead-half-turns"] = "between"
+    if declared == "global with memory" and is_jump:
+        whats["jump-half-turns"] = "kept"
+    if whats["stiffness"].startswith(EXCHANGED):
+        whats["stiffness"] = "exchanged"
+    if whats["stiffness"] == "scaled" and find_unit(_value_of(rows, "stiffness"))[0]:
+        whats["stiffness"] = "unit"
+    return whats
+
+
+def find_unit(share: float) -> tuple[str, str]:
+    """Return the unit of angle whose stiffness is so many times the one of radians, and that number; or two blanks."""
+    for times, unit in UNITS.items():
+        if abs(share / times - 1.0) <= UNIT_RELATIVE:
+            return unit
+    return "", ""
+
+
+def find_cause(rows: pd.DataFrame, has_memory: bool) -> str:
+    """Return the word of the fault that explains whatever episodes of a law would show; empty if there is none.
+
+    The command field shows a law at its first tick. That of a law with memory need not be its last word:
+    quaternion-unwinding first drives away from the goal, and settles.
+    """
+    if rows.empty or has_memory:
+        return ""
+    whats = dict(zip(rows["finding"].astype(str), rows["what"].astype(str), strict=True))
+    [pull] = rows[rows["finding"] == "pull"].to_dict("records")
+    is_dead, is_no_number = (whats[finding] == "every" for finding in ("dead-half-turns", "no-number-half-turns"))
+    if whats["stiffness"] == whats["damping"] == "none" and is_dead and pull["least"] == pull["most"] == 0.0:
+        return "zero"
+    if whats["goal"] == "no-number" and is_no_number and math.isnan(pull["value"]):
+        return "no-number"
+    if whats["stiffness"].startswith(EXCHANGED):
+        return "exchanged"
+    if whats["stiffness"] in ("wrong-sign", "row-first"):
+        return whats["stiffness"]
+    return "wrong-damping" if whats["damping"] == "wrong-sign" else ""
+
+
+def _value_of(rows: pd.DataFrame, finding: str) -> float:
+    return float(rows.loc[rows["finding"] == finding, "value"].iloc[0])
+
+
+def _say(known: dict[str, str], words: dict[str, str], is_fault: bool = True) -> Said:
+    return Said(known["text"].format(**words), known["page"], known.get("fault", "") if is_fault else "")
 
 
 def ends(rows: pd.DataFrame, declared: str) -> list[Said]:
@@ -91,6 +161,20 @@ def head_lost(name: str, rows: pd.DataFrame, reason: str) -> str:
         return f"{name}: {reason}" if reason else name
     share, nearest = f"{len(lost) / len(rows):.0%} of {len(rows):,}", math.degrees(lost["angle0_rad"].min())
     return f"{name}: {reason}, from {share} starts, the nearest at {nearest:.3g} deg"
+
+
+def is_settling(rows: pd.DataFrame) -> bool:
+    """Tell whether some episodes settle that do not begin at the goal."""
+    return bool(((rows["outcome"] == "settled") & (rows["angle0_rad"] >= RULES.at_goal_rad)).any())
+
+
+def not_run(cause: str, episodes: pd.DataFrame, is_lost: bool) -> list[Said]:
+    """Say what was not run, and why: where a cause is known no episode, where no start settles no perturbation."""
+    if cause:
+        return [Said("No episode was run: the fault explains what episodes would show. Correct it first.", ENDS)]
+    if len(episodes) and not is_lost and not is_settling(episodes):
+        return [Said("No perturbation was tried: without one the law settles from no start.", ROBUSTNESS)]
+    return []
 
 
 def perturbed(rows: pd.DataFrame) -> list[Said]:
@@ -151,7 +235,9 @@ def describe_row(row: dict) -> dict[str, str]:
     """Return what a sentence may name, in words."""
     found, of, what = row["found"], row["of"], str(row["what"])
     goal = tuple(row[f"goal_quat_{part}"] for part in "wxyz")
+    unit, unit_number = find_unit(row["value"])
     return {
+        **{"order": ", ".join(what.removeprefix(EXCHANGED)), "unit": unit, "unit_number": unit_number},
         **{name: f"{row[name] + 0.0:.3g}" for name in ("value", "least", "most")},
         **{"what": what, "found": f"{found:,}", "of": f"{of:,}"},
         "set": SETS.get(what, "{found} of {of} 180° rotations tried").format(found=found, of=of),

@@ -13,7 +13,7 @@ import contextlib
 import json
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import pyarrow as pa
 
@@ -70,12 +70,14 @@ class Sandbox(contextlib.AbstractContextManager):
         """Whether the unit is of a user's law."""
         return unit.law in self._own
 
-    def check(self) -> None:
+    def check(self, units: Iterable[Unit] | None = None) -> None:
         """Compile the laws for every engine that they run on, and try them; BadLaw if one is beyond the dialect.
 
-        A law that is found to be so later than here has changed, and is lost.
+        A law that is found to be so later than here has changed, and is lost. units: those that are run next, if the
+        others may not be run at all.
         """
-        own = [unit for unit in self.plan.units if self.has(unit)]
+        self.is_checked = False
+        own = [unit for unit in (self.plan.units if units is None else units) if self.has(unit)]
         firsts = {self._place(unit): unit for unit in reversed(own)}
         for unit in reversed(firsts.values()):
             with contextlib.suppress(Lost), self._process(unit):

@@ -130,11 +130,12 @@
 
   // ---- pictures
 
-  function colourIn() { // a law's own; if both have one colour, B takes that of the text
-    const [a, b] = both(side => data.laws[view[side]].colour), { style } = byId("page");
+  function colourIn() { // a law's own; of two laws that are both grey, B takes another neutral, and its line is dashed
+    const [a, own] = both(side => data.laws[view[side]].colour), { style } = byId("page");
+    const b = own[0] === a[0] ? data.neutrals.find(one => one[0] !== a[0]) : own;
     const onEither = ([light, dark]) => `light-dark(${light}, ${dark})`;
     style.setProperty("--a", onEither(a));
-    style.setProperty("--b", a[0] === b[0] ? "var(--pst-color-text-base)" : onEither(b));
+    style.setProperty("--b", onEither(b));
   }
   const colours = () => both(side => getComputedStyle(document.querySelector(`.live-key.${side}`)).color);
   function plotted(quantity, scale, band) {

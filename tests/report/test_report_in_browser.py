@@ -236,7 +236,7 @@ def test_search_from_a_file_finds_pages_without_an_error(opened, words):
     assert not [line for line in opened.get_log("browser") if "rror" in line["message"]]
 
 
-CLAIMS = screenshots.SITE / "pages" / "01-murphy-1988.html"
+CLAIMS = screenshots.SITE / "pages" / "appendix-claims.html"
 COLUMN = """
 return [...document.querySelector("table.sortable").tBodies[0].rows]
   .filter(row => !row.hidden).map(row => row.cells[arguments[0]].innerText.trim());

@@ -92,6 +92,8 @@ def data(names: list[str], every: list[tuple[str, str, Start]], costs: Any) -> d
         "opening": OPENING,
         "presets": presets_of(names),
         "rules": {**RULES._asdict(), "slow_squared": RULES.slow_squared},
+        # where both laws have one colour, B takes the first of these that A has not
+        "neutrals": [[one, style.TWINS[one]] for one in (style.INK, style.REST)],
         "laws": {name: law(name, costs) for name in families.in_order(names)},
         "starts": [{"id": one.id, "q": one.quat_wxyz, "omega": one.omega, "goal": one.goal_wxyz} for *_, one in every],
     }
