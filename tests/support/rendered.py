@@ -19,7 +19,7 @@ FORMULA = re.compile(r"\$\$.*?\$\$|\$[^$]+\$", re.DOTALL)
 TAG = re.compile(r"<[^>]+>")
 IS_CODE = re.compile(r"\{(?:code-cell|literalinclude|index|eval-rst|bibliography)|(?!\{)\w*$")
 IS_PASTED = re.compile(r"\{glue:?(?:md|figure|)\} *(\S+)")
-CELL_OF_COUNTS = re.compile(r"[\d\s,;of\u202f\u00a0–.%()]+")
+CELL_OF_COUNTS = re.compile(r"(?:all|none|no|[\d\s,;of\u202f\u00a0–.%()])+")
 
 
 class Text(NamedTuple):
