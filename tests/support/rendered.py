@@ -123,7 +123,7 @@ def list_texts(path: Path) -> tuple[list[Text], list[Heads]]:
         if not is_table:
             texts += [Text(path.stem, "text", plain(row)) for row in rows]
             continue
-        heads, *body = [[plain(cell) for cell in re.split(r"(?<!\\)\|", row)[1:-1]] for row in rows]
+        heads, _, *body = [[plain(cell) for cell in re.split(r"(?<!\\)\|", row)[1:-1]] for row in rows]
         tables.append(Heads(path.stem, words, heads))
         for cells in body:
             texts += [Text(path.stem, "cell", cell) for cell in cells if not CELL_OF_COUNTS.fullmatch(cell or "–")]
