@@ -311,7 +311,7 @@ def c35(results: Results) -> tuple[Word, Evidence]:
         f"""Reasonable: {", ".join(reasonable) or "none"}. {told}. A small error settles in {small:.3f} s.""",
         sum(one.n for _, one, _ in found),
         measured=f"""{percent(matrix.value)} %, {percent_interval(linearized)} and {percent(feedback.value)} % of
-        {matrix.n:,} starts settle, in the paper's order""",
+        {matrix.n:,} starts settle (in the paper's order)""",
     )
 
 
@@ -337,5 +337,5 @@ def c36(results: Results) -> tuple[Word, Evidence]:
     return word, evidence(
         f"{told}.",
         sum(law.rows for law in three),
-        measured=f"starts exactly on a boundary, lost: {on_boundary}, in the paper's order",
+        measured=f"lost starts exactly on a boundary: {on_boundary} (in the paper's order)",
     )
