@@ -93,7 +93,16 @@ def _find(situations: Path, run: Path) -> Answer:
         law = find_default(situations)
     except (BadResults, IndexError):
         # No map, or a map in which no law was drawn at random: nothing was compared.
-        return Answer(*[NOT_TESTED] * 6, (_untested(ANY_START), *robots))
+        nothing = _untested(ANY_START)
+        return Answer(
+            law=NOT_TESTED,
+            attribution=NOT_TESTED,
+            reason=NOT_TESTED,
+            tested=NOT_TESTED,
+            condition=NOT_TESTED,
+            price=NOT_TESTED,
+            needs=(nothing, *robots),
+        )
     needs = (_usual(law, situations), *_list_mapped(law, situations))
     return Answer(
         law,

@@ -30,7 +30,8 @@ def facts(run: Run) -> dict[str, Any]:
     return {
         "byline": describe_edition(run),
         "abstract": describe_replication(run),
-        "hero": in_run(lambda: failure_map.hero(run.rows("episodes", engine="ideal-rk4"))),
+        "hero": in_run(failure_map.hero_picture, run),
+        "finding": in_run(lambda: failure_map.say_finding(run.rows("episodes", engine="ideal-rk4"))),
         "conclusions": in_run(lambda: SHORT(list_in_short(run))),
         "answer": describe_answer(answer),
         "price": describe_price(answer),

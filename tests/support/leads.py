@@ -161,6 +161,23 @@ def recompute_price(law, other):
     return said
 
 
+def recompute_reason(law):
+    """Return the numbers of why a law is advised: where it meets all that is asked, and where no such law is faster."""
+    near = shares_of(law, SPOKEN)
+    low, high = binomtest(near["qualified"], near["of"]).proportion_ci(0.95)
+    meets = round(100 * (1 - near["failing"] / near["of"]))
+    return [meets, 180, 0.1, *(round(100 * share) for share in (near["qualified"] / near["of"], low, high)), 5]
+
+
+def recompute_costs(law):
+    """Return the numbers that a law keeps, its greatest command over kp, and its typical overshoot [deg]."""
+    rows = map_rows().query("law == @law")
+    is_drawn = [is_of_draw(at) for at in rows[[*COORDINATES]].itertuples(index=False, name=None)]
+    is_nominal = (rows[[*COORDINATES]] == [one.nominal for one in COORDINATES.values()]).all(axis=1)
+    peak, overshoot = rows.loc[is_nominal, "peak"].item(), rows.loc[is_drawn, "overshoot"].median()
+    return [len(find_contender(law).regulator.memory), round(peak, 1), round(overshoot, 1)]
+
+
 def recompute_resets(law):
     """Return what is said of a reset of the memory."""
     rows = table("perturbed", "robustness").query("law == @law and 0 < level <= 0.2")
@@ -172,7 +189,7 @@ def recompute_resets(law):
 
 def recompute_advice():
     """Return what is said of the law of the widest region, of the other regions, and of ours."""
-    (law, advised, _), *others = widest()
+    (law, *_), *others = widest()
     rows = table("situations", "situations")
     nominal = rows[(rows["zeta"] == 1.0) & (rows["law"] == law) & (rows["period"] == 0.01)]
     nominal = nominal[
@@ -189,9 +206,8 @@ def recompute_advice():
         beats += name in qualified.index and (name, other, LATE) in slower_pairs(SPOKEN)
     ours = [word(LATE), 2026, "5 %", f"{100 * beats / free['of']:.0f} %", percent(free, "qualified"), "5 %"]
     ours += [percent(free, "all")]
-    elsewhere = list_together([f"{word(one)} ({100 * share:.0f} %)" for one, share, _ in others])
-    lead = [word(law), *does, f"{100 * advised:.0f} %", *elsewhere, *ours]
     attribution = IN_WORDS[find_contender(law).attribution]
+    lead = [word(law), attribution, *recompute_reason(law), *recompute_costs(law)]
     shown = {
         "default": word(law),
         "attribution": attribution,

@@ -134,7 +134,7 @@ def draw_operations(operations: pd.DataFrame, *, narrow: bool = False) -> Drawin
     figure, axes = style.panels(height=0.7 + (0.5 if narrow else 0.34) * len(operations), narrow=narrow)
     names = []
     for place, (law, (flops, calls)) in enumerate(operations.iterrows()):
-        colour = style.look_among_all(str(law)).colour
+        colour = style.look(str(law)).colour
         axes.barh(place, flops, 0.62, color=colour)
         axes.barh(place, calls, 0.62, flops, color=style.PAPER, edgecolor=colour, linewidth=1.2)
         axes.text(flops + calls + 1.0, place, count_words(flops, calls), va="center", fontsize=9.5)
