@@ -1,4 +1,4 @@
-"""Where the pages of a PDF have ink, read from what Chromium writes: enough to find the largest empty strip of a page.
+"""Find the largest empty strip of each page of a PDF that Chromium wrote, from the places of its ink.
 
 Only heights are followed: of texts, of painted paths, and of pictures. Clips and white fills paint nothing.
 """
