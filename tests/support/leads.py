@@ -301,5 +301,6 @@ COMPUTED = {
     "07-which-error": recompute_advice,
     "appendix-late-braking": recompute_new_law,
     "01-murphy-1988": recompute_verdicts,
+    "appendix-claims": lambda: {"claims.count": recompute_verdicts()["decided"]},
 }
 """Page -> key -> its text, or numbers and words of it."""
