@@ -159,7 +159,7 @@ def c11(results: Results, engine: str) -> tuple[Word, Evidence]:
         {count_of(int(erratic[clear.index].sum()), len(clear), "starts")} are erratic.""",
         len(frame) + sum(len(one) for one in beside),
         measured=f"""erratic: {count_of(resting[0], int((~spins).sum()), "starts from rest")}, {passed[0]} of
-        {probes.BESIDE} that spin at {probes.SPEED:g} rad/s""",
+        {probes.BESIDE} that spin at {probes.SPEED:g} rad/s near a pole""",
     )
 
 

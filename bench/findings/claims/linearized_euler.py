@@ -150,8 +150,8 @@ def c29(results: Results) -> tuple[Word, Evidence]:
         within {100 * LOOSE_SETTLING:.0f} % up to {within:g} rad of
         {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} tried.""",
         LIMIT.DIRECTIONS * (small.size + len(LIMIT.LARGER_RAD)),
-        measured=f"""times off the linear model's by at most {percent(small.max())} % up to {max(SMALL_ANGLES):g} rad
-        ({LIMIT.DIRECTIONS} axes)""",
+        measured=f"""settling times differ from the linear model's by at most {percent(small.max())}
+        % up to {max(SMALL_ANGLES):g} rad ({LIMIT.DIRECTIONS} axes)""",
     )
 
 

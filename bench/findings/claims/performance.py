@@ -115,9 +115,9 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
         instead = f"Whether one is adequate in both is not tested: {lacking}."
     beside = probes.beside_pole(0.1, THREE[-1], results.gains(), results.dt_s)
     return word, evidence(
-        f"""Adequate in both: {", ".join(adequate) or "none"}. A small error settles in {linear:.3f} s. Not counted:
-        feedback-linearized fails from {count_of(int((~settled(beside)).sum()), len(beside), "starts")} spinning at
-        {probes.SPEED:g} rad/s beside a pole.""",
+        f"""Adequate in both: {", ".join(adequate) or "none"}. A small error settles in {linear:.3f} s. Of starts that
+        spin at {probes.SPEED:g} rad/s beside a pole, which are not counted, feedback-linearized loses
+        {count_of(int((~settled(beside)).sum()), len(beside), "").strip()}.""",
         len(THREE) + sum(law.rows for law in three),
         ("episodes", "costs", "timings") if known.times else ("episodes", "costs"),
         instead,
@@ -189,7 +189,7 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
     instead = f"Yes: {named}.{impossible}" if answers else ""
     return word, evidence(
         f"""Of {by_others} later laws by others, {counts[ADAPTED]} of them adapted here, and {counts[OURS]} of ours,
-        these are adequate in both cost and performance: {", ".join(adequate) or "none"}. All eight tests:
+        {len(adequate) or "none"} are adequate in both cost and performance, tests (a) to (d). All eight tests:
         {", ".join(told) or "none"}. The paper's laws on angles take
         {" and ".join(known.over(name, THREE[0]) for name in THREE[1:])} times the rotation matrix's time; not timed,
         so that operations decide: {", ".join(untimed) or "none"}. In these times a call takes {known.price:.0f} flops.
@@ -311,7 +311,7 @@ def c35(results: Results) -> tuple[Word, Evidence]:
         f"""Reasonable: {", ".join(reasonable) or "none"}. {told}. A small error settles in {small:.3f} s.""",
         sum(one.n for _, one, _ in found),
         measured=f"""{percent(matrix.value)} %, {percent_interval(linearized)} and {percent(feedback.value)} % of
-        {matrix.n:,} starts settle, in the paper's order""",
+        {matrix.n:,} starts settle (in the paper's order)""",
     )
 
 
@@ -337,5 +337,5 @@ def c36(results: Results) -> tuple[Word, Evidence]:
     return word, evidence(
         f"{told}.",
         sum(law.rows for law in three),
-        measured=f"starts exactly on a boundary, lost: {on_boundary}, in the paper's order",
+        measured=f"lost starts exactly on a boundary: {on_boundary} (in the paper's order)",
     )

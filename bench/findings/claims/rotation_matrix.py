@@ -175,8 +175,8 @@ def c05(results: Results) -> tuple[Word, Evidence]:
         and {states:,} states of a search, and |e| never below {least:.1e}. (b) At {cancel} of {len(exact)} exact 180°
         rotations the cross products are not zero and their sum is.""",
         len(frame) + states + len(exact),
-        measured=f"""they cancel at {cancel} of {len(exact)} rotations by 180°; elsewhere |e| is at least {lowest:.4f}
-        sin(angle)""",
+        measured=f"""the products cancel at {cancel} of {len(exact)} rotations by 180°; elsewhere
+        |e| is at least {lowest:.4f} sin(angle)""",
     )
 
 

@@ -44,7 +44,7 @@ def list_tuned() -> list[Tuned]:
 
 def _argued(law: str) -> tuple[bool, bool, str]:
     """Sort the default to the front, and then the laws that have a colour."""
-    return law != find_default(), style.look_among_all(law).colour == style.REST, law
+    return law != find_default(), style.look(law).colour == style.REST, law
 
 
 def write_table() -> html.Markdown | None:
@@ -65,7 +65,7 @@ def draw_slopes(rows: list[Tuned], narrow: bool) -> Drawing:
     left, right = (min(getattr(tuned, field) for tuned in rows) for field in ("time", "peak_time"))
     ends = {}
     for tuned in rows:
-        colour = style.look_among_all(tuned.laws[0]).colour
+        colour = style.look(tuned.laws[0]).colour
         ratios = tuned.time / left, tuned.peak_time / right
         is_argued = colour != style.REST
         axes.plot([0, 1], ratios, "-o", color=colour, linewidth=1.8 if is_argued else 1.1, markersize=4)
@@ -86,7 +86,7 @@ def label_ends(axes: Axes, ends: dict[Tuned, float]) -> None:
     """Name each line at its right end, with its time there; a name that had to move has a line to its end."""
     places = style.apart([math.log10(ratio) for ratio in ends.values()], LABEL_GAP)
     for (tuned, ratio), place in zip(ends.items(), places, strict=True):
-        colour = style.look_among_all(tuned.laws[0]).colour
+        colour = style.look(tuned.laws[0]).colour
         more = f" +{len(tuned.laws) - 1}" if len(tuned.laws) > 1 else ""
         axes.plot([1.02, 1.09], [ratio, 10.0**place], color=colour, linewidth=0.9, clip_on=False)
         text = f"{families.word(tuned.laws[0])}{more}, {tuned.peak_time:.2f}"

@@ -63,7 +63,7 @@ def draw_laws(found: list[Law], narrow: bool) -> Drawing:
     figure, axes = style.panels(height=4.6 if narrow else 4.2, narrow=narrow)
     axes.axhspan(2.5, TOP_S, facecolor=style.GRID, alpha=0.45, zorder=0)
     for each in sorted(found, key=lambda each: each.law in NAMED):
-        colour = style.look_among_all(each.law).colour
+        colour = style.look(each.law).colour
         size = 8 if each.law in NAMED else 5.5
         alpha = 1.0 if each.law in NAMED else 0.55
         axes.plot(*place(each), "o", color=colour, markersize=size, alpha=alpha, markeredgewidth=0)
@@ -101,7 +101,7 @@ def label_laws(axes: Axes, found: list[Law]) -> None:
     for group in groups:
         for line, each in enumerate(group):
             shift, side = place_label(group, line)
-            colour = style.look_among_all(each.law).colour
+            colour = style.look(each.law).colour
             look = {"color": colour, "fontsize": 10, "ha": side, "va": "center"}
             axes.annotate(families.word(each.law), place(each), shift, textcoords="offset points", **look)
 
