@@ -14,7 +14,7 @@ from bench.cli.screen import console, examples
 @click.argument("folder", required=False, type=click.Path(path_type=Path))
 @click.option("--criteria", is_flag=True, help="Print each claim's quote and criteria too.")
 def COMMAND(folder: Path | None, criteria: bool) -> None:
-    """List the claims of Murphy (1988): id, verdict, claim, then the evidence (default: results/latest).
+    """List the claims of Murphy (1988), each with its verdict, measured value and evidence (default: results/latest).
 
     A claim is judged only if the run has the starts that it needs. The others are at the end, with what is lacking.
     """
@@ -31,7 +31,9 @@ def COMMAND(folder: Path | None, criteria: bool) -> None:
         claimed = f"{str(one.word).capitalize()} ({one.rows:,} rows): {one.claim.sentence}"
         correction = (f"What is true: {one.correction}",) if one.correction else ()
         record = _record(one) if criteria else ()
-        print_paragraphs(Paragraph(one.id, (claimed, *correction, f"Evidence: {one.evidence}", *record)))
+        numbers = (" | ".join(row) for row in one.evidence.numbers)
+        evidence = f"Measured: {one.measured}", *correction, f"Evidence: {one.evidence}", *numbers
+        print_paragraphs(Paragraph(one.id, (claimed, *evidence, *record)))
         console().print()
     if at_gains.STORED.is_file():
         study = read_json(at_gains.STORED)

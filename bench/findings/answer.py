@@ -13,10 +13,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 from bench.base.errors import BadResults, UnknownWord
-from bench.findings.claims.adequacy import HELD_RAD
+from bench.findings.claims.adequacy import HELD_RAD, PAPERS
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.kept import keep
 from bench.findings.selection import regions
+from bench.findings.selection.nearest import answer as answer_nearest
+from bench.findings.selection.nearest import find_outside
 from bench.findings.selection.needs import Decision, measured
 from bench.findings.selection.regions import STUDY, Rule, facts_of, find_default, find_regions
 from bench.findings.selection.robots import ROBOTS, RUN, Robot, decide_for
@@ -28,8 +30,9 @@ from bench.findings.selection.unbeaten import (
     follow_lines,
     measure_shares,
 )
-from bench.findings.selection.words import describe_bounds, percent, together
+from bench.findings.selection.words import describe_bounds, list_faster_ours, percent, together
 from bench.law.contenders.registry import find_contender
+from bench.law.inputs import Gains
 from tasks.situation import COORDINATES, NOMINAL
 
 NOT_TESTED = "not tested"
@@ -90,7 +93,16 @@ def _find(situations: Path, run: Path) -> Answer:
         law = find_default(situations)
     except (BadResults, IndexError):
         # No map, or a map in which no law was drawn at random: nothing was compared.
-        return Answer(*[NOT_TESTED] * 6, (_untested(ANY_START), *robots))
+        nothing = _untested(ANY_START)
+        return Answer(
+            law=NOT_TESTED,
+            attribution=NOT_TESTED,
+            reason=NOT_TESTED,
+            tested=NOT_TESTED,
+            condition=NOT_TESTED,
+            price=NOT_TESTED,
+            needs=(nothing, *robots),
+        )
     needs = (_usual(law, situations), *_list_mapped(law, situations))
     return Answer(
         law,
@@ -213,7 +225,7 @@ def _by_map(name: str, controller: str, law: str, default: str, folder: Path, wh
     costs = _list_costs(law, folder)
     slower = find_price(law, folder).time / find_price(default, folder).time
     if slower > 1.0 + SPOKEN:
-        costs.append(f"{slower:.1f} times as slow as {default} without a command limit")
+        costs.append(f"{slower:.1f} times as slow without a command limit")
     return Need(controller, law, attribute(law), why, _join(costs), name)
 
 
@@ -293,3 +305,48 @@ def _least_noise(law: str, run: Path) -> float | None:
 
 def _join(parts: list[str]) -> str:
     return ", ".join(parts)
+
+
+def advise_gains(gains: Gains, situations: Path = STUDY) -> str:
+    """Say which law the map of situations advises at the damping ratio of some gains; every kp gives the same motion.
+
+    Beyond the map nothing was tested.
+    """
+    wanted = NOMINAL._replace(zeta=gains.kv / (2.0 * math.sqrt(gains.kp)))
+    own = f"kp = {gains.kp:g}, kv = {gains.kv:g} (damping ratio {wanted.zeta:.2g})"
+    ask = f"bench advise --kp {gains.kp:g} --kv {gains.kv:g}"
+    outside = find_outside(wanted)
+    if outside:
+        return f"{own}: {NOT_TESTED} in the map (damping ratios {outside[0].low:g} to {outside[0].high:g}); {ask}"
+    try:
+        nearest = _advise_nearest(wanted.zeta, situations)
+    except BadResults:
+        return f"{own}: {NOT_TESTED}, there is no map of situations; {ask}"
+    if nearest["law"] is None:
+        return f"{own}: no law of the map meets the requirements; {ask}"
+    law, beside = str(nearest["law"]), nearest["zeta"]
+    near = "" if math.isclose(beside, wanted.zeta, rel_tol=1e-6) else f", tested at damping ratio {beside:g}"
+    return f"{own}: {law} ({attribute(law)}){near}; motors, delay: {ask}"
+
+
+def _advise_nearest(zeta: float, situations: Path) -> dict:
+    """Return the law that the map advises at a damping ratio, and the ratio that was run; of ours it is kept."""
+
+    def find() -> dict:
+        nearest = answer_nearest(NOMINAL._replace(zeta=zeta), folder=situations)
+        return {"law": nearest.verdict.law, "zeta": nearest.at.zeta}
+
+    return keep(situations, f"at-damping-{zeta:.6g}", find) if situations == STUDY else find()
+
+
+LATER = 6
+"""Laws since 1988 that a table beside the paper's three has, at most."""
+
+
+def list_later_laws() -> list[str]:
+    """Return the later laws that matter: those that are advised for some controller, and ours that beats them most."""
+    laws = [need.law for need in find_answer().needs if need.law not in (*PAPERS, NOT_TESTED)]
+    if find_answer().is_tested:
+        ours = keep(STUDY, "faster-laws-of-ours", lambda: {"laws": list_faster_ours()})["laws"]
+        laws = [*dict.fromkeys(laws)][: LATER - len(ours[:1])] + ours[:1]
+    return [*dict.fromkeys(laws)]

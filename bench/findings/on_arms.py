@@ -14,7 +14,6 @@ best are the one that passes most and all that are not distinguished from it: se
 """
 
 import pandas as pd
-from scipy.stats import binomtest
 
 P_VALUE = 0.05
 IN_PLACE_M = 1e-3
@@ -36,6 +35,8 @@ def passed(rows: pd.DataFrame) -> pd.DataFrame:
 
 def told_apart(one: pd.Series, other: pd.Series) -> bool:
     """Whether two controllers differ by more than chance; whether each passes, by start."""
+    from scipy.stats import binomtest  # takes a second, and few commands ask it
+
     both = pd.concat([one, other], axis=1, join="inner").to_numpy(bool)
     ones, others = int((both[:, 0] & ~both[:, 1]).sum()), int((~both[:, 0] & both[:, 1]).sum())
     return ones + others > 0 and bool(binomtest(ones, ones + others).pvalue < P_VALUE)

@@ -14,7 +14,7 @@ from pyarrow import parquet
 from bench.base.files import read_json
 from bench.base.provenance import ROOT
 from bench.cli import claims as command
-from bench.cli.summary.whole import count_verdicts
+from bench.cli.summary.paper import count_verdicts
 from bench.findings import claims
 from bench.findings.claims import at_gains
 from bench.findings.claims.errata import COVERAGE, ERRATA, UNTESTABLE
@@ -32,6 +32,7 @@ from bench.findings.claims.verdict import (
 )
 from bench.studies.verdicts import REFERENCE, STORED
 from report.figures.claims import claims as page
+from report.figures.claims.places import read_places
 
 
 def test_every_claim_is_there_once():
@@ -101,22 +102,26 @@ def test_every_numbered_equation_and_figure_has_its_place():
         assert all((ROOT / "report" / "pages" / f"{page}.md").is_file() for page in one.pages)
 
 
-def verdict(id, word, *earlier):
+def verdict(id, section, word, *earlier, measured="3 of 4 starts"):
     before = tuple(Earlier("2026-11-21 a", "", one) for one in earlier)
-    claim = Claim(id, "", "", "", lambda results: None, correction="corrected", instead="else", earlier=before)
-    return Verdict(claim, word, Evidence("", 1, ()))
+    claim = Claim(id, section, "It settles.", "", lambda results: None, "", instead="else", earlier=before)
+    return Verdict(claim, word, Evidence("", 1, (), measured=measured))
 
 
 EVERY = [
-    verdict("C01", Word.HOLDS),
-    verdict("C02", Word.HOLDS, Word.CORRECTED, Word.HOLDS),
-    verdict("C03", Word.FAILS, Word.FAILS),
-    verdict("C04", Word.DEPENDS, Word.HOLDS),
+    verdict("C01", "2.4", Word.HOLDS),
+    verdict("C02", "2.2 against 3.3", Word.HOLDS, Word.CORRECTED, Word.HOLDS),
+    verdict("C03", "4", Word.FAILS, Word.FAILS),
+    verdict("C04", "abstract", Word.DEPENDS, Word.HOLDS),
+    verdict("C05", "2.4", Word.UNTESTED, measured=""),
 ]
+ROWS = [line for line in page.table(EVERY).splitlines() if "C0" in line]
+CELLS = [[cell.strip() for cell in row.strip("|").split(" | ")] for row in ROWS]
+"""The table's rows and their cells: claim, statement, verdict, measured value, where it is shown."""
 
 
 def test_table_of_claims_has_both_words_of_each():
-    cells = [line.split("|")[3].strip() for line in page.table(EVERY).splitlines() if "C0" in line]
+    cells = [row[2] for row in CELLS]
     now = [next(word for word in sorted(Word, key=len, reverse=True) if f">{word}<" in cell) for cell in cells]
     first = [Word(cell.partition("first: ")[2] or word) for word, cell in zip(now, cells, strict=True)]
     assert Counter(zip(now, first, strict=True)) == Counter((one.word, one.first) for one in EVERY)
@@ -131,14 +136,46 @@ def test_first_words_of_the_reference_are_those_of_the_history():
     assert sum(first.values()) == len(words) == len(claims.all_claims())
 
 
-def test_refuted_claims_come_first_and_say_what_is_true():
-    rows = [line for line in page.table(EVERY).splitlines() if "C0" in line]
-    assert [re.search("C0.", row)[0] for row in rows] == ["C03", "C04", "C01", "C02"]
-    assert ["else" in row for row in rows] == [True, True, False, False]
+def test_no_cell_is_empty_and_what_is_refuted_has_what_is_true():
+    assert all(cell for row in CELLS for cell in row)
+    assert ["else" in row[3] for row in CELLS] == [False, False, True, True, False]
+    assert [row[3] == "not tested" for row in CELLS] == [False, False, False, False, True]
+
+
+def test_claims_are_sorted_as_the_paper_has_them():
+    ordered = sorted(EVERY, key=lambda verdict: verdict.claim.paper_order)
+    assert [verdict.id for verdict in ordered] == ["C04", "C02", "C01", "C05", "C03"]
+
+
+def test_square_of_each_claim_says_its_verdict_and_leads_to_it():
+    tiles = page.draw_tiles(EVERY)
+    for verdict in EVERY:
+        assert f'href="#{verdict.id.lower()}" title="{verdict.id}: {verdict.word}"' in tiles
+    assert "5 claims in the order of the paper: 2 hold, 1 does not hold" in tiles
+    assert len(set(page.LOOKS.values())) >= len(Word) - 1  # not testable and not tested are one
+
+
+def test_every_claim_leads_to_a_figure_or_to_its_own_evidence():
+    places = read_places()
+    assert set(places) <= {claim.id for claim in claims.all_claims()}
+    assert page.describe_places("C06").startswith("{numref}`fig-")
+    unplaced = next(claim.id for claim in claims.all_claims() if claim.id not in places)
+    assert page.describe_places(unplaced) == f'<a href="#{unplaced.lower()}">its evidence</a>'
+
+
+def test_claim_that_a_run_lacks_is_not_tested_and_says_why(monkeypatch):
+    monkeypatch.setattr(claims, "judge_possible", lambda results: (EVERY[:1], {"C02": "no row of episodes"}))
+    monkeypatch.setattr(claims, "all_claims", lambda: tuple(verdict.claim for verdict in EVERY[:2]))
+    there, lacking = claims.judge_each(None)
+    assert (there.word, lacking.word) == (Word.HOLDS, Word.UNTESTED)
+    assert lacking.measured == "not tested"
+    assert "no row of episodes" in str(lacking.evidence)
 
 
 def test_counts_of_words_are_told_in_their_order():
-    assert claims.told(one.word for one in EVERY) == "2 hold, 1 does not hold, 1 depends on the gains"
+    assert claims.told(one.word for one in EVERY) == (
+        "2 hold, 1 does not hold, 1 depends on the gains, 1 is not tested"
+    )
 
 
 @pytest.mark.slow
@@ -154,7 +191,7 @@ def test_run_of_two_starts_a_set_judges_no_claim_about_episodes(tmp_path):
     decided, lacks = claims.judge_possible(results := claims.Results(tmp_path))
     assert not [one.id for one in decided if "episodes" in one.evidence.tables]
     assert "fewer starts than the claim needs (2 of 1,000 uniform, 2 of 238 half-turn" in lacks["C01"]
-    assert f"{len(lacks)} cannot be judged from this run" in count_verdicts(results).sentences[0]
+    assert f"{len(lacks)} cannot be judged from this run" in count_verdicts(results)
     said = CliRunner().invoke(command.COMMAND, [str(tmp_path)])
     assert said.exit_code == 0
     listed, _, rest = said.output.partition("Not judged")

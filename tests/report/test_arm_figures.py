@@ -43,13 +43,13 @@ def rows_of(passing: dict[str, int], of: int = 20, **columns) -> pd.DataFrame:
 
 def test_lead_names_a_winner_only_where_one_is_told_apart():
     winner = arms.leading(rows_of({"rotation-matrix": 15, "mrp": 8, "hybrid": 4}), "range")
-    assert winner.startswith("of the laws (2.2) Rotation matrix settles most: 75 % (")
+    assert winner.startswith("(2.2) Rotation matrix is better than every other law: 75 % (")
     assert winner.endswith("n = 20)")
     tie = arms.leading(rows_of({"rotation-matrix": 15, "mrp": 12, "hybrid": 4}), "range")
-    assert "(2.2) Rotation matrix and (2.2) MRP are not distinguished from the best of them" in tie
+    assert "(2.2) Rotation matrix and (2.2) MRP do not differ significantly from the best of them" in tie
     assert "(2.2) Rotation matrix: 75 % (" in tie
     every = rows_of(dict.fromkeys(("rotation-matrix", "mrp", "hybrid", "late-braking", "rotation-vector"), 20))
-    assert arms.leading(every, "settled").startswith("5 laws are not distinguished from the best of them")
+    assert arms.leading(every, "settled").startswith("5 laws do not differ significantly from the best of them")
 
 
 def test_baselines_are_compared_with_the_laws():
@@ -74,14 +74,21 @@ def test_hand_is_drawn_turning_as_the_closed_form_of_the_papers_force_control_ha
     rows, plain = (of(probed, name, compliance.ORDER) for name in (PAPERS_EULER, PAPERS))
     [C] = predicted(rows[rows["beta_deg"] == beta], "zyx-euler")
     full = float(plain["c_xx"].median())
-    turns = compliance.turns(of_task(RUN, compliance.PROBE))
-    drawn = [one for one in turns if one["beta"] == beta and one["contender"] == PAPERS_EULER]
-    assert len(drawn) == 2
-    for one in drawn:
-        k = "xyz".index(one["pushed"])
-        across = np.linalg.norm(np.delete(C[:, k], k))
-        assert one["off"] == pytest.approx(np.degrees(np.arctan2(across, abs(C[k, k]))), abs=1.0)
-        assert one["share"] == pytest.approx(np.linalg.norm(C[:, k]) / full, rel=0.02)
+    [drawn] = [
+        turn for turn in compliance.measure(of_task(RUN, compliance.PROBE), PAPERS_EULER) if turn.beta_deg == beta
+    ]
+    off = np.degrees(np.arctan2(np.linalg.norm(C[1:, 0]), abs(C[0, 0])))
+    assert drawn.off_deg == pytest.approx(off, abs=1.0)
+    assert drawn.held == pytest.approx(np.linalg.norm(C[:, 2]) / full, rel=0.02)
+
+
+def test_curve_of_a_tilt_is_the_closed_form_of_that_row():
+    rows = of_task(RUN, compliance.PROBE)
+    row = compliance.probed(rows, PAPERS_EULER).query("beta_deg == 85")
+    [C] = predicted(row, "zyx-euler")
+    drawn = compliance.predict(rows, PAPERS_EULER)[-1]
+    assert drawn.beta_deg == 85.0
+    assert drawn.off_deg == pytest.approx(np.degrees(np.arctan2(np.linalg.norm(C[1:, 0]), abs(C[0, 0]))), abs=1e-6)
 
 
 def test_every_task_in_contact_is_shown():

@@ -42,10 +42,16 @@ def recompute_compliance():
     entries = [f"c_{i}{j}" for i in "xyz" for j in "xyz"]
     C = {beta: euler.loc[beta, entries].to_numpy(float).reshape(3, 3) for beta in betas}
     off = {beta: np.degrees(np.arctan2(np.hypot(*C[beta][1:, 0]), abs(C[beta][0, 0]))) for beta in betas}
-    said = ", ".join(f"{value:.0f}° at β = {beta:.0f}°" for beta, value in off.items())
+    *most, last = (f"{value:.0f}° at β = {beta:.0f}°" for beta, value in off.items())
+    said = f"{', '.join(most)} and {last}"
     rows = contact("surface-alignment").query("form == 'transpose'")
     flat = [rows.loc[rows["who"] == who, "time_to_align_s"].notna() for who in (EULER, CARTESIAN)]
-    return {"off": said, "in_contact.flat": [count for own in flat for count in (own.sum(), len(own))]}
+    return {"off": said, "in_contact.flat": [count for own in flat for count in count_flat(own)]}
+
+
+def count_flat(is_flat):
+    """Return the numbers of a sentence: all are one number."""
+    return ["all", len(is_flat)] if is_flat.all() else [is_flat.sum(), len(is_flat)]
 
 
 def recompute_impedance():
@@ -109,14 +115,20 @@ def recompute_arms():
     return {"advised": word(accelerations().decide(ARM.need).law), "lead": said}
 
 
-def recompute_torque_at_pole():
-    """Return how many times the torque of (2.2) on the rotation matrix (3.7) needs past the pole, in the median."""
+def torque_ratios_at_pole():
+    """Return how many times the torque of (2.2) on the rotation matrix (3.7) needs past the pole, of each move."""
     rows = table("episodes").query("task == 'arm-regulation' and start_set == 'pole' and variation == 'ideal-motors'")
     by = rows["law"] + "@" + rows["jacobian"]
     usual = rows["inverse"] == np.where(rows["arm"] == "panda", "pseudo-inverse", "solve")
     rows = rows.assign(by=by)[usual & by.isin((f"{FEEDBACK}@analytic", f"{MATRIX}@geometric"))]
     torque = rows.pivot(index=["arm", "start_id"], columns="by", values="peak_torque_ratio")
-    return [float(f"{(torque[f'{FEEDBACK}@analytic'] / torque[f'{MATRIX}@geometric']).median():.2g}")]
+    return (torque[f"{FEEDBACK}@analytic"] / torque[f"{MATRIX}@geometric"]).to_numpy()
+
+
+def recompute_torque_at_pole():
+    """Return the ratio that half of the moves do not exceed."""
+    ratios = np.sort(torque_ratios_at_pole())
+    return {"harder": [float(f"{ratios[(len(ratios) - 1) // 2]:.2g}")]}
 
 
 def is_right(own):
@@ -193,7 +205,7 @@ def recompute_new_law():
     return {
         "slowest": f"{late[1.0]:.3f}",
         "linear": f"{linear[1.0]:.3f}",
-        "later": ", ".join(f"{ratio:g}" for ratio in kvs if late[ratio] > linear[ratio] + 1e-3) or "none",
+        "later": [ratio for ratio in kvs if late[ratio] > linear[ratio] + 1e-3],
         "later_of": [*kvs],
         "pull": f"{brake_late(-np.linspace(0, np.pi, 100_001), 0.0, 1.0, 2.0).max():.2f}",
         "at_peak": said,

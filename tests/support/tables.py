@@ -25,7 +25,9 @@ def judged(id: str, experiments=None, **tables: pd.DataFrame):
 
 def decided(verdict, word) -> bool:
     """Whether that is the verdict, on some rows and with a number for evidence."""
-    return verdict.word == word and verdict.rows > 0 and any(map(str.isdigit, str(verdict.evidence)))
+    texts = str(verdict.evidence), verdict.evidence.measured
+    have_numbers = all(any(map(str.isdigit, text)) for text in texts)
+    return verdict.word == word and verdict.rows > 0 and have_numbers
 
 
 def changed(frame: pd.DataFrame, rows, **cells) -> pd.DataFrame:

@@ -1,91 +1,183 @@
-"""The whole summary: the answer first, as soon as it is known, for the claims may take seconds."""
+"""The summary of a run, by its kind: the table first, for judging the claims may take half a minute."""
 
 import os
 from pathlib import Path
 
+import numpy as np
+
+from bench.base.provenance import read_provenance
 from bench.cli.details import PARTS
 from bench.cli.options import REFERENCE
-from bench.cli.paragraphs import Paragraph, listed, origin, print_paragraphs
-from bench.cli.progress import progress
 from bench.cli.screen import counted, shown_path
-from bench.cli.summary import answer, failures
-from bench.experiments.tables import read as results
-from bench.findings.claims import Results, judge_possible, told
-from bench.findings.claims.verdict import NoEvidence, Word
-from bench.findings.kept import keep
-from bench.findings.selection.needs import measure
+from bench.cli.summary import failures, laws, paper, parts, today
+from bench.cli.summary.lines import ABOUT, HEAD, print_lines, print_text
+from bench.experiments.tables import read as published
+from bench.experiments.tables.statistics import Estimate, bootstrap, quantile
+from bench.findings.answer import list_later_laws
+from bench.findings.claims import Results
+from bench.findings.claims.adequacy import PAPERS, THREE
+from bench.findings.claims.tables import MAIN_ENGINE, settling_times
+from bench.findings.replication import NEARLY_ALL
 from bench.law.contenders.registry import all_contenders
+from bench.law.inputs import Gains
+
+FEW = 6
+"""Laws that are shown beside each other, at most; the others are counted."""
 
 
 def print_summary(folder: Path, is_named: bool) -> None:
     """Print it. `is_named`: whether the user named the folder, so that the commands below name it too."""
-    found = Results(folder)
-    found.table("episodes")  # refuses a run that has not finished
-    here: tuple[str, ...] = (origin(folder),)
-    if not is_named and folder == REFERENCE and results.VARIABLE not in os.environ:
-        here += ("It came with the benchmark; results/latest has no finished run (try: make bench).",)
-    said = keep(folder, "answer", lambda: _answer(found))["said"]
-    print_paragraphs(*(Paragraph(head, tuple(sentences)) for head, sentences in said))
-    with progress("claims", "judging the paper's claims"):
-        judged = count_verdicts(found)
-    print_paragraphs(
-        judged,
-        failures.paragraph(found),
-        *list_absent(found),
-        Paragraph("This run", here),
-        _next(folder, is_named, parts_in(found)),
-    )
+    results = Results(folder)
+    results.table("episodes")  # refuses a run that has not finished
+    is_whole = paper.holds_papers_laws(results)
+    gains = find_gains(results)
+    print_lines(describe_run(folder, results, gains), "")
+    if is_whole:
+        print_replication(results)
+    else:
+        print_some_laws(results, gains)
+    print_parts(results, is_whole)
+    for broken in failures.describe_broken(results.table("episodes"), results.table("robustness")):
+        print_text("Broken", broken, indent=ABOUT)
+    print_lines("")
+    if is_whole:
+        paper.print_verdicts(results)
+        today.print_today(gains)
+    else:
+        today.print_today_in_short(gains, parts.list_parts(results))
+    print_next(folder, is_named, results, is_whole)
 
 
-def _answer(found: Results) -> dict:
-    """Return the heads and sentences of the answer, as JSON holds them."""
-    try:
-        return {"said": answer.paragraphs(measure(found))}
-    except NoEvidence:
-        return {"said": answer.paragraphs(None)}
+def find_gains(results: Results) -> Gains | None:
+    """Return the gains of a run: of the free body, else of its arms, contact or perturbed laws if all have the same."""
+    episodes = results.table("episodes")
+    free = episodes[episodes["arm"] == ""]
+    for rows in (free, episodes, results.table("compliance"), results.table("robustness")):
+        if len(rows) and len(rows[["kp", "kv"]].drop_duplicates()) == 1:
+            return Gains(float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0]))
+    return None
 
 
-def _next(folder: Path, is_named: bool, present: list[str]) -> Paragraph:
+def describe_run(folder: Path, results: Results, gains: Gains | None) -> str:
+    """Return the first line: what it is, with which gains, how many episodes and how long they took."""
+    found = read_provenance(folder, ("suite", "episodes", "wall_s"))
+    episodes = sum(found.get(name, 0) for name in ("episodes", "trials", "troubled"))
+    ran = laws.list_laws(results)
+    head = counted(len(ran), "law") if ran else ", ".join(parts.list_parts(results)).capitalize()
+    if paper.holds_papers_laws(results):
+        head = "Murphy (1988), replicated"
+    at = f"kp {gains.kp:g} /s2, kv {gains.kv:g} /s, " if gains else "several gains, "
+    return f"{head:{HEAD + 6}} {at}{counted(episodes, 'episode')} in {_write_wall(found['wall_s'])}"
+
+
+def _write_wall(seconds: float) -> str:
+    return f"{seconds:.0f} s" if seconds < 60.0 else f"{seconds / 60.0:.1f} min"
+
+
+def print_replication(results: Results) -> None:
+    """Print the paper's three laws, and the later laws that matter; laws of the user's are among these."""
+    papers = [laws.measure_law(results, law) for law in THREE]
+    print_lines(laws.HEADS, *(line for row in papers for line in laws.format_row(row)))
+    # What is advised may take seconds to find: the paper's laws are on the screen before.
+    ran = laws.list_laws(results)
+    yours = [law for law in ran if laws.attribute(law) == laws.YOURS]
+    advised = list_later_laws()
+    known = advised if advised else [law for law in ran if law not in (*PAPERS, *yours)]
+    later = [law for law in dict.fromkeys([*yours, *known]) if law in ran][: max(FEW, len(yours))]
+    since = [laws.measure_law(results, law) for law in later]
+    print_lines(*laws.format_groups(since))
+    print_text("", *laws.describe_columns([*papers, *since], results), indent=0)
+
+
+def print_some_laws(results: Results, gains: Gains | None) -> None:
+    """Print the laws of a run beside each other, the user's own first, and how their times compare."""
+    ran = laws.list_laws(results)
+    if not ran:
+        return
+    ran.sort(key=lambda law: laws.attribute(law) != laws.YOURS)
+    rows = [laws.measure_law(results, law) for law in ran[:FEW]]
+    kp = gains.kp if gains else 1.0
+    print_lines(laws.WITH_EFFORT, *(line for row in rows for line in laws.format_with_effort(row, kp)))
+    if len(ran) > FEW:
+        print_lines(f"and {counted(len(ran) - FEW, 'law')} more")
+    compared = [compare_pace(results, ran[0], law) for law in ran[1:FEW]]
+    print_text("", *filter(None, compared), *laws.describe_columns(rows, results), indent=0)
+    print_text("", laws.UNITS_WITH_EFFORT, indent=0)
+
+
+def compare_pace(results: Results, law: str, other: str) -> str:
+    """Compare the times in which 99 % of the uniform starts settle that both laws ran; nothing if there is none."""
+    rows = results.table("episodes", arm="", start_set="uniform", task="free-body")
+    for engine in dict.fromkeys((MAIN_ENGINE, *rows["engine"].astype(str))):
+        own, beside = (
+            rows[(rows["engine"] == engine) & (rows["contender"].astype(str) == name)].set_index("start_id")
+            for name in (law, other)
+        )
+        shared = own.index.intersection(beside.index)
+        if len(shared):
+            ratio = _compare_times(settling_times(own.loc[shared]), settling_times(beside.loc[shared]))
+            if not np.isfinite(ratio.value):
+                return f"{law} beside {other}: 99 % do not settle with both."
+            return (
+                f"{law} takes {ratio.value:.2f} ({ratio.low:.2f}-{ratio.high:.2f}) times as long as {other} until 99 % "
+                f"settle ({len(shared):,} equal starts)."
+            )
+    return ""
+
+
+def _compare_times(own: np.ndarray, other: np.ndarray) -> Estimate:
+    """Return the ratio of the times in which 99 % settle, by a paired bootstrap over the starts."""
+
+    def ratio(drawn: np.ndarray, axis: int) -> np.ndarray:
+        times = quantile(drawn, NEARLY_ALL, axis=-2)
+        with np.errstate(invalid="ignore"):
+            return times[..., 0] / times[..., 1]
+
+    return bootstrap(np.stack([own, other], axis=1), ratio)
+
+
+def print_parts(results: Results, is_whole: bool) -> None:
+    """Print the paper's Jacobians and compliance where a run has them, else its arms and contact as they are."""
+    present = parts.list_parts(results)
+    jacobians = paper.compare_jacobians(results) if is_whole else []
+    compliance = paper.compare_compliance(results) if is_whole else []
+    if "arms" in present:
+        most = parts.FEW if is_whole else parts.MANY
+        print_lines(*(jacobians or parts.describe_arms(results, most)))
+    if "contact" in present and compliance:
+        print_text("compliance", *compliance, indent=ABOUT)
+    elif "contact" in present:
+        print_text("contact", *parts.describe_contact(results), indent=ABOUT)
+    if "robustness" in present and not is_whole:
+        print_text("perturbed", *parts.describe_robustness(results), indent=ABOUT)
+
+
+def print_next(folder: Path, is_named: bool, results: Results, is_whole: bool) -> None:
+    """Print where the run lies, what is not in it, and the commands that say more."""
     here = shown_path(folder)
-    show = f"bench show {here}" if is_named else "bench show"
-    book = f"{results.VARIABLE}={here} make report" if is_named else "make report"
-    parts = f", or one part: {', '.join(present)}" if len(present) > 1 else ""
-    claims = f"bench claims {here}   each claim with its evidence"
-    return Paragraph("Next", (f"{book}   the book of this run", f"{show} --details   every table{parts}", claims))
+    name = f" {here}" if is_named else ""
+    found = read_provenance(folder, ("commit", "dirty", "cpu"))
+    changed = " with changes" if found["dirty"] else ""
+    commit = found["commit"][:10] or "none"
+    print_text("This run", f"{here}, commit {commit}{changed}, {found['cpu']}{list_absent(results)}", indent=ABOUT)
+    if not is_named and folder == REFERENCE and published.VARIABLE not in os.environ:
+        came = "It came with the benchmark; results/latest has no finished run (try: make bench)."
+        print_text("", came, indent=ABOUT)
+    commands = [f"bench show{name} --details"]
+    if is_whole:
+        book = f"{published.VARIABLE}={here} make report" if is_named else "make report"
+        commands += [f"bench claims{name}", book]
+    print_text("More", "; ".join(commands), indent=ABOUT)
 
 
-def count_verdicts(results: Results) -> Paragraph:
-    """How many claims got each word, by the present criteria and by the first ones; which do not hold."""
-    decided, lacks = judge_possible(results)
-    every = len(decided) + len(lacks)
-    if not decided:
-        return Paragraph("Claims", (f"None of the paper's {every} claims can be judged from this run.",))
-    failed = ", ".join(one.id for one in decided if one.word == Word.FAILS)
-    alone = sum(one.evidence.tables == ("experiment",) for one in decided)
-    computed = f" ({alone} by computations that need no starts of a run)" if lacks and alone else ""
-    now = f"Of the paper's {every} claims {told(one.word for one in decided)}{computed}"
-    now += f". What does not hold: {failed}" if failed else ""
-    unknown = f"; {len(lacks)} cannot be judged from this run" if lacks else ""
-    first = told(one.first for one in decided)
-    return Paragraph("Claims", (f"{now}{unknown}. By the criteria first written: {first}.",))
-
-
-def parts_in(results: Results) -> list[str]:
-    """Return the parts of a run, as `show` names them, that have rows."""
+def list_absent(results: Results) -> str:
+    """Name the parts and count the laws that are not in the run; nothing if all are."""
     episodes = results.table("episodes")
-    has = {"free-body": (episodes["arm"] == "").any(), "arms": (episodes["arm"] != "").any()}
-    has |= {"contact": len(results.table("compliance")), "robustness": len(results.table("robustness"))}
-    return [part for part in PARTS if has[part]]
-
-
-def list_absent(results: Results) -> list[Paragraph]:
-    """Return the parts and the laws that are not in the run; nothing if all are."""
-    episodes = results.table("episodes")
-    present = parts_in(results)
+    present = parts.list_parts(results)
     absent = [part.replace("-", " ") for part in PARTS if part not in present]
     ran = {str(name).partition("@")[0] for name in episodes["contender"].unique()}
-    laws = [one.name for one in all_contenders() if not one.regulator.costing_only]
-    missing = [law for law in laws if law not in ran]
+    known = [law.name for law in all_contenders() if not law.regulator.costing_only]
+    missing = [law for law in known if law not in ran]
     if "free-body" in present and missing:
-        absent.append(f"{len(missing)} of the benchmark's {counted(len(laws), 'law')}")
-    return [Paragraph("Not in it", (f"Not in this run: {listed(absent)}.",))] if absent else []
+        absent.append(f"{len(missing)} of {counted(len(known), 'law')}")
+    return f"; not in it: {', '.join(absent)}" if absent else ""

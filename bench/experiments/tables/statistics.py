@@ -26,6 +26,19 @@ class Estimate(NamedTuple):
     high: float
 
 
+NORMAL = 1.959963984540054
+"""The 97.5 % quantile of the normal distribution."""
+
+
+def wilson(count: int, of: int) -> tuple[float, float]:
+    """Return the 95 % interval of a share, of at least one (E. Wilson, J. Amer. Statist. Assoc. 22, 1927)."""
+    share, square = count / of, NORMAL**2 / of
+    middle = share + 0.5 * square
+    half = NORMAL * math.sqrt(share * (1.0 - share) / of + 0.25 * square / of)
+    low, high = (middle - half) / (1.0 + square), (middle + half) / (1.0 + square)
+    return (0.0 if count == 0 else low, 1.0 if count == of else high)
+
+
 def quantile(values: np.ndarray, level: float, axis: int = -1) -> np.ndarray:
     """Return the smallest value that at least a share `level` of the values do not exceed; infinities are values."""
     # 0.07 * 100 is 7.000000000000001, which is no reason to take the eighth

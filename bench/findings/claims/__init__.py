@@ -18,9 +18,8 @@ from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Verdict, 
 from bench.findings.kept import keep
 
 RULE = (
-    f"Engine {MAIN_ENGINE}, the paper's continuous system (2.6)-(2.7), decides. A claim about episodes is asked of "
-    f"{' and '.join(CHECK_ENGINES)} too where they have rows, and what they say is reported: a sampled clock is ours, "
-    "not the paper's, and changes no verdict. No verdict is given on an empty table: that is an error."
+    f"The continuous-time simulation ({MAIN_ENGINE}) decides, as in the paper. Sampled simulations "
+    f"({' and '.join(CHECK_ENGINES)}) are reported and change no verdict. A claim without data has no verdict."
 )
 """What is common to all criteria."""
 
@@ -55,10 +54,31 @@ def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
     found = keep(results.folder, "claims", find) if results.folder and results.is_as_stored else find()
     claims = {one.id: one for one in all_claims()}
     decided = [
-        Verdict(claims[id], Word(word), Evidence(sentence, rows, tuple(tables), instead))
-        for id, word, sentence, rows, tables, instead in found["decided"]
+        Verdict(claims[id], Word(word), _evidence_of(stored))
+        for id, word, *stored in found["decided"]
     ]
     return decided, found["lacks"]
+
+
+def judge_each(results: Results) -> list[Verdict]:
+    """Return a verdict on every claim: 'not tested' where the run lacks what it needs, with what is lacking."""
+    decided, lacks = judge_possible(results)
+    verdicts = {verdict.id: verdict for verdict in decided}
+    for claim in all_claims():
+        if claim.id in lacks:
+            evidence = Evidence(f"This run cannot decide it: {lacks[claim.id]}.", 0)
+            verdicts[claim.id] = Verdict(claim, Word.UNTESTED, evidence)
+    return [verdicts[claim.id] for claim in all_claims()]
+
+
+def _evidence_of(stored: list) -> Evidence:
+    """Return an evidence from its values as JSON holds them, where a tuple is a list."""
+    evidence = Evidence(*stored)
+    return evidence._replace(
+        tables=tuple(evidence.tables),
+        numbers=tuple(map(tuple, evidence.numbers)),
+        chosen=tuple((str(table), str(condition)) for table, condition in evidence.chosen),
+    )
 
 
 def told(words: Iterable[Word]) -> str:

@@ -166,8 +166,22 @@ def of_three(results: Results) -> Ledger:
 TESTS = "abcdefgh"
 """Tests of C27's criterion, in its order."""
 
+TEST_NAMES = {
+    "a": "uniform starts",
+    "b": "directed or spinning starts",
+    "c": "time",
+    "d": "cost",
+    "e": "starts exactly on a boundary",
+    "f": "noise at 180°",
+    "g": "no unwinding",
+    "h": "cost in operations",
+}
+
 BOTH = "abcd"
 """What C17 asks."""
+
+
+PASSES = "passes"
 
 
 class Tested(NamedTuple):
@@ -196,7 +210,17 @@ class Tested(NamedTuple):
     def __str__(self) -> str:
         parts = [f"fails {', '.join(sorted(self.failed))}"] if self.failed else []
         parts += [f"not tested: {', '.join(sorted(self.untested))}"] if self.untested else []
-        return "; ".join(parts) or "passes"
+        return "; ".join(parts) or PASSES
+
+    def in_words(self) -> str:
+        """Return the same with the name of each test: 'fails (c) time'."""
+        parts = [f"fails {_named(self.failed)}"] if self.failed else []
+        parts += [f"not tested: {_named(self.untested)}"] if self.untested else []
+        return "; ".join(parts) or PASSES
+
+
+def _named(tests: Iterable[str]) -> str:
+    return ", ".join(f"({test}) {TEST_NAMES[test]}" for test in sorted(tests))
 
 
 def examine(

@@ -11,7 +11,7 @@ from typing import Any
 
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results, evidence
-from bench.findings.claims.verdict import NoEvidence, Word
+from bench.findings.claims.verdict import Evidence, NoEvidence, Word
 from bench.law.inputs import Gains
 
 REFERENCE = RESULTS / "reference"
@@ -63,15 +63,62 @@ def _at_every_gain(decide: Callable, combine: Callable[[list[Word]], Word]) -> C
         words = [word for word, _ in found.values() if word != Word.UNTESTED]
         word = combine(words) if words else Word.UNTESTED
         told = " ".join(f"At {_told(gains)}: {word}. {said}" for gains, (word, said) in found.items())
-        true_at: dict[str, list[str]] = {}
+        true_at: dict[str, list[Gains]] = {}
         for gains, (_, said) in found.items():
             if said.instead:
-                true_at.setdefault(said.instead, []).append(_told(gains))
-        instead = " ".join(f"At {'; '.join(at)}: {text}" for text, at in true_at.items())
+                true_at.setdefault(said.instead, []).append(gains)
+        instead = " ".join(f"At {_told_all(at)}: {text}" for text, at in true_at.items())
         rows = sum(said.rows for _, said in found.values())
-        return word, evidence(told, rows, found[own][1].tables, "" if word == Word.HOLDS else instead)
+        return word, evidence(
+            told,
+            rows,
+            found[own][1].tables,
+            "" if word == Word.HOLDS else instead,
+            _measured(own, found),
+            _numbers({gains: said for gains, (_, said) in found.items()}),
+        )
 
     return judge
+
+
+def _measured(own: Gains, found: dict[Gains, tuple[Word, Evidence]]) -> str:
+    """Return what was measured at a run's own gains, and the gains at which the word is another one."""
+    own_word, said = found[own]
+    is_same_stiffness = all(gains.kp == own.kp for gains in found)
+    others: dict[Word, list[Gains]] = {}
+    for gains, (word, _) in found.items():
+        if word != own_word:
+            others.setdefault(word, []).append(gains)
+    at_own = f"Kv {own.kv:g}" if is_same_stiffness else _short(own)
+    parts = [f"{at_own}: {said.measured}"]
+    for word, at in others.items():
+        where = ", ".join(map(_short, at))
+        if is_same_stiffness:
+            where = f"Kv {', '.join(f'{gains.kv:g}' for gains in at)}"
+        parts.append(f"{word} at {where}")
+    return "; ".join(parts)
+
+
+def _short(gains: Gains) -> str:
+    return f"Kp {gains.kp:g}, Kv {gains.kv:g}"
+
+
+def _numbers(said: dict[Gains, Evidence]) -> list[tuple[str, ...]]:
+    """Return the tables of all gains in one, the gains before each row; nothing where there is none."""
+    tables = {gains: evidence.numbers for gains, evidence in said.items() if evidence.numbers}
+    if not tables:
+        return []
+    heads = next(iter(tables.values()))[0]
+    rows = [(_short(gains), *row) for gains, (_, *rows) in tables.items() for row in rows]
+    return [("Gains", *heads), *rows]
+
+
+def _told_all(at: list[Gains]) -> str:
+    """Return some gains: 'Kp = 100, Kv = 14, 20 and 30'; the stiffness is said once where it is the same."""
+    *others, last = at
+    if not others or any(gains.kp != last.kp for gains in others):
+        return "; ".join(map(_told, at))
+    return f"Kp = {last.kp:g}, Kv = {', '.join(f'{gains.kv:g}' for gains in others)} and {last.kv:g}"
 
 
 def _told(gains: Gains) -> str:
@@ -118,14 +165,14 @@ def describe(study: dict, words: dict[str, str]) -> str:
     runs, stale = study["runs"], study.get("stale", [])
     seeds = sum(name != HALF_STEP for name in runs)
     other = {id: found for id, found in turned(runs, words).items() if id not in stale}
-    found = "every verdict stays the same" if not other else f"these change: {', '.join(other)}"
+    found = "every verdict that was tested stays the same" if not other else f"these change: {', '.join(other)}"
     step = " and with half the step size" if HALF_STEP in runs else ""
     return f"With {seeds} other random seeds{step}, {found}.{_lacking(stale)}{by_gains(study, words)}"
 
 
 def _lacking(stale: list[str]) -> str:
     """Name the claims that the study judged by a criterion which stands no more."""
-    return f" Not tested in it, for their criteria are newer: {', '.join(stale)}." if stale else ""
+    return f" Not tested, because their criteria are newer: {', '.join(stale)}." if stale else ""
 
 
 def by_gains(study: dict, words: dict[str, str]) -> str:

@@ -11,7 +11,7 @@ from bench.base.on_first_use import Turn, pd
 from bench.findings.claims import probes, side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.force_conversion import random_orientations
-from bench.findings.claims.tables import Results, evidence, some
+from bench.findings.claims.tables import Results, count_of, evidence, percent, rounding, some
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 
 LIMIT = read_limits(__file__)
@@ -30,8 +30,8 @@ def c22(results: Results) -> tuple[Word, Evidence]:
     by_alpha = np.abs(B[:, :, 0] - (0.0, 0.0, 1.0)).max()
     by_gamma = np.abs(B[:, :, 2] - [R.n for R in turns]).max()
     axes = (
-        f"At {LIMIT.POSES} orientations alpha's own axis is the base's z to {by_alpha:.0e} and gamma's the hand's x to "
-        f"{by_gamma:.0e}."
+        f"At {LIMIT.POSES} orientations alpha's own axis is the base's z to {rounding(by_alpha)} and "
+        f"gamma's the hand's x to {rounding(by_gamma)}."
     )
     return word, found._replace(sentence=f"{axes} {found.sentence}")
 
@@ -69,12 +69,16 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         len(rows),
         instead=f"""One angle is one axis of the base {_by_order(judged, "same")} poses and forms, and one axis turned
         by the angles before it {_by_order(judged, "same_turned")}.""",
+        measured=f"one turned axis at {count_of(int(judged['same_turned'].sum()), len(judged), 'poses')}",
     )
 
 
 def _by_order(rows: pd.DataFrame, fact: str) -> str:
-    """'about x at 3 of 12, ...'."""
-    return ", ".join(f"{order} at {own.sum()} of {len(own)}" for order, own in rows.groupby("complies")[fact])
+    """Return at how many poses a fact is true, by order: 'about x at 3 of 12, about y at all 12'."""
+    parts = []
+    for order, own in rows.groupby("complies")[fact]:
+        parts.append(f"{order} at {count_of(int(own.sum()), len(own), '').strip()}")
+    return ", ".join(parts)
 
 
 def _greatest(numbers: np.ndarray) -> float:
@@ -105,13 +109,17 @@ def c23(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     least = float(np.nanmin(differs[general], initial=np.inf))
     special = _by_order(rows.assign(same=differs <= LIMIT.SAME)[~general], "same") or "at no pose: there is none"
     return word, evidence(
-        f"""With no angle zero they part at {int(parted.sum())} of {len(parted)} poses and forms, by {least:.2f} of the
-        Cartesian compliance or more; with one zero they correspond {special}. {LEVEL_PAIR.capitalize()}, at
-        {int(level.sum())} poses and forms up to |beta| = {math.degrees(beta.max()):.0f} degrees on
-        {rows["arm"].nunique()} arms: both planes lie as predicted to {_greatest(tilt):.1e} rad, and what a moment about
-        the level axis leaks into z is as predicted to {_greatest(missed):.1e}: {_greatest(leak):.2f} at most, where tan
-        |beta| is {_greatest(np.tan(beta)):.2f}; along the base's axes {_greatest(by_base):.2g}.""",
+        f"""With no angle zero they part at
+        {count_of(int(parted.sum()), len(parted), "poses and forms")}, by {least:.2f} of the
+        Cartesian compliance or more; with one zero they correspond {special}.
+        {LEVEL_PAIR.capitalize()}, at {int(level.sum())} poses and forms up to |beta| =
+        {math.degrees(beta.max()):.0f} degrees on {rows["arm"].nunique()} arms: both planes lie as
+        predicted to {_greatest(tilt):.1e} rad, and what a moment about the level axis leaks into z
+        is as predicted to {_greatest(missed):.1e}: {_greatest(leak):.2f} at most, where tan |beta|
+        is {_greatest(np.tan(beta)):.2f}; along the base's axes {_greatest(by_base):.2g}.""",
         len(rows),
+        measured=f"""they differ at {count_of(int(parted.sum()), len(parted), "poses")} with no angle zero, by
+        {percent(least)} % or more""",
     )
 
 
@@ -138,13 +146,20 @@ def c24(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     done = near[near["outcome"] == "done"]
     ends = ", ".join(sorted(set(at_zero["outcome"].astype(str))))
     return word, evidence(
-        f"""Z-Y-Z is a problem at {int(at_zero["problem"].sum())} of {len(at_zero)} poses at zero ({ends}) and at
-        {int(near["problem"].sum())} of {len(near)} within {LIMIT.NEAR_DEG:g} degrees: about x it yields
+        f"""Z-Y-Z is a problem at {_problems(at_zero)} at zero ({ends}) and at {_problems(near)}
+        within {LIMIT.NEAR_DEG:g} degrees: about x it yields
         {done["yields"].min():.1e} to {done["yields"].max():.1e} of what is wanted, and about z
         {done["leak"].min():.1f} to {done["leak"].max():.1f} times as much as about x. Z-Y-X is one at
-        {int(zyx["problem"].sum())} of {len(zyx)}, where it yields {zyx["yields"].min():.3f} or more.""",
+        {_problems(zyx)}, where it yields {zyx["yields"].min():.3f} or more.""",
         len(zyz) + len(zyx),
+        measured=f"""Z-Y-Z: {done["leak"].min():.1f} to {done["leak"].max():.1f} times as much
+        rotation about z as about x, at {_problems(near)}""",
     )
+
+
+def _problems(rows: pd.DataFrame) -> str:
+    """Return at how many poses the coordinates are a problem."""
+    return count_of(int(rows["problem"].sum()), len(rows), "poses")
 
 
 def _about_x(results: Results, coordinates: str, forms: tuple[str, ...]) -> pd.DataFrame:

@@ -8,7 +8,7 @@ from bench.base.on_first_use import pd
 from bench.engines.metrics.contact_force import WINDOW_S
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE, by_papers_form, paired
-from bench.findings.claims.tables import Results, evidence, some
+from bench.findings.claims.tables import Results, count_of, evidence, percent, some
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from tasks.contact_rest import HORIZON_S
 
@@ -44,19 +44,26 @@ def c25(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     complex_ones = some(rows[rows["turns"] >= 2], "pose of a task with contact where two turns comply")
     depends = [_depends(task, own, forms) for task, own in complex_ones.groupby("task")]
     turned = complex_ones[complex_ones["is_turned"]]
+    straight = complex_ones[complex_ones["beta"].abs() <= LIMIT.ZERO_RAD]
     word = word_of(all(depends), turned["parts"].any())
     parted = complex_ones[complex_ones["parts"]]
     by_frame = complex_ones.groupby(["task", "arm", "pose"])["parts"]
     agree = by_frame.nunique()[by_frame.size() == len(forms)] == 1
-    agreed = f"; both forms agree at {int(agree.sum())} of {len(agree)} frames and scenes" if len(forms) > 1 else ""
+    agreed = ""
+    if len(forms) > 1:
+        agreed = f"; both forms agree at {count_of(int(agree.sum()), len(agree), 'frames and scenes')}"
     simple = rows[rows["turns"] < 2]
     listed = "; ".join(_told(task, own) for task, own in complex_ones.groupby("task"))
     return word, evidence(
-        f"""{sum(depends)} of {len(depends)} tasks in which two turns comply depend on the Jacobian, by
-        {len(complex_ones)} pairs on {complex_ones["arm"].nunique()} arms: {listed}. Of the pairs that part Euler is the
-        worse in {int(parted["euler_is_worse"].sum())} of {len(parted)}{agreed}. Where fewer turns comply
-        {int(simple["parts"].sum())} of {len(simple)} pairs part.""",
+        f"""{count_of(sum(depends), len(depends), "tasks").capitalize()} in which two turns comply
+        depend on the Jacobian, by {len(complex_ones)} pairs on {complex_ones["arm"].nunique()}
+        arms: {listed}. Of the pairs that part Euler is the worse in
+        {count_of(int(parted["euler_is_worse"].sum()), len(parted), "pairs")}{agreed}. Where fewer
+        turns comply {count_of(int(simple["parts"].sum()), len(simple), "pairs")} part.""",
         len(rows),
+        measured=f"""{count_of(int(turned["parts"].sum()), len(turned), "pairs")} with a frame turned by
+        {LIMIT.TURNED_DEG:g}° or more differ, {count_of(int(straight["parts"].sum()), len(straight), "").strip()} with a
+        straight one""",
     )
 
 
@@ -112,7 +119,8 @@ def _parted(rows: pd.DataFrame) -> str:
     """How many part, how many of them by their outcomes, and the greatest factor of the others."""
     by_outcome = np.isinf(rows["factor"])
     ends = f"{by_outcome.sum()} by outcome, the others " if by_outcome.any() else ""
-    return f"{rows['parts'].sum()} of {len(rows)} ({ends}up to {rows['factor'][~by_outcome].max():.3g} times)"
+    pairs = count_of(int(rows["parts"].sum()), len(rows), "pairs")
+    return f"{pairs} ({ends}up to {rows['factor'][~by_outcome].max():.3g} times)"
 
 
 @claim("C47")
@@ -130,9 +138,12 @@ def c47(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     done = int((rows["outcome"] == "done").sum())
     yields = done == len(rows) and force <= LIMIT.MISSED and moment <= FLOORS["rad"]
     return word_of(yields and turn <= LIMIT.HELD_RAD, yields), evidence(
-        f"""{done} of {len(rows)} runs of {pressed["task"].iloc[0]} and {aligned["task"].iloc[0]} end as they should.
-        The force normal to the plane is off by at most {force:.0%} of {LIMIT.FORCE_N:g} N, root mean square; a tool
-        that complies about two axes lies flush to {moment:.1e} rad; what is held has turned by at most {turn:.1e} rad
+        f"""{count_of(done, len(rows), "runs").capitalize()} of {pressed["task"].iloc[0]} and
+        {aligned["task"].iloc[0]} end as they should. The force normal to the plane is off by at
+        most {percent(force)} % of {LIMIT.FORCE_N:g} N, root mean square; a tool that complies about
+        two axes lies flush to {moment:.1e} rad; what is held has turned by at most {turn:.1e} rad
         at the end.""",
         len(rows),
+        measured=f"""force off by at most {percent(force)} % of {LIMIT.FORCE_N:g} N; a rotation that
+        is held is off by up to {turn:.2g} rad""",
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from bench.findings.claims import adequacy, probes, standing
 from bench.findings.claims.adequacy import CALLS, of_stage, tallied
 from bench.findings.claims.side_by_side import BASE
 from bench.findings.claims.standing import ORDERED, Operations, by_columns
-from bench.findings.claims.tables import Results, evidence, some
+from bench.findings.claims.tables import Results, count_of, evidence, percent, some
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.law.control.contact_controller import PAPERS_FORM
 from bench.law.inputs import Gains
@@ -74,14 +74,19 @@ def c20(results: Results) -> tuple[Word, Evidence]:
     is_linear = is_first_order and max(limits) <= LIMIT.BEND_TIGHT and max(drifts) <= LIMIT.DRIFT_M
     fails = all(rows["fails"].any() for rows in compared_at.values()) and not clear["fails"].any()
     hides = all(is_hidden for is_hidden, _ in hidden)
-    at_poles = ", ".join(f"{rows['fails'].sum()} of {len(rows)} ({arm})" for arm, rows in compared_at.items())
+    all_failures, all_poles = (sum(map(count, compared_at.values())) for count in (_count_failures, len))
+    at_poles = ", ".join(
+        f"{count_of(_count_failures(rows), len(rows), '').strip()} ({arm})" for arm, rows in compared_at.items()
+    )
     return word_of(is_linear and fails and hides, max(limits) <= LIMIT.BEND_LOOSE and (fails or hides)), evidence(
         f"""{LIMIT.CURVES * len(arms)} clear curves a step on {len(arms)} arms: angles are at most {max(full):.1e}
         rad off the closed form at the step, {min(shares):.3f} to {max(shares):.3f} of that at half of it, and
         {max(limits):.1e} rad at step zero; the tool moves {max(drifts):.1e} m. At a pole it fails, and the law on R
-        does not, from {at_poles}; from {int(clear["fails"].sum())} of {len(clear)} clear starts (by the same law on the
-        common Jacobian: {int(common["fails"].sum())}). {" ".join(said for _, said in hidden)}""",
+        does not, from {at_poles}; from {count_of(_count_failures(clear), len(clear), "clear starts")} (by the same
+        law on the common Jacobian: {_count_failures(common) or "none"}). {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
+        measured=f"""angles off the linear response by {max(limits):.1e} rad; fails from {all_failures} of {all_poles}
+        starts at poles""",
     )
 
 
@@ -126,6 +131,11 @@ def _at_poles(results: Results, found: pd.DataFrame, poses: pd.DataFrame, arm: s
     return pd.concat([_pairs(results, found, arm, "pole"), _against(*beside)], ignore_index=True)
 
 
+def _count_failures(rows: pd.DataFrame) -> int:
+    """Return how many starts the first controller fails from where the other settles."""
+    return int(rows["fails"].sum())
+
+
 def _hidden(results: Results, joints: int) -> tuple[bool, str]:
     """Whether the law seems cheaper and the controller is dearer, and the numbers in a sentence."""
     rows = {one: controller_costs(results, one, joints) for one in (BY_EULER, BY_COMMON, ON_MATRIX)}
@@ -143,10 +153,11 @@ def _hidden(results: Results, joints: int) -> tuple[bool, str]:
 @claim("C26")
 def c26(results: Results) -> tuple[Word, Evidence]:
     """Pairs of controllers on six and seven joints."""
-    timed, stands, listed = results.controller_timings(), [], []
+    timed, stands, listed, sizes = results.controller_timings(), [], [], []
     for joints, inverse in INVERSES.items():
         three = {f"{one}+{inverse}": controller_costs(results, one, joints) for one in (BY_COMMON, ON_MATRIX, BY_EULER)}
         alone, whole = ({name: tallied(own, goal) for name, own in three.items()} for goal in (False, True))
+        sizes.append(f"on {joints} joints {euler_count(whole, three)}, {surplus(whole, three)} % more")
         times = standing.times_of(timed[timed["contender"].isin(list(three))])
         known = standing.Ledger(times, (alone, whole), math.nan, standing.MEASURABLE)
         *others, euler = three
@@ -156,30 +167,47 @@ def c26(results: Results) -> tuple[Word, Evidence]:
     dearer = sum(set(one.by_columns) == {ORDERED} for one in stands)
     return word_of(dearer == len(stands), False), evidence(
         f"""Flops and calls a tick of (2.2) with (2.15), (2.2) with the law on R, and (3.7), and the time of (3.7) over
-        each of the others': {"; ".join(listed)}. (3.7) is dearer in both columns in {dearer} of
-        {len(stands)} pairs; times part {sum(bool(one.by_time) for one in stands)} of them,
+        each of the others': {"; ".join(listed)}. (3.7) is dearer in both columns in
+        {count_of(dearer, len(stands), "pairs")}; times part {sum(bool(one.by_time) for one in stands)} of them,
         {sum(one.by_time == ORDERED for one in stands)} in that order.""",
         3 * 2 * len(INVERSES) + len(timed),
         ("costs", "timings") if len(timed) else ("costs",),
+        measured=f"operations {'; '.join(sizes)}",
     )
+
+
+def euler_count(totals: dict[str, Operations], names: Iterable[str]) -> str:
+    """Return the flops of (3.7), the last of the controllers."""
+    *_, euler = names
+    return f"{totals[euler].flops:,}"
+
+
+def surplus(totals: dict[str, Operations], names: Iterable[str]) -> str:
+    """Return how many per cent more flops (3.7), the last of the controllers, takes than the cheapest other one."""
+    *others, euler = (totals[name].flops for name in names)
+    return percent(euler / min(others) - 1)
 
 
 @claim("C33")
 def c33(results: Results) -> tuple[Word, Evidence]:
     """Flops and calls of both in contact."""
-    price, told, is_more, is_few = adequacy.ledger(results).price, [], [], []
+    price, told, is_more, is_few, by_joints = adequacy.ledger(results).price, [], [], [], []
     for joints in INVERSES:
         base, euler = (results.found_by(in_contact, f"{one}+{PAPERS_FORM}", joints) for one in (BASE, EULER))
-        weighed = f", {euler.weighed(price) / base.weighed(price) - 1:.0%} more with a call at its price in C12's times"
+        dearer = euler.weighed(price) / base.weighed(price) - 1
+        weighed = f", {100 * dearer:.0f} % more with a call at its price in C12's times"
         more = euler.flops / base.flops - 1
         is_more.append(by_columns(base, euler) == ORDERED)
         is_few.append(more <= LIMIT.FEW)
+        by_joints.append(f"{percent(more)} % ({joints} joints)")
         told.append(
-            f"on {joints} joints {base} on the common Jacobian, {euler} on Euler's: {more:.1%} more flops and "
+            f"on {joints} joints {base} on the common Jacobian, {euler} on Euler's: {percent(more)} % more flops and "
             f"{euler.calls - base.calls} calls{weighed if math.isfinite(price) else ''}"
         )
     return word_of(all(is_more) and all(is_few), all(is_more)), evidence(
-        f"Flops and calls a tick: {'; '.join(told)}.", 2 * len(told)
+        f"Flops and calls a tick: {'; '.join(told)}.",
+        2 * len(told),
+        measured=f"{' or '.join(by_joints)} more operations",
     )
 
 
@@ -197,12 +225,14 @@ def in_contact(controller: str, joints: int) -> Operations:
 @claim("C46")
 def c46(results: Results) -> tuple[Word, Evidence]:
     """Operations of (3.7), of what it replaces, and of what it leaves to the law."""
-    told, is_less, is_left = [], [], []
+    told, is_less, is_left, sizes = [], [], [], []
     for joints in INVERSES:
         rows = {one: controller_costs(results, one, joints) for one in (BY_EULER, BY_COMMON, ON_MATRIX)}
         total = {one: tallied(own, with_goal=False) for one, own in rows.items()}
         law = {one: of_stage(own, "regulate") for one, own in rows.items()}
         is_less += [by_columns(total[BY_EULER], total[one]) == ORDERED for one in (BY_COMMON, ON_MATRIX)]
+        whole = {one: total[one] for one in (BY_COMMON, ON_MATRIX, BY_EULER)}
+        sizes.append(f"{surplus(whole, whole)} % ({joints} joints)")
         is_left.append(law[BY_EULER].flops <= LIMIT.MUCH * law[ON_MATRIX].flops)
         told.append(
             f"on {joints} joints (3.7) takes {total[BY_EULER]} flops and calls, (2.2) with (2.15) {total[BY_COMMON]}, "
@@ -210,5 +240,8 @@ def c46(results: Results) -> tuple[Word, Evidence]:
             f"{law[ON_MATRIX].flops} on R"
         )
     return word_of(all(is_less) and all(is_left), all(is_left)), evidence(
-        f"Typical ticks: {'; '.join(told)}.", 3 * len(told)
+        f"Typical ticks: {'; '.join(told)}.",
+        3 * len(told),
+        measured=f"""{' or '.join(sizes)} more operations; the law alone {law[BY_EULER].flops} instead of
+        {law[ON_MATRIX].flops}""",
     )

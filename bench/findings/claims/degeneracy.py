@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 
 from bench.base.on_first_use import Turn
+from bench.experiments.tables.statistics import quantile_estimate
 from bench.findings.claims import probes
 from bench.findings.claims.probes import at_boundary
-from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, settled_of, some
+from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, interval, rounding, settled_of, some
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.findings.theory.compliance_theory import matrix_B
 from bench.law.contenders.registry import representation
@@ -43,6 +44,7 @@ def c13(results: Results) -> tuple[Word, Evidence]:
         Z-Y-Z and {axis[1]:.3f} for angle and axis (to {zyz[2]:.1e} and {axis[2]:.1e}); for the rotation vector it is at
         most {vector[2]:.5f}.""",
         3 * len(tables),
+        measured=f"""condition number of Z-Y-Z rises to {zyz[2]:.1e}, of the rotation vector to {vector[2]:.4f}""",
     )
 
 
@@ -90,10 +92,11 @@ def c14(results: Results) -> tuple[Word, Evidence]:
     word = word_of(least[180] < LIMIT.ON_POLE, max(least[90], least[-90]) < LIMIT.ON_POLE)
     so = "2.3 and the equations are right, 2.2 is not" if word == Word.CORRECTED else "The equations do not correct 2.2"
     return word, evidence(
-        f"""Smallest singular value of B: {least[180]:.3f} at 180 degrees about Y, {least[90]:.0e} and {least[-90]:.0e}
-        at +-90. The feedback-linearized law settles from {settled_of(about_y)} exact half
-        turns about y and from {settled_of(poles)} exact poles. {so}.""",
+        f"""Smallest singular value of B: {least[180]:.3f} at 180 degrees about Y, {rounding(least[90])} and
+        {rounding(least[-90])} at +-90. The feedback-linearized law settles from
+        {settled_of(about_y, "exact half turns about y")} and from {settled_of(poles, "exact poles")}. {so}.""",
         len(least) + len(about_y) + len(poles),
+        measured=f"""least singular value of B: {least[180]:.3g} at 180° about y, {rounding(least[90])} at 90°""",
     )
 
 
@@ -118,6 +121,8 @@ def c15(results: Results) -> tuple[Word, Evidence]:
         f"""With the sum kept R changes by {moved[1, "sum"]:.1g} at +90 and {moved[-1, "sum"]:.0e} at -90 degrees, with
         the difference kept by {moved[1, "difference"]:.0e} and {moved[-1, "difference"]:.1g}. {so}.""",
         4 * len(grid) ** 2,
+        measured=f"""with the sum kept, R changes by {moved[1, "sum"]:.1g} at +90° and by {moved[-1, "sum"]:.0e} at
+        -90°""",
     )
 
 
@@ -135,9 +140,11 @@ def c16(results: Results) -> tuple[Word, Evidence]:
     so = "B exists everywhere, as 3.3 says; B^-1 does not" if lacks_inverse else "3.3 is not confirmed"
     return word, evidence(
         f"""B is finite at all {len(frame):,} orientations (elements at most {largest:.3f}); at {len(at_poles)} exact
-        poles its smallest singular value is at most {float(values[:, 2].max()):.0e} and the next
+        poles its smallest singular value is at most {rounding(float(values[:, 2].max()))} and the next
         {float(values[:, 1].min()):.2f}. {so}.""",
         len(frame),
+        measured=f"""elements of B are at most {largest:.3g} at {len(frame):,} orientations; B^-1 is missing at
+        {len(at_poles)} poles""",
     )
 
 
@@ -155,6 +162,8 @@ def c28(results: Results) -> tuple[Word, Evidence]:
         rad, {np.median(ends):.2f} in the median. After turns whose integrals sum to zero the body is turned by {missed}
         rad. About one axis the integral is the turn to {plane:.0e} rad.""",
         2 * len(ends) + len(loops),
+        measured=f"""the integrals of two ways to one end differ by
+        {interval(quantile_estimate(ends, 0.5), ".2f")} rad (median of {len(ends)} pairs)""",
     )
 
 

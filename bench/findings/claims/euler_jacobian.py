@@ -14,7 +14,16 @@ from bench.experiments.tables.statistics import Estimate, quantile_estimate
 from bench.findings.claims import tables
 from bench.findings.claims.degeneracy import condition_in
 from bench.findings.claims.feedback_linearized import LAW
-from bench.findings.claims.tables import MAIN_ENGINE, Results, Share, evidence, share, some
+from bench.findings.claims.tables import (
+    MAIN_ENGINE,
+    Results,
+    Share,
+    count_of,
+    evidence,
+    percent_interval,
+    share,
+    some,
+)
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from bench.findings.start_sets import least_starts
 from bench.law.contenders.registry import representation
@@ -70,6 +79,8 @@ def c18(results: Results) -> tuple[Word, Evidence]:
         conditioned, J_E has ten times its condition number at {worse}. Its largest element is nowhere below
         {rows["largest"].min():.2f}: only its determinant is ever zero.""",
         len(rows),
+        measured=f"""elements up to {ways["nearest"].max():.1e} at 1e-{LIMIT.NEAREST} rad; ten times worse
+        in {percent_interval(worse)} of poses""",
     )
 
 
@@ -112,6 +123,7 @@ def c19(results: Results) -> tuple[Word, Evidence]:
         by at most {measured.max():.1f} eps^(2/3) / cos(beta). Left out, a jump of an angle between both ends of a
         difference: {len(differenced) - len(kept)}.""",
         len(rows),
+        measured=f"the two differ by at most {derived.max():.1f} eps / cos(beta) at {len(rows):,} poses",
     )
 
 
@@ -136,10 +148,14 @@ def c34(results: Results) -> tuple[Word, Evidence]:
         for one, two in itertools.combinations(forms, 2)
     }
     told = "; ".join(f"{form} {_told(found[form])}, {degenerate[form][1]}" for form in forms)
+    near_180 = {form: own[LIMIT.SETS[-1]][0] for form, own in found.items()}
+    lost_by_form = ", ".join(f"{kept.n - kept.k} ({form})" for form, kept in near_180.items())
+    starts = max(kept.n for kept in near_180.values())
     return word_of(all(alike.values()), alike[LIMIT.REGULAR] and not all(alike.values())), evidence(
         f"""{told}. Alike: {", ".join(" and ".join(pair) for pair, facts in alike.items() if facts) or "none"}.""",
         sum(kept.n for own in found.values() for kept, _ in own.values())
         + len(forms) * LIMIT.PAIRS * LIMIT.FORM_DECADES,
+        measured=f"lost of {starts} starts near 180°: {lost_by_form}",
     )
 
 
@@ -164,7 +180,8 @@ def _degenerates(form: str) -> tuple[bool, str]:
 
 def _told(found: dict[str, tuple[Share, Estimate]]) -> str:
     return ", ".join(
-        f"{name} {kept.n - kept.k} of {kept.n} lost, {time.value:.3f} s" for name, (kept, time) in found.items()
+        f"{name}: {count_of(kept.n - kept.k, kept.n, 'starts')} lost, {time.value:.3f} s"
+        for name, (kept, time) in found.items()
     )
 
 
@@ -180,8 +197,10 @@ def c44(results: Results) -> tuple[Word, Evidence]:
     return word_of(exact <= LIMIT.SAME < off, False), evidence(
         f"""At {LIMIT.POSES} random states each of {", ".join(arms)} the hand's acceleration, from MuJoCo's forward
         dynamics and differences of its velocity, is u to {exact:.0e} of its size. With all masses
-        {LIMIT.OFF.partition("-")[2]} times the model's it misses u by {typical:.0%}, in the median.""",
+        {LIMIT.OFF.partition("-")[2]} times the model's it misses u by {typical:.2g} times u, in the median.""",
         2 * LIMIT.POSES * len(arms),
+        measured=f"""acceleration is u within {exact:.0e} of its size ({LIMIT.POSES * len(arms)} states); with
+        {LIMIT.OFF.partition("-")[2]} times the masses off by {typical:.2g} u""",
     )
 
 

@@ -13,7 +13,18 @@ from bench.findings.claims import probes
 from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.at_gains import on_every_engine
 from bench.findings.claims.probes import EXACT_RAD, at_boundary
-from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, lost_text, settled, settled_of, share, some
+from bench.findings.claims.tables import (
+    MAIN_ENGINE,
+    Results,
+    count_of,
+    evidence,
+    lost_text,
+    percent_interval,
+    settled,
+    settled_of,
+    share,
+    some,
+)
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form
 from bench.law.contenders.registry import representation
@@ -40,24 +51,27 @@ def c09(results: Results) -> tuple[Word, Evidence]:
     pole, wrap = near[on_pole], near[on_wrap & ~on_pole]
     off = some(near[~on_pole & ~on_wrap], "inexact start of poles and wraps")
     spun = results.spun(CONTENDER)
-    at_rest = [one.share.high for one in spun if one.speed == 0.0]
-    if not at_rest:
+    from_rest = [one for one in spun if one.speed == 0.0]
+    if not from_rest:
         gains = results.gains()
         raise NoEvidence(
             f"random starts of {CONTENDER} from rest with these gains are not tested; map them first: bench map "
             f"--regulator {CONTENDER} --kp {gains.kp:g} --kv {gains.kv:g} --speed 0 --out results/maps/NAME"
         )
-    lost_at_rest = max(at_rest)
+    resting = max(from_rest, key=lambda one: one.share.high)
+    lost_at_rest = resting.share.high
     goals = results.episodes(LAW, MAIN_ENGINE, "goals")
     goals = some(goals[probes.goal_to_pole(goals) > EXACT_RAD], "goal off the pole")
     long_way = int((goals["path_ratio"] * goals["angle0_rad"] > math.pi).sum())
     is_tight = max(bends) <= LIMIT.LINEAR_TIGHT and lost_at_rest <= LIMIT.LOST_SHARE and settled(off).all()
     return word_of(is_tight, max(bends) <= LIMIT.LINEAR_LOOSE and lost_at_rest <= LIMIT.STRAY_SHARE), evidence(
         f"""{len(bends)} traces bend from the closed form by at most {max(bends):.1e} rad. Lost of random starts
-        {"; ".join(map(lost_text, spun))}. Settled: {settled_of(off)} starts off the boundary by 1e-12 rad or more,
-        {settled_of(wrap)} exactly at +-pi, {settled_of(pole)} exactly on a pole, {settled_of(goals)} goals, {long_way}
-        of them by unwinding.""",
+        {"; ".join(map(lost_text, spun))}. Settled: {settled_of(off, "starts off the boundary")} by 1e-12 rad or more,
+        {settled_of(wrap, "starts")} exactly at +-pi, {settled_of(pole, "starts")} exactly on a pole,
+        {settled_of(goals, "goals")}, {long_way} of them by unwinding.""",
         len(rows) + sum(one.starts for one in spun) + len(near) + len(goals),
+        measured=f"""at most {max(bends):.1e} rad off linear; {percent_interval(resting.share)} of {resting.starts:,}
+        random starts lost""",
     )
 
 
@@ -83,11 +97,14 @@ def c10(results: Results) -> tuple[Word, Evidence]:
     divides = abs(slope + 1) <= LIMIT.GROWTH_SLACK and not math.isfinite(largest)
     so = ", so that B^-1 is what divides" if math.isfinite(largest) else ""
     return word_of(passes and divides, passes), evidence(
-        f"""{finite} of {len(commands)} commands at exact poles are finite, and {settled_of(exact)} episodes there
-        settle; the largest element of B there is {largest:.3f}{so}. Spinning, |u| grows as cos(beta) to the power
+        f"""{count_of(finite, len(commands), "commands").capitalize()} at exact poles are finite, and
+        {settled_of(exact, "episodes")} there settle; the largest element of B there is {largest:.3f}{so}.
+        Spinning, |u| grows as cos(beta) to the power
         {slope:.3f}, to {grown:.1e} rad/s^2. Across +-pi the command jumps by {float(jumps.min()):.4f} to
         {float(jumps.max()):.4f} times 2 pi Kp.""",
         len(commands) + len(exact) + len(jumps),
+        measured=f"""{count_of(finite, len(commands), "commands")} at exact poles are finite; u jumps by
+        {float(jumps.max()):.4f} times 2 pi Kp at +-pi""",
     )
 
 
@@ -138,9 +155,11 @@ def c11(results: Results, engine: str) -> tuple[Word, Evidence]:
         f"""Erratic starts outside margins of {MARGINS} rad: {at_rest} at rest (of {int((~spins).sum()):,} in all),
         {spinning} tumbling (of {int(spins.sum())}), and {near} of {probes.BESIDE} that spin at {probes.SPEED:g} rad/s
         beside each margin; peak commands at rest up to {next(peaks):,.0f}, tumbling up to {next(peaks):,.0f} rad/s^2.
-        Of {len(clear)} tumbling ones that never come within {widest} rad of a pole, {int(erratic[clear.index].sum())}
-        are erratic.""",
+        Of the tumbling ones that never come within {widest} rad of a pole
+        {count_of(int(erratic[clear.index].sum()), len(clear), "starts")} are erratic.""",
         len(frame) + sum(len(one) for one in beside),
+        measured=f"""erratic: {count_of(resting[0], int((~spins).sum()), "starts from rest")}, {passed[0]} of
+        {probes.BESIDE} that spin at {probes.SPEED:g} rad/s near a pole""",
     )
 
 
@@ -164,6 +183,9 @@ def c30(results: Results) -> tuple[Word, Evidence]:
         f"{other / nominal:.2f}, {own_lost.k} against {other_lost.k} lost"
         for level, (other, own), (other_lost, own_lost) in zip(levels, times, lost, strict=True)
     )
+    heaviest, (other_slow, own_slow) = levels[-1], (
+        time / at_one for time, at_one in zip(times[-1], (nominal, own_nominal), strict=True)
+    )
     heavy, linear = closed_form.linear_settling(gains.kp / 2, gains.kv / 2), closed_form.linear_settling(*gains)
     as_quick = all(own <= (1 + LIMIT.SLACK) * other for other, own in times)
     of_inertia = word_of(keeps and as_quick, keeps)
@@ -173,6 +195,8 @@ def c30(results: Results) -> tuple[Word, Evidence]:
         time with an inertia of so many times the model's, feedback linearization against the rotation matrix, of
         {LIMIT.STARTS} starts each: {told}. A linear system of twice the inertia is slowed by {heavy / linear:.2f}.""",
         sum(map(len, runs)),
+        measured=f"""not tested; an inertia of {heaviest:g} times slows it by {own_slow:.2f}, the rotation matrix by
+        {other_slow:.2f}""",
         instead=f"""Whether an error of B or of Bdot is a problem is not tested. A statement of its own, that it needs
         no better model of the inertia than the rotation-matrix law: {of_inertia}.""",
     )

@@ -60,6 +60,8 @@ def c21(results: Results) -> tuple[Word, Evidence]:
         {LIMIT.USABLE:g} times at {int(usable.sum()):,} of the orientations, and up to
         {found.loc[~poles, "gain"].max():.1e} times off the exact poles, as 1 / cos(beta) has it.""",
         len(found) + len(looped),
+        measured=f"""work balances to {found["gap"].max() / EPS:.1f} eps at {len(found):,} orientations; amplified up to
+        {found.loc[~poles, "gain"].max():.1e} times""",
     )
 
 

@@ -14,7 +14,20 @@ from bench.findings.claims import probes, tables
 from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.at_gains import on_every_engine, weakest_at_every_gain
 from bench.findings.claims.rotation_matrix import GAINS, LOOSE_SETTLING, SMALL_ANGLES
-from bench.findings.claims.tables import Results, evidence, interval, lost, settled, settled_of, share, some
+from bench.findings.claims.tables import (
+    Results,
+    count_of,
+    evidence,
+    interval,
+    lost,
+    percent,
+    percent_interval,
+    rounding,
+    settled,
+    settled_of,
+    share,
+    some,
+)
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form, held_goals
 from bench.law.contenders.registry import representation
@@ -50,8 +63,11 @@ def c06(results: Results, engine: str) -> tuple[Word, Evidence]:
     return word, evidence(
         f"""Settled: {whole} of SO(3); inside the box {inside}, of the box set's inside starts {directed}; outside
         {outside}. The uniform ones that fail end {ends}. The nearest failure on a geodesic from the goal is at
-        {nearest:.1f} degrees. {len(every) - len(sure)} of the starts do not converge.""",
+        {nearest:.1f} degrees. {count_of(len(every) - len(sure), len(every), "starts").capitalize()} do not
+        converge.""",
         len(every) + len(fails),
+        measured=f"""{percent_interval(whole)} of {whole.n:,} uniform starts settle; inside the box
+        {percent(inside.value)} %""",
     )
 
 
@@ -77,12 +93,15 @@ def c07(results: Results, engine: str) -> tuple[Word, Evidence]:
     beside = converged(poles)
     return word, evidence(
         f"""{len(passing)} episodes come within {math.degrees(math.asin(LIMIT.PASSING)):.1f} degrees of the pole; of the
-        {len(converged(passing))} that converge {lost_passing.value:.2%} do not settle ({lost_passing.low:.2%} to
-        {lost_passing.high:.2%}, the others settling or lost), against {interval(lost_rest, ".2%")} of the rest. Their
+        {len(converged(passing))} that converge {percent(lost_passing.value)} % do not settle
+        ({percent(lost_passing.low)} to {percent(lost_passing.high)} %, the others settling or lost), against
+        {percent_interval(lost_rest)} of the rest. Their
         median peak command is {peak.value:,.0f} rad/s^2 ({peak.low:,.0f} to {peak.high:,.0f}) against
-        {interval(rest_peak, ",.0f")}. From rest beside the pole {settled_of(beside)} that converge settle, and
-        {len(poles) - len(beside)} do not converge.""",
+        {interval(rest_peak, ",.0f")}. From rest beside the pole {settled_of(beside, "starts")} that converge settle,
+        and {len(poles) - len(beside)} do not converge.""",
         len(frame) + len(poles),
+        measured=f"""{percent_interval(lost_passing)} of {len(passing)} starts that pass a pole are lost,
+        {percent(lost_rest.value)} % of the rest""",
     )
 
 
@@ -97,12 +116,16 @@ def c08(results: Results, engine: str) -> tuple[Word, Evidence]:
     works = cure.high >= zero.low - LIMIT.CURE_SLACK and cure.low > base.high
     word = word_of(works and base.high <= LIMIT.FEW_GOALS and not near.k, works and base.high < LIMIT.MANY_GOALS)
     return word, evidence(
-        f"""With E_d subtracted it reaches {base} of the goals, and {near.k} of {near.n} goals {LIMIT.NEAR_GOAL_RAD} rad
+        f"""With E_d subtracted it reaches {base} of the goals, and
+        {count_of(near.k, near.n, "goals")} {LIMIT.NEAR_GOAL_RAD} rad
         from zero; with angles from the goal {cure} of the goals, against {zero} of uniform starts with goal zero. By
-        its eigenvalues it holds {held_goals.held_share(results.gains()):.1%} of all goals: those with alpha_d under
+        its eigenvalues it holds {percent(held_goals.held_share(results.gains()))} % of all goals: those with
+        alpha_d under
         {math.degrees(math.acos(held_goals.least_cosine(0.0, results.gains()))):.1f} degrees at beta_d = 0 and under 90
         at the poles, whatever gamma_d. As printed, u contains no goal.""",
         base.n + cure.n + zero.n + near.n,
+        measured=f"""{percent_interval(base)} of {base.n} goals reached; with angles from the goal
+        {percent(cure.value)} %""",
     )
 
 
@@ -117,13 +140,18 @@ def c29(results: Results) -> tuple[Word, Evidence]:
     ticks = np.array([[results.dt_s / closed_form.linear_settling(*pair)] for pair in GAINS])
     gains = results.gains()
     within = max((angle for angle in LIMIT.LARGER_RAD if off(angle, gains) <= LOOSE_SETTLING), default=0.0)
-    by_angle = ", ".join(f"{most:.2%} at {a:g} rad" for a, most in zip(SMALL_ANGLES, small.max(axis=0), strict=True))
+    by_angle = ", ".join(
+        f"{percent(most)} % at {angle:g} rad" for angle, most in zip(SMALL_ANGLES, small.max(axis=0), strict=True)
+    )
     is_tight, is_loose = (small <= SMALL_ANGLES + ticks).all(), (small <= LOOSE_SETTLING + ticks).all()
     return word_of(is_tight, is_loose), evidence(
-        f"""{LIMIT.DIRECTIONS} axes at {len(GAINS)} pairs of gains: at most {by_angle} from the closed form
-        ({closed_form.linear_settling(*gains):.4f} s at the run's gains). Every time is within {LOOSE_SETTLING:.0%}
-        up to {within:g} rad of {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} tried.""",
+        f"""{LIMIT.DIRECTIONS} axes at {len(GAINS)} pairs of gains: at most {by_angle} from the
+        closed form ({closed_form.linear_settling(*gains):.4f} s at the run's gains). Every time is
+        within {100 * LOOSE_SETTLING:.0f} % up to {within:g} rad of
+        {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} tried.""",
         LIMIT.DIRECTIONS * (small.size + len(LIMIT.LARGER_RAD)),
+        measured=f"""settling times differ from the linear model's by at most {percent(small.max())}
+        % up to {max(SMALL_ANGLES):g} rad ({LIMIT.DIRECTIONS} axes)""",
     )
 
 
@@ -145,11 +173,13 @@ def c37(results: Results) -> tuple[Word, Evidence]:
         {LIMIT.PACE:g} times the time of a small error: in the box of C06 {inside}, outside it {outside}, of all
         {every}.""",
         len(rows),
-        instead=f"""If the goal is zero, the law is satisfactory in half of SO(3), the box of C06: there {inside.k} of
-        {inside.n} starts at {LIMIT.BEYOND_RAD:g} rad or more settle in time. Outside the box it is not: {outside.k} of
-        {outside.n} do."""
+        instead=f"""If the goal is zero, the law is satisfactory in half of SO(3), the box of C06: there
+        {count_of(inside.k, inside.n, "starts")} at {LIMIT.BEYOND_RAD:g} rad or more settle in time. Outside the box it
+        is not: {count_of(outside.k, outside.n, "starts")} do."""
         if inside.low >= LIMIT.REASONABLE
         else "",
+        measured=f"""beyond {LIMIT.BEYOND_RAD:g} rad {percent_interval(inside)} settle in time inside the box,
+        {percent(outside.value)} % outside""",
     )
 
 
@@ -166,13 +196,15 @@ def c38(results: Results) -> tuple[Word, Evidence]:
     is_slowed, loses = typical >= LIMIT.OFF, unsettled.low > 0.0
     word = word_of(is_alone_linear and is_slowed and loses, is_alone_linear and (is_slowed or loses))
     return word, evidence(
-        f"""Of {len(rows):,} uniform starts at {LIMIT.BEYOND_RAD:g} rad or more {unsettled.value:.2%} are lost
-        ({unsettled.low:.2%} to {unsettled.high:.2%}); the others settle {typical:.1%} off the linear time, in the
-        median, {float(np.mean(off >= LIMIT.OFF)):.1%} of them {LIMIT.OFF:.0%} or more off it. Turns of one angle alone,
-        up to {max(LIMIT.ALONE_RAD):g} rad, settle within {alone:.2%} of it.""",
+        f"""Of {len(rows):,} uniform starts at {LIMIT.BEYOND_RAD:g} rad or more
+        {percent_interval(unsettled)} are lost; the others settle {percent(typical)} % off the
+        linear time, in the median, {percent(float(np.mean(off >= LIMIT.OFF)))} % of them
+        {100 * LIMIT.OFF:.0f} % or more off it. Turns of one angle alone, up to
+        {max(LIMIT.ALONE_RAD):g} rad, settle within {percent(alone)} % of it.""",
         len(rows) + 3 * len(LIMIT.ALONE_RAD),
-        instead=f"""{unsettled.value:.2%} of the starts outside the region are lost, and the median settling time is
-        {typical:.1%} off.""",
+        instead=f"""{percent(unsettled.value)} % of the starts outside the region are lost, and the median settling time
+        is {percent(typical)} % off.""",
+        measured=f"{percent_interval(unsettled)} lost, times {percent(typical)} % off",
     )
 
 
@@ -187,12 +219,17 @@ def c39(results: Results) -> tuple[Word, Evidence]:
     ratio = (both["tail_max_rad"] / both["tail_max_rad_other"]).where(both["outcome"] == "settled", np.inf)
     by_speed = ratio.groupby(both["level"]).max()
     kept = [speed for speed, worst in by_speed.items() if worst <= LIMIT.AS_WELL]
+    fastest, worst_ratio = max(by_speed.index), float(by_speed.max())
+    measured = f"error at most {worst_ratio:.2f} times the rotation matrix's, for goals up to {fastest:g} rad/s"
+    if not np.isfinite(worst_ratio):
+        measured = f"it loses some goals that move at up to {fastest:g} rad/s"
     tails = own["tail_max_rad"].groupby(own["level"]).max()
     said = ", ".join(f"{tails[speed]:.1e} rad ({worst:.2f}) at {speed:g} rad/s" for speed, worst in by_speed.items())
     return word_of(len(kept) == len(by_speed), min(by_speed.index) in kept), evidence(
         f"""{both["start_id"].nunique()} starts within {LIMIT.SMALL_RAD:g} rad, goals that sway: greatest error once it
         follows, and greatest ratio to the rotation-matrix law's, {said}.""",
         len(both),
+        measured=measured,
     )
 
 
@@ -214,9 +251,10 @@ def c45(results: Results) -> tuple[Word, Evidence]:
     off = float(np.abs(by_input - np.eye(3)[::-1]).max())
     rest = float(max(np.abs(by_angles).max(), np.abs(by_rates).max()))
     return word_of(max(off, rest) <= LIMIT.DIFFERENCED, False), evidence(
-        f"""Central differences of (2.11) at zero: by u the permutation of (2.14) to {off:.0e}; by the angles and their
-        rates zero to {rest:.0e}.""",
+        f"""Central differences of (2.11) at zero: by u the permutation of (2.14) to {rounding(off)}; by the angles and
+        their rates zero to {rounding(rest)}.""",
         2 * 9,
+        measured=f"differs from the permutation by at most {rounding(off)}; other derivatives at most {rounding(rest)}",
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 from collections import Counter
 from collections.abc import Sequence
@@ -15,9 +16,22 @@ from bench.findings.claims import adequacy, probes, tables
 from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy
 from bench.findings.claims.at_gains import at_every_gain, on_every_engine
 from bench.findings.claims.standing import ORDERED, Ledger
-from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, interval, settled, settling_times, share, some
+from bench.findings.claims.tables import (
+    MAIN_ENGINE,
+    Results,
+    count_of,
+    evidence,
+    percent,
+    percent_interval,
+    settled,
+    settling_times,
+    share,
+    some,
+)
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form
+from bench.law.attribution import ADAPTED, OURS, PUBLISHED, YOURS
+from bench.law.contender import Contender
 from bench.law.contenders.registry import all_contenders
 
 LIMIT = read_limits(__file__)
@@ -37,6 +51,9 @@ def c12(results: Results) -> tuple[Word, Evidence]:
     paper, total = (
         ", ".join(f"{short} {one[name]}" for short, name in zip(NAMES, THREE, strict=True)) for one in known.accountings
     )
+    totals = ", ".join(str(known.accountings[0][name]) for name in THREE)
+    times = [known.over(name, THREE[0]) for name in THREE[1:]]
+    ratios = f"time 1, {', '.join(times)}" if known.times else "not timed"
     timed = ", ".join(f"{short} {known.over(name, THREE[0])}" for short, name in zip(NAMES[1:], THREE[1:], strict=True))
     orders = [
         [short for _, short in sorted((one[name].flops, short) for short, name in zip(NAMES, THREE, strict=True))]
@@ -58,13 +75,15 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         operations decide the rest. By flops alone, calls left out: {"; ".join(others) or "the same order"}."""
     word = word_of(by_one_measure, is_ordered or all(np.logical_or(in_order, [pair.is_disputed for pair in pairs])))
     return word, evidence(
-        f"""Time a tick over the rotation matrix's: {timed}; its intervals part {timed_pairs} of {len(pairs)} pairs.
-        Flops and calls: {paper}; with the goal's angles taken from its matrix: {total}; the columns decide
-        {sum(0 not in pair.by_columns for pair in pairs)} of {len(pairs)} pairs{priced}. By flops alone, calls left out:
-        {"; ".join(others) or "the same order"}. {as_printed}""",
+        f"""Time a tick over the rotation matrix's: {timed}; its intervals part
+        {count_of(timed_pairs, len(pairs), "pairs")}. Flops and calls: {paper}; with the goal's
+        angles taken from its matrix: {total}; the columns decide
+        {count_of(sum(0 not in pair.by_columns for pair in pairs), len(pairs), "pairs")}{priced}. By
+        flops alone, calls left out: {"; ".join(others) or "the same order"}. {as_printed}""",
         len(THREE) * (len(known.accountings) + len(known.times)),
         ("costs", "timings") if known.times else ("costs",),
         instead if word == Word.CORRECTED else "",
+        f"operations and calls {totals}; {ratios}",
     )
 
 
@@ -96,24 +115,45 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
         instead = f"Whether one is adequate in both is not tested: {lacking}."
     beside = probes.beside_pole(0.1, THREE[-1], results.gains(), results.dt_s)
     return word, evidence(
-        f"""{"; ".join(_placed(law, known) for law in three)}. Adequate in both: {", ".join(adequate) or "none"}.
-        {"; ".join(f"{name}: {tested}" for name, tested in asked.items())}. Settling
-        time of a small error: {linear:.3f} s. Not counted: feedback-linearized fails from
-        {int((~settled(beside)).sum())} of {len(beside)} starts spinning at {probes.SPEED:g} rad/s beside a pole.""",
+        f"""Adequate in both: {", ".join(adequate) or "none"}. A small error settles in {linear:.3f} s. Of starts that
+        spin at {probes.SPEED:g} rad/s beside a pole, which are not counted, feedback-linearized loses
+        {count_of(int((~settled(beside)).sum()), len(beside), "").strip()}.""",
         len(THREE) + sum(law.rows for law in three),
         ("episodes", "costs", "timings") if known.times else ("episodes", "costs"),
         instead,
+        f"""{" and ".join(adequate) or "none"} adequate, first law
+        {tables.interval_or_never(three[0].pace, ".2f", " s")} for 99 %""",
+        (PLACES, *(_placed(law, asked[name], known) for name, law in zip(NAMES, three, strict=True))),
     )
 
 
-def _placed(law: Adequacy, known: Ledger) -> str:
-    """Return what was measured of a law, in a sentence."""
+PLACES = (
+    "Law",
+    "Tests",
+    "Uniform starts that settle",
+    "Directed starts lost",
+    "Starts exactly on a boundary lost",
+    "Spinning starts lost",
+    "99 % of the starts settle in",
+    "Operations and calls",
+    "Time over the rotation matrix's",
+)
+"""Heads of what was measured of a law."""
+
+
+def _placed(law: Adequacy, tested: adequacy.Tested, known: Ledger) -> tuple[str, ...]:
+    """Return what was measured of a law, by the heads of PLACES."""
     spun = "; ".join(map(tables.lost_text, law.spun[-1:])) or "not tested"
     return (
-        f"{law.name.partition('/')[0]} {law.settled:.2%} settled, {law.lost} of {law.directed} directed starts lost, "
-        f"{law.lost_exact} of {law.exact} on a boundary itself, of spinning ones {spun}, {adequacy.NEARLY_ALL:.0%} in "
-        f"{law.pace.value:.2f} s ({law.pace.low:.2f} to {law.pace.high:.2f}), {law.cost} flops and calls, "
-        f"time {known.over(law.name, THREE[0])}"
+        law.name.partition("/")[0],
+        tested.in_words(),
+        f"{percent(law.settled)} %",
+        count_of(law.lost, law.directed, "").strip(),
+        count_of(law.lost_exact, law.exact, "").strip(),
+        spun,
+        tables.interval_or_never(law.pace, ".2f", " s"),
+        str(law.cost),
+        known.over(law.name, THREE[0]),
     )
 
 
@@ -130,49 +170,78 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
     tested = {law.name: adequacy.examine(law, known, small, held) for law in later}
     adequate = [name for name, result in tested.items() if result.among(adequacy.BOTH).passes]
     answers = [law for law in later if tested[law.name].passes]
-    told = [
-        f"{law.name}, {whose(law.name)} (time {known.over(law.name, THREE[0])}, {law.cost} flops and calls, "
-        f"{law.settled:.2%} of {law.n} starts settle, {adequacy.NEARLY_ALL:.0%} in {law.pace.value:.2f} s, way at most "
-        f"{law.detour:.2f} times the shortest)"
-        for law in answers
-    ]
-    others = [f"{name}, {whose(name)} ({result})" for name, result in tested.items() if not result.passes]
+    others = [law for law in later if not tested[law.name].passes]
+    told = [f"{law.name} ({whose(law.name)})" for law in answers]
     untimed = [law.name for law in later if not any(law.name in times for times in known.times)]
     counts = Counter(whose(law.name) for law in later)
-    by_others = counts[PUBLISHED] + counts[ADAPTED_HERE]
+    by_others = counts[PUBLISHED] + counts[ADAPTED]
     word = Word.HOLDS
     if answers:
         word = Word.ANSWERED
     elif any(result.may_pass for result in tested.values()):
         word = Word.UNTESTED
-    named = ", ".join(f"{law.name} ({whose(law.name)})" for law in answers)
-    instead = f"These laws pass all eight tests: {named}." if answers else ""
+    named = "; ".join(told)
+    without = [result for name, result in tested.items() if is_without_memory(name) and not result.may_pass]
+    passing = sum(result.passes for result in without)
+    rest = f"without memory {count_of(passing, len(without), '').strip()}" if without else "without memory: not tested"
+    # (e) and (f) together are impossible without memory: Bhat and Bernstein 2000; Mayhew, Sanfelice, Teel 2011.
+    impossible = "" if passing or not without else f" Without memory none can; we tested {len(without)}."
+    instead = f"Yes: {named}.{impossible}" if answers else ""
     return word, evidence(
-        f"""Of {by_others} later laws by others, {counts[ADAPTED_HERE]} of them adapted here, and {counts[OWN]} of ours,
-        these are adequate in both cost and performance: {", ".join(adequate) or "none"}. All eight tests:
-        {"; ".join(told) or "none"}. Each other: {"; ".join(others) or "none"}. The paper's laws on angles take
+        f"""Of {by_others} later laws by others, {counts[ADAPTED]} of them adapted here, and {counts[OURS]} of ours,
+        {len(adequate) or "none"} are adequate in both cost and performance, tests (a) to (d). All eight tests:
+        {", ".join(told) or "none"}. The paper's laws on angles take
         {" and ".join(known.over(name, THREE[0]) for name in THREE[1:])} times the rotation matrix's time; not timed,
         so that operations decide: {", ".join(untimed) or "none"}. In these times a call takes {known.price:.0f} flops.
         A small error settles in {small:.3f} s, and {adequacy.SLOW * small:.3f} s is the slowest that is adequate.""",
         sum(law.rows + held.get(law.name, (0, 0))[1] for law in later),
         instead=instead,
+        measured=f"""{count_of(len(answers), len(later), "later laws")} pass all eight tests; {rest}""",
+        numbers=(ANSWERS, *(_answer(law, tested[law.name], known) for law in (*answers, *others))),
     )
 
 
-OWN, ADAPTED_HERE, PUBLISHED, USERS = "ours", "adapted", "published", "yours"
+ANSWERS = (
+    "Law",
+    "Whose",
+    "Tests",
+    "Operations and calls",
+    "Time over the rotation matrix's",
+    "Uniform starts that settle",
+    "99 % of the starts settle in",
+    "Longest path over the shortest",
+)
+"""Heads of what was measured of a later law."""
+
+
+def _answer(law: Adequacy, tested: adequacy.Tested, known: Ledger) -> tuple[str, ...]:
+    """Return what was measured of a later law, by the heads of ANSWERS."""
+    return (
+        law.name,
+        whose(law.name),
+        tested.in_words(),
+        str(law.cost),
+        known.over(law.name, THREE[0]),
+        f"{percent(law.settled)} %",
+        tables.interval_or_never(law.pace, ".2f", " s"),
+        f"{law.detour:.2f}" if np.isfinite(law.detour) else "not tested",
+    )
+
+
+@functools.cache
+def _known() -> dict[str, Contender]:
+    """Return every contender of this repository by name."""
+    return {contender.name: contender for contender in all_contenders()}
 
 
 def whose(name: str) -> str:
     """Return whether a contender's law is published, adapted here from others' works, ours, or a user's own."""
-    known = {one.name: one.regulator for one in all_contenders()}
-    if name not in known:
-        return USERS
-    law = known[name]
-    if attribution := getattr(law, "attribution", ""):
-        return str(attribution)
-    if law.is_ours():
-        return OWN
-    return ADAPTED_HERE if law.source.startswith("after ") else PUBLISHED
+    return _known()[name].attribution if name in _known() else YOURS
+
+
+def is_without_memory(name: str) -> bool:
+    """Tell whether a law of this repository keeps nothing from one control period to the next."""
+    return name in _known() and not _known()[name].regulator.memory
 
 
 def _of_the_three(results: Results) -> list[pd.DataFrame]:
@@ -190,15 +259,19 @@ def c31(results: Results) -> tuple[Word, Evidence]:
     matrix, linearized, mine = ranges = [share(settled(one)) for one in laws]
     ratios = [_gain(settling_times(laws[-1]), settling_times(one)) for one in laws[:-1]]
     is_better = all(ratio.low >= LIMIT.DRAMATIC for ratio in ratios) and mine.low > linearized.high
-    told = ", ".join(f"{name} {one}" for name, one in zip(NAMES, ranges, strict=True))
-    sooner = ", ".join(f"{name} {interval(ratio, '.2f')}" for name, ratio in zip(NAMES, ratios, strict=False))
+    longer = [tables.interval_or_never(ratio, ".2f") for ratio in ratios]
+    settles = [percent_interval(one) for one in ranges]
     return word_of(is_better and mine.low > matrix.high, is_better and mine.high >= matrix.low), evidence(
-        f"""Settled: {told}. Time in which {LIMIT.NEARLY_ALL:.0%} settle over that of feedback linearization:
-        {sooner}.""",
+        f"""Of {matrix.n:,} uniform starts {percent(matrix.value)} % settle with the rotation-matrix law,
+        {percent(linearized.value)} % with the linearized one, {percent(mine.value)} % with feedback linearization.""",
         3 * len(laws[-1]),
-        instead=f"""With the rotation-matrix law, the time in which {LIMIT.NEARLY_ALL:.0%} of the starts settle is
-        {interval(ratios[0], ".2f")} times as long; {matrix.k} of {matrix.n} starts settle, and {mine.k} with feedback
-        linearization.""",
+        instead=f"""{100 * LIMIT.NEARLY_ALL:.0f} % of the starts settle {longer[0]} times as late
+        with the rotation-matrix law, which settles {count_of(matrix.k, matrix.n, "starts")}.""",
+        measured=f"first law {longer[0]} times as late for 99 %",
+        numbers=(
+            ("Law", "Uniform starts that settle", "Its time for 99 % of the starts over feedback linearization's"),
+            *zip(NAMES, settles, (*longer, "1"), strict=True),
+        ),
     )
 
 
@@ -228,14 +301,17 @@ def c35(results: Results) -> tuple[Word, Evidence]:
         (name, share(settled(rows)), quantile_estimate(settling_times(rows), 0.5))
         for name, rows in zip(NAMES, laws, strict=True)
     ]
+    matrix, linearized, feedback = (one for _, one, _ in found)
     reasonable = [name for name, one, time in found if one.low >= LIMIT.REASONABLE and time.high <= LIMIT.PACE * small]
     told = "; ".join(
-        f"{name} {one}, in {time.value:.3f} s ({time.low:.3f} to {time.high:.3f}) in the median"
+        f"{name} {one}, in {tables.interval_or_never(time, '.3f', ' s')} in the median"
         for name, one, time in found
     )
     return word_of(len(reasonable) == 2, len(reasonable) == 3), evidence(
         f"""Reasonable: {", ".join(reasonable) or "none"}. {told}. A small error settles in {small:.3f} s.""",
         sum(one.n for _, one, _ in found),
+        measured=f"""{percent(matrix.value)} %, {percent_interval(linearized)} and {percent(feedback.value)} % of
+        {matrix.n:,} starts settle (in the paper's order)""",
     )
 
 
@@ -246,12 +322,20 @@ def c36(results: Results) -> tuple[Word, Evidence]:
     three = some([one for one in adequacy.every(results, MAIN_ENGINE) if one.name in THREE], "law of the paper")
     tested = {law.name: adequacy.examine(law, known, small, {}).among(LIMIT.TESTS) for law in three}
     told = "; ".join(
-        f"{one.name.partition('/')[0]} {tested[one.name]} ({one.settled:.2%} of "
-        f"{one.n:,} settle, {one.lost} of {one.directed} directed starts are lost, {one.lost_exact} on a boundary "
-        f"itself, 99% settle in {one.pace.value:.2f} s)"
+        f"{one.name.partition('/')[0]} {tested[one.name].in_words()} ({percent(one.settled)} % of {one.n:,} settle, "
+        f"{count_of(one.lost, one.directed, 'directed starts')} are lost, {one.lost_exact} exactly on a boundary, "
+        f"99 % settle: {tables.interval_or_never(one.pace, '.2f', ' s')})"
         for one in three
     )
     word = word_of(len(three) == len(THREE) and all(result.failed for result in tested.values()), False)
     if word == Word.FAILS and not any(result.passes for result in tested.values()):
         word = Word.UNTESTED
-    return word, evidence(f"{told}.", sum(law.rows for law in three))
+    by_name = {law.name: law for law in three}
+    on_boundary = ", ".join(
+        f"{by_name[name].lost_exact} of {by_name[name].exact}" for name in THREE if name in by_name
+    )
+    return word, evidence(
+        f"{told}.",
+        sum(law.rows for law in three),
+        measured=f"lost starts exactly on a boundary: {on_boundary} (in the paper's order)",
+    )

@@ -11,7 +11,18 @@ from bench.findings.claims import probes
 from bench.findings.claims.adequacy import CALLS
 from bench.findings.claims.at_gains import on_every_engine
 from bench.findings.claims.probes import at_boundary
-from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, settled, share, some
+from bench.findings.claims.tables import (
+    MAIN_ENGINE,
+    Results,
+    count_of,
+    evidence,
+    interval_or_never,
+    percent,
+    percent_interval,
+    settled,
+    share,
+    some,
+)
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form
 from bench.law.inputs import Gains
@@ -49,9 +60,12 @@ def c01(results: Results, engine: str) -> tuple[Word, Evidence]:
     exactly = int((probes.boundary_distance(left)["half_turn"].abs() <= probes.EXACT_RAD).sum())
     is_stray = uniform.n - uniform.k <= LIMIT.STRAY_SHARE * uniform.n
     return word_of(not unstable and exactly == len(left), not unstable and is_stray), evidence(
-        f"""{unstable} of {len(frame):,} starts diverge or gain energy. {len(left)} do not settle, {exactly} of them
-        exactly a 180° rotation from the goal; of uniform starts {uniform} settle.""",
+        f"""{count_of(unstable, len(frame), "starts").capitalize()} diverge or gain energy. {len(left)} do not settle;
+        {count_of(exactly, len(left), "of these")} begin exactly 180° from the goal. Of uniform starts
+        {uniform} settle.""",
         len(frame),
+        measured=f"""{percent_interval(uniform)} of {uniform.n:,} uniform starts settle;
+        {count_of(unstable, len(frame), "starts")} diverge""",
     )
 
 
@@ -71,9 +85,11 @@ def c02(results: Results) -> tuple[Word, Evidence]:
     is_tight = all((one <= most).all() for one, most in zip(off, allowed, strict=True))
     return word_of(is_tight, largest <= LOOSE_SETTLING), evidence(
         f"""{count} small rotations at {len(GAINS)} pairs of gains: settling times from {min(times):.3f} to
-        {max(times):.3f} s, at most {largest:.2%} from the closed form ({closed_form.linear_settling(*Gains()):.4f} s at
-        the paper's gains).""",
+        {max(times):.3f} s, at most {percent(largest)} % from the closed form
+        ({closed_form.linear_settling(*Gains()):.4f} s at the paper's gains).""",
         count,
+        measured=f"""{count} small rotations settle within {percent(largest)} % of the chosen time, {min(times):.2f} to
+        {max(times):.2f} s""",
     )
 
 
@@ -98,11 +114,14 @@ def c03(results: Results, engine: str) -> tuple[Word, Evidence]:
     is_infinite = bool((np.abs(stay["final_angle_rad"] - np.pi) <= LIMIT.AT_HALF_TURN).any())
     grows = growth.low > 0.0
     return word_of(grows and off <= LIMIT.SLOPE_TIGHT and is_infinite, grows and off <= LIMIT.SLOPE_LOOSE), evidence(
-        f"""Settling time rises by {growth.value:.3f} s ({growth.low:.3f} to {growth.high:.3f}) per rad of the initial
-        angle; towards 180° by {float(slope):.4f} s a decade (closed form {closed:.4f} s), to
-        {float(slowest):.2f} s at 1e-12 rad. {len(stay)} of {len(exact)} exact 180° rotations never settle in
+        f"""Settling time rises by {growth.value:.3f} s ({growth.low:.3f} to {growth.high:.3f}) per
+        rad of the initial angle; towards 180° by {float(slope):.4f} s a decade (closed form
+        {closed:.4f} s), to {float(slowest):.2f} s at 1e-12 rad.
+        {count_of(len(stay), len(exact), "exact 180° rotations").capitalize()} never settle in
         {float(exact["horizon_s"].min()):g} s.""",
         len(uniform) + len(turns),
+        measured=f"""{interval_or_never(growth, ".3f", " s")} longer per rad;
+        {count_of(len(stay), len(exact), "exact 180° rotations")} never settle""",
     )
 
 
@@ -124,10 +143,13 @@ def c04(results: Results, engine: str) -> tuple[Word, Evidence]:
     parallel = sum(product <= ZERO_ERROR for product in products)
     is_zero = largest <= ZERO_ERROR
     return word_of(is_zero and parallel == len(exact), is_zero), evidence(
-        f"""At {len(exact)} exact 180° rotations the error is at most {largest:.1g}, and {int(settled(exact).sum())} of
-        them settle. Each single cross product is zero at {parallel} (axes x, y, z); at the other
-        {len(exact) - parallel} they cancel in the sum only, the largest being {max(products):.2f}.""",
+        f"""At {len(exact)} exact 180° rotations the error is at most {largest:.1g};
+        {count_of(int(settled(exact).sum()), len(exact), "rotations")} settle. Each single cross product is zero at
+        {parallel} (axes x, y, z); at the other {len(exact) - parallel} they cancel in the sum only, the largest being
+        {max(products):.2f}.""",
         len(exact),
+        measured=f"""error at most {largest:.1g} at {len(exact)} rotations by 180°; each cross product is zero at
+        {parallel} (x, y, z)""",
     )
 
 
@@ -153,6 +175,8 @@ def c05(results: Results) -> tuple[Word, Evidence]:
         and {states:,} states of a search, and |e| never below {least:.1e}. (b) At {cancel} of {len(exact)} exact 180°
         rotations the cross products are not zero and their sum is.""",
         len(frame) + states + len(exact),
+        measured=f"""the products cancel at {cancel} of {len(exact)} rotations by 180°; elsewhere
+        |e| is at least {lowest:.4f} sin(angle)""",
     )
 
 
@@ -205,9 +229,11 @@ def c32(results: Results) -> tuple[Word, Evidence]:
     sound = bool(np.isfinite(ours).all() and off.max() <= LIMIT.ROUNDINGS * EPS and not asked and not ended)
     return word_of(sound and relative.max() <= LIMIT.DIGITS, sound), evidence(
         f"""At {len(frame):,} starts e is off by at most {off.max() / EPS:.1f} eps, and by {relative.max():.1e} of its
-        length, closest to a 180° rotation. It takes {asked} divisions and calls; {ended} of {len(every):,} episodes end
-        {" or ".join(LIMIT.BROKEN)}.""",
+        length, closest to a 180° rotation. It takes {asked or "no"} divisions and calls;
+        {count_of(ended, len(every), "episodes")} end {" or ".join(LIMIT.BROKEN)}.""",
         len(every) + len(costs),
+        measured=f"""e is off by at most {relative.max():.1e} of its length at {len(frame):,} starts; {asked or "no"}
+        divisions""",
     )
 
 

@@ -45,6 +45,7 @@ def by_either_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[...
             papers.rows + ours.rows,
             papers.tables,
             instead + papers.instead if word != other else "",
+            f"{papers.measured} (by J^T), at {ours.measured.partition(' at ')[2]} (by accelerations)",
         )
 
     return judge
@@ -61,6 +62,7 @@ def by_papers_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[...
             f"""Forces by the Jacobian transpose, {word}: {papers} By commanded accelerations, {other}: {ours}""",
             papers.rows + ours.rows,
             papers.tables,
+            measured=papers.measured,
         )
 
     return judge

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Mapping, Sized
+from collections.abc import Callable, Mapping, Sequence, Sized
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
@@ -41,7 +41,7 @@ class Results:
     """The tables of one run, read when first asked for; `frames` puts others in their place.
 
     experiments: in place of the experiments that claims make themselves, by the function's name. is_as_stored: whether
-    nothing stands in another's place.
+    nothing stands in another's place. chosen: the rows that were asked for, as (table, condition); a claim clears it.
     """
 
     def __init__(
@@ -57,6 +57,7 @@ class Results:
         self.frames = dict(frames or {})
         self.timings_folder, self.maps_folder = timings, maps
         self.experiments = experiments or {}
+        self.chosen: list[tuple[str, str]] = []
         self._chosen: dict[tuple, pd.DataFrame] = {}
         self._spun: dict[tuple[str, str], list[Spun]] = {}
 
@@ -66,6 +67,15 @@ class Results:
 
     def table(self, name: str, **words: str) -> pd.DataFrame:
         """Rows of one table that have these words, chosen once and shared; there may be none."""
+        return self._note(name, query_of(words), self._choose(name, words))
+
+    def _note(self, name: str, condition: str, rows: pd.DataFrame) -> pd.DataFrame:
+        """Keep the condition of rows that were asked for, if there are any, and return the rows."""
+        if len(rows):
+            self.chosen.append((name, condition))
+        return rows
+
+    def _choose(self, name: str, words: dict[str, str]) -> pd.DataFrame:
         asked = (name, *sorted(words.items()))
         if asked not in self._chosen:
             if name not in self.frames:
@@ -77,14 +87,20 @@ class Results:
 
     def free_body(self, name: str, **words: str) -> pd.DataFrame:
         """Rows of one table that have these words and are about the free body, in the paper's coordinates."""
-        frame = self.table(name, **read.FREE_BODY, **words)
+        return self._note(name, _free_body_query(words), self._choose_free_body(name, words))
+
+    def _choose_free_body(self, name: str, words: dict[str, str]) -> pd.DataFrame:
+        frame = self._choose(name, {**read.FREE_BODY, **words})
         return frame[frame["representation"].isin(PAPERS_COORDINATES)]
 
     def episodes(self, regulator: str, engine: str, *start_sets: str) -> pd.DataFrame:
         """Return episodes of a law on the free body from some start sets; NoEvidence: fewer than a whole suite has."""
-        frame = self.free_body("episodes", task="free-body", regulator=regulator, engine=engine)
+        words = {"task": "free-body", "regulator": regulator, "engine": engine}
+        frame, condition = self._choose_free_body("episodes", words), _free_body_query(words)
         if start_sets:
             frame = frame[frame["start_set"].isin(start_sets)]
+            condition = f"{condition} and {query_of({'start_set': start_sets})}"
+        self._note("episodes", condition, frame)
         some(frame, f"episode of {regulator} by {engine} from {', '.join(start_sets) or 'any start set'}")
         self.check_starts(frame, f"{regulator} by {engine}", least_starts(engine), *start_sets)
         return frame
@@ -166,6 +182,49 @@ def some(frame: Rows, what: str) -> Rows:
     return frame
 
 
+def query_of(words: Mapping[str, str | Sequence[str]]) -> str:
+    """Return the condition of rows with a word, or one of some words, in each column, as DataFrame.query takes it."""
+    conditions = []
+    for column, word in words.items():
+        is_one = isinstance(word, str)
+        conditions.append(f"{column} == {word!r}" if is_one else f"{column} in {list(word)}")
+    return " and ".join(conditions)
+
+
+def _free_body_query(words: Mapping[str, str]) -> str:
+    """Return the condition of rows about the free body in the paper's coordinates."""
+    return query_of({**words, **read.FREE_BODY, "representation": PAPERS_COORDINATES})
+
+
+def count_of(k: int, n: int, noun: str) -> str:
+    """Return 'all 17 poles', 'both poles', 'none of 17 poles' or '3 of 17 poles'; the noun is in the plural."""
+    if k == n == 2:
+        return f"both {noun}"
+    many = {n: "all", 0: "none of"}.get(k, f"{k:,} of")
+    return f"{many} {n:,} {noun}"
+
+
+WHOLE_PERCENT = 100.0
+
+
+def percent(value: float) -> str:
+    """Return a share as a number of per cent without its sign: '93.1', '6.46', '0.058', '0' and '100'."""
+    number = WHOLE_PERCENT * value
+    if number in (0.0, WHOLE_PERCENT):
+        return f"{number:.0f}"
+    if number < 1.0:
+        return f"{number:.2g}"
+    # What is not quite all does not become 100: 99.97 keeps its second place.
+    is_nearly_all = WHOLE_PERCENT - 0.05 <= number < WHOLE_PERCENT
+    return f"{number:.2f}" if number < 10.0 or is_nearly_all else f"{number:.1f}"
+
+
+def percent_interval(estimate: Share | Estimate) -> str:
+    """Return a share with its interval: '93.1 % (91.4 to 94.5 %)'."""
+    value, low, high = (percent(share) for share in (estimate.value, estimate.low, estimate.high))
+    return f"{value} % ({low} to {high} %)"
+
+
 class Share(NamedTuple):
     """k of n, with the Wilson 95 % interval of the share."""
 
@@ -176,23 +235,33 @@ class Share(NamedTuple):
     high: float
 
     def __format__(self, _: Any) -> str:
-        return f"{self.value:.2%} ({self.low:.2%} to {self.high:.2%}, n = {self.n:,})"
+        return f"{percent_interval(self).removesuffix(')')}, n = {self.n:,})"
 
 
 def share(facts: pd.Series) -> Share:
     """Return how many of some yes-or-no rows are yes; NoEvidence: there are no rows."""
-    from scipy.stats import binomtest
+    from bench.experiments.tables.statistics import wilson
 
     k, n = int(facts.sum()), len(facts)
     if n == 0:
         raise NoEvidence("a share of no rows at all")
-    interval = binomtest(k, n).proportion_ci(method="wilson")
-    return Share(k, n, k / n, float(interval.low), float(interval.high))
+    return Share(k, n, k / n, *wilson(k, n))
 
 
 def interval(one: Share | Estimate, form: str) -> str:
     """Format a number with its interval: '0.62 (0.60 to 0.64)'."""
     return f"{one.value:{form}} ({one.low:{form}} to {one.high:{form}})"
+
+
+NEVER = "never"
+
+
+def interval_or_never(one: Estimate, form: str, unit: str = "") -> str:
+    """Return a time, or a ratio of times, with its interval: '1.68 s (1.56 to 1.93)'; 'never' where it is infinite."""
+    if not np.isfinite(one.value):
+        return NEVER
+    high = f"{one.high:{form}}" if np.isfinite(one.high) else NEVER
+    return f"{one.value:{form}}{unit} ({one.low:{form}} to {high})"
 
 
 def lost(frame: pd.DataFrame) -> Estimate:
@@ -207,8 +276,7 @@ def lost_text(one: Spun) -> str:
     """Return the share lost of starts at a stated speed, with its interval, and how many do not converge."""
     apart = f", {one.unconverged} not converged" if one.unconverged else ""
     at = f"at {one.speed:g} rad/s" if one.speed else "at rest"
-    low, high = one.share.low, one.share.high
-    return f"{at} {one.share.value:.3%} ({low:.3%} to {high:.3%}, n = {one.starts:,}{apart})"
+    return f"{at} {percent_interval(one.share).removesuffix(')')}, n = {one.starts:,}{apart})"
 
 
 def settled(frame: pd.DataFrame) -> pd.Series:
@@ -227,11 +295,24 @@ def same_starts(frames: list[pd.DataFrame]) -> list[pd.DataFrame]:
     return [one[one["start_id"].isin(common)].sort_values("start_id", kind="stable") for one in frames]
 
 
-def settled_of(frame: pd.DataFrame) -> str:
-    """Format how many episodes settled: '3 of 12'."""
-    return f"{int(settled(frame).sum())} of {len(frame)}"
+def settled_of(frame: pd.DataFrame, noun: str) -> str:
+    """Return how many of some episodes settled: '3 of 12 starts', 'all 12 starts'."""
+    return count_of(int(settled(frame).sum()), len(frame), noun)
 
 
-def evidence(sentence: str, rows: int, tables: tuple[str, ...] = (), instead: str = "") -> Evidence:
+def rounding(value: float) -> str:
+    """Return what rounding leaves, to one figure: '4e-16', and '0' of nothing."""
+    return f"{value:.0e}" if value else "0"
+
+
+def evidence(
+    sentence: str,
+    rows: int,
+    tables: tuple[str, ...] = (),
+    instead: str = "",
+    measured: str = "",
+    numbers: Sequence[Sequence[str]] = (),
+) -> Evidence:
     """Evidence whose sentences may be broken into lines as the file likes."""
-    return Evidence(" ".join(sentence.split()), int(rows), tables, " ".join(instead.split()))
+    sentence, instead, measured = (" ".join(text.split()) for text in (sentence, instead, measured))
+    return Evidence(sentence, int(rows), tables, instead, measured, tuple(map(tuple, numbers)))

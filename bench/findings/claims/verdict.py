@@ -8,6 +8,7 @@ history.toml.
 import functools
 import importlib
 import inspect
+import re
 import tomllib
 from collections.abc import Callable
 from enum import StrEnum
@@ -64,6 +65,10 @@ def word_of(holds: object, corrected: object) -> Word:
     return Word.HOLDS if holds else Word.CORRECTED if corrected else Word.FAILS
 
 
+LONGEST_MEASURED = 100
+"""Characters of a measured value: a cell of a table reads it at a glance."""
+
+
 class NoEvidence(BenchError):
     """A claim asked of tables that hold nothing about it: an error, never a pass."""
 
@@ -74,12 +79,18 @@ class Evidence(NamedTuple):
     sentence: plain prose, every number in it computed. rows: table rows, states and episodes looked at. tables: where
     they come from, if not those that the claim's texts name; "experiment" for what the claim computes itself.
     instead: what is true, written from the rows; empty where the claim's own text says it.
+    measured: the number that decides, with its noun and unit, and its 95 % interval where it is of a sample: one short
+    phrase. numbers: a table of all numbers, heads first, where prose would be a log. chosen: the rows that were read of
+    each table, a condition as pandas.DataFrame.query takes it; empty where all rows were read.
     """
 
     sentence: str
     rows: int
     tables: tuple[str, ...] = ()
     instead: str = ""
+    measured: str = ""
+    numbers: tuple[tuple[str, ...], ...] = ()
+    chosen: tuple[tuple[str, str], ...] = ()
 
     def __str__(self) -> str:
         return self.sentence
@@ -94,6 +105,10 @@ class Earlier(NamedTuple):
     written: str
     criterion: str
     word: Word
+
+
+SECTION = re.compile(r"\d+(?:\.\d+)?")
+"""The first section that a claim's `section` names."""
 
 
 class Claim(NamedTuple):
@@ -122,6 +137,13 @@ class Claim(NamedTuple):
     earlier: tuple[Earlier, ...] = ()
 
     @property
+    def paper_order(self) -> tuple:
+        """What claims are sorted by to have them in the order of the paper: the abstract is first, section 2 next."""
+        found = SECTION.search(self.section)
+        number = tuple(map(int, found[0].split("."))) if found else ()
+        return number, self.id
+
+    @property
     def place(self) -> str:
         """Section and equation."""
         return f"section {self.section}{', ' * bool(self.equation)}{self.equation}"
@@ -146,8 +168,11 @@ def claim(id: str) -> Callable[[Callable], Claim]:
 
         @functools.wraps(judge)
         def judged(results: Any) -> tuple[Word, Evidence]:
+            results.chosen.clear()
             word, found = judge(results)
-            return word, found if found.tables else found._replace(tables=tables)
+            found = found._replace(tables=found.tables or tables)
+            chosen = (rows for rows in results.chosen if rows[0] in found.tables)
+            return word, found._replace(chosen=tuple(dict.fromkeys(chosen)))
 
         written = {name: text(words) for name, words in texts.items()}
         return Claim(id, judge=judged, readings=readings, earlier=earlier, **written)
@@ -206,6 +231,11 @@ class Verdict(NamedTuple):
         if self.word in (Word.FAILS, Word.DEPENDS):
             return self.claim.instead or self.claim.correction
         return self.claim.correction if self.word == Word.CORRECTED else ""
+
+    @property
+    def measured(self) -> str:
+        """The evidence's."""
+        return self.evidence.measured or str(Word.UNTESTED)
 
     @property
     def first(self) -> Word:

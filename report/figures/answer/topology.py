@@ -1,25 +1,70 @@
-"""The chapter on what an error must do: how many laws settle from everywhere, and how many noise cannot hold."""
+"""The chapter on what an error must do: one start and three fates, and how many laws settle from everywhere."""
+
+import math
 
 from bench.experiments.situations import NOISE_RAD
 from bench.findings.selection.needs import is_unheld, measured, settles_everywhere
-from report.figures.kit import families
-from report.figures.kit.page import Run
+from report.figures.kit import families, html, media
+from report.figures.kit.page import Run, in_run
+from report.figures.kit.spelling import listed
 
 MUJOCOS = "in-engine"
 """MuJoCo's actuator, which is the rotation vector's law."""
 
+STUCK = "stuck"
+"""The outcome that a film describes by a participle; the others by a verb."""
+
+FILM_HEIGHT = 313
+"""Height of the film [px] at the width that `media.loop` gives it."""
+
 
 def facts(run: Run) -> dict[str, object]:
+    """Return the film of three fates, and the counts of laws."""
+    return {
+        "fates": show_fates(),
+        "fates_finding": describe_fates(),
+        "fates_slower": media.facts()["fates"]["slower"],
+        **(in_run(count_laws, run) or {}),
+    }
+
+
+def show_fates() -> html.Html:
+    """Return the film of a gripper under three laws."""
+    return media.loop(f"A gripper under three laws. {describe_fates()}.", "fates-loop", height=FILM_HEIGHT)
+
+
+def describe_fates() -> str:
+    """Say what each law of the film does from each of its starts."""
+    by_start: dict[int, list[str]] = {}
+    for episode in media.facts()["fates"]["episodes"]:
+        angle = round(math.degrees(episode["angle0_rad"]))
+        verb = "is " if episode["outcome"] == STUCK else ""
+        by_start.setdefault(angle, []).append(f"{families.word(episode['contender'])} {verb}{episode['says']}")
+    return ". ".join(f"From {angle}°, {listed(says)}" for angle, says in by_start.items())
+
+
+def count_laws(run: Run) -> dict[str, object]:
     """Count laws by what they have: starts that all settle, no noise that holds them at 180°, no memory."""
     found = measured(run.folder)
     shown = [law for law in found.laws if law not in (*families.CONTROLS, MUJOCOS)]
     whole = [law for law in shown if settles_everywhere(found, law)]
+    unheld = [law for law in whole if is_unheld(found, law)]
+    remembering = [law for law in unheld if found.number("memory", law)]
     forgetful = [law for law in shown if not found.number("memory", law) and law in found.values["held"]]
+    both = [law for law in forgetful if law in unheld]
     return {
         "laws": len(shown),
         "whole": len(whole),
-        "unheld": sum(is_unheld(found, law) for law in whole),
+        "unheld": len(unheld),
+        "unheld_memory": describe_part(len(remembering), len(unheld)),
         "noise": f"{NOISE_RAD:g}",
         "forgetful": len(forgetful),
-        "forgetful_both": sum(settles_everywhere(found, law) and is_unheld(found, law) for law in forgetful) or "none",
+        "forgetful_both": len(both) or "none",
     }
+
+
+def describe_part(part: int, of: int) -> str:
+    """Say how many of some laws have something, with the verb."""
+    if part == of:
+        return f"all {of} have"
+    return f"{part or 'none'} of these {of} {'has' if part <= 1 else 'have'}"

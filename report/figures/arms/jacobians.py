@@ -1,17 +1,24 @@
-"""What the page on Euler angles says of arms: how J and the Euler Jacobian are conditioned, and the pole in motion."""
+"""The Euler Jacobian on arms: how it is conditioned, what it does past gimbal lock, and what it costs to compute."""
 
 import math
 from collections.abc import Iterator
+from typing import Any, NamedTuple
+from xml.etree import ElementTree
 
 import pandas as pd
 
+import tasks
 from bench.experiments.suites import IDEAL_MOTORS
+from bench.findings.claims.adequacy import tallied
+from bench.findings.claims.controller_costs import BY_EULER, INVERSES, ON_MATRIX, controller_costs
 from bench.findings.claims.euler_jacobian import WELL_CONDITIONED
+from bench.findings.replication import compare_jacobians
 from bench.law.contenders.registry import papers_coordinates
 from report.figures.arms import arm_rows
 from report.figures.arms.arm_rows import name_arm
 from report.figures.kit import html, media
 from report.figures.kit.page import Run, in_run
+from report.figures.kit.quotes import quote
 from report.figures.kit.spelling import power
 
 PAPERS = papers_coordinates().name
@@ -21,7 +28,12 @@ BAD = 100.0
 """Condition number (metres, radians) from which on a Jacobian is called bad: twice what the claims allow."""
 HAMMERED = 10.0
 """Peak torque over that of the law on R from the same start, as in claim C20: beyond it something hammers the arm."""
-POLE = html.Table("Arm | Starts | Geometric, settled | Geometric, torque | Euler, settled | Euler, torque")
+POLE = html.Table(
+    "Arm | Moves | Moves that settle, geometric Jacobian | Peak torque / rated, geometric Jacobian | "
+    "Moves that settle, Euler Jacobian | Peak torque / rated, Euler Jacobian"
+)
+QUOTED = {"adds": "C18", "fails": "C20", "dearer": "C26"}
+"""Key of a sentence of the paper on the page -> its claim."""
 FIRST_EXAMPLE = {"representation": PAPERS, "pose_set": "named", "arm": "puma560", "pose_id": "qn"}
 FILM = (
     "The same two motions side by side: the Euler Jacobian throws the arm about, the geometric one turns the tool in "
@@ -29,14 +41,17 @@ FILM = (
 )
 
 
-def facts(run: Run) -> dict:
-    """Return the first example, the poses that J_E spoils, the film, and what the pole does to each arm."""
+def facts(run: Run) -> dict[str, Any]:
+    """Return the paper's words, the first example, the poses that J_E spoils, the film, the pole, and the cost."""
     return {
+        **{f"quote_{key}": quote(claim) for key, claim in QUOTED.items()},
         "first": in_run(lambda: describe_first(run.rows("poses", **FIRST_EXAMPLE))),
         "spoilt": in_run(lambda: count_spoilt(run.rows("poses", representation=PAPERS, pose_set="random"))),
         "pole-loop": media.loop(FILM),
         **describe_film(),
         **(in_run(lambda: count_at_pole(pass_pole(run))) or {}),
+        **(in_run(compare_torque, run) or {}),
+        "operations": in_run(lambda: describe_operations(run)),
     }
 
 
@@ -44,16 +59,23 @@ def pass_pole(run: Run) -> pd.DataFrame:
     """Join starts whose turn passes the pole of Z-Y-X angles: a row a start by (3.7), with (2.2) on R beside it."""
     rows = arm_rows.with_standard(arm_rows.episodes(run, IDEAL_MOTORS))
     starts = rows[rows["start_set"] == "pole"]
-    columns = ["arm", "start_id", "outcome", "peak_torque_ratio"]
+    columns = ["arm", "start_id", "outcome", "peak_torque_ratio", "kp"]
     own, other = (
         starts.loc[starts["controller"] == name, columns] for name in (arm_rows.ON_ANGLES, arm_rows.ON_MATRIX)
     )
-    both = own.merge(other, on=["arm", "start_id"], suffixes=("", "_matrix"))
+    both = own.merge(other, on=["arm", "start_id", "kp"], suffixes=("", "_matrix"))
     return both.assign(
         fails=both["outcome"] != "settled",
         fails_matrix=both["outcome_matrix"] != "settled",
         harder=both["peak_torque_ratio"] / both["peak_torque_ratio_matrix"],
     )
+
+
+def compare_torque(run: Run) -> dict[str, str]:
+    """Return how much more torque the Euler Jacobian needs in the median move, with its 95 % interval."""
+    harder = compare_jacobians(run).harder
+    value, low, high = (html.number(float(f"{ratio:.2g}")) for ratio in harder)
+    return {"harder": value, "harder_interval": f"{low} to {high}"}
 
 
 def count_at_pole(both: pd.DataFrame) -> dict:
@@ -66,7 +88,7 @@ def count_at_pole(both: pd.DataFrame) -> dict:
         "pole_fails_m": int(both["fails_matrix"].sum()) or "none",
         "hammer": f"{HAMMERED:g}",
         "hammered": int(hammered.sum()),
-        "harder": html.number(float(f"{both['harder'].median():.2g}")),
+        "weak": describe_weak_motors(both),
     }
 
 
@@ -76,8 +98,75 @@ def compare_at_pole(both: pd.DataFrame) -> Iterator[tuple]:
         cells = []
         for end in ("_matrix", ""):
             torque = float(f"{own[f'peak_torque_ratio{end}'].median():.2g}")
-            cells += [f"{(~own[f'fails{end}']).sum()} of {len(own)}", torque]
+            cells += [count_words(int((~own[f"fails{end}"]).sum()), len(own)), torque]
         yield name_arm(arm), len(own), *cells
+
+
+class Motor(NamedTuple):
+    """The joint of an arm that an orientation error asks most of, beside what its motor can do.
+
+    Attributes:
+        inertia: Inertia of the motor, reflected to the joint [kg m^2].
+        rated: Rated torque [N m].
+    """
+
+    inertia: float
+    rated: float
+
+    def torque(self, kp: float) -> float:
+        """Return the torque that accelerates the motor alone at an error of 1 rad [N m]."""
+        return kp * self.inertia
+
+
+def find_weakest_motor(arm_name: str) -> Motor:
+    """Return the motor with the greatest inertia for its rated torque; inertia 0 where the file states none."""
+    arm = tasks.arm(arm_name)
+    joints = [joint for joint in ElementTree.fromstring(arm.xml).iter("joint") if "name" in joint.attrib]
+    inertias = [float(joint.get("armature", "0")) for joint in joints]
+    motors = [Motor(inertia, float(rated)) for inertia, rated in zip(inertias, arm.rated, strict=False)]
+    return max(motors, key=lambda motor: motor.inertia / motor.rated)
+
+
+def describe_weak_motors(both: pd.DataFrame) -> str:
+    """Explain the arms that exceed their rated torque with the geometric Jacobian, too."""
+    sentences = []
+    for arm, rows in both.groupby("arm"):
+        ratio, kp = float(rows["peak_torque_ratio_matrix"].median()), float(rows["kp"].iloc[0])
+        motor = find_weakest_motor(str(arm))
+        if ratio <= 1.0 or not motor.inertia:
+            continue
+        torque = motor.torque(kp)
+        sentences.append(
+            f"The {name_arm(str(arm))} needs {ratio:.2g} times its rated torque without Euler angles, too. Its model "
+            f"has a motor inertia of {motor.inertia:g} kg m² at a joint whose motor is rated at {motor.rated:g} N m. "
+            f"With Kp = {kp:g}/s² an error of 1 rad asks this motor for {torque:g} N m, {torque / motor.rated:.0f} "
+            f"times the rated torque: these gains are too high for this arm, with either Jacobian."
+        )
+    return " ".join(sentences) or "With the geometric Jacobian, no arm exceeds its rated torque in the median."
+
+
+def describe_operations(run: Run) -> str:
+    """Say how many operations a control step takes with either Jacobian."""
+    sentences = []
+    for joints in INVERSES:
+        geometric, euler = (
+            tallied(controller_costs(run, name, joints), with_goal=True) for name in (ON_MATRIX, BY_EULER)
+        )
+        more = euler.flops / geometric.flops - 1.0
+        sentences.append(
+            f"On an arm with {joints} joints, a control step takes {html.number(geometric.flops)} operations with the "
+            f"geometric Jacobian and the rotation-matrix law. With the Euler Jacobian it takes "
+            f"{html.number(euler.flops)} operations ({100 * more:+.0f} %) and {euler.calls} calls of sine, cosine and "
+            f"arctangent."
+        )
+    return " ".join(sentences)
+
+
+def count_words(part: int, whole: int) -> str:
+    """Write how many of some moves: all, none, or a count of the whole."""
+    if part == whole:
+        return f"all {whole}"
+    return f"{part} of {whole}" if part else "none"
 
 
 def describe_first(rows: pd.DataFrame) -> str:

@@ -1,50 +1,79 @@
-"""The verdicts on a page: how many of each, and the table. All words are the claim's own."""
+"""The verdicts: a square and a row for each claim, in the order of the paper. All words are the claim's own."""
+
+from collections import Counter
+from collections.abc import Iterable
 
 from bench.findings import claims
 from bench.findings.claims import Verdict, Word
+from bench.findings.claims.verdict import does
+from report.figures.claims.places import read_places
 from report.figures.kit import html
+from report.figures.kit.law_names import call_laws
 from report.figures.kit.page import Run
-from report.figures.kit.spelling import prose
+from report.figures.kit.spelling import listed, prose
 
-ORDER = (
-    Word.FAILS,
-    Word.DEPENDS,
-    Word.READING,
-    Word.CORRECTED,
-    Word.UNTESTED,
-    Word.UNTESTABLE,
-    Word.ANSWERED,
-    Word.HOLDS,
-)
-"""Order of the table's rows."""
+VERDICTS = html.Table("Claim | What the paper states, in our words | Verdict | Measured | Where")
 
-VERDICTS = html.Table("Claim | What the paper states, in our words | Verdict | What is true instead")
-EVIDENCE = "appendix-claims.html"
+LOOKS = {**html.VERDICTS, Word.DEPENDS: "depends", Word.READING: "reading"}
+"""Verdict -> class of its square: no two verdicts look alike."""
+
+LONGEST_CORRECTION = 330
+"""Characters of what is true that a cell holds; what is longer is in the evidence, a table of several cases."""
 
 
-def facts(_: Run) -> dict:
-    """Return how many are decided, how, and how many by a criterion that is not the first; and a row a claim."""
-    every = claims.judge_all()
-    changed = [one for one in every if one.claim.earlier]
+def facts(run: Run) -> dict:
+    """Return a square a claim, a row a claim, and how many claims there are."""
+    verdicts = sorted(claims.judge_each(run), key=lambda verdict: verdict.claim.paper_order)
     return {
-        "decided": len(every),
-        "words": claims.told(one.word for one in every),
-        "first_words": claims.told(one.first for one in every),
-        "changed": len(changed),
-        "turned": sum(one.word != one.first for one in changed),
-        "verdicts": table(every),
+        "count": len(verdicts),
+        "words": claims.told(verdict.word for verdict in verdicts),
+        "tiles": html.Html(draw_tiles(verdicts)),
+        "verdicts": table(verdicts),
     }
 
 
-def table(every: list[Verdict]) -> html.Markdown | None:
-    """Return a row a claim, refuted ones first: number and section, statement, verdicts, and what is true."""
-    rows = (
-        (
-            f'<a href="{EVIDENCE}#{one.id.lower()}">{one.claim.id}</a>',
-            prose(one.claim.sentence),
-            f"{html.badge(str(one.word))}{'' if one.first == one.word else f'<br>first: {one.first}'}",
-            prose(one.correction) if one.correction else "",
-        )
-        for one in sorted(every, key=lambda one: ORDER.index(one.word))
+def table(verdicts: Iterable[Verdict]) -> html.Markdown | None:
+    """Return a row a claim: number and section, statement, verdicts, what was measured, and where it is shown."""
+    return VERDICTS(map(describe, verdicts))
+
+
+def describe(verdict: Verdict) -> tuple:
+    """Return the row of a claim."""
+    claim = verdict.claim
+    first = "" if verdict.first == verdict.word else f"<br>first: {verdict.first}"
+    measured, correction = prose(verdict.measured), prose(call_laws(verdict.correction))
+    if correction and len(verdict.correction) <= LONGEST_CORRECTION:
+        measured += f'<br><span class="what-is-true">{correction}</span>'
+    return (
+        f'<a href="#{claim.id.lower()}">{claim.id}</a> <span class="section">{claim.section}</span>',
+        prose(claim.sentence),
+        f"{html.badge(str(verdict.word))}{first}",
+        measured,
+        describe_places(claim.id),
     )
-    return VERDICTS(rows)
+
+
+def describe_places(id: str) -> str:
+    """Return links to what shows a claim; to its own evidence where nothing else does."""
+    places = read_places().get(id, ())
+    return ", ".join(place.markdown for place in places) or f'<a href="#{id.lower()}">its evidence</a>'
+
+
+def draw_tiles(verdicts: list[Verdict]) -> str:
+    """Return a square for each claim in the colour and pattern of its verdict, and a key with the counts."""
+    counts = Counter(verdict.word for verdict in verdicts)
+    present = [word for word in Word if counts[word]]
+    said = listed(f"{counts[word]} {does(word, counts[word])}" for word in present)
+    squares = "".join(map(_square, verdicts))
+    keys = "".join(
+        f'<li><span class="tile {LOOKS[word]}" aria-hidden="true"></span>{counts[word]} {does(word, counts[word])}</li>'
+        for word in present
+    )
+    name = f"{len(verdicts)} claims in the order of the paper: {said}"
+    return f'<ol class="claim-tiles" aria-label="{name}">{squares}</ol><ul class="claim-keys">{keys}</ul>'
+
+
+def _square(verdict: Verdict) -> str:
+    id, look = verdict.claim.id, LOOKS[verdict.word]
+    name = f"{id}: {verdict.word}"
+    return f'<li><a class="tile {look}" href="#{id.lower()}" title="{name}" aria-label="{name}">{id[1:]}</a></li>'

@@ -1,14 +1,17 @@
 """What decided each claim, sentences that no run decides, what the book does with the paper's parts, and errata."""
 
 import html as escape
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from bench.base.files import read_json
 from bench.findings import claims
 from bench.findings.claims import Verdict, at_gains
 from bench.findings.claims.errata import COVERAGE, ERRATA, UNTESTABLE, Erratum, Item
 from bench.findings.claims.verdict import MISPRINTS
+from report.figures.claims.places import read_places
 from report.figures.kit import html
+from report.figures.kit.law_names import call_laws
+from report.figures.kit.offered import OFFERED_BYTES, SITE_DATA
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose, typeset
 
@@ -17,16 +20,25 @@ PARTS = html.Table("The paper | What it says | Claims and errata | Pages")
 SLIPS = html.Table("Slip | Where | Printed | Should be | Checked")
 
 
-def facts(_: Run) -> dict:
+STUDIES = {
+    "experiment": "computed by <code>bench claims</code> itself",
+    "timings": "<code>results/timings</code> of the repository; made by <code>bench time</code>",
+    "maps": "<code>results/maps</code> of the repository; made by <code>bench map</code>",
+}
+"""Evidence that is in no table of a run, and what makes it."""
+
+
+def facts(run: Run) -> dict:
     """Return the rules of all criteria, how steady verdicts are, what decided each claim, and the tables."""
-    every = claims.judge_all()
+    every = claims.judge_each(run)
+    study = read_json(at_gains.STORED)
     return {
         "rule": typeset(claims.RULE),
         "n_computed": sum(one.check is not None for one in ERRATA),
         "n_read": sum(one.check is None for one in ERRATA),
         "misprints": typeset(" ".join(MISPRINTS.split())),
-        "steady": at_gains.describe(read_json(at_gains.STORED), {one.id: str(one.word) for one in every}),
-        "sections": html.Html("".join(map(section, every))),
+        "steady": at_gains.describe(study, study["reference"]),
+        "sections": html.Html("".join(section(verdict, run) for verdict in every)),
         "untestable": SENTENCES((one["section"], f"“{prose(one['quote'])}”", prose(one["why"])) for one in UNTESTABLE),
         "slips": SLIPS(map(describe_slip, sorted(ERRATA, key=lambda one: one.check is None))),
         "coverage": PARTS(map(describe_item, COVERAGE)),
@@ -48,21 +60,23 @@ def describe_slip(one: Erratum) -> tuple:
     return one.id, prose(one.where), f"“{prose(one.printed)}”", prose(one.right), checked
 
 
-def section(one: Verdict) -> str:
+def section(one: Verdict, run: Run) -> str:
     """Return what decided a claim, folded under its sentence; a link to it opens it, for the anchor is inside."""
     claim = one.claim
     value = "" if claim.value == "none given" else f" (Its value: {claim.value}.)"
     quoted = f"“{claim.quote}”{value}" if claim.quote else claim.sentence
     rows = {
-        "The paper": f"{escape.escape(claim.section)}: {marked_up(quoted)}",
-        "What is true": marked_up(one.correction or ""),
-        "Evidence": marked_up(str(one.evidence)),
+        "The paper": f"{escape.escape(claim.place)}: {marked_up(quoted)}",
+        "Measured": marked_up(one.measured),
+        "What is true": marked_up(call_laws(one.correction)),
+        "Evidence": marked_up(call_laws(str(one.evidence))) + draw_numbers(one.evidence.numbers, claim.id),
+        "Shown in": "<br>".join(place.html for place in read_places().get(claim.id, ())),
+        "Rows": describe_rows(one, run),
+        "Commands": describe_commands(one),
         "Criterion": marked_up(f"{claim.criterion} ({written(claim.written)})" if claim.written else claim.criterion),
         "Before": _listed(f"{written(old.written)}: {old.criterion} By it: {old.word}." for old in claim.earlier),
         "Left open": marked_up(claim.open),
         "Readings": _listed(claim.readings),
-        "Rows": f"{html.number(one.evidence.rows)} from {escape.escape(', '.join(one.evidence.tables))}; "
-        f"the paper's {escape.escape(claim.place)}",
     }
     entries = "".join(f"<dt>{name}</dt><dd>{text}</dd>" for name, text in rows.items() if text)
     head = f"<b>{claim.id}</b> <span>{marked_up(claim.sentence)}</span> {html.badge(str(one.word))}"
@@ -70,6 +84,58 @@ def section(one: Verdict) -> str:
         f'<details class="claim-fold"><summary>{head}</summary><dl class="claim" id="{one.id.lower()}">{entries}</dl>'
         "</details>"
     )
+
+
+def draw_numbers(numbers: Sequence[Sequence[str]], id: str) -> str:
+    """Return the numbers of an evidence as a table; nothing where its sentence has them all."""
+    if not numbers:
+        return ""
+    heads, *rows = numbers
+    head = "".join(f'<th scope="col">{marked_up(text)}</th>' for text in heads)
+    body = "".join(f"<tr>{''.join(f'<td>{marked_up(call_laws(text))}</td>' for text in row)}</tr>" for row in rows)
+    table = f'<table class="plain"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
+    # A box that scrolls must be reached by key.
+    reached = f'tabindex="0" role="region" aria-label="Numbers of {id}"'
+    return f'<div class="pst-scrollable-table-container numbers" {reached}>{table}</div>'
+
+
+def describe_rows(one: Verdict, run: Run) -> str:
+    """Return how many rows decide a claim, the files that hold them, and the lines of Python that choose them."""
+    evidence = one.evidence
+    if not evidence.rows:
+        return ""
+    sources = [STUDIES.get(name) or link_file(name, run) for name in evidence.tables]
+    listed = f'{"; ".join(sources)} (<a href="appendix-data.html#tab-files">all files</a>)'
+    return f"{html.number(evidence.rows)} rows and states: {listed}.{list_conditions(evidence.chosen)}"
+
+
+def link_file(table: str, run: Run) -> str:
+    """Return a link to the file of a table; its name where the site does not offer it."""
+    name = f"{table}.parquet"
+    path = run.folder / name
+    is_offered = path.is_file() and path.stat().st_size <= OFFERED_BYTES
+    return f'<a href="{SITE_DATA}/{name}" download>{name}</a>' if is_offered else f"<code>{name}</code>"
+
+
+def list_conditions(chosen: Iterable[tuple[str, str]]) -> str:
+    """Return the lines of Python that choose the rows of a claim."""
+    lines = []
+    for table, condition in chosen:
+        name = table.replace("-", "_")
+        lines.append(f'{name} = pandas.read_parquet("{table}.parquet")')
+        if condition:
+            lines.append(f'{name}.query("{condition}")')
+    return f"<pre>{escape.escape(chr(10).join(dict.fromkeys(lines)))}</pre>" if lines else ""
+
+
+def describe_commands(one: Verdict) -> str:
+    """Return the commands that make the rows of a claim again and judge it."""
+    stored = [name for name in one.evidence.tables if name not in STUDIES]
+    made = "<code>make bench</code> makes the tables, and " if stored or not one.evidence.tables else ""
+    return f"{made}<code>bench claims</code> judges the claim ({HOW_TO_RUN})."
+
+
+HOW_TO_RUN = '<a href="docs-install.html">install</a>'
 
 
 def written(when: str) -> str:

@@ -1,6 +1,7 @@
 """Settling time against the initial angle of the laws that turn about one fixed axis: measured, and the closed form."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -9,18 +10,26 @@ from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, NEAREST_RAD, E
 from report.figures.comparison.comparison import uniform
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
-from report.figures.kit.page import Run
+from report.figures.kit.page import Run, in_run
+
+SHOWN = ("rotation-matrix", "quaternion-shortest", "rotation-vector", "late-braking", "mrp-memory")
+"""The laws with a curve: a law for each error of the chapter's table, the advised one, and ours."""
 
 CURVE = 60
 DRAWN = 150
-FOOT_S, TOP_S = 0.3, 3.0
-"""Limits of the panel, on a logarithmic axis: curves that go to infinity at 180° leave it."""
+"""Points of a curve, and simulated starts drawn beside it."""
 
-APART = 0.056
-"""Least distance of two labels beside curves, in decades."""
+FOOT_S, TOP_S = 0.4, 1.0
+"""Limits of the panel: the curves at 180° lie between 0.5 and 0.7 s, and one leaves it upwards."""
 
-ASIDE_DEG = 7.0
-"""How far before a curve leaves the panel its name ends."""
+GAP_S = 0.03
+"""Least distance of two labels beside curves: the height of a line of words in the panel."""
+
+END_DEG, LABEL_DEG = 181.0, 188.0
+"""Where the line from a curve's end to its label begins, and where the label does."""
+
+LATE_DEG = 170
+"""The angle at which the caption compares laws."""
 
 
 def groups(rows: pd.DataFrame) -> dict[Equation, list[str]]:
@@ -32,48 +41,93 @@ def groups(rows: pd.DataFrame) -> dict[Equation, list[str]]:
     return found
 
 
+def settle(rows: pd.DataFrame, equation: Equation, angles: np.ndarray) -> np.ndarray:
+    """Return the settling time [s] from each angle [rad] with the gains of the rows."""
+    kp, kv, tolerance = (float(rows[column].iloc[0]) for column in ("kp", "kv", "tolerance"))
+    return np.array([settling(equation, float(angle), kp, kv, tolerance) for angle in angles])
+
+
+def list_others(rows: pd.DataFrame) -> dict[Equation, list[str]]:
+    """Return the equations of the band: no law of them is drawn, none unwinds and none commands without bound."""
+    others = {}
+    for equation, laws in groups(rows).items():
+        compared = [law for law in laws if law not in families.CONTROLS]
+        if equation.is_bounded and compared and not set(compared) & set(SHOWN):
+            others[equation] = compared
+    return others
+
+
 @responsive_picture
 def curves(rows: pd.DataFrame, narrow: bool) -> Drawing:
-    """Curves of the equations, and dots of the starts, of the first law of each; rows: of `comparison.common`."""
-    figure, axes = style.panels(height=4.4 if narrow else 4.2, narrow=narrow)
-    kp, kv, tolerance = (float(rows[column].iloc[0]) for column in ("kp", "kv", "tolerance"))
+    """Draw a curve and its simulated starts for each law of SHOWN, and the others as a band; rows: of `common`."""
+    figure, axes = style.panels(height=4.6, narrow=narrow)
     angles = np.linspace(LEAST_RAD, math.pi - NEAREST_RAD, CURVE)
-    beside, words = [], []
-    for equation, names in groups(rows).items():
-        colours = (style.look_among_all(name).colour for name in names)
-        colour = next((one for one in colours if one != style.REST), style.REST)
-        alpha = 0.5 if colour == style.REST else 1.0
-        times = np.array([settling(equation, float(angle), kp, kv, tolerance) for angle in angles])
-        axes.plot(
-            np.degrees(angles), times, color=colour, linewidth=1.1, alpha=alpha, zorder=2 + (colour != style.REST)
-        )
-        own = rows[rows["contender"] == names[0]].head(DRAWN)
-        style.dots(axes, np.degrees(own["angle0_rad"]), own["settling_time_s"], colour, 3.0, zorder=3, alpha=alpha)
-        word = families.word(names[0]) + (f" +{len(names) - 1}" if len(names) > 1 else "")
-        words.append(f"{', '.join(map(families.word, names))} from {times[0]:.2f} to {times[-1]:.2f} s")
-        leaves = left_at(np.degrees(angles), times)
-        if leaves:
-            axes.text(*leaves, word, color=colour, fontsize=9, ha="right", va="top" if leaves[1] == TOP_S else "bottom")
+    words = [draw_band(axes, rows, angles)]
+    ends: dict[str, float] = {}
+    for law in SHOWN:
+        simulated = rows[rows["contender"] == law]
+        if simulated.empty:
+            continue
+        times, colour = settle(rows, EQUATIONS[law], angles), style.look(law).colour
+        axes.plot(np.degrees(angles), times, color=colour, linewidth=1.6, zorder=4)
+        drawn = simulated.head(DRAWN)
+        style.dots(axes, np.degrees(drawn["angle0_rad"]), drawn["settling_time_s"], colour, 3.0, zorder=3, alpha=0.6)
+        words.append(f"{families.word(law)} from {times[0]:.2f} to {times[-1]:.2f} s")
+        if times[-1] < TOP_S:
+            ends[law] = float(times[-1])
         else:
-            beside.append((float(times[-1]), word, colour))
-    places = 10.0 ** np.array(style.apart([math.log10(time) for time, _, _ in beside], APART))
-    for place, (_, word, colour) in zip(places, beside, strict=True):
-        style.label_line(axes, 181.5, place, word, colour, fontsize=9)
-    axes.set(xlim=(0, 180), yscale="log", ylim=(FOOT_S, TOP_S), xticks=range(0, 181, 30))
-    axes.set_yticks([0.3, 0.5, 1.0, 2.0, 3.0], ["0.3", "0.5", "1", "2", "3"])
-    axes.minorticks_off()
+            leaving_deg = float(np.degrees(angles[np.argmax(times > TOP_S)]))
+            aside_deg = 10.0 if narrow else 4.0
+            axes.text(
+                leaving_deg - aside_deg, TOP_S, families.word(law), color=colour, fontsize=10, ha="right", va="top"
+            )
+    label_ends(axes, ends)
+    axes.set(xlim=(0, 180), ylim=(FOOT_S, TOP_S), xticks=range(0, 181, 60 if narrow else 30))
     axes.set(xlabel="initial angle to the goal [deg]", ylabel="settling time [s]")
     return figure, f"Settling time from {np.degrees(angles[0]):.0f} to nearly 180 degrees: {'; '.join(words)}."
 
 
-def left_at(angles: np.ndarray, times: np.ndarray) -> tuple[float, float] | None:
-    """Return (angle, edge) where the name of a curve that leaves the panel ends; None if the curve stays."""
-    outside = np.flatnonzero((times > TOP_S) | (times < FOOT_S))
-    if not len(outside) or outside[0] == 0:
-        return None
-    return float(angles[outside[0]]) - ASIDE_DEG, TOP_S if times[outside[0]] > TOP_S else FOOT_S
+def draw_band(axes: Any, rows: pd.DataFrame, angles: np.ndarray) -> str:
+    """Draw the span of the other laws' times; return what it spans, in words."""
+    others = list_others(rows)
+    if not others:
+        return "no other law"
+    times = np.array([settle(rows, equation, angles) for equation in others])
+    axes.fill_between(np.degrees(angles), times.min(axis=0), times.max(axis=0), color=style.GRID, linewidth=0, zorder=1)
+    axes.text(5, FOOT_S + 0.012, "grey: the other laws", color=style.MUTED, fontsize=10, ha="left", va="bottom")
+    laws = [law for alike in others.values() for law in alike]
+    return f"a band of {len(laws)} other laws, {times[:, -1].min():.2f} to {times[:, -1].max():.2f} s near 180 degrees"
+
+
+def label_ends(axes: Any, ends: dict[str, float]) -> None:
+    """Name each curve beside its end, with a line from the end to a name that had to move."""
+    places = style.apart([*ends.values()], GAP_S)
+    for (law, end), place in zip(ends.items(), places, strict=True):
+        colour = style.look(law).colour
+        axes.plot([END_DEG, LABEL_DEG - 1.0], [end, place], color=colour, linewidth=0.9, clip_on=False)
+        style.label_line(axes, LABEL_DEG, place, families.word(law), colour, fontsize=10)
+
+
+def compare_late(rows: pd.DataFrame) -> str:
+    """Say how long the laws of SHOWN take from LATE_DEG, the slowest first."""
+    angle = np.array([math.radians(LATE_DEG)])
+    run = set(rows["contender"])
+    times = {law: float(settle(rows, EQUATIONS[law], angle)[0]) for law in SHOWN if law in run}
+    slowest, fastest = max(times, key=times.__getitem__), min(times, key=times.__getitem__)
+    return (
+        f"From {LATE_DEG}°, the {families.word(slowest)} law settles in {times[slowest]:.2f} s and "
+        f"{families.word(fastest)} in {times[fastest]:.2f} s"
+    )
 
 
 def facts(run: Run) -> dict:
-    """Draw settling times over the angle."""
-    return {"comparison-angle": curves(uniform(run))}
+    """Draw settling times over the angle, and say what the picture shows and how many laws are in its band."""
+    rows = uniform(run)
+    others = list_others(rows)
+    unbounded = [law for equation, laws in groups(rows).items() if not equation.is_bounded for law in laws]
+    return {
+        "comparison-angle": curves(rows),
+        "finding": in_run(compare_late, rows),
+        "band": sum(map(len, others.values())),
+        "unbounded": " and ".join(map(families.word, unbounded)) or "none",
+    }

@@ -5,7 +5,7 @@ And what all pages on compliance read of compliance.parquet: rows of a task, of 
 
 import functools
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -15,7 +15,7 @@ import tasks
 from bench.findings.claims.tables import some
 from report.figures.kit import html, media
 from report.figures.kit.page import ABSENT, Run, in_run
-from report.figures.kit.spelling import spell_powers
+from report.figures.kit.spelling import listed, spell_powers
 
 CARTESIAN, EULER = "hybrid-base+inverse", "hybrid/zyx-euler+inverse"
 PAPERS, PAPERS_EULER = "hybrid-base+transpose", "hybrid/zyx-euler+transpose"
@@ -59,8 +59,9 @@ MEASURES = {
 """Task -> the number that says how it went, the tasks that free rotations first."""
 
 OUTCOMES = html.Table(
-    "Task | Measured at the end | Episodes | Cartesian | Euler, β = 0 | Euler, largest β | Springs",
-    words=("Cartesian", "Euler, β = 0", "Euler, largest β", "Springs"),
+    "Task | Measured at the end | Episodes with Cartesian compliance | Cartesian compliance | Euler Jacobian, β = 0 | "
+    "Euler Jacobian, largest β | Springs",
+    words=("Cartesian compliance", "Euler Jacobian, β = 0", "Euler Jacobian, largest β", "Springs"),
 )
 
 
@@ -76,10 +77,13 @@ def describe_tasks(run: Run) -> dict:
     return {
         "outcomes": OUTCOMES(compare_tasks(rows)),
         **plate(rows),
-        "betas": ", ".join(f"{beta:.0f}°" for beta in sorted(set(rows["beta_deg"]))),
+        "betas": listed([f"{beta:.0f}°" for beta in sorted(set(rows["beta_deg"]))]),
         "flat": flat(rows),
-        "stuck": stuck(rows, PAPERS, PAPERS_EULER),
-        "other_stuck": stuck(rows, CARTESIAN, EULER),
+        "pegs": in_run(count_pegs, rows),
+        "pegs_differ": compare_pegs(rows, PAPERS, PAPERS_EULER),
+        "other_pegs_differ": compare_pegs(rows, CARTESIAN, EULER),
+        "pegs_finding": describe_pegs(rows),
+        "finding": describe_cranks(rows),
     }
 
 
@@ -99,35 +103,91 @@ def plate(rows: pd.DataFrame) -> dict[str, str]:
     }
 
 
-def stuck(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
-    """How many pegs are not in at the end by both Jacobians, and whether they differ where the hand's frame leans."""
-    own = rows[(rows["task"] == "peg-in-hole") & rows["contender"].isin((cartesian, euler))]
-    if own.empty:
-        return f"How pegs end is {ABSENT}."
-    out = own.assign(out=own["jam"] != 0.0).groupby(["contender", own["beta_deg"] != 0.0])["out"]
-    lost, n = out.sum().unstack(fill_value=0), out.size().unstack(fill_value=0)
-    counts = [
-        f"{lost.loc[name].sum()} of {n.loc[name].sum()} simulations {who} ({lost.loc[name, True]} of "
-        f"{n.loc[name, True]} with a tilted frame)"
-        for name, who in ((cartesian, "with Cartesian compliance"), (euler, "with the Euler Jacobian"))
-    ]
-    p_value = fisher_exact([[lost.loc[name, True], (n - lost).loc[name, True]] for name in (cartesian, euler)]).pvalue
-    differ = "differ significantly" if p_value < P_VALUE else "do not differ significantly"
+PEGS = html.Table("Pegs not inserted | Frame of the hand not tilted | Frame of the hand tilted")
+CONTROLS = {
+    PAPERS: "Force control, Cartesian compliance",
+    PAPERS_EULER: "Force control, Euler Jacobian",
+    CARTESIAN: "Commanded accelerations, Cartesian compliance",
+    EULER: "Commanded accelerations, Euler Jacobian",
+}
+
+
+def read_pegs(rows: pd.DataFrame, contender: str) -> dict[bool, pd.Series]:
+    """Return whether each peg of a controller is not in at the end, by whether the hand's frame is tilted."""
+    pegs = of(some(rows[rows["task"] == "peg-in-hole"], "peg"), contender)
+    is_out, is_tilted = pegs["jam"] != 0.0, pegs["beta_deg"] != 0.0
+    return {False: is_out[~is_tilted], True: is_out[is_tilted]}
+
+
+def count_pegs(rows: pd.DataFrame) -> Any:
+    """Return a table of the pegs that are not in at the end: a row a controller, a column a frame."""
+    lines = []
+    for contender, name in CONTROLS.items():
+        pegs = read_pegs(rows, contender)
+        lines.append((name, *(count_out(pegs[is_tilted]) for is_tilted in (False, True))))
+    return PEGS(lines)
+
+
+def count_out(is_out: pd.Series) -> str:
+    """Return "24 of 96", "none of 48" or "not tested"."""
+    if is_out.empty:
+        return html.UNTESTED
+    return f"{int(is_out.sum()) or 'none'} of {len(is_out)}"
+
+
+def describe_pegs(rows: pd.DataFrame) -> str:
+    """Say how many pegs are not in with a tilted frame and commanded accelerations, by both Jacobians."""
+    if not (rows["task"] == "peg-in-hole").any():
+        return f"How pegs end is {ABSENT}"
+    cartesian, euler = (count_out(read_pegs(rows, contender)[True]) for contender in (CARTESIAN, EULER))
     return (
-        f"The peg was not inserted in {' and in '.join(counts)}. The two shares with tilted frames {differ} "
-        f"(Fisher's exact test, p = {spell_powers(f'{p_value:.2g}')})."
+        f"With a tilted frame and commanded accelerations, the Euler Jacobian leaves {euler} pegs outside the hole and "
+        f"Cartesian compliance {cartesian}"
     )
+
+
+def compare_pegs(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
+    """Say whether the shares of pegs that are not in differ between two Jacobians where the hand's frame is tilted."""
+    if not (rows["task"] == "peg-in-hole").any():
+        return f"How pegs end is {ABSENT}."
+    tilted = [read_pegs(rows, contender)[True] for contender in (cartesian, euler)]
+    if any(is_out.empty for is_out in tilted):
+        return f"One of the two controllers is {ABSENT}."
+    p_value = fisher_exact([[int(is_out.sum()), int((~is_out).sum())] for is_out in tilted]).pvalue
+    differ = "differ significantly" if p_value < P_VALUE else "do not differ significantly"
+    p_text = spell_powers(f"{p_value:.2g}")
+    return f"With a tilted frame, the shares of the two Jacobians {differ} (Fisher's exact test, p = {p_text})."
+
+
+def count_flat(is_flat: pd.Series) -> str:
+    """Return "all 48", "34 of 144" or "none of 144"."""
+    flat = int(is_flat.sum())
+    return f"all {flat}" if is_flat.all() else f"{flat or 'none'} of {len(is_flat)}"
 
 
 def flat(rows: pd.DataFrame) -> str:
     """Return how many tools come to lie flat on the plate by the paper's force control."""
-    own = rows[rows["task"] == "surface-alignment"]
-    if own.empty:
+    plates = rows[rows["task"] == "surface-alignment"]
+    if plates.empty:
         return f"how tools end is {ABSENT}."
-    euler, plain = (of(own, name)["time_to_align_s"].notna() for name in (PAPERS_EULER, PAPERS))
+    euler, cartesian = (of(plates, name)["time_to_align_s"].notna() for name in (PAPERS_EULER, PAPERS))
     return (
-        f"at the end it lay flat in {euler.sum()} of {len(euler)} simulations with the Euler Jacobian, and in "
-        f"{plain.sum()} of {len(plain)} with Cartesian compliance."
+        f"at the end it lay flat in {count_flat(euler)} simulations with the Euler Jacobian, and in "
+        f"{count_flat(cartesian)} with Cartesian compliance."
+    )
+
+
+def describe_cranks(rows: pd.DataFrame) -> str:
+    """Say how far hands turn the crank by both Jacobians, at the largest tilt of the hand's frame."""
+    cranks, measure = rows[rows["task"] == "crank"], MEASURES["crank"]
+    if cranks.empty:
+        return f"How far cranks turn is {ABSENT}"
+    euler = of(cranks, PAPERS_EULER)
+    most = euler["beta_deg"].max()
+    cartesian, tilted = measure.of(of(cranks, PAPERS)), measure.of(euler[euler["beta_deg"] == most])
+    return (
+        f"The hand turns the crank by {cartesian}° with Cartesian compliance, and by {tilted}° with the Euler Jacobian "
+        f"at β = {most:.0f}°"
     )
 
 

@@ -5,15 +5,17 @@ import json
 import math
 from pathlib import Path
 from textwrap import fill
+from typing import Any
 
 import pandas as pd
 
 from bench.experiments.tables import read
 from bench.experiments.tables.store import read_arrow
+from bench.findings.claims.adequacy import CALLS
 from bench.findings.claims.standing import MEASURABLE
 from bench.findings.claims.tables import some
 from bench.findings.selection.tables import ticks
-from bench.law.contenders.registry import all_contenders, contenders
+from bench.law.contenders.registry import all_contenders
 from report.figures.kit import families, html, laws, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX
@@ -22,34 +24,30 @@ from report.figures.kit.page import Run, in_run
 LEAN = {"lean": FEEDBACK, "literal": next(one.name for one in all_contenders() if one.regulator.costing_only)}
 """The linearizing law as we write it and as it is printed."""
 
-# kind -> (columns of costs.parquet, colour, colour of the numbers on it)
-KINDS = {
-    "add": (("add",), "#56b4e9", style.ON_COLOUR),
-    "multiply": (("mul",), "#0072b2", style.PAPER),
-    "divide, root": (("div", "sqrt"), "#cc79a7", style.ON_COLOUR),
-    "transcendental": (("sin", "cos", "atan2", "acos"), "#d55e00", style.PAPER),
-}
-CALLS = KINDS["transcendental"][0]
+PAPERS_ORDER = (MATRIX, LINEARIZED, FEEDBACK)
+"""The paper's laws in the order in which it says that their cost grows (C12)."""
+
+LATER = ("quaternion-shortest", "mrp", "hybrid", "mrp-memory")
+"""Later laws beside them: the usual one and the ones of the answer."""
+
 NARROW_LETTERS = 20
-LEAST_LABELLED = 2
-"""A narrower piece of a bar has no room for its number."""
 
 
 @functools.cache
 def costs(run: Run) -> pd.DataFrame:
-    """Operations of the paper's laws and the user's own."""
-    rows = run.rows("costs", **read.FREE_BODY)
-    return rows[~rows["regulator"].isin([name for name, one in contenders("regulators").items() if one.later])]
+    """Return operations of all laws of the free body."""
+    return run.rows("costs", **read.FREE_BODY)
 
 
-def facts(run: Run) -> dict:
+def facts(run: Run) -> dict[str, Any]:
     """Return operations, the literal form against the lean, shares of a controller's time, and the machine of times."""
     return {
         **(in_run(lambda: compare_forms(totals(costs(run)))) or {}),
         **(in_run(lambda: share_of_time(run)) or {}),
         "measurable": f"{100 * MEASURABLE:g}",
         "timed_on": describe_machine(run),
-        "operations": in_run(lambda: operations(costs(run))),
+        "finding": in_run(lambda: describe_order(count_operations(costs(run)))),
+        "operations": in_run(lambda: draw_operations(count_operations(costs(run)))),
     }
 
 
@@ -103,29 +101,53 @@ def totals(counted: pd.DataFrame) -> pd.DataFrame:
     return counted[(counted["branch"] == "typical") & (counted["stage"] == "total")].set_index("contender")
 
 
+def count_operations(counted: pd.DataFrame) -> pd.DataFrame:
+    """Return flops and calls of the laws that are drawn, by contender: the paper's in its order, later ones, yours."""
+    rows = totals(counted)
+    yours = [law for law in rows.index if (found := laws.contender(law)) and found.regulator.origin]
+    shown = [law for law in (*PAPERS_ORDER, *LATER, *yours) if law in rows.index]
+    rows = some(rows.loc[shown], "cost of a law")
+    return pd.DataFrame({"flops": rows["flops"], "calls": rows[list(CALLS)].sum(axis=1)}).astype(int)
+
+
+def describe_order(operations: pd.DataFrame) -> str:
+    """Say what the paper's laws cost in its order, and whether each costs more than the one before."""
+    papers = operations.loc[[law for law in PAPERS_ORDER if law in operations.index]]
+    total = papers.sum(axis=1)
+    if len(papers) < len(PAPERS_ORDER):
+        return "Murphy's order of cost is not tested in this run."
+    agrees = "rises" if total.is_monotonic_increasing and total.is_unique else "does not rise"
+    counts = ", ".join(f"{families.word(law)} {count_words(*papers.loc[law])}" for law in papers.index)
+    return f"The number of operations {agrees} in Murphy's order: {counts}."
+
+
+def count_words(flops: int, calls: int) -> str:
+    """Write flops, and calls of transcendental functions where there are any: 43, or 45 + 6 calls."""
+    return f"{flops} + {calls} calls" if calls else str(flops)
+
+
 @responsive_picture
-def operations(costs: pd.DataFrame, *, narrow: bool = False) -> Drawing:
-    """Draw a bar a law, the cheapest first, in pieces by kind; the goal's stage included."""
-    rows = costs[(costs["branch"] == "typical") & (costs["stage"] == "total")].set_index("contender")
-    kinds = pd.DataFrame({kind: rows[list(columns)].sum(axis=1) for kind, (columns, *_) in KINDS.items()})
-    kinds = kinds.loc[kinds.sum(axis=1).sort_values(kind="stable").index]
-    figure, axes = style.panels(height=0.75 + (0.6 if narrow else 0.36) * len(kinds), narrow=narrow)
-    least = LEAST_LABELLED * (2 if narrow else 1)
-    for kind, (_, colour, ink) in KINDS.items():
-        left = kinds.loc[:, :kind].sum(axis=1) - kinds[kind]
-        bars = axes.barh(range(len(kinds)), kinds[kind], 0.62, left, color=colour, label=kind, edgecolor=style.PAPER)
-        words = [f"{width}" if width >= least else "" for width in kinds[kind]]
-        axes.bar_label(bars, words, label_type="center", fontsize=8.5, color=ink)
-    names = [laws.title(name) for name in kinds.index]
-    axes.set_yticks(range(len(kinds)), [fill(name, NARROW_LETTERS) for name in names] if narrow else names)
+def draw_operations(operations: pd.DataFrame, *, narrow: bool = False) -> Drawing:
+    """Draw a bar a law, in the paper's order and then the later ones: flops in colour, calls of functions outlined."""
+    figure, axes = style.panels(height=0.7 + (0.5 if narrow else 0.34) * len(operations), narrow=narrow)
+    names = []
+    for place, (law, (flops, calls)) in enumerate(operations.iterrows()):
+        colour = style.look(str(law)).colour
+        axes.barh(place, flops, 0.62, color=colour)
+        axes.barh(place, calls, 0.62, flops, color=style.PAPER, edgecolor=colour, linewidth=1.2)
+        axes.text(flops + calls + 1.0, place, count_words(flops, calls), va="center", fontsize=9.5)
+        name = laws.title(str(law))
+        if law in PAPERS_ORDER:
+            name = f"{PAPERS_ORDER.index(str(law)) + 1}. {name}"
+        names.append(fill(name, NARROW_LETTERS) if narrow else name)
+    papers = sum(law in PAPERS_ORDER for law in operations.index)
+    axes.axhline(papers - 0.5, color=style.MUTED, linewidth=0.7, linestyle=style.DOTTED)
+    across = axes.get_yaxis_transform()  # the line's place along the axis of laws, and the right edge
+    axes.text(1.0, papers - 0.47, "since 1988", va="top", ha="right", fontsize=9, color=style.MUTED, transform=across)
+    axes.set_yticks(range(len(operations)), names)
     axes.invert_yaxis()
-    axes.set_xlabel("Operations a tick, typical branch")
+    axes.set_xlim(0, 1.3 * operations.sum(axis=1).max())
+    axes.set_xlabel("operations per control step")
     style.listed(axes)
-    axes.legend(
-        loc="lower center", bbox_to_anchor=(0.35, 1.0), ncols=2 if narrow else 4, columnspacing=1.2, handlelength=1
-    )
-    flops = kinds.drop(columns="transcendental").sum(axis=1)
-    said = "; ".join(
-        f"{name} {spent} + {calls}" for name, spent, calls in zip(names, flops, kinds["transcendental"], strict=True)
-    )
-    return figure, f"Operations a tick by kind, one bar a law, flops + transcendental calls: {said}."
+    said = "; ".join(f"{name} {count_words(*row)}" for name, row in zip(names, operations.to_numpy(), strict=True))
+    return figure, f"Operations per control step, one bar a law: {' '.join(said.split())}."

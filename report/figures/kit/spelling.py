@@ -19,6 +19,8 @@ SIGNS = (
     (r"(?<=[\s(])-(?=\w)|(?<=[\w)|°²] )-(?= \S)", "−"),
     (r"(?<=\d )\*(?= \d)", "×"),
     (r"\.\.\.", "…"),
+    # A thin space from 10,000 on; four figures stand together.
+    (r"(?<![\d,.])(\d),(\d{3})(?![\d,])", r"\1\2"),
     (r"(?<=\d),(?=\d{3}\b)", "\N{NARROW NO-BREAK SPACE}"),
     (r" deg\b", "°"),
     (r"(?<=\d) ?%", "\N{NO-BREAK SPACE}%"),

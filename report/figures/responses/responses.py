@@ -1,7 +1,8 @@
 """Figures 2.3 to 2.5 of the paper drawn again: an episode's Euler angles, and its angle to the goal, against time."""
 
 import functools
-from typing import Any
+import math
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -13,6 +14,7 @@ from report.figures.kit import laws, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX, gains
 from report.figures.kit.page import Run
+from report.figures.kit.quotes import quote
 from report.figures.kit.spelling import power
 
 ANGLES = (
@@ -26,6 +28,50 @@ SHOWN_S = 1.2
 FIGURES = {"3": MATRIX, "4": LINEARIZED, "5": FEEDBACK}
 """Last digit of the paper's figure and of its start -> its law."""
 
+QUOTED = {"3": "C01", "4": "C38", "5": "C09"}
+"""Last digit of the paper's figure -> the claim whose sentence describes it."""
+
+TURN_DEG = 90.0
+"""Unit of the common axis of angles."""
+
+AWAY_DEG = 1.0
+"""A body that turns further from the goal than this turns away from it, visibly."""
+
+
+class Response(NamedTuple):
+    """What one law does from the start of its figure.
+
+    Attributes:
+        law: Name of the contender.
+        trace: Samples up to SHOWN_S.
+        row: Its episode.
+        bend_deg: Largest distance of each Euler angle from the linear response, over the whole trace.
+        peak_deg: Largest angle to the goal, over the whole trace.
+    """
+
+    law: str
+    trace: pd.DataFrame
+    row: pd.Series
+    bend_deg: np.ndarray
+    peak_deg: float
+
+    @property
+    def first_deg(self) -> float:
+        """Return the angle to the goal at the start."""
+        return float(np.degrees(self.trace["angle_rad"].iloc[0]))
+
+
+class Limits(NamedTuple):
+    """The axes that all figures share [deg].
+
+    Attributes:
+        euler: Greatest Euler angle, of both signs.
+        goal: Greatest angle to the goal.
+    """
+
+    euler: float
+    goal: float
+
 
 @functools.cache
 def drawn(run: Run) -> tuple[pd.DataFrame, pd.DataFrame]:
@@ -34,20 +80,65 @@ def drawn(run: Run) -> tuple[pd.DataFrame, pd.DataFrame]:
     return run.rows("traces", **words), run.rows("episodes", **words)
 
 
-def facts(run: Run) -> dict:
-    """Return the paper's figures as one, the start of each, and how far, how long and how straight its law goes."""
+def facts(run: Run) -> dict[str, Any]:
+    """Return the paper's figures, each with its start, the paper's sentence and the finding."""
     traces, episodes = drawn(run)
     kp, kv = gains(episodes)
-    values: dict = {"kp": kp, "kv": kv, "figures": responses(traces, kp, kv)}
-    for end, law in FIGURES.items():
-        at = {"start_id": f"figure-2.{end}", "contender": law}
-        followed, row = chosen(traces, at), chosen(episodes, at).iloc[0]
-        values[f"start_{end}"] = ", ".join(f"{row[f'{angle}0']:.3g}" for angle, *_ in ANGLES).replace("-", "\u2212")
-        bend = float(bend_deg(followed, kp, kv).max())
-        values[f"bend_{end}"] = f"{bend:.0f}" if bend > 1.0 else power(bend)
-        values[f"time_{end}"], values[f"path_{end}"] = f"{row['settling_time_s']:.3f}", f"{row['path_ratio']:.2f}"
-    angles = np.degrees(followed["angle_rad"])
-    return values | {"first_5": f"{angles.iloc[0]:.0f}", "peak_5": f"{angles.max():.0f}"}
+    found = {end: measure_response(traces, episodes, end, kp, kv) for end in FIGURES}
+    limits = find_limits(list(found.values()))
+    values: dict[str, Any] = {"kp": kp, "kv": kv}
+    for end, response in found.items():
+        values[f"figure_{end}"] = draw_response(response, kp, kv, limits)
+        values[f"quote_{end}"] = quote(QUOTED[end])
+        values[f"start_{end}"] = describe_start(response.row)
+        values[f"finding_{end}"] = describe_finding(response)
+    return values
+
+
+def measure_response(traces: pd.DataFrame, episodes: pd.DataFrame, end: str, kp: float, kv: float) -> Response:
+    """Return what the law of a figure does from the figure's start."""
+    law = FIGURES[end]
+    at = {"start_id": f"figure-2.{end}", "contender": law}
+    trace = chosen(traces, at)
+    row = chosen(episodes, at).iloc[0]
+    peak_deg = float(np.degrees(trace["angle_rad"].max()))
+    shown = trace[trace["time_s"] <= SHOWN_S]
+    return Response(law, shown, row, bend_deg(trace, kp, kv), peak_deg)
+
+
+def find_limits(responses: list[Response]) -> Limits:
+    """Return axes that hold all responses."""
+    euler = max(float(np.abs(euler_deg(response.trace)).max()) for response in responses)
+    goal = max(response.peak_deg for response in responses)
+    return Limits(round_up(euler), round_up(goal))
+
+
+def round_up(angle_deg: float) -> float:
+    """Return the next multiple of the unit of the axis."""
+    return TURN_DEG * math.ceil(angle_deg / TURN_DEG)
+
+
+def describe_start(row: pd.Series) -> str:
+    """Return the start's Euler angles [rad]."""
+    angles = [f"{row[f'{name}0']:.3g}" for name, *_ in ANGLES]
+    return ", ".join(angles).replace("-", "\N{MINUS SIGN}")
+
+
+def describe_finding(response: Response) -> str:
+    """Say how close to the linear response the angles stay, how long the body takes, and by which way."""
+    bend = float(response.bend_deg.max())
+    distance = f"{bend:.0f}" if bend > 1.0 else power(bend)
+    row = response.row
+    settles = "never settles"
+    if row["outcome"] == "settled":
+        settles = f"settles in {row['settling_time_s']:.3f} s"
+    away = ""
+    if response.peak_deg > response.first_deg + AWAY_DEG:
+        away = f" The body first turns away from the goal, from {response.first_deg:.0f}° to {response.peak_deg:.0f}°."
+    return (
+        f"The angles stay within {distance}° of the linear response; the body {settles} by a path that is "
+        f"{row['path_ratio']:.2f} times the shortest.{away}"
+    )
 
 
 def euler_deg(trace: pd.DataFrame) -> np.ndarray:
@@ -56,43 +147,40 @@ def euler_deg(trace: pd.DataFrame) -> np.ndarray:
 
 
 @responsive_picture
-def responses(traces: pd.DataFrame, kp: float, kv: float, narrow: bool) -> Drawing:
-    """Draw each law from its figure's start: angles, dashed their linear closed form; below, the angle to the goal."""
-    shape = (3, 2) if narrow else (2, 3)
-    figure, grid = style.panels(*shape, height=8.4 if narrow else 4.6, narrow=narrow, sharex=True)
-    pairs = grid if narrow else grid.T
-    said = [
-        draw_response(pair, chosen(traces, {"start_id": f"figure-2.{end}", "contender": law}), end, kp, kv)
-        for pair, (end, law) in zip(pairs, FIGURES.items(), strict=True)
-    ]
-    for axes in grid[-1]:
-        axes.set_xlabel("time [s]")
-    for upper, lower in pairs if narrow else pairs[:1]:
-        upper.set_ylabel("Euler angle [deg]")
-        lower.set_ylabel("angle to the goal [deg]")
-    return figure, " ".join(said)
-
-
-def draw_response(pair: Any, own: pd.DataFrame, end: str, kp: float, kv: float) -> str:
-    """Draw one law's Euler angles, and in the second panel its angle to the goal; return what they show."""
-    own, (upper, lower) = own[own["time_s"] <= SHOWN_S], pair
-    name = own["contender"].iloc[0]
-    times, angles, goal = own["time_s"].to_numpy(), euler_deg(own), np.degrees(own["angle_rad"].to_numpy())
-    fine, colour = np.linspace(0.0, SHOWN_S, 200), style.look(name).colour
+def draw_response(response: Response, kp: float, kv: float, limits: Limits, narrow: bool) -> Drawing:
+    """Draw one law's Euler angles, dashed their linear closed form; beside them its angle to the goal."""
+    shape = (2, 1) if narrow else (1, 2)
+    figure, (left, right) = style.panels(*shape, height=4.6 if narrow else 2.3, narrow=narrow)
+    times = response.trace["time_s"].to_numpy()
+    angles = euler_deg(response.trace)
+    goal = np.degrees(response.trace["angle_rad"].to_numpy())
+    fine = np.linspace(0.0, SHOWN_S, 200)
     linear = closed_form.linear(fine, kp, kv)
-    dashed = {"color": style.MUTED, "linewidth": 0.9, "linestyle": style.DASHED}
+    colour = style.look(response.law).colour
+    dashed: dict[str, Any] = {"color": style.MUTED, "linewidth": 0.9, "linestyle": style.DASHED}
+    heights = style.apart([*angles[0]], limits.euler / 4.0)
     for i, (_, symbol, line) in enumerate(ANGLES):
-        upper.plot(fine, angles[0, i] * linear, **dashed)
-        upper.plot(times, angles[:, i], color=colour, linestyle=line)
-        style.label_line(upper, -0.03, angles[0, i], symbol, colour, ha="right", fontsize=10)
-    upper.set(xlim=(-0.2, SHOWN_S), title=f"2.{end}: {laws.TITLES[name]}")
-    lower.plot(fine, goal[0] * linear, **dashed)
-    lower.plot(times, goal, color=colour)
-    lower.set_ylim(0, None)
-    begins = ", ".join(f"{word} {value:.0f}" for (word, *_), value in zip(ANGLES, angles[0], strict=True))
-    bends = ", ".join(f"{word} {value:.2g}" for (word, *_), value in zip(ANGLES, bend_deg(own, kp, kv), strict=True))
+        left.plot(fine, angles[0, i] * linear, **dashed)
+        left.plot(times, angles[:, i], color=colour, linestyle=line)
+        style.label_line(left, -0.04, heights[i], symbol, colour, ha="right", fontsize=11)
+    right.plot(fine, goal[0] * linear, **dashed)
+    right.plot(times, goal, color=colour)
+    left.set(xlim=(-0.17, SHOWN_S), ylim=(-limits.euler, limits.euler), ylabel="Euler angle [deg]")
+    right.set(xlim=(-0.17, SHOWN_S), ylim=(0.0, limits.goal), ylabel="angle to the goal [deg]")
+    left.set_yticks(np.arange(-limits.euler, limits.euler + 1.0, TURN_DEG))
+    right.set_yticks(np.arange(0.0, limits.goal + 1.0, TURN_DEG / 2.0))
+    for axes in (left, right) if not narrow else (right,):
+        axes.set_xlabel("time [s]")
+    return figure, describe_picture(response, angles[0], goal)
+
+
+def describe_picture(response: Response, first: np.ndarray, goal: np.ndarray) -> str:
+    """Return the alternative text."""
+    names = [name for name, *_ in ANGLES]
+    begins = ", ".join(f"{name} {angle:.0f}" for name, angle in zip(names, first, strict=True))
+    bends = ", ".join(f"{name} {bend:.2g}" for name, bend in zip(names, response.bend_deg, strict=True))
     return (
-        f"{laws.TITLES[name]} from {begins} degrees. Distance from the linear form, in degrees: {bends}. "
+        f"{laws.TITLES[response.law]} from {begins} degrees. Distance from the linear form, in degrees: {bends}. "
         f"Its angle to the goal begins at {goal[0]:.0f}, peaks at {goal.max():.0f}, ends at {goal[-1]:.2g} degrees."
     )
 
@@ -100,4 +188,5 @@ def draw_response(pair: Any, own: pd.DataFrame, end: str, kp: float, kv: float) 
 def bend_deg(trace: pd.DataFrame, kp: float, kv: float) -> np.ndarray:
     """Largest distance [deg] of each Euler angle of an episode from its linear closed form."""
     angles = euler_deg(trace)
-    return np.abs(angles - angles[0] * closed_form.linear(trace["time_s"].to_numpy(), kp, kv)[:, None]).max(axis=0)
+    linear = closed_form.linear(trace["time_s"].to_numpy(), kp, kv)
+    return np.abs(angles - angles[0] * linear[:, None]).max(axis=0)

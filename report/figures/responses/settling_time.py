@@ -3,6 +3,7 @@
 import re
 
 import numpy as np
+import pandas as pd
 
 from bench.findings.theory import closed_form
 from report.figures.kit.laws import MATRIX
@@ -25,7 +26,12 @@ def facts(run: Run) -> dict:
         "theory": f"{closed_form.decade_slope(*rows[['kp', 'kv']].iloc[0]):.4f}",
         "closest": power(10.0 ** -near["k"].max()),
         "longest": f"{near['settling_time_s'].max():.2f}",
-        "exact": len(exact),
-        "stuck": int((exact["outcome"] == "stuck").sum()),
+        "stuck": count_stuck(exact),
         "horizon": float(exact["horizon_s"].max()),
     }
+
+
+def count_stuck(exact: pd.DataFrame) -> str:
+    """Say how many of the starts at exactly 180° never move."""
+    stuck = int((exact["outcome"] == "stuck").sum())
+    return f"all {stuck}" if stuck == len(exact) else f"{stuck} of {len(exact)}"

@@ -1,21 +1,51 @@
 """Goals that jump while the body moves: how often a law then unwinds, and when it settles, its memory kept or reset."""
 
 import math
+from typing import NamedTuple
 
 import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from bench.findings.perturbed import DETOUR, FAR_RAD
 from bench.findings.selection.regions import find_default
 from bench.findings.selection.reset import KEPT, RESET, SOON_S, describe_resets
-from report.figures.kit import families, html
-from report.figures.kit.page import Run
+from report.figures.kit import families, style
+from report.figures.kit.inline import Drawing, responsive_picture
+from report.figures.kit.page import Run, in_run
 from report.figures.robustness.half_turn_noise import regulator_of
 from report.figures.robustness.robustness import along, counted, laws
 
-PATHS = html.Table(
-    "Law | Long, kept [%]:.1f | Long, reset [%]:.1f | Longest, kept [°]:.0f | Longest, reset [°]:.0f | "
-    "Median time, kept [s]:.3f | Median time, reset [s]:.3f"
-)
+
+class Jumps(NamedTuple):
+    """What the starts of a law do after a jump of the goal.
+
+    Attributes:
+        long_percent: Share of paths over DETOUR times the angle at the jump [%].
+        longest_deg: The longest path [deg].
+        time_s: The greatest median settling time of a level [s].
+    """
+
+    long_percent: float
+    longest_deg: float
+    time_s: float
+
+
+class Reset(NamedTuple):
+    """A law's jumps with its memory kept, and with it reset."""
+
+    law: str
+    kept: Jumps
+    reset: Jumps
+
+
+PANELS = {
+    "long_percent": "long paths [%]",
+    "longest_deg": "longest path [deg]",
+    "delay_ms": "settles later by [ms]",
+}
+"""Measure -> the label of its axis; the last is the median settling time less that with the memory kept."""
 
 
 def soon(run: Run, axis: str) -> pd.DataFrame:
@@ -24,34 +54,105 @@ def soon(run: Run, axis: str) -> pd.DataFrame:
     return rows[(rows["level"] > 0.0) & (rows["level"] <= SOON_S) & rows["contender"].isin(known)]
 
 
-def measure(rows: pd.DataFrame) -> tuple[float, float, float]:
-    """Return the share of paths over DETOUR times the angle at the jump [%], the longest path [deg], and the time.
+def measure(rows: pd.DataFrame) -> Jumps:
+    """Return the measures of a law over the rows of all levels."""
+    return Jumps(
+        long_percent=100.0 * rows["long"].sum() / rows["far"].sum(),
+        longest_deg=math.degrees(rows["path_rad"].max()),
+        time_s=float(rows["median_s"].max()),
+    )
 
-    The time is the greatest median settling time of a level [s].
-    """
-    share = 100.0 * rows["long"].sum() / rows["far"].sum()
-    return share, math.degrees(rows["path_rad"].max()), rows["median_s"].max()
 
-
-def compare_paths(run: Run, kept: pd.DataFrame, reset: pd.DataFrame) -> list[tuple]:
-    """Return each law with memory that always settles: its measures, those of memory kept and reset side by side."""
+def compare_paths(run: Run, kept: pd.DataFrame, reset: pd.DataFrame) -> list[Reset]:
+    """Return each law with memory that always settles, with its memory kept and reset; the most long paths first."""
     found = []
     for law in laws(along(run, KEPT), controls=False):
-        own = [rows[rows["contender"] == law] for rows in (kept, reset)]
-        if regulator_of(law).memory and all((rows["good"] == rows["starts"]).all() for rows in own):
-            pairs = zip(*map(measure, own), strict=True)
-            found.append((families.word(law), *(number for pair in pairs for number in pair)))
-    return found
+        both = [rows[rows["contender"] == law] for rows in (kept, reset)]
+        settles = all((rows["good"] == rows["starts"]).all() for rows in both)
+        if regulator_of(law).memory and settles:
+            found.append(Reset(law, *map(measure, both)))
+    return sorted(found, key=lambda one: -one.kept.long_percent)
+
+
+@responsive_picture
+def draw_resets(resets: list[Reset], narrow: bool) -> Drawing:
+    """Draw a row a law and a panel a measure: a full mark with the memory kept, an empty one with it reset."""
+    shape = (len(PANELS), 1) if narrow else (1, len(PANELS))
+    height = 0.27 * len(resets) + 0.55
+    figure, grid = style.panels(*shape, height=0.35 + height * shape[0], narrow=narrow, sharey=True, squeeze=False)
+    places = range(len(resets))
+    for axes, (field, label) in zip(grid.flat, PANELS.items(), strict=True):
+        for place, law in zip(places, resets, strict=True):
+            draw_pair(axes, place, law, field)
+        axes.set(ylim=(len(resets) - 0.4, -0.6), xlabel=label)
+        axes.set_yticks(places, [families.word(law.law) for law in resets], fontsize=10)
+        axes.margins(x=0.12)
+        style.listed(axes)
+    draw_key(figure)
+    return figure, f"After a jump of the goal, memory kept and reset: {'; '.join(map(describe_law, resets))}."
+
+
+def draw_pair(axes: Axes, place: int, law: Reset, field: str) -> None:
+    """Draw a measure of a law with the memory kept and reset, and the line between them."""
+    colour = style.look(law.law).colour
+    kept, reset = pair_of(law, field)
+    axes.plot([kept, reset], [place, place], color=colour, linewidth=1.6)
+    axes.plot(kept, place, "o", markersize=6, color=colour)
+    axes.plot(reset, place, "o", markersize=6, color=colour, markerfacecolor=style.PAPER, markeredgewidth=1.4)
+
+
+def pair_of(law: Reset, field: str) -> tuple[float, float]:
+    """Return a measure of PANELS with the memory kept, and with it reset."""
+    if field == "delay_ms":
+        return 0.0, 1000.0 * (law.reset.time_s - law.kept.time_s)
+    return getattr(law.kept, field), getattr(law.reset, field)
+
+
+def draw_key(figure: Figure) -> None:
+    """Say above the picture what the marks mean."""
+    dot = {"marker": "o", "markersize": 6, "linestyle": "", "color": style.INK}
+    handles = [Line2D([], [], **dot), Line2D([], [], **dot, markerfacecolor=style.PAPER)]
+    figure.legend(handles, ["memory kept", "memory reset"], loc="outside upper left", ncols=2, fontsize=10)
+
+
+def describe_law(law: Reset) -> str:
+    """Return the measures of a law in words."""
+    kept, reset = law.kept, law.reset
+    return (
+        f"{families.word(law.law)} long paths {kept.long_percent:.1f} % and {reset.long_percent:.1f} %, longest path "
+        f"{kept.longest_deg:.0f} and {reset.longest_deg:.0f} degrees, median settling time {kept.time_s:.3f} s and "
+        f"{reset.time_s:.3f} s"
+    )
+
+
+def describe_measures(resets: list[Reset]) -> str:
+    """Say for how many laws a reset shortens the path, and for how many it saves time."""
+    shorter = sum(law.reset.long_percent < law.kept.long_percent for law in resets)
+    sooner = sum(law.reset.time_s < law.kept.time_s for law in resets)
+    most = max(resets, key=lambda law: law.kept.long_percent)
+    before, after = (f"{side.long_percent:.1f} %" for side in (most.kept, most.reset))
+    return (
+        f"A reset of the memory makes long paths rarer with {shorter or 'none'} of these {len(resets)} laws, most with "
+        f"{families.word(most.law)} (from {before} to {after} of the paths), and saves time with {sooner or 'none'}"
+    )
+
+
+def list_times(rows: pd.DataFrame) -> str:
+    """Return the times of the jumps [ms] as alternatives."""
+    *most, last = (f"{1000.0 * level:g}" for level in sorted(rows["level"].unique()))
+    return f"{', '.join(most)} or {last}" if most else last
 
 
 def facts(run: Run) -> dict:
     """Return how many starts jump, when, which ratio counts, and what a reset changes for each law."""
     kept, reset = soon(run, KEPT), soon(run, RESET)
+    resets = compare_paths(run, kept, reset)
     return {
         "n": int(kept["starts"].max()),
-        "times": " or ".join(f"{1000.0 * level:g}" for level in sorted(kept["level"].unique())),
+        "times": f"{list_times(kept)} ms",
         "detour": f"{DETOUR:g}",
         "near": f"{FAR_RAD:g}",
-        "paths": PATHS(compare_paths(run, kept, reset)),
+        "paths": in_run(draw_resets, resets),
+        "finding": describe_measures(resets),
         "resets": describe_resets(find_default()),
     }

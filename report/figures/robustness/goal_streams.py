@@ -2,6 +2,7 @@
 
 import math
 
+from report.figures.kit import html
 from report.figures.kit.page import Run
 from tasks.goal_stream import PERIOD_S
 
@@ -11,7 +12,7 @@ def facts(run: Run) -> dict[str, str]:
     rows = run.rows("goal-streams").astype({"stream": str, "law": str})
     swept, raw = rows[(rows["law"] != "") & (rows["stream"] != "held")], rows[rows["law"] == ""]
     return {
-        "worst_rate": f"{swept['goal_rate_ratio'].max():.0f}",
+        "worst_rate": html.number(float(f"{swept['goal_rate_ratio'].max():.2g}")),
         "period": f"{1000 * PERIOD_S:g}",
         "raw_way": f"{raw['way_ratio'].max():.1f}",
         "raw_off": f"{math.degrees(raw['off_rad'].max()):.0f}",

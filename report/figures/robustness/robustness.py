@@ -1,11 +1,10 @@
 """The page that opens the chapter on robustness: up to which level each law withstands each perturbation."""
 
 import functools
-from typing import Any
+import math
 
 import numpy as np
 import pandas as pd
-from matplotlib.patches import Rectangle
 
 import tasks
 from bench.experiments.tables.read import with_contender
@@ -13,14 +12,11 @@ from bench.findings.claims.tables import some
 from bench.findings.perturbed import FOLLOWED_RAD, LOST, Threshold, Way, by_level, studied, thresholds, went_well
 from bench.findings.theory import robustness_theory
 from bench.findings.theory.thresholds import HALF_TURN
-from report.figures.kit import families, style
-from report.figures.kit.inline import Drawing, responsive_picture
+from report.figures.kit import families
 from report.figures.kit.laws import gains
 from report.figures.kit.page import Run, in_run
 
 AXES = tuple(tasks.axis_names())
-
-FAULT, FINE = "#d55e00", "#b9c3cf"
 
 Found = dict[str, dict[Way, Threshold]]
 
@@ -82,9 +78,12 @@ def differing(each: Found) -> list[Way]:
 
 
 def facts(run: Run) -> dict:
-    """Return how many laws and perturbations there are, how they differ, and limits of the linear loop; and the map."""
+    """Return how many laws and perturbations there are, how they differ, and limits of the linear loop."""
     each = found(run)
     apart = [tasks.axis(way.axis).title.lower() + " (downwards)" * (not way.grows) for way in differing(each)]
+    # noise at 180° is drawn on the page on what an error must do
+    ways = [way for way in differing(each) if way.axis != HALF_TURN]
+    groups = group_alike(each, ways)
     kp, kv = gains(along(run, "delay"))
     return {
         "limit": f"{robustness_theory.least_rate(kp, kv):g}",
@@ -96,30 +95,10 @@ def facts(run: Run) -> dict:
         "starts": int(counted(run, "delay")["starts"].max()),
         "run_starts": starts(along(run, "delay")),
         "apart": "; ".join(apart) or "none",
-        "robustness": threshold_map(each),
+        "alike": len(groups[0]),
+        "compared": len(compared(each)),
+        "weaker": describe_weaker(groups, each, ways),
     }
-
-
-@responsive_picture
-def threshold_map(each: Found, narrow: bool) -> Drawing:
-    """Return a cell for each threshold, pale where it is the last level tried; laws that are alike share a row."""
-    ways = [way for way in differing(each) if way.axis != HALF_TURN]  # drawn on the page on what an error must do
-    rows = group_alike(each, ways)
-    figure, axes = style.panels(height=0.26 * len(rows) + 1.5, narrow=narrow)
-    for place, laws_alike in enumerate(rows):
-        for column, way in enumerate(ways):
-            _cell(axes, column, place, each[laws_alike[0]][way])
-    titles = [f"{way.name} [{tasks.axis(way.axis).unit}]" for way in ways]
-    stand = {"rotation": 90, "ha": "center"} if narrow else {"rotation": 40, "ha": "left", "rotation_mode": "anchor"}
-    axes.set(xlim=(0, max(1, len(ways))), ylim=(len(rows), 0))
-    axes.set_xticks(np.arange(len(ways)) + 0.5, titles, fontsize=9, **stand)
-    axes.xaxis.tick_top()
-    axes.set_yticks(np.arange(len(rows)) + 0.5, map(name_alike, rows), fontsize=9)
-    axes.tick_params(length=0, pad=2)
-    axes.grid(visible=False)
-    axes.spines[:].set_visible(False)
-    words = (f"{name_alike(one)}: {', '.join(f'{w.name} {each[one[0]][w]}' for w in ways)}" for one in rows)
-    return figure, f"Thresholds of {len(each)} laws; + is the last level tried. {'; '.join(words)}."
 
 
 def group_alike(each: Found, ways: list[Way]) -> list[list[str]]:
@@ -130,13 +109,30 @@ def group_alike(each: Found, ways: list[Way]) -> list[list[str]]:
     return sorted(groups.values(), key=len, reverse=True)
 
 
-def name_alike(alike: list[str]) -> str:
-    """Return the names of two laws and fewer, or how many laws there are."""
-    return ", ".join(map(families.word, alike)) if len(alike) < 3 else f"{len(alike)} laws"
+def describe_weaker(groups: list[list[str]], each: Found, ways: list[Way]) -> str:
+    """Return a line a law whose thresholds differ from those of the largest group, and by what."""
+    usual, *others = groups
+    lines = []
+    for law in (law for alike in others for law in alike):
+        parts = []
+        for way in ways:
+            own, common = each[law][way], each[usual[0]][way]
+            if str(own) != str(common):
+                parts.append(f"{_title(way)} {_with_unit(own, way)} instead of {_with_unit(common, way)}")
+        lines.append(f"- *{families.word(law)}*: {'; '.join(parts)}.")
+    return "\n".join(lines) or "- No law: all have the same thresholds."
 
 
-def _cell(axes: Any, column: int, place: float, one: Threshold) -> None:
-    is_none = one.held != one.held
-    colour, strength = (FINE, 0.35) if one.is_whole and not is_none else (style.MUTED, 0.5) if is_none else (FAULT, 0.4)
-    axes.add_patch(Rectangle((column + 0.03, place + 0.05), 0.94, 0.9, color=colour, alpha=strength, linewidth=0))
-    axes.text(column + 0.5, place + 0.52, str(one), ha="center", va="center", fontsize=8)
+def _title(way: Way) -> str:
+    """Return what a perturbation is called in a sentence, with its direction."""
+    title = tasks.axis(way.axis).title
+    return f"{title[0].lower()}{title[1:]}{'' if way.grows else ' (downwards)'}"
+
+
+def _with_unit(threshold: Threshold, way: Way) -> str:
+    """Return a threshold with its unit, and whether the last level that was tried is withstood."""
+    if math.isnan(threshold.held):
+        return "no level"
+    unit = tasks.axis(way.axis).unit
+    beyond = " and beyond" if threshold.is_whole else ""
+    return f"{threshold.held:g}{'' if unit == '1' else f' {unit}'}{beyond}"

@@ -1,0 +1,84 @@
+"""From a part of the paper to its chapter, its claims, the tables of rows, and the command that makes the rows."""
+
+import functools
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from bench.findings.claims import all_claims, judge_possible
+from bench.findings.claims.errata import COVERAGE, Item
+from bench.findings.claims.verdict import Verdict
+from report.figures.kit import html
+from report.figures.kit.page import Run
+from report.figures.kit.spelling import marked_up, prose
+from report.figures.replication.conclusions import EVIDENCE, link_claims
+
+ITEMS = html.Table("The paper | What it says | Chapter | Claims | Tables | Command")
+
+COMPUTED = "experiment"
+"""Word for evidence that a claim computes itself."""
+
+PAGE = re.compile(r"(\d\d)-")
+
+
+@functools.cache
+def read_commands() -> dict[str, str]:
+    """Return the command that makes the rows of each part of the paper."""
+    return tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+
+
+def facts(run: Run) -> dict[str, Any]:
+    """Return a row for each equation and figure, and every sentence by section."""
+    decided, _ = judge_possible(run)
+    verdicts = {verdict.id: verdict for verdict in decided}
+    rows = [describe_item(item, verdicts) for item in COVERAGE]
+    return {"items": ITEMS(rows), "sentences": html.Html(list_sentences())}
+
+
+def describe_item(item: Item, verdicts: Mapping[str, Verdict]) -> tuple:
+    """Return a row: the part of the paper, and where it leads."""
+    claims = [claim for claim in item.claims if claim.startswith("C")]
+    errata = [claim for claim in item.claims if claim not in claims]
+    links = [link for link in (link_claims(claims), *map(link_erratum, errata)) if link]
+    tables = list_tables(verdicts[claim] for claim in claims if claim in verdicts)
+    command = read_commands()[item.paper]
+    shown = f"`{command}`" if command else html.MISSING
+    pages = ", ".join(map(link_page, item.pages))
+    return prose(item.paper), prose(item.says), pages, ", ".join(links), tables, shown
+
+
+def list_tables(verdicts: Iterable[Verdict]) -> str:
+    """Return the tables that hold the evidence of some claims."""
+    names = {name for verdict in verdicts for name in verdict.evidence.tables}
+    stored = sorted(names - {COMPUTED})
+    words = ["computed"] if COMPUTED in names else []
+    links = [f"[{name}](appendix-data.md)" for name in stored]
+    return ", ".join([*links, *words])
+
+
+def link_page(name: str) -> str:
+    """Return a link to a page: chapters by number, the rest of the book by name."""
+    number = PAGE.match(name)
+    text = f"chapter {int(number[1])}" if number else name.partition("-")[2].replace("-", " ")
+    return f"[{text}]({name}.md)"
+
+
+def link_erratum(name: str) -> str:
+    """Return an erratum with a link to the list of them."""
+    return f'<a href="{EVIDENCE}#errata">{name}</a>'
+
+
+def list_sentences() -> str:
+    """Return every sentence of the paper that is judged, by section, folded; each leads to its evidence."""
+    sections: dict[str, list[str]] = {}
+    for claim in sorted(all_claims(), key=lambda claim: claim.section):
+        link = f'<a href="{EVIDENCE}#{claim.id.lower()}">{claim.id}</a>'
+        first_section = re.split(r"[, ]", claim.section)[0]
+        sections.setdefault(first_section, []).append(f"<li>{link} {marked_up(claim.sentence)}</li>")
+    lists = "".join(f"<h4>Section {name}</h4><ul>{''.join(items)}</ul>" for name, items in sections.items())
+    return (
+        f'<details class="paper-sentences"><summary>All {len(all_claims())} sentences, by section</summary>{lists}'
+        "</details>"
+    )
