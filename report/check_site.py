@@ -76,6 +76,8 @@ def find_shared_descriptions(site: Path, pages: dict[Path, html.HtmlElement]) ->
     first: dict[str, Path] = {}
     found = []
     for path, page in pages.items():
+        if path.name in GENERATED:
+            continue
         for text in page.xpath("//meta[@name='description']/@content"):
             same = first.setdefault(text, path)
             if same != path:

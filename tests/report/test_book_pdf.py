@@ -60,15 +60,18 @@ def test_pictures_are_found_from_the_front_page_and_a_film_is_its_poster(book):
 
 
 def test_without_a_browser_there_is_no_pdf_and_the_front_page_offers_none(site, monkeypatch):
-    monkeypatch.setattr(screenshots, "chromium", lambda: None)
+    monkeypatch.setenv("PATH", "")
     assert "chromium is not on this machine" in book_pdf.write_pdf(site, EPOCH)
     assert (site / "index.html").read_text() == FRONT
     assert not list(site.glob("*.pdf"))
 
 
-def test_browser_that_fails_leaves_nothing_behind(site, monkeypatch):
-    monkeypatch.setattr(screenshots, "chromium", lambda: "false")
-    assert book_pdf.write_pdf(site, EPOCH).startswith(f"no {book_pdf.NAME}: false did not print it")
+def test_browser_that_fails_leaves_nothing_behind(site, tmp_path_factory, monkeypatch):
+    program = tmp_path_factory.mktemp("bin") / "chromium"
+    program.write_text("#!/bin/sh\nexit 1\n")
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", str(program.parent), prepend=":")
+    assert book_pdf.write_pdf(site, EPOCH).startswith(f"no {book_pdf.NAME}: {program} did not print it")
     assert sorted(path.name for path in site.iterdir()) == ["index.html", "pages"]
 
 

@@ -43,7 +43,7 @@ def test_numbers_of_the_texts_are_those_of_the_laws():
     assert f"margin of {math.degrees(predicted_side.MARGIN):.0f}°" in texts["predicted-side"]
     assert f"h = {SHIPPED['joshi-kelkar-wen', 'γ/Gp']:g}:" in texts["joshi-kelkar-wen"]
     assert "a fifth of Kv at 180°" in texts["late-braking"]
-    assert late_braking.EASED == pytest.approx(0.8)
+    assert pytest.approx(0.8) == late_braking.EASED
 
 
 @pytest.mark.parametrize(

@@ -186,29 +186,42 @@ def test_printed_chapter_has_no_half_empty_page_before_its_last(opened, page):
     } == {}
 
 
-LOADED = "return performance.getEntriesByType('resource').map(one => one.name).filter(one => one.includes('-loop'))"
-
-
 @pytest.mark.parametrize("theme", screenshots.THEMES)
 def test_film_of_the_other_theme_is_not_loaded(opened, theme):
     from selenium.webdriver.support.wait import WebDriverWait
 
     page = screenshots.SITE / "pages" / "04-euler-jacobian.html"
+    screenshots.requests(opened)
     screenshots.open_page(opened, page, screenshots.View(theme, 1280))
-    opened.execute_script("document.querySelector('video[data-film]').scrollIntoView()")
-    loaded = WebDriverWait(opened, 20).until(lambda driver: driver.execute_script(LOADED))
-    assert {("-dark" in name) for name in loaded} == {theme == "dark"}
+    film = opened.find_element("css selector", "video[data-film]")
+    opened.execute_script("arguments[0].scrollIntoView()", film)
+    WebDriverWait(opened, 20).until(lambda driver: driver.execute_script("return arguments[0].currentSrc", film))
+    loaded = [url for url in screenshots.requests(opened) if "-loop" in url]
+    assert {"-dark" in url for url in loaded} == {theme == "dark"}
 
 
-FOOT = "return document.querySelector(arguments[0]).getBoundingClientRect().bottom"
+EDGES = """
+const edges = found => [...document.querySelectorAll(found)].map(one => one.getBoundingClientRect());
+return [edges("h1, .lead, #fig-headline").map(box => box.top), edges("#tab-headline tbody tr").map(box => box.bottom)];
+"""
+CONCLUSIONS = 8
 
 
-@pytest.mark.parametrize(
-    ("width", "height", "last"), [(1280, 900, ".answer .next"), (390, 844, ".answer pre span")], ids=["wide", "phone"]
-)
-def test_front_page_answers_on_its_first_screen(opened, width, height, last):
-    screenshots.open_page(opened, screenshots.SITE / "index.html", screenshots.View("light", width))
-    assert 0 < opened.execute_script(FOOT, last) <= height
+def test_front_page_concludes_on_its_first_two_screens(opened):
+    screenshots.open_page(opened, screenshots.SITE / "index.html", screenshots.View("light", 1280))
+    tops, feet = opened.execute_script(EDGES)
+    assert len(tops) == 3
+    assert tops == sorted(tops)
+    assert len(feet) == CONCLUSIONS
+    assert tops[-1] < screenshots.HEIGHT
+    assert max(feet) <= 2 * screenshots.HEIGHT
+
+
+def test_front_page_shows_its_figure_on_the_second_screen_of_a_phone(opened):
+    screenshots.open_page(opened, screenshots.SITE / "index.html", screenshots.View("light", 390))
+    tops, _ = opened.execute_script(EDGES)
+    assert tops[1] < 844
+    assert tops[2] < 2 * 844
 
 
 def test_ten_chapters_stay_short(opened):

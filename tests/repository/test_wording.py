@@ -1,5 +1,6 @@
 """The rules for counts and column heads find what they are made for, pass what reads well, and hold for our prose."""
 
+import re
 import tomllib
 
 import pytest
@@ -123,3 +124,9 @@ def test_texts_of_findings_say_no_count_as_a_number_of_zero_or_all(path):
     texts = list_strings(tomllib.loads(path.read_text(encoding="utf-8")))
     assert texts
     assert not [fault for text in texts for fault in find_counts_not_in_words(text)]
+
+
+@pytest.mark.parametrize("path", BOOK, ids=lambda path: path.stem)
+def test_caption_that_holds_code_or_a_value_is_fenced_with_tildes(path):
+    """CommonMark takes no backtick in the line that opens a fence of backticks: the caption would be plain text."""
+    assert not re.findall(r"^`{3,}\{.*`", path.read_text(encoding="utf-8"), re.MULTILINE)

@@ -19,7 +19,7 @@ FORMULA = re.compile(r"\$\$.*?\$\$|\$[^$]+\$", re.DOTALL)
 TAG = re.compile(r"<[^>]+>")
 IS_CODE = re.compile(r"\{(?:code-cell|literalinclude|index|eval-rst|bibliography)|(?!\{)\w*$")
 IS_PASTED = re.compile(r"\{glue:?(?:md|figure|)\} *(\S+)")
-CELL_OF_COUNTS = re.compile(r"[\d\s,;of\u202f\u00a0–.%()]+")
+CELL_OF_COUNTS = re.compile(r"(?:all|none|no|[\d\s,;of\u202f\u00a0–.%()])+")
 
 
 class Text(NamedTuple):
@@ -123,7 +123,7 @@ def list_texts(path: Path) -> tuple[list[Text], list[Heads]]:
         if not is_table:
             texts += [Text(path.stem, "text", plain(row)) for row in rows]
             continue
-        heads, *body = [[plain(cell) for cell in re.split(r"(?<!\\)\|", row)[1:-1]] for row in rows]
+        heads, _, *body = [[plain(cell) for cell in re.split(r"(?<!\\)\|", row)[1:-1]] for row in rows]
         tables.append(Heads(path.stem, words, heads))
         for cells in body:
             texts += [Text(path.stem, "cell", cell) for cell in cells if not CELL_OF_COUNTS.fullmatch(cell or "–")]
