@@ -9,7 +9,8 @@
 
   function value(cell) {
     const text = cell ? cell.innerText.trim() : "";
-    const number = withoutPowers(text).replace(/[\s\u00a0\u202f,]/g, "").replace("\u2212", "-").match(/^[<>=]*(-?\d+(?:\.\d+)?(?:e-?\d+)?)/);
+    const digits = withoutPowers(text).replace(/^none\b/, "0").replace(/[\s\u00a0\u202f,]/g, "").replace("\u2212", "-");
+    const number = digits.match(/^[<>=]*(-?\d+(?:\.\d+)?(?:e-?\d+)?)/);
     return { text, number: number ? Number(number[1]) : null, isLast: text === "" || text === "\u2013" || text === "never" };
   }
 

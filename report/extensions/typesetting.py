@@ -16,8 +16,10 @@ SPACE = re.compile(
     r"(?<=[\d⁰¹²³⁴⁵⁶⁷⁸⁹ᵏ]) (?=(?:%|s|ms|µs|ns|m|cm|mm|kB|MB|rad|degrees|flops)(?!\w))"  # 5 ms
     r"|(?<=\bn) (?==)|(?<=\bn =) (?=\d)"  # n = 128
 )
-CODE = re.compile(r'<span class="pre">[^<]+</span>')
-JOINT = re.compile(r"(?<=[\w)][_./(,])(?=\w)")
+CODE = re.compile(r'<span class="pre">[^<]{19,}</span>')
+"""A name that is long; a shorter one fits into any cell."""
+JOINT = re.compile(r"(?<=[\w)][_/(,])(?=\w)|(?<=[\w)]\.)(?=[^\W\d])")
+"""Joints of a long name, at which it may break; 1.0 has none."""
 VERBATIM = (nodes.literal, nodes.math, nodes.raw)
 
 

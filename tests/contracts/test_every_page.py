@@ -5,7 +5,9 @@ import shutil
 from types import ModuleType
 
 import pytest
-from support.pages import RUN, assert_is_whole
+from support.pages import RUN, assert_is_whole, paste_published
+from support.rendered import list_texts
+from support.wording import find_faults, find_head_faults
 
 from bench.experiments.tables import read
 from report.figures.kit.laws import FEEDBACK
@@ -30,6 +32,9 @@ PAGES = {
 QUICK = sorted(set(PAGES) - {"index", "claims.claims", "claims.evidence"})
 """Without those that judge all claims, which are tested by themselves."""
 
+READ = [path for path in sorted(set(PAGES.values())) if path.stem != "appendix-claims"]
+"""Pages whose words are read; the appendix of claims quotes what was measured, and when, as it was recorded."""
+
 
 @pytest.mark.parametrize("name", PAGES)
 def test_module_is_pasted_by_one_page_which_names_no_other_s_keys(name):
@@ -42,7 +47,16 @@ def test_module_is_pasted_by_one_page_which_names_no_other_s_keys(name):
 @pytest.mark.parametrize("name", QUICK)
 def test_module_gives_and_draws_what_its_page_pastes_of_the_published_run(name, monkeypatch):
     monkeypatch.setenv(read.VARIABLE, str(RUN.folder))
-    assert_is_whole(importlib.import_module(f"report.figures.{name}"), RUN)
+    assert_is_whole(paste_published(name))
+
+
+@pytest.mark.parametrize("path", READ, ids=lambda path: path.stem)
+def test_page_says_its_counts_in_words_and_with_their_nouns(path, monkeypatch):
+    monkeypatch.setenv(read.VARIABLE, str(RUN.folder))
+    texts, tables = list_texts(path)
+    assert texts
+    assert not [(text.kind, fault, text.words) for text in texts for fault in find_faults(text.words)]
+    assert not [(table.key, head) for table in tables for head in find_head_faults(table.heads)]
 
 
 @pytest.mark.parametrize("name", QUICK)

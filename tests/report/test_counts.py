@@ -11,37 +11,36 @@ from report.figures.kit.page import REPORT
 from report.figures.method import counts
 from report.figures.robustness import half_turn_noise, robustness
 
-ROWS = {count.where: count for count in counts.list_counts(RUN)}
+ROWS = {count.name: count for count in counts.list_counts(RUN)}
 
 
 def find_row(words):
-    [row] = [count for where, count in ROWS.items() if words in where]
-    return row
+    return ROWS[words]
 
 
 def test_counts_are_those_of_the_pages():
     compared, perturbed = comparison.facts(RUN), robustness.facts(RUN)
-    assert find_row("laws that settle").laws == topology.facts(RUN)["laws"]
-    assert find_row("evenly spread").laws == compared["laws"]
-    assert find_row("evenly spread").starts == f"{compared['starts']:,}"
-    assert find_row("perturbations").laws == perturbed["laws"]
-    assert find_row("perturbations").starts == f"{perturbed['starts']:,} at each level"
-    assert find_row("noise at 180°").starts == f"{half_turn_noise.facts(RUN)['n']} at each level"
+    assert find_row("laws tested for settling").laws == topology.facts(RUN)["laws"]
+    assert find_row("laws compared").laws == compared["laws"]
+    assert find_row("laws compared").starts == f"{compared['starts']:,}"
+    assert find_row("laws under perturbations").laws == perturbed["laws"]
+    assert find_row("laws under perturbations").starts == f"{perturbed['starts']:,} at each level"
+    assert find_row("laws under noise at 180°").starts == f"{half_turn_noise.facts(RUN)['n']} at each level"
 
 
 def test_starts_that_the_rotation_matrix_loses_are_those_of_the_rows():
     rows = table("episodes").query("engine == 'ideal-rk4' and task == 'free-body' and law == 'rotation-matrix'")
     rows = rows[(rows["arm"] == "") & rows["start_set"].isin(("uniform", "half-turn", "poles", "wraps", "box"))]
     lost = (rows["outcome"] != "settled").sum()
-    assert find_row("#fig-three-laws").lost == f"{lost} of {len(rows):,}"
+    assert find_row("the three regulators").lost == f"{lost} of the {len(rows):,} starts"
     assert lost > 0
 
 
 def test_sets_are_described_by_their_difference():
-    basis = counts.list_chapter_4(RUN)
-    assert counts.describe_set(basis, RUN) == "those compared side by side"
+    basis = counts.list_compared(RUN)
+    assert counts.describe_set(basis, RUN) == "the laws compared"
     fewer = counts.describe_set(basis - {"rotation-matrix"}, RUN)
-    assert re.fullmatch("those compared side by side, without rotation matrix", fewer, re.IGNORECASE)
+    assert re.fullmatch("the laws compared without rotation matrix", fewer, re.IGNORECASE)
 
 
 def test_pages_that_count_laws_refer_to_the_table():

@@ -164,6 +164,18 @@ def test_number_and_unit_stay_on_one_line_wherever_the_text_is_cut():
     assert block.astext() == "12\u00a0% (n\u00a0=\u00a03) of starts in 5\u00a0ms, 2 s"
 
 
+def test_long_names_of_code_break_at_their_joints_and_short_names_and_numbers_do_not():
+    words = ("of_quaternion", "np.copysign(1.0,", "bench.findings.selection_words", "resolution_of_1.25_arcseconds")
+    context = {"body": "".join(f'<span class="pre">{word}</span>' for word in words)}
+    typesetting.let_names_break(None, "", "", context, None)
+    shown = context["body"].removesuffix("</span>").removeprefix('<span class="pre">')
+    assert shown.split('</span><span class="pre">') == [
+        *words[:2],
+        "bench.<wbr>findings.<wbr>selection_<wbr>words",
+        "resolution_<wbr>of_<wbr>1.25_<wbr>arcseconds",
+    ]
+
+
 def test_punctuation_joins_its_own_formula_where_the_same_stands_elsewhere():
     word, formula = nodes.strong("", "a"), nodes.math("", "x")
     nodes.paragraph("", "", word, nodes.Text(", "), formula, nodes.Text(", "))

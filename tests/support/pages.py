@@ -1,6 +1,9 @@
 """What is asked of every page and drawing of the book."""
 
+import functools
+import importlib
 import re
+from typing import Any
 
 from bench.experiments.tables.schema import RESULTS
 from report.figures.kit import style
@@ -35,9 +38,14 @@ def pasted(module, run):
     return contents(module, run, text_of(module.__name__.removeprefix("report.figures.")))
 
 
-def assert_is_whole(module, run):
+@functools.cache
+def paste_published(name: str) -> dict[str, Any]:
+    """Return what a page pastes of one module from the published run, made once a process."""
+    return contents(importlib.import_module(f"report.figures.{name}"), RUN, text_of(name))
+
+
+def assert_is_whole(found):
     """All that the page pastes is there, and every drawing is drawn."""
-    found = pasted(module, run)
     assert found
     for key, value in found.items():
         if hasattr(value, "wide"):

@@ -13,7 +13,7 @@ from report.figures.kit import html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import listed, power
 
-FAULTS = html.Table("Fault | What it is | What it does | Cure | Law")
+FAULTS = html.Table("Fault | Description | Effect on the controller | Cure | Law without the fault")
 
 
 def facts(_: Run) -> dict[str, Any]:

@@ -1,6 +1,7 @@
 """The page on arms: which laws settle on arms as they are, what limits them, and what a wrong model leaves."""
 
 import itertools
+import re
 from collections.abc import Iterator
 
 import numpy as np
@@ -20,9 +21,13 @@ HOMES = (
     "Renders of the four arms side by side, each in its home pose: Kinova Jaco, Franka Emika Panda, Unimation PUMA "
     "560, Universal Robots UR5e. Axes mark the base and the tool."
 )
-RANKED = html.Table("Law | Settled [%] | No limit touched | Reach, settled | Reach, no limit touched")
+RANKED = html.Table(
+    "Law | Turns that settle [%] | Turns that settle and touch no limit [%] | Moves that settle [%] "
+    "| Moves that settle and touch no limit [%]"
+)
 LIMITED = html.Table(
-    "Arm | Motors | kp [1/s²] | Settled [%] | A motor at its rating [%] | Stopped by a joint [%] | Lost otherwise [%]"
+    "Arm | Motors | Stiffness Kp [1/s²] | Episodes that settle [%] | Episodes with a motor at its rating [%] "
+    "| Episodes stopped by a joint's end [%] | Episodes that fail otherwise [%]"
 )
 SETS = ("uniform", "reach")
 MOTORS = {
@@ -38,14 +43,23 @@ def facts(run: Run) -> dict:
     one = in_run(decide_for, ARM)
     return {
         "arms-at-home": media.still(HOMES, "arms"),
-        "sources": "\n".join(f"- `{name}`: {prose(tasks.arm(name).source)}" for name in tasks.arm_names()),
+        "sources": "\n".join(map(describe_arm, tasks.arm_names())),
         "lead": in_run(lambda: lead(of_laws(arm_rows.episodes(run), "uniform"))),
+        "leading": in_run(lambda: leading(of_laws(arm_rows.episodes(run), "uniform"), "settled").replace("(2.2) ", "")),
+        "stopped": in_run(lambda: f"{percent_stopped(of_laws(arm_rows.episodes(run), 'uniform')):.0f}"),
         "advised": families.word(one.law) if one and one.law else "none, for this run does not tell",
         "joint_pd": in_run(lambda: joint_pd(arm_rows.episodes(run))),
         "tab_ranked": in_run(lambda: RANKED(ranked(arm_rows.episodes(run)))),
         "tab_limited": in_run(lambda: LIMITED(limited(arm_rows.every(run)))),
         "model_errors": in_run(lambda: describe_model_errors(run)),
     }
+
+
+def describe_arm(name: str) -> str:
+    """Return an item of a list: where an arm is from, and what it has here."""
+    source = tasks.arm(name).source.replace("As it is:", "In this benchmark it has:")
+    source = re.sub(r"(?<![\w.])(?=\.\d)", "0", source)
+    return f"- **{arm_rows.name_arm(name)}** (`{name}`): {prose(source)}"
 
 
 def of_laws(rows: pd.DataFrame, start_set: str) -> pd.DataFrame:
@@ -82,7 +96,7 @@ def limited(rows: pd.DataFrame) -> Iterator[tuple]:
         for kp, own in every.groupby("kp"):
             counts = settled(own).sum(), (own["peak_torque_ratio"] > FULL).sum(), count_stopped(own)
             shares = (f"{100 * one / len(own):.0f}" for one in (*counts, len(own) - counts[0] - counts[2]))
-            yield arm, MOTORS[motors], f"{kp:g}", *shares
+            yield arm_rows.name_arm(arm), MOTORS[motors], f"{kp:g}", *shares
 
 
 def compare_settings(rows: pd.DataFrame, settings: list[str]) -> pd.DataFrame:
@@ -94,6 +108,11 @@ def compare_settings(rows: pd.DataFrame, settings: list[str]) -> pd.DataFrame:
 def count_stopped(rows: pd.DataFrame) -> int:
     """Return how many episodes did not settle and had a joint at the end of its range."""
     return int((~settled(rows) & (rows["range_excess_rad"] > 0.0)).sum())
+
+
+def percent_stopped(rows: pd.DataFrame) -> float:
+    """Return in how many of 100 episodes that do not settle a joint was at the end of its range."""
+    return 100.0 * count_stopped(rows) / max(1, (~settled(rows)).sum())
 
 
 def describe_share(rows: pd.DataFrame, controller: str, measure: str) -> str:
@@ -110,14 +129,14 @@ def lead(uniform: pd.DataFrame) -> str:
     kinds = uniform["kp"].map("kp = {:g} 1/s²".format).mask(is_shipped, "shipped gains")
     both = uniform.assign(kind=kinds, settled=is_settled)
     both = compare_settings(both[both.groupby("arm")["kp"].transform("nunique") > 2], ["kp"])
-    levels = [f"{100 * own['settled'].mean():.0f} % at {kind}" for kind, own in both.groupby("kind")]
+    levels = [f"{100 * own['settled'].mean():.0f} % with {kind}" for kind, own in both.groupby("kind")]
     ends = [f"{arm_rows.name_arm(arm)} ({100 * by_arm[arm]:.0f} %)" for arm in (by_arm.idxmin(), by_arm.idxmax())]
-    stopped = count_stopped(uniform) / max(1, (~is_settled).sum())
     return (
-        "Motors are cut at their rated torque, and joints stop at the ends of their ranges. From evenly spread starts, "
-        f"{leading(uniform, 'settled').replace('(2.2) ', '')}. On the arms that run with three pairs of gains, all "
-        f"laws together settle {', '.join(levels)}. Of the episodes that do not settle, {100 * stopped:.0f} % had a "
-        f"joint at the end of its range. The least settle on the {ends[0]}, the most on the {ends[1]}."
+        "Motors give at most their rated torque, and joints stop at the ends of their ranges. From evenly spread "
+        f"starts, {leading(uniform, 'settled').replace('(2.2) ', '')} of its episodes settle. On arms that run with "
+        f"three pairs of gains, the share of episodes that settle with any law is {listed(levels or [html.UNTESTED])}. "
+        f"A joint was at the end of its range in {percent_stopped(uniform):.0f} % of the episodes that do not settle. "
+        f"The arm on which the fewest episodes settle is the {ends[0]}; the arm with the most is the {ends[1]}."
     )
 
 
@@ -126,9 +145,9 @@ def leading(rows: pd.DataFrame, measure: str) -> str:
     names = best(rows, measure, "controller")
     share_of_first = describe_share(rows, names[0], measure)
     if len(names) == 1:
-        return f"of the laws {arm_rows.title(names[0])} settles most: {share_of_first}"
+        return f"{arm_rows.title(names[0])} is better than every other law: {share_of_first}"
     words = listed(map(arm_rows.title, names)) if len(names) <= FEW else f"{len(names)} laws"
-    return f"{words} are not distinguished from the best of them, {arm_rows.title(names[0])}: {share_of_first}"
+    return f"{words} do not differ significantly from the best of them, {arm_rows.title(names[0])}: {share_of_first}"
 
 
 def joint_pd(rows: pd.DataFrame) -> str:
@@ -146,6 +165,7 @@ def describe_model_errors(run: Run) -> str:
     apart = np.degrees(np.ptp(angles.to_numpy(), axis=1))
     medians = np.degrees(rows.groupby("variation")["final_angle_rad"].median())
     return (
-        f"From the same start the controllers end {np.median(apart):.1g}° apart in the median; the worst variation, "
-        f"{medians.idxmax()}, leaves {medians.max():.1f}°, the mildest, {medians.idxmin()}, {medians.min():.2f}°."
+        f"From the same start, the final angles of the controllers differ by {np.median(apart):.1g}° (median). The "
+        f"variation `{medians.idxmax()}` leaves the largest median error, {medians.max():.1f}°; `{medians.idxmin()}` "
+        f"leaves the smallest, {medians.min():.2f}°."
     )

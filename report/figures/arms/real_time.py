@@ -8,6 +8,7 @@ import pandas as pd
 from bench.base.files import read_json
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
+from bench.findings.amounts import count_of
 from bench.findings.theory.late_torques import find_alternating_limit, find_constant_limit
 from bench.studies.real_time.__main__ import GREATEST, HALVINGS
 from bench.studies.real_time.loop import PERIOD_S
@@ -15,19 +16,24 @@ from report.figures.arms import arm_rows
 from report.figures.kit import families, html, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
+from report.figures.kit.spelling import listed
 
 STUDY = RESULTS / "real-time"
 LOOPS = html.Table(
-    "Arm | Law | Settled; simulated; same end | Substeps | Delay, median; 99 %; longest [µs] "
-    "| Largest Kv in real time [1/s]:.0f | predicted from delays [1/s]:.0f "
-    "| with replayed delays [1/s]:.0f | predicted from these [1/s]:.0f"
+    "Arm | Law | Substeps in a period | Episodes | Settled in real time | Settled in simulation "
+    "| Same outcome in both | Median delay [µs] | 99th percentile of the delay [µs] | Longest delay [µs]"
 )
-PARTS = html.Table("Part of the delay | Median [µs] | 99 % [µs] | Longest [µs]")
+GAINS = html.Table(
+    "Arm | Law | Substeps in a period | Largest Kv in real time [1/s] "
+    "| Predicted from the delays [1/s] | Largest Kv with replayed delays [1/s] "
+    "| Predicted from replayed delays [1/s]"
+)
+PARTS = html.Table("Part of the delay | Median [µs] | 99th percentile [µs] | Longest [µs]")
 PART_NAMES = {
-    "published": "from the tick until the arm's process has written the state",
-    "read": "until the controller's process has read it",
-    "written": "until the controller has written the torques",
-    "noticed": "until the arm's process has seen them (no part of the delay)",
+    "published": "From the start of the period until the arm's process has written the state",
+    "read": "Until the controller's process has read the state",
+    "written": "Until the controller's process has written the torques",
+    "noticed": "Until the arm's process has read the torques (not counted as delay)",
 }
 STATISTICS = ("median", "p99", "max")
 DELAYS = np.linspace(0.0, 1.0, 401)
@@ -54,11 +60,13 @@ def facts(_: Run) -> dict:
         "scheduling": about["scheduling"],
         "load": about["load_before"],
         "resolution": f"{1e9 * study['resolution_s'].max():.0f}",
-        "agreeing": f"{study['agreeing'].sum()} of {study['starts'].sum()}",
+        "agreeing": count_of(int(study["agreeing"].sum()), int(study["starts"].sum()), "episodes"),
         "apart_ms": f"{1e3 * study['time_difference_s'].max():.1f}",
         "gap": f"{100 * live_gaps.max():.1f}",
         "replay_gap": f"{100 * replay_gaps.max():.1f}",
-        "medians": ", ".join(f"{median:.0f}/s ({substeps})" for substeps, median in medians.items()),
+        "medians": listed(
+            f"{html.number(round(median))}/s with {substeps} substeps" for substeps, median in medians.items()
+        ),
         "substeps_gap": f"{100 * (medians.max() / medians.min() - 1.0):.1f}",
         "replay_substeps_gap": f"{100 * spread_of_replays(study):.1g}",
         "step": f"{100 * GREATEST / 2**HALVINGS / PERIOD_S / study['kv_measured'].median():.1g}",
@@ -71,7 +79,8 @@ def facts(_: Run) -> dict:
         "peak_delay": f"{greatest_delay:.3f}",
         "limits": limits(study),
         "parts": PARTS(describe_parts(study)),
-        "loops": LOOPS(describe(row) for _, row in study.iterrows()),
+        "loops": LOOPS(describe_episodes(row) for _, row in study.iterrows()),
+        "gains": GAINS(describe_gains(row) for _, row in study.iterrows()),
     }
 
 
@@ -98,7 +107,7 @@ def constant_limits() -> np.ndarray:
 
 def format_limit(delay: float) -> str:
     """Return the greatest stable Kv [1/s] with a constant delay, a share of the period."""
-    return f"{find_constant_limit(delay) / PERIOD_S:.0f}"
+    return html.number(round(find_constant_limit(delay) / PERIOD_S))
 
 
 def describe_parts(study: pd.DataFrame) -> list[tuple]:
@@ -107,23 +116,26 @@ def describe_parts(study: pd.DataFrame) -> list[tuple]:
     for part, words in PART_NAMES.items():
         median, p99 = (1e6 * study[f"{part}_{name}_s"].median() for name in STATISTICS[:2])
         longest = 1e6 * study[f"{part}_max_s"].max()
-        cells.append((words, f"{median:.2f}", f"{p99:.1f}", f"{longest:.0f}"))
+        cells.append((words, f"{median:.2f}", f"{p99:.1f}", html.number(round(longest))))
     return cells
 
 
-def describe(row: pd.Series) -> tuple:
-    """Return the cells of a row."""
-    delays = [f"{1e6 * row[f'delay_{name}_s']:.0f}" for name in STATISTICS]
+def name_loop(row: pd.Series) -> tuple:
+    """Return the cells that say which loop a row is about."""
+    return arm_rows.name_arm(row["arm"]), families.word(row["regulator"]), row["substeps"]
+
+
+def describe_episodes(row: pd.Series) -> tuple:
+    """Return the cells of a loop's episodes and delays."""
+    delays = [round(1e6 * row[f"delay_{name}_s"]) for name in STATISTICS]
+    return *name_loop(row), row["starts"], row["settled"], row["simulated"], row["agreeing"], *delays
+
+
+def describe_gains(row: pd.Series) -> tuple:
+    """Return the cells of a loop's largest stable Kv, measured and predicted."""
     return (
-        arm_rows.name_arm(row["arm"]),
-        families.word(row["regulator"]),
-        f"{row['settled']}; {row['simulated']}; {row['agreeing']} of {row['starts']}",
-        row["substeps"],
-        "; ".join(delays),
-        row["kv_measured"],
-        row["kv_predicted"],
-        row["kv_replayed"],
-        row["kv_replay_predicted"],
+        *name_loop(row),
+        *map(round, row[["kv_measured", "kv_predicted", "kv_replayed", "kv_replay_predicted"]]),
     )
 
 

@@ -11,6 +11,7 @@ from bench.findings.selection.words import standing
 from bench.findings.theory.velocity_limits import with_theory
 from report.figures.kit import families
 from report.figures.kit.page import Run
+from report.figures.kit.spelling import listed
 
 
 def with_law(rows: pd.DataFrame) -> pd.DataFrame:
@@ -44,7 +45,8 @@ def facts(run: Run) -> dict:
 
 def named(laws: Iterable[str]) -> str:
     """Laws by their short words."""
-    return ", ".join(families.word(name) for name in families.in_order(laws)) or "none"
+    names = [families.word(name).replace(",", "") for name in families.in_order(laws)]
+    return listed(names) if names else "no law"
 
 
 def lead(one: Decision) -> str:

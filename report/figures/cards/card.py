@@ -31,8 +31,9 @@ PROPERTIES = {
     "almost global": "Stable from all starts but a set of measure zero. No continuous law without memory can do more "
     "(Bhat & Bernstein 2000).",
     "almost global from rest": "Stable from all starts at rest but a set of measure zero.",
-    "global with memory": "Stable from every start, with memory. No continuous law is (Bhat & Bernstein 2000).",
-    "none": "Nothing.",
+    "global with memory": "Stable from every start, with memory. No continuous law without memory can be "
+    "(Bhat & Bernstein 2000).",
+    "none": "No stability.",
     "": "",
 }
 GREEK = {**LETTERS, "eps": "ε", "eta": "η", "lambda": "λ"}
@@ -41,6 +42,13 @@ SIGNS: tuple[tuple[str, Any], ...] = (
     (r"\b(eps|eta|lambda)(?=\b|_)", lambda found: GREEK[found[1]]),
     (r"\bsqrt(?=\()", "√"),
     (r"(?<=\w) \. (?=\w)", " · "),
+    (r"(?<=\d) degrees\b", "°"),
+    (r"(?<=[\w)\u0307\u0308] )-(?= [\w(])", "−"),
+    (r"(?<== )-(?=\()", "−"),
+    (r"\b(?:half-turn)(s?)\b", r"180° rotation\1"),
+    (r"\bits first tick\b", "the first control step"),
+    (r"\bthe last tick\b", "the last control step"),
+    (r"\bticks?\b", "control step"),
 )
 CODE, GAIN = re.compile(r"`([^`]+)`"), re.compile(r"\b[Kk]([pvd])\b")
 
@@ -107,13 +115,15 @@ def say_property(law: Law) -> dict[str, str]:
         return {"Proved" if law.property == "none" else "Measured, not proved": text}
     lemmas = [lemma for lemma in certificate["lemmas"] if lemma["by"] != DRAWN]
     by = " and ".join(sorted({lemma["by"] for lemma in lemmas}))
-    text += f" This is {certificate['scope']}."
+    text += f" The proof is {certificate['scope']}."
     text += f" A program proved {len(lemmas)} lemmas from its source, by {by}, in {certificate['seconds']:.1f} s."
-    text += f" Cited, and not checked by a program: {'; '.join(certificate['cited'])}."
+    text += f" No program checked this part of the proof: {'; '.join(certificate['cited'])}."
     text += f" Equilibria away from the goal: {certificate['equilibria']}."
     if "upper" in certificate["settling"]:
         upper = f"{certificate['settling']['upper']:.4f} s"
-        text += f" From rest it settles to 2 % of the angle within {upper} at the paper's gains, proved by Arb."
+        text += (
+            f" From rest at the paper's gains, every start settles to 2 % of the angle within {upper}, proved by Arb."
+        )
     text += f" {describe_sampled(certificate)}"
     return {"Proved": html.Html(f"{set_words(text)} {html.formula(certificate['V'])}")}
 

@@ -4,16 +4,17 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from bench.findings.constants import CONSTANTS, Constant, Varied, default_times, describe, read_rows, vary
+from bench.findings.amounts import capitalize
+from bench.findings.constants import CONSTANTS, Constant, Varied, default_times, read_rows, vary
 from bench.findings.selection.regions import find_default
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import listed
 
 TABLE = html.Table(
-    "Law | Constant | As shipped | Other values | Ratio of times as shipped:.2f | Ratio with other values | "
-    "Rank as shipped | Rank with other values",
-    words=("As shipped",),
+    "Law | Constant | Value used | Other values tried | Settling time with the value used / default:.2f "
+    "| Settling time with other values / default | Rank with the value used | Rank with other values",
+    words=("Value used",),
 )
 
 
@@ -54,7 +55,20 @@ def make_rows(varied: dict[Constant, list[Varied]]) -> Iterator[tuple]:
 def describe_constants(law: str) -> str:
     """Say of a law what its constants that are ours do; nothing of a law without such constants."""
     rows, default = read_rows(), find_default()
-    return " ".join(describe(one, vary(one, rows, default), default) for one in CONSTANTS if one.law == law)
+    return " ".join(say(one, vary(one, rows, default), default) for one in CONSTANTS if one.law == law)
+
+
+def say(constant: Constant, every: list[Varied], default: str) -> str:
+    """Say what the values of a constant that were tried do to the time and the rank of a law."""
+    values = sorted(one.value for one in every)
+    ratios = [f"{one.ratio:.2f}" for one in sorted(every, key=lambda one: one.ratio)]
+    ranks = [f"{one.rank}" for one in sorted(every, key=lambda one: one.rank)]
+    return (
+        f"{capitalize(constant.symbol)}: we use {constant.shipped:g}, and also tried values from {values[0]:g} to "
+        f"{values[-1]:g}. "
+        f"The law then needs {_span(ratios)} times as long as {families.word(default)} to settle (median over the "
+        f"situations), and its rank among the laws of the map is {_span(ranks)}."
+    )
 
 
 def _span(ordered: list[str]) -> str:

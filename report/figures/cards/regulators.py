@@ -1,13 +1,14 @@
 """The laws: a line of a table each, and a card; nothing of it is typed here."""
 
 import re
+import tomllib
 from pathlib import Path
 
 import pandas as pd
 
 from bench.experiments.tables import read
-from bench.export.heading import RESET, SIDE
 from bench.findings import why
+from bench.findings.amounts import capitalize, count_of
 from bench.findings.claims.tables import share
 from bench.findings.proofs.certificate import read_certificates
 from bench.findings.selection.regions import find_regions, list_ours
@@ -28,12 +29,22 @@ from report.figures.kit import families, html, laws, style
 from report.figures.kit.page import Run
 
 UNTRUSTED = (
-    "A law of somebody else, by its rows alone: its file came with these results and was not run. If you have read it, "
-    "bench trust FILE lets it run, and its card then says what it is."
+    "Somebody else wrote this law. Its file came with these results, and we did not run it: this page has its results "
+    "only. If you have read the file, `bench trust FILE` lets it run, and this page then describes the law."
 )
 LAWS = html.Table(
-    "Law | Whose | Property | Settles | On the command line",
-    {"Settles": lambda share: f"{100 * share:.1f} %"},
+    "Law | Origin | Stability | Uniform starts that settle | Name on the command line",
+    {"Uniform starts that settle": lambda share: f"{100 * share:.1f} %"},
+)
+TEXTS: dict[str, dict[str, str]]
+TEXTS = tomllib.loads(Path(__file__).with_name("laws.toml").read_text(encoding="utf-8"))
+"""Law -> about, limitations."""
+
+MEMORY = (
+    "Reset the memory before the first control step and after a pause. It stays as it is when the goal changes. If you "
+    "also reset it when the goal jumps, the path becomes shorter, but the body does not settle sooner. The measured "
+    "orientation must turn by less than 180° between two control steps: e + phi/2 < 90°, where e is the error of the "
+    "measured orientation and phi the rotation within a control step."
 )
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 EXAMPLE = re.compile(r" Shown by |, as from |, as at ")
@@ -60,7 +71,9 @@ def source(regulator: Law) -> Source:
 
 
 def text_of(regulator: Law) -> tuple[str, str]:
-    """Return its docstring on what the law is and where it fails; neither of a law that may not run."""
+    """Return what the law is and where it fails: in the words of laws.toml, of a user's law in those of its file."""
+    if regulator.name in TEXTS and not regulator.origin:
+        return TEXTS[regulator.name]["about"], TEXTS[regulator.name]["limitations"]
     return docstring(source(regulator).file) if regulator.law or regulator.law_in else (UNTRUSTED, "")
 
 
@@ -82,12 +95,12 @@ def card(one: Contender, run: Run) -> str:
     acts = one.representation.title if one.representation else "the rotation matrix"
     fields = {
         "Limitations": set_words(fails),
-        "Memory": f"{RESET} {SIDE}" if one.regulator.memory else "",
-        "Acts on": f"{acts[:1].upper()}{acts[1:]}.",
+        "Memory": set_words(MEMORY) if one.regulator.memory else "",
+        "Coordinates": f"{acts[:1].upper()}{acts[1:]}.",
         **say_property(one.regulator),
         "Measured": measured(episodes, one.regulator),
         "Its command": set_words(command),
-        "Advised": advised(one.name),
+        "Recommended": advised(one.name),
         "Constants that are ours": describe_constants(one.name),
     }
     look, costs = html.both(style.look(one.name).colour), costs_of(one, run)
@@ -112,14 +125,23 @@ def measured(episodes: pd.DataFrame, regulator: Law) -> str:
     """How many of the uniform starts settled, and how fast."""
     uniform = episodes[episodes["start_set"] == "uniform"]
     if regulator.costing_only:
-        return "Its price only: it gives the command of another law to rounding, and is not run again."
+        return "Only its operations are counted: its command equals the command of another law up to rounding."
     if uniform.empty:
         return "Not in this run."
     settled = uniform["outcome"] == "settled"
-    found = f"{share(settled)}".replace("%", " %")
+    found = share(settled)
+    amount = capitalize(count_of(int(settled.sum()), len(settled), "uniform starts"))
+    interval = f"95 % interval: {100 * found.low:.1f} to {100 * found.high:.1f} %"
     times = uniform.loc[settled, "settling_time_s"]
-    pace = f", in {times.median():.2f} s (median) to {times.max():.2f} s (worst)" if len(times) else ""
-    return f"{found} of the uniform starts settle{pace}."
+    pace = f" They take {times.median():.2f} s (median) to {times.max():.2f} s (slowest)." if len(times) else ""
+    return f"{amount} settle ({interval}).{pace}"
+
+
+def say_share(value: float) -> str:
+    """Say in which share of the drawn situations something holds; none and a little are words."""
+    if 0.0 < value < 0.005:
+        return "less than 1 % of the situations"
+    return f"{percent(value) if value else 'none'} of the situations"
 
 
 def advised(law: str) -> str:
@@ -130,23 +152,24 @@ def advised(law: str) -> str:
         return ""
     shares = measure_shares(law, tie=SPOKEN)
     beside = (
-        f"In {percent(shares.qualified.value)} it meets the requirements and no law that does is more than "
-        f"{percent(SPOKEN)} faster; among all published and adapted laws the share is {percent(shares.all.value)}."
+        f"In {say_share(shares.qualified.value)} it meets the requirements and no other law that meets "
+        f"them is more than {percent(SPOKEN)} faster. If all published and adapted laws count, this share is "
+        f"{percent(shares.all.value)}."
     )
     if is_ours:
-        beats = percent(compare_with_advised(law).value)
+        beats = say_share(compare_with_advised(law).value)
         return (
-            f"Not advised, ours. More than {percent(SPOKEN)} faster than the advised law in {beats} of situations. "
-            f"{beside}"
+            f"Our rule does not recommend it, because it is ours. It is more than {percent(SPOKEN)} faster than the "
+            f"recommended law in {beats}. {beside}"
         )
     if region is None:
         return beside
     price = find_price(law)
     costs = (
-        f"In the nominal situation it commands up to {price.peak:.1f} kp. With gains for the same peak "
-        f"command, 99 % of the starts settle in {price.at_equal_peak:.1f}/√peak."
+        f"In the nominal situation it commands up to {price.peak:.1f} kp. With gains for a peak command of p [rad/s²] "
+        f"and the nominal damping ratio, 99 % of the starts settle in {price.at_equal_peak:.1f}/√p seconds."
     )
-    return f"Advised in {percent(region.advised)} of situations. {beside} {costs}"
+    return f"Our rule recommends it in {say_share(region.advised)}. {beside} {costs}"
 
 
 def facts(run: Run) -> dict:

@@ -7,8 +7,9 @@ import pandas as pd
 
 from bench.experiments.tables import read
 from bench.export.short import write_short
+from bench.findings.amounts import count_of
 from bench.findings.proofs.certificate import read_certificates
-from bench.findings.selection.regions import facts_of
+from bench.findings.selection.regions import facts_of, find_default
 from bench.findings.selection.sensitivity import tune
 from bench.findings.theory.closed_form import linear_settling
 from bench.findings.theory.isotropic import EQUATIONS, LEAST_RAD, settling
@@ -18,6 +19,7 @@ from report.figures.cost.cost import CALLS
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
+from report.figures.kit.spelling import listed
 from tasks.rules import RULES
 
 NEW = "late-braking"
@@ -25,7 +27,7 @@ RATIOS = 0.5, 0.7, 1.0, 1.5
 """Damping ratios at which it is compared with a linear system."""
 
 LATE = EQUATIONS[NEW]
-SHOWN = ("rotation-matrix", "mrp-memory", NEW)
+PAPERS = "rotation-matrix"
 
 
 def facts(run: Run) -> dict:
@@ -41,11 +43,14 @@ def facts(run: Run) -> dict:
         "drop": f"{proved['drop']:.3f}",
         "seconds": f"{proved['seconds']:.0f}",
         "lines": len([line for line in write_short(NEW).splitlines() if line]),
-        "later": ", ".join(f"{ratio:g}" for ratio in RATIOS if is_later(ratio)) or "none",
-        "later_of": f"{', '.join(map('{:g}'.format, RATIOS))}",
+        "later": say_later([ratio for ratio in RATIOS if is_later(ratio)]),
+        "later_of": listed(map("{:g}".format, RATIOS)),
         **(describe_operations(spent.loc[NEW, "typical"]) if (NEW, "typical") in spent.index else {}),
         "pull": f"{max(map(LATE.spring, np.linspace(0.0, math.pi, 1801))):.2f}",  # max f
-        "springs": draw_springs(),
+        "at_180": f"{LATE.spring(math.pi):.1f}",
+        "default": families.word(find_default()),
+        "default_at_180": f"{EQUATIONS[find_default()].spring(math.pi):.1f}",
+        "springs": draw_springs((PAPERS, find_default(), NEW)),
     }
 
 
@@ -55,13 +60,17 @@ def compare_at_equal_peak() -> str:
     others = [time for law, time in times.items() if not facts_of(law).is_ours]
     as_fast = sum(time <= times[NEW] for time in others)
     if as_fast:
-        rivals = f"{as_fast} of {len(others)} published or adapted laws do as well"
+        rivals = f"{count_of(as_fast, len(others), 'published and adapted laws')} need no more time"
     else:
-        rivals = f"the best of {len(others)} published or adapted laws takes {min(others):.2f}/√p"
-    return (
-        "We gave every law its best damping ratio, and gains for the same peak command p [rad/s²]. With late braking "
-        f"99 % of the starts settle in {times[NEW]:.2f}/√p seconds; {rivals}."
-    )
+        rivals = f"the best of the {len(others)} published and adapted laws takes {min(others):.2f}/√p"
+    return f"At equal peak command p [rad/s²], 99 % of the starts settle in {times[NEW]:.2f}/√p seconds; {rivals}."
+
+
+def say_later(ratios: list[float]) -> str:
+    """Say at which damping ratios this law settles later than a linear system."""
+    if not ratios:
+        return "at none of these ratios"
+    return f"at {listed(map('{:g}'.format, ratios))} and not at the others" if len(ratios) < len(RATIOS) else "at all"
 
 
 def is_later(ratio: float) -> bool:
@@ -72,7 +81,7 @@ def is_later(ratio: float) -> bool:
 
 
 def describe_operations(row: pd.Series) -> dict[str, str]:
-    """Say how many operations a row of costs.parquet has, with its square roots and its trigonometric calls."""
+    """Say how many operations a row of costs.parquet has, with its square roots and trigonometric calls."""
     roots, calls = int(row["sqrt"]), int(row[list(CALLS)].sum())
     rooted = "one square root" if roots == 1 else f"{roots or 'no'} square roots"
     called = f"{calls} calls of trigonometric functions" if calls else "no trigonometric function"
@@ -85,14 +94,15 @@ def longest(equation: Equation, kp: float, kv: float) -> float:
 
 
 @responsive_picture
-def draw_springs(narrow: bool) -> Drawing:
+def draw_springs(shown: tuple[str, ...], narrow: bool) -> Drawing:
     """Draw the command from rest of this law, of the advised one and of the paper's first, over Kp."""
     figure, axes = style.panels(height=2.6, narrow=narrow)
     angles = np.linspace(0.0, math.pi, 181)
-    for law in SHOWN:
+    for law in shown:
         f = [EQUATIONS[law].spring(angle) for angle in angles]
         axes.plot(np.degrees(angles), f, color=style.look(law).colour)
         style.label_line(axes, 182.0, f[-1], families.word(law), style.look(law).colour)
     axes.set(xlim=(0, 180), ylim=(0, None), xticks=range(0, 181, 30))
-    axes.set(xlabel="angle to the goal [deg]", ylabel="command from rest / kp")
-    return figure, f"At 180 degrees: {', '.join(f'{law} {EQUATIONS[law].spring(math.pi):.1f}' for law in SHOWN)}."
+    axes.set(xlabel="angle to the goal [deg]", ylabel="command from rest / $K_p$")
+    ends = listed(f"{EQUATIONS[law].spring(math.pi):.1f} kp by {families.word(law)}" for law in shown)
+    return figure, f"Command from rest against the angle to the goal. At 180 degrees it is {ends}."

@@ -20,8 +20,9 @@ from report.figures.kit import html
 from report.figures.kit.page import Run
 
 PANDA = html.Table(
-    "Gains of | Stiffness [N/m; N m/rad] | Control period, exact hold [ms] | in MuJoCo [ms] "
-    "| Delay at 1 kHz, exact hold [ms] | in MuJoCo [ms]"
+    "Controller | Stiffness [N/m; N m/rad] | Longest control period with exact hold [ms] "
+    "| Longest control period in MuJoCo [ms] | Longest delay at 1 kHz with exact hold [ms] "
+    "| Longest delay at 1 kHz in MuJoCo [ms]"
 )
 LIMITS = ("held_dt_s", "longest_dt_s", "held_delay_s", "longest_delay_s")
 """Columns of the table's limits."""

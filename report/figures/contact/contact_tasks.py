@@ -17,15 +17,15 @@ STILLS = (
 def facts(run: Run) -> dict:
     """Return what each task is and lets comply, when it ends, and the gain of the force; with real motors, too."""
     arm = tasks.arm(media.facts()["contact"]["arm"])
-    parts = [
-        f"{task.title} (complies: {task.trials(arm)[0].specification.name})"
-        for task in map(tasks.contact_task, MEASURES)
-    ]
+    orders = []
+    for task in map(tasks.contact_task, MEASURES):
+        axes = task.trials(arm)[0].specification.name.replace(", about", " and about")
+        orders.append(f"- {task.title}. The hand is compliant along {axes}.")
     return {
         **limits.facts(run),
         "settings": limits.LIMITS(limits.compare_settings()),
         "contact-tasks": media.still(STILLS, "contact-tasks"),
-        "orders": f"{'. '.join(parts)}.",
+        "orders": "\n".join(orders),
         "rest_rule": f"{1e3 * REST.speed:g} mm/s and {REST.rate:g} rad/s for {REST.hold_s:g} s",
         "rest_horizon": f"{HORIZON_S:g}",
         "kf": in_run(lambda: f"{of(of_task(run, PROBE), PAPERS_EULER)['kf'].iloc[0]:g}"),

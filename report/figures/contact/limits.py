@@ -8,7 +8,11 @@ from report.figures.contact.in_contact import MEASURES, PAPERS, PAPERS_EULER, SP
 from report.figures.kit import html
 from report.figures.kit.page import Run
 
-SETTINGS = {"ideal": "Unlimited torque", "motors": "Limited torque", "sensor": "Limited torque, noisy sensor"}
+SETTINGS = {
+    "ideal": "Result with unlimited torque",
+    "motors": "Result with limited torque",
+    "sensor": "Result with limited torque and a noisy sensor",
+}
 NAMES = {PAPERS: "Cartesian", PAPERS_EULER: "Euler", SPRINGS: "springs"}
 LIMITS = html.Table(f"Task | Measured at the end | Control | Episodes | {':.2g | '.join(SETTINGS.values())}:.2g")
 

@@ -8,6 +8,7 @@ import pandas as pd
 
 from bench.base.files import read_json
 from bench.experiments.shipped import BENT_DEG, FELT_RAD
+from bench.findings.amounts import count, count_of
 from bench.findings.remedy import KEEP, fix_of
 from bench.law.contenders.registry import contenders
 from bench.law.kinds import POSITION, TORQUE, VELOCITY, Law
@@ -22,10 +23,14 @@ WEAK = 0.75
 HOST = "https://github.com"
 
 MEASURED = html.Table(
-    "Controller | K, D | Felt [%] | Damping ratio:.3g | Critical at [kg m²]:.2g | Rests at 180° | Unwinds "
-    "| Bent [°]:.0f | Settles [s]"
+    "Controller | Gains K, D | Stiffness at 0.06°, 3° and 57° [% of K] | Damping ratio:.3g "
+    "| Inertia for critical damping [kg m²]:.2g | Stuck at 180° rotations | Starts that unwind "
+    "| Command turned by a clip, at most [°]:.0f | Settling time from 1°, 90° and 179.9° [s]"
 )
-FIXES = html.Table("Controller | Felt [%]:.0f | Stuck at 180° | Smallest fix | Greatest K e")
+FIXES = html.Table(
+    "Controller | Stiffness at 3° [% of K]:.0f | Stuck at 180° rotations | Smallest fix "
+    "| Largest command, shipped → fixed"
+)
 
 
 def shipped(run: Run) -> pd.DataFrame:
@@ -44,13 +49,12 @@ def is_weak(own: pd.DataFrame) -> pd.Series:
 
 
 FACTS: dict[str, Callable[[pd.DataFrame], object]] = {
-    "controllers": len,
     "weak_ratio": lambda own: f"{own.loc[is_weak(own), 'damping_ratio'].max():.3g}",
     "dead_names": lambda own: named(own[own["dead"] > 0]),
-    "bent": lambda own: int((own["bent"] > 0.0).sum()),
+    "bent": lambda own: count_of(int((own["bent"] > 0.0).sum()), len(own), "controllers"),
     "bent_most": lambda own: f"{math.degrees(own['bent'].max()):.0f}",
     "unsettled": lambda own: named(own[own["settling_1_s"].isna() & (own["starts"] > 0)]),
-    "away": lambda own: int((own["away"] > 0).sum()) or "none",
+    "away": lambda own: count_of(int((own["away"] > 0).sum()), len(own), "controllers"),
     "starts": lambda own: int(own["starts"].max()),
     "measured": lambda own: MEASURED(in_lines(own)),
 }
@@ -69,10 +73,10 @@ def held() -> dict:
     fixes = {name: fix_of(name) for name in contenders("shipped")}
     rises = [name for name, fix in fixes.items() if fix.after > 1.01 * fix.before]
     return {
-        "fixed": sum(fix.words != KEEP for fix in fixes.values()),
-        "kept": sum(fix.words == KEEP for fix in fixes.values()),
+        "fixed": count(sum(fix.words != KEEP for fix in fixes.values()), "controller"),
+        "kept": count(sum(fix.words == KEEP for fix in fixes.values()), "controller"),
         "rises": ", ".join(rises) or "none",
-        "built": f"{len(built)} of {len(restated)}",
+        "built": count_of(len(built), len(restated), "controllers"),
         "pairs": power(max(one["pairs"] for one in built)),
         "difference": power(max(one["difference"] for one in built)),
     }
@@ -96,12 +100,12 @@ def measured(one: Any) -> tuple:
     has_body, times = one.starts > 0, (one.settling_1_s, one.settling_90_s, one.settling_179_9_s)
     settled = html.together(", ".join("never" if math.isnan(time) else f"{time:.2g}" for time in times))
     return (
-        f"{one.kp:.3g}, {one.kv:.3g}" if has_body else f"{one.kp:.3g} a tick",
+        f"{one.kp:.3g}, {one.kv:.3g}" if has_body else f"{one.kp:.3g} per period",
         html.together(", ".join(f"{100.0 * getattr(one, name):.0f}" for name in FELT_RAD)),
         one.damping_ratio if has_body else None,
         None if math.isnan(one.critical) else one.critical,
         stuck(one),
-        (f"{one.away} of {one.starts}" if one.away else "no") if has_body else None,
+        (f"{one.away} of {one.starts}" if one.away else "none") if has_body else None,
         math.degrees(one.bent),
         settled if has_body else None,
     )
@@ -109,7 +113,9 @@ def measured(one: Any) -> tuple:
 
 def stuck(row: Any) -> str:
     """Return at how many 180° rotations a controller stays."""
-    return "every" if row.dead == row.half_turns else f"{row.dead} of {row.half_turns}" if row.dead else "no"
+    if row.dead in (0, row.half_turns):
+        return "all" if row.dead else "none"
+    return f"{row.dead} of {row.half_turns}"
 
 
 def link(one: Law) -> str:
@@ -127,7 +133,7 @@ def reported(thread: str, words: str = "") -> str:
 def describe_fix(row: Any) -> tuple:
     """Return the cells of a controller's fix: what is felt, what to change, the greatest command before and after."""
     one, found = contenders("shipped")[row.shipped], fix_of(row.shipped)
-    known = f" Thread: {reported(one.shipped.thread)}." if one.shipped.thread else ""
+    known = f" Public thread: {reported(one.shipped.thread)}." if one.shipped.thread else ""
     unit = "rad/s²" if one.shipped.shapes_inertia else "N m"
     return (
         link(one),

@@ -8,7 +8,7 @@ from report.figures.libraries.as_shipped import reported
 from report.figures.libraries.libraries import COUNT_RAD, SINGLE_RAD, lines, passed, table
 
 PASSED = html.Table("Library | Functions")
-ASKED = html.Table("Question | Cause | Cure | Measured | Without the cure:.3g | With it:.3g")
+ASKED = html.Table("Question | Cause | Cure | Quantity measured | Value without the cure:.3g | Value with the cure:.3g")
 
 
 def facts(_: Run) -> dict:
@@ -31,4 +31,4 @@ def describe_question(one: Question) -> tuple:
     """Return a question's row; what is no more than rounding is 0."""
     links = ", ".join(reported(thread, f"`{thread.partition('/')[2]}`") for thread in one.threads)
     measured = (value if abs(value) > 1e-12 else 0.0 for value in one.measure())
-    return f"{one.title} ({links})", one.cause, one.cure, f"{one.quantity}; right: {one.right:g}", *measured
+    return f"{one.title} ({links})", one.cause, one.cure, f"{one.quantity} (right: {one.right:g})", *measured

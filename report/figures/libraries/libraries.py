@@ -5,6 +5,7 @@ Read from results/libraries, which is committed: it does not change with the run
 
 import functools
 import math
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -13,9 +14,10 @@ import pandas as pd
 from bench.base.files import read_json
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
+from bench.findings.amounts import capitalize, count_of
 from bench.findings.remedy import KEEP, fix_of
 from bench.studies.libraries.judge import COUNT_RAD, FORMS, SINGLE_RAD, WRONG_AXIS_RAD
-from report.figures.kit import html
+from report.figures.kit import html, spelling
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import listed, power
 from report.figures.libraries import as_shipped
@@ -28,7 +30,15 @@ NO_NUMBER, ZERO, LONG_WAY, MISALIGNED, SHEET, DIGITS = "no-number", "zero", "lon
 OURS = "orientation-bench"
 """Our own laws in results/libraries, asked like the libraries."""
 
-FAULTS = html.Table("Library | Function | Fault | Smallest fix | Thread")
+FAULTS = html.Table("Library | Function | Fault | Smallest fix | Public thread")
+FORMULAS = html.Table("Library | Formula | Fault | Right instead")
+FIX_WORDS = (
+    (re.compile(r"^`-q` where `q.w < 0`, between the two$"), "negate q between the two calls if `q.w < 0`"),
+    (re.compile(r"^`-q` where `?([\w.()]+) < 0`?(?:, before it)?$"), r"negate q first if `\1 < 0`"),
+    (re.compile(r"^(`[^`]+`) for (`[^`]+`)$"), r"\1 instead of \2"),
+    (re.compile(r"^(`[^`]+`) of it$"), r"\1 of the quaternion"),
+)
+"""What verdicts.parquet has for a fix, and the words of a page for it."""
 ORDER = (ZERO, SHEET, LONG_WAY, MISALIGNED, DIGITS)
 """Order of the faults, by what they do to a controller."""
 
@@ -69,17 +79,17 @@ def objections(own: pd.DataFrame) -> dict[str, str]:
     found = {}
     silent = own["raised"].sum() + own["not_finite"].sum()
     if silent:
-        found[NO_NUMBER] = f"no number for {silent} of {own['turns'].sum()} turns"
+        found[NO_NUMBER] = f"no number for {say_count(silent, own['turns'].sum(), 'rotations')}"
     if has_axis and at["nought"].sum():
-        found[ZERO] = f"zero at {_of(at, 'nought')} 180° rotations"
+        found[ZERO] = f"zero at {count_column(at, 'nought', '180° rotations')}"
     # Next to 180° the other axis is almost the same turn: what is left of it counts as digits.
     long = own.assign(long_way=own["long_way"].where(own["turn_error_rad"] > WRONG_AXIS_RAD, 0))
     if has_axis and long["long_way"].sum():
-        found[LONG_WAY] = f"unwinding for {_of(long, 'long_way')} rotations"
+        found[LONG_WAY] = f"unwinding for {count_column(long, 'long_way', 'rotations')}"
     if has_axis and own["astray"].sum():
-        found[MISALIGNED] = f"another axis for {_of(own, 'astray')} rotations"
+        found[MISALIGNED] = f"wrong axis for {count_column(own, 'astray', 'rotations')}"
     if own["other_sheet"].sum():
-        found[SHEET] = "unwinding for −q"
+        found[SHEET] = "unwinding if it gets −q instead of q"
     return found if LONG_WAY in found else found | wrong(own[own["nought"] == 0] if ZERO in found else own)
 
 
@@ -88,21 +98,26 @@ def wrong(own: pd.DataFrame) -> dict[str, str]:
     worst = own.loc[own["turn_error_rad"].idxmax()]
     if worst["turn_error_rad"] <= (SINGLE_RAD if worst["precision"] == "single" else COUNT_RAD):
         return {}
-    return {DIGITS: f"off by {power(worst['turn_error_rad'])} rad {where(worst)}"}
+    return {DIGITS: f"error of {power(worst['turn_error_rad'])} rad {where(worst)}"}
 
 
 def where(row: pd.Series) -> str:
     """Return a set of turns in words."""
     if not math.isnan(row["angle_rad"]):
-        return f"for rotations of {power(row['angle_rad'])} rad"
+        return f"for rotations by {power(row['angle_rad'])} rad"
     if math.isnan(row["distance_rad"]):
         return "at the poles" if row["turn_set"] == "pole" else "for drawn rotations"
-    return f"at {power(row['distance_rad'])} rad before 180°" if row["distance_rad"] else "at 180°"
+    return f"when {power(row['distance_rad'])} rad short of 180°" if row["distance_rad"] else "at 180°"
 
 
-def _of(rows: pd.DataFrame, name: str) -> str:
-    count, every = rows[name].sum(), rows["turns"].sum()
-    return "all" if count == every else f"{count} of {every}"
+def count_column(rows: pd.DataFrame, name: str, nouns: str) -> str:
+    """Say for how many of the rotations of some rows a column counts a fault."""
+    return say_count(rows[name].sum(), rows["turns"].sum(), nouns)
+
+
+def say_count(part: int, whole: int, nouns: str) -> str:
+    """Say how many of a group, in the number style of a page: 48 of the 6 316 rotations."""
+    return spelling.typeset(count_of(int(part), int(whole), nouns))
 
 
 @functools.cache
@@ -150,13 +165,14 @@ def facts(run: Run) -> dict:
         "idioms_wrong": int((~idioms["is_right"]).sum()),
         "count": power(COUNT_RAD),
         "worst_right": power(good[~single]["turn"].max()),
-        "passed_names": listed(name for name, _ in passed(every)),
+        "passed_names": ", ".join(name for name, _ in passed(every)) + ".",
         "single_names": ", ".join(dict.fromkeys(good[single]["library"])),
         "worst_single": power(good[single]["turn"].max()),
         "turns": int(rows.groupby(["library", "function"])["turns"].sum().max()),
         "known": int(functions.loc[~functions["is_right"], "thread"].ne("").sum()),
         **loop_facts(),
         "tab_faults": FAULTS(faults(every)),
+        "tab_formulas": FORMULAS(formulas(every)),
         **(in_run(shipped_facts, run) or {}),
     }
 
@@ -164,12 +180,15 @@ def facts(run: Run) -> dict:
 def shipped_facts(run: Run) -> dict:
     """Return what the text says of shipped controllers, and a row for each that a small fix helps."""
     own = as_shipped.shipped(run)
-    fixed = (one for one in own.itertuples() if fix_of(one.shipped).words != KEEP)
+    fixed = [row for row in own.itertuples() if fix_of(row.shipped).words != KEEP]
+    weak = count_of(int(as_shipped.is_weak(own).sum()), len(own), "controllers")
+    dead = count_of(int((own["dead"] > 0).sum()), len(own), "controllers")
     return {
         "tab_shipped": as_shipped.FIXES(map(as_shipped.describe_fix, fixed)),
         "shipped": len(own),
-        "weak": int(as_shipped.is_weak(own).sum()),
-        "shipped_dead": int((own["dead"] > 0).sum()),
+        "weak": f"{capitalize(weak)} apply",
+        "shipped_dead": f"{capitalize(dead)} never move",
+        "fixable": capitalize(count_of(len(fixed), len(own), "controllers")),
         "kept": listed(f"`{name}`" for name in own["shipped"] if fix_of(name).words == KEEP),
     }
 
@@ -197,8 +216,40 @@ def faults(every: pd.DataFrame) -> Iterator[tuple]:
     own = own.sort_values(["first", "library"], kind="stable")
     for (library, fault, thread), alike in own.groupby(["library", "said", "thread"], sort=False):
         names = ", ".join(f"`{name}`" for name in alike["function"])
-        fixes = " or ".join(dict.fromkeys(instead(one, every) for one in alike.itertuples()))
-        yield f"{library} {origins()[library]['version']}", names, fault, fixes, as_shipped.reported(thread)
+        fixes = " or ".join(dict.fromkeys(spell_fix(instead(row, every)) for row in alike.itertuples()))
+        yield name_version(library), names, fault, fixes, as_shipped.reported(thread)
+
+
+def name_version(library: str) -> str:
+    """Return a library with the version that was tested."""
+    return f"{library} {origins()[library]['version']}"
+
+
+def formulas(every: pd.DataFrame) -> Iterator[tuple]:
+    """Return a row for the formulas of a library that fail, which users build from functions for other purposes."""
+    audited = table("verdicts")[["library", "function", "replacement"]]
+    failing = errors(every[every["library"] != OURS], "idiom").query("not is_right").merge(audited, how="left")
+    for row in failing.fillna({"replacement": ""}).itertuples():
+        fault = "; ".join(row.objections.values())
+        yield name_version(row.library), name_formula(row.function), fault, spell_fix(row.replacement) or html.MISSING
+
+
+def name_formula(name: str) -> str:
+    """Return a formula of users in words, from the short form in verdicts.parquet."""
+    doubled = re.fullmatch(r"2 (.*), vector part", name)
+    if doubled:
+        return f"twice the vector part of `{doubled[1]}`"
+    source, _, factors = name.partition(": ")
+    first, _, second = factors.partition(" * ")
+    return f"`{first}` times `{second}` of `{source}`"
+
+
+def spell_fix(text: str) -> str:
+    """Return a fix in words, from the short form in verdicts.parquet."""
+    for short, words in FIX_WORDS:
+        if short.match(text):
+            return short.sub(words, text)
+    return text
 
 
 def passed(every: pd.DataFrame) -> Iterator[tuple]:

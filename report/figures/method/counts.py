@@ -7,6 +7,7 @@ import pandas as pd
 
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
+from bench.findings.amounts import count_of
 from bench.findings.maps import at_gains, count_in
 from bench.findings.selection.needs import measured
 from bench.findings.selection.regions import read_map
@@ -24,15 +25,23 @@ from report.figures.robustness import robustness
 from tasks.situation import NOMINAL
 
 IN_ENGINE = "in-engine"
-"""MuJoCo's actuator: the law of the rotation vector, so chapter 6 does not count it again."""
+"""MuJoCo's actuator: the law of the rotation vector, which is not counted twice."""
 
 CONTINUOUS, HELD = "continuous time", "command held for a period"
-COUNTS = html.Table("Where | Laws | Which laws | Starts of a law | Time | Lost by the rotation matrix")
+COUNTS = html.Table(
+    "Name | Where | Number of laws | Which laws | Starts per law | Time of the controller "
+    "| Starts that the rotation matrix loses"
+)
 
 
 class Count(NamedTuple):
-    """A row: a place of the book, its laws, its starts, and what the rotation-matrix law loses of them."""
+    """A row: its name, by which pages quote it, a place of the book, laws, starts, and what the rotation matrix loses.
 
+    Attributes:
+        lost: How many of the starts the rotation-matrix law does not settle from.
+    """
+
+    name: str
     where: str
     laws: int
     which_laws: str
@@ -42,16 +51,18 @@ class Count(NamedTuple):
 
 
 def facts(run: Run) -> dict[str, Any]:
-    """Return the table."""
-    return {"table": in_run(lambda: COUNTS(list_counts(run)))}
+    """Return the table, and how many sets of laws and starts it has."""
+    rows = in_run(lambda: list(list_counts(run)))
+    return {"table": COUNTS(rows), "sets": len(rows)} if rows else {}
 
 
 def list_counts(run: Run) -> Iterator[Count]:
     """Return a row for each place that counts laws or starts, in the order of the book."""
     yield Count(
-        where="[All laws](appendix-laws.md)",
+        name="laws of the catalogue",
+        where="[Catalogue](appendix-laws.md)",
         laws=len(contenders("regulators")),
-        which_laws="of this repository, with those that are wrong on purpose",
+        which_laws="all of this repository, with those that are wrong on purpose",
         starts=html.MISSING,
     )
     yield count_map(run)
@@ -65,23 +76,23 @@ def list_counts(run: Run) -> Iterator[Count]:
 
 def describe_lost(lost: int, starts: int) -> str:
     """Say how many of the starts are lost; none is a word."""
-    return f"{lost or 'none'} of {starts:,}"
+    return count_of(lost, starts, "starts")
 
 
-def list_chapter_4(run: Run) -> set[str]:
-    """Return the laws that are compared side by side, which the other rows are described by."""
+def list_compared(run: Run) -> set[str]:
+    """Return the laws compared: those from evenly spread starts, by which the other rows are described."""
     return set(comparison.uniform(run)["contender"].astype(str)) - set(families.CONTROLS)
 
 
 def describe_set(laws: set[str], run: Run) -> str:
-    """Describe laws by what they lack and add to those compared side by side."""
-    basis = list_chapter_4(run)
+    """Describe laws by what they lack and add to the laws compared."""
+    basis = list_compared(run)
     lacking, added = families.in_order(basis - laws), families.in_order(laws - basis)
-    words = "those compared side by side"
+    words = "the laws compared"
     if lacking:
-        words += f", without {together([families.word(law) for law in lacking])}"
+        words += f" without {together([families.word(law) for law in lacking])}"
     if added:
-        words += f", and {together([families.word(law) for law in added])}"
+        words += f", with {together([families.word(law) for law in added])}"
     return words
 
 
@@ -96,28 +107,30 @@ def count_map(run: Run) -> Count:
     rows = read_map()
     nominal = rows[(rows["contender"] == MATRIX) & (rows["situation"] == NOMINAL.word)].iloc[0]
     return Count(
-        where="[Chapter 7](07-which-error.md), the map",
+        name="laws of the map",
+        where="[Chapter 7](07-which-error.md), map",
         laws=rows["contender"].nunique(),
         which_laws=describe_set(set(rows["contender"].astype(str)), run),
-        starts=f"{rows['starts'].min():,} to {rows['starts'].max():,} in a situation",
+        starts=f"{rows['starts'].min():,} to {rows['starts'].max():,} in each situation",
         time=HELD,
-        lost=f"{describe_lost(int(nominal['lost']), int(nominal['starts']))}, nominal situation",
+        lost=f"{describe_lost(int(nominal['lost']), int(nominal['starts']))} in the nominal situation",
     )
 
 
 def count_at_equal_peak() -> Count:
     """Count the laws of the map that are compared at their best damping ratio."""
     return Count(
-        where="Chapter 7, [table of settling times](#tab-tuned); [the page on late braking](appendix-late-braking.md)",
+        name="laws at equal peak command",
+        where="Chapter 7, [equal peak command](#fig-equal-peak); [late braking](appendix-late-braking.md)",
         laws=len(tune()),
-        which_laws="of the map that settle from every start of the nominal situation",
-        starts="as the map",
+        which_laws="the laws of the map that settle from every start of the nominal situation",
+        starts="as for the map",
         time=HELD,
     )
 
 
 def count_settling(run: Run) -> Iterator[Count]:
-    """Count the laws that chapters 2 and 4 compare, at evenly spread starts and at directed ones."""
+    """Count the laws that settle and those compared, at evenly spread starts and at directed ones."""
     compared = measured(run.folder)
     laws = [law for law in compared.laws if law not in (*families.CONTROLS, IN_ENGINE)]
     ideal, uniform = comparison.ideal(run), comparison.uniform(run)
@@ -125,22 +138,25 @@ def count_settling(run: Run) -> Iterator[Count]:
     sure = read.converged(directed)
     a_law = directed.groupby("contender", observed=True).size()
     yield Count(
-        where="[Chapter 6](06-what-an-error-must-do.md), laws that settle",
+        name="laws tested for settling",
+        where="[Chapter 6](06-what-an-error-must-do.md)",
         laws=len(laws),
         which_laws=describe_set(set(laws), run),
-        starts="as in the comparison of all laws",
+        starts="as in the next two rows",
         time=CONTINUOUS,
     )
     yield Count(
-        where="[The comparison of all laws](appendix-side-by-side.md), evenly spread starts",
-        laws=len(list_chapter_4(run)),
-        which_laws="all that ran from these starts, without those that are wrong on purpose",
+        name="laws compared",
+        where="[Comparison of all laws](appendix-side-by-side.md), evenly spread starts",
+        laws=len(list_compared(run)),
+        which_laws="all laws that ran from these starts, without those that are wrong on purpose",
         starts=f"{uniform['start_id'].nunique():,}",
         time=CONTINUOUS,
         lost=lose(uniform),
     )
     yield Count(
-        where="The comparison of all laws, column *Lost*: directed starts",
+        name="laws from directed starts",
+        where="Comparison of all laws, directed starts",
         laws=directed["contender"].nunique(),
         which_laws=describe_set(set(directed["contender"].astype(str)), run),
         starts=f"{a_law.min():,} to {a_law.max():,}",
@@ -154,6 +170,7 @@ def count_noise(run: Run) -> Count:
     rows = robustness.along(run, HALF_TURN)
     laws = set(robustness.laws(rows, controls=False))
     return Count(
+        name="laws under noise at 180°",
         where="Chapter 6, [noise at 180°](#noise-at-the-half-turn)",
         laws=len(laws),
         which_laws=describe_set(laws, run),
@@ -170,9 +187,10 @@ def count_three_laws(run: Run) -> Count:
     a_law = a_law[a_law > 0]
     span = f"{a_law.min():,}" if a_law.min() == a_law.max() else f"{a_law.min():,} to {a_law.max():,}"
     return Count(
+        name="the three regulators",
         where="[Chapter 2](02-three-regulators.md), [figure](#fig-three-laws)",
         laws=len(a_law),
-        which_laws="of Murphy",
+        which_laws="the regulators of Murphy",
         starts=f"{span}, evenly spread and directed",
         time=CONTINUOUS,
         lost=lose(rows),
@@ -185,6 +203,7 @@ def count_random(run: Run) -> Count:
     at_rest = rows[rows["most_speed"] == 0.0]
     matrix = at_rest[at_rest["contender"] == MATRIX]
     return Count(
+        name="laws from random starts",
         where="Chapter 2, random starts",
         laws=at_rest["contender"].nunique(),
         which_laws=describe_set(set(at_rest["contender"].astype(str)), run),
@@ -198,7 +217,8 @@ def count_perturbed(run: Run) -> Count:
     """Count the laws and starts of the perturbations."""
     laws = set(robustness.found(run)) - set(families.CONTROLS)
     return Count(
-        where="[Chapter 8](08-delay-noise-limits.md), perturbations",
+        name="laws under perturbations",
+        where="[Chapter 8](08-delay-noise-limits.md)",
         laws=len(laws),
         which_laws=describe_set(laws, run),
         starts=f"{int(robustness.counted(run, 'delay')['starts'].max()):,} at each level",

@@ -5,6 +5,7 @@ from typing import Any
 import pandas as pd
 
 from bench.engines.counting import RULES as COUNT_RULES
+from bench.findings.amounts import count, count_of
 from bench.findings.selection.needs import CHATTER
 from bench.findings.theory.closed_form import linear_settling
 from bench.law.attribution import ADAPTED, OURS, PUBLISHED
@@ -25,15 +26,16 @@ def facts(run: Run) -> dict[str, Any]:
     asked, pairs = runs[runs["converged"] != ""], sorted(set(zip(runs["kp"], runs["kv"], strict=True)))
     return {
         "both": both,
-        "equal": equal,
+        "equal": count_of(equal, both, "episodes"),
         "asked": len(asked),
         "shorter": int((asked["step_s"] < asked["dt_s"]).sum()),
-        "unconverged": int((asked["converged"] == "no").sum()),
+        "unconverged": count(int((asked["converged"] == "no").sum()), "episode"),
         "engines": runs["engine"].nunique(),
         "gains": " and ".join(f"kp = {kp:g} 1/s², kv = {kv:g} 1/s" for kp, kv in pairs),
         "small": f"{linear_settling(*runs[['kp', 'kv', 'tolerance']].iloc[0]):.3f}",
         "later_ms": " and ".join(
-            f"{html.cell(float(late[law]), '+.1f')} ms ({families.word(law)})" for law in (late.idxmin(), late.idxmax())
+            f"{html.cell(float(late[law]), '.1f')} ms ({families.word(law).replace(',', '')})"
+            for law in (late.idxmin(), late.idxmax())
         ),
         "hold_s": f"{RULES.hold_s:g}",
         "chatter": f"{CHATTER:g}",
@@ -47,7 +49,7 @@ def count_attributions() -> dict[str, Any]:
     laws = contenders("regulators")
     groups: dict[str, list[str]] = {PUBLISHED: [], ADAPTED: [], OURS: []}
     for law in laws.values():
-        groups[law.attribution].append(law.display.short or law.name)
+        groups[law.attribution].append((law.display.short or law.name).replace(",", ""))
     counts = {word: len(names) for word, names in groups.items()}
     return {
         "laws": len(laws),

@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pandas as pd
 import pyarrow.parquet as pq
 
@@ -14,10 +15,45 @@ from report.figures.cost.cost import timings
 from report.figures.kit import html
 from report.figures.kit.offered import OFFERED_BYTES, SITE_DATA
 from report.figures.kit.page import Run
+from report.figures.kit.spelling import listed
 
 CITATION = ROOT / "CITATION.cff"
-FACTS = html.Table("Fact | Value")
-FILES = html.Table("File | Rows | Size [kB]:.0f")
+FACTS = html.Table("Property of the run | Value")
+FILES = html.Table("File | Number of rows | Size [kB]", {"Size [kB]": lambda size: html.number(round(size))})
+EPISODES = {
+    "episodes": "Episodes of a free body or an arm",
+    "trials": "Episodes in contact",
+    "troubled": "Episodes with a perturbation",
+}
+"""Kinds of episodes in provenance.json; `bench show` prints their sum."""
+LABELS = {
+    "command": "Command",
+    "suite": "Suite",
+    **EPISODES,
+    "lost": "Rows lost",
+    "seed": "Seed of the random starts",
+    "commit": "Commit",
+    "dirty": "Changes that were not committed",
+    "sources": "Digest of the sources",
+    "judge": "Digest of the judge's code",
+    "plan": "Digest of the plan",
+    "lock": "Digest of the lock file",
+    "finished": "Finished (UTC)",
+    "wall_s": "Duration [s]",
+    "resumed": "Interrupted and continued",
+    "scheduler": "Scheduler",
+    "workers": "Number of workers",
+    "cores": "Number of cores",
+    "cpu": "Processor",
+    "vectors": "Vector instructions of the processor",
+    "platform": "Platform",
+    "arithmetic": "Settings of the arithmetic",
+}
+"""Facts of provenance.json as a reader calls them, in this order; others follow by their own names."""
+VERSION, SETTING = "versions ", "arithmetic "
+TAKEN_BY_CODE = re.compile(r"[`|\\\n]|^$")
+"""What would end a piece of code, or a cell, early."""
+CODE = ("command", "commit", "sources", "judge", "plan", "lock")
 
 
 def facts(run: Run) -> dict[str, Any]:
@@ -25,7 +61,21 @@ def facts(run: Run) -> dict[str, Any]:
     said = cited()
     version = f"{said['version']} ({said['date-released']})" if "date-released" in said else said["version"]
     files = FILES(map(describe_file, list_files(run)))
-    return {"title": said["title"], "version": version, "run": describe_run(read.provenance()), "tables": files}
+    given = read.provenance()
+    return {
+        "title": said["title"],
+        "version": version,
+        "episodes": html.number(count_episodes(given)),
+        "kinds": listed(f"{html.number(given.get(key, 0))} {label.lower()}" for key, label in EPISODES.items()),
+        "run": describe_run(given),
+        "tables": files,
+    }
+
+
+def count_episodes(given: dict[str, Any]) -> int:
+    """Count the episodes of a run of all kinds, as `bench show` does."""
+    counts = [given.get(key) for key in EPISODES]
+    return sum(number for number in counts if isinstance(number, int))
 
 
 def cited() -> dict[str, str]:
@@ -36,8 +86,31 @@ def cited() -> dict[str, str]:
 
 def describe_run(given: dict[str, Any]) -> html.Markdown | None:
     """Return the facts of provenance.json, which may come from anywhere, as a table."""
-    facts = pd.json_normalize(given, sep=" ").iloc[0]
-    return FACTS((html.foreign(name), html.foreign(value)) for name, value in facts.items())
+    facts = pd.json_normalize(given, sep=" ").iloc[0].to_dict()
+    known = [name for name in LABELS if name in facts]
+    others = [name for name in facts if name not in LABELS]
+    return FACTS((html.foreign(label_fact(name)), describe_fact(name, facts[name])) for name in [*known, *others])
+
+
+def label_fact(name: str) -> str:
+    """Return what a reader calls a fact of provenance.json."""
+    for prefix, words in ((VERSION, "Version of"), (SETTING, "Setting of the arithmetic,")):
+        if name.startswith(prefix):
+            return f"{words} {name.removeprefix(prefix)}"
+    return LABELS.get(name, name)
+
+
+def describe_fact(name: str, value: Any) -> str:
+    """Return the value of a fact: yes, no and none as words, a command as code that can be pasted."""
+    if isinstance(value, list | dict):
+        value = ", ".join(map(str, value)) or "none"
+    if isinstance(value, bool | np.bool_):
+        return "yes" if value else "no"
+    if name in EPISODES and isinstance(value, int | np.integer):
+        return html.number(int(value))
+    if name in CODE and not TAKEN_BY_CODE.search(str(value)):
+        return f"`{value}`"
+    return html.foreign(value)
 
 
 def list_files(run: Run) -> list[Path]:

@@ -1,0 +1,54 @@
+"""The texts of the laws' pages: one for every law, in plain words, with the constants of the law's file."""
+
+import math
+import re
+
+import pytest
+
+from bench.findings.constants import CONSTANTS
+from bench.law.contenders.registry import contenders
+from bench.law.contenders.regulators import late_braking, mrp_linearized, predicted_side
+from bench.law.side import DELTA
+from report.figures.cards import regulators
+from report.figures.cards.card import set_paragraph
+
+PRIVATE = re.compile(r"bench\.|[A-Z]{4,}|\btheta\b|\bacos\b|\basin\b|\bkept\b|\bticks?\b|\bdegrees\b|_")
+ABBREVIATIONS = {"PX4"}
+SHIPPED = {(constant.law, constant.symbol): constant.shipped for constant in CONSTANTS}
+
+
+def test_every_law_has_a_text_and_no_text_is_without_its_law():
+    assert set(regulators.TEXTS) == set(contenders("regulators"))
+
+
+@pytest.mark.parametrize("law", sorted(contenders("regulators")))
+def test_text_of_a_law_has_no_word_of_its_code(law):
+    about, limitations = regulators.text_of(contenders("regulators")[law])
+    shown = "".join(set_paragraph(text) for text in (*about.split("\n\n"), limitations))
+    words = re.sub(r"<[^>]+>", " ", shown)
+    assert limitations.endswith(".")
+    assert "<p></p>" not in shown
+    assert not [word for word in PRIVATE.findall(words) if word not in ABBREVIATIONS]
+
+
+def test_numbers_of_the_texts_are_those_of_the_laws():
+    texts = {law: f"{text['about']} {text['limitations']}" for law, text in regulators.TEXTS.items()}
+    beyond, at_switch = (round(2.0 * math.degrees(angle)) for angle in (math.asin(DELTA), math.acos(DELTA)))
+    for law in ("hybrid", "mrp-memory", "rotation-vector-memory", "sliding-memory"):
+        assert f"2 arcsin(δ) = {beyond}°" in texts[law]
+    for law in ("mrp-memory", "rotation-vector-memory"):
+        assert f"2 arccos(δ) = {at_switch}°" in texts[law]
+    assert f"theta up to {round(2.0 * math.degrees(math.acos(-DELTA)))}°" in texts["rotation-vector-memory"]
+    assert f"above {mrp_linearized.SWITCH:g}" in texts["mrp-linearized"]
+    assert f"margin of {math.degrees(predicted_side.MARGIN):.0f}°" in texts["predicted-side"]
+    assert f"h = {SHIPPED['joshi-kelkar-wen', 'γ/Gp']:g}:" in texts["joshi-kelkar-wen"]
+    assert "a fifth of Kv at 180°" in texts["late-braking"]
+    assert pytest.approx(0.8) == late_braking.EASED
+
+
+@pytest.mark.parametrize(
+    ("share", "words"),
+    [(0.0, "none of the situations"), (0.004, "less than 1 % of the situations"), (0.64, "64 % of the situations")],
+)
+def test_share_of_situations_is_said_in_words(share, words):
+    assert regulators.say_share(share) == words
