@@ -102,7 +102,7 @@ def test_share_has_its_interval():
     assert f"{share(pd.Series([True] * 931 + [False] * 69))}" == "93.1 % (91.4 to 94.5 %, n = 1,000)"
 
 
-@pytest.mark.parametrize(("k", "text"), [(0, "none of 4 poles"), (3, "3 of 4 poles"), (4, "all 4 poles")])
+@pytest.mark.parametrize(("k", "text"), [(0, "none of the 4 poles"), (3, "3 of the 4 poles"), (4, "all 4 poles")])
 def test_none_and_all_are_words(k, text):
     assert count_of(k, 4, "poles") == text
 
