@@ -42,7 +42,7 @@ PYTHON ?= $(shell for python in python3 python3.13 python3.12 python3.11; do \
 bench: $(READY) ## run the default suite, free body and arms, and print the summary (minutes, set-up included)
 	@$(PY) -m bench run --suite default --replace $(ARGS)
 	@$(PY) -m bench show
-report: $(VENV)/.report ## build the report: report/_build/html/index.html (from your run if there is one)
+report: $(VENV)/.report ## build the report: report/_build/html/index.html (ARGS=--pdf: the chapters as one PDF, too)
 	@$(PY) report/build.py $(ARGS)
 
 ##@ Benchmark

@@ -2,6 +2,7 @@
 
     make report                                    from results/latest, else results/reference
     ORIENTATION_BENCH_RESULTS=DIR make report      from another results folder
+    make report ARGS=--pdf                         also the front page and the chapters as one PDF
 
 Neither Sphinx nor the execution cache notices changed data or modules, so this file keys both. `site`
 digests all that can change a page; equal to the finished build's, there is nothing to do. `cells` leaves
@@ -9,6 +10,7 @@ out the text of the pages: while it stays, cells keep their stored outputs (jupy
 cells' own text); when it moves, every cell runs again.
 """
 
+import argparse
 import hashlib
 import json
 import os
@@ -20,6 +22,7 @@ import time
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+import book_pdf
 import check_site
 
 from bench.cli.progress import progress
@@ -186,9 +189,16 @@ def complaints(log: str) -> list[str]:
     return kept[:MOST_COMPLAINTS] or log.splitlines()[-MOST_COMPLAINTS:]
 
 
+def parse_arguments() -> argparse.Namespace:
+    """Return what the command line asks for."""
+    parser = argparse.ArgumentParser(description="Build the report from the results of a run.")
+    parser.add_argument("--pdf", action="store_true", help="also print the chapters as one PDF (needs chromium)")
+    return parser.parse_args()
+
+
 def main() -> int:
     """Build if anything changed, check the pages, say where they are."""
-    began = time.monotonic()
+    began, asked = time.monotonic(), parse_arguments()
     try:
         results = results_folder()
         print(f"report: from {os.path.relpath(results, ROOT)}", flush=True)
@@ -197,6 +207,8 @@ def main() -> int:
         if wanted != finished:
             build(results, wanted["cells"])
             offer_data(results)
+        if asked.pdf:
+            print(f"report: {book_pdf.write_pdf(SITE, environment(results)['SOURCE_DATE_EPOCH'])}", flush=True)
         problems = check_site.find_problems(SITE)
         if problems:
             raise CannotBuild("\n".join([*problems, f"the page check found {len(problems)} problems"]))

@@ -1,7 +1,8 @@
 """The page check: what is wrong with a built report, without a browser.
 
 A page must load nothing from the network, have no dead local link or anchor, describe every picture in
-words, hold one main heading, no repeated id and no directive as text; the site must stay within its size budget.
+words, hold one main heading, one viewport, a description of its own, no repeated id and no directive as
+text; the site must stay within its size budget.
 """
 
 import re
@@ -35,6 +36,7 @@ def find_problems(site: Path, budget_bytes: int = BUDGET_BYTES) -> list[str]:
         for path, page in pages.items()
         for line in (*describe_parts(path, page), *check_links(path, page, ids))
     ]
+    found += find_shared_descriptions(site, pages)
     for sheet in site.rglob("*.css"):
         text = sheet.read_text(encoding="utf-8", errors="replace")
         found += [f"{sheet.relative_to(site)}: loads {url}" for url in CSS_URL.findall(text)]
@@ -60,9 +62,26 @@ def describe_parts(path: Path, page: html.HtmlElement) -> list[str]:
     styles = page.xpath("//@style | //style/text()")
     found += [f"loads {url}" for style in styles for url in CSS_URL.findall(style)]
     found += [f"id {name} appears twice" for name, count in Counter(page.xpath("//@id")).items() if count > 1]
+    viewports = len(page.xpath("//meta[@name='viewport']"))
+    if viewports > 1:
+        found.append(f"{viewports} viewports instead of one")
     headings = len(page.xpath("//article//h1"))  # the theme repeats it outside, for print
     if headings != 1 and path.name not in GENERATED:
         found.append(f"{headings} main headings instead of one")
+    return found
+
+
+def find_shared_descriptions(site: Path, pages: dict[Path, html.HtmlElement]) -> list[str]:
+    """Return one line for each page that a search engine would describe as it describes an earlier one."""
+    first: dict[str, Path] = {}
+    found = []
+    for path, page in pages.items():
+        if path.name in GENERATED:
+            continue
+        for text in page.xpath("//meta[@name='description']/@content"):
+            same = first.setdefault(text, path)
+            if same != path:
+                found.append(f"{path.relative_to(site)}: has the description of {same.relative_to(site)}")
     return found
 
 

@@ -4,7 +4,8 @@
 
 Joint angles come from the compiled engine, tick by tick, as in every episode of the results; in contact they follow
 from the record's pose of the hand, by Newton's method from one frame to the next. MuJoCo draws offscreen by EGL (or
-MUJOCO_GL=osmesa). Where that does not work the committed files stay. Loops need imageio-ffmpeg (the dev extra).
+MUJOCO_GL=osmesa). Where that does not work the committed files stay. Loops need imageio-ffmpeg (the dev extra). The
+headline figure is drawn by `report/headline.py`, which needs no GL and is run from here too.
 """
 
 import json
@@ -15,6 +16,7 @@ from typing import Any
 if __name__ == "__main__":
     os.environ.setdefault("MUJOCO_GL", "egl")  # which MuJoCo reads when it is imported
 
+import headline
 import numpy as np
 import three_fates
 from drawing import HALF, LINE, MEDIA, THEMES, Motion, Theme, draw_row, encode_loop, make_view, save
@@ -186,6 +188,7 @@ def main() -> None:
     rows = {word: row for word, (_, row) in found.items()}
     about = {"commit": describe()["commit"], **describe_files(rows, three_fates.describe(fates))}
     (MEDIA / "media.json").write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8")
+    headline.main()
 
 
 if __name__ == "__main__":

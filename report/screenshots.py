@@ -103,15 +103,20 @@ def open_page(driver: Any, page: Path, view: View) -> None:
     settle(driver)
 
 
-def network_requests(driver: Any) -> list[str]:
-    """Every address outside this machine that was asked for since the last call."""
+def requests(driver: Any) -> list[str]:
+    """Return every address that was asked for since the last call."""
     asked = []
     for entry in driver.get_log("performance"):
         message = json.loads(entry["message"])["message"]
         if message["method"] in ("Network.requestWillBeSent", "Network.webSocketCreated"):
             parameters = message["params"]
             asked.append(parameters.get("url") or parameters["request"]["url"])
-    return [url for url in asked if not url.startswith(LOCAL_SCHEMES)]
+    return asked
+
+
+def network_requests(driver: Any) -> list[str]:
+    """Return every address outside this machine that was asked for since the last call."""
+    return [url for url in requests(driver) if not url.startswith(LOCAL_SCHEMES)]
 
 
 def console_errors(driver: Any) -> list[str]:

@@ -33,6 +33,9 @@ if TYPE_CHECKING:
     import mujoco
     from dm_control.rl.control import Environment
 
+HORIZON_S = 20.0
+"""Length of an episode that is not in contact [s], unless another one is asked for."""
+
 _find_arm = arm  # several functions below have an argument of that name
 
 
@@ -96,7 +99,7 @@ def load(
         start: a Start, by default the first of `paper`, or on an arm of the first start set of its task. In contact a
             Trial, by default the task's first.
         dt: control period and integration step [s].
-        horizon: length of an episode [s], a whole number of ticks after rounding: 20, or in contact the task's own.
+        horizon: length of an episode [s], a whole number of ticks after rounding: HORIZON_S, or in contact the task's.
         integrator: "euler" (the usual one), "rk4", "implicit" or "implicitfast" (the usual one in contact).
         vary: changes the compiled model before the first episode, so that the plant is not what a contestant believes.
     """
@@ -110,7 +113,7 @@ def load(
     chosen = task if isinstance(task, Task) else _find_task(task, arm)
     if start is None:
         start = start_set(chosen.start_sets[0], 1, arm=chosen.arm)[0] if chosen.arm else start_set("paper")[0]
-    return environment(chosen, start, dt, 20.0 if horizon is None else horizon, integrator or "euler", vary)
+    return environment(chosen, start, dt, HORIZON_S if horizon is None else horizon, integrator or "euler", vary)
 
 
 def start_set_names(arm: bool = False) -> list[str]:

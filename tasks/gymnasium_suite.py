@@ -7,15 +7,19 @@ reset draws another start, and reset(seed=...) repeats what is drawn.
 
 from __future__ import annotations
 
+import dataclasses
 from typing import Any
 
 import gymnasium
+import mujoco
 import numpy as np
 from dm_control.rl.control import PhysicsError
+from gymnasium.envs.registration import EnvSpec
 from gymnasium.spaces import Box, Dict
 
 import tasks
 from tasks.contact import Trial
+from tasks.rules import ticks
 
 DRAWN = 2**31
 """Number of starts of the free body that a reset draws from; an arm has those of its first start set."""
@@ -24,13 +28,22 @@ IDENTIFIERS = {
 }
 """Identifiers of Gymnasium, and the names of the tasks."""
 
+LARGEST = float(mujoco.mjMAXVAL)
+"""Number of a state beyond which MuJoCo gives up, in SI units: the bound of whatever has no other."""
+
+UNIT = 1.0 + 1e-9
+"""Bound of the elements of a rotation matrix, a unit quaternion and a selection of axes; rounding leaves 1e-15."""
+
+BOUNDS = dict.fromkeys(("R", "goal_quat", "selection"), UNIT)
+
 
 class OrientationEnvironment(gymnasium.Env):
     """A task of this package.
 
     An action is one number a motor in [-1, 1], times its rated torque [N m]; on the free body times 1000 rad/s^2.
     An observation is a dictionary as in `tasks.load`, base frame; R is nine numbers by columns, goal_quat is
-    (w, x, y, z). An episode is truncated at the time limit, and terminated where the simulation diverges.
+    (w, x, y, z). An episode is truncated at the time limit, and terminated where the simulation diverges. The spec has
+    the steps of the time limit as max_episode_steps.
 
     Args:
         task: a name of `tasks.names()` or `tasks.contact_names()`.
@@ -39,6 +52,7 @@ class OrientationEnvironment(gymnasium.Env):
         render_mode: "rgb_array" or None.
     """
 
+    _spec: EnvSpec | None = None
     metadata = {"render_modes": ["rgb_array"], "render_fps": 50}  # noqa: RUF012  Gymnasium declares it so
 
     def __init__(
@@ -50,8 +64,25 @@ class OrientationEnvironment(gymnasium.Env):
         self.most = self.environment.action_spec().maximum
         self.action_space = Box(-1.0, 1.0, self.most.shape, np.float64)
         seen = self.environment.reset().observation
-        self.observation_space = Dict({name: Box(-np.inf, np.inf, one.shape, np.float64) for name, one in seen.items()})
+        self.observation_space = Dict({name: self._find_box(name, one) for name, one in seen.items()})
         self.seen = seen
+        usual_s = tasks.contact_task(task).horizon_s if self.trials else tasks.HORIZON_S
+        self.steps = ticks(usual_s if time_limit is None else time_limit, dt)
+
+    @staticmethod
+    def _find_box(name: str, seen: np.ndarray) -> Box:
+        bound = BOUNDS.get(name, LARGEST)
+        return Box(-bound, bound, seen.shape, np.float64)
+
+    @property
+    def spec(self) -> EnvSpec | None:
+        """What Gymnasium knows of the environment, with the number of steps that this one has at most."""
+        return self._spec
+
+    @spec.setter
+    def spec(self, given: EnvSpec | None) -> None:
+        # Not when it is registered: there it would cut episodes of another control period or time limit.
+        self._spec = given and dataclasses.replace(given, max_episode_steps=self.steps)
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None

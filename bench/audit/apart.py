@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from bench.base.errors import BadFunction
+from bench.base.errors import BadFunction, BadNumber
 
 LIMIT_S = 60.0
 """Seconds on the wall for the whole audit: fifty times what a function of some microseconds takes."""
@@ -21,6 +21,9 @@ ROOT = str(Path(__file__).resolve().parents[__name__.count(".")])
 BEGIN = f"import sys; sys.path.insert(0, {ROOT!r}); from {__package__}.audit_process import main; main()"
 
 
+LONGEST_S = 86_400.0
+
+
 def audit_apart(
     target: str, stated: dict[str, Any], limit_s: float = LIMIT_S, progress: Callable[[int], object] = bool
 ) -> dict[str, Any]:
@@ -29,6 +32,8 @@ def audit_apart(
     `stated` are arguments of `bench.audit.audit`; `progress` gets the number of calls, some times a second. It returns
     `report` (`Report.as_dict`), `text` (for people), `head` (its first lines), `paragraphs` (name of a fault -> text).
     """
+    if not 0.0 < limit_s <= LONGEST_S:  # NaN too: no comparison with it is true
+        raise BadNumber(f"limit {limit_s:g} s is not a time up to {LONGEST_S:g} s, a day (try: --limit {LIMIT_S:g})")
     request = {"target": target, "stated": stated, "limit_s": limit_s, "path": sys.path}
     command = [sys.executable, "-P", "-c", BEGIN, json.dumps(request)]
     said: Any = 0

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from bench.audit.apart import LIMIT_S, audit_apart
-from bench.base.errors import BadFunction
+from bench.base.errors import BadFunction, BadNumber
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -33,7 +33,7 @@ def checks(session: pytest.Session, target: str) -> list[pytest.Item]:
     allowed = [*config.getini("orientation_error_allow"), *config.getoption("orientation_error_allow")]
     try:
         said = audit_apart(target, {"allow": allowed}, config.getoption("orientation_error_limit"))
-    except BadFunction as error:
+    except (BadFunction, BadNumber) as error:
         raise pytest.UsageError(str(error)) from error
     names = sorted(path.stem.replace("_", "-") for path in Path(__file__).with_name("faults").glob("[a-z]*.py"))
     return [Check.from_parent(session, name=f"{target}[{name}]", fault=name, said=said) for name in names]

@@ -6,7 +6,9 @@ A mistake of the caller ends in one line on stderr and exit code 2, and touches 
 import ast
 import importlib
 import sys
+import tomllib
 from pathlib import Path
+from typing import Any
 
 import rich_click as click
 from click.exceptions import Exit
@@ -19,6 +21,19 @@ from bench.cli.screen import examples
 click.rich_click.TEXT_MARKUP = None
 click.rich_click.MAX_WIDTH = 110
 click.rich_click.STYLE_OPTIONS_TABLE_PAD_EDGE = False
+
+GROUPS = tomllib.loads(Path(__file__).with_name("groups.toml").read_text(encoding="utf-8"))
+"""Command -> group -> its options; of `bench` itself, its commands."""
+
+
+def list_groups(command: str, kind: str) -> list[dict[str, Any]]:
+    """Return the groups of a command, as rich-click takes them; kind: what is in them."""
+    return [{"name": name, kind: words} for name, words in GROUPS[command].items()]
+
+
+click.rich_click.COMMAND_GROUPS = {"bench": list_groups("bench", "commands")}
+for _command in (word for word in GROUPS if word != "bench"):
+    click.rich_click.OPTION_GROUPS[f"bench {_command}"] = list_groups(_command, "options")
 
 
 @click.group(epilog=examples("bench"), context_settings={"help_option_names": ["-h", "--help"]})
@@ -45,23 +60,24 @@ FILES = {"listing": "list"}
 """Modules whose command has another name: one named `list` would hide Python's."""
 
 
-RESUMING = ("run", "map")
-"""Commands whose folder keeps each unit of work when it is done; the others write at their end, or nothing."""
-
 RESUMED = "what was finished is kept, and the same command goes on from there"
+UNWRITTEN = "nothing was written"
 LOST = "this command keeps nothing of what was not finished, and starts from the beginning"
-"""What becomes of the work when Ctrl-C ends a command."""
+"""What becomes of the work when Ctrl-C ends a command: kept by unit, never written to a file, or written at its end."""
+
+STOPPED = dict.fromkeys(("run", "map"), RESUMED)
+STOPPED |= dict.fromkeys(("advise", "judge", "list", "show", "claims", "count", "doctor"), UNWRITTEN)
 
 
 def main(words: list[str] | None = None) -> int:
     """Run one command; its exit code."""
     words = sys.argv[1:] if words is None else words
     given = next((word for word in words if not word.startswith("-")), "")
-    for path in Path(__file__).parent.glob("*.py"):
-        command = command_of(path, FILES.get(path.stem, path.stem) == given)
-        if command is not None:
-            bench.add_command(command)
     try:
+        for path in Path(__file__).parent.glob("*.py"):
+            command = command_of(path, FILES.get(path.stem, path.stem) == given)
+            if command is not None:
+                bench.add_command(command)
         return bench.main(words or ["--help"], prog_name="bench", standalone_mode=False) or 0
     except Exit as stop:
         return stop.exit_code
@@ -70,7 +86,7 @@ def main(words: list[str] | None = None) -> int:
         where = context.command_path if context else "bench"
         return print_refusal(reason if "(try: " in reason else f"{reason} (try: {where} --help)")
     except (KeyboardInterrupt, click.Abort):
-        print(f"stopped; {RESUMED if given in RESUMING else LOST}", file=sys.stderr)
+        print(f"stopped; {STOPPED.get(given, LOST)}", file=sys.stderr)
         return 130
     except Exception as error:
         from tasks.errors import TaskError  # with numpy, so only when there is a mistake

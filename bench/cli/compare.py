@@ -8,7 +8,7 @@ from typing import Any
 import rich_click as click
 from click.exceptions import Exit
 
-from bench.base.errors import BenchError
+from bench.base.errors import BadResults, BenchError
 from bench.base.files import write_json
 from bench.base.on_first_use import pd
 from bench.base.provenance import read_provenance, rounded_on
@@ -47,7 +47,11 @@ def COMMAND(summary: Path | None, **asked: Any) -> None:
 
     def leave(text: str) -> None:
         for path, said in before.items():
-            path.write_text(said + text, encoding="utf-8")
+            try:
+                path.write_text(said + text, encoding="utf-8")
+            except OSError as error:
+                cure = "give a file in a folder that is there (try: --summary summary.md)"
+                raise BadResults(f"{path}: cannot be written ({error.strerror}); {cure}") from error
 
     leave("### Not judged: the comparison did not come to its end\n")
     try:

@@ -42,7 +42,8 @@ def COMMAND(law: str, language: str, out: Path | None, laws: options.Files) -> N
             name, files = subject.identifier, made.files(subject)
         folder = FOLDER / language / name if out is None else out / name if law == EVERYTHING else out
         _write(folder, files)
-        console().print(f"wrote {shown_path(folder)}   try it there: {made.test.format(name=name)}", soft_wrap=True)
+        console().print(f"wrote {shown_path(folder)}; try it there:", soft_wrap=True)
+        console().print(f"  {made.test.format(name=name)}", soft_wrap=True)
 
 
 def _write(folder: Path, files: dict[str, str]) -> None:

@@ -27,11 +27,12 @@ FEW = 3
 
 
 def print_size(plan: Plan, out: Path, workers: int, scheduler: str) -> None:
-    """Print how much is run, how, and into which folder."""
+    """Print how much is run, how, and into which folder if it is there."""
     given, who = plan.settings, counted(workers, "thread") if scheduler == THREADS else scheduler
     gains = f"kp {given.gains.kp:g}/s², kv {given.gains.kv:g}/s"
     settings = f"control period {given.dt_s:g} s, {gains}, seed {given.seed}; by {who}"
-    print_paragraphs(*_sizes(plan), Paragraph("with", (settings,)), Paragraph("into", (shown_path(out),)))
+    into = [Paragraph("into", (shown_path(out),))] if out.exists() else []  # no path that is not there yet
+    print_paragraphs(*_sizes(plan), Paragraph("with", (settings,)), *into)
 
 
 def _sizes(plan: Plan) -> list[Paragraph]:

@@ -4,6 +4,7 @@ A screen without UTF-8 gets ASCII: `spelled` writes its units and signs as words
 """
 
 import os
+import re
 import shlex
 import tomllib
 from collections.abc import Iterable, Iterator, Sequence
@@ -66,6 +67,9 @@ def examples(command: str) -> Text:
     return said.append(own.get("after", ""))
 
 
+UNIT_BEHIND = re.compile(r" (?=[\[(])")
+"""Before what stands in brackets in the name of a column."""
+
 SENTENCE = 30
 """Longest cell with a space in it that is kept on one line; longer ones wrap, to no less than this width."""
 
@@ -81,7 +85,8 @@ class Column(NamedTuple):
 class Frame:
     """A data frame as a table, numbers to the right; no name is broken while the screen has room for it.
 
-    What is too wide goes below in blocks of columns, each with the first column again; nothing is cut off.
+    Where it is too wide, units go under the names of their columns; what is still too wide goes below in blocks of
+    columns, each with the first column again. Nothing is cut off.
     """
 
     def __init__(self, columns: list[Column], title: str):
@@ -91,6 +96,8 @@ class Frame:
         if self.title:
             yield Text(spelled(self.title, screen), "bold")
         columns = [_spelled_column(column, screen) for column in self.columns]
+        if not _fits(columns, screen, options):
+            columns = [column._replace(name=UNIT_BEHIND.sub("\n", column.name)) for column in columns]
         first, *others = blocks = _blocks(columns, screen, options)
         if others:
             yield Text(f"{len(columns) - len(first)} of {len(columns)} columns do not fit and are below.")

@@ -13,11 +13,14 @@ from bench.cli.screen import console, examples, frame_table, shown_path
 @click.command("show", epilog=examples("show"))
 @click.argument("folder", required=False)
 @click.argument("part", required=False)
-@click.option("--details", is_flag=True, help="Every table instead of the summary.")
+@click.option("--details", is_flag=True, help="The advice in full, what failed, and every table.")
 @click.option("--outcomes", is_flag=True, help="The count of each outcome for every start set.")
 @options.regulator
 def COMMAND(folder: str | None, part: str | None, details: bool, outcomes: bool, regulators: options.Words) -> None:
-    """Show a run in at most 40 lines, the answer first: law, failures, where to look (default: results/latest).
+    """Show a run in at most 40 lines, the table of its laws first (default: results/latest).
+
+    The summary of a whole suite replicates the paper: its laws and later ones, its Jacobians, its claims, and what to
+    use today. A run of some laws shows them beside each other; the claims are judged only if the run holds the paper's.
 
     FOLDER may be left out. PART is free-body, arms, contact or robustness: the tables of that part. In them a/b counts
     episodes: a of b settled (in contact: poses done). --regulator and --outcomes show tables of
@@ -32,12 +35,21 @@ def COMMAND(folder: str | None, part: str | None, details: bool, outcomes: bool,
         return
     if part not in (None, "free-body", "arms") and given:
         raise click.UsageError(f"{part} takes no {given[0]}, which is about episodes from start sets; leave it away")
+    is_everything = details and not (part or given)
+    if is_everything:
+        from bench.cli.summary.details import print_claims, print_sentences
+
+        print_sentences(path)
+        console().print()
     found = _tables(path, part, outcomes, regulators)
     console().print(origin(path))
     for title, frame in found:
         console().print(frame_table(frame, f"\n{title}"))
     if not found:
         console().print(f"\nThere is nothing of {part or 'any part'} in this run.")
+    if is_everything:
+        console().print()
+        print_claims(path)
 
 
 def _meant(folder: str | None, part: str | None) -> tuple[Path, str | None]:

@@ -20,6 +20,12 @@ def count_of(part: int, whole: int, nouns: str) -> str:
     return f"{part:,} of the {whole:,} {nouns}" if part else f"none of the {whole:,} {nouns}"
 
 
+def part_of(part: int, whole: int) -> str:
+    """Return how many of a group whose noun is said beside it: 'all 17', 'none of 17' or '3 of 17'."""
+    many = {whole: "all", 0: "none of"}.get(part, f"{part:,} of")
+    return f"{many} {whole:,}"
+
+
 def capitalize(text: str) -> str:
     """Return a text as the start of a sentence: its first letter large, the others as they are."""
     return f"{text[:1].upper()}{text[1:]}"

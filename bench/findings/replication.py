@@ -28,7 +28,7 @@ AT_REST = ("uniform", "half-turn", "poles", "wraps", "box")
 NEARLY_ALL = 0.99
 
 TILT_DEG = 60.0
-"""Tilt beta at which the axis of compliance is told; of the tilts that were run the nearest one is taken."""
+"""Tilt beta at which the axis of compliance is stated; of the tilts that were run the nearest one is taken."""
 
 
 class Settling(NamedTuple):

@@ -12,8 +12,8 @@ import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-COLOURS = ("blue", "vermillion", "green", "purple", "orange", "sky", "yellow")
-"""Okabe and Ito's, distinguished with any colour vision."""
+COLOURS = ("blue", "vermillion", "green", "purple", "orange", "sky", "yellow", "wine", "violet")
+"""Distinguished with any colour vision. The book draws eight laws of its own in colour, and all others in grey."""
 MARKERS = ("o", "s", "^", "v", "D", "d", "p", "P", "x", "X", "h", "*", "<")
 LINES = ("solid", "dashed", "dotted", "dash-dot")
 

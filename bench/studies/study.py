@@ -6,9 +6,11 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from bench.base.errors import BadNumber
 from bench.base.files import read_json, write_json
 from bench.base.on_first_use import pd
 from bench.base.provenance import describe, source_digest
+from bench.experiments.choice import MOST_WORKERS, check_workers
 from bench.experiments.tables.store import write_table
 
 
@@ -23,8 +25,19 @@ def make_parser(
         shown = f"where to write (default: results/{out.parent.name})"
         parser.add_argument("--out", type=Path, default=out, help=shown)
     if workers:
-        parser.add_argument("--workers", type=int, default=workers, help=f"threads (default: {workers})")
+        parser.add_argument("--workers", type=count_workers, default=workers, help=f"threads (default: {workers})")
     return parser
+
+
+def count_workers(word: str) -> int:
+    """Return the number of threads that a word says; argparse refuses one that cannot work, in one line."""
+    try:
+        number = int(word)
+        check_workers(number)
+    except (ValueError, BadNumber) as error:
+        cure = f"'{word}' is no number of threads: give a whole number from 1 to {MOST_WORKERS} (try: 2)"
+        raise argparse.ArgumentTypeError(cure) from error
+    return number
 
 
 def describe_study(name: str, **more: Any) -> dict[str, Any]:

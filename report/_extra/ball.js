@@ -1,12 +1,15 @@
 /* The ball of rotation vectors: direction is the axis of a rotation, distance from the centre its angle, and 180 degrees
-   are the surface. Mouse, finger and arrow keys turn it; it follows light and dark.
+   are the surface. Mouse, finger and arrow keys turn it; shift and arrow keys move a ring from dot to dot, and enter picks the
+   dot in the ring, which is there while the canvas has the focus of the keyboard. It follows light and dark.
 
-   ball.make(canvas, { onPick }) -> { draw({ dots, ways, cut, isSolid, tip }), face(point) }
+   ball.make(canvas, { onPick, onMark }) -> { draw({ dots, ways, cut, isSolid, tip }), face(point) }
      dots  [{ at, colour, radius }] in the unit ball; ways  [{ points, now, colour, dashes }]; cut  depth beyond which
-     dots are left out, 1 is towards the reader; isSolid  dots hide what is inside; onPick(i)  a dot was clicked */
+     dots are left out, 1 is towards the reader; isSolid  dots hide what is inside; onPick(i)  a dot was clicked;
+     onMark(i)  the ring is around another dot, or null */
 (function (root) {
   "use strict";
   const START = { yaw: 0.6, pitch: 0.35 }, ASIDE = 0.5, STEP = 0.12, CIRCLE = 96, BEHIND = 0.45, RADIUS = 0.43, STILL = 5;
+  const RING = { x: 0, y: -0.28 }, RING_STEP = 0.04, RING_REACH = 0.42; // from the middle, as shares of the canvas
   const LAYER = 0.25, SHELL = 0.78;
   const dot = (p, q) => p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
   const ring = f => Array.from({ length: CIRCLE + 1 }, (_, i) => f((2 * Math.PI * i) / CIRCLE));
@@ -15,10 +18,11 @@
   const AXES = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
   const isJump = (p, q) => Math.hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) > 1;
 
-  function make(canvas, { onPick = () => {} } = {}) {
+  function make(canvas, { onPick = () => {}, onMark = () => {} } = {}) {
     const pen = canvas.getContext("2d"), sprites = new Map();
     let { yaw, pitch } = START, held = null, size = 0, ratio = 1, waiting = null, ink = "", paper = "";
     let shown = { dots: [], ways: [], cut: 1, tip: name => name }, order = [], spots = [];
+    let place = { ...RING }, marked = null;
 
     function eye() { // unit vectors that point right, up and to the reader
       const [cy, sy, cp, sp] = [Math.cos(yaw), Math.sin(yaw), Math.cos(pitch), Math.sin(pitch)];
@@ -100,6 +104,26 @@
       pen.fill();
       pen.stroke();
     }
+    function nearestToRing() { // of the dots that are drawn; null where there is none
+      const x = size * (0.5 + place.x), y = size * (0.5 + place.y), distance = i => Math.hypot(spots[i][0] - x, spots[i][1] - y);
+      return order.length ? order.reduce((best, i) => (distance(i) <= distance(best) ? i : best)) : null;
+    }
+    function drawRing() {
+      const found = canvas.matches(":focus-visible") ? nearestToRing() : null;
+      if (found !== marked) { marked = found; onMark(marked); }
+      if (marked === null) return;
+      for (const [colour, lineWidth] of [[paper, 6], [ink, 3]]) {
+        pen.beginPath();
+        pen.arc(spots[marked][0], spots[marked][1], 11, 0, 7);
+        Object.assign(pen, { strokeStyle: colour, lineWidth });
+        pen.stroke();
+      }
+    }
+    function moveRing(dx, dy) {
+      const within = value => Math.max(-RING_REACH, Math.min(RING_REACH, value));
+      place = { x: within(place.x + dx), y: within(place.y + dy) };
+      draw();
+    }
     function paint() {
       waiting = null;
       const style = getComputedStyle(canvas), width = Math.round(canvas.clientWidth * (window.devicePixelRatio || 1));
@@ -112,6 +136,7 @@
       drawDots(project);
       drawNames(project);
       shown.ways.forEach((way, i) => drawWay(project, way, i === 0));
+      drawRing();
     }
     function draw(given = {}) { // once a frame, however often it is asked
       Object.assign(shown, given);
@@ -147,11 +172,15 @@
     canvas.addEventListener("pointercancel", () => { held = null; });
     canvas.addEventListener("dblclick", () => { ({ yaw, pitch } = START); draw(); });
     canvas.addEventListener("keydown", event => {
-      const way = { ArrowLeft: [-STEP, 0], ArrowRight: [STEP, 0], ArrowUp: [0, -STEP], ArrowDown: [0, STEP] }[event.key];
-      if (!way) return;
+      const isPick = event.key === "Enter" || event.key === " ";
+      const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+      if (!way && !isPick) return;
       event.preventDefault();
-      turn(...way);
+      if (isPick && marked !== null) onPick(marked);
+      if (way && event.shiftKey) moveRing(...way.map(one => one * RING_STEP));
+      else if (way) turn(...way.map(one => one * STEP));
     });
+    for (const change of ["focus", "blur"]) canvas.addEventListener(change, () => draw());
     new ResizeObserver(() => draw()).observe(canvas);
     document.fonts.ready.then(() => draw());
     return { draw, face };

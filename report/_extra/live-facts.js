@@ -47,13 +47,20 @@
       return row;
     }));
   }
-  function say(view, episodes, data) { // to be seen, and to be read out when it changes
-    const lines = SIDES.map(side =>
-      `${side.toUpperCase()}: ${data.laws[view[side]].name} ${ending(episodes[side], data.rules)}.`);
-    if (byId("said").textContent.trim() === lines.join(" ")) return;
-    const spans = lines.map((line, i) => make("span", { className: SIDES[i], textContent: line }));
-    byId("said").replaceChildren(...spans.flatMap(span => [span, " "]));
+  function wait(view, { laws }) { // what was said holds no longer
+    byId("said").setAttribute("aria-busy", "true");
+    put(SIDES.map(side => `${side.toUpperCase()}: ${laws[view[side]].name}: computing …`));
+    document.querySelector(".live-facts").tBodies[0].replaceChildren();
+  }
+  function say(view, episodes, data) { // to be seen, and to be read out
+    put(SIDES.map(side =>
+      `${side.toUpperCase()}: ${data.laws[view[side]].name} ${ending(episodes[side], data.rules)}.`));
+    byId("said").setAttribute("aria-busy", "false");
     fill(view, episodes, data);
   }
-  root.liveFacts = { say, copyText };
+  function put(lines) {
+    const spans = lines.map((line, i) => make("span", { className: SIDES[i], textContent: line }));
+    byId("said").replaceChildren(...spans.flatMap(span => [span, " "]));
+  }
+  root.liveFacts = { wait, say, copyText };
 })(window);

@@ -5,14 +5,15 @@
   "use strict";
   const { product, conjugate, normalized, about, rotationVector, scaled, dot } = window.liveSpace;
   const SIDES = ["a", "b"], DASHES = { a: [], b: [7, 4] }, DEG = 180 / Math.PI;
-  const BUDGET_MS = 8, BLOCK = 250, HORIZON_S = 6, SHORTEST_S = 1, SLOWDOWN = 2, PAUSE_MS = 250, SMALLEST_TURN = 0.01;
+  const BUDGET_MS = 8, BLOCK = 250, HORIZON_S = 6, SHORTEST_S = 1, SLOWDOWN = 2, PAUSE_MS = 250, SMALLEST_TURN = 0.01,
+        AT_THE_END_MS = 1200;
   const byId = id => document.getElementById(`live-${id}`);
   const both = f => SIDES.map(f);
 
   const { SLIDERS } = window.liveSliders, { SETTINGS, ITS_OWN } = window.liveAddress;
 
   let data, address, episodes, plots, ball, starts, gripper, faced, writing, saying, frame = null, clockStarted = null;
-  let isToPlay = false;
+  let isToPlay = false, isToRest = false, isResting = false;
   const view = { time: 0, axis: [0, 0, 1] };
 
   // ---- the start
@@ -61,10 +62,11 @@
     pause();
     episodes = Object.fromEntries(SIDES.map(side => [side, begun(side)]));
     view.time = 0;
-    isToPlay = false;
+    isToPlay = isToRest = isResting = false;
     writeAddress();
     starts.update(view, settings());
     clearTimeout(saying);
+    window.liveFacts.wait(view, data);
     if (frame === null) frame = requestAnimationFrame(goOn);
   }
   function goOn() { // as far as a frame's budget lets both
@@ -76,12 +78,23 @@
     if (frame !== null) return;
     saying = setTimeout(() => window.liveFacts.say(view, episodes, data), PAUSE_MS);
     if (isToPlay) play();
+    else if (isToRest) rest();
   }
   const lastTime = side => (episodes[side].samples.length - 1) * episodes[side].sample_s;
   const endTime = () => Math.max(SHORTEST_S, ...both(lastTime));
   function sampleAt(side, time) {
     const { samples, sample_s } = episodes[side];
     return samples[Math.min(Math.round(time / sample_s), samples.length - 1)];
+  }
+
+  function timeOfContrast() { // the slower body is half way; if it never is, the other one has settled
+    const halves = both(side => {
+      const { samples, sample_s } = episodes[side], tick = samples.findIndex(one => one.angle < samples[0].angle / 2);
+      return tick < 0 ? Infinity : tick * sample_s;
+    });
+    if (halves.every(Number.isFinite)) return Math.max(...halves);
+    const settled = both(side => episodes[side].settling_s).filter(Number.isFinite);
+    return settled.length ? Math.min(...settled) : endTime();
   }
 
   // ---- the address
@@ -93,15 +106,22 @@
     noteAxis();
     rerun();
     isToPlay = !window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+    isToRest = !isToPlay;
   }
   const hash = () => address.nameOf(view) || address.format(view);
   function writeAddress() { // once the reader pauses: browsers stop pages that do so at every key
     const name = address.nameOf(view);
     byId("watch").textContent = name ? data.presets[name].watch : "";
-    for (const button of document.querySelectorAll("[data-preset]"))
+    for (const button of document.querySelectorAll("[data-preset]")) {
       button.setAttribute("aria-pressed", button.dataset.preset === name);
+      if (button.dataset.preset === name) bringIntoStrip(button);
+    }
     clearTimeout(writing);
     writing = setTimeout(() => history.replaceState(null, "", `#${hash()}`), PAUSE_MS);
+  }
+  function bringIntoStrip(button) { // on a phone the presets are one line that scrolls; the page itself stays where it is
+    const strip = button.closest(".live-presets"), [outer, inner] = [strip, button].map(one => one.getBoundingClientRect());
+    strip.scrollLeft += inner.left + inner.width / 2 - (outer.left + outer.width / 2);
   }
   function copyLink() {
     window.liveFacts.copyText(`${location.href.split("#")[0]}#${hash()}`, byId("link"));
@@ -110,11 +130,12 @@
 
   // ---- pictures
 
-  function colourIn() { // a law's own; if both have one colour, B takes that of the text
-    const [a, b] = both(side => data.laws[view[side]].colour), { style } = byId("page");
+  function colourIn() { // a law's own; of two laws that are both grey, B takes another neutral, and its line is dashed
+    const [a, own] = both(side => data.laws[view[side]].colour), { style } = byId("page");
+    const b = own[0] === a[0] ? data.neutrals.find(one => one[0] !== a[0]) : own;
     const onEither = ([light, dark]) => `light-dark(${light}, ${dark})`;
     style.setProperty("--a", onEither(a));
-    style.setProperty("--b", a[0] === b[0] ? "var(--pst-color-text-base)" : onEither(b));
+    style.setProperty("--b", onEither(b));
   }
   const colours = () => both(side => getComputedStyle(document.querySelector(`.live-key.${side}`)).color);
   function plotted(quantity, scale, band) {
@@ -172,7 +193,8 @@
   // ---- the clock
 
   function play() {
-    if (view.time >= endTime() - 0.005) view.time = 0;
+    if (isResting || view.time >= endTime() - 0.005) view.time = 0;
+    isResting = false;
     clockStarted = performance.now() - SLOWDOWN * 1000 * view.time;
     byId("play").textContent = "Pause";
     requestAnimationFrame(tick);
@@ -185,8 +207,14 @@
     if (clockStarted === null) return;
     view.time = Math.min(Math.max(0, (now - clockStarted) / 1000 / SLOWDOWN), endTime());
     showTime();
-    if (view.time < endTime()) requestAnimationFrame(tick);
-    else pause();
+    if (view.time < endTime()) { requestAnimationFrame(tick); return; }
+    pause();
+    setTimeout(() => { if (view.time >= endTime() && clockStarted === null) rest(); }, AT_THE_END_MS);
+  }
+  function rest() { // at the end both bodies may be at the goal, and nothing would tell the laws apart
+    view.time = timeOfContrast();
+    isResting = true;
+    showTime();
   }
 
   // ---- all together
@@ -212,6 +240,7 @@
     byId("play").addEventListener("click", () => (clockStarted === null ? play() : pause()));
     byId("time").addEventListener("input", () => {
       pause();
+      isResting = false;
       view.time = Number(byId("time").value);
       showTime();
     });
@@ -231,12 +260,11 @@
     new ResizeObserver(showAll).observe(byId("page"));
   }
   function start() {
-    document.documentElement.classList.toggle("live-embedded", location.search === "?ball"); // the ball in a chapter
     data = JSON.parse(byId("data").textContent);
     byId("page").hidden = false;
     window.liveSliders.add(moved);
     address = window.liveAddress.make(data);
-    ball = window.ball.make(byId("ball"), { onPick: i => playFrom(starts.pick(i)) });
+    ball = window.ball.make(byId("ball"), { onPick: i => playFrom(starts.pick(i)), onMark: i => starts.describe(i) });
     starts = window.liveStarts.make(ball, data.rules);
     gripper = window.liveGripper.make(byId("gripper"), { turn: turnStart });
     plots = [window.livePlot.make(byId("angle-plot"), 0.01), window.livePlot.make(byId("command-plot"), 0.1)];

@@ -4,9 +4,13 @@
   "use strict";
   const LETTERS = new Intl.Collator(undefined, { numeric: true, sensitivity: "base" });
 
+  const plain = digits => digits.replace(/./g, sign => { const i = "⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(sign); return i < 0 ? "-" : i; });
+  const withoutPowers = text => text.replace(/(?:(\d(?:\.\d+)?)·)?10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)/, (_, first, power) => `${first || 1}e${plain(power)}`);
+
   function value(cell) {
     const text = cell ? cell.innerText.trim() : "";
-    const number = text.replace(/[\s\u00a0\u202f,]/g, "").replace("\u2212", "-").match(/^[<>=]*(-?\d+(?:\.\d+)?(?:e-?\d+)?)/);
+    const digits = withoutPowers(text).replace(/^none\b/, "0").replace(/[\s\u00a0\u202f,]/g, "").replace("\u2212", "-");
+    const number = digits.match(/^[<>=]*(-?\d+(?:\.\d+)?(?:e-?\d+)?)/);
     return { text, number: number ? Number(number[1]) : null, isLast: text === "" || text === "\u2013" || text === "never" };
   }
 

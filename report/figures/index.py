@@ -30,7 +30,8 @@ def facts(run: Run) -> dict[str, Any]:
     return {
         "byline": describe_edition(run),
         "abstract": describe_replication(run),
-        "hero": in_run(lambda: failure_map.hero(run.rows("episodes", engine="ideal-rk4"))),
+        "hero": in_run(failure_map.hero_picture, run),
+        "finding": in_run(lambda: failure_map.say_finding(run.rows("episodes", engine=tables.MAIN_ENGINE))),
         "conclusions": in_run(lambda: SHORT(list_in_short(run))),
         "answer": describe_answer(answer),
         "price": describe_price(answer),
@@ -154,7 +155,7 @@ def describe_answer(answer: Answer) -> str:
     """Say what to use today, whose law it is, and why."""
     if not answer.is_tested:
         return "Which law to use is not tested: the map of situations is missing."
-    law = link_law(answer.law)
+    law = f'<a href="laws/{families.anchor(answer.law)}.html">{families.word(answer.law)}</a>'
     whose = IN_WORDS.get(answer.attribution, answer.attribution)
     return f"Use **{law}**, {whose}. {prose(call_laws(answer.reason))} Tested on {prose(call_laws(answer.tested))}."
 

@@ -126,6 +126,12 @@ def test_unknown_word_is_refused_with_the_known_ones(file, words):
         audit(load(f"{file}:columns"), **words)
 
 
+@pytest.mark.parametrize("limit", ["0", "-1", "nan", "inf", "1e300"])
+def test_limit_that_is_no_time_is_refused_before_the_file_is_loaded(capsys, file, limit):
+    line = refused(capsys, "audit", f"{file}:columns", "--limit", limit)
+    assert "is not a time up to 86400 s, a day (try: --limit 60)" in line
+
+
 @pytest.mark.parametrize("stiffness", [0.0, -1.0, float("nan"), float("inf")])
 def test_stiffness_that_is_not_positive_is_refused(file, stiffness):
     with pytest.raises(BadNumber):

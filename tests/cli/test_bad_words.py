@@ -10,6 +10,7 @@ import tasks
 from bench.experiments import plan as planning
 from bench.experiments.choice import INTEGRATORS, Choice
 from bench.experiments.suites import ENGINES, SUITES
+from bench.experiments.tables.schema import RESULTS
 from bench.law.contenders.registry import contenders, find_contender
 from bench.law.control.contact_controller import HYBRIDS
 
@@ -93,3 +94,15 @@ def test_same_word_twice_is_the_word_once():
     choices = [Choice(("free-body",) * count, ("paper",) * count, ("native",) * count) for count in (1, 2)]
     once, twice = (planning.make("quick", [find_contender("rotation-matrix")], choice) for choice in choices)
     assert once == twice
+
+
+@pytest.mark.parametrize("place", ["no/such/file.md", "folder/file.md/below"])
+def test_summary_that_cannot_be_written_is_refused_before_anything_is_compared(capsys, monkeypatch, tmp_path, place):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "folder" / "file.md").write_text("kept")
+    reference = str(RESULTS / "reference")
+    line = refused(capsys, "compare", reference, reference, "--summary", place)
+    assert place in line
+    assert "cannot be written" in line
+    assert (tmp_path / "folder" / "file.md").read_text() == "kept"

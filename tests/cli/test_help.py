@@ -53,3 +53,27 @@ def test_units_of_the_bound_and_of_the_spin_are_shown():
 def test_some_help_has_brackets():
     with_brackets = [command.name for command in EVERY_COMMAND if BRACKETS.search(" ".join(list_texts(command)))]
     assert {"advise", "judge"} <= set(with_brackets)
+
+
+OPTIONS = {name: groups for name, groups in bench.cli.GROUPS.items() if name != "bench"}
+
+
+def test_every_command_is_in_one_group_and_the_ones_to_use_come_first():
+    grouped = [name for names in bench.cli.GROUPS["bench"].values() for name in names]
+    assert sorted(grouped) == sorted(command.name for command in EVERY_COMMAND)
+    first = next(iter(bench.cli.GROUPS["bench"].values()))
+    assert set(first) == {"advise", "audit", "export", "judge", "run", "show"}
+
+
+@pytest.mark.parametrize("name", OPTIONS)
+def test_every_option_of_a_grouped_command_is_in_one_group(name):
+    [command] = [command for command in EVERY_COMMAND if command.name == name]
+    grouped = [option for options in OPTIONS[name].values() for option in options]
+    assert sorted(grouped) == sorted(["--help", *(option.opts[0] for option in command.params)])
+    assert len(next(iter(OPTIONS[name].values()))) <= 8
+
+
+def test_help_shows_the_commands_to_use_before_the_others(capsys):
+    bench.cli.main(["--help"])
+    shown = capsys.readouterr().out
+    assert shown.index("Use it") < shown.index("Maintain and study")

@@ -14,7 +14,7 @@ from pyarrow import parquet
 from bench.base.files import read_json
 from bench.base.provenance import ROOT
 from bench.cli import claims as command
-from bench.cli.summary.whole import count_verdicts
+from bench.cli.summary.paper import count_verdicts
 from bench.findings import claims
 from bench.findings.claims import at_gains
 from bench.findings.claims.errata import COVERAGE, ERRATA, UNTESTABLE
@@ -191,7 +191,7 @@ def test_run_of_two_starts_a_set_judges_no_claim_about_episodes(tmp_path):
     decided, lacks = claims.judge_possible(results := claims.Results(tmp_path))
     assert not [one.id for one in decided if "episodes" in one.evidence.tables]
     assert "fewer starts than the claim needs (2 of 1,000 uniform, 2 of 238 half-turn" in lacks["C01"]
-    assert f"{len(lacks)} cannot be judged from this run" in count_verdicts(results).sentences[0]
+    assert f"{len(lacks)} cannot be judged from this run" in count_verdicts(results)
     said = CliRunner().invoke(command.COMMAND, [str(tmp_path)])
     assert said.exit_code == 0
     listed, _, rest = said.output.partition("Not judged")

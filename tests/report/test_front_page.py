@@ -1,25 +1,35 @@
-"""The front page: its code is the advised law, it names what leads to another, and a shared link has a picture."""
+"""The front page: conclusions and answer as they are judged, the advised law as code, a shared link with a picture."""
 
 import re
+import shutil
 
 import numpy as np
 import pytest
+import yaml
 from scipy.spatial.transform import Rotation
+from support.pages import RUN
 from support.states import as_rotation, vector
 
+from bench.base.files import read_json
+from bench.base.provenance import ROOT
+from bench.findings.answer import find_answer
+from bench.findings.conclusions import conclude
 from bench.findings.selection.regions import find_default
-from bench.findings.selection.robots import ROBOTS, list_elsewhere
+from bench.law.attribution import IN_WORDS
 from bench.law.contenders.registry import find_contender
 from bench.law.inputs import Gains, Goal
 from report.figures import index
-from report.figures.kit.page import REPORT, text_of
+from report.figures.kit import families, html
+from report.figures.kit.page import REPORT, run_in, text_of
+from report.figures.replication import conclusions as replication
 
+BOOK = "".join(path.read_text(encoding="utf-8") for path in REPORT.glob("pages/*.md"))
 [CODE] = re.findall(r"```python\n(.*?)```", text_of("index"), re.DOTALL)
 
 
 def test_code_to_paste_is_the_advised_law_over_random_states():
     shown = {}
-    exec(re.sub("^   ", "", CODE, flags=re.MULTILINE), shown)
+    exec(CODE, shown)
     generator, law = np.random.default_rng(7), find_contender(find_default()).regulator
     for _ in range(50):
         rotations = Rotation.random(40, rng=generator)
@@ -31,12 +41,72 @@ def test_code_to_paste_is_the_advised_law_over_random_states():
             np.testing.assert_allclose(found, wanted, rtol=1e-9, atol=1e-7)
 
 
-def test_front_page_names_every_need_with_its_law():
-    found, said = list_elsewhere(), index.list_needs()
-    assert {robot.takes in " ".join(one.words for one in found) for robot in ROBOTS.values()} == {True}
-    for one in found:
-        named = re.findall(r"laws/([\w-]+)\.html", said.partition(one.words)[0]) if one.words in said else [""]
-        assert named[-1] == (one.law if one.law != find_default() else "")
+def test_front_page_has_the_eight_conclusions_as_they_are_judged():
+    rows = index.facts(RUN)["conclusions"].splitlines()[2:]
+    conclusions = conclude(RUN)
+    assert len(rows) == len(conclusions) == 8
+    for row, conclusion in zip(rows, conclusions, strict=True):
+        assert f">{conclusion.verdict}</span>" in row
+        assert plain(replication.call_laws(conclusion.finding)) in plain(row)
+        assert f"({conclusion.section})" in row
+        assert f":name: {replication.FIGURES[conclusion.subject]}\n" in BOOK
+
+
+def plain(text):
+    """Return the numbers and words of a text that no typesetting changes."""
+    return " ".join(re.findall(r"\d[\d.]*|(?<![<>&/\w-])(?!alpha)[a-z]{4,}(?![\w-])", text))
+
+
+@pytest.fixture(scope="module")
+def without_episodes(tmp_path_factory):
+    """Return the published run without its table of episodes."""
+    folder = tmp_path_factory.mktemp("removed") / "run"
+    shutil.copytree(RUN.folder, folder)
+    (folder / "episodes.parquet").unlink()
+    return run_in(folder)
+
+
+def test_conclusions_whose_rows_are_removed_are_not_tested(without_episodes):
+    verdicts = {row[0].partition(":**")[0][2:]: row[1] for row in replication.list_in_short(without_episodes)}
+    tested = {name for name, verdict in verdicts.items() if html.UNTESTED not in verdict}
+    assert len(verdicts) == 8
+    assert tested <= {replication.SUBJECTS[name] for name in ("cost", "compliance")}  # these need no episode
+
+
+def test_abstract_says_what_is_not_tested_if_a_table_is_removed(without_episodes):
+    text = index.describe_replication(without_episodes)
+    for find, subject in index.FOUND.items():
+        if find is not index.describe_statements:
+            assert f"{subject} is not tested in this run." in text
+    assert "this run does not test" in text
+
+
+def test_front_page_shows_the_answer_with_its_price_and_every_need():
+    answer, shown = find_answer(), index.facts(RUN)
+    assert f"laws/{families.anchor(answer.law)}.html" in shown["answer"]
+    assert IN_WORDS[answer.attribution] in shown["answer"]
+    assert plain(answer.price) in plain(shown["price"])
+    rows = shown["needs"].splitlines()[2:]
+    assert [f"laws/{families.anchor(need.law)}.html" in row for need, row in zip(answer.needs, rows, strict=True)] == [
+        True
+    ] * len(answer.needs)
+    assert all(f"({need.attribution})" in row for need, row in zip(answer.needs, rows, strict=True))
+
+
+def test_front_page_says_that_an_answer_without_a_map_is_not_tested(tmp_path):
+    answer = find_answer(tmp_path, tmp_path)
+    assert "not tested" in index.describe_answer(answer)
+    assert "not tested" in index.describe_price(answer)
+    assert all("not tested" in " ".join(row) for row in index.list_needs(answer))
+
+
+def test_byline_names_the_authors_of_the_citation_and_the_commit_of_the_results():
+    said = index.facts(RUN)["byline"]
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert all(author["name"] in said for author in cited["authors"])
+    assert cited["title"] in text_of("index")
+    assert f"Version {cited['version']}" in said
+    assert read_json(RUN.folder / "provenance.json")["commit"][:8] in said
 
 
 @pytest.mark.skipif(not (REPORT / "_build/html/index.html").is_file(), reason="the report is not built")

@@ -14,8 +14,8 @@ from report.figures.kit.page import REPORT, kinds_of, modules_of, pasted, word_o
 
 LEAD = re.compile(r"^(:{3,})\{div\} (?:lead|answer)\n(.*?)^\1$", re.DOTALL | re.MULTILINE)
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (REPORT / "index.md", *REPORT.glob("pages/*.md"))}
-NO_NUMBER = {"needs"}
-"""Names of laws, which test_front_page has."""
+NO_NUMBER = {"plane.quote"}
+"""The paper's words, which test_conclusions has."""
 UNITS = re.compile(r"1/s²?|rad²?/s[²³]")
 SIGNS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789 ", "\u202f")
 

@@ -1,8 +1,12 @@
 """The live page in a browser: episodes as recorded, keyboard, drag, address, copies, phone, and without a script."""
 
+import json
+
 import pytest
 import screenshots
+import stills
 from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
 
 PAGE = screenshots.SITE / "pages" / "10-try-it.html"
@@ -28,7 +32,7 @@ def show(driver, address="", view=DESK, motion="reduce"):
     driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": wanted})
     driver.get(PAGE.as_uri() + address)
     screenshots.settle(driver)
-    wait(driver, lambda: said(driver))
+    wait(driver, lambda: is_said(driver))
     driver.execute_script("document.querySelectorAll('details').forEach(one => { one.open = true; })")
 
 
@@ -44,6 +48,11 @@ def said(driver):
     return part(driver, "said").text
 
 
+def is_said(driver):
+    """Whether the verdict is that of the episodes which are shown."""
+    return part(driver, "said").get_attribute("aria-busy") == "false"
+
+
 def press(driver, name, key):
     """A key while the control has the focus, as after so many tabs."""
     driver.execute_script("arguments[0].focus()", part(driver, name))
@@ -54,23 +63,79 @@ def changed(driver, act):
     """What is said after the act, once it differs."""
     before = said(driver)
     act()
-    return wait(driver, lambda: said(driver) != before and said(driver))
+    return wait(driver, lambda: is_said(driver) and said(driver) != before and said(driver))
 
 
 def test_a_dot_of_the_ball_is_a_start_that_plays(driver):
     show(driver, motion="no-preference")
-    wait(driver, lambda: "4210" in driver.find_element("id", "live-counted").text)
+    counted = wait_for_all_starts(driver)
+    assert counted.endswith("at exactly 180°: 629 of 629; elsewhere: 0 of 3,581.")
     changed(driver, ActionChains(driver).move_to_element_with_offset(part(driver, "ball"), 30, 40).click().perform)
     assert part(driver, "start").get_attribute("value") == "own"
     assert wait(driver, lambda: part(driver, "play").text == "Pause")
 
 
-def test_chapter_shows_the_ball_of_its_scene(driver):
+def wait_for_all_starts(driver):
+    """What is said of the ball's starts once all of them are computed."""
+    wait(driver, lambda: part(driver, "counted").get_attribute("aria-busy") == "false")
+    return part(driver, "counted").text
+
+
+def ends_of_the_scale(driver):
+    return [part(driver, f"ramp-{end}").text for end in ("from", "to")]
+
+
+def test_colours_have_one_scale_for_both_laws_and_it_is_not_wider_than_their_times(driver):
+    show(driver, "#peak-command")
+    wait_for_all_starts(driver)
+    of_a = ends_of_the_scale(driver)
+    driver.execute_script("arguments[0].value = 'b'", part(driver, "colouring"))
+    driver.execute_script("arguments[0].dispatchEvent(new Event('change'))", part(driver, "colouring"))
+    wait_for_all_starts(driver)
+    assert ends_of_the_scale(driver) == of_a
+    fastest, slowest = (float(words.strip("≤≥ s")) for words in of_a)
+    assert 0.4 < fastest < slowest < 0.8
+
+
+def test_ring_goes_from_dot_to_dot_and_enter_starts_there(driver):
+    wait_for_all_starts(driver)
+    press(driver, "ball", Keys.ARROW_LEFT)
+    first = wait(driver, lambda: part(driver, "dot").text)
+    assert "from the goal, settles in" in first
+    part(driver, "ball").send_keys(Keys.SHIFT, *3 * [Keys.ARROW_DOWN], Keys.NULL)
+    second = wait(driver, lambda: part(driver, "dot").text != first and part(driver, "dot").text)
+    changed(driver, lambda: part(driver, "ball").send_keys(ENTER))
+    assert part(driver, "start").get_attribute("value") == "own"
+    assert part(driver, "angle-now").text in second
+
+
+@pytest.mark.parametrize("name", ["slow", "unwinding", "sensor-off", "gimbal-lock"])
+def test_verdict_of_the_last_example_is_gone_as_soon_as_another_is_chosen(driver, name):
+    show(driver, "#stuck")
+    script = "arguments[0].click(); return [...arguments[1].children].map(one => one.textContent)"
+    button = driver.find_element("css selector", f"[data-preset={name}]")
+    assert all(line.endswith("computing …") for line in driver.execute_script(script, button, part(driver, "said")))
+    assert "Computing" in part(driver, "counted").text
+
+
+def test_page_rests_where_the_slower_body_is_half_way(driver):
+    show(driver, "#slow")
+    angles = wait(driver, lambda: part(driver, "time").get_attribute("aria-valuetext"))
+    a, b = (float(words.split()[-1].rstrip("°")) for words in angles.split(": ")[1].split(", "))
+    assert b < 1.0
+    assert 70.0 < a < 90.0
+
+
+@pytest.mark.parametrize("view", [PHONE, DESK])
+def test_chapter_shows_the_ball_of_its_scene_whole(driver, view):
     chapter = PAGE.with_name("06-what-an-error-must-do.html")
-    screenshots.open_page(driver, chapter, DESK)
-    driver.execute_script("document.querySelector('.ball-view').scrollIntoView()")
-    driver.switch_to.frame(driver.find_element("css selector", ".ball-view iframe"))
-    wait(driver, lambda: "settle" in driver.find_element("id", "live-counted").text)
+    screenshots.open_page(driver, chapter, view)
+    frame = driver.find_element("css selector", ".ball-view iframe")
+    driver.execute_script("arguments[0].scrollIntoView()", frame)
+    driver.switch_to.frame(frame)
+    wait_for_all_starts(driver)
+    wait(driver, lambda: driver.execute_script("return innerHeight - document.body.scrollHeight") >= 0)
+    assert driver.execute_script("return document.documentElement.dataset.theme") == view.theme
     assert (part(driver, "a").get_attribute("value"), part(driver, "off").get_attribute("value")) == ("mrp", "0.1")
     shown = {name: part(driver, name).is_displayed() for name in ("ball", "off", "play", "gripper", "angle-plot")}
     assert shown == {"ball": True, "off": True, "play": True, "gripper": False, "angle-plot": False}
@@ -112,11 +177,16 @@ def test_address_holds_the_view(driver):
     changed(driver, lambda: press(driver, "gripper", 5 * ARROW_RIGHT))
     press(driver, "log", " ")
     wait(driver, lambda: "log=1" in driver.current_url and "q=" in driver.current_url)
-    shown, drawn = said(driver), part(driver, "angle-plot").get_attribute("innerHTML")
+    shown, drawn = said(driver), drawn_at_the_start(driver)
     address = driver.execute_script("return location.hash")
     show(driver, address)
     assert said(driver) == shown
-    assert part(driver, "angle-plot").get_attribute("innerHTML") == drawn
+    assert drawn_at_the_start(driver) == drawn
+
+
+def drawn_at_the_start(driver):
+    press(driver, "time", HOME)
+    return part(driver, "angle-plot").get_attribute("innerHTML")
 
 
 @pytest.mark.parametrize("address", ["#a=none&b=", "#a=mrp&q=0,0,0,0&kp=nine", "#b=mrp&q=1,2&rate=1e9&start=nowhere"])
@@ -149,7 +219,7 @@ def test_each_preset_shows_another_view_draws_numbers_alone_and_asks_nothing_of_
 
 
 def test_page_plays_once_unless_the_reader_wants_no_motion_and_pause_stops_it(driver):
-    assert (part(driver, "now").text, part(driver, "play").text) == ("0.00 s", "Play")
+    assert part(driver, "play").text == "Play"
     show(driver, "#stuck", motion="no-preference")
     wait(driver, lambda: part(driver, "now").text != "0.00 s")
     press(driver, "play", ENTER)
@@ -193,5 +263,14 @@ def test_page_without_a_script_says_so_and_shows_no_dead_control(driver):
         driver.get(PAGE.as_uri())
         assert not part(driver, "page").is_displayed()
         assert "needs JavaScript" in driver.find_element("css selector", "noscript p").text
+        stills = driver.find_elements("css selector", ".live-stills img")
+        assert len(stills) == 4
+        assert all(one.is_displayed() for one in stills)
     finally:
         driver.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": False})
+
+
+@pytest.mark.parametrize("name", ["stuck", "unwinding", "sensor-off", "gimbal-lock"])
+def test_picture_of_an_example_says_what_the_page_says(driver, name):
+    recorded = json.loads(stills.RECORD.read_text(encoding="utf-8"))
+    assert stills.open_example(driver, name) == recorded[name]

@@ -1,15 +1,17 @@
 """The rendered files of the report: there, small, of a start and contenders that exist and still do what is said."""
 
+import headline
 import media as rendering
 import numpy as np
 import pytest
 import three_fates
 from drawing import THEMES
+from PIL import Image
 from support.tables import table
 
 import tasks
 from bench.engines.contact_episode import P, R
-from report.figures.kit import media
+from report.figures.kit import media, style
 
 ABOUT = media.facts()
 LOOPS = ("pole-loop", "plate-loop", "fates-loop")
@@ -18,7 +20,7 @@ FILES = [
     for one in THEMES
     for name in ("arms", "contact-tasks", "fates", *LOOPS)
     for kind in (("png", "webm", "mp4") if name in LOOPS else ("png",))
-]
+] + ["headline.png", "card.png"]
 LARGEST, LARGEST_IN_ALL = 200_000, 1_500_000
 STARTS_OF = {"png": b"\x89PNG\r\n", "webm": b"\x1a\x45\xdf\xa3", "mp4": b"ftyp"}
 
@@ -40,8 +42,18 @@ def test_files_are_of_what_the_program_would_draw_now():
     rows = {one["contender"]: one | {"outcome": "settled", "failure_time_s": np.nan} for one in ABOUT["episodes"]}
     assert list(rows) == list(rendering.CONTENDERS)
     assert rendering.describe_files(rows, ABOUT["fates"]) == {
-        key: value for key, value in ABOUT.items() if key != "commit"
+        key: value for key, value in ABOUT.items() if key not in ("commit", "headline")
     }
+
+
+def test_headline_and_card_show_what_the_published_results_say():
+    assert {key: value for key, value in ABOUT["headline"].items() if key != "commit"} == headline.describe()
+
+
+def test_card_has_the_size_of_a_shared_link_and_the_headline_two_pixels_a_pixel():
+    with Image.open(media.FOLDER / "card.png") as card, Image.open(media.FOLDER / "headline.png") as wide:
+        assert card.size == headline.CARD_PIXELS
+        assert wide.width == 2 * 96 * style.TEXT_WIDTH_IN
 
 
 def test_three_fates_are_those_of_the_published_episodes():

@@ -75,7 +75,9 @@ def test_planted_fragment_and_phrases_are_found(tmp_path):
 @pytest.mark.parametrize("name", PROSE)
 def test_prose_fits_its_width_and_names_paths_that_exist(name):
     text = (ROOT / name).read_text(encoding="utf-8")
-    assert name not in PROSE[:2] or not [line for line in text.splitlines() if len(line) > 120]
+    # A row of a table is one line, whatever its length.
+    wide = [line for line in text.splitlines() if len(line) > 120 and not line.startswith("|")]
+    assert name not in PROSE[:2] or not wide
     named = re.findall(r"(?:`|\]\()((?:bench|tasks|report|results|tests)/[\w./-]*)[`)]", text)
     made_later = ("report/_build", "results/mine", "results/latest")
     assert not [path for path in named if not path.startswith(made_later) and not (ROOT / path).exists()]

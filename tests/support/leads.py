@@ -4,12 +4,14 @@ A value is the text that a key shows, or a list: every number of that text, and 
 """
 
 import collections
+import tomllib
 
 import numpy as np
 import pandas as pd
 from scipy.stats import binomtest
 
 import tasks
+from bench.base.provenance import ROOT
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
 from bench.findings.selection.robots import VELOCITY
@@ -21,6 +23,7 @@ from support.leads_of_arms import (
     CONTROLS,
     LATE,
     LINEARIZED,
+    MATRIX,
     read_json,
     recompute_arms,
     recompute_compliance,
@@ -29,6 +32,7 @@ from support.leads_of_arms import (
     recompute_new_law,
     recompute_times,
     recompute_torque_at_pole,
+    torque_ratios_at_pole,
 )
 from support.map_rule import (
     NOTABLE,
@@ -161,6 +165,23 @@ def recompute_price(law, other):
     return said
 
 
+def recompute_reason(law):
+    """Return the numbers of why a law is advised: where it meets all that is asked, and where no such law is faster."""
+    near = shares_of(law, SPOKEN)
+    low, high = binomtest(near["qualified"], near["of"]).proportion_ci(0.95)
+    meets = round(100 * (1 - near["failing"] / near["of"]))
+    return [meets, 180, 0.1, *(round(100 * share) for share in (near["qualified"] / near["of"], low, high)), 5]
+
+
+def recompute_costs(law):
+    """Return the numbers that a law keeps, its greatest command over kp, and its typical overshoot [deg]."""
+    rows = map_rows().query("law == @law")
+    is_drawn = [is_of_draw(at) for at in rows[[*COORDINATES]].itertuples(index=False, name=None)]
+    is_nominal = (rows[[*COORDINATES]] == [one.nominal for one in COORDINATES.values()]).all(axis=1)
+    peak, overshoot = rows.loc[is_nominal, "peak"].item(), rows.loc[is_drawn, "overshoot"].median()
+    return [len(find_contender(law).regulator.memory), round(peak, 1), round(overshoot, 1)]
+
+
 def recompute_resets(law):
     """Return what is said of a reset of the memory."""
     rows = table("perturbed", "robustness").query("law == @law and 0 < level <= 0.2")
@@ -170,16 +191,20 @@ def recompute_resets(law):
     return ["0.2", shares[1], "1.5", shares[0], kept["far"].sum(), "0.5", *times]
 
 
-def recompute_advice():
-    """Return what is said of the law of the widest region, of the other regions, and of ours."""
-    (law, advised, _), *others = widest()
+def recompute_default():
+    """Return what is said of the law of the widest region, in chapter 7."""
+    (law, _, _), *others = widest()
     rows = table("situations", "situations")
     nominal = rows[(rows["zeta"] == 1.0) & (rows["law"] == law) & (rows["period"] == 0.01)]
     nominal = nominal[
         np.isinf(nominal["bound"]) & (nominal[["delay", "unevenness", "spin", "jump"]] == 0.0).all(axis=1)
     ]
     [time] = nominal.loc[nominal["inertia"] == 1.0, "time"]
-    does = [100, 99, f"{time / 10:.2f} s", 0.1, 180, *recompute_shares(law), *recompute_price(law, others[0][0])]
+    return [100, 99, f"{time / 10:.2f} s", 0.1, 180, *recompute_shares(law), *recompute_price(law, others[0][0])]
+
+
+def recompute_ours():
+    """Return what is said of our own law beside the advised one."""
     free, rows = shares_of(LATE, SPOKEN), map_rows()
     advised_laws = {at: verdict[0] for at, verdict in map_verdicts().items() if is_of_draw(at) and verdict[0]}
     qualified = rows[(rows["law"] == LATE) & rows["qualified"]].set_index("word")
@@ -188,18 +213,60 @@ def recompute_advice():
         name = "_".join(f"{value:g}" for value in at)
         beats += name in qualified.index and (name, other, LATE) in slower_pairs(SPOKEN)
     ours = [word(LATE), 2026, "5 %", f"{100 * beats / free['of']:.0f} %", percent(free, "qualified"), "5 %"]
-    ours += [percent(free, "all")]
-    elsewhere = list_together([f"{word(one)} ({100 * share:.0f} %)" for one, share, _ in others])
-    lead = [word(law), *does, f"{100 * advised:.0f} %", *elsewhere, *ours]
+    return [*ours, percent(free, "all")]
+
+
+def recompute_advice():
+    """Return what chapter 7 says of the law of the widest region, and of ours."""
+    law = widest()[0][0]
+    lead = [word(law), IN_WORDS[find_contender(law).attribution], *recompute_reason(law), *recompute_costs(law)]
+    return {"lead": lead, "does": recompute_default(), "ours": recompute_ours()}
+
+
+def recompute_use_today():
+    """Return what the front page says of the law to use, and of its price."""
+    law = widest()[0][0]
     attribution = IN_WORDS[find_contender(law).attribution]
-    shown = {
-        "default": word(law),
-        "attribution": attribution,
-        "does": does,
-        "ours": ours,
-        "resets": recompute_resets(law),
-    }
-    return shown, {"lead": lead}
+    laws = sum(not is_ours(name) for name in map_rows()["law"].unique())
+    answer = [word(law), attribution, *recompute_reason(law), shares_of(law, SPOKEN)["of"], laws]
+    return {"answer": answer, "price": recompute_costs(law)}
+
+
+def recompute_abstract():
+    """Return the numbers of the abstract."""
+    about, rows = read_json("reference/provenance.json"), table("episodes")
+    at_rest = rows.query("engine == 'ideal-rk4' and task == 'free-body' and converged != 'no'")
+    at_rest = at_rest[at_rest["start_set"].isin(("uniform", "half-turn", "poles", "wraps", "box"))]
+    half_turns = at_rest[(at_rest["law"] == MATRIX) & (np.pi - at_rest["angle0_rad"] < 1e-13)]
+    failed = (half_turns["outcome"] != "settled").sum()
+    linearized = at_rest[(at_rest["law"] == LINEARIZED) & (at_rest["start_set"] == "uniform")]
+    lost = (linearized["outcome"] != "settled").sum()
+    low, high = binomtest(int(lost), len(linearized)).proportion_ci(0.95, method="wilson")
+    verdicts = recompute_verdicts()
+    arms = rows.loc[rows["arm"] != "", "arm"].nunique()
+    said = [1988, about["episodes"] + about["trials"] + about["troubled"], f"{arms} arms"]
+    said += [verdicts["decided"], *verdicts["words"], f"{len(read_history())} criteria"]
+    said += [f"all {failed}" if failed == len(half_turns) else f"{failed} of {len(half_turns)}", 180]
+    said += [f"{100 * lost / len(linearized):.1f} %", f"{100 * low:.1f} to {100 * high:.1f} %", len(linearized)]
+    harder = np.sort(torque_ratios_at_pole())
+    said += [f"{harder[(len(harder) - 1) // 2]:.0f} times", f"{len(harder)} moves", "answered"]
+    return {"abstract": [*said, *list_answers()]}
+
+
+def read_history():
+    """Return the claims with an earlier criterion."""
+    with (ROOT / "bench/findings/claims/history.toml").open("rb") as file:
+        return tomllib.load(file)
+
+
+def list_answers():
+    """Return three later laws that pass all tests of C27 and how many more, as its evidence has them."""
+    [verdict] = [one for one in claims.judge_all(RESULTS / "reference") if one.id == "C27"]
+    passing = verdict.evidence.instead.partition(": ")[2].partition(". ")[0]
+    names = [answer.partition(" (")[0] for answer in passing.split("; ")]
+    law = widest()[0][0]
+    first = sorted(names, key=lambda name: name != law)
+    return [*(word(name) for name in first[:3]), f"{len(names) - 3} more"] if len(names) > 4 else map(word, first)
 
 
 def recompute_verdicts():
@@ -219,20 +286,21 @@ def recompute_verdicts():
 
 
 COMPUTED = {
-    "index": lambda: recompute_advice()[0],
+    "index": lambda: recompute_abstract() | recompute_use_today(),
     "02-three-regulators": recompute_failure_map,
-    "04-euler-jacobian": lambda: {"harder": recompute_torque_at_pole()},
+    "04-euler-jacobian": recompute_torque_at_pole,
     "03-cost": recompute_times,
     "appendix-arms": recompute_arms,
     "05-compliance-and-contact": recompute_compliance,
     "06-what-an-error-must-do": recompute_noise,
     "appendix-side-by-side": recompute_comparison,
-    "08-delay-noise-limits": recompute_thresholds,
+    "08-delay-noise-limits": lambda: recompute_thresholds() | {"goal_jumps.resets": recompute_resets(widest()[0][0])},
     "appendix-velocity": recompute_velocities,
     "appendix-impedance": recompute_impedance,
     "09-libraries": recompute_libraries,
-    "07-which-error": lambda: recompute_advice()[1],
+    "07-which-error": recompute_advice,
     "appendix-late-braking": recompute_new_law,
     "01-murphy-1988": recompute_verdicts,
+    "appendix-claims": lambda: {"claims.count": recompute_verdicts()["decided"]},
 }
 """Page -> key -> its text, or numbers and words of it."""

@@ -12,10 +12,41 @@ from tasks.gymnasium_suite import IDENTIFIERS
 SURFACE = "orientation/SurfaceAlignment-v0"
 
 
-@pytest.mark.filterwarnings("ignore:.*Box observation space m.*:UserWarning")  # no orientation or force has a bound
 @pytest.mark.parametrize("identifier", IDENTIFIERS)
 def test_every_environment_passes_the_checker_of_gymnasium(identifier):
     check_env(gymnasium.make(identifier, render_mode="rgb_array").unwrapped)
+
+
+def test_every_space_is_finite_and_what_is_seen_lies_in_it():
+    for identifier in IDENTIFIERS:
+        environment = gymnasium.make(identifier)
+        seen, _ = environment.reset(seed=3)
+        assert environment.observation_space.contains(seen)
+        for box in environment.observation_space.values():
+            assert np.isfinite(box.low).all()
+            assert np.isfinite(box.high).all()
+        assert (environment.observation_space["R"].high < 1.0 + 1e-6).all()
+
+
+@pytest.mark.parametrize(
+    ("identifier", "given", "steps"),
+    [
+        ("orientation/FreeBody-v0", {}, 20_000),
+        ("orientation/FreeBody-v0", {"dt": 0.01, "time_limit": 30.0}, 3_000),
+        ("orientation/WrenchProbe-v0", {}, 500),
+        ("orientation/WrenchProbe-v0", {"time_limit": 0.1}, 100),
+    ],
+)
+def test_spec_has_the_steps_of_the_time_limit(identifier, given, steps):
+    environment = gymnasium.make(identifier, **given)
+    assert environment.spec.max_episode_steps == steps
+    again = gymnasium.make(environment.spec)
+    assert again.spec.max_episode_steps == steps
+    if steps <= 500:
+        environment.reset(seed=0)
+        still = np.zeros(environment.action_space.shape)
+        ends = [environment.step(still)[3] for _ in range(steps)]
+        assert ends.index(True) == steps - 1
 
 
 def test_a_seed_repeats_the_starts_and_another_draws_others():

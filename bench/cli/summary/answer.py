@@ -51,7 +51,7 @@ def _default(found: Measured | None, region: regions.Region) -> tuple[str, ...]:
         f"If one number changes at a time, no law that meets the requirements is more than {percent(SPOKEN)} faster "
         f"at: {describe_bounds(find_bounds(region.law))}.",
         describe_price(region.law),
-        f"At kp = {PAPERS_GAINS.kp:g} 1/s², kv = {PAPERS_GAINS.kv:g} 1/s 99 % of the starts settle within "
+        f"In the map, at kp = {PAPERS_GAINS.kp:g} 1/s², kv = {PAPERS_GAINS.kv:g} 1/s 99 % of the starts settle within "
         f"{row['time'] / KP**0.5:.3f} s.{priced} Your own numbers: bench advise --help.",
     )
 

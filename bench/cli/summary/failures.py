@@ -29,7 +29,9 @@ def paragraph(results: Results) -> Paragraph:
         "Robustness": (robustness, "law"),
     }
     said = [describe(part, rows, who) for part, (rows, who) in parts.items() if len(rows)]
-    return Paragraph("What failed", (*said, *_lost(episodes, robustness)) or ("There are no episodes in this run.",))
+    return Paragraph(
+        "What failed", (*said, *describe_broken(episodes, robustness)) or ("There are no episodes in this run.",)
+    )
 
 
 def describe(part: str, rows: pd.DataFrame, who: str) -> str:
@@ -48,7 +50,8 @@ def describe(part: str, rows: pd.DataFrame, who: str) -> str:
     return said
 
 
-def _lost(*tables: pd.DataFrame) -> Iterator[str]:
+def describe_broken(*tables: pd.DataFrame) -> Iterator[str]:
+    """Yield which laws crashed or hung, and in how many episodes; nothing if none did."""
     every = [table.loc[table["outcome"].isin(LOST), ["contender", "outcome"]] for table in tables if len(table)]
     rows = pd.concat(every).astype(str) if every else pd.DataFrame()
     if len(rows):

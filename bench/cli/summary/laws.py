@@ -72,7 +72,9 @@ def measure_law(results: Results, law: str) -> Row:
     """Return the row of a law that is in the run."""
     rows = results.table("episodes", **FREE_BODY, task="free-body")
     rows = rows[rows["contender"].astype(str) == law]
-    engine = next(name for name in (MAIN_ENGINE, *CHECK_ENGINES, *rows["engine"].astype(str)) if (rows["engine"] == name).any())
+    engine = next(
+        name for name in (MAIN_ENGINE, *CHECK_ENGINES, *rows["engine"].astype(str)) if (rows["engine"] == name).any()
+    )
     rows = converged(rows[rows["engine"] == engine])
     at_rest = rows[rows["start_set"].isin(AT_REST)]
     uniform = rows[rows["start_set"] == "uniform"]
@@ -127,7 +129,10 @@ def _count_operations(results: Results, law: str) -> tuple[int, int] | None:
     """Return flops and calls of a typical step, the goal given as a matrix; None if the run did not count them."""
     costs = results.table("costs", **FREE_BODY, branch="typical")
     costs = costs[costs["contender"].astype(str) == law]
-    return tuple(tallied(costs, with_goal=True)) if len(costs) else None
+    if costs.empty:
+        return None
+    spent = tallied(costs, with_goal=True)
+    return spent.flops, spent.calls
 
 
 def _find_nanoseconds(results: Results, law: str) -> float:

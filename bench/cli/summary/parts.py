@@ -1,4 +1,4 @@
-"""Lines on parts of a run that the paper's tables do not cover: controllers of arms, tasks in contact, perturbations."""
+"""Lines on what the paper's tables do not cover: controllers of arms, tasks in contact, perturbations."""
 
 from collections.abc import Iterator
 
@@ -13,13 +13,17 @@ from bench.findings.claims import Results
 from bench.findings.claims.tables import settled, settling_times
 from bench.findings.replication import NEARLY_ALL
 
-MOST = 4
-"""Controllers that are listed of an arm's plant or a task; the others are counted."""
+FEW, MANY = 4, 10
+"""Controllers of arms that are listed beside the paper's laws, and where there are none; the others are counted."""
+
+OF_TASK = 6
+"""Controllers that are listed of a task in contact."""
+
+AXES = 8
+"""Perturbations up to which each has a line, and laws in a line."""
 
 CONTROLLER = 42
 """Width of the name of a controller."""
-
-LOST = ("crashed", "hung")
 
 
 def list_parts(results: Results) -> list[str]:
@@ -30,28 +34,29 @@ def list_parts(results: Results) -> list[str]:
     return [part for part in PARTS if has[part]]
 
 
-def describe_arms(results: Results) -> Iterator[str]:
-    """Yield a table of the controllers of arms for the plant as it is and with ideal motors."""
+def describe_arms(results: Results, most: int) -> Iterator[str]:
+    """Yield a table of so many controllers of arms, for the plant as it is and with ideal motors."""
     episodes = results.table("episodes")
     rows = episodes[episodes["arm"] != ""]
-    plants = {"": NOMINAL, ", ideal motors": IDEAL_MOTORS}
-    for words, variation in plants.items():
-        own = rows[rows["variation"].astype(str) == variation]
-        if len(own):
-            arms = ", ".join(own["arm"].astype(str).unique())
-            yield f"{f'arms{words}: {arms}'[:CONTROLLER]:{CONTROLLER}} {'settles':>9} {'50 %':>6} {'99 %':>6} {'torque':>7}"
-            yield from _list_controllers(own)
-    others = rows[~rows["variation"].astype(str).isin((NOMINAL, IDEAL_MOTORS))]
+    variation = rows["variation"].astype(str)
+    plants = {"": rows[variation == NOMINAL], ", ideal motors": rows[variation == IDEAL_MOTORS]}
+    plants = {words: own for words, own in plants.items() if len(own)}
+    for words, own in plants.items():
+        arms = ", ".join(own["arm"].astype(str).unique())
+        head = f"arms{words}: {arms}"[:CONTROLLER]
+        yield f"{head:{CONTROLLER}} {'settles':>9} {'50 %':>6} {'99 %':>6} {'torque':>7}"
+        yield from _list_controllers(own, most // len(plants))
+    others = rows[~variation.isin((NOMINAL, IDEAL_MOTORS))]
     if len(others):
         good = int(settled(others).sum())
         yield f"arms with other motors or model errors: {good:,} of {len(others):,} episodes settle"
 
 
-def _list_controllers(rows: pd.DataFrame) -> Iterator[str]:
+def _list_controllers(rows: pd.DataFrame, most: int) -> Iterator[str]:
     """Yield a line a controller, the one that settles most first. Torque: median peak over the rated one."""
     by_controller = {str(name): own for name, own in rows.groupby("contender", observed=True)}
     ranked = sorted(by_controller, key=lambda name: (-settled(by_controller[name]).mean(), name))
-    for name in ranked[:MOST]:
+    for name in ranked[:most]:
         own = by_controller[name]
         times = settling_times(own)
         median, nearly_all = (write_seconds(float(quantile(times, level))) for level in (0.5, NEARLY_ALL))
@@ -61,8 +66,8 @@ def _list_controllers(rows: pd.DataFrame) -> Iterator[str]:
             yield name
             name = ""
         yield f"{name:{CONTROLLER}} {count:>9} {median:>6} {nearly_all:>6} {torque:>7}"
-    if len(ranked) > MOST:
-        yield f"and {counted(len(ranked) - MOST, 'controller')} more"
+    if len(ranked) > most:
+        yield f"and {counted(len(ranked) - most, 'controller')} more"
 
 
 def describe_contact(results: Results) -> Iterator[str]:
@@ -72,8 +77,8 @@ def describe_contact(results: Results) -> Iterator[str]:
         done = (own["outcome"] == "done").groupby(own["contender"].astype(str)).agg(["sum", "size"])
         done = done.assign(share=done["sum"] / done["size"]).sort_values("share", ascending=False, kind="stable")
         cells = [f"{name} {good}/{of}" for name, good, of in done[["sum", "size"]].itertuples()]
-        more = [f"{len(cells) - MOST // 2} more"] if len(cells) > MOST // 2 else []
-        yield f"{task}: done {', '.join(cells[: MOST // 2] + more)}"
+        more = [f"{len(cells) - OF_TASK} more"] if len(cells) > OF_TASK else []
+        yield f"{task}, done: {', '.join(cells[:OF_TASK] + more)}"
 
 
 def describe_robustness(results: Results) -> Iterator[str]:
@@ -82,31 +87,12 @@ def describe_robustness(results: Results) -> Iterator[str]:
 
     rows = results.table("robustness")
     axes = sorted(rows["axis"].astype(str).unique())
-    if len(axes) > MOST:
+    if len(axes) > AXES:
         yield f"{counted(len(axes), 'perturbation')} of {counted(rows['contender'].nunique(), 'law')}"
         return
     summary = robustness.summary(rows)
     laws = summary[summary["law"] != robustness.NEAR]
     for way in [name for name in laws.columns[2:] if not str(name).endswith("theory")]:
         cells = [f"{law} {level}" for law, level in zip(laws["law"], laws[way], strict=True) if level]
-        more = [f"{len(cells) - MOST} more"] if len(cells) > MOST else []
-        yield f"withstands {way}: {', '.join(cells[:MOST] + more)}"
-
-
-def describe_broken(results: Results) -> Iterator[str]:
-    """Yield how many episodes a law ended by crashing or hanging."""
-    tables = [results.table(name) for name in ("episodes", "robustness")]
-    for law, outcome, number in _count_broken([table for table in tables if len(table)]):
-        yield f"{law} {outcome} in {counted(number, 'episode')} (why: provenance.json, `lost`)"
-
-
-def _count_broken(tables: list[pd.DataFrame]) -> list[tuple[str, str, int]]:
-    lost = [table.loc[table["outcome"].isin(LOST), ["contender", "outcome"]] for table in tables]
-    rows = pd.concat(lost).astype(str) if lost else pd.DataFrame(columns=["contender", "outcome"])
-    if rows.empty:
-        return []
-    names = [rows["contender"].str.partition("@")[0], "outcome"]
-    counts = rows.groupby(names).size().sort_values(ascending=False)
-    return [(str(law), str(outcome), int(number)) for (law, outcome), number in counts.items()]
-
-
+        more = [f"{len(cells) - AXES} more"] if len(cells) > AXES else []
+        yield f"{way}, withstood up to: {', '.join(cells[:AXES] + more)}"

@@ -1,6 +1,6 @@
 """Lines on what to use today: by the answer, and for the gains of the run by the map of situations."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from bench.cli.summary.lines import ABOUT, print_text
 from bench.findings.answer import Answer, Need, advise_gains, find_answer
@@ -21,7 +21,7 @@ PRICED = ("weak-motors", "no-memory")
 
 
 def print_today(gains: Gains | None) -> None:
-    """Print the advised law, and the law for other controllers; of other gains than the paper's what holds for these."""
+    """Print the law that is advised, and for other controllers; at other gains than the paper's, the law for these."""
     answer = find_answer()
     if not answer.is_tested:
         print_text("Use today", "Not tested: there is no map of situations (results/situations).", indent=ABOUT)
@@ -33,9 +33,14 @@ def print_today(gains: Gains | None) -> None:
     print_text("Use today", *_list_sentences(answer), indent=ABOUT)
 
 
-def print_today_in_short(gains: Gains | None) -> None:
-    """Print the law for the gains of a run in a line, and how to ask for other numbers."""
-    print_text("Use today", advise_gains(gains or PAPERS_GAINS), indent=ABOUT)
+def print_today_in_short(gains: Gains | None, parts: Sequence[str]) -> None:
+    """Print the law for a run of some laws or of arms in a line or two; of contact alone nothing is advised."""
+    if "free-body" in parts or "robustness" in parts:
+        print_text("Use today", advise_gains(gains or PAPERS_GAINS), indent=ABOUT)
+    elif "arms" in parts:
+        needs = {need.name: need for need in find_answer().needs}
+        said = [f"{NAMES['arm']}: {_name_law(needs['arm'])}; price: {needs['arm'].price}"]
+        print_text("Use today", *said, f"any start: {_name_law(needs['default'])}", indent=ABOUT)
 
 
 def _list_sentences(answer: Answer) -> Iterator[str]:

@@ -1,7 +1,6 @@
-"""The summary of a run, by its kind: the table first, as soon as it is read, for judging the claims may take seconds."""
+"""The summary of a run, by its kind: the table first, for judging the claims may take half a minute."""
 
 import os
-from datetime import timedelta
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +9,7 @@ from bench.base.provenance import read_provenance
 from bench.cli.details import PARTS
 from bench.cli.options import REFERENCE
 from bench.cli.screen import counted, shown_path
-from bench.cli.summary import laws, paper, parts, today
+from bench.cli.summary import failures, laws, paper, parts, today
 from bench.cli.summary.lines import ABOUT, HEAD, print_lines, print_text
 from bench.experiments.tables import read as published
 from bench.experiments.tables.statistics import Estimate, bootstrap, quantile
@@ -32,20 +31,20 @@ def print_summary(folder: Path, is_named: bool) -> None:
     results.table("episodes")  # refuses a run that has not finished
     is_whole = paper.holds_papers_laws(results)
     gains = find_gains(results)
-    print_lines(describe_run(folder, gains, is_whole), "")
+    print_lines(describe_run(folder, results, gains), "")
     if is_whole:
         print_replication(results)
     else:
         print_some_laws(results, gains)
     print_parts(results, is_whole)
-    for broken in parts.describe_broken(results):
-        print_text("Broken law", broken, indent=ABOUT)
+    for broken in failures.describe_broken(results.table("episodes"), results.table("robustness")):
+        print_text("Broken", broken, indent=ABOUT)
     print_lines("")
     if is_whole:
         paper.print_verdicts(results)
         today.print_today(gains)
     else:
-        today.print_today_in_short(gains)
+        today.print_today_in_short(gains, parts.list_parts(results))
     print_next(folder, is_named, results, is_whole)
 
 
@@ -59,30 +58,35 @@ def find_gains(results: Results) -> Gains | None:
     return None
 
 
-def describe_run(folder: Path, gains: Gains | None, is_whole: bool) -> str:
+def describe_run(folder: Path, results: Results, gains: Gains | None) -> str:
     """Return the first line: what it is, with which gains, how many episodes and how long they took."""
     found = read_provenance(folder, ("suite", "episodes", "wall_s"))
     episodes = sum(found.get(name, 0) for name in ("episodes", "trials", "troubled"))
-    head = "Murphy (1988), replicated" if is_whole else f"Suite {found['suite']}, a part"
+    ran = laws.list_laws(results)
+    head = counted(len(ran), "law") if ran else ", ".join(parts.list_parts(results)).capitalize()
+    if paper.holds_papers_laws(results):
+        head = "Murphy (1988), replicated"
     at = f"kp {gains.kp:g} /s2, kv {gains.kv:g} /s, " if gains else "several gains, "
     return f"{head:{HEAD + 6}} {at}{counted(episodes, 'episode')} in {_write_wall(found['wall_s'])}"
 
 
 def _write_wall(seconds: float) -> str:
-    return f"{seconds:.0f} s" if seconds < 60.0 else f"{timedelta(seconds=round(seconds)) / timedelta(minutes=1):.1f} min"
+    return f"{seconds:.0f} s" if seconds < 60.0 else f"{seconds / 60.0:.1f} min"
 
 
 def print_replication(results: Results) -> None:
     """Print the paper's three laws, and the later laws that matter; laws of the user's are among these."""
+    papers = [laws.measure_law(results, law) for law in THREE]
+    print_lines(laws.HEADS, *(line for row in papers for line in laws.format_row(row)))
+    # What is advised may take seconds to find: the paper's laws are on the screen before.
     ran = laws.list_laws(results)
     yours = [law for law in ran if laws.attribute(law) == laws.YOURS]
     advised = list_later_laws()
     known = advised if advised else [law for law in ran if law not in (*PAPERS, *yours)]
     later = [law for law in dict.fromkeys([*yours, *known]) if law in ran][: max(FEW, len(yours))]
-    rows = [laws.measure_law(results, law) for law in (*THREE, *later)]
-    print_lines(laws.HEADS, *(line for row in rows[: len(THREE)] for line in laws.format_row(row)))
-    print_lines(*laws.format_groups(rows[len(THREE) :]))
-    print_text("", *laws.describe_columns(rows, results), indent=0)
+    since = [laws.measure_law(results, law) for law in later]
+    print_lines(*laws.format_groups(since))
+    print_text("", *laws.describe_columns([*papers, *since], results), indent=0)
 
 
 def print_some_laws(results: Results, gains: Gains | None) -> None:
@@ -102,7 +106,7 @@ def print_some_laws(results: Results, gains: Gains | None) -> None:
 
 
 def compare_pace(results: Results, law: str, other: str) -> str:
-    """Say in how many times another's time 99 % of the uniform starts that both ran settle; nothing if it is not known."""
+    """Compare the times in which 99 % of the uniform starts settle that both laws ran; nothing if there is none."""
     rows = results.table("episodes", arm="", start_set="uniform", task="free-body")
     for engine in dict.fromkeys((MAIN_ENGINE, *rows["engine"].astype(str))):
         own, beside = (
@@ -138,7 +142,8 @@ def print_parts(results: Results, is_whole: bool) -> None:
     jacobians = paper.compare_jacobians(results) if is_whole else []
     compliance = paper.compare_compliance(results) if is_whole else []
     if "arms" in present:
-        print_lines(*(jacobians or parts.describe_arms(results)))
+        most = parts.FEW if is_whole else parts.MANY
+        print_lines(*(jacobians or parts.describe_arms(results, most)))
     if "contact" in present and compliance:
         print_text("compliance", *compliance, indent=ABOUT)
     elif "contact" in present:
@@ -176,5 +181,3 @@ def list_absent(results: Results) -> str:
     if "free-body" in present and missing:
         absent.append(f"{len(missing)} of {counted(len(known), 'law')}")
     return f"; not in it: {', '.join(absent)}" if absent else ""
-
-

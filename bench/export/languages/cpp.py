@@ -87,7 +87,8 @@ def write_test(subject: Subject) -> str:
 
 
 COMPILE = (
-    "c++ -std=c++17 -O2 -ffp-contract=off $(pkg-config --cflags eigen3 || echo -I/usr/include/eigen3) "
+    "c++ -std=c++17 -O2 -ffp-contract=off "
+    "$(pkg-config --cflags eigen3 2>/dev/null || echo -I/usr/include/eigen3) "
     "-o test_{name} test_{name}.cpp && ./test_{name}"
 )
 FILES = "{name}.hpp", "test_{name}.cpp"

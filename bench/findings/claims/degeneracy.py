@@ -162,8 +162,8 @@ def c28(results: Results) -> tuple[Word, Evidence]:
         rad, {np.median(ends):.2f} in the median. After turns whose integrals sum to zero the body is turned by {missed}
         rad. About one axis the integral is the turn to {plane:.0e} rad.""",
         2 * len(ends) + len(loops),
-        measured=f"""two ways to one end differ by {interval(quantile_estimate(ends, 0.5), ".2f")} rad, the median of
-        {len(ends)} pairs""",
+        measured=f"""the integrals of two ways to one end differ by
+        {interval(quantile_estimate(ends, 0.5), ".2f")} rad (median of {len(ends)} pairs)""",
     )
 
 

@@ -11,6 +11,7 @@ import tasks
 from bench.base.on_first_use import pd
 from bench.experiments.tables.read import FREE_BODY
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
+from bench.findings.amounts import count_of
 from bench.findings.claims import tables
 from bench.findings.claims.degeneracy import condition_in
 from bench.findings.claims.feedback_linearized import LAW
@@ -18,7 +19,6 @@ from bench.findings.claims.tables import (
     MAIN_ENGINE,
     Results,
     Share,
-    count_of,
     evidence,
     percent_interval,
     share,
@@ -199,7 +199,7 @@ def c44(results: Results) -> tuple[Word, Evidence]:
         dynamics and differences of its velocity, is u to {exact:.0e} of its size. With all masses
         {LIMIT.OFF.partition("-")[2]} times the model's it misses u by {typical:.2g} times u, in the median.""",
         2 * LIMIT.POSES * len(arms),
-        measured=f"""u to {exact:.0e} of its size at {LIMIT.POSES * len(arms)} states; with
+        measured=f"""acceleration is u within {exact:.0e} of its size ({LIMIT.POSES * len(arms)} states); with
         {LIMIT.OFF.partition("-")[2]} times the masses off by {typical:.2g} u""",
     )
 

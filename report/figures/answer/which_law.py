@@ -1,12 +1,14 @@
 """The page that says which law to use: the map of situations, its regions, and what changes the advice."""
 
+from collections.abc import Iterator
 from typing import Any
 
 from bench.experiments.situations import FIRST, MOST, NOISE_RAD
+from bench.findings.answer import NOT_TESTED, find_answer
 from bench.findings.proofs.certificate import read_certificates
 from bench.findings.selection import regions, sensitivity, words
 from bench.findings.selection.regions import decide_all, facts_of, find_regions, is_drawn, read_map
-from bench.findings.selection.robots import Elsewhere, list_elsewhere
+from bench.findings.selection.robots import ROBOTS, list_elsewhere
 from bench.findings.selection.sensitivity import Rated
 from bench.findings.selection.unbeaten import (
     SPOKEN,
@@ -19,24 +21,31 @@ from bench.law.attribution import IN_WORDS
 from bench.law.contenders.registry import find_contender
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
+from report.figures.kit.spelling import prose
+from report.figures.replication.conclusions import call_laws
 from tasks.situation import KP, NOMINAL
 
 REGIONS = html.Table(
-    "Law | Advised [%]:.0f | Unbeaten among the qualified [%]:.0f | Unbeaten among all [%]:.0f | "
-    "Loses starts [%]:.0f | No qualified law is faster, if one number changes, at"
+    "Law | Situations where it is advised [%]:.0f | Unbeaten among the qualified laws [%]:.0f | "
+    "Unbeaten among all laws [%]:.0f | Situations where it loses starts [%]:.0f | "
+    "No qualified law is faster, if one number changes, at"
 )
-RULES = html.Table("Rule | Law advised most | Advised [%]:.0f | Unbeaten [%]:.0f | Advice changes [%]:.0f")
-TUNED = html.Table(
-    "Law | kv = 2√kp [1/√kp]:.2f | best zeta:.2f | its time [1/√kp]:.2f | best zeta at equal peak:.2f | "
-    "its time [1/√peak]:.2f"
+RULES = html.Table(
+    "Rule | Law advised most often | Situations where it is advised [%]:.0f | "
+    "Situations where it is unbeaten [%]:.0f | Situations where the advice differs from ours [%]:.0f"
 )
+RELIABLE = html.Table(
+    "Advice in new situations | Unbeaten among the qualified laws | Unbeaten among all laws | "
+    f"A qualified law is more than {100 * SPOKEN:.0f} % faster "
+    "| Extra time, median [%] | Extra time, 95 % of situations [%]",
+)
+NEEDS = html.Table("Your controller | Law | Why | Price | Rows")
 LEAST = 0.01
 """The share of situations from which on a law has a row of its own."""
-ROBOTS_TABLE = html.Table("If | use | Tied with | Laws compared | Rows")
 
 
 def facts(run: Run) -> dict[str, Any]:
-    """Return the advice in a few sentences, the numbers about it, and regions, rules, tuned laws and other robots."""
+    """Return the advice in a few sentences, the numbers about it, and regions, rules and other robots."""
     verdicts = decide_all()
     corrected = sensitivity.correct()
     halves, of = sensitivity.count_halves()
@@ -44,6 +53,8 @@ def facts(run: Run) -> dict[str, Any]:
     population = find_population()
     return {
         "lead": lead(),
+        **describe_answer(),
+        "ours": describe_ours(),
         "situations": len(verdicts),
         "drawn": sum(map(is_drawn, verdicts)),
         "episodes": f"{read_map()['starts'].sum() / 1e6:.1f}",
@@ -54,7 +65,7 @@ def facts(run: Run) -> dict[str, Any]:
         "qualified": len(population.qualified),
         "excluded": together([families.word(law) for law in population.excluded], len(population.excluded)),
         "published": len(population.qualified) + len(population.excluded),
-        "compared": f"{corrected.compared:,}",
+        "compared": corrected.compared,
         **{name: getattr(corrected, name) for name in ("won", "lost", "won_before", "lost_before")},
         "halves": halves,
         "of_halves": of,
@@ -62,31 +73,81 @@ def facts(run: Run) -> dict[str, Any]:
         "noise": f"{NOISE_RAD:g}",
         "held": held.same.of,
         "same": str(held.same),
-        **_rated("map", held.map),
-        **_rated("default", held.default),
+        "map_unbeaten": f"{100 * held.map.qualified.value:.0f}",
+        "default_unbeaten": f"{100 * held.default.qualified.value:.0f}",
+        "reliable": RELIABLE((_rated("the law of the map", held.map), _rated("always the default", held.default))),
         "proved": sum(one["is_proved"] for one in read_certificates().values()),
         "provable": len(read_certificates()),
         "lines": words.describe_lines(find_regions()[0].law, families.word),
-        "price": words.describe_price(find_regions()[0].law, called=families.word),
         "regions": REGIONS(_region(one) for one in find_regions() if one.advised >= LEAST),
         "rules": RULES(
             (one.words, _link(one.law), 100 * one.advised, 100 * one.unbeaten, 100 * one.changed)
             for one in sensitivity.vary()
         ),
-        "tuned": TUNED((", ".join(map(_link, laws)), *numbers) for numbers, laws in _tuned().items()),
-        "robots": in_run(lambda: ROBOTS_TABLE(map(describe_robot, list_elsewhere()))),
+        "rules_same": count_same_rules(),
+        "needs": in_run(lambda: NEEDS(list_needs())),
+        "needs_finding": count_other_needs(),
     }
 
 
-def _rated(name: str, rated: Rated) -> dict[str, str]:
-    """Return the numbers of an advice in the held-out situations."""
+def lead() -> str:
+    """Return which law to use, whose it is, and why; or that this is not tested."""
+    answer = find_answer()
+    if not answer.is_tested:
+        return "Which law to use is not tested: the map of situations is missing."
+    law = f"**{families.word(answer.law)}**, {describe_attribution(answer.law)}"
+    return f"Use {law}. {prose(call_laws(answer.reason))} Price: {prose(call_laws(answer.price))}."
+
+
+def describe_answer() -> dict[str, str]:
+    """Return on which set the answer was tested, its condition, and what else is said of the law."""
+    answer = find_answer()
+    first, *others = find_regions()
+    shares = [f"{families.word(region.law)} ({100 * region.advised:.0f} %)" for region in others]
+    where = f"; in the other situations, {together(shares)}" if others else ""
     return {
-        f"{name}_qualified": str(rated.qualified),
-        f"{name}_all": str(rated.all),
-        f"{name}_slower": str(rated.slower),
-        f"{name}_half": f"{100 * rated.half:.1f}",
-        f"{name}_most": f"{100 * rated.most:.0f}",
+        "tested": prose(call_laws(answer.tested)),
+        "condition": prose(call_laws(answer.condition)),
+        "does": describe_default(),
+        "advised": f"{families.word(first.law)} in {100 * first.advised:.0f} % of the situations{where}",
     }
+
+
+def count_same_rules() -> str:
+    """Say how many of the other rules advise the default most often."""
+    rule, *others = sensitivity.vary()
+    same = sum(other.law == rule.law for other in others)
+    count = f"All {same}" if same == len(others) else f"{same or 'None'} of the {len(others)}"
+    return f"{count} other rules advise {families.word(rule.law)} most often, as our rule does"
+
+
+def count_other_needs() -> str:
+    """Say for how many kinds of controllers another law than the default is advised."""
+    default, *others = find_answer().needs
+    laws = [*(need.law for need in others), list_elsewhere()[0].law]
+    other = sum(law not in (default.law, NOT_TESTED) for law in laws)
+    count = f"All {other}" if other == len(laws) else f"{other or 'None'} of these {len(laws)}"
+    return f"{count} other kinds of controllers need another law than the default, {families.word(default.law)}"
+
+
+def list_needs() -> Iterator[tuple]:
+    """Return a row for each kind of controller: the answer's, and of torques whose inertia is not cancelled."""
+    for need in find_answer().needs:
+        page = ROBOTS[need.name].page if need.name in ROBOTS else ""
+        rows = f'<a href="{page}.html">rows</a>' if page else ""
+        law = f"{_named(need.law)} ({need.attribution})" if need.law != NOT_TESTED else need.law
+        yield prose(need.controller), law, prose(call_laws(need.why)), prose(call_laws(need.price)), rows
+    uneven = list_elsewhere()[0]
+    tied = f"ties with {together([families.word(law) for law in uneven.tied])}" if uneven.tied else "alone"
+    why = f"{tied}; {uneven.compared} laws meet the requirements"
+    law = f"{_named(uneven.law)} ({find_contender(uneven.law).attribution})"
+    yield "commands torque, cancels no inertia", law, why, html.MISSING, ""
+
+
+def _rated(advice: str, rated: Rated) -> tuple[str, ...]:
+    """Return the row of an advice in the held-out situations."""
+    shares = str(rated.qualified), str(rated.all), str(rated.slower)
+    return advice, *shares, f"{100 * rated.half:.1f}", f"{100 * rated.most:.0f}"
 
 
 def _region(region: regions.Region) -> tuple:
@@ -118,39 +179,17 @@ def describe_ours() -> str:
     return words.describe_ours(families.word)
 
 
-def lead() -> str:
-    """Return the default, and the laws of the other regions."""
-    first, *others = find_regions()
-    said = together([f"{families.word(one.law)} ({100 * one.advised:.0f} %)" for one in others])
-    where = (
-        f" Our rule (below) advises this law in {100 * first.advised:.0f} % of the situations; in others, {said}."
-        if others
-        else ""
-    )
-    law = f"**{families.word(first.law)}**, {describe_attribution(first.law)}"
-    return f"Use {law}. {describe_default()}{where} {describe_ours()}"
-
-
 def describe_attribution(law: str) -> str:
     """Return what a sentence calls a law: published, adapted or ours, in words."""
     return IN_WORDS[find_contender(law).attribution]
 
 
-def _tuned() -> dict[tuple, list[str]]:
-    """Return the laws that have the same numbers, as the table rounds them."""
-    found: dict[tuple, list[str]] = {}
-    for one in sensitivity.tune():
-        numbers = one.at_one, one.zeta, one.time, one.peak_zeta, one.peak_time
-        found.setdefault(tuple(round(float(number), 2) for number in numbers), []).append(one.law)
-    return found
-
-
-def describe_robot(one: Elsewhere) -> tuple:
-    """Return the row of what leads to a law."""
-    tied = together([families.word(law) for law in one.tied]) if one.tied else ""
-    return one.words, _link(one.law), tied, str(one.compared or ""), f'<a href="{one.page}.html">rows</a>'
+def _named(law: str) -> str:
+    """Return a law with a link to its page."""
+    return families.link(law, families.word(law))
 
 
 def _link(law: str) -> str:
+    """Return the same, and whether the law is ours."""
     ours = " (ours)" if facts_of(law).is_ours else ""
-    return f"{families.link(law, families.word(law))}{ours}"
+    return f"{_named(law)}{ours}"

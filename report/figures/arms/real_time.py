@@ -155,7 +155,7 @@ def limits(study: pd.DataFrame, narrow: bool) -> Drawing:
         linewidth=1.2,
     )
     delays, gains = study["delay_median_s"] / PERIOD_S, study["kv_measured"] * PERIOD_S
-    colour = style.COLOURS["vermillion"]
+    colour = style.INK
     axes.plot(delays, gains, "o", markersize=4, markerfacecolor="none", markeredgecolor=colour)
     axes.set(xlim=(0.0, SHOWN_DELAY), ylim=(1.5, 3.5))
     axes.set(xlabel="delay [control periods]", ylabel="greatest stable $K_v T$")

@@ -19,7 +19,7 @@ from bench.export import browser
 from bench.law.contender import Contender
 from bench.law.contenders.registry import all_contenders
 from report.figures.cost.cost import CALLS
-from report.figures.kit import families, html, laws, style
+from report.figures.kit import families, html, laws, media, style
 from report.figures.kit.page import Run
 from tasks.base import Start
 from tasks.rules import RULES
@@ -30,6 +30,9 @@ CONTROLS = Path(__file__).with_name("live.html")
 OFFERED = tomllib.loads(Path(__file__).with_name("live.toml").read_text(encoding="utf-8"))
 OPENING, PRESETS = OFFERED["opening"], OFFERED["presets"]
 """What the page shows first: the paper's first law near 180°, and the law that is advised."""
+
+STILLS = ("stuck", "unwinding", "sensor-off", "gimbal-lock")
+"""Presets whose pictures stand for the page where no script runs, and on paper (report/stills.py)."""
 
 
 def starts() -> list[tuple[str, str, Start]]:
@@ -48,7 +51,7 @@ def page(contenders: list[Contender], costs: Any) -> html.Html:
     inside = json.dumps(data(names, every, costs), separators=(",", ":")).replace("<", "\\u003c")
     presets = presets_of(names)
     buttons = "".join(
-        f'<li><button type="button" data-preset="{word}">{one["title"]}</button> {one["watch"]}</li>\n'
+        f'<li><button type="button" data-preset="{word}">{one["title"]}</button></li>\n'
         for word, one in presets.items()
     )
     texts = {"anchors": "".join(f'<span id="{word}"></span>' for word in presets), "presets": buttons}
@@ -59,11 +62,28 @@ def page(contenders: list[Contender], costs: Any) -> html.Html:
         ((kind, ((one.id, title) for _, title, one in own)) for kind, own in kinds), OPENING["start"]
     )
     controls = CONTROLS.read_text(encoding="utf-8").format(band=f"{RULES.tolerance:.0%}", **texts, **options)
+    stills = "".join(still(word) for word in STILLS)
     return html.Html(
         f'{controls}<script type="application/json" id="live-data">{inside}</script>'
         f'<script id="live-laws">\n{browser.script(contenders)}</script>'
-        "<noscript><p>This page runs the laws in the browser, which needs JavaScript.</p></noscript>"
+        f"<noscript><p>{WITHOUT_SCRIPT}</p></noscript>"
+        f'<div class="live-stills">{stills}</div>{HIDE_STILLS}'
     )
+
+
+WITHOUT_SCRIPT = "This page runs the laws in the browser, which needs JavaScript. The pictures show four examples."
+
+HIDE_STILLS = '<script>document.documentElement.classList.add("has-script")</script>'
+"""Before they are loaded, where a script runs."""
+
+
+def still(word: str) -> str:
+    """Return the picture of a preset, with what the page says of it as its alternative text."""
+    said = json.loads((media.FOLDER / "live.json").read_text(encoding="utf-8"))[word]
+    preset, alt = PRESETS[word], markup.escape(" ".join(said))
+    picture = f'<img src="{media.SOURCE}/live-{word}.png" alt="{alt}" loading="lazy">'
+    title = f'<span class="caption-number">{preset["title"]}.</span>'
+    return f"<figure>{picture}<figcaption>{title} {preset['watch']}</figcaption></figure>"
 
 
 def data(names: list[str], every: list[tuple[str, str, Start]], costs: Any) -> dict:
@@ -72,6 +92,8 @@ def data(names: list[str], every: list[tuple[str, str, Start]], costs: Any) -> d
         "opening": OPENING,
         "presets": presets_of(names),
         "rules": {**RULES._asdict(), "slow_squared": RULES.slow_squared},
+        # where both laws have one colour, B takes the first of these that A has not
+        "neutrals": [[one, style.TWINS[one]] for one in (style.INK, style.REST)],
         "laws": {name: law(name, costs) for name in families.in_order(names)},
         "starts": [{"id": one.id, "q": one.quat_wxyz, "omega": one.omega, "goal": one.goal_wxyz} for *_, one in every],
     }

@@ -66,8 +66,7 @@ def draw_tiles(verdicts: list[Verdict]) -> str:
     said = listed(f"{counts[word]} {does(word, counts[word])}" for word in present)
     squares = "".join(map(_square, verdicts))
     keys = "".join(
-        f'<li><span class="tile {LOOKS[word]}" aria-hidden="true"></span>'
-        f"{counts[word]} {does(word, counts[word])}</li>"
+        f'<li><span class="tile {LOOKS[word]}" aria-hidden="true"></span>{counts[word]} {does(word, counts[word])}</li>'
         for word in present
     )
     name = f"{len(verdicts)} claims in the order of the paper: {said}"

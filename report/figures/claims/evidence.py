@@ -69,10 +69,10 @@ def section(one: Verdict, run: Run) -> str:
         "The paper": f"{escape.escape(claim.place)}: {marked_up(quoted)}",
         "Measured": marked_up(one.measured),
         "What is true": marked_up(call_laws(one.correction)),
-        "Evidence": marked_up(str(one.evidence)) + draw_numbers(one.evidence.numbers),
+        "Evidence": marked_up(call_laws(str(one.evidence))) + draw_numbers(one.evidence.numbers, claim.id),
         "Shown in": "<br>".join(place.html for place in read_places().get(claim.id, ())),
         "Rows": describe_rows(one, run),
-        "Again": describe_commands(one),
+        "Commands": describe_commands(one),
         "Criterion": marked_up(f"{claim.criterion} ({written(claim.written)})" if claim.written else claim.criterion),
         "Before": _listed(f"{written(old.written)}: {old.criterion} By it: {old.word}." for old in claim.earlier),
         "Left open": marked_up(claim.open),
@@ -86,17 +86,17 @@ def section(one: Verdict, run: Run) -> str:
     )
 
 
-def draw_numbers(numbers: Sequence[Sequence[str]]) -> str:
+def draw_numbers(numbers: Sequence[Sequence[str]], id: str) -> str:
     """Return the numbers of an evidence as a table; nothing where its sentence has them all."""
     if not numbers:
         return ""
     heads, *rows = numbers
     head = "".join(f'<th scope="col">{marked_up(text)}</th>' for text in heads)
-    body = "".join(f"<tr>{''.join(f'<td>{marked_up(text)}</td>' for text in row)}</tr>" for row in rows)
+    body = "".join(f"<tr>{''.join(f'<td>{marked_up(call_laws(text))}</td>' for text in row)}</tr>" for row in rows)
     table = f'<table class="plain"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
     # A box that scrolls must be reached by key.
-    box = 'class="pst-scrollable-table-container numbers" tabindex="0" role="region" aria-label="All numbers"'
-    return f"<div {box}>{table}</div>"
+    reached = f'tabindex="0" role="region" aria-label="Numbers of {id}"'
+    return f'<div class="pst-scrollable-table-container numbers" {reached}>{table}</div>'
 
 
 def describe_rows(one: Verdict, run: Run) -> str:
@@ -105,16 +105,16 @@ def describe_rows(one: Verdict, run: Run) -> str:
     if not evidence.rows:
         return ""
     sources = [STUDIES.get(name) or link_file(name, run) for name in evidence.tables]
-    return f"{html.number(evidence.rows)} rows and states: {'; '.join(sources)}.{list_conditions(evidence.chosen)}"
+    listed = f'{"; ".join(sources)} (<a href="appendix-data.html#tab-files">all files</a>)'
+    return f"{html.number(evidence.rows)} rows and states: {listed}.{list_conditions(evidence.chosen)}"
 
 
 def link_file(table: str, run: Run) -> str:
-    """Return a link to the file of a table, or its name where the site has it not, and to the list of all files."""
+    """Return a link to the file of a table; its name where the site does not offer it."""
     name = f"{table}.parquet"
     path = run.folder / name
     is_offered = path.is_file() and path.stat().st_size <= OFFERED_BYTES
-    file = f'<a href="{SITE_DATA}/{name}" download>{name}</a>' if is_offered else f"<code>{name}</code>"
-    return f'{file} (<a href="appendix-data.html#tab-files">all files</a>)'
+    return f'<a href="{SITE_DATA}/{name}" download>{name}</a>' if is_offered else f"<code>{name}</code>"
 
 
 def list_conditions(chosen: Iterable[tuple[str, str]]) -> str:

@@ -68,7 +68,7 @@ def curves(rows: pd.DataFrame, narrow: bool) -> Drawing:
         simulated = rows[rows["contender"] == law]
         if simulated.empty:
             continue
-        times, colour = settle(rows, EQUATIONS[law], angles), style.look_among_all(law).colour
+        times, colour = settle(rows, EQUATIONS[law], angles), style.look(law).colour
         axes.plot(np.degrees(angles), times, color=colour, linewidth=1.6, zorder=4)
         drawn = simulated.head(DRAWN)
         style.dots(axes, np.degrees(drawn["angle0_rad"]), drawn["settling_time_s"], colour, 3.0, zorder=3, alpha=0.6)
@@ -103,7 +103,7 @@ def label_ends(axes: Any, ends: dict[str, float]) -> None:
     """Name each curve beside its end, with a line from the end to a name that had to move."""
     places = style.apart([*ends.values()], GAP_S)
     for (law, end), place in zip(ends.items(), places, strict=True):
-        colour = style.look_among_all(law).colour
+        colour = style.look(law).colour
         axes.plot([END_DEG, LABEL_DEG - 1.0], [end, place], color=colour, linewidth=0.9, clip_on=False)
         style.label_line(axes, LABEL_DEG, place, families.word(law), colour, fontsize=10)
 

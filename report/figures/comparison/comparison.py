@@ -14,12 +14,16 @@ from bench.findings.claims.tables import share
 from bench.findings.selection import tables as compared
 from bench.findings.selection.needs import measured
 from bench.findings.start_sets import AT_REST
+from report.figures.answer.equal_peak import describe_slopes, list_tuned, write_table
 from report.figures.cost.cost import CALLS, totals
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
 
-ALL_LAWS = html.Table("Law | Settles [%] | Median [s] | 99 % [s] | Effort | Peak | A tick | Lost | Trapped from [rad]")
+ALL_LAWS = html.Table(
+    "Law | Starts that settle [%] | t50 [s] | t99 [s] | Effort [rad²/s³] | Peak command [rad/s²] | "
+    "Operations per step | Directed starts lost | Trapped from [rad]"
+)
 NEAR_DEG = 30, 60
 ANISOTROPIC = "weighted-columns"
 """Its stiffness is the others' on the average over its axes alone."""
@@ -58,6 +62,8 @@ def facts(run: Run) -> dict:
         "dearer": f"{spent.max() / spent.min():.0f}",
         **near(rows[rows["contender"].isin(laws)]),
         "left": len(set(tried["contender"]) - lost - set(families.CONTROLS)),
+        "tuned": in_run(write_table),
+        "tuned_finding": in_run(lambda: describe_slopes(list_tuned())),
         "all_laws": ALL_LAWS(compare_laws(run, times, efforts)),
     }
 
@@ -87,9 +93,15 @@ def compare_laws(run: Run, times: pd.DataFrame, efforts: pd.DataFrame) -> Iterat
             html.number(float(f"{efforts[name].quantile(interpolation='lower'):.3g}")),
             large(own["peak_u"].max()),
             tick(counted, name),
-            f"{int((sure['outcome'] != 'settled').sum())} of {len(sure)}" if len(sure) else html.UNTESTED,
+            count_lost(sure) if len(sure) else html.UNTESTED,
             html.cell(float(held[name][0])) if name in held else html.UNTESTED,
         )
+
+
+def count_lost(rows: pd.DataFrame) -> str:
+    """Return "25 of 666" or "none of 372" for the starts that do not settle."""
+    lost = int((rows["outcome"] != "settled").sum())
+    return html.together(f"{lost or 'none'} of {len(rows)}")
 
 
 def common(episodes: pd.DataFrame) -> pd.DataFrame:

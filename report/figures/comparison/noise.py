@@ -31,5 +31,6 @@ def facts(run: Run) -> dict:
             f"start leaves 180° with {with_memory} others with memory"
         ),
         "starts": starts(rows),
+        "most": f"{float(noisy.index.max()):g}",
         "others": strips(rows, others),
     }

@@ -28,7 +28,7 @@ from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import listed, power
 
 PROBE = "wrench-probe"
-COLOURS = {PAPERS: "#0072b2", PAPERS_EULER: "#d55e00"}
+COLOURS = {PAPERS: style.CARTESIAN, PAPERS_EULER: style.EULER}
 NAMES = {PAPERS: "Cartesian compliance", PAPERS_EULER: "Euler Jacobian"}
 COORDINATES = {PAPERS: "", PAPERS_EULER: "zyx-euler"}
 BETAS = (0, 30, 60, 85)

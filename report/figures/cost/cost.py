@@ -31,8 +31,6 @@ LATER = ("quaternion-shortest", "mrp", "hybrid", "mrp-memory")
 """Later laws beside them: the usual one and the ones of the answer."""
 
 NARROW_LETTERS = 20
-LEAST_LABELLED = 12
-"""A narrower bar has no room for its number."""
 
 
 @functools.cache
@@ -134,7 +132,7 @@ def draw_operations(operations: pd.DataFrame, *, narrow: bool = False) -> Drawin
     figure, axes = style.panels(height=0.7 + (0.5 if narrow else 0.34) * len(operations), narrow=narrow)
     names = []
     for place, (law, (flops, calls)) in enumerate(operations.iterrows()):
-        colour = style.look_among_all(str(law)).colour
+        colour = style.look(str(law)).colour
         axes.barh(place, flops, 0.62, color=colour)
         axes.barh(place, calls, 0.62, flops, color=style.PAPER, edgecolor=colour, linewidth=1.2)
         axes.text(flops + calls + 1.0, place, count_words(flops, calls), va="center", fontsize=9.5)
@@ -144,7 +142,8 @@ def draw_operations(operations: pd.DataFrame, *, narrow: bool = False) -> Drawin
         names.append(fill(name, NARROW_LETTERS) if narrow else name)
     papers = sum(law in PAPERS_ORDER for law in operations.index)
     axes.axhline(papers - 0.5, color=style.MUTED, linewidth=0.7, linestyle=style.DOTTED)
-    axes.text(1.0, papers - 0.47, "since 1988", va="top", ha="right", fontsize=9, color=style.MUTED, transform=axes.get_yaxis_transform())
+    across = axes.get_yaxis_transform()  # the line's place along the axis of laws, and the right edge
+    axes.text(1.0, papers - 0.47, "since 1988", va="top", ha="right", fontsize=9, color=style.MUTED, transform=across)
     axes.set_yticks(range(len(operations)), names)
     axes.invert_yaxis()
     axes.set_xlim(0, 1.3 * operations.sum(axis=1).max())

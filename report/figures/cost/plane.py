@@ -82,10 +82,12 @@ def describe_plane(points: list[Point], limit_s: float) -> str:
     cheapest = min(papers_fast, key=lambda point: point.operations)
     later = [point for point in fast if point.law not in adequacy.PAPERS]
     better = [point for point in later if point.operations <= cheapest.operations]
+    count = {0: "No later law is", 1: "1 later law is"}.get(len(better), f"{len(better)} later laws are")
+    takes = "takes" if len(better) < 2 else "take"
     return (
         f"Of Murphy's laws that settle 99 % of the starts within {limit_s:.2f} s, {families.word(cheapest.law)} takes "
         f"the fewest operations, {count_words(cheapest.flops, cheapest.calls)}. "
-        f"{len(better) or 'No'} later laws are as fast and take no more operations."
+        f"{count} as fast and {takes} no more operations."
     )
 
 

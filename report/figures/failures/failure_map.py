@@ -1,19 +1,24 @@
 """What the page on failures shows: which starts each of the paper's laws loses, in numbers and against the angle."""
 
+import functools
 import math
-from typing import Any
+import textwrap
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.ticker import FixedLocator, NullLocator
 
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.findings.claims.tables import settled
+from bench.findings.conclusions import read_texts
 from bench.findings.maps import at_gains, counted, lost_share, read_maps
+from bench.findings.selection.regions import find_default
 from bench.law.inputs import PAPERS_GAINS
-from report.figures.kit import html, laws, style
-from report.figures.kit.inline import Drawing, responsive_picture
+from report.figures.kit import families, html, laws, style
+from report.figures.kit.inline import Drawing, Picture, responsive_picture
 from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX
 from report.figures.kit.page import Run, in_run
 
@@ -22,6 +27,20 @@ SETS = ("uniform", "half-turn", "poles", "wraps", "box")
 
 DRAWN = 1000
 """Uniform dots a panel: the first of a low-discrepancy sequence, which cover SO(3) evenly at any number."""
+
+SINCE = "Since 1988: with memory"
+CONCLUSIONS = {
+    MATRIX: "rotation-matrix",
+    LINEARIZED: "linearized-euler",
+    FEEDBACK: "feedback-linearized",
+    SINCE: "open-question",
+}
+"""Panel -> the paper's conclusion whose words stand over it."""
+QUOTE_WIDTH = {False: 28, True: 55}
+"""Letters in a line over a panel, on a page and on a phone."""
+MOST_LINES = {28: 3, 55: 1}
+"""Lines of the longest quotation at that width."""
+QUOTE_LINE_PT = 12.5
 
 TIMES = (0.5, 1, 2, 5)
 LOWEST, RAIL, NEVER = 0.45, 11.0, 17.0  # [s] of the log scale: its foot, and where the rail above it begins and lies
@@ -40,7 +59,8 @@ def facts(run: Run) -> dict:
         "mapped_l": f"{value:.2f} % ({low:.2f} to {high:.2f})",
         # |Edot| over |omega| half a degree off a pole
         "gain": f"{1.0 / math.sqrt(1.0 - math.cos(math.radians(0.5))):.0f}",
-        "hero": in_run(lambda: hero(run.rows("episodes", engine="ideal-rk4"))),
+        "hero": in_run(hero_picture, run),
+        "finding": in_run(lambda: say_finding(run.rows("episodes", engine="ideal-rk4"))),
         **(in_run(lambda: on_the_map(run)) or {}),
     }
 
@@ -59,42 +79,122 @@ def on_the_map(run: Run) -> dict:
     }
 
 
-@responsive_picture
-def hero(episodes: pd.DataFrame, narrow: bool) -> Drawing:
-    """Draw one engine's settling time by initial angle, from rest with goal zero; what fails is in the rail above."""
+class Panel(NamedTuple):
+    """A law of the headline figure: its contender, its title, and what the paper says of it or wants in its place."""
+
+    contender: str
+    title: str
+    quote: str
+    section: str
+
+
+def list_panels() -> list[Panel]:
+    """Return the paper's three laws in its order, and the law that is advised today."""
+    contenders = [*laws.TITLES, find_default()]
+    panels = []
+    for contender, (title, conclusion) in zip(contenders, CONCLUSIONS.items(), strict=True):
+        texts = read_texts()[conclusion]
+        quote = texts["short"].replace("...", "…")
+        panels.append(Panel(contender, laws.TITLES.get(contender, title), quote, texts["section"]))
+    return panels
+
+
+def find_common_starts(episodes: pd.DataFrame) -> dict[str, pd.DataFrame]:
+    """Return contender -> its rows, at rest and with goal zero, from the starts that all laws of the figure have."""
     rows = episodes[episodes["start_set"].isin(SETS)]
-    parts = [(name, own) for name in laws.TITLES if len(own := rows[rows["contender"] == name])]
-    shape, height = ((len(parts), 1), 2.3 * len(parts)) if narrow else ((1, len(parts)), 3.5)
-    figure, grid = style.panels(*shape, height=height, narrow=narrow, sharex=True, sharey=True, squeeze=False)
-    said = [_panel(axes, *part) for axes, part in zip(grid.flat, parts, strict=True)]
-    for axes in grid[-1, :]:
-        axes.set_xlabel("initial angle to the goal [deg]")
+    names = [panel.contender for panel in list_panels()]
+    of_law = {name: rows[rows["contender"] == name].set_index(["start_set", "start_id"]) for name in names}
+    present = {name: own for name, own in of_law.items() if len(own)}
+    common = functools.reduce(pd.MultiIndex.intersection, (own.index for own in present.values()))
+    return {name: own.loc[common].reset_index() for name, own in present.items()}
+
+
+def count_lost(rows: pd.DataFrame) -> dict[str, tuple[int, int]]:
+    """Return how many starts never settle, and of how many: the uniform ones, and those chosen to be difficult."""
+    is_uniform, is_lost = rows["start_set"] == "uniform", rows["outcome"] != "settled"
+    kinds = {"random": is_uniform, "difficult": ~is_uniform}
+    return {kind: (int((chosen & is_lost).sum()), int(chosen.sum())) for kind, chosen in kinds.items()}
+
+
+def hero_picture(run: Run) -> Picture:
+    """Return the headline figure of a run, on the continuous plant."""
+    return hero(run.rows("episodes", engine="ideal-rk4"))
+
+
+def say_finding(episodes: pd.DataFrame) -> str:
+    """Return how many of the common starts each law of the figure never settles from."""
+    lost = {}
+    for name, rows in find_common_starts(episodes).items():
+        lost[name] = int((rows["outcome"] != "settled").sum())
+        starts = len(rows)
+    papers = [f"{families.word(name)} from {lost[name] or 'none'}" for name in laws.TITLES if name in lost]
+    default = find_default()
+    advised = "is not in this run"
+    if default in lost:
+        advised = f"never settles from {lost[default]}" if lost[default] else "settles from all"
+    return (
+        f"Of the same {html.number(starts)} starts, Murphy's laws never settle from some ({', '.join(papers)}); "
+        f"{families.word(default)} {advised}."
+    )
+
+
+def draw_hero(episodes: pd.DataFrame, narrow: bool, height: float = 3.6) -> Drawing:
+    """Draw one engine's settling time by initial angle, a panel a law; what never settles is in the band on top.
+
+    episodes: from which the starts are taken that all laws share, from rest with goal zero.
+    """
+    of_law = find_common_starts(episodes)
+    drawn = [panel for panel in list_panels() if panel.contender in of_law]
+    columns = 1 if narrow else len(drawn)
+    rows = len(drawn) // columns
+    inches = 2.4 * rows if narrow else height
+    figure, grid = style.panels(rows, columns, height=inches, narrow=narrow, sharex=True, sharey=True, squeeze=False)
+    told = []
+    for axes, panel in zip(grid.flat, drawn, strict=True):
+        told.append(_draw_panel(axes, panel, of_law[panel.contender], QUOTE_WIDTH[narrow]))
     for axes in grid[:, 0]:
         axes.set_ylabel("settling time [s]")
-    return figure, "Settling time against initial angle, a panel for each law. " + " ".join(said)
+    if narrow:
+        grid[-1, 0].set_xlabel("initial angle to the goal [deg]")
+    else:
+        figure.supxlabel("initial angle to the goal [deg]", fontsize=10.5)
+    return figure, "Settling time against initial angle, a panel for each law. " + " ".join(told)
 
 
-def _panel(axes: Any, name: str, rows: pd.DataFrame) -> str:
-    title, colour = laws.TITLES[name], style.look(name).colour
+hero = responsive_picture(draw_hero)
+
+
+def _draw_panel(axes: Axes, panel: Panel, rows: pd.DataFrame, quote_width: int) -> str:
+    """Draw one law's starts, with the paper's words above them; return it in words."""
+    colour = style.look(panel.contender).colour
     is_uniform, is_settled = rows["start_set"] == "uniform", rows["outcome"] == "settled"
-    drawn = pd.concat(
-        (rows[is_uniform & is_settled].head(DRAWN), rows[(rows["start_set"] == "half-turn") & is_settled])
-    )
-    style.dots(axes, np.degrees(drawn["angle0_rad"]), drawn["settling_time_s"], colour, 3.0, alpha=0.45, zorder=3)
-    failed = rows[~is_settled]
-    aside = np.random.default_rng(0).permutation(np.linspace(-ASIDE, ASIDE, max(2, len(failed)))[: len(failed)])
-    style.dots(axes, np.degrees(failed["angle0_rad"]), NEVER * 10.0**aside, colour, 2.6)
+    is_near_180 = rows["start_set"] == "half-turn"
+    shown = pd.concat((rows[is_uniform & is_settled].head(DRAWN), rows[is_near_180 & is_settled]))
+    style.dots(axes, np.degrees(shown["angle0_rad"]), shown["settling_time_s"], colour, 3.0, alpha=0.45, zorder=3)
+
+    lost = rows[~is_settled]
+    places = np.linspace(-ASIDE, ASIDE, max(2, len(lost)))[: len(lost)]
+    aside = np.random.default_rng(0).permutation(places)
+    style.dots(axes, np.degrees(lost["angle0_rad"]), NEVER * 10.0**aside, colour, 2.6)
     axes.axhspan(RAIL, CEILING, facecolor=style.GRID, alpha=0.45, zorder=0)
+
     axes.set(yscale="log", xlim=(0, 184), ylim=(LOWEST, CEILING), xticks=[0, 60, 120, 180])
-    axes.set_title(title, color=colour)
     axes.yaxis.set_major_locator(FixedLocator([*TIMES, NEVER]))
     axes.yaxis.set_minor_locator(NullLocator())
     axes.set_yticklabels([*map(str, TIMES), "never"])
-    words = [
-        f"{word} {html.number((chosen & ~is_settled).sum())} of {html.number(chosen.sum())}"
-        for word, chosen in (("uniform", is_uniform), ("directed", ~is_uniform))
-    ]
-    axes.text(4, NEVER, "\n".join(words), va="center", fontsize=8, color=style.INK, linespacing=1.3)
+
+    quote = textwrap.wrap(f"“{panel.quote}” ({panel.section})", quote_width)
+    above = QUOTE_LINE_PT * MOST_LINES[quote_width]
+    axes.set_title(panel.title, color=colour, pad=above + 6)
+    place = {"xycoords": "axes fraction", "textcoords": "offset points", "va": "top", "linespacing": 1.0}
+    axes.annotate("\n".join(quote), (0.0, 1.0), xytext=(0, above + 2), fontsize=9, **place)
+
+    (random, of_random), (difficult, of_difficult) = count_lost(rows).values()
+    words = (
+        f"never: {random or 'none'} of {html.number(of_random)} random,",
+        f"{difficult or 'none'} of {html.number(of_difficult)} difficult starts",
+    )
+    axes.text(4, RAIL * 0.93, "\n".join(words), va="top", fontsize=8.5, linespacing=1.0)
     times = rows.loc[is_uniform & is_settled, "settling_time_s"]
     taken = f"; those that do take {times.median():.2f} s (median) to {times.max():.2f} s" if len(times) else ""
-    return f"{title}, never settled: {', '.join(words)} starts{taken}."
+    return f"{panel.title} (“{panel.quote}”), {' '.join(words)}{taken}."

@@ -31,7 +31,7 @@ UNTESTED = "not tested"
 COUNT = re.compile(r"\d+ of \d+")  # a line of it alone, as 24 of 24, does not break
 
 ROUNDED_FROM, SCIENTIFIC_FROM = 1e3, 1e9  # three figures of a number in between would read 1.23e+03
-SPACED_FROM = 10_000
+SPACED_FROM, POWER_BELOW = 10_000, 1e-3
 LEADING_MINUS = re.compile(r"-[\d.\u221e]")
 TAKEN = re.compile(r"[&<>\"'\\$`*_{}\[\]|~#!^@]")
 """What HTML, Markdown, MyST or TeX take for their own."""
@@ -60,7 +60,7 @@ def badge(verdict: str) -> Html:
 
 def law(name: str, text: str | None = None) -> Html:
     """Return the name of a regulator with the colour it has in every figure."""
-    light = style.look_among_all(name).colour
+    light = style.look(name).colour
     key = f'<span class="key" style="--key: {both(light)}"></span>'
     first, space, others = foreign(text or name).partition(" ")
     return Html(f'<span class="law"><span class="together">{key}{first}</span>{space}{others}</span>')
@@ -100,7 +100,10 @@ def cell(value: Any, form: str | Callable[[Any], str] | None = None) -> str:
 
 
 def number(value: Any) -> str:
-    """Return a number to three figures, or in full where it is whole, with thin spaces from 10,000 on."""
+    """Return a number to three figures, or in full where it is whole, with thin spaces from 10,000 on.
+
+    Below a thousandth it is a power of ten to two figures, so that 9.9·10⁻⁵ stands beside 4.1·10⁻⁴.
+    """
     if not isinstance(value, numbers.Real):
         return str(value)
     value = float(value)
@@ -110,6 +113,9 @@ def number(value: Any) -> str:
     if is_whole and abs(value) < SCIENTIFIC_FROM:
         whole = round(value)
         return f"{whole:,}".replace(",", "\u202f") if abs(whole) >= SPACED_FROM else str(whole)
+    if 0.0 < abs(value) < POWER_BELOW:
+        mantissa, _, exponent = f"{value:.1e}".partition("e")
+        return spelling.raised(mantissa.removesuffix(".0"), int(exponent))
     return f"{value:.3g}"
 
 

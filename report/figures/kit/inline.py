@@ -2,7 +2,7 @@
 
 Inline, because an `<img>` sees nothing of the page's theme. Each colour of `style.TWINS` becomes a variable
 of `light-dark(light, dark)`, which the theme's `color-scheme` decides. Ids are the figure's own, so figures
-share a page.
+share a page. Words are text, which a reader selects and finds: the page has the font in which matplotlib measured them.
 """
 
 import functools
@@ -14,7 +14,8 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from matplotlib import rc_context
-from matplotlib.backends.backend_svg import FigureCanvasSVG
+from matplotlib.backends.backend_mixed import MixedModeRenderer
+from matplotlib.backends.backend_svg import FigureCanvasSVG, RendererSVG
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 from mpl_toolkits.mplot3d.art3d import Text3D
@@ -29,6 +30,13 @@ DOT = re.compile(r"M (\S+ \S+)\s+L \1(?=\s)")  # of `dots`: a segment of no leng
 LONG_NUMBER = re.compile(r"(\d\.\d{2})\d+")  # of a path, in points: a hundredth is invisible
 # What matplotlib says in a <style> element, which inline would hold for the whole page:
 STROKES = "stroke-linejoin: round; stroke-linecap: butt"
+FONT = "font: 400 10px 'Orientation Sans', 'DejaVu Sans', sans-serif; font-variant: normal; letter-spacing: 0"
+"""Of all words of a figure, which say only what differs: they look alike inside a caption or a heading."""
+FAMILY = re.compile(r" font-family: [^;\"]*;?")
+BOLD, BOLD_FACE = "font-weight: 700", "font-weight: 600"
+"""What matplotlib calls bold, and the weight of the face that it measures, OrientationSans-Bold.ttf."""
+NO_TURN = re.compile(r' transform="rotate\(-0 [^)]*\)"')
+BLANKS = re.compile(r"[ \t\r\n]+")  # not the narrow spaces inside numbers
 
 
 Drawing = tuple[Figure, str]
@@ -72,11 +80,11 @@ def svg(figure: Figure, alt: str, name: str) -> str:
             f"figure {name} has no alternative text (cure: return (figure, 'what it shows, in a sentence'))"
         )
     lay_out(figure)
-    raw = io.StringIO()
-    figure.savefig(raw, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
-    text = raw.getvalue()
+    text = write_svg(figure)
     text = text[text.index("<svg") :]
     text = re.sub(r"<metadata>.*?</metadata>|<style.*?</style>|<!--.*?-->", "", text, flags=re.DOTALL)
+    text = re.sub(r"<defs>\s*</defs>", "", text)
+    text = NO_TURN.sub("", FAMILY.sub("", text)).replace(BOLD, BOLD_FACE)
     text = PATH.sub(lambda path: DOT.sub(r"M \1h0", LONG_NUMBER.sub(r"\1", path[0])), text)
     text = own_ids(text, name.replace("_", "-"), alt)
     # Every colour that has a twin becomes its variable; attributes become styles, which allow one.
@@ -86,8 +94,34 @@ def svg(figure: Figure, alt: str, name: str) -> str:
     colours = "; ".join(f"{name}: light-dark({light}, {dark})" for name, light, dark in twins if name in text)
     words, width = html.escape(alt, quote=True), figure.get_figwidth() * CSS_PIXELS_PER_INCH
     text = re.sub(r'\s+(?:width|height)="[\d.]+pt"', "", text, count=2)
-    opening = f'<svg role="img" aria-label="{words}" style="max-width: {width:.0f}px; {STROKES}; {colours}"'
-    return " ".join(text.replace("<svg", opening, 1).split())
+    opening = f'<svg role="img" aria-label="{words}" style="max-width: {width:.0f}px; {FONT}; {STROKES}; {colours}"'
+    return BLANKS.sub(" ", text.replace("<svg", opening, 1)).strip()
+
+
+class TextRenderer(RendererSVG):
+    """Writes words as text; mathematics stays outlines, for its fonts are not the page's."""
+
+    def draw_text(self, gc: Any, x: float, y: float, s: str, prop: Any, angle: float, *more: Any, **named: Any) -> None:
+        """Draw one text; the last arguments are matplotlib's: whether it is mathematics, and the Text itself."""
+        is_mathematics = bool(more[0]) if more else bool(named.get("ismath"))
+        if not is_mathematics:
+            super().draw_text(gc, x, y, s, prop, angle, *more, **named)
+            return
+        with rc_context({"svg.fonttype": "path"}):
+            super().draw_text(gc, x, y, s, prop, angle, *more, **named)
+
+
+def write_svg(figure: Figure) -> str:
+    """Return the figure as matplotlib's `print_svg` writes it, by our renderer and without a date."""
+    raw = io.StringIO()
+    width, height = figure.get_size_inches()
+    size = width * POINTS_PER_INCH, height * POINTS_PER_INCH
+    nothing = {"Date": None, "Creator": None, "Format": None, "Type": None}
+    words = TextRenderer(*size, raw, image_dpi=POINTS_PER_INCH, metadata=nothing)
+    renderer = MixedModeRenderer(figure, width, height, POINTS_PER_INCH, words)
+    figure.draw(renderer)
+    renderer.finalize()
+    return raw.getvalue()
 
 
 def lay_out(figure: Figure) -> None:

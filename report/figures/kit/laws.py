@@ -49,6 +49,11 @@ def regulator_of(name: str) -> str:
     return name.partition("@")[0].partition("/")[0]
 
 
+def is_users(word: str) -> bool:
+    """Return whether a regulator came with the run that is shown, not with the benchmark."""
+    return word not in contenders("regulators") and word in _own(read.folder())
+
+
 @functools.cache
 def _own(folder: Path) -> dict[str, Law]:
     """Return the user's laws of a run by name."""

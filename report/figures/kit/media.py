@@ -19,18 +19,16 @@ def facts(folder: Path = FOLDER) -> dict:
 
 
 def loop(alt: str, name: str = "pole-loop", source: str = SOURCE, height: int = 412) -> html.Html:
-    """Return a loop with its poster; a reader starts it. Where no video plays, the poster stands for it."""
-    words = escape.escape(alt, quote=True)
-    return in_both_themes(
-        lambda file, shown: (
-            f'<video class="{shown}" controls loop muted playsinline preload="none" poster="{file}.png" width="720" '
-            f'height="{height}" aria-label="{words}">'
-            + "".join(f'<source src="{file}.{kind}" type="{mime}">' for kind, mime in TYPES.items())
-            + f'<img src="{file}.png" alt="{words}"></video>'
-        ),
-        name,
-        source,
-    )
+    """Return a loop, whose script (report/_extra/films.js) loads the file of the page's theme and plays it.
+
+    Where no script runs, a reader starts the light one. Where no video plays, the poster stands for it.
+    """
+    words, file = escape.escape(alt, quote=True), f"{source}/{name}"
+    shown = f'loop muted playsinline preload="none" width="720" height="{height}" aria-label="{words}"'
+    sources = "".join(f'<source src="{file}.{kind}" type="{mime}">' for kind, mime in TYPES.items())
+    poster = f'<img src="{file}.png" alt="{words}">'
+    without_script = f'<video controls poster="{file}.png" {shown}>{sources}{poster}</video>'
+    return html.Html(f'<video data-film="{file}" {shown} hidden></video><noscript>{without_script}</noscript>')
 
 
 def still(alt: str, name: str) -> html.Html:

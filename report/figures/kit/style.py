@@ -1,7 +1,8 @@
-"""How figures look: one colour, marker and line per regulator everywhere, and the style they are drawn in.
+"""How figures look: one colour for each law of the argument, and the style that figures are drawn in.
 
-Colours are Okabe and Ito's eight, distinguished with any colour vision, each with a lighter twin for dark pages.
-Colour never stands alone: the marker and the line differ too, so that a print in grey still reads.
+Eight laws have a colour of their own, in every figure, in the map of advice, in the balls and on the live page. All
+other laws are grey everywhere, so that a colour is an identity. The eight are distinguished with any colour vision,
+each has a twin for dark pages, and both have a contrast of at least 3 to their page (tests/report/test_colours.py).
 """
 
 import itertools
@@ -38,22 +39,54 @@ TWINS = {
     GRID: "#343c48",
     PAPER: "#14181e",
     ON_COLOUR: "#14181f",
+    # the eight of LAW_COLOURS
+    "#064fa8": "#5a7cfd",  # blue
+    "#cc4215": "#f68019",  # vermillion
+    "#019669": "#48d589",  # green
+    "#d763bb": "#b860ab",  # purple
+    "#099bdd": "#8ae5ff",  # sky
+    "#80314e": "#fa1a54",  # wine
+    "#963cfc": "#e491ff",  # violet
+    "#ae8f13": "#f8d837",  # yellow
+    # of controllers and Jacobians, and a word that no law of ours uses
     "#0072b2": "#5cb8f0",  # blue
     "#d55e00": "#ff9350",  # vermillion
-    "#009e73": "#3fd0a4",  # bluish green
-    "#cc79a7": "#eda3cb",  # reddish purple
     "#e69f00": "#f5bd45",  # orange
-    "#56b4e9": "#9fd4f5",  # sky blue
-    "#a39400": "#e9dd4f",  # yellow, darkened: Okabe and Ito's own vanishes on white
-    "#b9c3cf": "#475263",  # settled: what needs no attention
     "#000001": "#ffffff",  # stuck: the strongest contrast there is
 }
 
 
-ARGUED = ("rotation-matrix", "linearized-euler", "feedback-linearized", "mrp-memory", "late-braking")
-"""The laws that have a colour among all others: the paper's three, the advised one, and ours."""
+COLOURS = {
+    "blue": "#064fa8",
+    "vermillion": "#cc4215",
+    "green": "#019669",
+    "purple": "#d763bb",
+    "orange": "#e69f00",
+    "sky": "#099bdd",
+    "yellow": "#ae8f13",
+    "wine": "#80314e",
+    "violet": "#963cfc",
+}
+"""What the colour words of a law's own look are."""
+
+LAW_COLOURS = {
+    "rotation-matrix": COLOURS["blue"],
+    "linearized-euler": COLOURS["vermillion"],
+    "feedback-linearized": COLOURS["green"],
+    "quaternion-shortest": COLOURS["purple"],
+    "hybrid": COLOURS["sky"],
+    "mrp": COLOURS["wine"],
+    "mrp-memory": COLOURS["violet"],
+    "late-braking": COLOURS["yellow"],
+}
+"""The laws of the argument: the paper's three, the quaternion, what is advised, and ours."""
 REST = MUTED
-"""The colour of the others there."""
+"""The colour of every other law that came with the benchmark."""
+YOURS = INK
+"""The colour of a law that a user added to the run."""
+
+CARTESIAN, EULER = "#0072b2", "#d55e00"
+"""Of controllers and Jacobians: on Cartesian axes, and on Euler angles."""
 
 
 class Look(NamedTuple):
@@ -66,38 +99,32 @@ class Look(NamedTuple):
 
 SOLID, DASHED, DOTTED, DASH_DOT = "-", (0, (5, 2)), (0, (1.5, 1.5)), (0, (6, 2, 1.5, 2))
 
-# What the words of a law's own look are.
-COLOURS = {
-    "blue": "#0072b2",
-    "vermillion": "#d55e00",
-    "green": "#009e73",
-    "purple": "#cc79a7",
-    "orange": "#e69f00",
-    "sky": "#56b4e9",
-    "yellow": "#a39400",
-}
 LINES: dict[str, str | tuple] = {"solid": SOLID, "dashed": DASHED, "dotted": DOTTED, "dash-dot": DASH_DOT}
-# For a law that has no look of its own: 3 colours x 5 markers x 3 lines, chosen by its name.
-SPARE_COLOURS = ("#a39400", "#56b4e9", "#cc79a7")
+# For a law that has no look of its own: 5 markers x 3 lines, chosen by its name.
 SPARE_MARKERS = ("P", "X", "h", "*", "<")
 SPARE_LINES: tuple[Any, ...] = (SOLID, DASHED, DASH_DOT)
 
 
-def look_among_all(name: str) -> Look:
-    """Return how a law is drawn where two dozen are: the laws of the argument in colour, and the rest in grey."""
-    own = look(name)
-    return own if name.partition("@")[0] in (*ARGUED, *laws.TITLES) else own._replace(colour=REST)
+def colour_of(name: str) -> str:
+    """Return the colour of a law by its name, or by the name of a contender (`regulator/representation@...`)."""
+    contender, word = name.partition("@")[0], laws.regulator_of(name)
+    # The argument is about the paper's laws on the paper's angles; the same law on other coordinates is another one.
+    is_elsewhere = "/" in contender and contender not in laws.TITLES
+    if word in LAW_COLOURS and not is_elsewhere:
+        return LAW_COLOURS[word]
+    return YOURS if laws.is_users(word) else REST
 
 
 def look(name: str) -> Look:
-    """How to draw a regulator or a contender (`regulator/representation@...`), unknown ones included."""
+    """Return how a law or a contender is drawn, unknown ones included."""
     word = laws.regulator_of(name)
-    own = laws.regulator(word)
-    if not own or not own.display.look:
-        every = [*itertools.product(SPARE_COLOURS, SPARE_MARKERS, SPARE_LINES)]
-        return Look(*every[mark(word) % len(every)])
-    words = own.display.look
-    return Look(COLOURS[words.colour], words.marker, LINES[words.line])
+    regulator = laws.regulator(word)
+    if regulator and regulator.display.look:
+        words = regulator.display.look
+        return Look(colour_of(name), words.marker, LINES[words.line])
+    spare = [*itertools.product(SPARE_MARKERS, SPARE_LINES)]
+    marker, line = spare[mark(word) % len(spare)]
+    return Look(colour_of(name), marker, line)
 
 
 def mark(text: str) -> int:

@@ -121,7 +121,7 @@ def count_at_equal_peak() -> Count:
     """Count the laws of the map that are compared at their best damping ratio."""
     return Count(
         name="laws at equal peak command",
-        where="Chapter 7, [settling times](#tab-tuned); [late braking](appendix-late-braking.md)",
+        where="Chapter 7, [equal peak command](#fig-equal-peak); [late braking](appendix-late-braking.md)",
         laws=len(tune()),
         which_laws="the laws of the map that settle from every start of the nominal situation",
         starts="as for the map",

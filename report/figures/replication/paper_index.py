@@ -1,4 +1,4 @@
-"""From an equation, a figure or a sentence of the paper to its chapter, claims, rows, and the command that makes them."""
+"""From a part of the paper to its chapter, its claims, the tables of rows, and the command that makes the rows."""
 
 import functools
 import re
@@ -44,8 +44,9 @@ def describe_item(item: Item, verdicts: Mapping[str, Verdict]) -> tuple:
     links = [link for link in (link_claims(claims), *map(link_erratum, errata)) if link]
     tables = list_tables(verdicts[claim] for claim in claims if claim in verdicts)
     command = read_commands()[item.paper]
+    shown = f"`{command}`" if command else html.MISSING
     pages = ", ".join(map(link_page, item.pages))
-    return prose(item.paper), prose(item.says), pages, ", ".join(links), tables, f"`{command}`" if command else html.MISSING
+    return prose(item.paper), prose(item.says), pages, ", ".join(links), tables, shown
 
 
 def list_tables(verdicts: Iterable[Verdict]) -> str:
@@ -78,6 +79,6 @@ def list_sentences() -> str:
         sections.setdefault(first_section, []).append(f"<li>{link} {marked_up(claim.sentence)}</li>")
     lists = "".join(f"<h4>Section {name}</h4><ul>{''.join(items)}</ul>" for name, items in sections.items())
     return (
-        f'<details class="paper-sentences"><summary>All {len(all_claims())} sentences, by section of the paper</summary>'
-        f"{lists}</details>"
+        f'<details class="paper-sentences"><summary>All {len(all_claims())} sentences, by section</summary>{lists}'
+        "</details>"
     )

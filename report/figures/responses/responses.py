@@ -14,8 +14,8 @@ from report.figures.kit import laws, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.laws import FEEDBACK, LINEARIZED, MATRIX, gains
 from report.figures.kit.page import Run
-from report.figures.kit.spelling import power
 from report.figures.kit.quotes import quote
+from report.figures.kit.spelling import power
 
 ANGLES = (
     ("alpha", r"$\alpha$", style.SOLID),
@@ -62,7 +62,12 @@ class Response(NamedTuple):
 
 
 class Limits(NamedTuple):
-    """The axes that all figures share [deg]: Euler angles up to `euler` of both signs, angles to the goal up to `goal`."""
+    """The axes that all figures share [deg].
+
+    Attributes:
+        euler: Greatest Euler angle, of both signs.
+        goal: Greatest angle to the goal.
+    """
 
     euler: float
     goal: float

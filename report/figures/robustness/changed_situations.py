@@ -73,7 +73,7 @@ def draw_panel(axes: Axes, number: str, line: pd.DataFrame) -> None:
     """Draw one number's panel, with the nominal value marked."""
     values = [UNBOUNDED if math.isinf(value) else value for value in line.index]
     for law in line:
-        look = style.look_among_all(str(law))
+        look = style.look(str(law))
         axes.plot(values, line[law], color=look.colour, marker=look.marker, markersize=3.5, linewidth=1.4)
     axes.set(yscale="log", xlabel=PANELS[number])
     if number != "jump":

@@ -94,7 +94,7 @@ def draw_resets(resets: list[Reset], narrow: bool) -> Drawing:
 
 def draw_pair(axes: Axes, place: int, law: Reset, field: str) -> None:
     """Draw a measure of a law with the memory kept and reset, and the line between them."""
-    colour = style.look_among_all(law.law).colour
+    colour = style.look(law.law).colour
     kept, reset = pair_of(law, field)
     axes.plot([kept, reset], [place, place], color=colour, linewidth=1.6)
     axes.plot(kept, place, "o", markersize=6, color=colour)

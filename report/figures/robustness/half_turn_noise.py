@@ -58,7 +58,7 @@ def strips(rows: pd.DataFrame, shown: list[str], narrow: bool) -> Drawing:
     figure, axes = style.panels(height=0.25 * (max(places.values()) + 1.0) + 1.55, narrow=narrow)
     words = []
     for law, place in places.items():
-        colour, begin = style.look_among_all(law).colour, least(law, *gains(rows))
+        colour, begin = style.look(law).colour, least(law, *gains(rows))
         is_known = not math.isnan(begin)
         if is_known:
             strip = [max(begin, FOOT), TOP]

@@ -33,5 +33,5 @@ REGULATOR = Law(
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
     later=True,
-    display=Display("hybrid", Look("vermillion", "P", "dashed"), "On the quaternion", CHORD),
+    display=Display("hybrid", Look("sky", "P", "dashed"), "On the quaternion", CHORD),
 )

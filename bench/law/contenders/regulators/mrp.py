@@ -29,5 +29,5 @@ REGULATOR = Law(
     law=law,
     property="almost global",
     later=True,
-    display=Display("MRP", Look("vermillion", "^", "solid"), "On three parameters", QUARTER),
+    display=Display("MRP", Look("wine", "^", "solid"), "On three parameters", QUARTER),
 )

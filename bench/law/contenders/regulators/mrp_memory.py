@@ -40,5 +40,5 @@ REGULATOR = Law(
     memory=(1.0, 0.0, 0.0, 0.0),
     property="global with memory",
     later=True,
-    display=Display("MRP with memory", Look("vermillion", "X", "dashed"), "With memory", QUARTER),
+    display=Display("MRP with memory", Look("violet", "X", "dashed"), "With memory", QUARTER),
 )
