@@ -14,7 +14,7 @@ from bench.base.files import read_json
 from bench.base.on_first_use import pd
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
-from bench.findings.amounts import count_of, part_of
+from bench.findings.amounts import count_of
 from bench.findings.claims.verdict import Evidence, NoEvidence
 from bench.findings.start_sets import describe_lacking, least_starts
 from bench.law.inputs import Gains
