@@ -9,12 +9,12 @@ from bench.base.files import read_json
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.statistics import Estimate
 from bench.findings import claims
+from bench.findings.amounts import part_of
 from bench.findings.claims.at_gains import at_every_gain
 from bench.findings.claims.performance import is_without_memory, whose
 from bench.findings.claims.tables import (
     Results,
     interval_or_never,
-    part_of,
     percent,
     query_of,
     share,

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from bench.base.on_first_use import Turn, pd
-from bench.findings.amounts import count_of
+from bench.findings.amounts import count_of, part_of
 from bench.findings.claims import probes, side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.force_conversion import random_orientations
-from bench.findings.claims.tables import Results, evidence, part_of, percent, rounding, some
+from bench.findings.claims.tables import Results, evidence, percent, rounding, some
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 
 LIMIT = read_limits(__file__)

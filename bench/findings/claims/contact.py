@@ -6,10 +6,10 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.engines.metrics.contact_force import WINDOW_S
-from bench.findings.amounts import capitalize, count_of
+from bench.findings.amounts import capitalize, count_of, part_of
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE, by_papers_form, paired
-from bench.findings.claims.tables import Results, evidence, part_of, percent, some
+from bench.findings.claims.tables import Results, evidence, percent, some
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from tasks.contact_rest import HORIZON_S
 

@@ -12,12 +12,12 @@ import tasks
 from bench.base.on_first_use import pd
 from bench.experiments.suites import SUITES
 from bench.experiments.tables.read import chosen
-from bench.findings.amounts import count_of
+from bench.findings.amounts import count_of, part_of
 from bench.findings.claims import adequacy, probes, standing
 from bench.findings.claims.adequacy import CALLS, of_stage, tallied
 from bench.findings.claims.side_by_side import BASE
 from bench.findings.claims.standing import ORDERED, Operations, by_columns
-from bench.findings.claims.tables import Results, evidence, part_of, percent, some
+from bench.findings.claims.tables import Results, evidence, percent, some
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.law.control.contact_controller import PAPERS_FORM
 from bench.law.inputs import Gains

@@ -12,7 +12,7 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.experiments.tables.statistics import bootstrap, quantile, quantile_estimate
-from bench.findings.amounts import count_of
+from bench.findings.amounts import count_of, part_of
 from bench.findings.claims import adequacy, probes, tables
 from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy
 from bench.findings.claims.at_gains import at_every_gain, on_every_engine
@@ -21,7 +21,6 @@ from bench.findings.claims.tables import (
     MAIN_ENGINE,
     Results,
     evidence,
-    part_of,
     percent,
     percent_interval,
     settled,

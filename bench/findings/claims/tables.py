@@ -197,12 +197,6 @@ def _free_body_query(words: Mapping[str, str]) -> str:
     return query_of({**words, **read.FREE_BODY, "representation": PAPERS_COORDINATES})
 
 
-def part_of(part: int, whole: int) -> str:
-    """Return how many of a group whose noun is said beside it: 'all 17', 'none of 17' or '3 of 17'."""
-    many = {whole: "all", 0: "none of"}.get(part, f"{part:,} of")
-    return f"{many} {whole:,}"
-
-
 WHOLE_PERCENT = 100.0
 
 
