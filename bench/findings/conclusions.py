@@ -168,8 +168,9 @@ def _find_no_regulator(results: Results) -> str:
 
 def _find_jacobian(results: Results) -> str:
     both = replication.compare_jacobians(results)
+    harder = Estimate(*(float(f"{ratio:.2g}") for ratio in both.harder))
     return (
-        f"Past gimbal lock the Euler Jacobian needs {interval(both.harder, '.0f')} times the peak torque of the "
+        f"Past gimbal lock the Euler Jacobian needs {interval(harder, 'g')} times the peak torque of the "
         f"geometric Jacobian (median of {both.moves} moves of {both.arms} arms)."
     )
 

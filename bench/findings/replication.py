@@ -10,7 +10,7 @@ import numpy as np
 from bench.base.on_first_use import pd
 from bench.experiments.suites import IDEAL_MOTORS
 from bench.experiments.tables.read import FREE_BODY, converged
-from bench.experiments.tables.statistics import Estimate, quantile_estimate
+from bench.experiments.tables.statistics import Estimate, bootstrap, quantile_estimate
 from bench.findings.claims import compliance, side_by_side
 from bench.findings.claims.adequacy import HELD_RAD, PAPERS, Adequacy, Tested, every, examine, held, of_three
 from bench.findings.claims.controller_costs import BY_EULER, ON_MATRIX
@@ -82,7 +82,7 @@ def compare_jacobians(results: Results) -> Jacobians:
         both["arm"].nunique(),
         (int((both["outcome"] != "settled").sum()), int((both["outcome_euler"] != "settled").sum())),
         (float(both["peak_torque_ratio"].median()), float(both["peak_torque_ratio_euler"].median())),
-        quantile_estimate(harder.fillna(math.inf).to_numpy(float), 0.5),
+        bootstrap(harder.fillna(math.inf).to_numpy(float), np.median),
     )
 
 

@@ -45,7 +45,5 @@ def write_seconds(seconds: float) -> str:
 
 
 def write_ratio(ratio: float) -> str:
-    """Write a ratio with two digits, or whole if it has more."""
-    if not math.isfinite(ratio):
-        return "inf"
-    return f"{ratio:.0f}" if ratio >= 10.0 else f"{ratio:.2g}"
+    """Write a ratio with two significant digits, as the book does."""
+    return f"{float(f'{ratio:.2g}'):,g}" if math.isfinite(ratio) else "inf"
