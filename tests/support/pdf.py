@@ -15,8 +15,20 @@ REFERENCE = re.compile(rb"(\d+) 0 R")
 PAINTING = {b"f", b"F", b"f*", b"B", b"B*", b"b", b"b*", b"S", b"s"}
 MOVES = {b"m": 2, b"l": 2, b"c": 6, b"v": 4, b"y": 4}
 LINE_HEIGHT = 1.2
-IDENTITY = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
 Matrix = tuple[float, ...]
+IDENTITY: Matrix = (1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
+
+
+class NotOfChromium(Exception):
+    """The file has not the form that Chromium writes."""
+
+
+def find(pattern: bytes | re.Pattern[bytes], text: bytes) -> re.Match[bytes]:
+    """Return the first place of a pattern; NotOfChromium if there is none."""
+    found = re.search(pattern, text, re.DOTALL if isinstance(pattern, bytes) else 0)
+    if not found:
+        raise NotOfChromium(f"nothing like {pattern!r} in {text[:80]!r}")
+    return found
 
 
 class Strip(NamedTuple):
@@ -65,9 +77,9 @@ def read_pages(data: bytes) -> list[Page]:
     objects = read_objects(data)
     pages = []
     for body in (objects[number] for number in _page_numbers(objects)):
-        box = re.search(rb"/MediaBox\s*\[([^\]]*)\]", body)
+        box = find(rb"/MediaBox\s*\[([^\]]*)\]", body)
         height = float(box[1].split()[3])
-        contents = re.search(rb"/Contents\s+(\d+) 0 R", body)
+        contents = find(rb"/Contents\s+(\d+) 0 R", body)
         ink = find_ink(objects, int(contents[1]), IDENTITY, _resources(objects, body))
         pages.append(Page(height, [Strip(height - high, height - low) for low, high in ink]))
     return pages
@@ -83,7 +95,7 @@ def read_objects(data: bytes) -> dict[int, bytes]:
 
 def _page_numbers(objects: dict[int, bytes]) -> list[int]:
     [root] = [body for body in objects.values() if re.search(rb"/Type\s*/Catalog", body)]
-    return list(_leaves(objects, int(re.search(rb"/Pages\s+(\d+) 0 R", root)[1])))
+    return list(_leaves(objects, int(find(rb"/Pages\s+(\d+) 0 R", root)[1])))
 
 
 def _leaves(objects: dict[int, bytes], number: int):
@@ -104,8 +116,8 @@ def _resources(objects: dict[int, bytes], body: bytes) -> dict[bytes, int]:
 
 
 def _stream(body: bytes) -> bytes:
-    begin = STREAM.search(body)
-    length = int(re.search(rb"/Length\s+(\d+)", body[: begin.start()])[1])
+    begin = find(STREAM, body)
+    length = int(find(rb"/Length\s+(\d+)", body[: begin.start()])[1])
     raw = body[begin.end() : begin.end() + length]
     return zlib.decompress(raw) if b"/FlateDecode" in body[: begin.start()] else raw
 
