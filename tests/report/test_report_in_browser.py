@@ -202,7 +202,8 @@ def test_film_of_the_other_theme_is_not_loaded(opened, theme):
 
 EDGES = """
 const edges = found => [...document.querySelectorAll(found)].map(one => one.getBoundingClientRect());
-return [edges("article h1, article .lead, #fig-headline").map(box => box.top), edges("#tab-headline tbody tr").map(box => box.bottom)];
+const tops = edges("article h1, article .lead, #fig-headline").map(box => box.top);
+return [tops, edges("#tab-headline tbody tr").map(box => box.bottom)];
 """
 CONCLUSIONS = 8
 
