@@ -97,3 +97,7 @@ def test_every_work_that_a_law_cites_is_in_the_bibliography():
             for year in re.findall(r"\b(?:1[89]|20)\d\d\b", cited):
                 assert [author for author, of in works if of == year and author.strip("{}") in cited], (name, year)
             assert all(f"{{{number}}}" in BIBLIOGRAPHY for number in re.findall(r"arXiv:[\d.]+", one.source)), name
+
+
+def test_numbers_in_cells_have_a_thin_space_from_ten_thousand_and_no_comma():
+    assert html.cell("39 of the 1,726 starts, none of the 40,000") == "39 of the 1726 starts, none of the 40\u202f000"
