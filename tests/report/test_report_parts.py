@@ -13,7 +13,7 @@ from bench.export.language import language_words
 from bench.law.contenders.registry import FOLDERS, contenders
 from report.figures.cards import regulators
 from report.figures.cost import cost
-from report.figures.kit import families, spelling
+from report.figures.kit import families, html, spelling
 from report.figures.kit.page import Run, run_in
 from report.figures.method import method
 
