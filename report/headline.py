@@ -27,7 +27,7 @@ from report.figures.kit.page import run_in
 RESULTS = ROOT / "results" / "reference"
 CONFIGURATION = ROOT / "report" / "_config.yml"
 CARD_PIXELS = (1200, 630)
-"""Of a shared link's picture."""
+"""Size of the picture of a shared link."""
 DOTS_PER_INCH = 192
 """Two pixels to one of CSS."""
 COLOURS = 255
