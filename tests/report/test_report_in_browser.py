@@ -110,6 +110,7 @@ def seen(request, opened, axe):
     told = screenshots.network_requests(opened), screenshots.console_errors(opened)
     opened.execute_script(axe)
     barriers = opened.execute_async_script(BARRIERS)
+    screenshots.console_errors(opened)  # axe-core reads a canvas of its own many times, of which Chromium warns
     screenshots.look(opened, screenshots.View("light", PAPER_PIXELS), media="print")
     cropped = opened.execute_script(CROPPED)
     screenshots.look(opened, second)
