@@ -26,8 +26,8 @@ GROUPS = tomllib.loads(Path(__file__).with_name("groups.toml").read_text(encodin
 """Command -> group -> its options; of `bench` itself, its commands."""
 
 
-def list_groups(command: str, kind: str) -> list[dict[str, Any]]:
-    """Return the groups of a command, as rich-click takes them; kind: what is in them."""
+def list_groups(command: str, kind: str) -> Any:
+    """Return the groups of a command, a list as rich-click takes it; kind: what is in them."""
     return [{"name": name, kind: words} for name, words in GROUPS[command].items()]
 
 

@@ -19,9 +19,10 @@ def COMMAND(law: str, law_limit: float) -> None:
     LAW is a file of yours, or the name of a law of the benchmark.
 
     It examines the command over all states (stiffness and damping at three goals, equilibria away from the goal,
-    jumps), episodes from uniform, spinning and other starts (which are lost, and how they rest), and robustness. It
-    lists the laws of results/reference that are nearest to yours in two numbers: the pull towards the goal at 90
-    degrees, and the median settling time from uniform starts.
+    jumps), episodes from uniform, spinning and other starts (which are lost, and how they rest), and robustness. No
+    episode is run where a fault of the command explains what episodes would show, as a wrong sign does. The laws of
+    results/reference that are nearest to yours are listed: by the pull towards the goal at 90 degrees and the median
+    settling time from uniform starts.
     """
     own = options.find_law(law)
     from bench.findings.judged import judged  # after the file is known to hold a law, for it takes a second

@@ -8,14 +8,22 @@ def count(number: int, noun: str, nouns: str = "") -> str:
 
 
 def count_of(part: int, whole: int, nouns: str) -> str:
-    """Say how many of a group: none of the 14 laws, 3 of the 14 laws, all 14 laws."""
+    """Say how many of a group: none of the 14 laws, 3 of the 14 laws, all 14 laws, both laws."""
     if not 0 <= part <= whole:
         raise ValueError(f"{part} of {whole} {nouns} is no part of them; the first number goes from 0 to the second")
     if not whole:
         return f"no {nouns}"
+    if part == whole == 2:
+        return f"both {nouns}"
     if part == whole:
         return f"all {whole:,} {nouns}"
     return f"{part:,} of the {whole:,} {nouns}" if part else f"none of the {whole:,} {nouns}"
+
+
+def part_of(part: int, whole: int) -> str:
+    """Return how many of a group whose noun is said beside it: 'all 17', 'none of 17' or '3 of 17'."""
+    many = {whole: "all", 0: "none of"}.get(part, f"{part:,} of")
+    return f"{many} {whole:,}"
 
 
 def capitalize(text: str) -> str:

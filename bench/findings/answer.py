@@ -17,8 +17,7 @@ from bench.findings.claims.adequacy import HELD_RAD, PAPERS
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.kept import keep
 from bench.findings.selection import regions
-from bench.findings.selection.nearest import answer as answer_nearest
-from bench.findings.selection.nearest import find_outside
+from bench.findings.selection.nearest import decide_nearest, find_outside
 from bench.findings.selection.needs import Decision, measured
 from bench.findings.selection.regions import STUDY, Rule, facts_of, find_default, find_regions
 from bench.findings.selection.robots import ROBOTS, RUN, Robot, decide_for
@@ -27,6 +26,7 @@ from bench.findings.selection.unbeaten import (
     find_bounds,
     find_population,
     find_price,
+    find_runner_up,
     follow_lines,
     measure_shares,
 )
@@ -155,8 +155,17 @@ def _condition(law: str, folder: Path) -> str:
 
 
 def _price_of_default(law: str, folder: Path) -> str:
-    overshoot = find_price(law, folder).typical_overshoot
-    return f"{_join(_list_costs(law, folder))}; median overshoot {overshoot:.1f}° in the random situations"
+    """Return what the advised law costs, beside the law of the second widest region; it goes on from the law's name."""
+    price, other = find_price(law, folder), find_runner_up(folder)
+    costs = _join(_list_costs(law, folder))
+    if other is None:
+        return f"{costs}; its median overshoot in the random situations is {price.typical_overshoot:.1f}°"
+    beside = find_price(other, folder)
+    return (
+        f"{costs} ({other}: {beside.peak:.2g} kp). With gains for the same peak command, 99 % of the starts settle in "
+        f"{price.at_equal_peak:.1f}/√peak ({other}: {beside.at_equal_peak:.1f}/√peak). Its median overshoot in the "
+        f"random situations is {price.typical_overshoot:.1f}° ({other}: {beside.typical_overshoot:.1f}°)"
+    )
 
 
 def _usual(law: str, folder: Path) -> Need:
@@ -225,7 +234,7 @@ def _by_map(name: str, controller: str, law: str, default: str, folder: Path, wh
     costs = _list_costs(law, folder)
     slower = find_price(law, folder).time / find_price(default, folder).time
     if slower > 1.0 + SPOKEN:
-        costs.append(f"{slower:.1f} times as slow without a command limit")
+        costs.append(f"is {slower:.1f} times as slow without a command limit")
     return Need(controller, law, attribute(law), why, _join(costs), name)
 
 
@@ -238,11 +247,11 @@ def _list_costs(law: str, folder: Path) -> list[str]:
     [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == law)].to_dict("records")
     memory = facts_of(law).memory
     costs = [f"keeps {memory} numbers"] if memory else []
-    costs.append(f"commands up to {row['peak']:.1f} kp")
+    costs.append(f"commands up to {row['peak']:.2g} kp")
     if row["stuck"]:
-        costs.append("stuck at exactly 180°")
+        costs.append("is stuck at exactly 180°")
     elif row["trapped"]:
-        costs.append(f"a sensor error of {HELD_RAD:g} rad can trap it at 180°")
+        costs.append(f"can be trapped at 180° by a sensor error of {HELD_RAD:g} rad")
     if row["lost"]:
         costs.append("loses starts")
     return costs
@@ -284,11 +293,11 @@ def _price_on_robot(robot: Robot, law: str, run: Path) -> str:
     costs = [f"keeps {memory} numbers" if memory else "keeps nothing"]
     lost = measured(run, robot.measure).number("lost", law)
     if not math.isnan(lost) and lost:
-        costs.append("stuck at exactly 180°, slow near it")
+        costs.append("is stuck at exactly 180° and slow near it")
     elif not memory:
         noise = _least_noise(law, run)
         if noise is not None and math.isfinite(noise):
-            costs.append(f"a sensor error of {noise:g} rad can trap it at 180°")
+            costs.append(f"can be trapped at 180° by a sensor error of {noise:g} rad")
     return _join(costs)
 
 
@@ -304,7 +313,8 @@ def _least_noise(law: str, run: Path) -> float | None:
 
 
 def _join(parts: list[str]) -> str:
-    return ", ".join(parts)
+    *first, last = parts
+    return f"{', '.join(first)} and {last}" if first else last
 
 
 def advise_gains(gains: Gains, situations: Path = STUDY) -> str:
@@ -319,24 +329,14 @@ def advise_gains(gains: Gains, situations: Path = STUDY) -> str:
     if outside:
         return f"{own}: {NOT_TESTED} in the map (damping ratios {outside[0].low:g} to {outside[0].high:g}); {ask}"
     try:
-        nearest = _advise_nearest(wanted.zeta, situations)
+        nearest, verdict = decide_nearest(wanted, folder=situations)
     except BadResults:
         return f"{own}: {NOT_TESTED}, there is no map of situations; {ask}"
-    if nearest["law"] is None:
+    if verdict.law is None:
         return f"{own}: no law of the map meets the requirements; {ask}"
-    law, beside = str(nearest["law"]), nearest["zeta"]
-    near = "" if math.isclose(beside, wanted.zeta, rel_tol=1e-6) else f", tested at damping ratio {beside:g}"
-    return f"{own}: {law} ({attribute(law)}){near}; motors, delay: {ask}"
-
-
-def _advise_nearest(zeta: float, situations: Path) -> dict:
-    """Return the law that the map advises at a damping ratio, and the ratio that was run; of ours it is kept."""
-
-    def find() -> dict:
-        nearest = answer_nearest(NOMINAL._replace(zeta=zeta), folder=situations)
-        return {"law": nearest.verdict.law, "zeta": nearest.at.zeta}
-
-    return keep(situations, f"at-damping-{zeta:.6g}", find) if situations == STUDY else find()
+    is_same = math.isclose(nearest.zeta, wanted.zeta, rel_tol=1e-6)
+    near = "" if is_same else f", tested at damping ratio {nearest.zeta:g}"
+    return f"{own}: {verdict.law} ({attribute(verdict.law)}){near}; motors, delay: {ask}"
 
 
 LATER = 6

@@ -1,4 +1,4 @@
-"""Where the starts of a law fail, in words: read off the starts of a run that settle and those that do not."""
+"""Name the places at which the starts of a law fail: read off the starts of a run that settle and that do not."""
 
 from __future__ import annotations
 

@@ -2,7 +2,7 @@
 
 import dataclasses
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import pandas as pd
@@ -32,34 +32,42 @@ Parts = dict[tuple[str, str], list[pd.DataFrame]]
 """Rows by law and experiment."""
 
 
-def judged(regulators: Iterable[Law], limit_s: float = LIMIT_S) -> list[Judgement]:
-    """Return the judgement of every law; a unit is hung after limit_s of processor time. BadLaw: a file is no law."""
+def judged(
+    regulators: Iterable[Law], limit_s: float = LIMIT_S, report: Callable[[Unit], object] = bool
+) -> list[Judgement]:
+    """Return the judgement of every law; a unit is hung after limit_s of processor time. BadLaw: a file is no law.
+
+    report: is told each unit that is run.
+    """
     laws = contenders_of(*regulators)
     plan = plan_of(laws)
     parts: Parts = defaultdict(list)
     with Sandbox(plan, limit_s, TRIED) as sandbox:
-        look_at_commands(plan, sandbox, parts)
+        look_at_commands(plan, sandbox, parts, report)
         explained = {one.name for one in laws if find_cause(one, parts)}
-        run_episodes(dataclasses.replace(plan, units=without(plan.units, explained)), sandbox, parts)
+        rest = dataclasses.replace(plan, units=without(plan.units, explained))
+        run_episodes(rest, sandbox, parts, report)
         is_lost, reasons = bool(sandbox.notes), sandbox.reasons
     return [judgement(one, parts, is_lost, reasons.get(one.name, "")) for one in laws]
 
 
-def look_at_commands(plan: Plan, sandbox: Sandbox, parts: Parts) -> None:
+def look_at_commands(plan: Plan, sandbox: Sandbox, parts: Parts, report: Callable[[Unit], object]) -> None:
     """Add the command field of every law, which takes seconds: a fault that explains all shows there."""
     fields = plan.of("command-field")
     sandbox.check(fields)
     for unit in fields:
+        report(unit)
         parts[unit.contender, unit.experiment].append(sandbox.rows(unit).to_pandas())
 
 
-def run_episodes(plan: Plan, sandbox: Sandbox, parts: Parts) -> None:
+def run_episodes(plan: Plan, sandbox: Sandbox, parts: Parts, report: Callable[[Unit], object]) -> None:
     """Add the episodes of laws, then those under perturbations: not of a law that hangs, nor if no start settles."""
     sandbox.check(plan.of("free-body"))
     hanging = set()  # the rest of a law that hangs would take minutes more
     for unit in plan.of("free-body"):
         if unit.contender in hanging:
             continue
+        report(unit)
         made = sandbox.rows(unit).to_pandas()
         parts[unit.contender, unit.experiment].append(made)
         if sandbox.notes and made["outcome"].isin(LOST).all():
@@ -70,6 +78,7 @@ def run_episodes(plan: Plan, sandbox: Sandbox, parts: Parts) -> None:
     perturbed = [unit for unit in plan.of("robustness") if unit.contender in settling]
     sandbox.check(perturbed)
     for unit in perturbed:
+        report(unit)
         parts[unit.contender, unit.experiment].append(sandbox.rows(unit).to_pandas())
 
 

@@ -4,6 +4,7 @@ Sphinx numbers its own figures only. This makes one of each `<figure class="ball
 chapters. The name of what the frame shows, ball.html#NAME, becomes its label, fig-ball-NAME.
 """
 
+import html
 import re
 from typing import Any
 
@@ -15,6 +16,7 @@ FIGURE = re.compile(
     r"<figcaption>(?P<caption>.*?)</figcaption>\s*</figure>",
     re.DOTALL,
 )
+TAG = re.compile(r"(<[^>]+>)")
 SHOWN = re.compile(r'src="[^"]*#([\w-]+)"')
 LABEL = "fig-ball-{}"
 
@@ -37,12 +39,23 @@ class NumberFrames(SphinxTransform):
         if not shown:
             raise ValueError(f'a frame does not say what it shows: {found["frame"]} (cure: src="ball.html#NAME")')
         label = LABEL.format(shown[1])
-        caption = nodes.caption("", "", nodes.raw("", found["caption"], format="html"))
+        caption = nodes.caption("", "", *split_tags(found["caption"]))
         figure = nodes.figure("", nodes.raw("", found["frame"], format="html"), caption)
         figure["classes"].append(found["kind"])
         figure["names"].append(label)
         self.document.note_explicit_target(figure)
         return figure
+
+
+def split_tags(caption: str) -> list[nodes.Node]:
+    """Return words as text, which Sphinx asks of a caption that is to have a number, and tags as they are."""
+    parts: list[nodes.Node] = []
+    for part in TAG.split(caption):
+        if TAG.fullmatch(part):
+            parts.append(nodes.raw("", part, format="html"))
+        elif part:
+            parts.append(nodes.Text(html.unescape(part)))
+    return parts
 
 
 def setup(app: Any) -> dict[str, bool]:

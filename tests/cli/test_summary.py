@@ -22,10 +22,13 @@ from bench.findings.answer import advise_gains, find_answer
 from bench.findings.claims import Results, all_claims
 from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.verdict import Evidence, Verdict, Word
+from bench.findings.selection.nearest import answer as answer_nearest
+from bench.findings.selection.nearest import decide_nearest
 from bench.findings.selection.needs import measure
 from bench.findings.selection.regions import find_default
 from bench.law.inputs import Gains
 from bench.studies.verdicts import STORED
+from tasks.situation import NOMINAL
 
 LINES, COLUMNS = 40, 80
 OTHER_GAINS = RESULTS / "gains" / "kv-14"
@@ -363,3 +366,11 @@ def test_narrow_screen_shows_every_letter_of_a_table(capsys, width):
     said = capsys.readouterr().out
     assert max(map(len, said.splitlines())) <= width
     assert Counter("".join(cells).replace(" ", "")) <= Counter(said)
+
+
+@pytest.mark.parametrize("gains", [Gains(100.0, 20.0), Gains(100.0, 13.0), Gains(25.0, 7.0)])
+def test_nearest_situation_alone_is_decided_as_among_all(gains):
+    wanted = NOMINAL._replace(zeta=gains.kv / (2.0 * gains.kp**0.5))
+    at, verdict = decide_nearest(wanted)
+    among_all = answer_nearest(wanted)
+    assert (at, verdict) == (among_all.at, among_all.verdict)

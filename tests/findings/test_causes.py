@@ -9,9 +9,10 @@ from bench.experiments.experiment import Settings, Unit
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import why
+from bench.findings.judged import judged
+from bench.law.contenders.described_law import described
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import contenders_of, find_contender
-from bench.running.sandbox import Sandbox
 
 QUATERNION = "w, v, t = turn_quaternion(R, goal.R)"
 RETURN = "return (x - d * omega[0], y - d * omega[1], z - d * omega[2])"
@@ -137,18 +138,35 @@ def test_no_law_of_ours_has_such_a_cause():
         assert why.find_cause(own, memories[str(law)] is not None) == "", law
 
 
-@pytest.fixture
-def run(monkeypatch):
-    """The experiments of the units that are run, in order."""
-    asked = []
-    rows_of = Sandbox.rows
+def judge_units(folder, text):
+    """Return the judgement of a law's text, and the experiments of the units that were run for it."""
+    path, run = folder / "mine.py", []
+    path.write_text(text, encoding="utf-8")
+    [one] = judged((described(path),), report=lambda unit: run.append(unit.experiment))
+    return one, run
 
-    def count(self, unit):
-        asked.append(unit.experiment)
-        return rows_of(self, unit)
 
-    monkeypatch.setattr(Sandbox, "rows", count)
-    return asked
+@pytest.mark.parametrize("name", ["wrong-sign", "zero", "xyzw"])
+def test_judge_runs_no_episode_where_a_cause_is_known(tmp_path, name):
+    text, fault = CAUSES[name]
+    judgement, run = judge_units(tmp_path, text)
+    assert judgement.faults == [fault]
+    assert "No episode was run" in judgement.said[-1].text
+    assert run == ["command-field"]
+
+
+def test_judge_tries_no_perturbation_of_a_law_that_settles_nothing(tmp_path):
+    undamped = of_quaternion("w, v[0], v[1], v[2]", damping="0.0 * gains.kv")
+    judgement, run = judge_units(tmp_path, undamped)
+    assert set(run) == {"command-field", "free-body"}
+    assert "No perturbation was tried" in judgement.said[-1].text
+    assert not any("Thresholds" in one.text for one in judgement.said)
+
+
+def test_judge_tries_perturbations_of_a_law_that_settles(tmp_path):
+    judgement, run = judge_units(tmp_path, of_quaternion("w, v[0], v[1], v[2]"))
+    assert judgement.faults == []
+    assert "robustness" in run
 
 
 def judge(capsys, folder, text):
@@ -158,21 +176,11 @@ def judge(capsys, folder, text):
     return bench(capsys, "judge", path)
 
 
-@pytest.mark.parametrize("name", ["wrong-sign", "zero", "xyzw"])
-def test_judge_runs_no_episode_where_a_cause_is_known(capsys, tmp_path, run, name):
-    text, fault = CAUSES[name]
-    said = judge(capsys, tmp_path, text)
+def test_bench_judge_of_a_wrong_sign_is_a_few_lines(capsys, tmp_path):
+    said = judge(capsys, tmp_path, CAUSES["wrong-sign"][0])
     assert said.code == 1
-    assert said.out.startswith(f"mine: 1 fault: {fault}.\n")
+    assert said.out.startswith("mine: 1 fault: wrong sign.\n")
     assert "No episode was run" in said.out
-    assert run == ["command-field"]
-
-
-def test_judge_tries_no_perturbation_of_a_law_that_settles_nothing(capsys, tmp_path, run):
-    said = judge(capsys, tmp_path, of_quaternion("w, v[0], v[1], v[2]", damping="0.0 * gains.kv"))
-    assert set(run) == {"command-field", "free-body"}
-    assert "No perturbation was tried" in said.out
-    assert "Thresholds" not in said.out
 
 
 KEEPS = LAW.replace("@kernel", "{before}\n@kernel", 1).replace("{name}", "mine")

@@ -9,11 +9,11 @@ from bench.base.files import read_json
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.statistics import Estimate
 from bench.findings import claims
+from bench.findings.amounts import part_of
 from bench.findings.claims.at_gains import at_every_gain
 from bench.findings.claims.performance import is_without_memory, whose
 from bench.findings.claims.tables import (
     Results,
-    count_of,
     interval_or_never,
     percent,
     query_of,
@@ -51,13 +51,13 @@ def test_evidence_says_none_and_all_and_never_infinity(verdicts):
         evidence = verdict.evidence
         texts = evidence.sentence, evidence.instead, evidence.measured, *sum(evidence.numbers, ())
         for text in texts:
-            assert not ZERO_OR_ALL.search(text), (verdict.id, ZERO_OR_ALL.search(text)[0])
+            assert not ZERO_OR_ALL.search(text), (verdict.id, text)
             assert not re.search(r"\binf\b|\d%", text), (verdict.id, text)
 
 
 @pytest.mark.slow
 def test_rows_behind_a_claim_are_those_that_its_condition_chooses(verdicts):
-    tables = {}
+    tables: dict[str, pd.DataFrame] = {}
     for verdict in verdicts.values():
         for name, condition in verdict.evidence.chosen:
             assert name in verdict.evidence.tables
@@ -102,9 +102,9 @@ def test_share_has_its_interval():
     assert f"{share(pd.Series([True] * 931 + [False] * 69))}" == "93.1 % (91.4 to 94.5 %, n = 1,000)"
 
 
-@pytest.mark.parametrize(("k", "text"), [(0, "none of 4 poles"), (3, "3 of 4 poles"), (4, "all 4 poles")])
-def test_none_and_all_are_words(k, text):
-    assert count_of(k, 4, "poles") == text
+@pytest.mark.parametrize(("part", "text"), [(0, "none of 4"), (3, "3 of 4"), (4, "all 4")])
+def test_none_and_all_are_words(part, text):
+    assert part_of(part, 4) == text
 
 
 def test_time_that_is_never_reached_is_no_number():

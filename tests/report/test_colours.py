@@ -106,10 +106,18 @@ def test_law_of_a_user_is_drawn_in_ink(monkeypatch):
 
 
 def test_no_other_file_writes_a_colour():
-    written = [*REPORT.glob("figures/**/*.py"), *REPORT.glob("_extra/*.*")]
+    written = [*REPORT.glob("figures/**/*.py"), *REPORT.glob("_extra/*.js")]
     assert len(written) > 50
     found = {path.name: HEX.findall(path.read_text(encoding="utf-8")) for path in written if path.name != "style.py"}
     assert {name: colours for name, colours in found.items() if colours} == {}
+
+
+def test_no_style_sheet_writes_the_colour_of_a_law():
+    of_laws = {colour for light in style.LAW_COLOURS.values() for colour in (light, style.TWINS[light])}
+    sheets = [*REPORT.glob("_extra/*.css"), *REPORT.glob("_static/*.css"), *REPORT.glob("figures/**/*.html")]
+    assert len(sheets) > 3
+    for sheet in sheets:
+        assert not of_laws & set(HEX.findall(sheet.read_text(encoding="utf-8").lower())), sheet.name
 
 
 def test_no_preset_and_no_opening_of_the_live_page_shows_two_laws_in_one_colour():

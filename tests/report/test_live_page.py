@@ -13,6 +13,7 @@ from bench.engines import counting
 from bench.experiments.tables import read
 from bench.law.contenders.registry import find_contender
 from report.figures.cards import live
+from report.figures.kit import style
 
 LAWS = ("rotation-matrix", "mrp-memory", "feedback-linearized/zyx-euler")
 
@@ -45,6 +46,12 @@ def test_presets_name_laws_and_starts_that_there_are(data):
     for one in live.PRESETS.values():
         assert {one["a"], one["b"]} <= ours
         assert parse_qs(one["rest"])["start"][0] in starts
+
+
+def test_second_of_two_grey_laws_has_another_neutral(data):
+    greys = [law["colour"] for law in data["laws"].values()] + [[style.REST, style.TWINS[style.REST]]]
+    for colour in greys:
+        assert next(one for one in data["neutrals"] if one[0] != colour[0]) != colour
 
 
 def test_preset_of_a_law_that_is_not_there_is_left_out(parsed):

@@ -94,7 +94,7 @@ def test_thresholds_that_differ_are_said_beside_those_of_most_laws():
     groups = robustness.group_alike(each, [way])
     assert [len(group) for group in groups] == [2, 1]
     said = robustness.describe_weaker(groups, each, [way])
-    assert said == "- *Gibbs*: initial spin 10 rad/s instead of 20 rad/s and beyond."
+    assert said == "- *Gibbs*. Initial spin: 10 rad/s instead of 20 rad/s and beyond."
 
 
 def test_resets_are_counted_by_path_and_by_time():

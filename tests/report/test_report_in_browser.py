@@ -202,15 +202,28 @@ def test_film_of_the_other_theme_is_not_loaded(opened, theme):
     assert {"-dark" in url for url in loaded} == {theme == "dark"}
 
 
-FOOT = "return document.querySelector(arguments[0]).getBoundingClientRect().bottom"
+EDGES = """
+const edges = found => [...document.querySelectorAll(found)].map(one => one.getBoundingClientRect());
+return [edges("h1, .lead, #fig-headline").map(box => box.top), edges("#tab-headline tbody tr").map(box => box.bottom)];
+"""
+CONCLUSIONS = 8
 
 
-@pytest.mark.parametrize(
-    ("width", "height", "last"), [(1280, 900, ".answer .next"), (390, 844, ".answer pre span")], ids=["wide", "phone"]
-)
-def test_front_page_answers_on_its_first_screen(opened, width, height, last):
-    screenshots.open_page(opened, screenshots.SITE / "index.html", screenshots.View("light", width))
-    assert 0 < opened.execute_script(FOOT, last) <= height
+def test_front_page_concludes_on_its_first_two_screens(opened):
+    screenshots.open_page(opened, screenshots.SITE / "index.html", screenshots.View("light", 1280))
+    tops, feet = opened.execute_script(EDGES)
+    assert len(tops) == 3
+    assert tops == sorted(tops)
+    assert len(feet) == CONCLUSIONS
+    assert tops[-1] < screenshots.HEIGHT
+    assert max(feet) <= 2 * screenshots.HEIGHT
+
+
+def test_front_page_shows_its_figure_on_the_second_screen_of_a_phone(opened):
+    screenshots.open_page(opened, screenshots.SITE / "index.html", screenshots.View("light", 390))
+    tops, _ = opened.execute_script(EDGES)
+    assert tops[1] < 844
+    assert tops[2] < 2 * 844
 
 
 def test_ten_chapters_stay_short(opened):

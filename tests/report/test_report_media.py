@@ -11,6 +11,7 @@ from support.tables import table
 
 import tasks
 from bench.engines.contact_episode import P, R
+from report.figures.cards import live
 from report.figures.kit import media, style
 
 ABOUT = media.facts()
@@ -20,14 +21,14 @@ FILES = [
     for one in THEMES
     for name in ("arms", "contact-tasks", "fates", *LOOPS)
     for kind in (("png", "webm", "mp4") if name in LOOPS else ("png",))
-] + ["headline.png", "card.png"]
-LARGEST, LARGEST_IN_ALL = 200_000, 1_500_000
+] + ["headline.png", "card.png", *(f"live-{name}.png" for name in live.PRESETS)]
+LARGEST, LARGEST_IN_ALL = 200_000, 2_000_000  # a page shows one or two of them
 STARTS_OF = {"png": b"\x89PNG\r\n", "webm": b"\x1a\x45\xdf\xa3", "mp4": b"ftyp"}
 
 
 def test_folder_holds_these_files_alone_each_what_its_name_says_and_small():
     contents = {path.name: path.read_bytes() for path in media.FOLDER.iterdir()}
-    assert set(contents) == {*FILES, "media.json"}
+    assert set(contents) == {*FILES, "media.json", "live.json"}
     assert all(STARTS_OF[name.rpartition(".")[2]] in contents[name][:12] for name in FILES)
     assert max(map(len, contents.values())) <= LARGEST
     assert sum(map(len, contents.values())) <= LARGEST_IN_ALL

@@ -54,6 +54,13 @@ def test_other_commands_are_targets_of_make(words):
     assert subprocess.run([*words, "-n"], cwd=ROOT, capture_output=True).returncode == 0
 
 
+def test_plant_of_the_docs_is_driven_at_random_to_the_end_of_its_episode(capsys):
+    page = (ROOT / "report/pages/docs-python.md").read_text(encoding="utf-8")
+    [plant] = re.findall(r"^```python\n(.*?load\(.*?)^```", page, re.DOTALL | re.MULTILINE)
+    exec(plant, {})
+    assert "150" in capsys.readouterr().out  # N m, the UR5e's largest motors
+
+
 def test_law_is_short_and_loses_no_start(capsys, here):
     assert LAW.count("\n") <= 15
     sets = ("--starts", "half-turn", "--starts", "poles", "--starts", "uniform", "--engine", "ideal-rk4")
@@ -61,6 +68,16 @@ def test_law_is_short_and_loses_no_start(capsys, here):
     assert bench(capsys, "run", "--law", "my_law.py", *words, "--out", "own").code == 0
     found = store.read(here / "own", "episodes")
     assert (set(found["outcome"]), (found["start_set"] == "half-turn").sum()) == ({"settled"}, 238)
+
+
+def test_audit_finds_the_two_faults_of_the_example_of_the_docs(capsys, here):
+    page = (ROOT / "report/pages/docs-check.md").read_text(encoding="utf-8")
+    [example] = re.findall(r"^```python\n(.*?my_error.*?)^```", page, re.DOTALL | re.MULTILINE)
+    (here / "my_file.py").write_text(example)
+    said = bench(capsys, "audit", "my_file.py:my_error")
+    assert said.code == 1
+    assert "FAULTS: dead-at-180, stiffness" in said.out
+    assert "slope at the goal 0.5" in said.out
 
 
 def test_error_to_paste_is_the_advised_law_at_rest():

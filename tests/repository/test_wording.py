@@ -88,7 +88,7 @@ def test_counts_are_words_for_none_and_all_and_take_their_noun():
     assert count_of(14, 14, "laws") == "all 14 laws"
     assert count_of(0, 0, "laws") == "no laws"
     assert capitalize(count_of(1, 2, "MRP laws")) == "1 of the 2 MRP laws"
-    assert capitalize(count_of(2, 2, "MRP laws")) == "All 2 MRP laws"
+    assert capitalize(count_of(2, 2, "MRP laws")) == "Both MRP laws"
     for part in (-1, 15):
         with pytest.raises(ValueError, match="is no part of them"):
             count_of(part, 14, "laws")

@@ -219,8 +219,9 @@ def recompute_ours():
 def recompute_advice():
     """Return what chapter 7 says of the law of the widest region, and of ours."""
     law = widest()[0][0]
-    lead = [word(law), IN_WORDS[find_contender(law).attribution], *recompute_reason(law), *recompute_costs(law)]
-    return {"lead": lead, "does": recompute_default(), "ours": recompute_ours()}
+    lead = [word(law), IN_WORDS[find_contender(law).attribution], *recompute_costs(law)]
+    said = {"does": recompute_default(), "ours": recompute_ours()}
+    return {"lead": lead, "reason": recompute_reason(law), **said}
 
 
 def recompute_use_today():
@@ -301,5 +302,6 @@ COMPUTED = {
     "07-which-error": recompute_advice,
     "appendix-late-braking": recompute_new_law,
     "01-murphy-1988": recompute_verdicts,
+    "appendix-claims": lambda: {"claims.count": recompute_verdicts()["decided"]},
 }
 """Page -> key -> its text, or numbers and words of it."""

@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 
 from bench.base.on_first_use import Turn, pd
+from bench.findings.amounts import count_of, part_of
 from bench.findings.claims import probes, side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.force_conversion import random_orientations
-from bench.findings.claims.tables import Results, count_of, evidence, percent, rounding, some
+from bench.findings.claims.tables import Results, evidence, percent, rounding, some
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 
 LIMIT = read_limits(__file__)
@@ -77,7 +78,7 @@ def _by_order(rows: pd.DataFrame, fact: str) -> str:
     """Return at how many poses a fact is true, by order: 'about x at 3 of 12, about y at all 12'."""
     parts = []
     for order, own in rows.groupby("complies")[fact]:
-        parts.append(f"{order} at {count_of(int(own.sum()), len(own), '').strip()}")
+        parts.append(f"{order} at {part_of(int(own.sum()), len(own))}")
     return ", ".join(parts)
 
 

@@ -6,9 +6,10 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.engines.metrics.contact_force import WINDOW_S
+from bench.findings.amounts import capitalize, count_of, part_of
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE, by_papers_form, paired
-from bench.findings.claims.tables import Results, count_of, evidence, percent, some
+from bench.findings.claims.tables import Results, evidence, percent, some
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from tasks.contact_rest import HORIZON_S
 
@@ -55,14 +56,14 @@ def c25(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     simple = rows[rows["turns"] < 2]
     listed = "; ".join(_told(task, own) for task, own in complex_ones.groupby("task"))
     return word, evidence(
-        f"""{count_of(sum(depends), len(depends), "tasks").capitalize()} in which two turns comply
+        f"""{capitalize(count_of(sum(depends), len(depends), "tasks"))} in which two turns comply
         depend on the Jacobian, by {len(complex_ones)} pairs on {complex_ones["arm"].nunique()}
         arms: {listed}. Of the pairs that part Euler is the worse in
         {count_of(int(parted["euler_is_worse"].sum()), len(parted), "pairs")}{agreed}. Where fewer
         turns comply {count_of(int(simple["parts"].sum()), len(simple), "pairs")} part.""",
         len(rows),
         measured=f"""{count_of(int(turned["parts"].sum()), len(turned), "pairs")} with a frame turned by
-        {LIMIT.TURNED_DEG:g}° or more differ, {count_of(int(straight["parts"].sum()), len(straight), "").strip()} with a
+        {LIMIT.TURNED_DEG:g}° or more differ, {part_of(int(straight["parts"].sum()), len(straight))} with a
         straight one""",
     )
 
@@ -138,7 +139,7 @@ def c47(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     done = int((rows["outcome"] == "done").sum())
     yields = done == len(rows) and force <= LIMIT.MISSED and moment <= FLOORS["rad"]
     return word_of(yields and turn <= LIMIT.HELD_RAD, yields), evidence(
-        f"""{count_of(done, len(rows), "runs").capitalize()} of {pressed["task"].iloc[0]} and
+        f"""{capitalize(count_of(done, len(rows), "runs"))} of {pressed["task"].iloc[0]} and
         {aligned["task"].iloc[0]} end as they should. The force normal to the plane is off by at
         most {percent(force)} % of {LIMIT.FORCE_N:g} N, root mean square; a tool that complies about
         two axes lies flush to {moment:.1e} rad; what is held has turned by at most {turn:.1e} rad

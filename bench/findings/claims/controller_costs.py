@@ -12,11 +12,12 @@ import tasks
 from bench.base.on_first_use import pd
 from bench.experiments.suites import SUITES
 from bench.experiments.tables.read import chosen
+from bench.findings.amounts import count_of, part_of
 from bench.findings.claims import adequacy, probes, standing
 from bench.findings.claims.adequacy import CALLS, of_stage, tallied
 from bench.findings.claims.side_by_side import BASE
 from bench.findings.claims.standing import ORDERED, Operations, by_columns
-from bench.findings.claims.tables import Results, count_of, evidence, percent, some
+from bench.findings.claims.tables import Results, evidence, percent, some
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.law.control.contact_controller import PAPERS_FORM
 from bench.law.inputs import Gains
@@ -76,7 +77,7 @@ def c20(results: Results) -> tuple[Word, Evidence]:
     hides = all(is_hidden for is_hidden, _ in hidden)
     all_failures, all_poles = (sum(map(count, compared_at.values())) for count in (_count_failures, len))
     at_poles = ", ".join(
-        f"{count_of(_count_failures(rows), len(rows), '').strip()} ({arm})" for arm, rows in compared_at.items()
+        f"{part_of(_count_failures(rows), len(rows))} ({arm})" for arm, rows in compared_at.items()
     )
     return word_of(is_linear and fails and hides, max(limits) <= LIMIT.BEND_LOOSE and (fails or hides)), evidence(
         f"""{LIMIT.CURVES * len(arms)} clear curves a step on {len(arms)} arms: angles are at most {max(full):.1e}
@@ -243,5 +244,5 @@ def c46(results: Results) -> tuple[Word, Evidence]:
         f"Typical ticks: {'; '.join(told)}.",
         3 * len(told),
         measured=f"""{' or '.join(sizes)} more operations; the law alone {law[BY_EULER].flops} instead of
-        {law[ON_MATRIX].flops}""",
+        {law[ON_MATRIX].flops} operations""",
     )

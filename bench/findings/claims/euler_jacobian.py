@@ -11,6 +11,7 @@ import tasks
 from bench.base.on_first_use import pd
 from bench.experiments.tables.read import FREE_BODY
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
+from bench.findings.amounts import count_of
 from bench.findings.claims import tables
 from bench.findings.claims.degeneracy import condition_in
 from bench.findings.claims.feedback_linearized import LAW
@@ -18,7 +19,6 @@ from bench.findings.claims.tables import (
     MAIN_ENGINE,
     Results,
     Share,
-    count_of,
     evidence,
     percent_interval,
     share,

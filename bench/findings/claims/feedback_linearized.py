@@ -9,6 +9,7 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.experiments.tables.read import converged
+from bench.findings.amounts import capitalize, count_of
 from bench.findings.claims import probes
 from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.at_gains import on_every_engine
@@ -16,7 +17,6 @@ from bench.findings.claims.probes import EXACT_RAD, at_boundary
 from bench.findings.claims.tables import (
     MAIN_ENGINE,
     Results,
-    count_of,
     evidence,
     lost_text,
     percent_interval,
@@ -97,7 +97,7 @@ def c10(results: Results) -> tuple[Word, Evidence]:
     divides = abs(slope + 1) <= LIMIT.GROWTH_SLACK and not math.isfinite(largest)
     so = ", so that B^-1 is what divides" if math.isfinite(largest) else ""
     return word_of(passes and divides, passes), evidence(
-        f"""{count_of(finite, len(commands), "commands").capitalize()} at exact poles are finite, and
+        f"""{capitalize(count_of(finite, len(commands), "commands"))} at exact poles are finite, and
         {settled_of(exact, "episodes")} there settle; the largest element of B there is {largest:.3f}{so}.
         Spinning, |u| grows as cos(beta) to the power
         {slope:.3f}, to {grown:.1e} rad/s^2. Across +-pi the command jumps by {float(jumps.min()):.4f} to

@@ -10,13 +10,13 @@ from bench.base.on_first_use import pd
 from bench.experiments.suites import SHORT
 from bench.experiments.tables.read import converged
 from bench.experiments.tables.statistics import quantile_estimate
+from bench.findings.amounts import capitalize, count_of
 from bench.findings.claims import probes, tables
 from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.at_gains import on_every_engine, weakest_at_every_gain
 from bench.findings.claims.rotation_matrix import GAINS, LOOSE_SETTLING, SMALL_ANGLES
 from bench.findings.claims.tables import (
     Results,
-    count_of,
     evidence,
     interval,
     lost,
@@ -63,7 +63,7 @@ def c06(results: Results, engine: str) -> tuple[Word, Evidence]:
     return word, evidence(
         f"""Settled: {whole} of SO(3); inside the box {inside}, of the box set's inside starts {directed}; outside
         {outside}. The uniform ones that fail end {ends}. The nearest failure on a geodesic from the goal is at
-        {nearest:.1f} degrees. {count_of(len(every) - len(sure), len(every), "starts").capitalize()} do not
+        {nearest:.1f} degrees. {capitalize(count_of(len(every) - len(sure), len(every), "starts"))} do not
         converge.""",
         len(every) + len(fails),
         measured=f"""{percent_interval(whole)} of {whole.n:,} uniform starts settle; inside the box

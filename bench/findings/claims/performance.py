@@ -12,6 +12,7 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.experiments.tables.statistics import bootstrap, quantile, quantile_estimate
+from bench.findings.amounts import count_of, part_of
 from bench.findings.claims import adequacy, probes, tables
 from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy
 from bench.findings.claims.at_gains import at_every_gain, on_every_engine
@@ -19,7 +20,6 @@ from bench.findings.claims.standing import ORDERED, Ledger
 from bench.findings.claims.tables import (
     MAIN_ENGINE,
     Results,
-    count_of,
     evidence,
     percent,
     percent_interval,
@@ -117,7 +117,7 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
     return word, evidence(
         f"""Adequate in both: {", ".join(adequate) or "none"}. A small error settles in {linear:.3f} s. Of starts that
         spin at {probes.SPEED:g} rad/s beside a pole, which are not counted, feedback-linearized loses
-        {count_of(int((~settled(beside)).sum()), len(beside), "").strip()}.""",
+        {count_of(int((~settled(beside)).sum()), len(beside), "starts")}.""",
         len(THREE) + sum(law.rows for law in three),
         ("episodes", "costs", "timings") if known.times else ("episodes", "costs"),
         instead,
@@ -145,11 +145,11 @@ def _placed(law: Adequacy, tested: adequacy.Tested, known: Ledger) -> tuple[str,
     """Return what was measured of a law, by the heads of PLACES."""
     spun = "; ".join(map(tables.lost_text, law.spun[-1:])) or "not tested"
     return (
-        law.name.partition("/")[0],
+        law.name,
         tested.in_words(),
         f"{percent(law.settled)} %",
-        count_of(law.lost, law.directed, "").strip(),
-        count_of(law.lost_exact, law.exact, "").strip(),
+        part_of(law.lost, law.directed),
+        part_of(law.lost_exact, law.exact),
         spun,
         tables.interval_or_never(law.pace, ".2f", " s"),
         str(law.cost),
@@ -183,7 +183,9 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
     named = "; ".join(told)
     without = [result for name, result in tested.items() if is_without_memory(name) and not result.may_pass]
     passing = sum(result.passes for result in without)
-    rest = f"without memory {count_of(passing, len(without), '').strip()}" if without else "without memory: not tested"
+    rest = "laws without memory: not tested"
+    if without:
+        rest = f"without memory {count_of(passing, len(without), 'laws')}"
     # (e) and (f) together are impossible without memory: Bhat and Bernstein 2000; Mayhew, Sanfelice, Teel 2011.
     impossible = "" if passing or not without else f" Without memory none can; we tested {len(without)}."
     instead = f"Yes: {named}.{impossible}" if answers else ""
@@ -270,7 +272,7 @@ def c31(results: Results) -> tuple[Word, Evidence]:
         measured=f"first law {longer[0]} times as late for 99 %",
         numbers=(
             ("Law", "Uniform starts that settle", "Its time for 99 % of the starts over feedback linearization's"),
-            *zip(NAMES, settles, (*longer, "1"), strict=True),
+            *zip(THREE, settles, (*longer, "1"), strict=True),
         ),
     )
 

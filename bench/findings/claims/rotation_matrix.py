@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from bench.experiments.tables.statistics import bootstrap
+from bench.findings.amounts import capitalize, count_of
 from bench.findings.claims import probes
 from bench.findings.claims.adequacy import CALLS
 from bench.findings.claims.at_gains import on_every_engine
@@ -14,7 +15,6 @@ from bench.findings.claims.probes import at_boundary
 from bench.findings.claims.tables import (
     MAIN_ENGINE,
     Results,
-    count_of,
     evidence,
     interval_or_never,
     percent,
@@ -60,7 +60,7 @@ def c01(results: Results, engine: str) -> tuple[Word, Evidence]:
     exactly = int((probes.boundary_distance(left)["half_turn"].abs() <= probes.EXACT_RAD).sum())
     is_stray = uniform.n - uniform.k <= LIMIT.STRAY_SHARE * uniform.n
     return word_of(not unstable and exactly == len(left), not unstable and is_stray), evidence(
-        f"""{count_of(unstable, len(frame), "starts").capitalize()} diverge or gain energy. {len(left)} do not settle;
+        f"""{capitalize(count_of(unstable, len(frame), "starts"))} diverge or gain energy. {len(left)} do not settle;
         {count_of(exactly, len(left), "of these")} begin exactly 180° from the goal. Of uniform starts
         {uniform} settle.""",
         len(frame),
@@ -117,7 +117,7 @@ def c03(results: Results, engine: str) -> tuple[Word, Evidence]:
         f"""Settling time rises by {growth.value:.3f} s ({growth.low:.3f} to {growth.high:.3f}) per
         rad of the initial angle; towards 180° by {float(slope):.4f} s a decade (closed form
         {closed:.4f} s), to {float(slowest):.2f} s at 1e-12 rad.
-        {count_of(len(stay), len(exact), "exact 180° rotations").capitalize()} never settle in
+        {capitalize(count_of(len(stay), len(exact), "exact 180° rotations"))} never settle in
         {float(exact["horizon_s"].min()):g} s.""",
         len(uniform) + len(turns),
         measured=f"""{interval_or_never(growth, ".3f", " s")} longer per rad;

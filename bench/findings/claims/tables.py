@@ -14,6 +14,7 @@ from bench.base.files import read_json
 from bench.base.on_first_use import pd
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
+from bench.findings.amounts import count_of
 from bench.findings.claims.verdict import Evidence, NoEvidence
 from bench.findings.start_sets import describe_lacking, least_starts
 from bench.law.inputs import Gains
@@ -194,14 +195,6 @@ def query_of(words: Mapping[str, str | Sequence[str]]) -> str:
 def _free_body_query(words: Mapping[str, str]) -> str:
     """Return the condition of rows about the free body in the paper's coordinates."""
     return query_of({**words, **read.FREE_BODY, "representation": PAPERS_COORDINATES})
-
-
-def count_of(k: int, n: int, noun: str) -> str:
-    """Return 'all 17 poles', 'both poles', 'none of 17 poles' or '3 of 17 poles'; the noun is in the plural."""
-    if k == n == 2:
-        return f"both {noun}"
-    many = {n: "all", 0: "none of"}.get(k, f"{k:,} of")
-    return f"{many} {n:,} {noun}"
 
 
 WHOLE_PERCENT = 100.0

@@ -9,8 +9,9 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from bench.findings.selection.regions import NEIGHBOURS, RULE, STUDY, Rule, Verdict, decide_all, read_map
-from tasks.situation import COORDINATES, Situation
+from bench.findings.selection.pairs import read_pairs
+from bench.findings.selection.regions import NEIGHBOURS, RULE, STUDY, Rule, Verdict, decide, decide_all, read_map
+from tasks.situation import COORDINATES, Situation, read_situation
 
 
 class Outside(NamedTuple):
@@ -45,6 +46,16 @@ class Answer(NamedTuple):
     distance: float
     agree: tuple[int, int]
     laws: tuple[str, ...]
+
+
+def decide_nearest(wanted: Situation, rule: Rule = RULE, folder: Path = STUDY) -> tuple[Situation, Verdict]:
+    """Return the situation of the map that is nearest to the user's, and its verdict; no other one is decided."""
+    rows = read_map(folder)
+    situations = [read_situation(str(word)) for word in rows["situation"].unique()]
+    places = np.array([at.scaled() for at in situations])
+    nearest = situations[int(np.argmin(np.linalg.norm(places - np.array(wanted.scaled()), axis=1)))]
+    pairs = read_pairs(folder).get(nearest.word)
+    return nearest, decide(rows[rows["situation"] == nearest.word], rule, pairs)
 
 
 def answer(wanted: Situation, rule: Rule = RULE, folder: Path = STUDY) -> Answer:

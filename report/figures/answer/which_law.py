@@ -91,12 +91,12 @@ def facts(run: Run) -> dict[str, Any]:
 
 
 def lead() -> str:
-    """Return which law to use, whose it is, and why; or that this is not tested."""
+    """Return which law to use, whose it is, and its price; or that this is not tested."""
     answer = find_answer()
     if not answer.is_tested:
         return "Which law to use is not tested: the map of situations is missing."
     law = f"**{families.word(answer.law)}**, {describe_attribution(answer.law)}"
-    return f"Use {law}. {prose(call_laws(answer.reason))} Price: {prose(call_laws(answer.price))}."
+    return f"Use {law}. Price: {prose(call_laws(answer.price))}."
 
 
 def describe_answer() -> dict[str, str]:
@@ -106,6 +106,7 @@ def describe_answer() -> dict[str, str]:
     shares = [f"{families.word(region.law)} ({100 * region.advised:.0f} %)" for region in others]
     where = f"; in the other situations, {together(shares)}" if others else ""
     return {
+        "reason": prose(call_laws(answer.reason)),
         "tested": prose(call_laws(answer.tested)),
         "condition": prose(call_laws(answer.condition)),
         "does": describe_default(),

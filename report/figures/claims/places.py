@@ -1,4 +1,4 @@
-"""Where the book shows a claim: figures, tables, sections and pages, as Markdown for a table and as HTML."""
+"""Places in the book that show a claim: figures, tables, sections and pages, as Markdown and as HTML."""
 
 import functools
 import re

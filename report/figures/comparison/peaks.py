@@ -1,7 +1,7 @@
 """The time of 99 % of the starts against the greatest command: one dot a law, at the gains of the run."""
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from matplotlib.axes import Axes
 from matplotlib.ticker import NullLocator
@@ -102,7 +102,7 @@ def label_laws(axes: Axes, found: list[Law]) -> None:
         for line, each in enumerate(group):
             shift, side = place_label(group, line)
             colour = style.look(each.law).colour
-            look = {"color": colour, "fontsize": 10, "ha": side, "va": "center"}
+            look: dict[str, Any] = {"color": colour, "fontsize": 10, "ha": side, "va": "center"}
             axes.annotate(families.word(each.law), place(each), shift, textcoords="offset points", **look)
 
 

@@ -38,7 +38,7 @@ CONCLUSIONS = {
 """Panel -> the paper's conclusion whose words stand over it."""
 QUOTE_WIDTH = {False: 28, True: 55}
 """Letters in a line over a panel, on a page and on a phone."""
-MOST_LINES = {28: 3, 55: 1}
+MOST_LINES = {28: 3, 55: 2}
 """Lines of the longest quotation at that width."""
 QUOTE_LINE_PT = 12.5
 

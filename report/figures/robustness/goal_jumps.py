@@ -1,7 +1,7 @@
 """Goals that jump while the body moves: how often a law then unwinds, and when it settles, its memory kept or reset."""
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -110,7 +110,7 @@ def pair_of(law: Reset, field: str) -> tuple[float, float]:
 
 def draw_key(figure: Figure) -> None:
     """Say above the picture what the marks mean."""
-    dot = {"marker": "o", "markersize": 6, "linestyle": "", "color": style.INK}
+    dot: dict[str, Any] = {"marker": "o", "markersize": 6, "linestyle": "", "color": style.INK}
     handles = [Line2D([], [], **dot), Line2D([], [], **dot, markerfacecolor=style.PAPER)]
     figure.legend(handles, ["memory kept", "memory reset"], loc="outside upper left", ncols=2, fontsize=10)
 

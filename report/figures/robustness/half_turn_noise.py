@@ -6,6 +6,7 @@ page that compares all laws has the others.
 """
 
 import math
+from typing import Any
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -130,7 +131,7 @@ def draw_marks(axes: Axes, place: float, shares: pd.Series, colour: str) -> None
 
 def draw_key(figure: Figure, narrow: bool) -> None:
     """Say above the picture what the marks and the strip mean."""
-    dot = {"marker": "o", "markersize": 5.5, "linestyle": "", "color": style.INK}
+    dot: dict[str, Any] = {"marker": "o", "markersize": 5.5, "linestyle": "", "color": style.INK}
     handles = [
         Line2D([], [], **dot, markerfacecolor=style.PAPER),
         Line2D([], [], **dot, fillstyle="left", markerfacecoloralt=style.PAPER),

@@ -118,8 +118,9 @@ def describe_weaker(groups: list[list[str]], each: Found, ways: list[Way]) -> st
         for way in ways:
             own, common = each[law][way], each[usual[0]][way]
             if str(own) != str(common):
-                parts.append(f"{_title(way)} {_with_unit(own, way)} instead of {_with_unit(common, way)}")
-        lines.append(f"- *{families.word(law)}*: {'; '.join(parts)}.")
+                parts.append(f"{_title(way)}: {_with_unit(own, way)} instead of {_with_unit(common, way)}")
+        text = "; ".join(parts)
+        lines.append(f"- *{families.word(law)}*. {text[0].upper()}{text[1:]}.")
     return "\n".join(lines) or "- No law: all have the same thresholds."
 
 
