@@ -114,7 +114,7 @@ def test_byline_names_the_authors_of_the_citation_and_the_commit_of_the_results(
 def test_shared_link_has_a_description_and_a_picture(page, up):
     text = (REPORT / f"_build/html/{page}.html").read_text(encoding="utf-8")
     tags = dict(re.findall(r'<meta (?:name|property)="(description|og:\w+)" content="([^"]*)">', text))
-    assert tags["og:image"] == f"{up}_static/media/fates.png"
+    assert tags["og:image"] == f"{up}_static/media/card.png"
     assert tags["og:description"] == tags["description"]
     assert 20 <= len(tags["description"]) <= 202
     assert tags["og:title"]
