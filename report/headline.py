@@ -27,7 +27,7 @@ from report.figures.kit.page import run_in
 RESULTS = ROOT / "results" / "reference"
 CONFIGURATION = ROOT / "report" / "_config.yml"
 CARD_PIXELS = (1200, 630)
-"""Of a shared link's picture."""
+"""Size of the picture of a shared link."""
 DOTS_PER_INCH = 192
 """Two pixels to one of CSS."""
 COLOURS = 255
@@ -64,7 +64,7 @@ def draw_dots_as_markers(figure: Figure) -> None:
     """Replace what `style.dots` drew: Agg leaves out segments of no length, which a browser draws as dots."""
     for axes in figure.axes:
         for patch in [one for one in axes.findobj(PathPatch) if not one.get_fill()]:
-            places = patch.get_path().vertices[::2]
+            places = np.asarray(patch.get_path().vertices)[::2]
             look = {"color": patch.get_edgecolor(), "markersize": patch.get_linewidth(), "zorder": patch.get_zorder()}
             axes.plot(*places.T, "o", markeredgewidth=0.0, **look)
             patch.remove()

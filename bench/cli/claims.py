@@ -1,5 +1,6 @@
 """`claims`: the paper's sentences, judged on a run."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -35,6 +36,8 @@ def COMMAND(folder: Path | None, criteria: bool) -> None:
         evidence = f"Measured: {one.measured}", *correction, f"Evidence: {one.evidence}", *numbers
         print_paragraphs(Paragraph(one.id, (claimed, *evidence, *record)))
         console().print()
+    if verdicts:
+        print_paragraphs(_count(verdicts))
     if at_gains.STORED.is_file():
         study = read_json(at_gains.STORED)
         said = at_gains.describe(study, study["reference"])
@@ -43,6 +46,19 @@ def COMMAND(folder: Path | None, criteria: bool) -> None:
         reasons = ((id, reason.removesuffix(f": {WHOLE}")) for id, reason in lacks.items())
         texts = (f"{id} cannot be judged from this run: {reason}." for id, reason in reasons)
         print_paragraphs(Paragraph("Not judged", (*texts, f"To judge every claim, {WHOLE}.")))
+
+
+def _count(verdicts: Sequence[Any]) -> Paragraph:
+    """Return how many claims have each word by the present criteria and by the first ones, and which do not hold."""
+    from bench.findings.claims import told
+    from bench.findings.claims.verdict import Word
+
+    sentences = [f"Of {len(verdicts)} claims {told(verdict.word for verdict in verdicts)}."]
+    failed = ", ".join(verdict.id for verdict in verdicts if verdict.word == Word.FAILS)
+    if failed:
+        sentences.append(f"What does not hold: {failed}.")
+    sentences.append(f"By the criteria first written: {told(verdict.first for verdict in verdicts)}.")
+    return Paragraph("In all", tuple(sentences))
 
 
 def _record(one: Any) -> tuple[str, ...]:

@@ -35,9 +35,8 @@ def COMMAND(folder: str | None, part: str | None, details: bool, outcomes: bool,
         return
     if part not in (None, "free-body", "arms") and given:
         raise click.UsageError(f"{part} takes no {given[0]}, which is about episodes from start sets; leave it away")
-    is_everything = details and not (part or given)
-    if is_everything:
-        from bench.cli.summary.details import print_claims, print_sentences
+    if details and not (part or given):
+        from bench.cli.summary.details import print_sentences
 
         print_sentences(path)
         console().print()
@@ -47,9 +46,6 @@ def COMMAND(folder: str | None, part: str | None, details: bool, outcomes: bool,
         console().print(frame_table(frame, f"\n{title}"))
     if not found:
         console().print(f"\nThere is nothing of {part or 'any part'} in this run.")
-    if is_everything:
-        console().print()
-        print_claims(path)
 
 
 def _meant(folder: str | None, part: str | None) -> tuple[Path, str | None]:

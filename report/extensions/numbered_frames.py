@@ -37,7 +37,7 @@ class NumberFrames(SphinxTransform):
         """Return the figure of one frame, under its label."""
         shown = SHOWN.search(found["frame"])
         if not shown:
-            raise ValueError(f"a frame does not say what it shows: {found['frame']} (cure: src=\"ball.html#NAME\")")
+            raise ValueError(f'a frame does not say what it shows: {found["frame"]} (cure: src="ball.html#NAME")')
         label = LABEL.format(shown[1])
         caption = nodes.caption("", "", *split_tags(found["caption"]))
         figure = nodes.figure("", nodes.raw("", found["frame"], format="html"), caption)

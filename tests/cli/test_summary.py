@@ -10,6 +10,7 @@ from support.command_line import bench, python, refused
 from support.tables import changed
 
 from bench.base.files import read_json
+from bench.cli import claims
 from bench.cli.details import PARTS, robustness
 from bench.cli.details.episodes import tables_of_arms
 from bench.cli.options import REFERENCE
@@ -57,8 +58,8 @@ def judged(monkeypatch):
     """Give every run the stored words of the claims, which take half a minute to find."""
     words = {id: Word(word) for id, word in read_json(STORED)["reference"].items()}
     verdicts = [Verdict(claim, words[claim.id], Evidence("", 1)) for claim in all_claims()]
-    for module in (paper, details):
-        monkeypatch.setattr(module, "judge_possible", lambda run: (verdicts, {}))
+    monkeypatch.setattr(paper, "judge_possible", lambda run: (verdicts, {}))
+    return verdicts
 
 
 def text(*found) -> str:
@@ -266,8 +267,15 @@ def test_summary_of_a_tiny_run_fits_too_says_what_is_not_in_it_and_offers_what_w
     assert offered == [f"show {finished.name} --details"]
     more = bench(capsys, *offered[0].split())
     assert (more.code, "There is nothing" in more.out) == (0, False)
-    claims = bench(capsys, "claims", finished.name)
-    assert re.search(r"^Not judged {3}C01 cannot be judged from this run: no episode", claims.out, re.MULTILINE)
+    judged = bench(capsys, "claims", finished.name)
+    assert re.search(r"^Not judged {3}C01 cannot be judged from this run: no episode", judged.out, re.MULTILINE)
+
+
+def test_claims_end_with_how_many_hold_by_the_first_criteria_too(judged):
+    sentences = claims._count(judged).sentences
+    assert sentences[0].startswith("Of 47 claims ")
+    assert sentences[1] == "What does not hold: C37."
+    assert sentences[2].startswith("By the criteria first written: ")
 
 
 def test_summary_imports_no_statistics_of_scipy():
@@ -281,14 +289,12 @@ def test_laws_of_a_run_without_arms_are_compared(tables):
     assert "it is better by" in text(*answer.paragraphs(found))
 
 
-def test_details_have_the_advice_and_the_failures_in_sentences_and_the_first_verdicts(capsys, judged, monkeypatch):
+def test_details_have_the_advice_and_the_failures_in_sentences(capsys, monkeypatch):
     monkeypatch.setattr(details, "measure", lambda run: None)
     said = bench(capsys, "show", REFERENCE, "--details")
-    for head in ("Which law", "Elsewhere", "Ours", "Other rules", "What failed", "Claims"):
+    for head in ("Which law", "Elsewhere", "Ours", "Other rules", "What failed"):
         assert re.search(f"^{head} ", said.out, re.MULTILINE)
     assert f"Use the law {find_default()} (adapted: after" in said.out
-    assert "What does not hold: C37" in said.out
-    assert "By the criteria first written: " in said.out
 
 
 def test_settled_counts_are_those_of_the_tables(tables, reference):
@@ -315,7 +321,7 @@ def test_part_is_shown_alone_with_the_meaning_of_its_cells(capsys, part):
     assert all({"free-body": "free body", "robustness": "robustness"}.get(part, "") in head for head in heads)
 
 
-def test_details_are_all_parts(capsys, judged, reference):
+def test_details_are_all_parts(capsys, reference):
     whole = bench(capsys, "show", REFERENCE, "--details").out
     for part in list_parts(reference):
         assert bench(capsys, "show", REFERENCE, part).out.split("\n", 1)[1] in whole

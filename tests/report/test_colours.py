@@ -14,7 +14,7 @@ from report.figures.kit.page import REPORT
 
 PAGES = {"light": "#ffffff", "dark": "#14181e"}
 LEAST_CONTRAST = 3.0
-"""Of graphics to their page (WCAG 2.2, 1.4.11)."""
+"""Contrast of graphics to their page (WCAG 2.2, 1.4.11)."""
 LEAST_DISTANCE = 0.07
 """In OKLab, where 0.02 is just visible side by side; lines and dots that are apart need more."""
 

@@ -39,7 +39,7 @@ def plant_pegs(bad):
     """State how 24 pegs in leaning frames go in by each controller, so many of the Euler ones not."""
     lines = [(who, 45.0, float(i < (bad if who == "e" else 0))) for who in "ce" for i in range(24)]
     frame = pd.DataFrame([*lines, ("c", 0.0, 0.0), ("e", 0.0, 0.0)], columns=["contender", "beta_deg", "jam"])
-    return in_contact.stuck(frame.assign(task="peg-in-hole"), "c", "e")
+    return in_contact.compare_pegs(frame.assign(task="peg-in-hole"), "c", "e")
 
 
 def plant_arm(excess):
@@ -92,7 +92,7 @@ def plant_fact(facts, key):
 
 
 SENTENCES = {
-    "pegs": (plant_pegs, [((3,), "do not differ significantly"), ((18,), "frames differ significantly")]),
+    "pegs": (plant_pegs, [((3,), "do not differ significantly"), ((18,), "Jacobians differ significantly")]),
     "arms": (plant_arm, [((0.1,), "range in 100 % of"), ((0.0,), "range in 0 % of")]),
     "thresholds": (plant_thresholds, [((1.0, 1.0), "[]"), ((1.0, 2.0), "['delay']")]),
     "alone": (

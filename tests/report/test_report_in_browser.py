@@ -72,8 +72,9 @@ const done = arguments[arguments.length - 1], rules = {"label-content-name-misma
 const still = document.createElement("style");
 still.textContent = "* { transition: none !important; animation: none !important }";
 document.head.append(still);
-const frame = () => new Promise(requestAnimationFrame), asked = {resultTypes: ["violations"], iframes: false, rules};
-frame().then(frame).then(() => axe.run(document, asked)).then(found => done(found.violations
+const wait = ms => new Promise(after => setTimeout(after, ms)); // the theme looks again 0.3 s after a change of width
+const asked = {resultTypes: ["violations"], iframes: false, rules};
+wait(600).then(() => axe.run(document, asked)).then(found => done(found.violations
   .flatMap(one => one.nodes.map(node => `${one.id}: ${node.html.slice(0, 200)}`))));
 """
 
@@ -109,6 +110,7 @@ def seen(request, opened, axe):
     told = screenshots.network_requests(opened), screenshots.console_errors(opened)
     opened.execute_script(axe)
     barriers = opened.execute_async_script(BARRIERS)
+    screenshots.console_errors(opened)  # axe-core reads a canvas of its own many times, of which Chromium warns
     screenshots.look(opened, screenshots.View("light", PAPER_PIXELS), media="print")
     cropped = opened.execute_script(CROPPED)
     screenshots.look(opened, second)

@@ -13,7 +13,7 @@ from bench.export.language import language_words
 from bench.law.contenders.registry import FOLDERS, contenders
 from report.figures.cards import regulators
 from report.figures.cost import cost
-from report.figures.kit import families, spelling
+from report.figures.kit import families, html, spelling
 from report.figures.kit.page import Run, run_in
 from report.figures.method import method
 
@@ -80,7 +80,7 @@ def test_powers_are_spelled_as_powers(value, text):
 def test_card_says_of_a_law_without_rows_whether_it_is_costed_only():
     known, none = contenders("regulators"), pd.DataFrame({"start_set": [], "outcome": []})
     assert regulators.measured(none, known["hybrid"]) == "Not in this run."
-    assert regulators.measured(none, known["feedback-linearized-literal"]).startswith("Its price only")
+    assert regulators.measured(none, known["feedback-linearized-literal"]).startswith("Only its operations are counted")
 
 
 def test_every_page_is_in_one_part_of_the_contents():
@@ -97,3 +97,7 @@ def test_every_work_that_a_law_cites_is_in_the_bibliography():
             for year in re.findall(r"\b(?:1[89]|20)\d\d\b", cited):
                 assert [author for author, of in works if of == year and author.strip("{}") in cited], (name, year)
             assert all(f"{{{number}}}" in BIBLIOGRAPHY for number in re.findall(r"arXiv:[\d.]+", one.source)), name
+
+
+def test_numbers_in_cells_have_a_thin_space_from_ten_thousand_and_no_comma():
+    assert html.cell("39 of the 1,726 starts, none of the 40,000") == "39 of the 1726 starts, none of the 40\u202f000"

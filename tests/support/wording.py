@@ -10,7 +10,7 @@ BARE_END = re.compile(rf"(?<!factor )\b(?:in|of|from|for|with|only|also|fails?|a
 YEAR = re.compile(r"(?:19|20)\d\d")
 LEFT_OF_A_REFERENCE = re.compile(r"\b(?:[Cc]hapters?|[Tt]ables?|[Ff]igures?|[Ss]ections?|[Pp]ages?|power|norm) \S+$")
 SENTENCE_END = re.compile(r"(?<=[.!?])[\"”)]*\s+(?=[A-Z“‘(*])")
-HEAD_ALONE = re.compile(r"[A-ZΑ-Ω*$(<]|\d+(?:st|nd|rd|th) \w")
+HEAD_ALONE = re.compile(r"[A-ZΑ-Ω*$(<]|t\d\d\b|\d+(?:st|nd|rd|th) \w")
 PERCENT = re.compile(r"\d+ ?\u00a0?%")
 PRIVATE_HEADS = re.compile(r"\b(?:felt|held|asked|ticks?|second number|its time)\b", re.IGNORECASE)
 

@@ -91,8 +91,8 @@ def facts(_: Run) -> dict[str, Any]:
 
 def say_finding(points: Sequence[Point]) -> str:
     """Return which laws the situations of a plane are advised, the most frequent first."""
-    counts = Counter(point.law for point in points)
-    unanswered = counts.pop(None, 0)
+    counts = Counter(point.law for point in points if point.law)
+    unanswered = len(points) - counts.total()
     (first, most), *others = counts.most_common()
     rest = ", ".join(f"{families.word(law)} in {count}" for law, count in others)
     none = f"; in {unanswered} {NONE}" if unanswered else ""
@@ -212,8 +212,8 @@ def draw_plane(points: Sequence[Point], letters: dict[str, str], narrow: bool) -
             keys.append(_draw_region(axes, own, law, letters))
     borders = Outline.make_compound_path(*(Outline(border) for border in cells.borders))
     axes.add_patch(PathPatch(borders, fill=False, edgecolor=style.PAPER, linewidth=0.8))
-    places = [(point.x, point.y) for point in points]
-    style.dots(axes, *zip(*places, strict=True), style.PAPER, 1.6, alpha=0.6, zorder=3)
+    across, up = [point.x for point in points], [point.y for point in points]
+    style.dots(axes, across, up, style.PAPER, 1.6, alpha=0.6, zorder=3)
     for law, x, y in place_letters(points, top):
         axes.text(x, y, letters[law], color=style.PAPER, fontsize=12, fontweight="bold", ha="center", va="center")
     axes.set(xlim=(0.0, 1.0), ylim=(0.0, top))

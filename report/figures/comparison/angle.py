@@ -26,7 +26,7 @@ GAP_S = 0.03
 """Least distance of two labels beside curves: the height of a line of words in the panel."""
 
 END_DEG, LABEL_DEG = 181.0, 188.0
-"""Where the line from a curve's end to its label begins, and where the label does."""
+"""Place where the line from a curve's end to its label begins, and where the label does."""
 
 LATE_DEG = 170
 """The angle at which the caption compares laws."""

@@ -22,11 +22,11 @@ MOST = 30.0
 """Greatest command over kp [rad] on the axis; beyond it a law divides by nearly nothing, and stands in the rail."""
 
 RAIL = 45.0
-"""Where the rail stands on the axis of commands."""
+"""Place of the rail on the axis of commands."""
 
 TIMES_S = (0.5, 0.6, 0.8, 1.0, 1.5, 2.0)
 NEVER_S, TOP_S = 2.9, 3.3
-"""Where laws stand of which fewer than 99 % of the starts settle, and the top of the axis."""
+"""Place of laws with which fewer than 99 % of the starts settle, and the top of the axis."""
 
 COMMANDS = (1, 2, 3, 4, 6, 10, 20)
 LOW_S, LEFT = 0.62, 1.3

@@ -12,6 +12,7 @@ import pandas as pd
 from scipy.stats import fisher_exact
 
 import tasks
+from bench.findings.amounts import part_of
 from bench.findings.claims.tables import some
 from report.figures.kit import html, media
 from report.figures.kit.page import ABSENT, Run, in_run
@@ -129,10 +130,8 @@ def count_pegs(rows: pd.DataFrame) -> Any:
 
 
 def count_out(is_out: pd.Series) -> str:
-    """Return "24 of 96", "none of 48" or "not tested"."""
-    if is_out.empty:
-        return html.UNTESTED
-    return f"{int(is_out.sum()) or 'none'} of {len(is_out)}"
+    """Return "24 of 96", "none of 48", "all 48" or "not tested"."""
+    return html.UNTESTED if is_out.empty else part_of(int(is_out.sum()), len(is_out))
 
 
 def describe_pegs(rows: pd.DataFrame) -> str:
@@ -142,7 +141,7 @@ def describe_pegs(rows: pd.DataFrame) -> str:
     cartesian, euler = (count_out(read_pegs(rows, contender)[True]) for contender in (CARTESIAN, EULER))
     return (
         f"With a tilted frame and commanded accelerations, the Euler Jacobian leaves {euler} pegs outside the hole and "
-        f"Cartesian compliance {cartesian}"
+        f"Cartesian compliance leaves {cartesian} pegs"
     )
 
 
@@ -161,8 +160,7 @@ def compare_pegs(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
 
 def count_flat(is_flat: pd.Series) -> str:
     """Return "all 48", "34 of 144" or "none of 144"."""
-    flat = int(is_flat.sum())
-    return f"all {flat}" if is_flat.all() else f"{flat or 'none'} of {len(is_flat)}"
+    return part_of(int(is_flat.sum()), len(is_flat))
 
 
 def flat(rows: pd.DataFrame) -> str:

@@ -3,7 +3,7 @@
 import functools
 import math
 import textwrap
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -186,7 +186,12 @@ def _draw_panel(axes: Axes, panel: Panel, rows: pd.DataFrame, quote_width: int) 
     quote = textwrap.wrap(f"“{panel.quote}” ({panel.section})", quote_width)
     above = QUOTE_LINE_PT * MOST_LINES[quote_width]
     axes.set_title(panel.title, color=colour, pad=above + 6)
-    place = {"xycoords": "axes fraction", "textcoords": "offset points", "va": "top", "linespacing": 1.0}
+    place: dict[str, Any] = {
+        "xycoords": "axes fraction",
+        "textcoords": "offset points",
+        "va": "top",
+        "linespacing": 1.0,
+    }
     axes.annotate("\n".join(quote), (0.0, 1.0), xytext=(0, above + 2), fontsize=9, **place)
 
     (random, of_random), (difficult, of_difficult) = count_lost(rows).values()

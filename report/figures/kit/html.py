@@ -90,7 +90,7 @@ def cell(value: Any, form: str | Callable[[Any], str] | None = None) -> str:
     elif form:
         text = form.format(value) if "{" in form else format(value, form)
     elif isinstance(value, bool | str):
-        text = str(value)
+        text = spelling.space_thousands(str(value))
     else:
         text = number(value)
     text = spelling.spell_powers(text)
@@ -102,7 +102,7 @@ def cell(value: Any, form: str | Callable[[Any], str] | None = None) -> str:
 def number(value: Any) -> str:
     """Return a number to three figures, or in full where it is whole, with thin spaces from 10,000 on.
 
-    Below a thousandth it is a power of ten to two figures, so that 9.9·10⁻⁵ stands beside 4.1·10⁻⁴.
+    Below a thousandth it is a power of ten to two figures, as 9.9·10⁻⁵ and 4.1·10⁻⁴.
     """
     if not isinstance(value, numbers.Real):
         return str(value)

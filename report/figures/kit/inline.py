@@ -31,7 +31,7 @@ LONG_NUMBER = re.compile(r"(\d\.\d{2})\d+")  # of a path, in points: a hundredth
 # What matplotlib says in a <style> element, which inline would hold for the whole page:
 STROKES = "stroke-linejoin: round; stroke-linecap: butt"
 FONT = "font: 400 10px 'Orientation Sans', 'DejaVu Sans', sans-serif; font-variant: normal; letter-spacing: 0"
-"""Of all words of a figure, which say only what differs: they look alike inside a caption or a heading."""
+"""Font of every word of a figure; a word says only what differs, so that it looks alike in a caption or a heading."""
 FAMILY = re.compile(r" font-family: [^;\"]*;?")
 BOLD, BOLD_FACE = "font-weight: 700", "font-weight: 600"
 """What matplotlib calls bold, and the weight of the face that it measures, OrientationSans-Bold.ttf."""

@@ -22,7 +22,7 @@ from bench.experiments.tables import read
 from bench.experiments.tables.schema import table_of
 from bench.findings.claims.tables import Results, some
 from bench.findings.claims.verdict import NoEvidence
-from report.figures.kit import html, style
+from report.figures.kit import html, spelling, style
 from report.figures.kit.inline import Drawing, responsive_picture
 
 REPORT = Path(__file__).resolve().parents[2]
@@ -119,7 +119,9 @@ def as_pasted(value: Any, kind: str, key: str) -> Any:
         return absent(key, kind)
     if kind == "fact":
         return html.cell(value)
-    return html.Markdown(value) if kind in ("sentence", "table") else value
+    if kind == "sentence":
+        return html.Markdown(spelling.space_thousands(value))
+    return html.Markdown(value) if kind == "table" else value
 
 
 def absent(key: str, kind: str) -> Any:

@@ -8,6 +8,11 @@ LETTERS = {"alpha": "α", "beta": "β", "gamma": "γ", "theta": "θ", "phi": "φ
 LETTERS |= {"omega": "ω", "pi": "π"}
 RAISED = str.maketrans("0123456789-kT", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻ᵏᵀ")
 SCIENTIFIC = re.compile(r"(?<![\w.])(\d(?:\.\d+)?)e([+-]?\d+)(?!\w)")
+# In this order: 1,200 is 1200, and 12,000 has a thin space.
+THOUSANDS = (
+    (r"(?<![\d,.])(\d),(\d{3})(?![\d,])", r"\1\2"),
+    (r"(?<=\d),(?=\d{3}\b)", "\N{NARROW NO-BREAK SPACE}"),
+)
 # In this order.
 SIGNS = (
     (rf"\b({'|'.join(LETTERS)})(?=\b|_)", lambda found: LETTERS[found[1]]),
@@ -20,8 +25,7 @@ SIGNS = (
     (r"(?<=\d )\*(?= \d)", "×"),
     (r"\.\.\.", "…"),
     # A thin space from 10,000 on; four figures stand together.
-    (r"(?<![\d,.])(\d),(\d{3})(?![\d,])", r"\1\2"),
-    (r"(?<=\d),(?=\d{3}\b)", "\N{NARROW NO-BREAK SPACE}"),
+    *THOUSANDS,
     (r" deg\b", "°"),
     (r"(?<=\d) ?%", "\N{NO-BREAK SPACE}%"),
     (r"(?<=[\d⁰¹²³⁴⁵⁶⁷⁸⁹ᵏ]) (?=(?:rad|s|ms|µs|ns|mm)\b)|(?<=\bn) (?==)|(?<=\bn =) (?=\d)", "\N{NO-BREAK SPACE}"),
@@ -38,6 +42,13 @@ def typeset(text: str) -> str:
     text = spell_powers(text)
     for pattern, sign in SIGNS:
         text = re.sub(pattern, sign, text)
+    return text
+
+
+def space_thousands(text: str) -> str:
+    """Return a text whose numbers have no commas: 1,200 becomes 1200, and 12,000 gets a thin space."""
+    for pattern, spaced in THOUSANDS:
+        text = re.sub(pattern, spaced, text)
     return text
 
 

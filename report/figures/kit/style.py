@@ -86,7 +86,7 @@ YOURS = INK
 """The colour of a law that a user added to the run."""
 
 CARTESIAN, EULER = "#0072b2", "#d55e00"
-"""Of controllers and Jacobians: on Cartesian axes, and on Euler angles."""
+"""Colours of controllers and Jacobians: on Cartesian axes, and on Euler angles."""
 
 
 class Look(NamedTuple):

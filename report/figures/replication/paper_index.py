@@ -77,7 +77,7 @@ def list_sentences() -> str:
         link = f'<a href="{EVIDENCE}#{claim.id.lower()}">{claim.id}</a>'
         first_section = re.split(r"[, ]", claim.section)[0]
         sections.setdefault(first_section, []).append(f"<li>{link} {marked_up(claim.sentence)}</li>")
-    lists = "".join(f"<h4>Section {name}</h4><ul>{''.join(items)}</ul>" for name, items in sections.items())
+    lists = "".join(f"<h3>Section {name}</h3><ul>{''.join(items)}</ul>" for name, items in sections.items())
     return (
         f'<details class="paper-sentences"><summary>All {len(all_claims())} sentences, by section</summary>{lists}'
         "</details>"

@@ -30,7 +30,7 @@ TICKS = {
     "jump": (0.0, 1.0, 2.0, 5.0),
 }
 UNBOUNDED = 5.0
-"""Where "no bound" stands on the axis of bounds, whose last bound is 3 kp rad."""
+"""Place of "no bound" on the axis of bounds, whose last bound is 3 kp rad."""
 
 TIMES = (5.0, 7.0, 10.0, 20.0, 30.0)
 
