@@ -37,7 +37,7 @@ def judged(
 ) -> list[Judgement]:
     """Return the judgement of every law; a unit is hung after limit_s of processor time. BadLaw: a file is no law.
 
-    report: is told each unit that is run.
+    report: is called with each unit that is run.
     """
     laws = contenders_of(*regulators)
     plan = plan_of(laws)

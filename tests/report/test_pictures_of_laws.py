@@ -12,8 +12,8 @@ from bench.findings.answer import NOT_TESTED, Answer, find_answer
 from bench.findings.perturbed import Threshold, Way
 from bench.findings.selection.sensitivity import tune
 from bench.findings.theory.thresholds import HALF_TURN
-from report.figures.answer import equal_peak, topology, which_law
-from report.figures.comparison import angle, peaks
+from report.figures.answer import topology, which_law
+from report.figures.comparison import angle, equal_peak, peaks
 from report.figures.comparison.comparison import uniform
 from report.figures.contact import in_contact
 from report.figures.kit import families

@@ -14,7 +14,7 @@ from bench.findings.claims.tables import share
 from bench.findings.selection import tables as compared
 from bench.findings.selection.needs import measured
 from bench.findings.start_sets import AT_REST
-from report.figures.answer.equal_peak import describe_slopes, list_tuned, write_table
+from report.figures.comparison.equal_peak import describe_slopes, list_tuned, write_table
 from report.figures.cost.cost import CALLS, totals
 from report.figures.kit import families, html
 from report.figures.kit.page import Run, in_run
