@@ -174,12 +174,10 @@ def recompute_reason(law):
 
 
 def recompute_costs(law):
-    """Return the numbers that a law keeps, its greatest command over kp, and its typical overshoot [deg]."""
-    rows = map_rows().query("law == @law")
-    is_drawn = [is_of_draw(at) for at in rows[[*COORDINATES]].itertuples(index=False, name=None)]
-    is_nominal = (rows[[*COORDINATES]] == [one.nominal for one in COORDINATES.values()]).all(axis=1)
-    peak, overshoot = rows.loc[is_nominal, "peak"].item(), rows.loc[is_drawn, "overshoot"].median()
-    return [len(find_contender(law).regulator.memory), round(peak, 1), round(overshoot, 1)]
+    """Return the numbers of a law's price: what it keeps, and command, time and overshoot beside the runner-up's."""
+    runner_up = widest()[1][0]
+    peak, other, its_peak, *rest = recompute_price(law, runner_up)
+    return [len(find_contender(law).regulator.memory), float(peak), other, float(its_peak), *rest]
 
 
 def recompute_resets(law):
