@@ -56,8 +56,11 @@ def test_every_ball_of_a_page_has_the_form_that_is_numbered():
 @pytest.mark.skipif(not (SITE / "index.html").is_file(), reason="the report is not built")
 def test_every_ball_film_and_map_of_the_built_report_has_a_number():
     for page in SITE.glob("pages/*.html"):
+        # The live page without a script has pictures of itself, under captions of their own, which nobody need cite.
         text = page.read_text(encoding="utf-8")
         for figure in re.findall(r"<figure.*?</figure>", text, re.DOTALL):
+            if "/live-" in figure and "ball-view" not in figure:
+                continue
             assert 'class="caption-number">Figure ' in figure, (page.name, figure[:200])
         if page.name != "ball.html":
             assert "<iframe" not in re.sub(r"<figure.*?</figure>", "", text, flags=re.DOTALL), page.name

@@ -158,7 +158,7 @@ def limits(study: pd.DataFrame, narrow: bool) -> Drawing:
     colour = style.INK
     axes.plot(delays, gains, "o", markersize=4, markerfacecolor="none", markeredgecolor=colour)
     axes.set(xlim=(0.0, SHOWN_DELAY), ylim=(1.5, 3.5))
-    axes.set(xlabel="delay [control periods]", ylabel="greatest stable $K_v T$")
+    axes.set(xlabel="delay [control periods]", ylabel="greatest stable Kv T")
     style.label_line(axes, 0.045, 2.02, "in real time", colour)
     style.label_line(axes, 0.195, 2.75, "exact hold")
     style.label_line(axes, 0.16, 3.3, "eigenvalue −1", style.MUTED)

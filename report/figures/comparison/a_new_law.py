@@ -103,6 +103,6 @@ def draw_springs(shown: tuple[str, ...], narrow: bool) -> Drawing:
         axes.plot(np.degrees(angles), f, color=style.look(law).colour)
         style.label_line(axes, 182.0, f[-1], families.word(law), style.look(law).colour)
     axes.set(xlim=(0, 180), ylim=(0, None), xticks=range(0, 181, 30))
-    axes.set(xlabel="angle to the goal [deg]", ylabel="command from rest / $K_p$")
+    axes.set(xlabel="angle to the goal [deg]", ylabel="command from rest / kp")
     ends = listed(f"{EQUATIONS[law].spring(math.pi):.1f} kp by {families.word(law)}" for law in shown)
     return figure, f"Command from rest against the angle to the goal. At 180 degrees it is {ends}."

@@ -18,9 +18,9 @@ from report.figures.kit.quotes import quote
 from report.figures.kit.spelling import power
 
 ANGLES = (
-    ("alpha", r"$\alpha$", style.SOLID),
-    ("beta", r"$\beta$", style.DASH_DOT),
-    ("gamma", r"$\gamma$", style.DOTTED),
+    ("alpha", "α", style.SOLID),
+    ("beta", "β", style.DASH_DOT),
+    ("gamma", "γ", style.DOTTED),
 )
 SHOWN_S = 1.2
 """Two settling times of a small error: all there is to see."""
