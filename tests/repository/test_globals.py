@@ -13,6 +13,10 @@ PLANTED = {
     "tests/law/test_attribution.py": "a law whose file has no attribution",
     "tests/studies/test_situations.py": "few laws and small runs, so that a study takes seconds",
     "tests/regression/test_regress_times.py": "a commit of the history, which only git knows",
+    "tests/cli/test_summary.py": "verdicts, an answer and a run that are missing, to see what the summary says",
+    "tests/findings/test_claims.py": "a run that decides one claim of two",
+    "tests/report/test_colours.py": "a law of the user, which no run here has",
+    "tests/report/test_pictures_of_laws.py": "an answer without a map",
     "tests/report/test_comparing_sentences.py": "what a page reads, made false for one sentence",
 }
 """Files whose tests replace a reader for one test, by a fixture that restores it."""
