@@ -247,9 +247,15 @@ def recompute_abstract():
     said += [verdicts["decided"], *verdicts["words"], f"{len(read_history())} criteria"]
     said += [f"all {failed}" if failed == len(half_turns) else f"{failed} of {len(half_turns)}", 180]
     said += [f"{100 * lost / len(linearized):.1f} %", f"{100 * low:.1f} to {100 * high:.1f} %", len(linearized)]
-    harder = np.sort(torque_ratios_at_pole())
-    said += [f"{harder[(len(harder) - 1) // 2]:.0f} times", f"{len(harder)} moves", "answered"]
+    harder = torque_ratios_at_pole()
+    said += [f"{np.median(harder):.0f} times", f"{len(harder)} moves", "answered"]
     return {"abstract": [*said, *list_answers()]}
+
+
+def count_all_episodes():
+    """Return the episodes of a run of all kinds."""
+    about = read_json("reference/provenance.json")
+    return {"episodes": [about["episodes"] + about["trials"] + about["troubled"]]}
 
 
 def read_history():
@@ -288,6 +294,7 @@ COMPUTED = {
     "index": lambda: recompute_abstract() | recompute_use_today(),
     "02-three-regulators": recompute_failure_map,
     "04-euler-jacobian": recompute_torque_at_pole,
+    "appendix-data": count_all_episodes,
     "03-cost": recompute_times,
     "appendix-arms": recompute_arms,
     "05-compliance-and-contact": recompute_compliance,

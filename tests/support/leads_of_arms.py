@@ -126,9 +126,9 @@ def torque_ratios_at_pole():
 
 
 def recompute_torque_at_pole():
-    """Return the ratio that half of the moves do not exceed."""
+    """Return the median ratio of the moves."""
     ratios = np.sort(torque_ratios_at_pole())
-    return {"harder": [float(f"{ratios[(len(ratios) - 1) // 2]:.2g}")]}
+    return {"harder": [float(f"{np.median(ratios):.2g}")]}
 
 
 def is_right(own):
