@@ -132,7 +132,8 @@ def _reason(law: str, folder: Path) -> str:
     return (
         f"In {percent(1.0 - shares.failing.value)} of the random situations it settles from every start tried, does "
         f"not first turn away from the goal, and is not trapped at 180° by a sensor error of {HELD_RAD:g} rad. In "
-        f"{shares.qualified} of them no law that also does this is more than {percent(SPOKEN)} faster."
+        f"{shares.qualified} of the random situations it does so and no law that also does is more than "
+        f"{percent(SPOKEN)} faster."
     )
 
 
