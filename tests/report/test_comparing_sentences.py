@@ -100,7 +100,7 @@ SENTENCES = {
         [
             (((), ("a",)), "No other published or adapted law"),
             (((), ("a", "b")), "at least as good as the others on every criterion and better on one"),
-            ((("b",), ("a", "b")), "It ties with b and is the simplest"),
+            ((("b",), ("a", "b")), "The law ties with b and is the simplest"),
         ],
     ),
     "order": (plant_order, [((1, 2, 3), "dearest, as the paper"), ((3, 2, 1), "dearest, other than the paper")]),
