@@ -142,7 +142,7 @@ def _tested(folder: Path) -> str:
     population = find_population(folder)
     laws = len(population.qualified) + len(population.excluded)
     return (
-        f"{drawn} random situations with {laws} published and adapted laws, in simulations of a body that turns freely. "
+        f"{drawn} random situations with {laws} published and adapted laws, in simulations of a freely turning body. "
         f"A situation has random gains, command limit, delay, control period, inertia, spin and jump of the goal"
     )
 

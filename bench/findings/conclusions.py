@@ -151,8 +151,8 @@ def _find_linearized(results: Results) -> str:
 def _find_feedback(results: Results) -> str:
     gain, gains = feedback_gain(results), results.gains()
     return (
-        f"With the rotation-matrix law, the time in which 99 % of the starts settle is {interval(gain)} times the time "
-        f"with feedback linearization, at kp = {gains.kp:g} and kv = {gains.kv:g}. "
+        f"With the rotation-matrix law, the time in which 99 % of the starts settle is {interval(gain)} times the "
+        f"time with feedback linearization, at kp = {gains.kp:g} and kv = {gains.kv:g}. "
         f"{_fails_at(results, FEEDBACK, 'Feedback linearization')}."
     )
 
@@ -186,16 +186,16 @@ def _find_jacobian(results: Results) -> str:
     both = replication.compare_jacobians(results)
     harder = Estimate(*(float(f"{ratio:.2g}") for ratio in both.harder))
     return (
-        f"When an arm passes gimbal lock, the Euler Jacobian needs {interval(harder, 'g')} times the peak torque of the "
-        f"geometric Jacobian. This is the median of {both.moves} moves of {both.arms} arms."
+        f"When an arm passes gimbal lock, the Euler Jacobian needs {interval(harder, 'g')} times the peak torque of "
+        f"the geometric Jacobian. This is the median of {both.moves} moves of {both.arms} arms."
     )
 
 
 def _find_compliance(results: Results) -> str:
     wrong = replication.measure_wrong_axis(results)
     return (
-        f"If two axes comply and the end effector is tilted by β = {wrong.tilt_deg:.0f}°, the end effector turns about "
-        f"an axis that is {wrong.middle:.0f}° away from the axis of the moment ({wrong.off[0]:.0f}° to "
+        f"If two axes comply and the end effector is tilted by β = {wrong.tilt_deg:.0f}°, the end effector turns "
+        f"about an axis that is {wrong.middle:.0f}° away from the axis of the moment ({wrong.off[0]:.0f}° to "
         f"{wrong.off[-1]:.0f}° on {len(wrong.off)} arms)."
     )
 
@@ -205,7 +205,8 @@ def _find_answers(results: Results) -> str:
     if advised not in examined.laws:
         return f"{_name_answers(examined, 'pass every test')} The advised law, {advised}, was not tested in this run."
     settling = replication.measure_settling(_rows_of(results, advised))
-    passes = "" if advised in examined.answers else f" The advised law does not pass every test: {examined.tested[advised]}."
+    failed = f" The advised law does not pass every test: {examined.tested[advised]}."
+    passes = "" if advised in examined.answers else failed
     return (
         f"{_name_answers(examined, 'pass every test')}{passes} With {advised}, {percents(settling.share)} of the "
         f"random starts settle."

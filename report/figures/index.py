@@ -118,7 +118,8 @@ def describe_lost(run: Run) -> str:
     rows = starts_at_rest(run)
     share = measure_settling(rows[rows["contender"] == LINEARIZED]).share
     lost, low, high = (f"{100 * (1.0 - settled):.1f}" for settled in (share.value, share.high, share.low))
-    return f"The linearized regulator fails from {lost} % ({low} to {high} %) of {html.number(share.n)} random orientations."
+    starts = f"{html.number(share.n)} random orientations"
+    return f"The linearized regulator fails from {lost} % ({low} to {high} %) of {starts}."
 
 
 def describe_pole(run: Run) -> str:

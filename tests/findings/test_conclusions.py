@@ -125,7 +125,8 @@ def test_torque_past_gimbal_lock_is_read_off_the_rows(frames):
 def test_wrong_axis_is_read_off_the_rows(frames):
     rows = frames["compliance"]
     turned = changed(rows, rows["misalignment_rad"].notna(), misalignment_rad=0.5)
-    assert "β = 60°, the end effector turns about an axis that is 29° away from the axis of the moment (29° to 29° on 2 arms)" in find(frames, "compliance", compliance=turned)
+    said = find(frames, "compliance", compliance=turned)
+    assert "an axis that is 29° away from the axis of the moment (29° to 29° on 2 arms)" in said
 
 
 @pytest.mark.parametrize("name", read_texts())

@@ -136,8 +136,8 @@ def describe_shares(law: str, folder: Path = STUDY) -> str:
         f"requirements is more than {percent(SPOKEN)} faster. If the law is compared with all {laws} published and "
         f"adapted laws of the map, the share is {percent(shares.all.value)}; {len(population.excluded)} of these laws "
         f"fail a requirement in every situation. If a law that is {percent(RULE.tie)} faster counts as faster, the two "
-        f"shares are {percent(close.qualified.value)} and {percent(close.all.value)}. In {percent(shares.losing.value)} "
-        f"of the situations, the law itself never settles from some starts."
+        f"shares are {percent(close.qualified.value)} and {percent(close.all.value)}. In "
+        f"{percent(shares.losing.value)} of the situations, the law itself never settles from some starts."
     )
 
 
@@ -149,7 +149,7 @@ def describe_lines(law: str, called: Called = str, folder: Path = STUDY) -> str:
     if everything == "none":
         return f"{first}."
     if qualified == "none":
-        return f"{first} and meets the requirements. Laws that do not meet the requirements are faster at: {everything}."
+        return f"{first} and meets the requirements. Laws that do not meet these are faster at: {everything}."
     return (
         f"{first}, except at: {everything}. The brackets name the fastest law, and say how much faster it is. The laws "
         f"that meet the requirements are faster at: {qualified}."
@@ -172,9 +172,9 @@ def describe_law_of_ours(law: str, called: Called = str, folder: Path = STUDY) -
     return (
         f"We do not advise our own law, {called(law)} (2026, simulation only, not reviewed). Our law is more than "
         f"{percent(SPOKEN)} faster than the advised law in {percent(compare_with_advised(law, folder).value)} of the "
-        f"random situations. In {percent(shares.qualified.value)} of these situations our law meets the requirements, "
-        f"and no published or adapted law that meets them is more than {percent(SPOKEN)} faster. If our law is compared "
-        f"with all published and adapted laws, the share is {percent(shares.all.value)}."
+        f"random situations. In {percent(shares.qualified.value)} of these situations our law meets the "
+        f"requirements, and no published or adapted law that meets them is more than {percent(SPOKEN)} faster. If our law is "
+        f"compared with all published and adapted laws, the share is {percent(shares.all.value)}."
     )
 
 

@@ -138,11 +138,12 @@ def describe_weak_motors(both: pd.DataFrame) -> str:
         torque = motor.torque(kp)
         sentences.append(
             f"The {name_arm(str(arm))} needs {ratio:.2g} times its rated torque without Euler angles, too. The model "
-            f"of this arm has a motor inertia of {motor.inertia:g} kg m² at a joint whose motor is rated at {motor.rated:g} N m. "
-            f"With Kp = {kp:g}/s² and an error of 1 rad, this motor needs {torque:g} N m, {torque / motor.rated:.0f} times "
-            f"the rated torque. The gains are too high for this arm, with either Jacobian."
+            f"of this arm has a motor inertia of {motor.inertia:g} kg m² at a joint whose motor is rated at "
+            f"{motor.rated:g} N m. With Kp = {kp:g}/s² and an error of 1 rad, this motor needs {torque:g} N m, "
+            f"{torque / motor.rated:.0f} times the rated torque. The gains are too high for this arm, with either Jacobian."
         )
-    return " ".join(sentences) or "With the geometric Jacobian, no arm needs more than its rated torque in the median move."
+    none = "With the geometric Jacobian, no arm needs more than its rated torque in the median move."
+    return " ".join(sentences) or none
 
 
 def describe_operations(run: Run) -> str:
@@ -155,9 +156,9 @@ def describe_operations(run: Run) -> str:
         more = euler.flops / geometric.flops - 1.0
         sentences.append(
             f"On an arm with {joints} joints, a control step takes {html.number(geometric.flops)} operations with the "
-            f"geometric Jacobian and the rotation-matrix law. With the Euler Jacobian and the feedback-linearized law, a "
-            f"control step takes {html.number(euler.flops)} operations ({100 * more:+.0f} %) and {euler.calls} calls of "
-            f"sine, cosine and arctangent."
+            f"geometric Jacobian and the rotation-matrix law. With the Euler Jacobian and the feedback-linearized law, "
+            f"a control step takes {html.number(euler.flops)} operations ({100 * more:+.0f} %) and {euler.calls} calls "
+            f"of sine, cosine and arctangent."
         )
     return " ".join(sentences)
 
