@@ -163,8 +163,8 @@ def _price_of_default(law: str, folder: Path) -> str:
     beside = find_price(other, folder)
     return (
         f"{costs} ({other}: {beside.peak:.2g} kp). With gains for the same peak command, 99 % of the starts settle in "
-        f"{price.at_equal_peak:.1f}/√peak ({other}: {beside.at_equal_peak:.1f}/√peak). Its median overshoot in the "
-        f"random situations is {price.typical_overshoot:.1f}° ({other}: {beside.typical_overshoot:.1f}°)"
+        f"{price.at_equal_peak:.1f}/√peak seconds ({other}: {beside.at_equal_peak:.1f}/√peak). Its median overshoot in "
+        f"the random situations is {price.typical_overshoot:.1f}° ({other}: {beside.typical_overshoot:.1f}°)"
     )
 
 

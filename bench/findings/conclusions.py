@@ -136,8 +136,8 @@ def _find_linearized(results: Results) -> str:
 def _find_feedback(results: Results) -> str:
     gain, gains = feedback_gain(results), results.gains()
     return (
-        f"With the rotation-matrix law, 99 % of the starts take {interval(gain)} times as long to settle "
-        f"as with feedback linearization (kp = {gains.kp:g}, kv = {gains.kv:g}); "
+        f"99 % of the starts take {interval(gain)} times as long to settle with the rotation-matrix law as with "
+        f"feedback linearization (kp = {gains.kp:g}, kv = {gains.kv:g}); "
         f"{_fails_at(results, FEEDBACK, 'feedback linearization')}."
     )
 
@@ -190,8 +190,8 @@ def _find_answers(results: Results) -> str:
     settling = replication.measure_settling(_rows_of(results, advised))
     passes = "" if advised in examined.answers else f" The advised law does not: {examined.tested[advised]}."
     return (
-        f"{_name_answers(examined, 'pass every test')}{passes} With {advised}, {percents(settling.share)} of the "
-        f"random starts settle."
+        f"{_name_answers(examined, 'pass every test')}{passes} The law {advised} settles from "
+        f"{percents(settling.share)} of the random starts."
     )
 
 

@@ -124,8 +124,9 @@ def describe_lost(run: Run) -> str:
 def describe_pole(run: Run) -> str:
     """Say how much more torque an arm needs with Euler angles when it passes gimbal lock."""
     both = compare_jacobians(run)
+    ratio = float(f"{both.harder.value:.2g}")  # as the table of conclusions rounds it
     return (
-        f"When an arm passes gimbal lock, the Euler Jacobian needs {both.harder.value:.0f} times the peak torque "
+        f"When an arm passes gimbal lock, the Euler Jacobian needs {ratio:g} times the peak torque "
         f"(median of {both.moves} moves)."
     )
 

@@ -139,8 +139,8 @@ def describe_weak_motors(both: pd.DataFrame) -> str:
         sentences.append(
             f"The {name_arm(str(arm))} needs {ratio:.2g} times its rated torque without Euler angles, too. Its model "
             f"has a motor inertia of {motor.inertia:g} kg m² at a joint whose motor is rated at {motor.rated:g} N m. "
-            f"With Kp = {kp:g}/s² an error of 1 rad asks this motor for {torque:g} N m, {torque / motor.rated:.0f} "
-            f"times the rated torque: these gains are too high for this arm, with either Jacobian."
+            f"With Kp = {kp:g}/s² an error of 1 rad demands {torque:g} N m from this motor, {torque / motor.rated:.0f} "
+            f"times its rated torque: these gains are too high for this arm, with either Jacobian."
         )
     return " ".join(sentences) or "With the geometric Jacobian, no arm exceeds its rated torque in the median."
 
