@@ -208,8 +208,8 @@ def _find_answers(results: Results) -> str:
     failed = f" The advised law does not pass every test: {examined.tested[advised]}."
     passes = "" if advised in examined.answers else failed
     return (
-        f"{_name_answers(examined, 'pass every test')}{passes} With {advised}, {percents(settling.share)} of the "
-        f"random starts settle."
+        f"{_name_answers(examined, 'pass every test')}{passes} The law {advised} settles from "
+        f"{percents(settling.share)} of the random starts."
     )
 
 

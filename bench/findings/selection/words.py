@@ -173,8 +173,8 @@ def describe_law_of_ours(law: str, called: Called = str, folder: Path = STUDY) -
         f"We do not advise our own law, {called(law)} (2026, simulation only, not reviewed). Our law is more than "
         f"{percent(SPOKEN)} faster than the advised law in {percent(compare_with_advised(law, folder).value)} of the "
         f"random situations. In {percent(shares.qualified.value)} of these situations our law meets the "
-        f"requirements, and no published or adapted law that meets them is more than {percent(SPOKEN)} faster. If our law is "
-        f"compared with all published and adapted laws, the share is {percent(shares.all.value)}."
+        f"requirements, and no published or adapted law that meets them is more than {percent(SPOKEN)} faster. If "
+        f"our law is compared with all published and adapted laws, the share is {percent(shares.all.value)}."
     )
 
 

@@ -62,7 +62,7 @@ def compare_forms(counted: pd.DataFrame) -> dict[str, int]:
 
 
 def share_of_time(run: Run) -> dict[str, str]:
-    """Return the shares of a whole controller's time that the cheapest law, late braking and the dearest take."""
+    """Return the shares of a controller's time that the cheapest law, late braking and the most expensive take."""
     shares = {law: value for law, value in ticks(run).items() if not law.endswith("literal/zyx-euler")}
     share = some(shares, "time of a law")
     most = max(share, key=lambda law: share[law])
@@ -77,7 +77,7 @@ def order_papers_laws(share: dict[str, float]) -> str:
     """State which of the paper's laws takes least time alone and which most, and whether the paper says so too."""
     least, _, most = sorted((MATRIX, LINEARIZED, FEEDBACK), key=lambda law: share.get(law, math.nan))
     agrees = "as" if (least, most) == (MATRIX, FEEDBACK) else "other than"
-    names = f"{families.word(least)} is the cheapest and {families.word(most)} the dearest"
+    names = f"{families.word(least)} is the cheapest and {families.word(most)} the most expensive"
     return f"Among the paper's three laws {names}, {agrees} the paper says"
 
 

@@ -46,7 +46,8 @@ def describe_item(item: Item, verdicts: Mapping[str, Verdict]) -> tuple:
     command = read_commands()[item.paper]
     shown = f"`{command}`" if command else html.MISSING
     pages = ", ".join(map(link_page, item.pages))
-    return prose(item.paper), prose(item.says), pages, ", ".join(links), tables, shown
+    shown_links, shown_tables = ", ".join(links) or html.MISSING, tables or html.MISSING
+    return prose(item.paper), prose(item.says), pages, shown_links, shown_tables, shown
 
 
 def list_tables(verdicts: Iterable[Verdict]) -> str:
