@@ -84,7 +84,7 @@ def say_others(matrix: int, feedback: int, starts: int) -> str:
     if not matrix and not feedback:
         return "The rotation-matrix law and the feedback-linearized law settle from every random start."
     counts = " and ".join(
-        f"the {name} law never settles from {lost or 'none'}"
+        f"the {name} law fails from {lost or 'none'}"
         for name, lost in (("rotation-matrix", matrix), ("feedback-linearized", feedback))
     )
     return f"Of the {starts} random starts, {counts}."
@@ -142,10 +142,11 @@ def say_finding(episodes: pd.DataFrame) -> str:
     default = find_default()
     advised = "is not in this run"
     if default in lost:
-        advised = f"never settles from {lost[default]}" if lost[default] else "settles from all"
+        settles_from_all = f"settles from all {html.number(starts)}"
+        advised = f"never settles from {lost[default]}" if lost[default] else settles_from_all
     return (
-        f"Of the same {html.number(starts)} starts, Murphy's laws never settle from some ({', '.join(papers)}); "
-        f"{families.word(default)} {advised}."
+        f"Each law runs from the same {html.number(starts)} starts. Murphy's laws never settle from some of these "
+        f"starts ({', '.join(papers)}); {families.word(default)} {advised}."
     )
 
 

@@ -136,8 +136,8 @@ def describe_finding(response: Response) -> str:
     if response.peak_deg > response.first_deg + AWAY_DEG:
         away = f" The body first turns away from the goal, from {response.first_deg:.0f}° to {response.peak_deg:.0f}°."
     return (
-        f"The angles stay within {distance} of the linear response; the body {settles} by a path that is "
-        f"{row['path_ratio']:.2f} times the shortest.{away}"
+        f"The Euler angles stay within {distance} of the linear response. The body {settles}, on a path that is "
+        f"{row['path_ratio']:.2f} times as long as the shortest path.{away}"
     )
 
 
