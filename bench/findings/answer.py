@@ -174,7 +174,7 @@ def _usual(law: str, folder: Path) -> Need:
     shares = measure_shares(law, folder, tie=SPOKEN)
     why = (
         f"in {percent(1.0 - shares.failing.value)} of {shares.failing.of} random situations the law meets our "
-        f"requirements, such as to settle from every start; in {percent(shares.qualified.value)} of the situations it "
+        f"requirements, such as to settle from every start tried; in {percent(shares.qualified.value)} of the situations it "
         f"meets them, and no other law that meets them is more than {percent(SPOKEN)} faster"
     )
     return Need(ANY_START, law, attribute(law), why, _join(_list_costs(law, folder)))
@@ -242,7 +242,7 @@ def _by_map(name: str, controller: str, law: str, default: str, folder: Path, wh
     costs = _list_costs(law, folder)
     slower = find_price(law, folder).time / find_price(default, folder).time
     if slower > 1.0 + SPOKEN:
-        costs.append(f"takes {slower:.1f} times as long as {default} without a command limit")
+        costs.append(f"settles in {slower:.1f} times the time of {default} if the command is not limited")
     return Need(controller, law, attribute(law), why, _join(costs), name)
 
 
@@ -302,7 +302,7 @@ def _price_on_robot(robot: Robot, law: str, run: Path) -> str:
     costs = [f"stores {memory} numbers" if memory else "needs no memory"]
     lost = measured(run, robot.measure).number("lost", law)
     if not math.isnan(lost) and lost:
-        costs.append("is stuck at exactly 180° and slow near it")
+        costs += ["is stuck at exactly 180°", "is slow near 180°"]
     elif not memory:
         noise = _least_noise(law, run)
         if noise is not None and math.isfinite(noise):

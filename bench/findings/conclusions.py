@@ -115,7 +115,7 @@ def _rows_of(results: Results, law: str) -> Any:
     return rows[rows["contender"].astype(str) == law]
 
 
-def _fails_at(results: Results, law: str, subject: str = "The law") -> str:
+def _fails_at(results: Results, law: str, subject: str) -> str:
     places = describe_failures(_rows_of(results, law))
     starts = [f"from {name_starts(place)}" for place in places]
     return f"{subject} fails {together(starts, len(starts))}" if starts else f"{subject} settles from every start"
@@ -138,14 +138,15 @@ def name_starts(place: str) -> str:
 def _find_matrix(results: Results) -> str:
     settling = replication.measure_settling(_rows_of(results, MATRIX))
     if math.isinf(settling.nearly_all.value):
-        return f"{percents(settling.share)} of the random starts settle. {_fails_at(results, MATRIX)}."
+        return f"{percents(settling.share)} of the random starts settle. {_fails_at(results, MATRIX, 'The rotation-matrix law')}."
     time = interval(settling.nearly_all, unit=" s")
-    return f"99 % of the random starts settle within {time}. {_fails_at(results, MATRIX)}."
+    return f"99 % of the random starts settle within {time}. {_fails_at(results, MATRIX, 'The rotation-matrix law')}."
 
 
 def _find_linearized(results: Results) -> str:
     settling = replication.measure_settling(_rows_of(results, LINEARIZED))
-    return f"{percents(settling.share)} of the random starts settle. {_fails_at(results, LINEARIZED)}."
+    fails = _fails_at(results, LINEARIZED, "The linearized law")
+    return f"{percents(settling.share)} of the random starts settle. {fails}."
 
 
 def _find_feedback(results: Results) -> str:

@@ -73,8 +73,8 @@ def describe_replication(run: Run) -> str:
     sentences = [
         "In 1988 Murphy compared three regulators for the orientation of an end effector.",
         "He concluded that no regulator combines performance with low cost, and that a Jacobian on Euler angles "
-        "excludes some orientations. Force control with this Jacobian complies about the Euler angles, not about the "
-        "Cartesian axes. He left open whether better regulators exist.",
+        "excludes some orientations. He also concluded that force control with this Jacobian complies about the Euler "
+        "angles, not about the Cartesian axes. He left open whether better regulators exist.",
     ]
     for find, otherwise in FOUND.items():
         sentences.append(in_run(find, run) or f"{otherwise} is not tested in this run.")

@@ -81,8 +81,11 @@ def test_every_sentence_has_a_number_with_its_interval(findings):
 def test_settling_of_the_cross_product_is_read_off_the_rows(frames, findings):
     own = of_law(frames, "rotation-matrix")
     slower = changed(frames["episodes"], own, settling_time_s=lambda times: 2.0 * times)
-    assert "within 1.68 s (1.56 to 1.93 s). The law fails from starts exactly 180°" in findings["rotation-matrix"]
-    assert "within 3.36 s (3.11 to 3.87 s). The law fails from starts exactly 180°" in find(
+    assert (
+        "within 1.68 s (1.56 to 1.93 s). The rotation-matrix law fails from starts exactly 180°"
+        in findings["rotation-matrix"]
+    )
+    assert "within 3.36 s (3.11 to 3.87 s). The rotation-matrix law fails from starts exactly 180°" in find(
         frames, "rotation-matrix", episodes=slower
     )
 

@@ -120,8 +120,13 @@ def describe_order(operations: pd.DataFrame) -> str:
     if len(papers) < len(PAPERS_ORDER):
         return "Murphy's order of cost is not tested in this run."
     agrees = "rises" if total.is_monotonic_increasing and total.is_unique else "does not rise"
-    counts = ", ".join(f"{families.word(law)} {count_words(*papers.loc[law])}" for law in papers.index)
+    counts = ", ".join(f"{families.word(law)} {name_counts(*papers.loc[law])}" for law in papers.index)
     return f"The number of operations per control step {agrees} in Murphy's order: {counts}."
+
+
+def name_counts(flops: int, calls: int) -> str:
+    """Write flops and calls with their nouns, for a sentence."""
+    return f"{flops} flops and {calls} calls" if calls else f"{flops} flops"
 
 
 def count_words(flops: int, calls: int) -> str:

@@ -10,7 +10,7 @@ from bench.experiments.tables.read import FREE_BODY
 from bench.findings.claims import adequacy
 from bench.findings.claims.tables import MAIN_ENGINE
 from bench.findings.theory import closed_form
-from report.figures.cost.cost import LATER, PAPERS_ORDER, count_words
+from report.figures.cost.cost import LATER, PAPERS_ORDER, count_words, name_counts
 from report.figures.kit import families, laws, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
@@ -86,7 +86,7 @@ def describe_plane(points: list[Point], limit_s: float) -> str:
     takes = "takes" if len(better) < 2 else "take"
     return (
         f"Of Murphy's laws that settle from 99 % of the starts within {limit_s:.2f} s, "
-        f"{families.word(cheapest.law)} takes the fewest operations: {count_words(cheapest.flops, cheapest.calls)}. "
+        f"{families.word(cheapest.law)} takes the fewest operations: {name_counts(cheapest.flops, cheapest.calls)}. "
         f"{count} as fast and {takes} no more operations."
     )
 
