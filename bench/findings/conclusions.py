@@ -137,10 +137,11 @@ def name_starts(place: str) -> str:
 
 def _find_matrix(results: Results) -> str:
     settling = replication.measure_settling(_rows_of(results, MATRIX))
+    fails = _fails_at(results, MATRIX, "The rotation-matrix law")
     if math.isinf(settling.nearly_all.value):
-        return f"{percents(settling.share)} of the random starts settle. {_fails_at(results, MATRIX, 'The rotation-matrix law')}."
+        return f"{percents(settling.share)} of the random starts settle. {fails}."
     time = interval(settling.nearly_all, unit=" s")
-    return f"99 % of the random starts settle within {time}. {_fails_at(results, MATRIX, 'The rotation-matrix law')}."
+    return f"99 % of the random starts settle within {time}. {fails}."
 
 
 def _find_linearized(results: Results) -> str:
