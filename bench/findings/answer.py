@@ -174,8 +174,8 @@ def _usual(law: str, folder: Path) -> Need:
     shares = measure_shares(law, folder, tie=SPOKEN)
     why = (
         f"in {percent(1.0 - shares.failing.value)} of {shares.failing.of} random situations the law meets our "
-        f"requirements, such as to settle from every start tried; in {percent(shares.qualified.value)} of the situations it "
-        f"meets them, and no other law that meets them is more than {percent(SPOKEN)} faster"
+        f"requirements, such as to settle from every start tried; in {percent(shares.qualified.value)} of the "
+        f"situations it meets them, and no other law that meets them is more than {percent(SPOKEN)} faster"
     )
     return Need(ANY_START, law, attribute(law), why, _join(_list_costs(law, folder)))
 
