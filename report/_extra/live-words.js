@@ -8,7 +8,7 @@
     return `${angle.toFixed(short > 1e-9 ? Math.max(0, Math.ceil(-Math.log10(short))) : 0)}°`;
   };
   function ending({ isDone, outcome, settling_s, angle, end_s }, rules) {
-    if (!isDone) return "still moves towards the goal";
+    if (!isDone) return "is still moving";
     const when = `at ${end_s.toFixed(2)}${NBSP}s`, away = degrees(angle);
     return {
       settled: `settles in ${(settling_s || 0).toFixed(2)}${NBSP}s`,
