@@ -133,10 +133,12 @@ def lead(uniform: pd.DataFrame) -> str:
     ends = [f"{arm_rows.name_arm(arm)} ({100 * by_arm[arm]:.0f} %)" for arm in (by_arm.idxmin(), by_arm.idxmax())]
     return (
         "Motors give at most their rated torque, and joints stop at the ends of their ranges. From evenly spread "
-        f"starts, {leading(uniform, 'settled').replace('(2.2) ', '')} of the episodes with this law settle. On arms that run with "
-        f"three pairs of gains, the share of episodes that settle, over all laws, is {listed(levels or [html.UNTESTED])}. "
+        f"starts, {leading(uniform, 'settled').replace('(2.2) ', '')} of the episodes with this law "
+        "settle. On arms that run with three pairs of gains, the share of episodes that settle, over all laws, is "
+        f"{listed(levels or [html.UNTESTED])}. "
         f"A joint was at the end of its range in {percent_stopped(uniform):.0f} % of the episodes that do not settle. "
-        f"The arm on which the fewest episodes settle is the {ends[0]}; the arm on which the most episodes settle is the {ends[1]}."
+        f"The arm on which the fewest episodes settle is the {ends[0]}; the arm on which the most "
+        f"episodes settle is the {ends[1]}."
     )
 
 

@@ -41,10 +41,10 @@ TEXTS = tomllib.loads(Path(__file__).with_name("laws.toml").read_text(encoding="
 """Law -> about, limitations."""
 
 MEMORY = (
-    "Reset the memory before the first control step and after a pause. It stays as it is when the goal changes. If you "
-    "also reset it when the goal jumps, the path becomes shorter, but the body does not settle sooner. The measured "
-    "orientation must turn by less than 180° between two control steps: e + phi/2 < 90°, where e is the error of the "
-    "measured orientation and phi the rotation within a control step."
+    "Reset the memory before the first control step and after a pause. The memory stays unchanged when the goal "
+    "changes. If you also reset the memory when the goal jumps, the path becomes shorter, but the body does not settle "
+    "sooner. The measured orientation must turn by less than 180° between two control steps: e + phi/2 < 90°, where e "
+    "is the error of the measured orientation and phi the rotation within a control step."
 )
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 EXAMPLE = re.compile(r" Shown by |, as from |, as at ")
