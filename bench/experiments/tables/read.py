@@ -33,7 +33,10 @@ MARKS = {"controller": "", "regulator": "", "representation": "/", "jacobian": "
 
 
 def folder() -> Path:
-    """Return the folder that ORIENTATION_BENCH_RESULTS names, or results/latest, or results/reference."""
+    """Return the folder that the environment variable ORIENTATION_BENCH_RESULTS names.
+
+    If the variable is not set, it is results/latest if that run is finished, and results/reference otherwise.
+    """
     named = os.environ.get(VARIABLE)
     if named:
         return Path(named).expanduser().resolve()
