@@ -167,7 +167,7 @@ def describe_model_errors(run: Run) -> str:
     apart = np.degrees(np.ptp(angles.to_numpy(), axis=1))
     medians = np.degrees(rows.groupby("variation")["final_angle_rad"].median())
     return (
-        f"From the same start, the final angles of the controllers differ by {np.median(apart):.1g}° (median). The "
-        f"variation `{medians.idxmax()}` leaves the largest median error, {medians.max():.1f}°; `{medians.idxmin()}` "
-        f"leaves the smallest, {medians.min():.2f}°."
+        f"From the same start, the final angles of the controllers differ by {np.median(apart):.1g}° (median). With "
+        f"the variation `{medians.idxmax()}` the median error is largest, {medians.max():.1f}°; with the variation "
+        f"`{medians.idxmin()}` the median error is smallest, {medians.min():.2f}°."
     )
