@@ -47,7 +47,8 @@ class Law(NamedTuple):
         state: state of a law with a state, law(R, omega, goal, gains, state) -> (u, rates); otherwise None. The caller
             integrates the rates of the state over the control period.
         property: what is proved: "local", "almost global", "global with memory", "none", or for which gains.
-        level: the kind of command. gains: the gains that the authors set, or the paper's gains.
+        level: the kind of command.
+        gains: the gains that the authors set, or the paper's gains.
         shipped: AsShipped for a controller as its authors ship it; otherwise None. Its formula is the formula of the
             error, with clips and deadbands in their order. Its gains are in N m/rad; in 1/s^2 if the controller cancels
             or simulates an inertia; in 1/s if it commands a velocity.
