@@ -138,7 +138,7 @@ def _reason(law: str, folder: Path) -> str:
 
 
 def _tested(folder: Path) -> str:
-    drawn = sum(map(regions.is_drawn, regions.decide_all(folder)))
+    drawn = sum(map(regions.is_drawn, regions.group_map(folder)))
     population = find_population(folder)
     laws = len(population.qualified) + len(population.excluded)
     return (
@@ -223,8 +223,8 @@ def _find_bounded(default: str, folder: Path) -> Bounded | None:
 
     None: at every bound the default is unbeaten, or nothing is advised in its place.
     """
-    verdicts = regions.decide_all(folder)
-    at_bound = {at.bound: verdict for at, verdict in verdicts.items() if at._replace(bound=NOMINAL.bound) == NOMINAL}
+    line = [at for at in regions.group_map(folder) if at._replace(bound=NOMINAL.bound) == NOMINAL]
+    at_bound = {at.bound: regions.decide_at(at, folder) for at in line}
     found: dict[str, list[Bounded]] = {}
     for place in follow_lines(default, folder, tie=SPOKEN)["bound"]:
         law = at_bound[place.value].law
