@@ -53,7 +53,7 @@ def find(examined: Examined) -> Found | None:
     ratio = examined.slope / examined.stated.stiffness
     i = int(np.flatnonzero(examined.at("near-identity") & (examined.pairs.angle > LARGEST_RAD))[0])
     evidence = examined.evidence(i, False)._replace(right=examined.e[i] / ratio)
-    effect = f"the robot is {ratio:.4g} times as stiff as set, and damped {ratio**-0.5:.2g} times as much for it"
+    effect = f"the stiffness is {ratio:.4g} times, and the damping ratio {ratio**-0.5:.2g} times the value that is set"
     for slope, (unit, words) in UNITS.items():
         if abs(ratio / slope - 1.0) <= DEVIATION:
             cure = "convert to radians" + (": np.radians(e)" if unit == "degrees" else "") * bool(examined.form)
@@ -61,4 +61,5 @@ def find(examined: Examined) -> Found | None:
     cures = (
         cure for (form, slope), cure in FACTORS.items() if form == examined.form and abs(ratio / slope - 1.0) < 1e-6
     )
-    return Found(f"the stiffness felt is {ratio:.4g} of the stiffness set", evidence, FAULT, effect, next(cures, ""))
+    words = f"the real stiffness is {ratio:.4g} of the stiffness that is set"
+    return Found(words, evidence, FAULT, effect, next(cures, ""))
