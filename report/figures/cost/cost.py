@@ -78,7 +78,7 @@ def order_papers_laws(share: dict[str, float]) -> str:
     least, _, most = sorted((MATRIX, LINEARIZED, FEEDBACK), key=lambda law: share.get(law, math.nan))
     agrees = "as" if (least, most) == (MATRIX, FEEDBACK) else "other than"
     names = f"{families.word(least)} is the cheapest and {families.word(most)} the most expensive"
-    return f"Among the paper's three laws {names}, {agrees} the paper says"
+    return f"Among the paper's three laws, {names}, {agrees} the paper says"
 
 
 def timings(run: Run) -> list[Path]:
