@@ -73,7 +73,7 @@ def on_the_map(run: Run) -> dict:
     return {
         "n": len(linearized),
         "failed_l": len(failed),
-        "others": say_others(*map(len, lost), starts=len(linearized)),
+        "others": say_others(len(lost[0]), len(lost[1]), len(linearized)),
         "least": f"{np.floor(np.degrees(failed['alpha0'].abs().min())):.0f}",
         "least_gamma": f"{np.degrees(failed['gamma0'].abs().min()):.0f}",
     }
