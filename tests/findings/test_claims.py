@@ -203,4 +203,4 @@ def test_run_of_two_starts_a_set_judges_no_claim_about_episodes(tmp_path):
 def test_words_at_other_gains_are_told_by_damping_ratio(other):
     study = {"gains": [{"kp": 100.0, "kv": 14.0, "words": other}]}
     said = at_gains.by_gains(study, {"C03": "does not hold"})
-    assert ("damping ratio of 0.7: C03 (holds)" in said) == bool(other)
+    assert ("damping ratio of 0.7, and these change: C03 (holds)" in said) == bool(other)

@@ -42,7 +42,7 @@ def recompute_compliance():
     entries = [f"c_{i}{j}" for i in "xyz" for j in "xyz"]
     C = {beta: euler.loc[beta, entries].to_numpy(float).reshape(3, 3) for beta in betas}
     off = {beta: np.degrees(np.arctan2(np.hypot(*C[beta][1:, 0]), abs(C[beta][0, 0]))) for beta in betas}
-    *most, last = (f"{value:.0f}° at β = {beta:.0f}°" for beta, value in off.items())
+    *most, last = (f"{value:.0f}° at β\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}{beta:.0f}°" for beta, value in off.items())
     said = f"{', '.join(most)} and {last}"
     rows = contact("surface-alignment").query("form == 'transpose'")
     flat = [rows.loc[rows["who"] == who, "time_to_align_s"].notna() for who in (EULER, CARTESIAN)]

@@ -176,13 +176,22 @@ def _lacking(stale: list[str]) -> str:
 
 
 def by_gains(study: dict, words: dict[str, str]) -> str:
-    """Which verdicts are other ones at other damping ratios; nothing where no run at other gains was judged."""
+    """Say which verdicts change at other damping ratios; nothing where no run at other gains was judged."""
     said, stale = [], study.get("stale", [])
+    unchanged: dict[int, list[str]] = {}
     for one in study.get("gains", ()):
-        changed = (
-            f"{id} ({word})" for id, word in one["words"].items() if word != words[id] and id not in stale
-        )
+        changed = [f"{id} ({word})" for id, word in one["words"].items() if word != words[id] and id not in stale]
         ratio = one["kv"] / (2.0 * math.sqrt(one["kp"]))
         decided = len(one["words"].keys() - set(stale))
-        said.append(f"with a damping ratio of {ratio:g}: {', '.join(changed) or 'none'} of {decided}")
-    return f" Other gains change these verdicts, of those that their runs decide: {'; '.join(said)}." if said else ""
+        if changed:
+            said.append(
+                f" {decided} verdicts were tested at a damping ratio of {ratio:g}, and these change: "
+                f"{', '.join(changed)}."
+            )
+        else:
+            unchanged.setdefault(decided, []).append(f"{ratio:g}")
+    for decided, ratios in unchanged.items():
+        *most, last = ratios
+        shown = f"{', '.join(most)} or {last}" if most else last
+        said.append(f" At a damping ratio of {shown}, none of the {decided} verdicts that were tested changes.")
+    return "".join(said)

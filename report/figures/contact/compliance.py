@@ -131,14 +131,20 @@ def unit(axis: str) -> np.ndarray:
     return np.eye(3)["xyz".index(axis)]
 
 
+def beta_of(turn: Turn) -> str:
+    """Return the tilt of a turn, on one line: β = 30°."""
+    space = "\N{NO-BREAK SPACE}"
+    return f"β{space}={space}{turn.beta_deg:.0f}°"
+
+
 def describe_turns(rows: pd.DataFrame) -> dict[str, str]:
     """Return how far off the moment the Euler hand turns at each tilt, and how far about the held axis."""
     turns, cartesian = measure(rows, PAPERS_EULER), measure(rows, PAPERS)
     named = dict.fromkeys(nearest(turns, beta).beta_deg for beta in BETAS if beta)
     tilted = [nearest(turns, beta) for beta in named]
     return {
-        "off": listed([f"{turn.off_deg:.0f}° at β = {turn.beta_deg:.0f}°" for turn in tilted]),
-        "held": listed([f"{turn.held:.2g} at β = {turn.beta_deg:.0f}°" for turn in tilted]),
+        "off": listed([f"{turn.off_deg:.0f}° at {beta_of(turn)}" for turn in tilted]),
+        "held": listed([f"{turn.held:.2g} at {beta_of(turn)}" for turn in tilted]),
         "off_cartesian": power(max(turn.off_deg for turn in cartesian)),
         "held_cartesian": f"{max(turn.held for turn in cartesian):.2g}",
     }
@@ -226,9 +232,11 @@ def draw_frame(axes: Any, beta_deg: float) -> None:
     """Draw the frame that is attached to the hand, rotated by beta about y."""
     frame = Rotation.from_euler("y", beta_deg, degrees=True).as_matrix()
     corner = np.array((-0.95, 0.0, -0.75))
+    above = {"y": np.array((0.0, 0.0, 0.15))}  # or z's arrow runs through the letter where the frame is tilted
     for name, direction in zip("xyz", frame.T, strict=True):
         axes.quiver(*corner, *(0.42 * direction), color=style.MUTED, linewidth=1.3, arrow_length_ratio=0.3)
-        axes.text(*(corner + 0.58 * direction), name, color=style.MUTED, fontsize=9, ha="center", va="center")
+        place = corner + 0.58 * direction + above.get(name, 0.0)
+        axes.text(*place, name, color=style.MUTED, fontsize=9, ha="center", va="center")
 
 
 def draw_axis(axes: Any, direction: np.ndarray, **look: Any) -> None:
