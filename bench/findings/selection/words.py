@@ -90,7 +90,7 @@ def describe_bounds(bounds: dict[str, list[tuple[float, bool]]]) -> str:
         elif spans:
             parts.append(f"{NAMES[name]} {together([_span(COORDINATES[name], span[0], span[-1]) for span in spans])}")
     if free:
-        parts.append(f"every {together(free, len(free))} that was tried")
+        parts.append(f"every value that we tried of {together(free, len(free))}")
     return "; ".join(parts) or "nowhere"
 
 
@@ -133,9 +133,10 @@ def describe_shares(law: str, folder: Path = STUDY) -> str:
     return (
         f"In {percent(shares.qualified.value)} of {shares.qualified.of} situations drawn at random, no law that meets "
         f"the requirements is more than {percent(SPOKEN)} faster. Among all {laws} published and adapted laws of the "
-        f"map the share is {percent(shares.all.value)}; {len(population.excluded)} of them fail a requirement in every "
-        f"situation. (If {percent(RULE.tie)} counts as faster: {percent(close.qualified.value)} and "
-        f"{percent(close.all.value)}.) In {percent(shares.losing.value)} of the situations the law itself loses starts."
+        f"map this share is {percent(shares.all.value)}; {len(population.excluded)} of these laws fail a requirement "
+        f"in every situation. (If more than {percent(RULE.tie)} counts as faster, the two shares are "
+        f"{percent(close.qualified.value)} and {percent(close.all.value)}.) In {percent(shares.losing.value)} of the "
+        "situations the law itself does not settle from every start."
     )
 
 
@@ -149,8 +150,8 @@ def describe_lines(law: str, called: Called = str, folder: Path = STUDY) -> str:
     if qualified == "none":
         return f"{first} and meets the requirements. Laws that do not meet them are faster at: {everything}."
     return (
-        f"{first}, but at: {everything}. (In brackets: the law that is faster by the most, and by how much.) Among the "
-        f"laws that meet the requirements: {qualified}."
+        f"{first}, except at these values: {everything}. (Brackets contain the law that is faster by the most, and how "
+        f"much faster this law is.) If only the laws that meet the requirements count, the exceptions are: {qualified}."
     )
 
 
@@ -170,9 +171,9 @@ def describe_law_of_ours(law: str, called: Called = str, folder: Path = STUDY) -
     return (
         f"We do not advise our own law, {called(law)} (2026, simulation only, not reviewed). It is more than "
         f"{percent(SPOKEN)} faster than the advised law in {percent(compare_with_advised(law, folder).value)} of the "
-        f"situations. In {percent(shares.qualified.value)} it meets the requirements and no published or adapted law "
-        f"that does is more than {percent(SPOKEN)} faster; among all of these laws the share is "
-        f"{percent(shares.all.value)}."
+        f"situations. In {percent(shares.qualified.value)} of the situations our law meets the requirements and no "
+        f"published or adapted law that meets the requirements is more than {percent(SPOKEN)} faster. Among all "
+        f"published and adapted laws this share is {percent(shares.all.value)}."
     )
 
 
@@ -181,11 +182,11 @@ def describe_price(law: str, folder: Path = STUDY, called: Called = str) -> str:
     price = find_price(law, folder)
     other = find_runner_up(folder)
     if other is None:
-        return f"It commands up to {price.peak:.1f} kp."
+        return f"The law commands up to {price.peak:.1f} kp."
     beside = find_price(other, folder)
     return (
-        f"The price: it commands up to {price.peak:.1f} kp ({called(other)}: {beside.peak:.1f} kp). With gains for the "
-        f"same peak command, 99 % of the starts settle in {price.at_equal_peak:.1f}/√peak ({called(other)}: "
+        f"The price: the law commands up to {price.peak:.1f} kp ({called(other)}: {beside.peak:.1f} kp). With gains "
+        f"for the same peak command, 99 % of the starts settle in {price.at_equal_peak:.1f}/√peak ({called(other)}: "
         f"{beside.at_equal_peak:.1f}/√peak). The median overshoot over the drawn situations is "
         f"{price.typical_overshoot:.1f}° ({called(other)}: {beside.typical_overshoot:.1f}°)."
     )

@@ -101,7 +101,8 @@ def describe_slopes(rows: list[Tuned]) -> str:
     return (
         f"At equal stiffness, 99 % of the starts settle within {default.time:.2f}/√kp with {name} and within "
         f"{left.time:.2f}/√kp with the fastest law. At equal peak command, 99 % of the starts settle within "
-        f"{default.peak_time:.2f}/√peak with {name} and within {right.peak_time:.2f}/√peak with the fastest law, {fastest}"
+        f"{default.peak_time:.2f}/√peak with {name} and within {right.peak_time:.2f}/√peak with the fastest law, "
+        f"{fastest}"
     )
 
 

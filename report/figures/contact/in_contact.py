@@ -181,8 +181,8 @@ def flat(rows: pd.DataFrame) -> str:
         return f"how tools end is {ABSENT}."
     euler, cartesian = (of(plates, name)["time_to_align_s"].notna() for name in (PAPERS_EULER, PAPERS))
     return (
-        f"at the end the tool lay flat in {count_flat(euler)} simulations with Euler angles (the Euler Jacobian), and in "
-        f"{count_flat(cartesian)} simulations with the axes of the base frame (Cartesian compliance)."
+        f"at the end the tool lay flat in {count_flat(euler)} simulations with Euler angles (the Euler Jacobian), "
+        f"and in {count_flat(cartesian)} simulations with the axes of the base frame (Cartesian compliance)."
     )
 
 
