@@ -44,6 +44,14 @@ RELIABLE = html.Table(
     f"Situations where a qualified law is more than {100 * SPOKEN:.0f} % faster than the advised law | "
     "Median extra time [%] | Extra time that is not exceeded in 95 % of the situations [%]",
 )
+RULE_WORDS = {
+    "the rule": "our rule",
+    "noise is left out": "the noise test is left out",
+    "no memory": "laws with memory are left out",
+    "a continuous command": "laws whose command is not continuous are left out",
+}
+"""What the table calls a rule where its short name needs the text."""
+
 NEEDS = html.Table("Your controller | Advised law | Why we advise this law | Price of this law | All laws compared")
 LEAST = 0.01
 """The share of situations from which on a law has a row of its own."""
@@ -87,7 +95,7 @@ def facts(run: Run) -> dict[str, Any]:
         "lines": words.describe_lines(find_regions()[0].law, families.word),
         "regions": REGIONS(_region(one) for one in find_regions() if one.advised >= LEAST),
         "rules": RULES(
-            (one.words, _link(one.law), 100 * one.advised, 100 * one.unbeaten, 100 * one.changed)
+            (RULE_WORDS.get(one.words, one.words), _link(one.law), 100 * one.advised, 100 * one.unbeaten, 100 * one.changed)
             for one in sensitivity.vary()
         ),
         "rules_same": count_same_rules(),
@@ -109,7 +117,7 @@ def describe_answer() -> dict[str, str]:
     """Return on which set the answer was tested, its condition, and what else is said of the law."""
     answer = find_answer()
     first, *others = find_regions()
-    shares = [f"{families.word(region.law)} ({100 * region.advised:.0f} %)" for region in others]
+    shares = [f"{families.word(region.law)} ({write_share(region.advised)})" for region in others]
     where = f"; in other situations the rule advises {together(shares, len(shares))}" if others else ""
     return {
         "reason": prose(call_laws(answer.reason)),
@@ -118,6 +126,11 @@ def describe_answer() -> dict[str, str]:
         "does": describe_default(),
         "advised": f"{families.word(first.law)} in {100 * first.advised:.0f} % of the situations{where}",
     }
+
+
+def write_share(share: float) -> str:
+    """Return a share in whole per cent."""
+    return f"{100 * share:.0f} %" if share >= LEAST else f"less than {100 * LEAST:.0f} %"
 
 
 def count_same_rules() -> str:
@@ -178,8 +191,9 @@ def describe_default() -> str:
     law, rows = find_regions()[0].law, read_map()
     [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == law)].to_dict("records")
     return (
-        f"With kp = {KP:g} 1/s², critical damping and no bound, the body settles from every start that we tried, "
-        f"99 % of them within {row['time'] / KP**0.5:.2f} s, and noise up to {NOISE_RAD:g} rad cannot keep it at 180°. "
+        f"With kp = {KP:g} 1/s², critical damping and no bound, the body settles from every start that we tried. From "
+        f"99 % of these starts the body settles within {row['time'] / KP**0.5:.2f} s. Noise up to {NOISE_RAD:g} rad "
+        "cannot keep the body at 180°. "
         f"{words.describe_shares(law)} {words.describe_price(law, called=families.word)}"
     )
 
