@@ -94,10 +94,7 @@ def facts(run: Run) -> dict[str, Any]:
         "provable": len(certificates),
         "lines": words.describe_lines(find_regions()[0].law, families.word),
         "regions": REGIONS(_region(one) for one in find_regions() if one.advised >= LEAST),
-        "rules": RULES(
-            (RULE_WORDS.get(one.words, one.words), _link(one.law), 100 * one.advised, 100 * one.unbeaten, 100 * one.changed)
-            for one in sensitivity.vary()
-        ),
+        "rules": RULES(_rule(rule) for rule in sensitivity.vary()),
         "rules_same": count_same_rules(),
         "needs": in_run(lambda: NEEDS(list_needs())),
         "needs_finding": count_other_needs(),
@@ -171,6 +168,12 @@ def _rated(advice: str, rated: Rated) -> tuple[str, ...]:
     """Return the row of an advice in the held-out situations."""
     shares = str(rated.qualified), str(rated.all), str(rated.slower)
     return advice, *shares, f"{100 * rated.half:.1f}", f"{100 * rated.most:.0f}"
+
+
+def _rule(rule: sensitivity.Varied) -> tuple:
+    """Return the row of a rule."""
+    name = RULE_WORDS.get(rule.words, rule.words)
+    return name, _link(rule.law), 100 * rule.advised, 100 * rule.unbeaten, 100 * rule.changed
 
 
 def _region(region: regions.Region) -> tuple:
