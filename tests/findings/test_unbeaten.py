@@ -100,7 +100,8 @@ def test_sentence_of_shares_has_both_sets_and_the_exclusion():
     places = [said.index(phrase) for phrase in phrases]
     assert places == sorted(places)
     assert f"{len(unbeaten.find_population().excluded)} of these laws fail a requirement in every situation" in said
-    assert f"In {100 * near['losing'] / near['of']:.0f} % of the situations the law itself does not settle" in said
+    losing = f"{100 * near['losing'] / near['of']:.0f} %"
+    assert f"In {losing} of the situations, the law itself never settles from some starts" in said
 
 
 def test_price_is_that_of_the_nominal_and_the_drawn_rows():
