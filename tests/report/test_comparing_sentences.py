@@ -92,7 +92,7 @@ def plant_fact(facts, key):
 
 
 SENTENCES = {
-    "pegs": (plant_pegs, [((3,), "do not differ significantly"), ((18,), "Jacobians differ significantly")]),
+    "pegs": (plant_pegs, [((3,), "do not differ significantly"), ((18,), "inserted differ significantly")]),
     "arms": (plant_arm, [((0.1,), "range in 100 % of"), ((0.0,), "range in 0 % of")]),
     "thresholds": (plant_thresholds, [((1.0, 1.0), "[]"), ((1.0, 2.0), "['delay']")]),
     "alone": (

@@ -66,7 +66,8 @@ def test_law_that_stores_a_potential_is_not_said_to_store_a_side():
     rows = noise((0.001, 0.1, 0.3), mrp=(0, 0, 0), synergistic=(1, 0.5, 0), hybrid=(1, 1, 0))
     said = half_turn_noise.describe_trapped(rows)
     assert "all 1 laws without memory" in said
-    assert "the 1 laws that store a side and whose limit is known leave 180° from every start up to 0.1 rad" in said
+    assert "With the 1 laws that store a side and whose limit is known, the body leaves 180° from every start" in said
+    assert said.endswith("at noise up to 0.1 rad")
     assert half_turn_noise.trap(half_turn_noise.leaving(rows), "synergistic").endswith(
         "50 % of the starts at δ = 0.1 rad"
     )
@@ -82,9 +83,9 @@ def test_every_law_with_noise_is_in_one_of_the_two_pictures():
 
 
 def test_counts_of_laws_that_noise_does_not_trap_say_who_has_a_memory():
-    assert topology.describe_part(7, 7) == "all 7 have"
-    assert topology.describe_part(1, 7) == "1 of these 7 has"
-    assert topology.describe_part(0, 7) == "none of these 7 has"
+    assert topology.describe_part(7, 7) == "all 7 of these laws have"
+    assert topology.describe_part(1, 7) == "1 of these 7 laws has"
+    assert topology.describe_part(0, 7) == "none of these 7 laws has"
 
 
 def test_thresholds_that_differ_are_said_beside_those_of_most_laws():
@@ -94,7 +95,7 @@ def test_thresholds_that_differ_are_said_beside_those_of_most_laws():
     groups = robustness.group_alike(each, [way])
     assert [len(group) for group in groups] == [2, 1]
     said = robustness.describe_weaker(groups, each, [way])
-    assert said == "- *Gibbs*. Initial spin: 10 rad/s instead of 20 rad/s and beyond."
+    assert said == "- The thresholds of *Gibbs*: initial spin, 10 rad/s instead of 20 rad/s and beyond."
 
 
 def test_resets_are_counted_by_path_and_by_time():
@@ -102,7 +103,7 @@ def test_resets_are_counted_by_path_and_by_time():
     resets = [goal_jumps.Reset("hybrid", kept, longer), goal_jumps.Reset("mrp-memory", longer, kept)]
     said = goal_jumps.describe_measures(resets)
     assert "rarer with 1 of these 2 laws, most with hybrid (from 4.0 % to 1.0 %" in said
-    assert said.endswith("saves time with 1")
+    assert said.endswith("saves time with 1 of these laws")
     assert goal_jumps.pair_of(resets[0], "delay_ms") == (0.0, pytest.approx(20.0))
 
 

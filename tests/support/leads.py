@@ -108,7 +108,7 @@ def recompute_thresholds():
                 each[axis, not grows][law] = (held[-1], is_kept.all()) if len(held) else None
     known = {law for own in each.values() for law, held in own.items() if held}
     apart = [way for way, own in sorted(each.items()) if len({own[law] for law in known}) > 1]
-    titles = [f"{tasks.axis(axis).title.lower()}{' (downwards)' * falls}" for axis, falls in apart]
+    titles = [f"{tasks.axis(axis).title.lower()}{' (decreasing)' * falls}" for axis, falls in apart]
     return {"apart": "; ".join(titles), "changed_situations.default": word(widest()[0][0])}
 
 

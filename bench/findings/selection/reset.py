@@ -96,11 +96,12 @@ def describe_resets(law: str) -> str:
     """Say what a reset buys in way and costs in time, and advise by what matters."""
     kept, reset = study_resets(law)
     return (
-        f"If the goal jumps within {SOON_S:g} s, a reset of the memory shortens the way: {reset.long_percent:.1f} % of "
-        f"the paths are more than {DETOUR:g} times the shortest, and {kept.long_percent:.1f} % if the memory is kept "
-        f"({kept.far} jumps to a goal over {FAR_RAD:g} rad away). It does not save time: the median settling time is "
-        f"{_range(reset)} s with the reset and {_range(kept)} s without. Reset the memory if the path matters; keep it "
-        "if the time does."
+        f"If the goal jumps within {SOON_S:g} s, a reset of the memory makes long paths rarer: "
+        f"{reset.long_percent:.1f} % of the paths are longer than {DETOUR:g} times the shortest path, and "
+        f"{kept.long_percent:.1f} % of the paths if the law keeps its memory ({kept.far} jumps to a goal over "
+        f"{FAR_RAD:g} rad away). The reset does not save time: the median settling time is {_range(reset)} s with the "
+        f"reset and {_range(kept)} s without the reset. Reset the memory if a short path matters; keep the memory if "
+        "time matters."
     )
 
 

@@ -27,7 +27,7 @@ from report.figures.kit.page import Run
 from tasks.situation import COORDINATES, NOMINAL, Situation
 
 SHOWN = {
-    "the rule": "as below",
+    "the rule": "our rule",
     "noise is left out": "without the noise test",
     "no memory": "without memory",
     "a continuous command": "continuous commands only",
@@ -94,9 +94,10 @@ def say_finding(points: Sequence[Point]) -> str:
     counts = Counter(point.law for point in points if point.law)
     unanswered = len(points) - counts.total()
     (first, most), *others = counts.most_common()
-    rest = ", ".join(f"{families.word(law)} in {count}" for law, count in others)
-    none = f"; in {unanswered} {NONE}" if unanswered else ""
-    return f"{families.word(first)} is advised in {most} of the {len(points)} simulated situations, {rest}{none}."
+    rest = ", ".join(f"{families.word(law)} ({count} situations)" for law, count in others)
+    others_text = f" Other advised laws: {rest}." if rest else ""
+    none = f" In {unanswered} situations {NONE}." if unanswered else ""
+    return f"{families.word(first)} is advised in {most} of the {len(points)} simulated situations.{others_text}{none}"
 
 
 def decide_shown(rule: str) -> dict[Situation, Verdict]:

@@ -39,8 +39,8 @@ def describe_fates() -> str:
     for episode in media.facts()["fates"]["episodes"]:
         angle = round(math.degrees(episode["angle0_rad"]))
         verb = "is " if episode["outcome"] == STUCK else ""
-        by_start.setdefault(angle, []).append(f"{families.word(episode['contender'])} {verb}{episode['says']}")
-    return ". ".join(f"From {angle}°, {listed(says)}" for angle, says in by_start.items())
+        by_start.setdefault(angle, []).append(f"{verb}{episode['says']} with {families.word(episode['contender'])}")
+    return ". ".join(f"From {angle}°, the body {listed(says)}" for angle, says in by_start.items())
 
 
 def count_laws(run: Run) -> dict[str, object]:
@@ -66,5 +66,5 @@ def count_laws(run: Run) -> dict[str, object]:
 def describe_part(part: int, of: int) -> str:
     """Say how many of some laws have something, with the verb."""
     if part == of:
-        return f"all {of} have"
-    return f"{part or 'none'} of these {of} {'has' if part <= 1 else 'have'}"
+        return f"all {of} of these laws have"
+    return f"{part or 'none'} of these {of} laws {'has' if part <= 1 else 'have'}"

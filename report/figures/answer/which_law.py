@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from bench.experiments.situations import FIRST, MOST, NOISE_RAD
+from bench.findings.amounts import count_of
 from bench.findings.answer import NOT_TESTED, find_answer
 from bench.findings.proofs.certificate import read_certificates
 from bench.findings.selection import regions, sensitivity, words
@@ -26,20 +27,32 @@ from report.figures.replication.conclusions import call_laws
 from tasks.situation import KP, NOMINAL
 
 REGIONS = html.Table(
-    "Law | Situations where it is advised [%]:.0f | Unbeaten among the qualified laws [%]:.0f | "
-    "Unbeaten among all laws [%]:.0f | Situations where it loses starts [%]:.0f | "
-    "No qualified law is faster, if one number changes, at"
+    "Law | Situations where this law is advised [%]:.0f | "
+    "Situations where this law is unbeaten among the qualified laws [%]:.0f | "
+    "Situations where this law is unbeaten among all laws [%]:.0f | "
+    "Situations where this law does not settle from every start [%]:.0f | "
+    "Values of one changed number at which no qualified law is faster than this law"
 )
 RULES = html.Table(
-    "Rule | Law advised most often | Situations where it is advised [%]:.0f | "
-    "Situations where it is unbeaten [%]:.0f | Situations where the advice differs from ours [%]:.0f"
+    "Rule | Law advised most often | Situations where this law is advised [%]:.0f | "
+    "Situations where this law is unbeaten [%]:.0f | "
+    "Situations where this rule and our rule advise different laws [%]:.0f"
 )
 RELIABLE = html.Table(
-    "Advice in new situations | Unbeaten among the qualified laws | Unbeaten among all laws | "
-    f"A qualified law is more than {100 * SPOKEN:.0f} % faster "
-    "| Extra time, median [%] | Extra time, 95 % of situations [%]",
+    "Advice in new situations | Situations where the advised law is unbeaten among the qualified laws | "
+    "Situations where the advised law is unbeaten among all laws | "
+    f"Situations where a qualified law is more than {100 * SPOKEN:.0f} % faster than the advised law | "
+    "Median extra time [%] | Extra time that is not exceeded in 95 % of the situations [%]",
 )
-NEEDS = html.Table("Your controller | Law | Why | Price | Rows")
+RULE_WORDS = {
+    "the rule": "our rule",
+    "noise is left out": "the noise test is left out",
+    "no memory": "laws with memory are left out",
+    "a continuous command": "laws whose command is not continuous are left out",
+}
+"""What the table calls a rule where its short name needs the text."""
+
+NEEDS = html.Table("Your controller | Advised law | Why we advise this law | Price of this law | All laws compared")
 LEAST = 0.01
 """The share of situations from which on a law has a row of its own."""
 
@@ -50,7 +63,8 @@ def facts(run: Run) -> dict[str, Any]:
     corrected = sensitivity.correct()
     halves, of = sensitivity.count_halves()
     held = sensitivity.count_agreeing()
-    population = find_population()
+    population, certificates = find_population(), read_certificates()
+    proved = sum(one["is_proved"] for one in certificates.values())
     return {
         "lead": lead(),
         **describe_answer(),
@@ -76,14 +90,11 @@ def facts(run: Run) -> dict[str, Any]:
         "map_unbeaten": f"{100 * held.map.qualified.value:.0f}",
         "default_unbeaten": f"{100 * held.default.qualified.value:.0f}",
         "reliable": RELIABLE((_rated("the law of the map", held.map), _rated("always the default", held.default))),
-        "proved": sum(one["is_proved"] for one in read_certificates().values()),
-        "provable": len(read_certificates()),
+        "proved": count_of(proved, len(certificates), "laws"),
+        "provable": len(certificates),
         "lines": words.describe_lines(find_regions()[0].law, families.word),
         "regions": REGIONS(_region(one) for one in find_regions() if one.advised >= LEAST),
-        "rules": RULES(
-            (one.words, _link(one.law), 100 * one.advised, 100 * one.unbeaten, 100 * one.changed)
-            for one in sensitivity.vary()
-        ),
+        "rules": RULES(_rule(rule) for rule in sensitivity.vary()),
         "rules_same": count_same_rules(),
         "needs": in_run(lambda: NEEDS(list_needs())),
         "needs_finding": count_other_needs(),
@@ -103,8 +114,8 @@ def describe_answer() -> dict[str, str]:
     """Return on which set the answer was tested, its condition, and what else is said of the law."""
     answer = find_answer()
     first, *others = find_regions()
-    shares = [f"{families.word(region.law)} ({100 * region.advised:.0f} %)" for region in others]
-    where = f"; in the other situations, {together(shares)}" if others else ""
+    shares = [f"{families.word(region.law)} ({write_share(region.advised)})" for region in others]
+    where = f"; in other situations the rule advises {together(shares, len(shares))}" if others else ""
     return {
         "reason": prose(call_laws(answer.reason)),
         "tested": prose(call_laws(answer.tested)),
@@ -112,6 +123,11 @@ def describe_answer() -> dict[str, str]:
         "does": describe_default(),
         "advised": f"{families.word(first.law)} in {100 * first.advised:.0f} % of the situations{where}",
     }
+
+
+def write_share(share: float) -> str:
+    """Return a share in whole per cent."""
+    return f"{100 * share:.0f} %" if share >= LEAST else f"less than {100 * LEAST:.0f} %"
 
 
 def count_same_rules() -> str:
@@ -127,8 +143,11 @@ def count_other_needs() -> str:
     default, *others = find_answer().needs
     laws = [*(need.law for need in others), list_elsewhere()[0].law]
     other = sum(law not in (default.law, NOT_TESTED) for law in laws)
-    count = f"All {other}" if other == len(laws) else f"{other or 'None'} of these {len(laws)}"
-    return f"{count} other kinds of controllers need another law than the default, {families.word(default.law)}"
+    count = f"All {other}" if other == len(laws) else f"{other or 'None'} of the {len(laws)}"
+    return (
+        f"{count} other kinds of controllers in this table need another law than the default law, "
+        f"{families.word(default.law)}"
+    )
 
 
 def list_needs() -> Iterator[tuple]:
@@ -139,16 +158,22 @@ def list_needs() -> Iterator[tuple]:
         law = f"{_named(need.law)} ({need.attribution})" if need.law != NOT_TESTED else need.law
         yield prose(need.controller), law, prose(call_laws(need.why)), prose(call_laws(need.price)), rows
     uneven = list_elsewhere()[0]
-    tied = f"ties with {together([families.word(law) for law in uneven.tied])}" if uneven.tied else "alone"
-    why = f"{tied}; {uneven.compared} laws meet the requirements"
+    ties = f"it ties with {together([families.word(law) for law in uneven.tied])}"
+    why = f"{uneven.compared} laws meet the requirements, and {ties if uneven.tied else 'no law ties with it'}"
     law = f"{_named(uneven.law)} ({find_contender(uneven.law).attribution})"
-    yield "commands torque, cancels no inertia", law, why, html.MISSING, ""
+    yield "commands torque and does not cancel the inertia", law, why, html.MISSING, ""
 
 
 def _rated(advice: str, rated: Rated) -> tuple[str, ...]:
     """Return the row of an advice in the held-out situations."""
     shares = str(rated.qualified), str(rated.all), str(rated.slower)
     return advice, *shares, f"{100 * rated.half:.1f}", f"{100 * rated.most:.0f}"
+
+
+def _rule(rule: sensitivity.Varied) -> tuple:
+    """Return the row of a rule."""
+    name = RULE_WORDS.get(rule.words, rule.words)
+    return name, _link(rule.law), 100 * rule.advised, 100 * rule.unbeaten, 100 * rule.changed
 
 
 def _region(region: regions.Region) -> tuple:
@@ -169,8 +194,9 @@ def describe_default() -> str:
     law, rows = find_regions()[0].law, read_map()
     [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == law)].to_dict("records")
     return (
-        f"With kp = {KP:g} 1/s², critical damping and no bound, the body settles from every start that we tried, "
-        f"99 % of them within {row['time'] / KP**0.5:.2f} s, and noise up to {NOISE_RAD:g} rad cannot keep it at 180°. "
+        f"With kp = {KP:g} 1/s², critical damping and no bound, the body settles from every start that we tried. From "
+        f"99 % of these starts the body settles within {row['time'] / KP**0.5:.2f} s. Noise up to {NOISE_RAD:g} rad "
+        "cannot keep the body at 180°. "
         f"{words.describe_shares(law)} {words.describe_price(law, called=families.word)}"
     )
 

@@ -70,7 +70,9 @@ def say_later(ratios: list[float]) -> str:
     """Say at which damping ratios this law settles later than a linear system."""
     if not ratios:
         return "at none of these ratios"
-    return f"at {listed(map('{:g}'.format, ratios))} and not at the others" if len(ratios) < len(RATIOS) else "at all"
+    if len(ratios) == len(RATIOS):
+        return "at all these ratios"
+    return f"at {listed(map('{:g}'.format, ratios))} and not at the other damping ratios"
 
 
 def is_later(ratio: float) -> bool:

@@ -21,8 +21,9 @@ from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
 
 ALL_LAWS = html.Table(
-    "Law | Starts that settle [%] | t50 [s] | t99 [s] | Effort [rad²/s³] | Peak command [rad/s²] | "
-    "Operations per step | Directed starts lost | Trapped from [rad]"
+    "Law | Starts that settle [%] | Time for 50 % of starts [s] | Time for 99 % of starts [s] | "
+    "Median effort [rad²/s³] | Peak command [rad/s²] | Operations + function calls per step | Directed starts lost | "
+    "Sensor error that traps the body at 180° [rad]"
 )
 NEAR_DEG = 30, 60
 ANISOTROPIC = "weighted-columns"

@@ -13,9 +13,9 @@ from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run, in_run
 
 TUNED = html.Table(
-    "Law | Critical damping, time for 99 % [1/√kp]:.2f | Best damping ratio:.2f | "
-    "Best damping, time for 99 % [1/√kp]:.2f | Best damping ratio at equal peak command:.2f | "
-    "Equal peak command, time for 99 % [1/√peak]:.2f"
+    "Law | Time for 99 % of starts at critical damping [1/√kp]:.2f | Best damping ratio at equal stiffness:.2f | "
+    "Time for 99 % of starts at this best ratio [1/√kp]:.2f | Best damping ratio at equal peak command:.2f | "
+    "Time for 99 % of starts at equal peak command [1/√peak]:.2f"
 )
 LABEL_GAP = 0.034
 """Least distance of two labels, in decades of the axis."""
@@ -99,15 +99,16 @@ def describe_slopes(rows: list[Tuned]) -> str:
     [default] = [tuned for tuned in rows if find_default() in tuned.laws]
     name, fastest = families.word(find_default()), describe_name(right.laws[0])
     return (
-        f"At equal stiffness, 99 % of the starts settle within {default.time:.2f}/√kp with {name} (fastest law: "
-        f"{left.time:.2f}/√kp); at equal peak command, within {default.peak_time:.2f}/√peak (fastest law, {fastest}: "
-        f"{right.peak_time:.2f}/√peak)"
+        f"At equal stiffness, 99 % of the starts settle within {default.time:.2f}/√kp with {name} and within "
+        f"{left.time:.2f}/√kp with the fastest law. At equal peak command, 99 % of the starts settle within "
+        f"{default.peak_time:.2f}/√peak with {name} and within {right.peak_time:.2f}/√peak with the fastest law, "
+        f"{fastest}"
     )
 
 
 def describe_name(law: str) -> str:
     """Return a law's name, and that it is ours if it is."""
-    return f"{families.word(law)}{', ours' if facts_of(law).is_ours else ''}"
+    return f"{families.word(law)}{' (ours)' if facts_of(law).is_ours else ''}"
 
 
 def facts(_: Run) -> dict:

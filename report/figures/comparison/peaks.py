@@ -131,8 +131,10 @@ def describe_argument(found: list[Law]) -> str:
     for law in (find_default(), find_runner_up(), MATRIX):
         if law in numbers and math.isfinite(numbers[law].time_s):
             each = numbers[law]
-            parts.append(f"{each.time_s:.2f} s with {families.word(law)}, which commands up to {each.peak:.1f} kp")
-    return f"99 % of the starts settle within {'; '.join(parts)}"
+            parts.append(
+                f"within {each.time_s:.2f} s with {families.word(law)}, which commands up to {each.peak:.1f} kp"
+            )
+    return f"99 % of the starts settle {'; '.join(parts)}"
 
 
 def facts(run: Run) -> dict:

@@ -59,10 +59,15 @@ MEASURES = {
 }
 """Task -> the number that says how it went, the tasks that free rotations first."""
 
+OUTCOME_HEADS = (
+    "Result with Cartesian compliance",
+    "Result with the Euler Jacobian at β = 0",
+    "Result with the Euler Jacobian at the largest β",
+    "Result with an impedance (springs)",
+)
 OUTCOMES = html.Table(
-    "Task | Measured at the end | Episodes with Cartesian compliance | Cartesian compliance | Euler Jacobian, β = 0 | "
-    "Euler Jacobian, largest β | Springs",
-    words=("Cartesian compliance", "Euler Jacobian, β = 0", "Euler Jacobian, largest β", "Springs"),
+    f"Task | Measured at the end | Number of episodes with Cartesian compliance | {' | '.join(OUTCOME_HEADS)}",
+    words=OUTCOME_HEADS,
 )
 
 
@@ -104,7 +109,10 @@ def plate(rows: pd.DataFrame) -> dict[str, str]:
     }
 
 
-PEGS = html.Table("Pegs not inserted | Frame of the hand not tilted | Frame of the hand tilted")
+PEGS = html.Table(
+    "Controller | Pegs not inserted if the frame of the hand is not tilted | "
+    "Pegs not inserted if the frame of the hand is tilted"
+)
 CONTROLS = {
     PAPERS: "Force control, Cartesian compliance",
     PAPERS_EULER: "Force control, Euler Jacobian",
@@ -151,11 +159,14 @@ def compare_pegs(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
         return f"How pegs end is {ABSENT}."
     tilted = [read_pegs(rows, contender)[True] for contender in (cartesian, euler)]
     if any(is_out.empty for is_out in tilted):
-        return f"One of the two controllers is {ABSENT}."
+        return f"Cartesian compliance or the Euler Jacobian is {ABSENT}."
     p_value = fisher_exact([[int(is_out.sum()), int((~is_out).sum())] for is_out in tilted]).pvalue
     differ = "differ significantly" if p_value < P_VALUE else "do not differ significantly"
     p_text = spell_powers(f"{p_value:.2g}")
-    return f"With a tilted frame, the shares of the two Jacobians {differ} (Fisher's exact test, p = {p_text})."
+    return (
+        f"With a tilted frame, the shares of pegs that are not inserted {differ} between Cartesian compliance and the "
+        f"Euler Jacobian (Fisher's exact test, p = {p_text})."
+    )
 
 
 def count_flat(is_flat: pd.Series) -> str:
@@ -170,8 +181,8 @@ def flat(rows: pd.DataFrame) -> str:
         return f"how tools end is {ABSENT}."
     euler, cartesian = (of(plates, name)["time_to_align_s"].notna() for name in (PAPERS_EULER, PAPERS))
     return (
-        f"at the end it lay flat in {count_flat(euler)} simulations with the Euler Jacobian, and in "
-        f"{count_flat(cartesian)} with Cartesian compliance."
+        f"at the end the tool lay flat in {count_flat(euler)} simulations with Euler angles (the Euler Jacobian), "
+        f"and in {count_flat(cartesian)} simulations with the axes of the base frame (Cartesian compliance)."
     )
 
 

@@ -105,7 +105,7 @@ def describe_widest(line: pd.DataFrame) -> str:
     times = {law: f"{line.loc[place, law]:.1f}/√Kp" for law in (default, other)}
     return (
         f"At a bound of {place:g} Kp, 99 % of the starts settle within {times[other]} with {families.word(other)} and "
-        f"within {times[default]} with the default, {families.word(default)}"
+        f"within {times[default]} with the default law, {families.word(default)}"
     )
 
 

@@ -133,7 +133,8 @@ def describe_measures(resets: list[Reset]) -> str:
     before, after = (f"{side.long_percent:.1f} %" for side in (most.kept, most.reset))
     return (
         f"A reset of the memory makes long paths rarer with {shorter or 'none'} of these {len(resets)} laws, most with "
-        f"{families.word(most.law)} (from {before} to {after} of the paths), and saves time with {sooner or 'none'}"
+        f"{families.word(most.law)} (from {before} to {after} of the paths), and saves time with {sooner or 'none'} of "
+        "these laws"
     )
 
 

@@ -170,8 +170,8 @@ def describe_trapped(rows: pd.DataFrame) -> str:
     resisted = [float(level) for level in noisy.index if (noisy.loc[level, on_a_side] == 1.0).all()]
     return (
         f"Noise of {first:g} rad traps the body at 180° with {count(len(trapped), len(without_memory))} laws without "
-        f"memory; the {len(on_a_side)} laws that store a side and whose limit is known leave 180° from every start up "
-        f"to {max(resisted, default=0.0):g} rad"
+        f"memory. With the {len(on_a_side)} laws that store a side and whose limit is known, the body leaves 180° from "
+        f"every start at noise up to {max(resisted, default=0.0):g} rad"
     )
 
 
@@ -201,7 +201,7 @@ def facts(run: Run) -> dict:
         "blind_middle": f"{100 * float(noisy.loc[middle, without_memory].max()):.0f}",
         "sided": len(on_a_side),
         "memory_middle": f"{100 * float(noisy.loc[middle, on_a_side].min()):.0f}",
-        "caught": listed(trapped) if trapped else "all others leave 180° from every start, too",
+        "caught": listed(trapped) if trapped else "all other laws with memory leave 180° from every start, too",
         "least": power(min(jumping)),
         "most": power(max(jumping)),
         **{law: f"{keeps(law):.2f}" for law in ("hybrid", "late-braking", "mrp-linearized")},

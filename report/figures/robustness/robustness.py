@@ -80,7 +80,7 @@ def differing(each: Found) -> list[Way]:
 def facts(run: Run) -> dict:
     """Return how many laws and perturbations there are, how they differ, and limits of the linear loop."""
     each = found(run)
-    apart = [tasks.axis(way.axis).title.lower() + " (downwards)" * (not way.grows) for way in differing(each)]
+    apart = [tasks.axis(way.axis).title.lower() + " (decreasing)" * (not way.grows) for way in differing(each)]
     # noise at 180° is drawn on the page on what an error must do
     ways = [way for way in differing(each) if way.axis != HALF_TURN]
     groups = group_alike(each, ways)
@@ -118,16 +118,16 @@ def describe_weaker(groups: list[list[str]], each: Found, ways: list[Way]) -> st
         for way in ways:
             own, common = each[law][way], each[usual[0]][way]
             if str(own) != str(common):
-                parts.append(f"{_title(way)}: {_with_unit(own, way)} instead of {_with_unit(common, way)}")
+                parts.append(f"{_title(way)}, {_with_unit(own, way)} instead of {_with_unit(common, way)}")
         text = "; ".join(parts)
-        lines.append(f"- *{families.word(law)}*. {text[0].upper()}{text[1:]}.")
+        lines.append(f"- The thresholds of *{families.word(law)}*: {text}.")
     return "\n".join(lines) or "- No law: all have the same thresholds."
 
 
 def _title(way: Way) -> str:
     """Return what a perturbation is called in a sentence, with its direction."""
     title = tasks.axis(way.axis).title
-    return f"{title[0].lower()}{title[1:]}{'' if way.grows else ' (downwards)'}"
+    return f"{title[0].lower()}{title[1:]}{'' if way.grows else ' (decreasing)'}"
 
 
 def _with_unit(threshold: Threshold, way: Way) -> str:
