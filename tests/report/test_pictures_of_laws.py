@@ -97,7 +97,7 @@ def test_thresholds_that_differ_are_said_beside_those_of_most_laws():
     assert "Gibbs" in law
     assert cells == ["Initial spin", "10 rad/s", "20 rad/s (last level tried)"]
     said = robustness.describe_weaker(groups, each, [way])
-    assert said == "The other 1 of the 3 laws withstand less, for 1 of the perturbations"
+    assert said == "1 of the 3 laws withstands less than the others, for 1 of the perturbations"
     assert robustness.describe_weaker(groups[:1], each, [way]) == "All 2 laws have the same thresholds"
 
 
