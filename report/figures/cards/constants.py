@@ -69,7 +69,7 @@ def say(constant: Constant, every: list[Varied], default: str) -> str:
     return (
         f"{name}: we use {constant.shipped:g}, and also tried values from {values[0]:g} to "
         f"{values[-1]:g}. "
-        f"The law then needs {_span(ratios)} times as long as {beside} to settle (median over the "
+        f"The law then needs {_span(ratios)} times as long to settle as {beside} (median over the "
         f"situations), and its rank among the laws of the map is {_span(ranks)}."
     )
 

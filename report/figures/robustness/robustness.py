@@ -135,7 +135,7 @@ def describe_weaker(groups: list[list[str]], each: Found, ways: list[Way]) -> st
     apart = {law: [way for way in ways if str(each[law][way]) != str(common[way])] for law in laws}
     is_less = all(_is_less(each[law][way], common[way], way) for law in laws for way in apart[law])
     verbs = ("withstand less", "withstands less") if is_less else ("have other thresholds", "has other thresholds")
-    counts = sorted({len(differing) for differing in apart.values()})
+    counts = sorted({len(ways_of_law) for ways_of_law in apart.values()})
     number = f"{counts[0]} to {counts[-1]}" if len(counts) > 1 else f"{counts[0]}"
     verb = verbs[len(laws) == 1]
     return f"{len(laws)} of the {len(laws) + len(usual)} laws {verb} than the others, for {number} of the perturbations"
