@@ -40,7 +40,7 @@ _find_arm = arm  # several functions below have an argument of that name
 
 
 def names() -> list[str]:
-    """Names of all tasks, sorted."""
+    """Return the names of all tasks, sorted."""
     return sorted(_tasks(Task, ArmTask))
 
 
@@ -50,7 +50,7 @@ def is_for_arms(task: str) -> bool:
 
 
 def pairs() -> list[tuple[str, str]]:
-    """Every (task, arm) that can be loaded; the arm is empty for a task without one."""
+    """Return every pair (task, arm) that can be loaded; the name of the arm is empty if the task has no arm."""
     return [(name, arm) for name in names() for arm in (arm_names() if is_for_arms(name) else [""])]
 
 
@@ -62,7 +62,7 @@ def described(name: str) -> Task | ArmTask:
 
 
 def task(name: str, arm: str = "") -> Task:
-    """Return the task of this name on this arm; an arm is named if, and only if, the task is for arms (BadValue)."""
+    """Return the task of this name on this arm; BadValue if a task for arms has no arm, or another task has an arm."""
     found = described(name)
     if isinstance(found, ArmTask):
         return found.on(_needed(arm, name))
@@ -96,12 +96,14 @@ def load(
     """Return a dm_control Environment that begins every episode at `start` and lasts `horizon` seconds.
 
     Args:
-        start: a Start, by default the first of `paper`, or on an arm of the first start set of its task. In contact a
-            Trial, by default the task's first.
+        start: a Start. The default is the first start of the set `paper`; on an arm, of the first set of the task. For
+            a task in contact, a Trial; the default is the first Trial of the task.
         dt: control period and integration step [s].
-        horizon: length of an episode [s], a whole number of ticks after rounding: HORIZON_S, or in contact the task's.
-        integrator: "euler" (the usual one), "rk4", "implicit" or "implicitfast" (the usual one in contact).
-        vary: changes the compiled model before the first episode, so that the plant is not what a contestant believes.
+        horizon: length of an episode [s], rounded to whole control periods. The default is HORIZON_S; for a task in
+            contact, the length that the task sets.
+        integrator: "euler" (the default), "rk4", "implicit" or "implicitfast" (the default for tasks in contact).
+        vary: a function that changes the compiled model before the first episode, so that the plant differs from the
+            model of the controller.
     """
     from tasks import contact_episode  # dm_control takes a second to import; listing names must not
     from tasks.episode import environment
@@ -128,9 +130,9 @@ def knows_joints(name: str) -> bool:
 
 
 def start_set(name: str, count: int | None = None, seed: int = 0, arm: str = "") -> list[Start]:
-    """Return the starts of a set, always the same ones in the same order; the set's own number of them by default.
+    """Return the starts of a set, always the same starts in the same order; by default as many as the set defines.
 
-    A longer list of a sampled set begins with the shorter one. A fixed set has no more starts than its own number.
+    A longer list of a sampled set begins with the starts of a shorter list. A fixed set has only its defined starts.
     """
     if count is not None and count < 1:
         raise BadValue(f"count {count} starts of '{name}': a start set needs at least 1 (try: count=10)")
@@ -156,9 +158,9 @@ def start_set_length(name: str, count: int | None = None, seed: int = 0, arm: st
 
 
 def starts_between(name: str, first: int, end: int, seed: int = 0) -> list[Start]:
-    """Return the starts of the free body from the number `first` to before `end`: start_set(name, end, seed)[first:].
+    """Return the starts of the free body from number `first` to number `end` - 1: start_set(name, end, seed)[first:].
 
-    Of a sampled set no other is made, so that a stretch of a million costs what it costs of a thousand.
+    From a sampled set only these starts are computed, so that starts with large numbers cost no more time.
     """
     chosen = find_start_set(name, False)
     if isinstance(chosen, StartSet) and chosen.between:
@@ -172,7 +174,7 @@ def axis_names() -> list[str]:
 
 
 def axis(name: str) -> Axis:
-    """Return the axis of this name; UnknownName lists the known ones."""
+    """Return the perturbation axis of this name; the error UnknownName lists the known names."""
     return pick("axis", name, known_axes(), "tasks/conditions")
 
 
@@ -183,7 +185,7 @@ def variation_names(arm: str = "") -> list[str]:
 
 
 def variation(name: str) -> Variation:
-    """Return the variation of this name; UnknownName lists the known ones."""
+    """Return the variation of this name; the error UnknownName lists the known names."""
     return pick("variation", name, VARIATIONS, "tasks/variations.py")
 
 

@@ -130,27 +130,28 @@ def _untested(controller: str, name: str = "default") -> Need:
 def _reason(law: str, folder: Path) -> str:
     shares = measure_shares(law, folder, tie=SPOKEN)
     return (
-        f"In {percent(1.0 - shares.failing.value)} of the random situations it settles from every start tried, does "
-        f"not first turn away from the goal, and is not trapped at 180° by a sensor error of {HELD_RAD:g} rad. In "
-        f"{shares.qualified} of them no law that also does this is more than {percent(SPOKEN)} faster."
+        f"In {percent(1.0 - shares.failing.value)} of the random situations of gains and motors, the law meets our "
+        f"requirements: it settles from every start tried, does not first turn away from the goal, and is not trapped "
+        f"at 180° by a sensor error of {HELD_RAD:g} rad. In {shares.qualified} of the random situations, the law meets "
+        f"the requirements, and no other law that meets them is more than {percent(SPOKEN)} faster."
     )
 
 
 def _tested(folder: Path) -> str:
-    drawn = sum(map(regions.is_drawn, regions.decide_all(folder)))
+    drawn = sum(map(regions.is_drawn, regions.group_map(folder)))
     population = find_population(folder)
     laws = len(population.qualified) + len(population.excluded)
     return (
-        f"{drawn} situations drawn at random (gains, command limit, delay, control period, inertia, spin, jump of the "
-        f"goal), {laws} published and adapted laws, simulation of a body that turns freely"
+        f"{drawn} random situations with {laws} published and adapted laws, in simulations of a freely turning body. "
+        f"A situation has random gains, command limit, delay, control period, inertia, spin and jump of the goal"
     )
 
 
 def _condition(law: str, folder: Path) -> str:
     bounds = describe_bounds(find_bounds(law, folder=folder))
     return (
-        f"You command torque and cancel the inertia. If one number changes at a time, no law that meets the "
-        f"requirements is more than {percent(SPOKEN)} faster at: {bounds}."
+        f"You command torque and cancel the inertia. We changed one number of the usual situation at a time. No other "
+        f"law that meets the requirements is more than {percent(SPOKEN)} faster at these values: {bounds}."
     )
 
 
@@ -159,21 +160,22 @@ def _price_of_default(law: str, folder: Path) -> str:
     price, other = find_price(law, folder), find_runner_up(folder)
     costs = _join(_list_costs(law, folder))
     if other is None:
-        return f"{costs}; its median overshoot in the random situations is {price.typical_overshoot:.1f}°"
+        return f"{costs}; the median overshoot of the law in the random situations is {price.typical_overshoot:.1f}°"
     beside = find_price(other, folder)
     return (
-        f"{costs} ({other}: {beside.peak:.2g} kp). With gains for the same peak command, 99 % of the starts settle in "
-        f"{price.at_equal_peak:.1f}/√peak ({other}: {beside.at_equal_peak:.1f}/√peak). Its median overshoot in the "
-        f"random situations is {price.typical_overshoot:.1f}° ({other}: {beside.typical_overshoot:.1f}°)"
+        f"{costs} ({other}: {beside.peak:.2g} kp). With gains that give both laws the same peak command, in rad/s², "
+        f"99 % of the starts settle in {price.at_equal_peak:.1f}/√peak seconds ({other}: "
+        f"{beside.at_equal_peak:.1f}/√peak seconds). The median overshoot of the law in the random situations is "
+        f"{price.typical_overshoot:.1f}° ({other}: {beside.typical_overshoot:.1f}°)"
     )
 
 
 def _usual(law: str, folder: Path) -> Need:
     shares = measure_shares(law, folder, tie=SPOKEN)
     why = (
-        f"in {percent(1.0 - shares.failing.value)} of {shares.failing.of} random situations it settles from every "
-        f"start and is not trapped at 180°; in {percent(shares.qualified.value)} no such law is more than "
-        f"{percent(SPOKEN)} faster"
+        f"in {percent(1.0 - shares.failing.value)} of {shares.failing.of} random situations the law meets our "
+        f"requirements, such as to settle from every start; in {percent(shares.qualified.value)} of the situations it "
+        f"meets them, and no other law that meets them is more than {percent(SPOKEN)} faster"
     )
     return Need(ANY_START, law, attribute(law), why, _join(_list_costs(law, folder)))
 
@@ -186,15 +188,21 @@ def _list_mapped(default: str, folder: Path) -> Iterator[Need]:
         limits = f"{bounded.low:g} to {bound.format(bounded.high)}"
         if bounded.low == bounded.high:
             limits = bound.format(bounded.low)
-        controller = f"the same, with motors that limit the command to {limits}"
-        why = f"up to {percent(bounded.faster)} faster there"
+        controller = f"{ANY_START}; the motors limit the command to {limits}"
+        why = f"up to {percent(bounded.faster)} faster than {default} at these limits"
         yield _by_map("weak-motors", controller, bounded.law, default, folder, why)
-    for name, controller, rule in (
-        ("no-memory", "commands torque, stores nothing", Rule(forgetful=True)),
-        ("continuous", "its command must be continuous", Rule(continuous=True)),
+    for name, controller, laws, rule in (
+        ("no-memory", "commands torque; the law must need no memory", "without memory", Rule(forgetful=True)),
+        (
+            "continuous",
+            "commands torque; the command must be continuous",
+            "with continuous commands",
+            Rule(continuous=True),
+        ),
     ):
         law, others = find_default(folder, rule), find_regions(folder, rule)
-        why = f"advised in {percent(others[0].advised)} of the random situations among the laws that fit"
+        share = percent(others[0].advised)
+        why = f"of the laws {laws}, this law is advised most often: in {share} of the random situations"
         yield _by_map(name, controller, law, default, folder, why)
 
 
@@ -215,8 +223,8 @@ def _find_bounded(default: str, folder: Path) -> Bounded | None:
 
     None: at every bound the default is unbeaten, or nothing is advised in its place.
     """
-    verdicts = regions.decide_all(folder)
-    at_bound = {at.bound: verdict for at, verdict in verdicts.items() if at._replace(bound=NOMINAL.bound) == NOMINAL}
+    line = [at for at in regions.group_map(folder) if at._replace(bound=NOMINAL.bound) == NOMINAL]
+    at_bound = {at.bound: regions.decide_at(at, folder) for at in line}
     found: dict[str, list[Bounded]] = {}
     for place in follow_lines(default, folder, tie=SPOKEN)["bound"]:
         law = at_bound[place.value].law
@@ -234,7 +242,7 @@ def _by_map(name: str, controller: str, law: str, default: str, folder: Path, wh
     costs = _list_costs(law, folder)
     slower = find_price(law, folder).time / find_price(default, folder).time
     if slower > 1.0 + SPOKEN:
-        costs.append(f"is {slower:.1f} times as slow without a command limit")
+        costs.append(f"takes {slower:.1f} times as long as {default} without a command limit")
     return Need(controller, law, attribute(law), why, _join(costs), name)
 
 
@@ -246,14 +254,14 @@ def _list_costs(law: str, folder: Path) -> list[str]:
     rows = regions.read_map(folder)
     [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == law)].to_dict("records")
     memory = facts_of(law).memory
-    costs = [f"keeps {memory} numbers"] if memory else []
+    costs = [f"stores {memory} numbers"] if memory else []
     costs.append(f"commands up to {row['peak']:.2g} kp")
     if row["stuck"]:
         costs.append("is stuck at exactly 180°")
     elif row["trapped"]:
         costs.append(f"can be trapped at 180° by a sensor error of {HELD_RAD:g} rad")
     if row["lost"]:
-        costs.append("loses starts")
+        costs.append("never settles from some starts")
     return costs
 
 
@@ -281,16 +289,17 @@ _CONTROLLERS = {
 
 def _describe_decision(decision: Decision) -> str:
     if len(decision.asked) == 1:
-        return "the only law tried that meets the requirements"
+        return "no other law that was tried meets the requirements"
     if decision.tied:
-        return f"ties with {together(decision.tied)}, and is the simplest of the {len(decision.asked)} laws tried"
-    return f"no other of the {len(decision.asked)} laws tried is better"
+        ties = f"ties with {together(decision.tied)}"
+        return f"the law {ties} and is the simplest of these; {len(decision.asked)} laws were tried"
+    return f"none of the {len(decision.asked)} laws that were tried is better"
 
 
 def _price_on_robot(robot: Robot, law: str, run: Path) -> str:
     """Return what a law costs there: numbers kept, and whether exact 180° rotations or noise hold it."""
     memory = facts_of(law).memory
-    costs = [f"keeps {memory} numbers" if memory else "keeps nothing"]
+    costs = [f"stores {memory} numbers" if memory else "needs no memory"]
     lost = measured(run, robot.measure).number("lost", law)
     if not math.isnan(lost) and lost:
         costs.append("is stuck at exactly 180° and slow near it")

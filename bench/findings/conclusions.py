@@ -115,30 +115,45 @@ def _rows_of(results: Results, law: str) -> Any:
     return rows[rows["contender"].astype(str) == law]
 
 
-def _fails_at(results: Results, law: str, subject: str = "it") -> str:
-    places = [place.replace(" deg", "°") for place in describe_failures(_rows_of(results, law))]
-    return f"{subject} fails at {together(places, len(places))}" if places else f"{subject} settles from every start"
+def _fails_at(results: Results, law: str, subject: str = "The law") -> str:
+    places = describe_failures(_rows_of(results, law))
+    starts = [f"from {name_starts(place)}" for place in places]
+    return f"{subject} fails {together(starts, len(starts))}" if starts else f"{subject} settles from every start"
+
+
+def name_starts(place: str) -> str:
+    """Name the starts at a place of `describe_failures`: "starts at gimbal lock", "starts at 177° or more"."""
+    words = place.replace(" deg", "°")
+    if words.startswith("some "):
+        return words.replace("some", "some starts", 1)
+    if words.startswith("from "):
+        return f"starts at {words.removeprefix('from ').removesuffix(' on')} or more"
+    if words.startswith("|"):
+        return f"starts with an Euler angle {words}"
+    if words.startswith("exactly "):
+        return f"starts {words} away from the goal"
+    return f"starts {words}" if words.startswith("near ") else f"starts at {words}"
 
 
 def _find_matrix(results: Results) -> str:
     settling = replication.measure_settling(_rows_of(results, MATRIX))
     if math.isinf(settling.nearly_all.value):
-        return f"{percents(settling.share)} of the random starts settle; {_fails_at(results, MATRIX)}."
+        return f"{percents(settling.share)} of the random starts settle. {_fails_at(results, MATRIX)}."
     time = interval(settling.nearly_all, unit=" s")
-    return f"99 % of the random starts settle within {time}; {_fails_at(results, MATRIX)}."
+    return f"99 % of the random starts settle within {time}. {_fails_at(results, MATRIX)}."
 
 
 def _find_linearized(results: Results) -> str:
     settling = replication.measure_settling(_rows_of(results, LINEARIZED))
-    return f"{percents(settling.share)} of the random starts settle; {_fails_at(results, LINEARIZED)}."
+    return f"{percents(settling.share)} of the random starts settle. {_fails_at(results, LINEARIZED)}."
 
 
 def _find_feedback(results: Results) -> str:
     gain, gains = feedback_gain(results), results.gains()
     return (
-        f"With the rotation-matrix law, 99 % of the starts take {interval(gain)} times as long to settle "
-        f"as with feedback linearization (kp = {gains.kp:g}, kv = {gains.kv:g}); "
-        f"{_fails_at(results, FEEDBACK, 'feedback linearization')}."
+        f"With the rotation-matrix law, the time in which 99 % of the starts settle is {interval(gain)} times the "
+        f"time with feedback linearization, at kp = {gains.kp:g} and kv = {gains.kv:g}. "
+        f"{_fails_at(results, FEEDBACK, 'Feedback linearization')}."
     )
 
 
@@ -149,7 +164,8 @@ def _find_cost(results: Results) -> str:
         raise NoEvidence("no law of the paper was timed: run bench time")
     return (
         f"A control step of feedback linearization takes {interval(ratio, '.1f')} times as long as a step of the "
-        f"rotation-matrix law. {_name_answers(examined, 'cost less than both laws on Euler angles and perform better')}"
+        f"rotation-matrix law. "
+        f"{_name_answers(examined, 'cost less and perform better than both laws of Murphy on Euler angles')}"
     )
 
 
@@ -160,9 +176,9 @@ def _find_no_regulator(results: Results) -> str:
     pace = examined.laws[MATRIX].pace
     slower = Estimate(*(time / examined.small_s for time in pace))
     return (
-        f"The cheapest law, rotation matrix, needs {interval(slower, '.1f')} times the settling time of a small error "
-        f"for 99 % of the starts (kp = {gains.kp:g}, kv = {gains.kv:g}). "
-        f"{_name_answers(examined, 'are adequate in both')}"
+        f"With the cheapest law, rotation matrix, the time in which 99 % of the starts settle is "
+        f"{interval(slower, '.1f')} times the settling time of a small error, at kp = {gains.kp:g} and "
+        f"kv = {gains.kv:g}. {_name_answers(examined, 'are adequate in both cost and performance')}"
     )
 
 
@@ -170,16 +186,17 @@ def _find_jacobian(results: Results) -> str:
     both = replication.compare_jacobians(results)
     harder = Estimate(*(float(f"{ratio:.2g}") for ratio in both.harder))
     return (
-        f"Past gimbal lock the Euler Jacobian needs {interval(harder, 'g')} times the peak torque of the "
-        f"geometric Jacobian (median of {both.moves} moves of {both.arms} arms)."
+        f"When an arm passes gimbal lock, the Euler Jacobian needs {interval(harder, 'g')} times the peak torque of "
+        f"the geometric Jacobian. This is the median of {both.moves} moves of {both.arms} arms."
     )
 
 
 def _find_compliance(results: Results) -> str:
     wrong = replication.measure_wrong_axis(results)
     return (
-        f"If two axes comply, the end effector turns about an axis that is {wrong.middle:.0f}° off at a tilt of "
-        f"β = {wrong.tilt_deg:.0f}° ({wrong.off[0]:.0f}° to {wrong.off[-1]:.0f}° on {len(wrong.off)} arms)."
+        f"If two axes comply and the end effector is tilted by β = {wrong.tilt_deg:.0f}°, the end effector turns "
+        f"about an axis that is {wrong.middle:.0f}° away from the axis of the moment ({wrong.off[0]:.0f}° to "
+        f"{wrong.off[-1]:.0f}° on {len(wrong.off)} arms)."
     )
 
 
@@ -188,10 +205,11 @@ def _find_answers(results: Results) -> str:
     if advised not in examined.laws:
         return f"{_name_answers(examined, 'pass every test')} The advised law, {advised}, was not tested in this run."
     settling = replication.measure_settling(_rows_of(results, advised))
-    passes = "" if advised in examined.answers else f" The advised law does not: {examined.tested[advised]}."
+    failed = f" The advised law does not pass every test: {examined.tested[advised]}."
+    passes = "" if advised in examined.answers else failed
     return (
-        f"{_name_answers(examined, 'pass every test')}{passes} With {advised}, {percents(settling.share)} of the "
-        f"random starts settle."
+        f"{_name_answers(examined, 'pass every test')}{passes} The law {advised} settles from "
+        f"{percents(settling.share)} of the random starts."
     )
 
 
@@ -203,7 +221,7 @@ def _name_answers(examined: replication.Examined, what: str) -> str:
         is_open = any(one.may_pass for name, one in examined.tested.items() if name not in PAPERS)
         return "Whether a later law passes every test is not tested." if is_open else "No later law passes every test."
     laws = together([f"{name} ({attribute(name)})" for name in names])
-    return f"These later laws {what}: {laws}." if len(names) > 1 else f"One later law does: {laws}."
+    return f"These later laws {what}: {laws}." if len(names) > 1 else f"One later law passes every test: {laws}."
 
 
 FINDINGS: dict[str, Callable[[Results], str]] = {

@@ -23,7 +23,7 @@ PAPERS_GAINS = Gains()
 
 
 class Goal(NamedTuple):
-    """Desired rotation, and for tracking its angular velocity and acceleration (zero in regulation)."""
+    """Desired rotation; for tracking, also its angular velocity and angular acceleration (zero in regulation)."""
 
     R: Rotation = IDENTITY
     omega: tuple = AT_REST

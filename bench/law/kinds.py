@@ -36,31 +36,36 @@ class State(NamedTuple):
 
 
 class Law(NamedTuple):
-    """A law u = law(R, omega, goal, gains): commanded angular acceleration in the base frame [rad/s^2].
+    """A law u = law(R, omega, goal, gains), which commands an angular acceleration in the base frame [rad/s^2].
 
-    coordinates: "rotation-matrix" if the law acts on R; otherwise the names of the coordinates it acts on, or "any".
-    Such a law gives `law_in(coordinates)`, which returns the law in those coordinates.
-    relative: the coordinates are those of R_d^T R, so their margin is too.
-    memory: initial memory of a law with memory, law(R, omega, goal, gains, memory) -> (u, memory); else None.
-    state: of a law with a state, law(R, omega, goal, gains, state) -> (u, state'), state' the rates, which whoever runs
-    the law integrates over the control period. A memory is carried from tick to tick as it is, and needs no period.
-    property: what is proved: "local", "almost global", "global with memory", "none", or for which gains.
-    Of another law state is None, as shipped is of one that is not a controller as its authors ship it.
-    level: what is commanded. gains: those that the authors set, or the paper's.
-    shipped: AsShipped, of a controller as its authors ship it; its formula is that of the error, with clips and
-    deadbands in their order, and its gains are in N m/rad, in 1/s^2 where an inertia is cancelled or simulated, in 1/s
-    of a velocity.
-    origin, text: a user's file and what it held; empty for ours. later: not in the paper: it runs on fewer starts.
-    costing_only: another way to write a law that is listed already: costed and tested, not run.
-    in_engine: MuJoCo's own actuator makes the command, on its free body; `law` is what it computes, as tested.
-    stiffness: near the goal, about n_d, o_d and a_d, over kp.
-    margin: of a law on R that is singular somewhere: margin(R, R_d) in [0, 1], 0 exactly there; else None.
-    coordinate_law_in: of a law that commands Eddot itself: coordinate_law_in(coordinates) returns
-    law(chart, E_d, Edot, gains) -> u_E, what the controller on an analytic Jacobian needs (Murphy 1988, 3.7).
-    assemble: of a baseline (contenders/baselines), assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory)
-    in place of (2.2) and (3.7). through: the Jacobian and the inverse of one that acts on the joints; else empty.
-    papers: its place among the paper's three laws; 0 of another. control: a negative one, here because it must fail.
-    attribution: published, adapted or ours, as `bench.law.attribution` defines them; yours of a user's file.
+    Args:
+        coordinates: "rotation-matrix" if the law acts on R; otherwise the names of the coordinates that it acts on, or
+            "any". Such a law gives `law_in(coordinates)`, which returns the law in those coordinates.
+        relative: whether the coordinates, and their margin, are computed from R_d^T R.
+        memory: initial memory of a law with memory, law(R, omega, goal, gains, memory) -> (u, memory); otherwise None.
+            The memory is passed on unchanged from one control step to the next, and does not need the control period.
+        state: state of a law with a state, law(R, omega, goal, gains, state) -> (u, rates); otherwise None. The caller
+            integrates the rates of the state over the control period.
+        property: what is proved: "local", "almost global", "global with memory", "none", or for which gains.
+        level: the kind of command.
+        gains: the gains that the authors set, or the paper's gains.
+        shipped: AsShipped for a controller as its authors ship it; otherwise None. Its formula is the formula of the
+            error, with clips and deadbands in their order. Its gains are in N m/rad; in 1/s^2 if the controller cancels
+            or simulates an inertia; in 1/s if it commands a velocity.
+        origin: the file of a law that a user wrote, with its content in text; both are empty for our laws.
+        later: whether the law is not in the paper; it then runs from fewer starts.
+        costing_only: whether the law is another way to write a law of the list; it is costed and tested, but not run.
+        in_engine: whether MuJoCo's actuator makes the command, on its free body; `law` computes the same command.
+        stiffness: stiffness near the goal about n_d, o_d and a_d, divided by kp.
+        margin: for a law on R that is singular somewhere: margin(R, R_d) in [0, 1], which is 0 exactly there.
+        coordinate_law_in: for a law that commands Eddot itself: coordinate_law_in(coordinates) returns
+            law(chart, E_d, Edot, gains) -> u_E, for the controller on an analytic Jacobian (Murphy 1988, 3.7).
+        assemble: for a baseline (contenders/baselines): assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory),
+            which replaces (2.2) and (3.7).
+        through: the Jacobian and the inverse of a baseline that acts on the joints; otherwise empty.
+        papers: the place of the law among the paper's three laws; 0 for another law.
+        control: whether the law is a negative control, which must fail.
+        attribution: published, adapted or ours, as `bench.law.attribution` defines them; yours for a user's file.
     """
 
     name: str
@@ -98,10 +103,10 @@ class Law(NamedTuple):
 
 
 class Coordinates(NamedTuple):
-    """Coordinates E of a rotation, with omega = B(E) Edot (Murphy 1988, 2.8): three, or four of a quaternion.
+    """Coordinates E of a rotation, with omega = B(E) Edot (Murphy 1988, 2.8): three numbers, or four for a quaternion.
 
-    A `chart` is E together with what its extraction has computed already (sines and cosines, say), so that nothing is
-    computed twice in a tick; `chart.E` is E.
+    A `chart` is E together with other values of its computation (for example sines and cosines), so that nothing is
+    computed twice in a control step; `chart.E` is E.
 
     chart(R) -> chart
     chart_of(E) -> chart
@@ -112,11 +117,11 @@ class Coordinates(NamedTuple):
     generalized(chart, m) -> B^T m                               (3.12, rotational part)
     margin(R) -> number in [0, 1], 0 exactly on the singular set
 
-    Of an extraction that can be differentiated element by element, as (3.5) does (else None):
+    Some coordinates can be differentiated element by element, as in (3.5); for others these functions are None:
     differentiate(R, Rdot) -> Edot                               dE/dR along Rdot, Rdot by columns
     differentiate_twice(R, Rdot, Rddot) -> Eddot
 
-    about: which coordinate a user takes for the turn about x, about y and about z; None if there is no such choice.
+    about: the coordinates for the rotations about x, y and z; None if there are no such coordinates.
     papers: whether they are the paper's own (Murphy 1988, 2.2).
     """
 

@@ -32,11 +32,11 @@
   }
   function fill(view, episodes, { laws, rules }) {
     const rows = [
-      ["What it is", side => make("a", { href: laws[view[side]].card, textContent: laws[view[side]].title })],
-      ["Turns through", side => turned(episodes[side])],
-      ["Greatest command", side => peak(episodes[side], rules)],
-      ["A tick costs", side => laws[view[side]].cost],
-      ["Its code", side => codeCell(side, view[side], laws[view[side]])],
+      ["Full name of the law", side => make("a", { href: laws[view[side]].card, textContent: laws[view[side]].title })],
+      ["Rotation of the body, total", side => turned(episodes[side])],
+      ["Largest command", side => peak(episodes[side], rules)],
+      ["Operations in a control step", side => laws[view[side]].cost],
+      ["Code of the law", side => codeCell(side, view[side], laws[view[side]])],
     ];
     const table = document.querySelector(".live-facts");
     for (const side of SIDES) table.querySelector(`th.${side}`).textContent = laws[view[side]].name;

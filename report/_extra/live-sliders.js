@@ -15,7 +15,7 @@
   const DEG = 180 / Math.PI;
   const SLIDERS = {
     angle: { label: "Angle to the goal", ...inSteps(0, 180, 0.5, value => `${Number(value.toFixed(2))}°`) },
-    spin: { label: "Spin about that axis", ...inSteps(-20, 20, 0.5, value => `${Number(value.toFixed(1))}${NBSP}rad/s`) },
+    spin: { label: "Initial spin about the axis of the rotation", ...inSteps(-20, 20, 0.5, value => `${Number(value.toFixed(1))}${NBSP}rad/s`) },
     off: {
       label: "Sensor error near 180°, δ", usual: 0,
       ...inSteps(0, 1.2, 0.01, value => (value ? `${value}${NBSP}rad (${(value * DEG).toFixed(0)}°)` : "none")),
@@ -26,13 +26,13 @@
     delay: { label: "Delay", usual: 0, ...inSteps(0, 60, 1, value => `${value}${NBSP}ms`) },
     noise: { label: "Noise of the orientation", usual: 0, ...inSteps(0, 0.1, 0.002, value => `${value}${NBSP}rad`) },
     bound: {
-      label: "Torque limit, over inertia", usual: Infinity, ...limit,
+      label: "Torque limit divided by inertia", usual: Infinity, ...limit,
       value: place => (place >= 1 ? Infinity : limit.value(place)),
       place: value => (value === Infinity ? 1 : limit.place(value)),
       text: value => (value === Infinity ? "none" : limit.text(value)),
     },
     inertia: {
-      label: "True inertia over the model's", usual: 1,
+      label: "True inertia divided by the inertia of the model", usual: 1,
       ...inSteps(1, 4, 0.1, value => [value, 1, 1 / value].map(one => Number(one.toFixed(2))).join(" : ")),
     },
   };

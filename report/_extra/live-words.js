@@ -8,7 +8,7 @@
     return `${angle.toFixed(short > 1e-9 ? Math.max(0, Math.ceil(-Math.log10(short))) : 0)}°`;
   };
   function ending({ isDone, outcome, settling_s, angle, end_s }, rules) {
-    if (!isDone) return "is on its way";
+    if (!isDone) return "is still moving";
     const when = `at ${end_s.toFixed(2)}${NBSP}s`, away = degrees(angle);
     return {
       settled: `settles in ${(settling_s || 0).toFixed(2)}${NBSP}s`,
@@ -17,8 +17,8 @@
       oscillating: `oscillates, ${away} from the goal at the end`,
       "timed-out": `does not settle and ends ${away} from the goal`,
       diverged: `diverges ${when}`,
-      singular: `is singular ${when} and has no command`,
-      saturated: `asks for more than ${rules.command_limit.toLocaleString("en")}${NBSP}rad/s² ${when}`,
+      singular: `is singular ${when} and gives no command`,
+      saturated: `commands more than ${rules.command_limit.toLocaleString("en")}${NBSP}rad/s² ${when}`,
     }[outcome];
   }
   function turned({ samples }) {

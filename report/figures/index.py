@@ -57,8 +57,8 @@ def describe_edition(run: Run) -> str:
     commit = found["commit"][:8] or "unknown"
     date = found["finished"][:10]
     return (
-        f"{', '.join(list_authors())}. Version {edition['version']}, results of {date}: suite {found['suite']}, "
-        f"commit {commit}{changed}. Simulation only, no hardware."
+        f"{', '.join(list_authors())}. Version {edition['version']}, with results of {date} (suite {found['suite']}, "
+        f"commit {commit}{changed}). Everything is simulated; no hardware was used."
     )
 
 
@@ -73,9 +73,9 @@ def describe_replication(run: Run) -> str:
     """Return the abstract: what the paper concluded, what was simulated, and what came out."""
     sentences = [
         "In 1988 Murphy compared three regulators for the orientation of an end effector.",
-        "He concluded that none combines performance with low cost, that Jacobians on Euler angles exclude "
-        "orientations, and that force control on them complies about the Euler angles, not about the Cartesian axes. "
-        "He left open whether better regulators exist.",
+        "He concluded that no regulator combines performance with low cost, and that a Jacobian on Euler angles "
+        "excludes some orientations. Force control with this Jacobian complies about the Euler angles, not about the "
+        "Cartesian axes. He left open whether better regulators exist.",
     ]
     for find, otherwise in FOUND.items():
         sentences.append(in_run(find, run) or f"{otherwise} is not tested in this run.")
@@ -88,8 +88,8 @@ def describe_size(run: Run) -> str:
     episodes = found["episodes"] + found["trials"] + found["troubled"]
     arms = run.rows("episodes", task="arm-regulation")["arm"].nunique()
     return (
-        f"We implemented his regulators, Jacobians and force control, and simulated {html.number(episodes)} episodes "
-        f"on a free body and {arms} arms."
+        f"We implemented his regulators, Jacobians and force control. We simulated {html.number(episodes)} episodes "
+        f"with a free body and {arms} arms."
     )
 
 
@@ -97,8 +97,8 @@ def describe_statements(run: Run) -> str:
     """Say how many of the paper's statements hold, and how many criteria were revised."""
     counts = count_statements(run)
     return (
-        f"Of his {counts['decided']} statements, {counts['words']}. We revised {counts['changed']} criteria after the "
-        f"first results and report both verdicts."
+        f"Of his {counts['decided']} statements, {counts['words']}. We revised {counts['changed']} criteria for these "
+        f"statements after the first results. We report the verdicts by the first and by the revised criteria."
     )
 
 
@@ -109,9 +109,9 @@ def describe_half_turns(run: Run) -> str:
     exact = tables.some(rows[(rows["contender"] == MATRIX) & is_exact], "exact 180° rotation")
     failed = int((~tables.settled(exact)).sum())
     if not failed:
-        return f"The rotation-matrix regulator settles from all {len(exact)} orientations exactly 180° away."
+        return f"The rotation-matrix regulator settles from all {len(exact)} starts exactly 180° from the goal."
     count = f"all {failed}" if failed == len(exact) else f"{failed} of {len(exact)}"
-    return f"The rotation-matrix regulator fails at {count} orientations exactly 180° away."
+    return f"The rotation-matrix regulator fails from {count} initial orientations exactly 180° away from the goal."
 
 
 def describe_lost(run: Run) -> str:
@@ -119,15 +119,17 @@ def describe_lost(run: Run) -> str:
     rows = starts_at_rest(run)
     share = measure_settling(rows[rows["contender"] == LINEARIZED]).share
     lost, low, high = (f"{100 * (1.0 - settled):.1f}" for settled in (share.value, share.high, share.low))
-    return f"The linearized one fails from {lost} % ({low} to {high} %) of {html.number(share.n)} random orientations."
+    starts = f"{html.number(share.n)} random orientations"
+    return f"The linearized regulator fails from {lost} % ({low} to {high} %) of {starts}."
 
 
 def describe_pole(run: Run) -> str:
     """Say how much more torque an arm needs with Euler angles when it passes gimbal lock."""
     both = compare_jacobians(run)
+    ratio = float(f"{both.harder.value:.2g}")
     return (
-        f"When an arm passes gimbal lock, the Euler Jacobian needs {both.harder.value:.0f} times the peak torque "
-        f"(median of {both.moves} moves)."
+        f"When an arm passes gimbal lock, the Euler Jacobian needs {ratio:g} times the peak torque of the geometric "
+        f"Jacobian (median of {both.moves} moves)."
     )
 
 
@@ -138,7 +140,7 @@ def describe_open(run: Run) -> str:
         raise NoEvidence("the run does not decide the open question")
     answer = "answered" if found.verdict == Word.ANSWERED else "still open"
     first_sentence = found.finding.split(". ")[0].rstrip(".")
-    return f"The question that he left open is {answer}. {prose(call_laws(first_sentence))}."
+    return f"The question that Murphy left open is {answer}. {prose(call_laws(first_sentence))}."
 
 
 FOUND: dict[Callable[[Run], str], str] = {
@@ -158,12 +160,17 @@ def describe_answer(answer: Answer) -> str:
         return "Which law to use is not tested: the map of situations is missing."
     law = f'<a href="laws/{families.anchor(answer.law)}.html">{families.word(answer.law)}</a>'
     whose = IN_WORDS.get(answer.attribution, answer.attribution)
-    return f"Use **{law}**, {whose}. {prose(call_laws(answer.reason))} Tested on {prose(call_laws(answer.tested))}."
+    return f"Use **{law}**, {whose}. {prose(call_laws(answer.reason))} {describe_test(answer)}"
+
+
+def describe_test(answer: Answer) -> str:
+    """Say in which situations the law was compared with others."""
+    return f"The law was tested on {prose(call_laws(answer.tested))}."
 
 
 def describe_price(answer: Answer) -> str:
     """Say what the law costs."""
-    return f"It {prose(call_laws(answer.price))}." if answer.is_tested else "It is not tested."
+    return f"The law {prose(call_laws(answer.price))}." if answer.is_tested else "It is not tested."
 
 
 def list_needs(answer: Answer) -> Iterator[tuple]:

@@ -286,7 +286,7 @@ def test_summary_imports_no_statistics_of_scipy():
 def test_laws_of_a_run_without_arms_are_compared(tables):
     episodes, compliance = results.chosen(tables["episodes"], {"arm": ""}), tables["compliance"].iloc[:0]
     found = measure(Results(REFERENCE, {**tables, "episodes": episodes, "compliance": compliance}))
-    assert "it is better by" in text(*answer.paragraphs(found))
+    assert "is better by" in text(*answer.paragraphs(found))
 
 
 def test_details_have_the_advice_and_the_failures_in_sentences(capsys, monkeypatch):

@@ -99,8 +99,9 @@ def test_sentence_of_shares_has_both_sets_and_the_exclusion():
     phrases = (f"In {percents[0]} of", f"share is {percents[1]}", f"{percents[2]} and {percents[3]}")
     places = [said.index(phrase) for phrase in phrases]
     assert places == sorted(places)
-    assert f"{len(unbeaten.find_population().excluded)} of them fail a requirement in every situation" in said
-    assert f"In {100 * near['losing'] / near['of']:.0f} % of the situations the law itself loses starts" in said
+    assert f"{len(unbeaten.find_population().excluded)} of these laws fail a requirement in every situation" in said
+    losing = f"{100 * near['losing'] / near['of']:.0f} %"
+    assert f"In {losing} of the situations, the law itself never settles from some starts" in said
 
 
 def test_price_is_that_of_the_nominal_and_the_drawn_rows():

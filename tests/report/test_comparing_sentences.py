@@ -100,10 +100,14 @@ SENTENCES = {
         [
             (((), ("a",)), "No other published or adapted law"),
             (((), ("a", "b")), "at least as good as the others on every criterion and better on one"),
-            ((("b",), ("a", "b")), "It ties with b and is the simplest"),
+            ((("b",), ("a", "b")), "The law ties with b and is the simplest"),
         ],
     ),
-    "order": (plant_order, [((1, 2, 3), "dearest, as the paper"), ((3, 2, 1), "dearest, other than the paper")]),
+    "order": (
+        plant_order,
+        [((1, 2, 3), "most expensive, as the paper"), ((3, 2, 1), "expensive, other than the paper")],
+    ),
+    "others": (failure_map.say_others, [((0, 0, 9), "settle from every"), ((2, 0, 9), "from 2 and the feedback")]),
     "loops": (plant_loops, [({}, "3 dead, 4 away"), ({"dead": 0, "away": 1}, "0 dead, 55 away")]),
     "stable": (plant_fact(as_arms_run.facts, "felt_most"), [({}, "7.1"), ({"ratio": 3.0}, "3")]),
     "noise": (plant_fact(half_turn_noise.facts, "blind_middle"), [({}, "25"), ({"outcome": "settled"}, "100")]),

@@ -79,8 +79,8 @@ def test_powers_are_spelled_as_powers(value, text):
 
 def test_card_says_of_a_law_without_rows_whether_it_is_costed_only():
     known, none = contenders("regulators"), pd.DataFrame({"start_set": [], "outcome": []})
-    assert regulators.measured(none, known["hybrid"]) == "Not in this run."
-    assert regulators.measured(none, known["feedback-linearized-literal"]).startswith("Only its operations are counted")
+    assert regulators.measured(none, known["hybrid"]) == "The law is not in this run."
+    assert regulators.measured(none, known["feedback-linearized-literal"]).startswith("We only counted the operations")
 
 
 def test_every_page_is_in_one_part_of_the_contents():

@@ -249,7 +249,7 @@ def recompute_abstract():
     said += [f"all {failed}" if failed == len(half_turns) else f"{failed} of {len(half_turns)}", 180]
     said += [f"{100 * lost / len(linearized):.1f} %", f"{100 * low:.1f} to {100 * high:.1f} %", len(linearized)]
     harder = torque_ratios_at_pole()
-    said += [f"{np.median(harder):.0f} times", f"{len(harder)} moves", "answered"]
+    said += [f"{float(format(np.median(harder), '.2g')):g} times", f"{len(harder)} moves", "answered"]
     return {"abstract": [*said, *list_answers()]}
 
 

@@ -1,7 +1,7 @@
-"""each component is clipped: the direction of the error changes.
+"""each component is clipped, so that the direction of the error changes.
 
-effect: far from the goal the robot turns about another axis than the shortest way has
-cure: scale the whole vector down to the limit
+effect: far from the goal the robot turns about another axis than that of the shortest rotation
+cure: if the vector is longer than the limit, scale the whole vector down to the limit
 """
 
 import numpy as np

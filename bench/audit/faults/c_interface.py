@@ -1,5 +1,5 @@
-"""another C interface than three doubles after two orientations.
+"""the C function does not write exactly three doubles after its two orientations.
 
-effect: the controller reads an error that was never written, or what lies behind it in memory is overwritten
-cure: void f(const double R[9], const double R_d[9], double e[3]): doubles, the error last, e[0] to e[2] and no more
+effect: the controller reads numbers that were never written, or the function overwrites the memory behind the error
+cure: declare void f(const double R[9], const double R_d[9], double e[3]), and write e[0], e[1] and e[2] only
 """

@@ -1,7 +1,7 @@
-"""it changes its inputs.
+"""the function changes its inputs.
 
-effect: the controller's own pose or goal is another after the call, and what is computed next is wrong
-cure: copy what is changed inside: R = R.copy()
+effect: the pose or the goal of the controller is changed after the call, and its next results are wrong
+cure: copy each input before the function changes it: R = R.copy()
 law: rotation-matrix
 """
 

@@ -1,7 +1,8 @@
-"""zero at 180°.
+"""the error is zero at 180°.
 
-effect: a robot that starts 180° from its goal stays there, and leaves slowly from nearby
-cure: take 1 for the sign of 0, atan2 for an arc sine, the axis from a column of R + R^T; a sine needs another form
+effect: a robot that starts 180° from its goal stays there; a robot that starts close to 180° leaves slowly
+cure: use 1 as the sign of 0, atan2 instead of an arc sine, and the axis from a column of R + R^T; replace a sine
+  of the angle by another form
 law: quaternion-shortest
 unless: not-a-number, raises, long-way, misaligned
 """

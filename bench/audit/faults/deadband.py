@@ -1,7 +1,7 @@
-"""a dead band.
+"""the error has a dead band.
 
-effect: the robot rests beside its goal, and an integral or a force near the edge makes it chatter
-cure: leave it out, and the rounding; noise wants a filter
+effect: the robot rests beside its goal; an integral term, or a force near the edge of the dead band, makes it chatter
+cure: remove the dead band and any rounding; use a filter against noise
 unless: single-precision
 """
 

@@ -1,8 +1,8 @@
-"""digits lost near the goal.
+"""the error loses digits near the goal.
 
-effect: the command flickers, or is zero, at the goal
-cure: no arc cosine of a trace or scalar part, and no constant added to a denominator: atan2 of the vector's length and
-  the scalar keeps every digit, and only a length of exactly zero needs a branch
+effect: near the goal the command flickers or is zero
+cure: use no arc cosine of a trace or scalar part, and add no constant to a denominator; use atan2 of the length of the
+  vector and the scalar, which loses no digits, and a branch only for a length of exactly zero
 unless: single-precision, deadband, euler-angles, norm-clip, axis-clip, long-way
 """
 

@@ -1,7 +1,7 @@
-"""points the other way.
+"""the error points away from the goal.
 
-effect: positive feedback: the robot runs away from the goal
-cure: swap the arguments, or change the sign
+effect: the feedback is positive, and the robot runs away from the goal
+cure: swap the two arguments, or change the sign of the error
 unless: transpose
 """
 

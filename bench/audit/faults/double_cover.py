@@ -1,7 +1,7 @@
-"""a goal and its antipode answered differently: unwinding.
+"""the error differs between the goals q and -q, which are the same orientation.
 
-effect: the robot unwinds, by up to 360°, or tumbles when a stream of goals changes its sign
-cure: change the sign of the error quaternion where its scalar part is negative
+effect: the robot unwinds, by up to 360°, or tumbles when the quaternion in a stream of goals changes its sign
+cure: change the sign of the error quaternion if its scalar part is negative
 law: quaternion-shortest
 """
 

@@ -1,5 +1,5 @@
-"""it ends the process.
+"""the function ends the process.
 
-effect: the controller is gone, and its motors get no command or keep the last one
-cure: return an error for every pair of orientations: no exit, and no access beyond an array
+effect: the controller stops, and its motors get no command or keep the last command
+cure: return an error for every pair of orientations, without an exit and without access beyond the end of an array
 """

@@ -1,7 +1,7 @@
-"""body for base, or base for body.
+"""the error is in the body frame instead of the base frame, or the reverse.
 
-effect: beside R = I the torque has another axis than the error; far from there the robot leaves the goal
-cure: rotate a body-frame error by R before it meets base-frame quantities, once
+effect: near R = I the torque has a wrong axis; far from R = I the robot moves away from the goal
+cure: multiply an error in the body frame by R, once, before it is used with quantities in the base frame
 law: rotation-matrix
 unless: transpose
 """

@@ -1,5 +1,5 @@
-"""it does not return.
+"""the function does not return.
 
 effect: the control loop stops, and its motors keep the last command
-cure: no lock and no iteration without a bound: the rotation between two orientations has a closed form
+cure: use no lock and no unlimited iteration; the rotation between two orientations has a closed form
 """

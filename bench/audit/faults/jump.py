@@ -1,7 +1,7 @@
-"""a jump elsewhere than at 180°.
+"""the error jumps at an angle other than 180°.
 
-effect: the command jumps while the robot passes, and chatters if it rests there
-cure: let the two sides meet; only at 180° no error can be continuous
+effect: the command jumps when the robot passes this angle, and chatters if the robot rests at it
+cure: make the error continuous there; only at 180° a jump cannot be avoided
 unless: long-way, deadband, euler-angles, frame, misaligned, axis-at-180
 """
 

@@ -1,7 +1,7 @@
-"""state, or noise: the same pair has two answers.
+"""the same pair of orientations gets different errors, because of a state or of noise.
 
-effect: the error depends on what came before; this audit asks each pair for itself, and is void
-cure: audit the function without its filter; hysteresis between the two signs of q may be meant: allow it then
+effect: the error depends on earlier calls; this audit tests each pair alone, so its other results are not valid
+cure: audit the function without its filter; if you intend hysteresis between the two signs of q, allow this fault
 law: quaternion-shortest
 """
 

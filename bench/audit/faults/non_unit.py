@@ -1,7 +1,7 @@
-"""input that is not quite of unit length.
+"""a small deviation of the input from unit length changes the error.
 
-effect: rounding in a sensor or an integrator becomes a wrong error, or none
-cure: normalize quaternions; keep arguments of acos in their range, or take atan2
+effect: rounding in a sensor or an integrator makes the error wrong or zero
+cure: normalize quaternions; limit arguments of acos to [-1, 1], or use atan2
 unless: raises, not-a-number, deadband, jump, memory, single-precision
 """
 

@@ -1,7 +1,7 @@
-"""clipped in length.
+"""the length of the error is clipped.
 
-effect: beyond the limit the stiffness felt falls with the angle while the damping stays: a slow return
-cure: clip the command, not the error; or allow it, for it bends nothing
+effect: beyond the limit the stiffness decreases with the angle but the damping does not, so the robot returns slowly
+cure: clip the command, not the error; or allow this fault, because the direction stays right
 unless: axis-clip
 """
 

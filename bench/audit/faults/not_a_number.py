@@ -1,7 +1,7 @@
-"""infinite, or not a number.
+"""the error is infinite or not a number.
 
-effect: a command that is no number passes every comparison with a limit, and then reaches the motors
-cure: divide by no length that can be zero; keep arguments of acos and sqrt in their range
+effect: comparisons with limits do not stop a command that is not a number, and it reaches the motors
+cure: do not divide by a length that can be zero; limit the arguments of acos and sqrt to their ranges
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
-"""wrong order of the quaternion.
+"""the function reads the elements of a quaternion in the wrong order.
 
-effect: the command has little to do with the error: the robot turns about another axis, and need not stop
-cure: convert where quaternions of two libraries meet, and put wxyz or xyzw into names
+effect: the command hardly depends on the real error; the robot turns about a wrong axis, and may never stop
+cure: convert the order between libraries that use different orders, and write wxyz or xyzw in variable names
 law: quaternion-shortest
 """
 

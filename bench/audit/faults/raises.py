@@ -1,7 +1,7 @@
-"""no answer.
+"""the function raises an exception.
 
 effect: the control loop stops, or keeps its last command
-cure: answer every pair of orientations: there is an error for each
+cure: return an error for every pair of orientations; every pair has one
 """
 
 import numpy as np

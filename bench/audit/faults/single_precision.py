@@ -1,7 +1,7 @@
-"""single precision inside.
+"""the function computes in single precision.
 
-effect: steps of 1e-7 rad in the error, which a derivative or high damping makes audible
-cure: compute the difference of two orientations in double precision; what follows may be single
+effect: the error has steps of 1e-7 rad, which become audible if the controller uses a derivative or high damping
+cure: compute the difference of two orientations in double precision; later steps may use single precision
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
-"""stiffness felt is not stiffness set.
+"""the real stiffness is not the stiffness that the user sets.
 
-effect: the stiffness felt is the slope times that set, and the damping ratio changes by one over the slope's root
-cure: divide the error, or the gains, by the slope
+effect: the slope of the error at the goal multiplies the stiffness; 1/sqrt(slope) multiplies the damping ratio
+cure: divide the error or the stiffness by the slope
 law: quaternion-shortest
 unless: euler-angles
 """

@@ -1,7 +1,7 @@
 """a matrix is transposed.
 
-effect: unless R is near the identity the command does not lead to the goal
-cure: transpose once, R_d R^T or R^T R_d; mind libraries that store columns
+effect: if R is not near the identity, the command does not lead to the goal
+cure: transpose one matrix only, R_d R^T or R^T R_d; check whether a library stores matrices by columns
 law: rotation-matrix
 """
 

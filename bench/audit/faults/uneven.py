@@ -1,7 +1,7 @@
-"""another size for some pairs.
+"""the error has a wrong size for some pairs of orientations.
 
-effect: the stiffness felt changes from place to place, and jumps at the edge between two
-cure: compute the size from the angle between the two orientations alone
+effect: the stiffness depends on the orientation, and may jump between two orientations
+cure: compute the size of the error only from the angle between the two orientations
 unless: norm-clip, axis-clip, deadband, jump, long-way, misaligned, euler-angles, single-precision, digits-near-0,
   digits-near-180, memory
 """

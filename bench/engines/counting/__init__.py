@@ -10,18 +10,18 @@ from bench.engines.counting.counted import OPERATIONS, STAGES, TOTAL, Counted, C
 from bench.engines.counting.on_arms import rows_on_arm
 
 RULES = (
-    "Everything a law is given varies each tick, the goal R_d and the gains included.",
-    "Operations count as written: a common sub-expression costs once if the law names it, else each time.",
-    "A subtraction is an add. Changing a sign (-x) is free: it flips one bit and computes nothing.",
-    "Multiplying by a constant counts, by 1 or 0 too; an operation on constants alone does not.",
-    "sqrt is a flop; sin, cos, acos and atan2 are columns of their own and never weighted into one.",
-    "Each of < <= > >= is one compare; the branch that is taken is what is counted.",
-    "A function called by a law counts in the stage of its caller, unless it is the representation's own.",
-    "Typical is the tally most frequent over uniformly distributed orientations, at rest and spinning; on an arm the "
-    "median over its starts, for an iterated inverse takes as many steps as its matrix needs.",
-    "Worst is the largest number of operations of any kind over all states, directed ones included; between "
-    "equals the one with more flops, then the one met first.",
-    "A law with memory is counted with its initial memory, with what the state before left, and with what it "
-    "then left itself; only the last enters the typical branch.",
+    "All inputs of a law are variables in each control step, also the goal R_d and the gains.",
+    "Operations count as written: an expression that occurs twice costs once if the law stores its result, else twice.",
+    "A subtraction counts as an addition. A change of sign (-x) is free, because it only changes one bit.",
+    "A multiplication by a constant counts, also by 1 or 0; an operation on constants alone does not count.",
+    "sqrt counts as a flop; sin, cos, acos and atan2 each have a column, and no column is a weighted sum of them.",
+    "Each of < <= > >= counts as one comparison; only the branch that the law takes is counted.",
+    "A function that a law calls counts in the stage of the call, unless it belongs to the representation.",
+    "Typical is the most frequent count over uniformly distributed orientations, at rest and spinning. On an arm it is "
+    "the median over the starts, because the number of steps of an iterated inverse depends on its matrix.",
+    "Worst is the largest number of operations of any kind over all states, directed states included. Of equal "
+    "numbers we take the count with more flops, and then the count that came first.",
+    "A law with memory is counted in each state with three memories: the initial memory, the memory after the state "
+    "before, and the memory after this state. Only the last of these counts enters the typical branch.",
 )
 """The count rules, in the order the report states them."""

@@ -33,7 +33,10 @@ MARKS = {"controller": "", "regulator": "", "representation": "/", "jacobian": "
 
 
 def folder() -> Path:
-    """Return the folder that the environment names, else results/latest if finished, else results/reference."""
+    """Return the folder that the environment variable ORIENTATION_BENCH_RESULTS names.
+
+    If the variable is not set, it is results/latest if that run is finished, and results/reference otherwise.
+    """
     named = os.environ.get(VARIABLE)
     if named:
         return Path(named).expanduser().resolve()
@@ -42,7 +45,7 @@ def folder() -> Path:
 
 
 def rows(name: str, **words: str) -> pd.DataFrame:
-    """Return rows of one table that have these words: `rows("episodes", engine="native", start_set="poles")`."""
+    """Return the rows of a table with these values: `rows("episodes", engine="native", start_set="poles")`."""
     return chosen(table(folder(), name), words)
 
 
@@ -53,12 +56,12 @@ episodes, traces, costs, boundaries, poses, compliance, robustness = (
 
 
 def converged(frame: pd.DataFrame) -> pd.DataFrame:
-    """Return the episodes whose end no shorter step moves (`engines.convergence`), and those that say nothing of it."""
+    """Return the episodes whose end shorter steps do not change, and the episodes without this test."""
     return frame[frame["converged"] != "no"]
 
 
 def provenance() -> dict:
-    """Return where the run comes from: provenance.json."""
+    """Return the contents of provenance.json, which tell how the run was made."""
     return read_provenance(folder())
 
 
@@ -70,7 +73,7 @@ def own_laws(run: Path | None = None) -> tuple[Law, ...]:
 
 @functools.cache
 def table(path: Path, name: str) -> pd.DataFrame:
-    """Return a whole table with `contender` added where it has some; shared, so copy it before you change it."""
+    """Return a whole table, with a column `contender` if it has laws. Copy the table before you change it."""
     from bench.experiments.tables.store import read
 
     frame = read(path, name)

@@ -171,14 +171,22 @@ def find_beaten(rows: pd.DataFrame, rule: Rule, pairs: pd.DataFrame | None = Non
     return is_notable & (high[None, :] < low[:, None])
 
 
-@functools.lru_cache(maxsize=64)
+@functools.cache
+def group_map(folder: Path = STUDY) -> dict[Situation, pd.DataFrame]:
+    """Return the rows of each situation of a map."""
+    groups = read_map(folder).groupby("situation", sort=False, observed=True)
+    return {read_situation(str(word)): rows for word, rows in groups}
+
+
+@functools.cache
+def decide_at(at: Situation, folder: Path = STUDY, rule: Rule = RULE) -> Verdict:
+    """Return the rule's verdict on one situation of a map."""
+    return decide(group_map(folder)[at], rule, read_pairs(folder).get(at.word))
+
+
 def decide_all(folder: Path = STUDY, rule: Rule = RULE) -> dict[Situation, Verdict]:
     """Return the rule's verdict on every situation of a map."""
-    pairs = read_pairs(folder)
-    return {
-        read_situation(str(word)): decide(rows, rule, pairs.get(str(word)))
-        for word, rows in read_map(folder).groupby("situation", sort=False, observed=True)
-    }
+    return {at: decide_at(at, folder, rule) for at in group_map(folder)}
 
 
 def is_drawn(at: Situation) -> bool:
@@ -196,8 +204,8 @@ class Region(NamedTuple):
 
 def find_regions(folder: Path = STUDY, rule: Rule = RULE, some: Sequence[Situation] | None = None) -> list[Region]:
     """Return the region of each advised law, the widest first."""
-    verdicts = decide_all(folder, rule)
-    drawn = [verdicts[at] for at in (some or verdicts) if is_drawn(at)]
+    # Only these are decided: a map has three times as many situations, and to decide all takes seconds.
+    drawn = [decide_at(at, folder, rule) for at in (some or group_map(folder)) if is_drawn(at)]
     advised = collections.Counter(one.law for one in drawn if one.law)
     unbeaten = collections.Counter(law for one in drawn for law in one.unbeaten)
     found = [Region(law, count / len(drawn), unbeaten[law] / len(drawn)) for law, count in advised.items()]

@@ -31,10 +31,10 @@ def standing(one: Decision, called: Called) -> str:
         return "No other published or adapted law of this run meets these conditions."
     if not one.tied:
         return (
-            f"{len(one.asked)} published or adapted laws meet these conditions; it is at least as good as the others "
-            "on every criterion and better on one."
+            f"{len(one.asked)} published or adapted laws meet these conditions. The advised law is at least as good as "
+            "the others on every criterion and better on one."
         )
-    return f"It ties with {together([called(law) for law in one.tied])} and is the simplest of these."
+    return f"The law ties with {together([called(law) for law in one.tied])} and is the simplest of these laws."
 
 
 def together(words: Sequence[str], named: int = NAMED) -> str:
@@ -50,12 +50,13 @@ def cost(found: Measured, law: str) -> str:
     """Flops and calls a tick, and of a law that was timed its share of a whole controller's tick."""
     flops, calls = found.tables.spent(law)
     share = found.number("tick", law)
-    timed = "" if math.isnan(share) else f", {share:.1f} % of a whole controller's tick"
-    return f"{flops} + {calls} operations{timed}" if calls else f"{flops} operations{timed}"
+    timed = "" if math.isnan(share) else f", {share:.1f} % of the time of a whole controller's step"
+    operations = f"{flops} operations and {calls} calls" if calls else f"{flops} operations"
+    return f"{operations}{timed}"
 
 
-WORDS = {"effort": "effort", "peak": "peak command", "variation": "variation", "tick": "time a tick"}
-TIMES = {"time": "99 %", "worst": "slowest start"}
+WORDS = {"effort": "effort", "peak": "peak command", "variation": "variation", "tick": "time of a control step"}
+TIMES = {"time": "of 99 % of the starts", "worst": "of the slowest start"}
 """Criteria, and in TIMES settling times, as a list of what a law is better or worse by has them."""
 
 
@@ -65,14 +66,14 @@ def compare(found: Measured, law: str, other: str) -> str:
     better, worse = (
         name_criteria([one for one in both if found.beats(one, *pair)]) for pair in ((law, other), (other, law))
     )
-    return f"Beside {other} it is better by {better}, worse by {worse}."
+    return f"Compared with {other}, {law} is better by {better}, and worse by {worse}."
 
 
 def name_criteria(names: Sequence[str]) -> str:
     """List criteria, the settling times among them in brackets."""
     words = [word for name, word in WORDS.items() if name in names]
     times = [word for name, word in TIMES.items() if name in names]
-    return ", ".join([*words, *([f"settling time ({', '.join(times)})"] if times else [])]) or "nothing"
+    return ", ".join([*words, *([f"settling time {' and '.join(times)}"] if times else [])]) or "nothing"
 
 
 def describe_bounds(bounds: dict[str, list[tuple[float, bool]]]) -> str:
@@ -90,7 +91,7 @@ def describe_bounds(bounds: dict[str, list[tuple[float, bool]]]) -> str:
         elif spans:
             parts.append(f"{NAMES[name]} {together([_span(COORDINATES[name], span[0], span[-1]) for span in spans])}")
     if free:
-        parts.append(f"every {together(free, len(free))} that was tried")
+        parts.append(f"every value that we tried for {together(free, len(free))}")
     return "; ".join(parts) or "nowhere"
 
 
@@ -131,11 +132,12 @@ def describe_shares(law: str, folder: Path = STUDY) -> str:
     close = measure_shares(law, folder)
     laws = len(population.qualified) + len(population.excluded)
     return (
-        f"In {percent(shares.qualified.value)} of {shares.qualified.of} situations drawn at random, no law that meets "
-        f"the requirements is more than {percent(SPOKEN)} faster. Among all {laws} published and adapted laws of the "
-        f"map the share is {percent(shares.all.value)}; {len(population.excluded)} of them fail a requirement in every "
-        f"situation. (If {percent(RULE.tie)} counts as faster: {percent(close.qualified.value)} and "
-        f"{percent(close.all.value)}.) In {percent(shares.losing.value)} of the situations the law itself loses starts."
+        f"In {percent(shares.qualified.value)} of {shares.qualified.of} random situations, no other law that meets the "
+        f"requirements is more than {percent(SPOKEN)} faster. If the law is compared with all {laws} published and "
+        f"adapted laws of the map, the share is {percent(shares.all.value)}; {len(population.excluded)} of these laws "
+        f"fail a requirement in every situation. If a law that is {percent(RULE.tie)} faster counts as faster, the two "
+        f"shares are {percent(close.qualified.value)} and {percent(close.all.value)}. In "
+        f"{percent(shares.losing.value)} of the situations, the law itself never settles from some starts."
     )
 
 
@@ -147,10 +149,10 @@ def describe_lines(law: str, called: Called = str, folder: Path = STUDY) -> str:
     if everything == "none":
         return f"{first}."
     if qualified == "none":
-        return f"{first} and meets the requirements. Laws that do not meet them are faster at: {everything}."
+        return f"{first} and meets the requirements. Laws that do not meet these are faster at: {everything}."
     return (
-        f"{first}, but at: {everything}. (In brackets: the law that is faster by the most, and by how much.) Among the "
-        f"laws that meet the requirements: {qualified}."
+        f"{first}, except at: {everything}. The brackets name the fastest law, and say how much faster it is. The laws "
+        f"that meet the requirements are faster at: {qualified}."
     )
 
 
@@ -168,11 +170,11 @@ def describe_law_of_ours(law: str, called: Called = str, folder: Path = STUDY) -
     """Say in how many drawn situations a law of ours is faster than the advised one, and beaten by no law of a set."""
     shares = measure_shares(law, folder, tie=SPOKEN)
     return (
-        f"We do not advise our own law, {called(law)} (2026, simulation only, not reviewed). It is more than "
+        f"We do not advise our own law, {called(law)} (2026, simulation only, not reviewed). Our law is more than "
         f"{percent(SPOKEN)} faster than the advised law in {percent(compare_with_advised(law, folder).value)} of the "
-        f"situations. In {percent(shares.qualified.value)} it meets the requirements and no published or adapted law "
-        f"that does is more than {percent(SPOKEN)} faster; among all of these laws the share is "
-        f"{percent(shares.all.value)}."
+        f"random situations. In {percent(shares.qualified.value)} of these situations our law meets the "
+        f"requirements, and no published or adapted law that meets them is more than {percent(SPOKEN)} faster. If "
+        f"our law is compared with all published and adapted laws, the share is {percent(shares.all.value)}."
     )
 
 
@@ -181,19 +183,20 @@ def describe_price(law: str, folder: Path = STUDY, called: Called = str) -> str:
     price = find_price(law, folder)
     other = find_runner_up(folder)
     if other is None:
-        return f"It commands up to {price.peak:.1f} kp."
+        return f"The law commands up to {price.peak:.1f} kp."
     beside = find_price(other, folder)
     return (
-        f"The price: it commands up to {price.peak:.1f} kp ({called(other)}: {beside.peak:.1f} kp). With gains for the "
-        f"same peak command, 99 % of the starts settle in {price.at_equal_peak:.1f}/√peak ({called(other)}: "
-        f"{beside.at_equal_peak:.1f}/√peak). The median overshoot over the drawn situations is "
-        f"{price.typical_overshoot:.1f}° ({called(other)}: {beside.typical_overshoot:.1f}°)."
+        f"The price: the law commands up to {price.peak:.1f} kp ({called(other)}: {beside.peak:.1f} kp). With gains "
+        f"that give both laws the same peak command, in rad/s², 99 % of the starts settle in "
+        f"{price.at_equal_peak:.1f}/√peak seconds ({called(other)}: {beside.at_equal_peak:.1f}/√peak seconds). The "
+        f"median overshoot in the random situations is {price.typical_overshoot:.1f}° ({called(other)}: "
+        f"{beside.typical_overshoot:.1f}°)."
     )
 
 
 NAMES = {
     "zeta": "damping ratio",
-    "bound": "bound",
+    "bound": "command limit",
     "delay": "delay",
     "period": "period",
     "inertia": "inertia",

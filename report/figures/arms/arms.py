@@ -31,8 +31,8 @@ LIMITED = html.Table(
 )
 SETS = ("uniform", "reach")
 MOTORS = {
-    **{"nominal": "usual", "motors-low": "least inertia", "motors-high": "greatest inertia"},
-    **{"motors-slow": "5 ms slow", "motors-late": "5 ms late"},
+    **{"nominal": "usual inertia", "motors-low": "least inertia", "motors-high": "greatest inertia"},
+    **{"motors-slow": "torque lags by 5 ms", "motors-late": "torque delayed by 5 ms"},
 }
 COLUMNS = tuple((name, measure) for name in SETS for measure in ("settled", "range"))
 FEW = 4  # names up to this number are said, more are counted; the table has them
@@ -133,10 +133,12 @@ def lead(uniform: pd.DataFrame) -> str:
     ends = [f"{arm_rows.name_arm(arm)} ({100 * by_arm[arm]:.0f} %)" for arm in (by_arm.idxmin(), by_arm.idxmax())]
     return (
         "Motors give at most their rated torque, and joints stop at the ends of their ranges. From evenly spread "
-        f"starts, {leading(uniform, 'settled').replace('(2.2) ', '')} of its episodes settle. On arms that run with "
-        f"three pairs of gains, the share of episodes that settle with any law is {listed(levels or [html.UNTESTED])}. "
+        f"starts, {leading(uniform, 'settled').replace('(2.2) ', '')} of the episodes with this law "
+        "settle. On arms that run with three pairs of gains, the share of episodes that settle, over all laws, is "
+        f"{listed(levels or [html.UNTESTED])}. "
         f"A joint was at the end of its range in {percent_stopped(uniform):.0f} % of the episodes that do not settle. "
-        f"The arm on which the fewest episodes settle is the {ends[0]}; the arm with the most is the {ends[1]}."
+        f"The arm on which the fewest episodes settle is the {ends[0]}; the arm on which the most "
+        f"episodes settle is the {ends[1]}."
     )
 
 
@@ -165,7 +167,7 @@ def describe_model_errors(run: Run) -> str:
     apart = np.degrees(np.ptp(angles.to_numpy(), axis=1))
     medians = np.degrees(rows.groupby("variation")["final_angle_rad"].median())
     return (
-        f"From the same start, the final angles of the controllers differ by {np.median(apart):.1g}° (median). The "
-        f"variation `{medians.idxmax()}` leaves the largest median error, {medians.max():.1f}°; `{medians.idxmin()}` "
-        f"leaves the smallest, {medians.min():.2f}°."
+        f"From the same start, the final angles of the controllers differ by {np.median(apart):.1g}° (median). With "
+        f"the variation `{medians.idxmax()}` the median error is largest, {medians.max():.1f}°; with the variation "
+        f"`{medians.idxmin()}` the median error is smallest, {medians.min():.2f}°."
     )

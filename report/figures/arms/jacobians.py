@@ -29,15 +29,15 @@ BAD = 100.0
 HAMMERED = 10.0
 """Peak torque over that of the law on R from the same start, as in claim C20: beyond it something hammers the arm."""
 POLE = html.Table(
-    "Arm | Moves | Moves that settle, geometric Jacobian | Peak torque / rated, geometric Jacobian | "
-    "Moves that settle, Euler Jacobian | Peak torque / rated, Euler Jacobian"
+    "Arm | Moves | Moves that settle with the geometric Jacobian | Peak torque / rated torque, geometric Jacobian | "
+    "Moves that settle with the Euler Jacobian | Peak torque / rated torque, Euler Jacobian"
 )
 QUOTED = {"adds": "C18", "fails": "C20", "dearer": "C26"}
 """Key of a sentence of the paper on the page -> its claim."""
 FIRST_EXAMPLE = {"representation": PAPERS, "pose_set": "named", "arm": "puma560", "pose_id": "qn"}
 FILM = (
-    "The same two motions side by side: the Euler Jacobian throws the arm about, the geometric one turns the tool in "
-    "place."
+    "The same motion with two controllers, side by side: the Euler Jacobian throws the arm about, and the geometric "
+    "Jacobian turns the tool in place."
 )
 
 
@@ -137,12 +137,14 @@ def describe_weak_motors(both: pd.DataFrame) -> str:
             continue
         torque = motor.torque(kp)
         sentences.append(
-            f"The {name_arm(str(arm))} needs {ratio:.2g} times its rated torque without Euler angles, too. Its model "
-            f"has a motor inertia of {motor.inertia:g} kg m² at a joint whose motor is rated at {motor.rated:g} N m. "
-            f"With Kp = {kp:g}/s² an error of 1 rad asks this motor for {torque:g} N m, {torque / motor.rated:.0f} "
-            f"times the rated torque: these gains are too high for this arm, with either Jacobian."
+            f"The {name_arm(str(arm))} needs {ratio:.2g} times its rated torque without Euler angles, too. The model "
+            f"of this arm has a motor inertia of {motor.inertia:g} kg m² at a joint whose motor is rated at "
+            f"{motor.rated:g} N m. With Kp = {kp:g}/s² and an error of 1 rad, this motor needs {torque:g} N m, "
+            f"{torque / motor.rated:.0f} times the rated torque. The gains are too high for this arm, with "
+            f"either Jacobian."
         )
-    return " ".join(sentences) or "With the geometric Jacobian, no arm exceeds its rated torque in the median."
+    none = "With the geometric Jacobian, no arm needs more than its rated torque in the median move."
+    return " ".join(sentences) or none
 
 
 def describe_operations(run: Run) -> str:
@@ -155,9 +157,9 @@ def describe_operations(run: Run) -> str:
         more = euler.flops / geometric.flops - 1.0
         sentences.append(
             f"On an arm with {joints} joints, a control step takes {html.number(geometric.flops)} operations with the "
-            f"geometric Jacobian and the rotation-matrix law. With the Euler Jacobian it takes "
-            f"{html.number(euler.flops)} operations ({100 * more:+.0f} %) and {euler.calls} calls of sine, cosine and "
-            f"arctangent."
+            f"geometric Jacobian and the rotation-matrix law. With the Euler Jacobian and the feedback-linearized law, "
+            f"a control step takes {html.number(euler.flops)} operations ({100 * more:+.0f} %) and {euler.calls} calls "
+            f"of sine, cosine and arctangent."
         )
     return " ".join(sentences)
 
@@ -175,8 +177,8 @@ def describe_first(rows: pd.DataFrame) -> str:
     of_angles = float(at["condition_analytic"])
     number = html.MISSING if math.isnan(of_angles) else power(of_angles) if of_angles > LOST else f"{of_angles:.1f}"
     return (
-        f"the geometric Jacobian has condition number {at['condition']:.1f} and the Euler Jacobian {number}, because "
-        f"the tool is at β = {math.degrees(at['beta']):.0f}°"
+        f"the geometric Jacobian has the condition number {at['condition']:.1f}. The Euler Jacobian has the condition "
+        f"number {number}, because the tool is at β = {math.degrees(at['beta']):.0f}°"
     )
 
 
@@ -185,9 +187,9 @@ def count_spoilt(rows: pd.DataFrame) -> str:
     fine = rows[rows["condition"] <= WELL_CONDITIONED]
     by = 100.0 * (fine["condition_analytic"] > BAD).groupby(fine["arm"].astype(str)).mean()
     return (
-        f"We took poses where the geometric Jacobian has a condition number of at most {WELL_CONDITIONED:g}. In "
-        f"{by.min():.1f} to {by.max():.1f} % of these poses, depending on the arm, the condition number of the Euler "
-        f"Jacobian exceeds {BAD:g}."
+        f"We took random poses where the geometric Jacobian has a condition number of at most {WELL_CONDITIONED:g}. In "
+        f"{by.min():.1f} to {by.max():.1f} % of these poses, depending on the arm, the Euler Jacobian has a condition "
+        f"number above {BAD:g}."
     )
 
 

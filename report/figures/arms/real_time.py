@@ -25,8 +25,8 @@ LOOPS = html.Table(
 )
 GAINS = html.Table(
     "Arm | Law | Substeps in a period | Largest Kv in real time [1/s] "
-    "| Predicted from the delays [1/s] | Largest Kv with replayed delays [1/s] "
-    "| Predicted from replayed delays [1/s]"
+    "| Largest Kv predicted from the delays [1/s] | Largest Kv with replayed delays [1/s] "
+    "| Largest Kv predicted from replayed delays [1/s]"
 )
 PARTS = html.Table("Part of the delay | Median [µs] | 99th percentile [µs] | Longest [µs]")
 PART_NAMES = {

@@ -54,8 +54,9 @@ def describe_rules(rows: pd.DataFrame) -> str:
         f"{settled[others].min():.0f} to {settled[others].max():.0f} % of the episodes, with at most "
         f"{html.number(torque[others].max())} times the rated torque. With limited torques the plain inverse settles "
         f"in {cut[INVERSE]:.0f} % of the episodes and the other rules in {cut[others].min():.0f} to "
-        f"{cut[others].max():.0f} %, but until then the tool leaves its place: by at most {drifts}. On the Panda, "
-        f"every rule settles in {100 * panda['settled'].mean():.0f} % of the episodes."
+        f"{cut[others].max():.0f} %, but until then the tool leaves its position. The largest "
+        f"distances from this position are {drifts}. On the Panda, every rule "
+        f"settles in {100 * panda['settled'].mean():.0f} % of the episodes."
     )
 
 

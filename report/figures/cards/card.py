@@ -27,13 +27,13 @@ BACK = (
     else ""
 )
 PROPERTIES = {
-    "local": "Stable near the goal: its stiffness and damping there are those of the gains.",
-    "almost global": "Stable from all starts but a set of measure zero. No continuous law without memory can do more "
-    "(Bhat & Bernstein 2000).",
-    "almost global from rest": "Stable from all starts at rest but a set of measure zero.",
-    "global with memory": "Stable from every start, with memory. No continuous law without memory can be "
-    "(Bhat & Bernstein 2000).",
-    "none": "No stability.",
+    "local": "The goal is stable, and near the goal the law has the stiffness and damping of the gains.",
+    "almost global": "The goal is stable from all starts except a set of measure zero. No continuous law without "
+    "memory can do more (Bhat & Bernstein 2000).",
+    "almost global from rest": "The goal is stable from all starts at rest except a set of measure zero.",
+    "global with memory": "With its memory, the law makes the goal stable from every start. No continuous law "
+    "without memory can do this (Bhat & Bernstein 2000).",
+    "none": "No stability is proved.",
     "": "",
 }
 GREEK = {**LETTERS, "eps": "ε", "eta": "η", "lambda": "λ"}
@@ -46,7 +46,7 @@ SIGNS: tuple[tuple[str, Any], ...] = (
     (r"(?<=[\w)\u0307\u0308] )-(?= [\w(])", "−"),
     (r"(?<== )-(?=\()", "−"),
     (r"\b(?:half-turn)(s?)\b", r"180° rotation\1"),
-    (r"\bits first tick\b", "the first control step"),
+    (r"\bfirst tick\b", "first control step"),
     (r"\bthe last tick\b", "the last control step"),
     (r"\bticks?\b", "control step"),
 )
@@ -116,7 +116,8 @@ def say_property(law: Law) -> dict[str, str]:
     lemmas = [lemma for lemma in certificate["lemmas"] if lemma["by"] != DRAWN]
     by = " and ".join(sorted({lemma["by"] for lemma in lemmas}))
     text += f" The proof is {certificate['scope']}."
-    text += f" A program proved {len(lemmas)} lemmas from its source, by {by}, in {certificate['seconds']:.1f} s."
+    text += f" A program proved {len(lemmas)} lemmas from the source of the law, by {by}, "
+    text += f"in {certificate['seconds']:.1f} s."
     text += f" No program checked this part of the proof: {'; '.join(certificate['cited'])}."
     text += f" Equilibria away from the goal: {certificate['equilibria']}."
     if "upper" in certificate["settling"]:
@@ -157,7 +158,8 @@ def set_words(text: str) -> html.Html:
 def show_short(word: str) -> str:
     """Return the short form of a law; nothing of a law that has none."""
     code = write_short(word)
-    others = "With <code>import jax.numpy as np</code> or <code>import torch as np</code> it runs in JAX or PyTorch."
+    imports = "<code>import jax.numpy as np</code> or <code>import torch as np</code>"
+    others = f"With {imports} the code runs in JAX or PyTorch."
     return f"<h2>The law in NumPy</h2><p>{others}</p>{colour(code)}" if code else ""
 
 
@@ -174,7 +176,7 @@ def show_code(source: Source) -> str:
         end = first.end_lineno if ast.get_docstring(one) is not None else first.lineno - 1
         codes.append("\n".join([*lines[one.lineno - 1 : first.lineno - 1], *lines[end : one.end_lineno]]))
     code = "\n\n".join(codes)
-    return f"<h2>Its code</h2>{colour(code)}" if codes else ""
+    return f"<h2>Code of the law</h2>{colour(code)}" if codes else ""
 
 
 def colour(code: str) -> str:
@@ -187,7 +189,8 @@ def fold(source: Source) -> str:
     """Return a file's text behind its name."""
     text = source.file.read_text(encoding="utf-8", errors="replace")
     return (
-        f'<details class="law-source"><summary>Its whole file, <code>{markup.escape(source.where)}</code></summary>'
+        '<details class="law-source"><summary>Whole file of the law, '
+        f"<code>{markup.escape(source.where)}</code></summary>"
         f"{colour(text)}</details>"
     )
 
@@ -195,5 +198,5 @@ def fold(source: Source) -> str:
 def take_files(word: str, files: dict[str, tuple[str, str]], live: str) -> str:
     """Return what leads to its files and to the page on which it runs."""
     links = ", ".join(f'<a href="code/{name}" download>{title}</a>' for title, (name, _) in files.items())
-    tried = f'<a href="../{live}.html#a={word}">Try it</a>, or take it' if live else "Take it"
+    tried = f'<a href="../{live}.html#a={word}">Try this law</a>, or take its code' if live else "Take its code"
     return f"<p>{tried}: {links}. <code>bench export {word} --to c</code> adds test vectors and a test.</p>"

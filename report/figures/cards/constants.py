@@ -12,8 +12,10 @@ from report.figures.kit.page import Run
 from report.figures.kit.spelling import listed
 
 TABLE = html.Table(
-    "Law | Constant | Value used | Other values tried | Settling time with the value used / default:.2f "
-    "| Settling time with other values / default | Rank with the value used | Rank with other values",
+    "Law | Constant | Value used | Other values tried "
+    "| Settling time with the value used, relative to the default law:.2f "
+    "| Settling time with other values, relative to the default law "
+    "| Rank with the value used | Rank with other values",
     words=("Value used",),
 )
 

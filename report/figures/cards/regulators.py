@@ -41,10 +41,10 @@ TEXTS = tomllib.loads(Path(__file__).with_name("laws.toml").read_text(encoding="
 """Law -> about, limitations."""
 
 MEMORY = (
-    "Reset the memory before the first control step and after a pause. It stays as it is when the goal changes. If you "
-    "also reset it when the goal jumps, the path becomes shorter, but the body does not settle sooner. The measured "
-    "orientation must turn by less than 180° between two control steps: e + phi/2 < 90°, where e is the error of the "
-    "measured orientation and phi the rotation within a control step."
+    "Reset the memory before the first control step and after a pause. The memory stays unchanged when the goal "
+    "changes. If you also reset the memory when the goal jumps, the path becomes shorter, but the body does not settle "
+    "sooner. The measured orientation must turn by less than 180° between two control steps: e + phi/2 < 90°, where e "
+    "is the error of the measured orientation and phi the rotation within a control step."
 )
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 EXAMPLE = re.compile(r" Shown by |, as from |, as at ")
@@ -99,7 +99,7 @@ def card(one: Contender, run: Run) -> str:
         "Coordinates": f"{acts[:1].upper()}{acts[1:]}.",
         **say_property(one.regulator),
         "Measured": measured(episodes, one.regulator),
-        "Its command": set_words(command),
+        "Properties of the command": set_words(command),
         "Recommended": advised(one.name),
         "Constants that are ours": describe_constants(one.name),
     }
@@ -125,16 +125,18 @@ def measured(episodes: pd.DataFrame, regulator: Law) -> str:
     """How many of the uniform starts settled, and how fast."""
     uniform = episodes[episodes["start_set"] == "uniform"]
     if regulator.costing_only:
-        return "Only its operations are counted: its command equals the command of another law up to rounding."
+        return "We only counted the operations of this law: up to rounding, it gives the same command as another law."
     if uniform.empty:
-        return "Not in this run."
+        return "The law is not in this run."
     settled = uniform["outcome"] == "settled"
     found = share(settled)
     amount = capitalize(count_of(int(settled.sum()), len(settled), "uniform starts"))
     interval = f"95\N{NO-BREAK SPACE}% interval: {100 * found.low:.1f} to {100 * found.high:.1f} %"
     times = uniform.loc[settled, "settling_time_s"]
-    pace = f" They take {times.median():.2f} s (median) to {times.max():.2f} s (slowest)." if len(times) else ""
-    return f"{amount} settle ({interval}).{pace}"
+    if times.empty:
+        return f"{amount} settle ({interval})."
+    pace = f"{times.median():.2f} s (median) to {times.max():.2f} s (slowest start)"
+    return f"{amount} settle ({interval}). The settling time is {pace}."
 
 
 def say_share(value: float) -> str:
@@ -152,24 +154,24 @@ def advised(law: str) -> str:
         return ""
     shares = measure_shares(law, tie=SPOKEN)
     beside = (
-        f"In {say_share(shares.qualified.value)} it meets the requirements and no other law that meets "
-        f"them is more than {percent(SPOKEN)} faster. If all published and adapted laws count, this share is "
-        f"{percent(shares.all.value)}."
+        f"In {say_share(shares.qualified.value)} this law meets the requirements and no other law that meets "
+        f"the requirements is more than {percent(SPOKEN)} faster. If all published and adapted laws count, "
+        f"this share is {percent(shares.all.value)}."
     )
     if is_ours:
         beats = say_share(compare_with_advised(law).value)
         return (
-            f"Our rule does not recommend it, because it is ours. It is more than {percent(SPOKEN)} faster than the "
-            f"recommended law in {beats}. {beside}"
+            f"Our rule does not recommend this law, because it is ours. The law is more than {percent(SPOKEN)} "
+            f"faster than the recommended law in {beats}. {beside}"
         )
     if region is None:
         return beside
     price = find_price(law)
     costs = (
-        f"In the nominal situation it commands up to {price.peak:.1f} kp. With gains for a peak command of p [rad/s²] "
-        f"and the nominal damping ratio, 99 % of the starts settle in {price.at_equal_peak:.1f}/√p seconds."
+        f"In the nominal situation the law commands up to {price.peak:.1f} kp. With gains for a peak command of "
+        f"p [rad/s²] and the nominal damping ratio, 99 % of the starts settle in {price.at_equal_peak:.1f}/√p seconds."
     )
-    return f"Our rule recommends it in {say_share(region.advised)}. {beside} {costs}"
+    return f"Our rule recommends this law in {say_share(region.advised)}. {beside} {costs}"
 
 
 def facts(run: Run) -> dict:

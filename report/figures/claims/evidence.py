@@ -1,4 +1,4 @@
-"""What decided each claim, sentences that no run decides, what the book does with the paper's parts, and errata."""
+"""What decided each claim, sentences that no run decides, and errata."""
 
 import html as escape
 from collections.abc import Iterable, Sequence
@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from bench.base.files import read_json
 from bench.findings import claims
 from bench.findings.claims import Verdict, at_gains
-from bench.findings.claims.errata import COVERAGE, ERRATA, UNTESTABLE, Erratum, Item
+from bench.findings.claims.errata import ERRATA, UNTESTABLE, Erratum
 from bench.findings.claims.verdict import MISPRINTS
 from report.figures.claims.places import read_places
 from report.figures.kit import html
@@ -16,7 +16,6 @@ from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose, typeset
 
 SENTENCES = html.Table("Section | The paper | Why it is not tested")
-PARTS = html.Table("The paper | What it says | Claims and errata | Pages")
 SLIPS = html.Table("Slip | Where | Printed | Should be | Checked")
 
 
@@ -41,15 +40,7 @@ def facts(run: Run) -> dict:
         "sections": html.Html("".join(section(verdict, run) for verdict in every)),
         "untestable": SENTENCES((one["section"], f"“{prose(one['quote'])}”", prose(one["why"])) for one in UNTESTABLE),
         "slips": SLIPS(map(describe_slip, sorted(ERRATA, key=lambda one: one.check is None))),
-        "coverage": PARTS(map(describe_item, COVERAGE)),
     }
-
-
-def describe_item(one: Item) -> tuple:
-    """Return a row of the table of what the book does with each part of the paper."""
-    ids = ", ".join(f'<a href="#{id.lower()}">{id}</a>' if id.startswith("C") else id for id in one.claims)
-    pages = ", ".join(f"[{page.partition('-')[2].replace('-', ' ')}]({page}.md)" for page in one.pages)
-    return prose(one.paper), prose(one.says), ids, pages
 
 
 def describe_slip(one: Erratum) -> tuple:

@@ -20,7 +20,8 @@ def facts(run: Run) -> dict:
     orders = []
     for task in map(tasks.contact_task, MEASURES):
         axes = task.trials(arm)[0].specification.name.replace(", about", " and about")
-        orders.append(f"- {task.title}. The hand is compliant along {axes}.")
+        name, title = task.name.replace("-", " ").capitalize(), f"{task.title[0].lower()}{task.title[1:]}"
+        orders.append(f"- **{name}** ({title}): the hand is compliant along {axes}.")
     return {
         **limits.facts(run),
         "settings": limits.LIMITS(limits.compare_settings()),

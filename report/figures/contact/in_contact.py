@@ -52,10 +52,10 @@ class Measure(NamedTuple):
 
 
 MEASURES = {
-    "surface-alignment": Measure("alignment_error_rad", "tool to plate [deg]", DEGREES),
-    "peg-in-hole": Measure("jam", "not inserted [%]", 100.0, 100.0),
-    "crank": Measure("crank_angle_rad", "turned by [deg]", DEGREES, -np.inf),
-    "force-on-plane": Measure("normal_force_error_n", "force error, rms [N]"),
+    "surface-alignment": Measure("alignment_error_rad", "angle between tool and plate [deg]", DEGREES),
+    "peg-in-hole": Measure("jam", "pegs not inserted [%]", 100.0, 100.0),
+    "crank": Measure("crank_angle_rad", "crank turned by [deg]", DEGREES, -np.inf),
+    "force-on-plane": Measure("normal_force_error_n", "force error, root mean square [N]"),
 }
 """Task -> the number that says how it went, the tasks that free rotations first."""
 

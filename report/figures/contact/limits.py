@@ -14,7 +14,9 @@ SETTINGS = {
     "sensor": "Result with limited torque and a noisy sensor",
 }
 NAMES = {PAPERS: "Cartesian", PAPERS_EULER: "Euler", SPRINGS: "springs"}
-LIMITS = html.Table(f"Task | Measured at the end | Control | Episodes | {':.2g | '.join(SETTINGS.values())}:.2g")
+LIMITS = html.Table(
+    f"Task | Quantity measured at the end | Compliance | Episodes | {':.2g | '.join(SETTINGS.values())}:.2g"
+)
 
 
 def compare_settings() -> Iterator[tuple]:

@@ -62,7 +62,7 @@ def compare_forms(counted: pd.DataFrame) -> dict[str, int]:
 
 
 def share_of_time(run: Run) -> dict[str, str]:
-    """Return the shares of a whole controller's time that the cheapest law, late braking and the dearest take."""
+    """Return the shares of a controller's time that the cheapest law, late braking and the most expensive take."""
     shares = {law: value for law, value in ticks(run).items() if not law.endswith("literal/zyx-euler")}
     share = some(shares, "time of a law")
     most = max(share, key=lambda law: share[law])
@@ -77,8 +77,8 @@ def order_papers_laws(share: dict[str, float]) -> str:
     """State which of the paper's laws takes least time alone and which most, and whether the paper says so too."""
     least, _, most = sorted((MATRIX, LINEARIZED, FEEDBACK), key=lambda law: share.get(law, math.nan))
     agrees = "as" if (least, most) == (MATRIX, FEEDBACK) else "other than"
-    names = f"{families.word(least)} is the cheapest and {families.word(most)} the dearest"
-    return f"Among the paper's three laws {names}, {agrees} the paper says"
+    names = f"{families.word(least)} is the cheapest and {families.word(most)} is the most expensive"
+    return f"Among Murphy's three laws, {names}, {agrees} the paper says"
 
 
 def timings(run: Run) -> list[Path]:
@@ -93,7 +93,10 @@ def describe_machine(run: Run) -> str:
         return "No law has been timed yet (`make time` does)."
     table = read_arrow(paths[0], "timings")
     about, passes = json.loads(table.schema.metadata[b"about"]), max(table["passes"].to_pylist())
-    return f"Measured on {about['cpu']}, {about['cores']} cores, {about['date'][:10]}, {passes} passes."
+    return (
+        f"We measured the times on {about['cpu']} with {about['cores']} cores on {about['date'][:10]}, "
+        f"in {passes} passes."
+    )
 
 
 def totals(counted: pd.DataFrame) -> pd.DataFrame:
@@ -118,7 +121,7 @@ def describe_order(operations: pd.DataFrame) -> str:
         return "Murphy's order of cost is not tested in this run."
     agrees = "rises" if total.is_monotonic_increasing and total.is_unique else "does not rise"
     counts = ", ".join(f"{families.word(law)} {count_words(*papers.loc[law])}" for law in papers.index)
-    return f"The number of operations {agrees} in Murphy's order: {counts}."
+    return f"The number of operations per control step {agrees} in Murphy's order: {counts}."
 
 
 def count_words(flops: int, calls: int) -> str:

@@ -78,15 +78,15 @@ def describe_plane(points: list[Point], limit_s: float) -> str:
     fast = [point for point in points if point.time_s <= limit_s]
     papers_fast = [point for point in fast if point.law in PAPERS_ORDER]
     if not papers_fast:
-        return f"None of Murphy's laws settles 99 % of the starts within {limit_s:.2f} s."
+        return f"None of Murphy's laws settles from 99 % of the starts within {limit_s:.2f} s."
     cheapest = min(papers_fast, key=lambda point: point.operations)
     later = [point for point in fast if point.law not in adequacy.PAPERS]
     better = [point for point in later if point.operations <= cheapest.operations]
     count = {0: "No later law is", 1: "1 later law is"}.get(len(better), f"{len(better)} later laws are")
     takes = "takes" if len(better) < 2 else "take"
     return (
-        f"Of Murphy's laws that settle 99 % of the starts within {limit_s:.2f} s, {families.word(cheapest.law)} takes "
-        f"the fewest operations, {count_words(cheapest.flops, cheapest.calls)}. "
+        f"Of Murphy's laws that settle from 99 % of the starts within {limit_s:.2f} s, "
+        f"{families.word(cheapest.law)} takes the fewest operations: {count_words(cheapest.flops, cheapest.calls)}. "
         f"{count} as fast and {takes} no more operations."
     )
 

@@ -73,10 +73,21 @@ def on_the_map(run: Run) -> dict:
     return {
         "n": len(linearized),
         "failed_l": len(failed),
-        "failed_others": " and ".join(str(len(own)) for own in lost) if any(map(len, lost)) else "none",
+        "others": say_others(*map(len, lost), starts=len(linearized)),
         "least": f"{np.floor(np.degrees(failed['alpha0'].abs().min())):.0f}",
         "least_gamma": f"{np.degrees(failed['gamma0'].abs().min()):.0f}",
     }
+
+
+def say_others(matrix: int, feedback: int, starts: int) -> str:
+    """Say from how many of the random starts the two other laws never settle."""
+    if not matrix and not feedback:
+        return "The rotation-matrix law and the feedback-linearized law settle from every random start."
+    counts = " and ".join(
+        f"the {name} law fails from {lost or 'none'}"
+        for name, lost in (("rotation-matrix", matrix), ("feedback-linearized", feedback))
+    )
+    return f"Of the {starts} random starts, {counts}."
 
 
 class Panel(NamedTuple):
@@ -131,10 +142,11 @@ def say_finding(episodes: pd.DataFrame) -> str:
     default = find_default()
     advised = "is not in this run"
     if default in lost:
-        advised = f"never settles from {lost[default]}" if lost[default] else "settles from all"
+        settles_from_all = f"settles from all {html.number(starts)}"
+        advised = f"never settles from {lost[default]}" if lost[default] else settles_from_all
     return (
-        f"Of the same {html.number(starts)} starts, Murphy's laws never settle from some ({', '.join(papers)}); "
-        f"{families.word(default)} {advised}."
+        f"Each law runs from the same {html.number(starts)} starts. Murphy's laws never settle from some of these "
+        f"starts ({', '.join(papers)}); {families.word(default)} {advised}."
     )
 
 

@@ -30,8 +30,8 @@ NO_NUMBER, ZERO, LONG_WAY, MISALIGNED, SHEET, DIGITS = "no-number", "zero", "lon
 OURS = "orientation-bench"
 """Our own laws in results/libraries, asked like the libraries."""
 
-FAULTS = html.Table("Library | Function | Fault | Smallest fix | Public thread")
-FORMULAS = html.Table("Library | Formula | Fault | Right instead")
+FAULTS = html.Table("Library | Function | Fault | Smallest fix | Public discussion")
+FORMULAS = html.Table("Library | Formula | Fault | Right function or change")
 FIX_WORDS = (
     (re.compile(r"^`-q` where `q.w < 0`, between the two$"), "negate q between the two calls if `q.w < 0`"),
     (re.compile(r"^`-q` where `?([\w.()]+) < 0`?(?:, before it)?$"), r"negate q first if `\1 < 0`"),
@@ -81,7 +81,7 @@ def objections(own: pd.DataFrame) -> dict[str, str]:
     if silent:
         found[NO_NUMBER] = f"no number for {say_count(silent, own['turns'].sum(), 'rotations')}"
     if has_axis and at["nought"].sum():
-        found[ZERO] = f"zero at {count_column(at, 'nought', '180° rotations')}"
+        found[ZERO] = f"the error is zero for {count_column(at, 'nought', 'rotations by 180°')}"
     # Next to 180° the other axis is almost the same turn: what is left of it counts as digits.
     long = own.assign(long_way=own["long_way"].where(own["turn_error_rad"] > WRONG_AXIS_RAD, 0))
     if has_axis and long["long_way"].sum():
@@ -89,7 +89,7 @@ def objections(own: pd.DataFrame) -> dict[str, str]:
     if has_axis and own["astray"].sum():
         found[MISALIGNED] = f"wrong axis for {count_column(own, 'astray', 'rotations')}"
     if own["other_sheet"].sum():
-        found[SHEET] = "unwinding if it gets −q instead of q"
+        found[SHEET] = "unwinding if the function gets −q instead of q"
     return found if LONG_WAY in found else found | wrong(own[own["nought"] == 0] if ZERO in found else own)
 
 
@@ -106,8 +106,8 @@ def where(row: pd.Series) -> str:
     if not math.isnan(row["angle_rad"]):
         return f"for rotations by {power(row['angle_rad'])} rad"
     if math.isnan(row["distance_rad"]):
-        return "at the poles" if row["turn_set"] == "pole" else "for drawn rotations"
-    return f"when {power(row['distance_rad'])} rad short of 180°" if row["distance_rad"] else "at 180°"
+        return "at the poles" if row["turn_set"] == "pole" else "for random rotations"
+    return f"at a distance of {power(row['distance_rad'])} rad from 180°" if row["distance_rad"] else "at 180°"
 
 
 def count_column(rows: pd.DataFrame, name: str, nouns: str) -> str:

@@ -29,7 +29,7 @@ IN_ENGINE = "in-engine"
 
 CONTINUOUS, HELD = "continuous time", "command held for a period"
 COUNTS = html.Table(
-    "Name | Where | Number of laws | Which laws | Starts per law | Time of the controller "
+    "Name | Where | Number of laws | Which laws | Starts per law | Continuous time or held command "
     "| Starts that the rotation matrix loses"
 )
 
@@ -62,7 +62,7 @@ def list_counts(run: Run) -> Iterator[Count]:
         name="laws of the catalogue",
         where="[Catalogue](appendix-laws.md)",
         laws=len(contenders("regulators")),
-        which_laws="all of this repository, with those that are wrong on purpose",
+        which_laws="all laws of this repository, also the laws that are wrong on purpose",
         starts=html.MISSING,
     )
     yield count_map(run)
@@ -124,7 +124,7 @@ def count_at_equal_peak() -> Count:
         where="Chapter 7, [equal peak command](#fig-equal-peak); [late braking](appendix-late-braking.md)",
         laws=len(tune()),
         which_laws="the laws of the map that settle from every start of the nominal situation",
-        starts="as for the map",
+        starts="as for the laws of the map",
         time=HELD,
     )
 
@@ -142,14 +142,14 @@ def count_settling(run: Run) -> Iterator[Count]:
         where="[Chapter 6](06-what-an-error-must-do.md)",
         laws=len(laws),
         which_laws=describe_set(set(laws), run),
-        starts="as in the next two rows",
+        starts=f"{uniform['start_id'].nunique():,} evenly spread and {a_law.min():,} to {a_law.max():,} directed",
         time=CONTINUOUS,
     )
     yield Count(
         name="laws compared",
         where="[Comparison of all laws](appendix-side-by-side.md), evenly spread starts",
         laws=len(list_compared(run)),
-        which_laws="all laws that ran from these starts, without those that are wrong on purpose",
+        which_laws="all laws that ran from these starts, without the laws that are wrong on purpose",
         starts=f"{uniform['start_id'].nunique():,}",
         time=CONTINUOUS,
         lost=lose(uniform),

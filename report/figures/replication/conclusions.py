@@ -12,8 +12,8 @@ from report.figures.kit.law_names import call_laws
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import prose
 
-SHORT = html.Table("Murphy (1988) concluded | Verdict | This replication | Figure")
-FULL = html.Table("Murphy's words | Claims | Verdict | This replication | Figure")
+SHORT = html.Table("Murphy (1988) concluded | Our verdict | What we measured | Figure")
+FULL = html.Table("Murphy's words | Claims | Our verdict | What we measured | Figure")
 
 FIGURES = {
     "three-laws": "fig-three-laws",
@@ -63,7 +63,7 @@ def describe_verdicts(decided: list[Verdict], lacks: dict[str, str]) -> str:
     """Say how many statements have each verdict, and how many this run cannot decide."""
     counted = [claims.told(verdict.word for verdict in decided)] if decided else []
     if lacks:
-        counted.append(f"this run does not test {len(lacks)}")
+        counted.append(f"this run does not test {len(lacks)} statements")
     return ", ".join(counted)
 
 

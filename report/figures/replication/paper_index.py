@@ -15,7 +15,9 @@ from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose
 from report.figures.replication.conclusions import EVIDENCE, link_claims
 
-ITEMS = html.Table("The paper | What it says | Chapter | Claims | Tables | Command")
+ITEMS = html.Table(
+    "Part of the paper | What this part says | Chapter of this book | Claims | Tables of results | Command"
+)
 
 COMPUTED = "experiment"
 """Word for evidence that a claim computes itself."""
@@ -46,7 +48,8 @@ def describe_item(item: Item, verdicts: Mapping[str, Verdict]) -> tuple:
     command = read_commands()[item.paper]
     shown = f"`{command}`" if command else html.MISSING
     pages = ", ".join(map(link_page, item.pages))
-    return prose(item.paper), prose(item.says), pages, ", ".join(links), tables, shown
+    shown_links, shown_tables = ", ".join(links) or html.MISSING, tables or html.MISSING
+    return prose(item.paper), prose(item.says), pages, shown_links, shown_tables, shown
 
 
 def list_tables(verdicts: Iterable[Verdict]) -> str:
@@ -77,8 +80,9 @@ def list_sentences() -> str:
         link = f'<a href="{EVIDENCE}#{claim.id.lower()}">{claim.id}</a>'
         first_section = re.split(r"[, ]", claim.section)[0]
         sections.setdefault(first_section, []).append(f"<li>{link} {marked_up(claim.sentence)}</li>")
-    lists = "".join(f"<h3>Section {name}</h3><ul>{''.join(items)}</ul>" for name, items in sections.items())
+    titles = {name: f"Section {name}" if name[0].isdigit() else name.capitalize() for name in sections}
+    lists = "".join(f"<h3>{titles[name]}</h3><ul>{''.join(items)}</ul>" for name, items in sections.items())
     return (
-        f'<details class="paper-sentences"><summary>All {len(all_claims())} sentences, by section</summary>{lists}'
-        "</details>"
+        '<details class="paper-sentences">'
+        f"<summary>All {len(all_claims())} statements in our words, by section</summary>{lists}</details>"
     )

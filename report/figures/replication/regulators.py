@@ -8,7 +8,7 @@ import pandas as pd
 
 from bench.experiments.tables.statistics import Estimate
 from bench.findings.claims.tables import some
-from bench.findings.conclusions import conclude
+from bench.findings.conclusions import conclude, name_starts
 from bench.findings.failure_places import describe_failures
 from bench.findings.replication import measure_settling, starts_at_rest
 from report.figures.kit import families, html
@@ -18,8 +18,8 @@ from report.figures.kit.quotes import quote
 from report.figures.kit.spelling import prose
 
 REGULATORS = html.Table(
-    "Regulator | Murphy's words | Starts that settle [%] | Median settling time [s] | Time for 99 % of starts [s] | "
-    "Fails at"
+    "Regulator | Murphy's words | Starts that settle [%] | Median settling time [s] | "
+    "Time in which 99 % of the starts settle [s] | Starts from which the regulator fails"
 )
 
 CONCLUSIONS = {MATRIX: "rotation-matrix", LINEARIZED: "linearized-euler", FEEDBACK: "feedback-linearized"}
@@ -45,7 +45,7 @@ def list_laws(run: Run, rows: pd.DataFrame) -> Iterator[tuple]:
         episodes = some(rows[rows["contender"] == law], f"episode of {law}")
         settling = measure_settling(episodes)
         share = settling.share
-        places = [prose(place) for place in describe_failures(episodes)]
+        places = [prose(name_starts(place)) for place in describe_failures(episodes)]
         yield (
             families.link(law, families.word(law)),
             f"“{prose(words[name])}”",

@@ -127,7 +127,7 @@ def describe_start(row: pd.Series) -> str:
 def describe_finding(response: Response) -> str:
     """Say how close to the linear response the angles stay, how long the body takes, and by which way."""
     bend = float(response.bend_deg.max())
-    distance = f"{bend:.0f}" if bend > 1.0 else power(bend)
+    distance = f"{bend:.0f}°" if bend > 1.0 else f"{power(bend)} deg"
     row = response.row
     settles = "never settles"
     if row["outcome"] == "settled":
@@ -136,8 +136,8 @@ def describe_finding(response: Response) -> str:
     if response.peak_deg > response.first_deg + AWAY_DEG:
         away = f" The body first turns away from the goal, from {response.first_deg:.0f}° to {response.peak_deg:.0f}°."
     return (
-        f"The angles stay within {distance}° of the linear response; the body {settles} by a path that is "
-        f"{row['path_ratio']:.2f} times the shortest.{away}"
+        f"The Euler angles stay within {distance} of the linear response. The body {settles}, on a path that is "
+        f"{row['path_ratio']:.2f} times as long as the shortest path.{away}"
     )
 
 
