@@ -13,6 +13,7 @@ from bench.findings.claims.verdict import NoEvidence, Word
 from bench.findings.conclusions import conclude
 from bench.findings.replication import compare_jacobians, measure_settling, starts_at_rest
 from bench.law.attribution import IN_WORDS
+from report.figures.answer import which_law
 from report.figures.failures import failure_map
 from report.figures.kit import families, html
 from report.figures.kit.laws import LINEARIZED, MATRIX
@@ -35,7 +36,7 @@ def facts(run: Run) -> dict[str, Any]:
         "conclusions": in_run(lambda: SHORT(list_in_short(run))),
         "answer": describe_answer(answer),
         "price": describe_price(answer),
-        "condition": prose(call_laws(answer.condition)) if answer.is_tested else "It is not tested.",
+        "condition": which_law.describe_condition(answer) if answer.is_tested else "It is not tested.",
         "needs": NEEDS(list_needs(answer)),
         "cite": describe_citation(),
     }

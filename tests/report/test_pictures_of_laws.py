@@ -94,8 +94,12 @@ def test_thresholds_that_differ_are_said_beside_those_of_most_laws():
     each["gibbs"] = {way: Threshold(10.0, 15.0, 0.2)}
     groups = robustness.group_alike(each, [way])
     assert [len(group) for group in groups] == [2, 1]
+    [[law, *cells]] = robustness.list_weaker(groups, each, [way])
+    assert "Gibbs" in law
+    assert cells == ["Initial spin", "10 rad/s", "20 rad/s (last level tried)"]
     said = robustness.describe_weaker(groups, each, [way])
-    assert said == "- The thresholds of *Gibbs*: initial spin, 10 rad/s instead of 20 rad/s and beyond."
+    assert said == "1 of the 3 laws withstands less than the others, for 1 of the perturbations"
+    assert robustness.describe_weaker(groups[:1], each, [way]) == "All 2 laws have the same thresholds"
 
 
 def test_resets_are_counted_by_path_and_by_time():

@@ -26,7 +26,7 @@ STARTS = 2
 @pytest.mark.parametrize("law", ["hybrid", "late-braking"])
 def test_cards_of_laws_with_memory_say_how_far_they_keep_to_their_way(law):
     _, fails = regulators.text_of(half_turn_noise.regulator_of(law))
-    assert f"{math.degrees(thresholds.keeps(law)):.0f} degrees" in fails
+    assert f"{math.degrees(thresholds.keeps(law)):.0f}°" in fails
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -5,7 +5,7 @@ from typing import Any
 
 from bench.experiments.situations import FIRST, MOST, NOISE_RAD
 from bench.findings.amounts import count_of
-from bench.findings.answer import NOT_TESTED, find_answer
+from bench.findings.answer import NOT_TESTED, Answer, find_answer
 from bench.findings.proofs.certificate import read_certificates
 from bench.findings.selection import regions, sensitivity, words
 from bench.findings.selection.regions import decide_all, facts_of, find_regions, is_drawn, read_map
@@ -81,7 +81,7 @@ def facts(run: Run) -> dict[str, Any]:
         "published": len(population.qualified) + len(population.excluded),
         "compared": corrected.compared,
         **{name: getattr(corrected, name) for name in ("won", "lost", "won_before", "lost_before")},
-        "halves": halves,
+        "halves": describe_halves(halves, of),
         "of_halves": of,
         "slower": f"{100 * sensitivity.bound_slower(FIRST):.1f}",
         "noise": f"{NOISE_RAD:g}",
@@ -107,7 +107,7 @@ def lead() -> str:
     if not answer.is_tested:
         return "Which law to use is not tested: the map of situations is missing."
     law = f"**{families.word(answer.law)}**, {describe_attribution(answer.law)}"
-    return f"Use {law}. Price: {prose(call_laws(answer.price))}."
+    return f"Use {law}. It {prose(call_laws(answer.price))}."
 
 
 def describe_answer() -> dict[str, str]:
@@ -119,7 +119,7 @@ def describe_answer() -> dict[str, str]:
     return {
         "reason": prose(call_laws(answer.reason)),
         "tested": prose(call_laws(answer.tested)),
-        "condition": prose(call_laws(answer.condition)),
+        "condition": describe_condition(answer),
         "does": describe_default(),
         "advised": f"{families.word(first.law)} in {100 * first.advised:.0f} % of the situations{where}",
     }
@@ -150,18 +150,38 @@ def count_other_needs() -> str:
     )
 
 
+def describe_halves(halves: int, of: int) -> str:
+    """Say how many of the choices from a random half of the situations gave the default."""
+    if halves == of:
+        return f"All {of} choices gave the same law"
+    return f"{halves or 'None'} of the {of} choices gave the same law"
+
+
+def describe_condition(answer: Answer) -> str:
+    """Return the condition of the answer, and how the command limits in the table of controllers differ from it."""
+    sentences = [prose(call_laws(answer.condition))]
+    for need in answer.needs:
+        if need.name == "weak-motors":
+            law = families.word(need.law)
+            sentences.append(
+                f"This counts every law that meets the requirements; the command limits in the row of {law} below "
+                f"are those at which {law} itself is more than {100 * SPOKEN:.0f} % faster."
+            )
+    return " ".join(sentences)
+
+
 def list_needs() -> Iterator[tuple]:
     """Return a row for each kind of controller: the answer's, and of torques whose inertia is not cancelled."""
     for need in find_answer().needs:
         page = ROBOTS[need.name].page if need.name in ROBOTS else ""
-        rows = f'<a href="{page}.html">rows</a>' if page else ""
+        rows = f'<a href="{page}.html">rows</a>' if page else html.MISSING
         law = f"{_named(need.law)} ({need.attribution})" if need.law != NOT_TESTED else need.law
         yield prose(need.controller), law, prose(call_laws(need.why)), prose(call_laws(need.price)), rows
     uneven = list_elsewhere()[0]
     ties = f"it ties with {together([families.word(law) for law in uneven.tied])}"
     why = f"{uneven.compared} laws meet the requirements, and {ties if uneven.tied else 'no law ties with it'}"
     law = f"{_named(uneven.law)} ({find_contender(uneven.law).attribution})"
-    yield "commands torque and does not cancel the inertia", law, why, html.MISSING, ""
+    yield "commands torque and does not cancel the inertia", law, why, html.MISSING, html.MISSING
 
 
 def _rated(advice: str, rated: Rated) -> tuple[str, ...]:

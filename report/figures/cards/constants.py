@@ -64,11 +64,14 @@ def say(constant: Constant, every: list[Varied], default: str) -> str:
     """Say what the values of a constant that were tried do to the time and the rank of a law."""
     values = sorted(one.value for one in every)
     ratios = [f"{one.ratio:.2f}" for one in sorted(every, key=lambda one: one.ratio)]
+    beside = "with the value used" if constant.law == default else families.word(default)
+    # a Greek symbol keeps its letter: Δ is another symbol than δ
+    name = capitalize(constant.symbol) if constant.symbol[0].isascii() else constant.symbol
     ranks = [f"{one.rank}" for one in sorted(every, key=lambda one: one.rank)]
     return (
-        f"{capitalize(constant.symbol)}: we use {constant.shipped:g}, and also tried values from {values[0]:g} to "
+        f"{name}: we use {constant.shipped:g}, and also tried values from {values[0]:g} to "
         f"{values[-1]:g}. "
-        f"The law then needs {_span(ratios)} times as long as {families.word(default)} to settle (median over the "
+        f"The law then needs {_span(ratios)} times as long to settle as {beside} (median over the "
         f"situations), and its rank among the laws of the map is {_span(ranks)}."
     )
 

@@ -131,7 +131,7 @@ def measured(episodes: pd.DataFrame, regulator: Law) -> str:
     settled = uniform["outcome"] == "settled"
     found = share(settled)
     amount = capitalize(count_of(int(settled.sum()), len(settled), "uniform starts"))
-    interval = f"95 % interval: {100 * found.low:.1f} to {100 * found.high:.1f} %"
+    interval = f"95\N{NO-BREAK SPACE}% interval: {100 * found.low:.1f} to {100 * found.high:.1f} %"
     times = uniform.loc[settled, "settling_time_s"]
     if times.empty:
         return f"{amount} settle ({interval})."

@@ -159,6 +159,13 @@ def trap(noisy: pd.DataFrame, law: str) -> str:
     return f"{families.word(law)} leaves 180° from {share} of the starts at δ = {trapping.index[0]:g} rad"
 
 
+def describe_worst(share: float) -> str:
+    """Say from how many starts the body leaves 180° with the worst of some laws."""
+    if share == 1.0:
+        return "even the worst law leaves 180° from every start"
+    return f"the worst law leaves 180° from {100 * share:.0f} % of these starts"
+
+
 def describe_trapped(rows: pd.DataFrame) -> str:
     """Say for how many laws without memory the least noise suffices, and what laws that store a side resist."""
     noisy, tested = leaving(rows), laws(rows, controls=False)
@@ -200,7 +207,7 @@ def facts(run: Run) -> dict:
         "without": len(without_memory),
         "blind_middle": f"{100 * float(noisy.loc[middle, without_memory].max()):.0f}",
         "sided": len(on_a_side),
-        "memory_middle": f"{100 * float(noisy.loc[middle, on_a_side].min()):.0f}",
+        "memory_middle": describe_worst(float(noisy.loc[middle, on_a_side].min())),
         "caught": listed(trapped) if trapped else "all other laws with memory leave 180° from every start, too",
         "least": power(min(jumping)),
         "most": power(max(jumping)),

@@ -2,21 +2,25 @@
 
 import functools
 import math
+from collections.abc import Iterator
 
 import numpy as np
 import pandas as pd
 
 import tasks
 from bench.experiments.tables.read import with_contender
+from bench.findings.amounts import capitalize
 from bench.findings.claims.tables import some
 from bench.findings.perturbed import FOLLOWED_RAD, LOST, Threshold, Way, by_level, studied, thresholds, went_well
 from bench.findings.theory import robustness_theory
 from bench.findings.theory.thresholds import HALF_TURN
-from report.figures.kit import families
+from report.figures.kit import families, html
 from report.figures.kit.laws import gains
 from report.figures.kit.page import Run, in_run
 
 AXES = tuple(tasks.axis_names())
+
+WEAKER = html.Table("Law | Perturbation | This law withstands | The other laws withstand")
 
 Found = dict[str, dict[Way, Threshold]]
 
@@ -97,7 +101,8 @@ def facts(run: Run) -> dict:
         "apart": "; ".join(apart) or "none",
         "alike": len(groups[0]),
         "compared": len(compared(each)),
-        "weaker": describe_weaker(groups, each, ways),
+        "weaker": WEAKER(list_weaker(groups, each, ways)) or "All laws have the same thresholds.",
+        "weaker_finding": describe_weaker(groups, each, ways),
     }
 
 
@@ -109,19 +114,38 @@ def group_alike(each: Found, ways: list[Way]) -> list[list[str]]:
     return sorted(groups.values(), key=len, reverse=True)
 
 
-def describe_weaker(groups: list[list[str]], each: Found, ways: list[Way]) -> str:
-    """Return a line a law whose thresholds differ from those of the largest group, and by what."""
+def list_weaker(groups: list[list[str]], each: Found, ways: list[Way]) -> Iterator[tuple[str, ...]]:
+    """Return a row for every threshold that differs from the threshold of the largest group."""
     usual, *others = groups
-    lines = []
     for law in (law for alike in others for law in alike):
-        parts = []
         for way in ways:
-            own, common = each[law][way], each[usual[0]][way]
-            if str(own) != str(common):
-                parts.append(f"{_title(way)}, {_with_unit(own, way)} instead of {_with_unit(common, way)}")
-        text = "; ".join(parts)
-        lines.append(f"- The thresholds of *{families.word(law)}*: {text}.")
-    return "\n".join(lines) or "- No law: all have the same thresholds."
+            threshold, common = each[law][way], each[usual[0]][way]
+            if str(threshold) != str(common):
+                name = families.link(law, families.word(law))
+                yield name, capitalize(_title(way)), _with_unit(threshold, way), _with_unit(common, way)
+
+
+def describe_weaker(groups: list[list[str]], each: Found, ways: list[Way]) -> str:
+    """Say how many laws have other thresholds than the largest group, and for how many perturbations."""
+    usual, *others = groups
+    laws = [law for alike in others for law in alike]
+    if not laws:
+        return f"All {len(usual)} laws have the same thresholds"
+    common = each[usual[0]]
+    apart = {law: [way for way in ways if str(each[law][way]) != str(common[way])] for law in laws}
+    is_less = all(_is_less(each[law][way], common[way], way) for law in laws for way in apart[law])
+    verbs = ("withstand less", "withstands less") if is_less else ("have other thresholds", "has other thresholds")
+    counts = sorted({len(ways_of_law) for ways_of_law in apart.values()})
+    number = f"{counts[0]} to {counts[-1]}" if len(counts) > 1 else f"{counts[0]}"
+    verb = verbs[len(laws) == 1]
+    return f"{len(laws)} of the {len(laws) + len(usual)} laws {verb} than the others, for {number} of the perturbations"
+
+
+def _is_less(threshold: Threshold, common: Threshold, way: Way) -> bool:
+    """Tell whether a threshold is milder than another one; no level at all is the mildest."""
+    if math.isnan(threshold.held):
+        return True
+    return threshold.held < common.held if way.grows else threshold.held > common.held
 
 
 def _title(way: Way) -> str:
@@ -135,5 +159,5 @@ def _with_unit(threshold: Threshold, way: Way) -> str:
     if math.isnan(threshold.held):
         return "no level"
     unit = tasks.axis(way.axis).unit
-    beyond = " and beyond" if threshold.is_whole else ""
-    return f"{threshold.held:g}{'' if unit == '1' else f' {unit}'}{beyond}"
+    last = " (last level tried)" if threshold.is_whole else ""
+    return f"{threshold.held:g}{'' if unit == '1' else f' {unit}'}{last}"
