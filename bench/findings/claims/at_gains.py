@@ -19,8 +19,9 @@ GAINS = RESULTS / "gains"
 """Runs of the same starts at other gains, a folder each."""
 
 RULE = (
-    "The same is decided on results/reference and on every run of results/gains, whatever run is judged: where they do "
-    "not all give one word, it depends on the gains; gains at which it was not tested do not count, and are named."
+    "The same is decided on results/reference and on every run of results/gains, whatever run is judged. Where the runs "
+    'do not all give one word, the word is "depends on the gains". Gains at which the claim was not tested do not '
+    "count, and are named."
 )
 
 STORED = RESULTS / "verdicts" / "verdicts.json"

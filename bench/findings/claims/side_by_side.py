@@ -23,9 +23,9 @@ PAIRED = ("task", "arm", "form", "pose", "complies")
 """What two controllers' rows have in common: the same arm, scene, frame of the hand, order and form."""
 
 DECIDES = f"""
-    Rows of the form '{PAPERS_FORM}' decide, the paper's force control ("converted to joint torques by the Jacobian
-    transpose", 3.3); {" and ".join(f"'{form}'" for form in ACCELERATION_FORMS)}, which had been judged before it was
-    there, are said beside it by the same criterion.
+    Rows of the form '{PAPERS_FORM}' decide. This form is the paper's force control ("converted to joint torques by the
+    Jacobian transpose", 3.3). The forms {" and ".join(f"'{form}'" for form in ACCELERATION_FORMS)} had been judged
+    before it was there. We report them beside it, by the same criterion.
     """
 
 
