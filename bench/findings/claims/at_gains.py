@@ -19,8 +19,8 @@ GAINS = RESULTS / "gains"
 """Runs of the same starts at other gains, a folder each."""
 
 RULE = (
-    "The same is decided on results/reference and on every run of results/gains, whatever run is judged. Where the runs "
-    'do not all give one word, the word is "depends on the gains". Gains at which the claim was not tested do not '
+    "The same is decided on results/reference and on every run of results/gains, whatever run is judged. Where the "
+    'runs do not all give one word, the word is "depends on the gains". Gains at which the claim was not tested do not '
     "count, and are named."
 )
 
@@ -137,11 +137,12 @@ def on_every_engine(decide: Callable) -> Callable:
             with contextlib.suppress(NoEvidence):
                 others[engine], also = decide(results, engine)
                 rows += also.rows
-        said = "No sampled engine has rows for this."
+        said = "No sampled engine has rows for this claim."
         if others:
-            said = f"Sampled engines agree ({', '.join(others)})."
+            said = f"Sampled engines give the same word ({', '.join(others)})."
         if set(others.values()) - {word}:
-            said = "Sampled: " + ", ".join(f"{engine} says '{other}'" for engine, other in others.items()) + "."
+            words = ", ".join(f"{engine} says '{other}'" for engine, other in others.items())
+            said = f"Of the sampled engines, {words}."
         return word, found._replace(sentence=f"{found.sentence} {said}", rows=rows)
 
     return judge
@@ -173,7 +174,7 @@ def describe(study: dict, words: dict[str, str]) -> str:
 
 def _lacking(stale: list[str]) -> str:
     """Name the claims that the study judged by a criterion which stands no more."""
-    return f" Not tested, because their criteria are newer: {', '.join(stale)}." if stale else ""
+    return f" Not tested, because their criteria are newer than these runs: {', '.join(stale)}." if stale else ""
 
 
 def by_gains(study: dict, words: dict[str, str]) -> str:
@@ -185,5 +186,6 @@ def by_gains(study: dict, words: dict[str, str]) -> str:
         )
         ratio = one["kv"] / (2.0 * math.sqrt(one["kp"]))
         decided = len(one["words"].keys() - set(stale))
-        said.append(f"with a damping ratio of {ratio:g}: {', '.join(changed) or 'none'} of {decided}")
-    return f" Other gains change these verdicts, of those that their runs decide: {'; '.join(said)}." if said else ""
+        changes = ", ".join(changed) or "none"
+        said.append(f"with a damping ratio of {ratio:g}: {changes} of the {decided} verdicts decided")
+    return f" Other gains change these verdicts: {'; '.join(said)}." if said else ""

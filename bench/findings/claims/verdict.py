@@ -65,7 +65,7 @@ def word_of(holds: object, corrected: object) -> Word:
     return Word.HOLDS if holds else Word.CORRECTED if corrected else Word.FAILS
 
 
-LONGEST_MEASURED = 100
+LONGEST_MEASURED = 120
 """Characters of a measured value: a cell of a table reads it at a glance."""
 
 
