@@ -66,7 +66,7 @@ def judge_each(results: Results) -> list[Verdict]:
     verdicts = {verdict.id: verdict for verdict in decided}
     for claim in all_claims():
         if claim.id in lacks:
-            evidence = Evidence(f"This run cannot decide it: {lacks[claim.id]}.", 0)
+            evidence = Evidence(f"This run cannot decide the claim: {lacks[claim.id]}.", 0)
             verdicts[claim.id] = Verdict(claim, Word.UNTESTED, evidence)
     return [verdicts[claim.id] for claim in all_claims()]
 

@@ -31,8 +31,9 @@ def c22(results: Results) -> tuple[Word, Evidence]:
     by_alpha = np.abs(B[:, :, 0] - (0.0, 0.0, 1.0)).max()
     by_gamma = np.abs(B[:, :, 2] - [R.n for R in turns]).max()
     axes = (
-        f"At {LIMIT.POSES} orientations alpha's own axis is the base's z to {rounding(by_alpha)} and "
-        f"gamma's the hand's x to {rounding(by_gamma)}."
+        f"At {LIMIT.POSES} orientations we compare axes. The axis of alpha is the base's z axis "
+        f"(difference {rounding(by_alpha)}), and the axis of gamma is the hand's x axis (difference "
+        f"{rounding(by_gamma)})."
     )
     return word, found._replace(sentence=f"{axes} {found.sentence}")
 
@@ -63,14 +64,16 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
     ends = rows.loc[~away, "outcome"].astype(str).value_counts()
     close = ", ".join(f"{n} {end}" for end, n in ends.items()) or "no pose"
     return word, evidence(
-        f"""The same as along the base's axes {_by_order(judged, "same")} poses and forms ({judged["arm"].nunique()}
-        arms); elsewhere Euler compliance is up to {_greatest(differs[away]):.2f} of the Cartesian one off. Turned by
-        the angles before, the Cartesian one differs by at most {_greatest(differs_turned[away]):.1e}. The same as about
-        the hand's own axes {_by_order(judged, "same_in_hand")}. Closer to the pole: {close}.""",
+        f"""Euler compliance and Cartesian compliance along the base's axes are the same
+        {_by_order(judged, "same")} poses and forms ({judged["arm"].nunique()} arms); elsewhere the two compliances
+        differ by up to {_greatest(differs[away]):.2f} of the Cartesian compliance. If the Cartesian compliance is
+        turned by the Euler angles that come before, they differ by at most {_greatest(differs_turned[away]):.1e} of it.
+        Euler compliance is the same as compliance about the hand's own axes {_by_order(judged, "same_in_hand")} poses
+        and forms. Ends of episodes closer to the pole: {close}.""",
         len(rows),
-        instead=f"""One angle is one axis of the base {_by_order(judged, "same")} poses and forms, and one axis turned
-        by the angles before it {_by_order(judged, "same_turned")}.""",
-        measured=f"one turned axis at {count_of(int(judged['same_turned'].sum()), len(judged), 'poses')}",
+        instead=f"""One compliant angle is one compliant axis of the base {_by_order(judged, "same")} poses and
+        forms. It is one axis turned by the angles before it {_by_order(judged, "same_turned")} poses and forms.""",
+        measured=f"one angle is one turned axis at {count_of(int(judged['same_turned'].sum()), len(judged), 'poses')}",
     )
 
 
@@ -108,18 +111,21 @@ def c23(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     as_predicted = (missed <= LIMIT.LEAK).all() and (tilt <= LIMIT.PLANE_RAD).all()
     word = word_of(parted.all() and as_predicted, parted.mean() > 0.5)
     least = float(np.nanmin(differs[general], initial=np.inf))
-    special = _by_order(rows.assign(same=differs <= LIMIT.SAME)[~general], "same") or "at no pose: there is none"
+    special = _by_order(rows.assign(same=differs <= LIMIT.SAME)[~general], "same") or "at none of the 0"
     return word, evidence(
-        f"""With no angle zero they part at
+        f"""If no angle is zero, the two compliances differ at
         {count_of(int(parted.sum()), len(parted), "poses and forms")}, by {least:.2f} of the
-        Cartesian compliance or more; with one zero they correspond {special}.
-        {LEVEL_PAIR.capitalize()}, at {int(level.sum())} poses and forms up to |beta| =
-        {math.degrees(beta.max()):.0f} degrees on {rows["arm"].nunique()} arms: both planes lie as
-        predicted to {_greatest(tilt):.1e} rad, and what a moment about the level axis leaks into z
-        is as predicted to {_greatest(missed):.1e}: {_greatest(leak):.2f} at most, where tan |beta|
-        is {_greatest(np.tan(beta)):.2f}; along the base's axes {_greatest(by_base):.2g}.""",
+        Cartesian compliance or more. If an angle is zero, they are the same {special} poses and
+        forms. Compliance {LEVEL_PAIR} is tested at {int(level.sum())} poses and forms up to |beta|
+        = {math.degrees(beta.max()):.0f} degrees on {rows["arm"].nunique()} arms. Both compliant
+        planes lie as predicted to {_greatest(tilt):.1e} rad. A moment about the level axis also
+        turns the hand about z. The ratio of the two rotations is as predicted to
+        {_greatest(missed):.1e}; it is at most {_greatest(leak):.2f}, where tan |beta| is at most
+        {_greatest(np.tan(beta)):.2f}. With Cartesian compliance the ratio is at most
+        {_greatest(by_base):.2g}.""",
         len(rows),
-        measured=f"""they differ at {count_of(int(parted.sum()), len(parted), "poses")} with no angle zero, by
+        measured=f"""the compliances differ at {count_of(int(parted.sum()), len(parted), "poses")} with no angle zero,
+        by
         {percent(least)} % or more""",
     )
 
@@ -147,13 +153,14 @@ def c24(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     done = near[near["outcome"] == "done"]
     ends = ", ".join(sorted(set(at_zero["outcome"].astype(str))))
     return word, evidence(
-        f"""Z-Y-Z is a problem at {_problems(at_zero)} at zero ({ends}) and at {_problems(near)}
-        within {LIMIT.NEAR_DEG:g} degrees: about x it yields
-        {done["yields"].min():.1e} to {done["yields"].max():.1e} of what is wanted, and about z
-        {done["leak"].min():.1f} to {done["leak"].max():.1f} times as much as about x. Z-Y-X is one at
-        {_problems(zyx)}, where it yields {zyx["yields"].min():.3f} or more.""",
+        f"""Z-Y-Z angles are a problem at {_problems(at_zero)} at zero rotation (ends: {ends}) and at
+        {_problems(near)} within {LIMIT.NEAR_DEG:g} degrees of zero. At the latter, the rotation about
+        x is {done["yields"].min():.1e} to {done["yields"].max():.1e} of the wanted rotation. The
+        rotation about z is {done["leak"].min():.1f} to {done["leak"].max():.1f} times the rotation
+        about x. Z-Y-X angles are a problem at {_problems(zyx)}; with them the rotation about x is
+        {zyx["yields"].min():.3f} or more of the wanted rotation.""",
         len(zyz) + len(zyx),
-        measured=f"""Z-Y-Z: {done["leak"].min():.1f} to {done["leak"].max():.1f} times as much
+        measured=f"""Z-Y-Z angles: {done["leak"].min():.1f} to {done["leak"].max():.1f} times as much
         rotation about z as about x, at {_problems(near)}""",
     )
 

@@ -52,15 +52,17 @@ def c25(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     agree = by_frame.nunique()[by_frame.size() == len(forms)] == 1
     agreed = ""
     if len(forms) > 1:
-        agreed = f"; both forms agree at {count_of(int(agree.sum()), len(agree), 'frames and scenes')}"
+        agreed = f" Both forms agree at {count_of(int(agree.sum()), len(agree), 'frames and scenes')}."
     simple = rows[rows["turns"] < 2]
     listed = "; ".join(_told(task, own) for task, own in complex_ones.groupby("task"))
     return word, evidence(
         f"""{capitalize(count_of(sum(depends), len(depends), "tasks"))} in which two turns comply
-        depend on the Jacobian, by {len(complex_ones)} pairs on {complex_ones["arm"].nunique()}
-        arms: {listed}. Of the pairs that part Euler is the worse in
-        {count_of(int(parted["euler_is_worse"].sum()), len(parted), "pairs")}{agreed}. Where fewer
-        turns comply {count_of(int(simple["parts"].sum()), len(simple), "pairs")} part.""",
+        depend on the Jacobian. We compared {len(complex_ones)} pairs on
+        {complex_ones["arm"].nunique()} arms. By task, these pairs differ: {listed}. The Euler
+        Jacobian is the worse in
+        {count_of(int(parted["euler_is_worse"].sum()), len(parted), "pairs")} that differ.{agreed}
+        Where fewer turns comply, {count_of(int(simple["parts"].sum()), len(simple), "pairs")}
+        differ.""",
         len(rows),
         measured=f"""{count_of(int(turned["parts"].sum()), len(turned), "pairs")} with a frame turned by
         {LIMIT.TURNED_DEG:g}° or more differ, {part_of(int(straight["parts"].sum()), len(straight))} with a
@@ -119,9 +121,10 @@ def _told(task: str, rows: pd.DataFrame) -> str:
 def _parted(rows: pd.DataFrame) -> str:
     """How many part, how many of them by their outcomes, and the greatest factor of the others."""
     by_outcome = np.isinf(rows["factor"])
-    ends = f"{by_outcome.sum()} by outcome, the others " if by_outcome.any() else ""
+    ends = f"{by_outcome.sum()} in the outcome; in the numbers, others differ by " if by_outcome.any() else ""
     pairs = count_of(int(rows["parts"].sum()), len(rows), "pairs")
-    return f"{pairs} ({ends}up to {rows['factor'][~by_outcome].max():.3g} times)"
+    numbers = ends or "the numbers differ by "
+    return f"{pairs} ({numbers}factors of up to {rows['factor'][~by_outcome].max():.3g})"
 
 
 @claim("C47")
@@ -142,9 +145,9 @@ def c47(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         f"""{capitalize(count_of(done, len(rows), "runs"))} of {pressed["task"].iloc[0]} and
         {aligned["task"].iloc[0]} end as they should. The force normal to the plane is off by at
         most {percent(force)} % of {LIMIT.FORCE_N:g} N, root mean square; a tool that complies about
-        two axes lies flush to {moment:.1e} rad; what is held has turned by at most {turn:.1e} rad
-        at the end.""",
+        two axes lies flush to {moment:.1e} rad; rotations that the controller holds have
+        changed by at most {turn:.1e} rad at the end.""",
         len(rows),
-        measured=f"""force off by at most {percent(force)} % of {LIMIT.FORCE_N:g} N; a rotation that
-        is held is off by up to {turn:.2g} rad""",
+        measured=f"""the force is off by at most {percent(force)} % of {LIMIT.FORCE_N:g} N; a rotation
+        that the controller holds by up to {turn:.2g} rad""",
     )

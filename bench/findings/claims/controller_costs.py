@@ -80,13 +80,16 @@ def c20(results: Results) -> tuple[Word, Evidence]:
         f"{part_of(_count_failures(rows), len(rows))} ({arm})" for arm, rows in compared_at.items()
     )
     return word_of(is_linear and fails and hides, max(limits) <= LIMIT.BEND_LOOSE and (fails or hides)), evidence(
-        f"""{LIMIT.CURVES * len(arms)} clear curves a step on {len(arms)} arms: angles are at most {max(full):.1e}
-        rad off the closed form at the step, {min(shares):.3f} to {max(shares):.3f} of that at half of it, and
-        {max(limits):.1e} rad at step zero; the tool moves {max(drifts):.1e} m. At a pole it fails, and the law on R
-        does not, from {at_poles}; from {count_of(_count_failures(clear), len(clear), "clear starts")} (by the same
-        law on the common Jacobian: {_count_failures(common) or "none"}). {" ".join(said for _, said in hidden)}""",
+        f"""We computed {LIMIT.CURVES * len(arms)} curves from clear starts on {len(arms)} arms, at each time step. At
+        the full step, angles are at most {max(full):.1e} rad off the closed form; at half the step they are
+        {min(shares):.3f} to {max(shares):.3f} of that off. Extrapolated to step zero, angles are at most
+        {max(limits):.1e} rad off, and the tool {max(drifts):.1e} m. Starts at a pole from which (3.7) fails, and the
+        law on R does not: {at_poles}. Clear starts from which it is so:
+        {count_of(_count_failures(clear), len(clear), "clear starts")} (with the same law on the common Jacobian:
+        {_count_failures(common) or "none"}). {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
-        measured=f"""angles off the linear response by {max(limits):.1e} rad; fails from {all_failures} of {all_poles}
+        measured=f"""angles are {max(limits):.1e} rad off the linear response; (3.7) fails from {all_failures} of
+        {all_poles}
         starts at poles""",
     )
 
@@ -145,10 +148,10 @@ def _hidden(results: Results, joints: int) -> tuple[bool, str]:
     seems_cheaper = seen[BY_EULER].flops < seen[ON_MATRIX].flops and seen[BY_EULER].calls <= seen[ON_MATRIX].calls
     is_dearer = by_columns(total[ON_MATRIX], total[BY_EULER]) == ORDERED
     told = "; ".join(
-        f"{name} {seen[one].flops} flops of {total[one]} calls"
+        f"{seen[one].flops} of the {total[one].flops} flops of {name}, which takes {total[one].calls or 'no'} calls"
         for name, one in (("(3.7)", BY_EULER), ("(2.2) with the law on R", ON_MATRIX), ("(2.2) with (2.15)", BY_COMMON))
     )
-    return seems_cheaper and is_dearer, f"On {joints} joints the law itself is {told}."
+    return seems_cheaper and is_dearer, f"On {joints} joints the law itself takes {told}."
 
 
 @claim("C26")
@@ -158,22 +161,27 @@ def c26(results: Results) -> tuple[Word, Evidence]:
     for joints, inverse in INVERSES.items():
         three = {f"{one}+{inverse}": controller_costs(results, one, joints) for one in (BY_COMMON, ON_MATRIX, BY_EULER)}
         alone, whole = ({name: tallied(own, goal) for name, own in three.items()} for goal in (False, True))
-        sizes.append(f"on {joints} joints {euler_count(whole, three)}, {surplus(whole, three)} % more")
+        sizes.append(f"{euler_count(whole, three)} on {joints} joints, {surplus(whole, three)} % more")
         times = standing.times_of(timed[timed["contender"].isin(list(three))])
         known = standing.Ledger(times, (alone, whole), math.nan, standing.MEASURABLE)
         *others, euler = three
         stands += [known.stand(one, euler) for one in others]
-        told = (f"{', '.join(map(str, one.values()))}{goal}" for one, goal in ((alone, ""), (whole, ", goal and all")))
-        listed.append(f"{joints} joints: {'; '.join(told)}; time {', '.join(known.over(euler, one) for one in others)}")
+        told = (
+            f"{', '.join(map(str, one.values()))} {goal} the goal's angles"
+            for one, goal in ((alone, "without"), (whole, "with"))
+        )
+        ratios = ", ".join(known.over(euler, one) for one in others)
+        listed.append(f"On {joints} joints: {'; '.join(told)}; time {ratios}")
     dearer = sum(set(one.by_columns) == {ORDERED} for one in stands)
     return word_of(dearer == len(stands), False), evidence(
-        f"""Flops and calls a tick of (2.2) with (2.15), (2.2) with the law on R, and (3.7), and the time of (3.7) over
-        each of the others': {"; ".join(listed)}. (3.7) is dearer in both columns in
-        {count_of(dearer, len(stands), "pairs")}; times part {sum(bool(one.by_time) for one in stands)} of them,
-        {sum(one.by_time == ORDERED for one in stands)} in that order.""",
+        f"""We count flops and calls per control period of three controllers: (2.2) with (2.15), (2.2) with the law on
+        R, and (3.7). We also give the time of (3.7) over the time of each other controller. {". ".join(listed)}. With
+        and without the goal's angles, in {count_of(dearer, len(stands), "pairs")} (3.7) takes more operations. The
+        times differ in {sum(bool(one.by_time) for one in stands)} of these pairs, and (3.7) takes longer in
+        {sum(one.by_time == ORDERED for one in stands)} of these pairs.""",
         3 * 2 * len(INVERSES) + len(timed),
         ("costs", "timings") if len(timed) else ("costs",),
-        measured=f"operations {'; '.join(sizes)}",
+        measured=f"operations of (3.7): {'; '.join(sizes)}",
     )
 
 
@@ -202,11 +210,12 @@ def c33(results: Results) -> tuple[Word, Evidence]:
         is_few.append(more <= LIMIT.FEW)
         by_joints.append(f"{percent(more)} % ({joints} joints)")
         told.append(
-            f"on {joints} joints {base} on the common Jacobian, {euler} on Euler's: {percent(more)} % more flops and "
-            f"{euler.calls - base.calls} calls{weighed if math.isfinite(price) else ''}"
+            f"on {joints} joints {base} with the common Jacobian, {euler} with the Euler Jacobian: "
+            f"{percent(more)} % more flops "
+            f"and {euler.calls - base.calls} more calls{weighed if math.isfinite(price) else ''}"
         )
     return word_of(all(is_more) and all(is_few), all(is_more)), evidence(
-        f"Flops and calls a tick: {'; '.join(told)}.",
+        f"Flops and calls per control period are: {'; '.join(told)}.",
         2 * len(told),
         measured=f"{' or '.join(by_joints)} more operations",
     )
@@ -241,8 +250,8 @@ def c46(results: Results) -> tuple[Word, Evidence]:
             f"{law[ON_MATRIX].flops} on R"
         )
     return word_of(all(is_less) and all(is_left), all(is_left)), evidence(
-        f"Typical ticks: {'; '.join(told)}.",
+        f"In a typical control period, {'; '.join(told)}.",
         3 * len(told),
-        measured=f"""{' or '.join(sizes)} more operations; the law alone {law[BY_EULER].flops} instead of
+        measured=f"""(3.7) takes {' or '.join(sizes)} more operations; the law alone {law[BY_EULER].flops} instead of
         {law[ON_MATRIX].flops} operations""",
     )

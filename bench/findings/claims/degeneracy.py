@@ -14,7 +14,16 @@ from bench.base.on_first_use import Turn
 from bench.experiments.tables.statistics import quantile_estimate
 from bench.findings.claims import probes
 from bench.findings.claims.probes import at_boundary
-from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, interval, rounding, settled_of, some
+from bench.findings.claims.tables import (
+    MAIN_ENGINE,
+    Results,
+    evidence,
+    interval,
+    rounding,
+    settled,
+    settled_of,
+    some,
+)
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 from bench.findings.theory.compliance_theory import matrix_B
 from bench.law.contenders.registry import representation
@@ -40,11 +49,13 @@ def c13(results: Results) -> tuple[Word, Evidence]:
     zyz, axis, vector = found["zyz-euler"], found[LIMIT.ANGLE_AND_AXIS], found["rotation-vector"]
     word = word_of(zyz[0] and axis[0] and vector[0], zyz[0] and axis[0] != vector[0])
     return word, evidence(
-        f"""Per decade towards zero rotation the condition number of the rate map rises by {zyz[1]:.3f} decades for
-        Z-Y-Z and {axis[1]:.3f} for angle and axis (to {zyz[2]:.1e} and {axis[2]:.1e}); for the rotation vector it is at
-        most {vector[2]:.5f}.""",
+        f"""We computed the condition number of the map from the rates of the coordinates to the angular velocity. Per
+        decade towards zero rotation it rises by {zyz[1]:.3f} decades for Z-Y-Z angles (to {zyz[2]:.1e}), and by
+        {axis[1]:.3f} decades for angle and axis (to {axis[2]:.1e}). For the rotation vector it is at most
+        {vector[2]:.5f}.""",
         3 * len(tables),
-        measured=f"""condition number of Z-Y-Z rises to {zyz[2]:.1e}, of the rotation vector to {vector[2]:.4f}""",
+        measured=f"""the condition number of Z-Y-Z angles rises to {zyz[2]:.1e}, that of the rotation vector to
+        {vector[2]:.4f}""",
     )
 
 
@@ -90,13 +101,17 @@ def c14(results: Results) -> tuple[Word, Evidence]:
     about_y = some(turns[turns["start_id"] == "half-turn-y-exact"], "exact 180° rotation about y")
     poles = at_boundary(turns[turns["start_set"] == "poles"], "pole", "exact pole")
     word = word_of(least[180] < LIMIT.ON_POLE, max(least[90], least[-90]) < LIMIT.ON_POLE)
-    so = "2.3 and the equations are right, 2.2 is not" if word == Word.CORRECTED else "The equations do not correct 2.2"
+    so = "The equations do not correct section 2.2"
+    if word == Word.CORRECTED:
+        so = "Section 2.3 and the equations are right, section 2.2 is not"
     return word, evidence(
-        f"""Smallest singular value of B: {least[180]:.3f} at 180 degrees about Y, {rounding(least[90])} and
-        {rounding(least[-90])} at +-90. The feedback-linearized law settles from
-        {settled_of(about_y, "exact half turns about y")} and from {settled_of(poles, "exact poles")}. {so}.""",
+        f"""The smallest singular value of B is {least[180]:.3f} at 180 degrees about Y, {rounding(least[90])} at +90
+        degrees, and {rounding(least[-90])} at -90 degrees. From the exact 180° rotation about y the feedback-linearized
+        law {"settles" if settled(about_y).all() else "does not settle"}; it settles from
+        {settled_of(poles, "exact poles")}. {so}.""",
         len(least) + len(about_y) + len(poles),
-        measured=f"""least singular value of B: {least[180]:.3g} at 180° about y, {rounding(least[90])} at 90°""",
+        measured=f"""the smallest singular value of B is {least[180]:.3g} at 180° about y, {rounding(least[90])} at
+    90°""",
     )
 
 
@@ -116,12 +131,13 @@ def c15(results: Results) -> tuple[Word, Evidence]:
     by_sum = [moved[sign, "sum"] <= LIMIT.SAME < moved[sign, "difference"] for sign in (1, -1)]
     sums = [pole for pole, is_sum in zip(("+90", "-90"), by_sum, strict=True) if is_sum]
     verdict = {2: Word.HOLDS, 1: Word.CORRECTED, 0: Word.FAILS}[sum(by_sum)]
-    so = f"Only the sum is determined at {' and '.join(sums) or 'neither pole'}"
+    so = f"Only the sum is determined at {' and '.join(sums) + ' degrees' if sums else 'neither pole'}"
     return verdict, evidence(
-        f"""With the sum kept R changes by {moved[1, "sum"]:.1g} at +90 and {moved[-1, "sum"]:.0e} at -90 degrees, with
-        the difference kept by {moved[1, "difference"]:.0e} and {moved[-1, "difference"]:.1g}. {so}.""",
+        f"""If alpha and gamma change and their sum stays, R changes by {moved[1, "sum"]:.1g} at beta = +90 degrees and
+        by {moved[-1, "sum"]:.0e} at -90 degrees. If their difference stays, R changes by {moved[1, "difference"]:.0e}
+        at +90 degrees and by {moved[-1, "difference"]:.1g} at -90 degrees. {so}.""",
         4 * len(grid) ** 2,
-        measured=f"""with the sum kept, R changes by {moved[1, "sum"]:.1g} at +90° and by {moved[-1, "sum"]:.0e} at
+        measured=f"""if alpha + gamma stays, R changes by {moved[1, "sum"]:.1g} at +90° and by {moved[-1, "sum"]:.0e} at
         -90°""",
     )
 
@@ -137,13 +153,14 @@ def c16(results: Results) -> tuple[Word, Evidence]:
     largest = float(np.abs(matrices).max())
     lacks_inverse = np.isfinite(matrices).all() and values[:, 2].max() < LIMIT.ON_POLE
     word = word_of(not np.isfinite(matrices[is_pole]).all(), lacks_inverse)
-    so = "B exists everywhere, as 3.3 says; B^-1 does not" if lacks_inverse else "3.3 is not confirmed"
+    so = "B exists everywhere, as section 3.3 says; B^-1 does not" if lacks_inverse else "Section 3.3 is not confirmed"
     return word, evidence(
-        f"""B is finite at all {len(frame):,} orientations (elements at most {largest:.3f}); at {len(at_poles)} exact
-        poles its smallest singular value is at most {rounding(float(values[:, 2].max()))} and the next
+        f"""B is finite at all {len(frame):,} orientations (its elements are at most {largest:.3f}). At
+        {len(at_poles)} exact poles its smallest singular value is at most {rounding(float(values[:, 2].max()))} and
+        the next is
         {float(values[:, 1].min()):.2f}. {so}.""",
         len(frame),
-        measured=f"""elements of B are at most {largest:.3g} at {len(frame):,} orientations; B^-1 is missing at
+        measured=f"""elements of B are at most {largest:.3g} at {len(frame):,} orientations; B^-1 does not exist at
         {len(at_poles)} poles""",
     )
 
@@ -158,11 +175,12 @@ def c28(results: Results) -> tuple[Word, Evidence]:
     word = word_of(is_none and plane <= LIMIT.SAME_RAD, is_none)
     missed = ", ".join(f"{angle:.3f} (a = {a:.3g})" for a, angle in zip(LOOPS_RAD, loops, strict=True))
     return word, evidence(
-        f"""Of {len(ends)} pairs of ways with the same ends the integrals differ by {ends.min():.2f} to {ends.max():.2f}
-        rad, {np.median(ends):.2f} in the median. After turns whose integrals sum to zero the body is turned by {missed}
-        rad. About one axis the integral is the turn to {plane:.0e} rad.""",
+        f"""{len(ends)} pairs of paths have the same ends. The integrals of the two paths of a pair differ by
+        {ends.min():.2f} to {ends.max():.2f} rad, by {np.median(ends):.2f} rad in the median. After turns by a whose
+        integrals sum to zero, the body is turned by {missed} rad. If all turns are about one axis, the integral is the
+        rotation, to {plane:.0e} rad.""",
         2 * len(ends) + len(loops),
-        measured=f"""the integrals of two ways to one end differ by
+        measured=f"""the integrals of two paths to one end differ by
         {interval(quantile_estimate(ends, 0.5), ".2f")} rad (median of {len(ends)} pairs)""",
     )
 

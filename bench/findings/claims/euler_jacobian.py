@@ -71,16 +71,17 @@ def c18(results: Results) -> tuple[Word, Evidence]:
     well = some(rows[(rows["pose_set"] == "random") & (rows["condition"] <= WELL_CONDITIONED)], "random pose")
     worse = share(well["condition_analytic"] > 10 * well["condition"])
     return word, evidence(
-        f"""{len(ways)} families on {rows["arm"].nunique()} arms, J's condition number at most
-        {ways["condition"].max():.0f}: towards the pole J_E's grows by {slopes[:, 0].min():.3f} to
-        {slopes[:, 0].max():.3f} decades a decade, its largest element by {slopes[:, 1].min():.3f} to
-        {slopes[:, 1].max():.3f}, to {ways["nearest"].min():.1e} or more at 1e-{LIMIT.NEAREST}. det J_E = -det J /
-        cos(beta) at {len(square):,} poses, to {errors.max():.1f} eps / cos(beta). Of the random poses with J well
-        conditioned, J_E has ten times its condition number at {worse}. Its largest element is nowhere below
-        {rows["largest"].min():.2f}: only its determinant is ever zero.""",
+        f"""We use {len(ways)} families on {rows["arm"].nunique()} arms; J's condition number is at most
+        {ways["condition"].max():.0f} there. Per decade towards the pole, the condition number of J_E grows by
+        {slopes[:, 0].min():.3f} to {slopes[:, 0].max():.3f} decades, and its largest element by
+        {slopes[:, 1].min():.3f} to {slopes[:, 1].max():.3f} decades. At 1e-{LIMIT.NEAREST} rad this element is
+        {ways["nearest"].min():.1e} or more. At {len(square):,} poses det J_E = -det J / cos(beta), to
+        {errors.max():.1f} eps / cos(beta). Of the random poses where J is well conditioned, J_E has ten times the
+        condition number of J at {worse}. The largest element of J_E is nowhere below {rows["largest"].min():.2f}, so
+        that only its determinant is ever zero.""",
         len(rows),
-        measured=f"""elements up to {ways["nearest"].max():.1e} at 1e-{LIMIT.NEAREST} rad; ten times worse
-        in {percent_interval(worse)} of poses""",
+        measured=f"""elements up to {ways["nearest"].max():.1e} at 1e-{LIMIT.NEAREST} rad; ten times J's condition
+        number in {percent_interval(worse)} of poses""",
     )
 
 
@@ -118,12 +119,12 @@ def c19(results: Results) -> tuple[Word, Evidence]:
     everywhere = derived.max() <= ROUNDINGS and measured.max() <= ROUNDINGS
     word = word_of(everywhere, all((part <= ROUNDINGS).all() for part in away))
     return word, evidence(
-        f"""{len(rows):,} poses of {rows["arm"].nunique()} arms: (3.3) and (3.5) differ by at most {derived.max():.1f}
-        eps / cos(beta), relatively; (3.3) and central differences of the forward kinematics, at {len(kept):,} of them,
-        by at most {measured.max():.1f} eps^(2/3) / cos(beta). Left out, a jump of an angle between both ends of a
-        difference: {len(differenced) - len(kept)}.""",
+        f"""At {len(rows):,} poses of {rows["arm"].nunique()} arms, (3.3) and (3.5) differ by at most
+        {derived.max():.1f} eps / cos(beta), relatively. At {len(kept):,} of these poses, (3.3) and central differences
+        of the forward kinematics differ by at most {measured.max():.1f} eps^(2/3) / cos(beta). Poses left out, because
+        an angle jumps between both ends of a difference: {len(differenced) - len(kept)}.""",
         len(rows),
-        measured=f"the two differ by at most {derived.max():.1f} eps / cos(beta) at {len(rows):,} poses",
+        measured=f"the two derivations differ by at most {derived.max():.1f} eps / cos(beta) at {len(rows):,} poses",
     )
 
 
@@ -147,15 +148,17 @@ def c34(results: Results) -> tuple[Word, Evidence]:
         and all(_alike(found[one][name], found[two][name]) for name in LIMIT.SETS)
         for one, two in itertools.combinations(forms, 2)
     }
-    told = "; ".join(f"{form} {_told(found[form])}, {degenerate[form][1]}" for form in forms)
+    told = ". ".join(f"{form}: {_told(found[form])}; {degenerate[form][1]}" for form in forms)
     near_180 = {form: own[LIMIT.SETS[-1]][0] for form, own in found.items()}
     lost_by_form = ", ".join(f"{kept.n - kept.k} ({form})" for form, kept in near_180.items())
     starts = max(kept.n for kept in near_180.values())
     return word_of(all(alike.values()), alike[LIMIT.REGULAR] and not all(alike.values())), evidence(
-        f"""{told}. Alike: {", ".join(" and ".join(pair) for pair, facts in alike.items() if facts) or "none"}.""",
+        f"""For each form we give the starts lost and the median settling time of each set, and how fast the condition
+        number of B grows towards the form's own pole. {told}. Forms that are alike:
+        {"; ".join(" and ".join(pair) for pair, facts in alike.items() if facts) or "none"}.""",
         sum(kept.n for own in found.values() for kept, _ in own.values())
         + len(forms) * LIMIT.PAIRS * LIMIT.FORM_DECADES,
-        measured=f"lost of {starts} starts near 180°: {lost_by_form}",
+        measured=f"starts lost, of {starts} near 180°: {lost_by_form}",
     )
 
 
@@ -175,12 +178,12 @@ def _degenerates(form: str) -> tuple[bool, str]:
     logs = [[np.log10(condition_in(form, along.to_matrix((one, x, two)))) for x in near] for one, two in outer]
     slopes = np.diff(logs, axis=1)
     tight = np.abs(slopes - LIMIT.SLOPE).max() <= LIMIT.SLOPE_TIGHT * LIMIT.SLOPE
-    return bool(tight), f"B {slopes.min():.3f} to {slopes.max():.3f} decades a decade"
+    return bool(tight), f"{slopes.min():.3f} to {slopes.max():.3f} decades per decade"
 
 
 def _told(found: dict[str, tuple[Share, Estimate]]) -> str:
-    return ", ".join(
-        f"{name}: {count_of(kept.n - kept.k, kept.n, 'starts')} lost, {time.value:.3f} s"
+    return "; ".join(
+        f"of {name} {count_of(kept.n - kept.k, kept.n, 'starts')} lost, {time.value:.3f} s"
         for name, (kept, time) in found.items()
     )
 
@@ -195,12 +198,13 @@ def c44(results: Results) -> tuple[Word, Evidence]:
     exact, off = (max(float(gaps.max()) for gaps in found) for found in (right, wrong))
     typical = float(np.median(np.concatenate(wrong)))
     return word_of(exact <= LIMIT.SAME < off, False), evidence(
-        f"""At {LIMIT.POSES} random states each of {", ".join(arms)} the hand's acceleration, from MuJoCo's forward
-        dynamics and differences of its velocity, is u to {exact:.0e} of its size. With all masses
-        {LIMIT.OFF.partition("-")[2]} times the model's it misses u by {typical:.2g} times u, in the median.""",
+        f"""We tested {LIMIT.POSES} random states of each arm ({", ".join(arms)}). The hand's acceleration is taken from
+        MuJoCo's forward dynamics and differences of the hand's velocity. It is u to {exact:.0e} of the size of u. With
+        all masses {LIMIT.OFF.partition("-")[2]} times the model's, it misses u by {typical:.2g} times u, in the
+        median.""",
         2 * LIMIT.POSES * len(arms),
-        measured=f"""acceleration is u within {exact:.0e} of its size ({LIMIT.POSES * len(arms)} states); with
-        {LIMIT.OFF.partition("-")[2]} times the masses off by {typical:.2g} u""",
+        measured=f"""the acceleration is u within {exact:.0e} of u ({LIMIT.POSES * len(arms)} states); with
+        {LIMIT.OFF.partition("-")[2]} times the masses it is off by {typical:.2g} u""",
     )
 
 

@@ -65,13 +65,14 @@ def c09(results: Results) -> tuple[Word, Evidence]:
     long_way = int((goals["path_ratio"] * goals["angle0_rad"] > math.pi).sum())
     is_tight = max(bends) <= LIMIT.LINEAR_TIGHT and lost_at_rest <= LIMIT.LOST_SHARE and settled(off).all()
     return word_of(is_tight, max(bends) <= LIMIT.LINEAR_LOOSE and lost_at_rest <= LIMIT.STRAY_SHARE), evidence(
-        f"""{len(bends)} traces bend from the closed form by at most {max(bends):.1e} rad. Lost of random starts
-        {"; ".join(map(lost_text, spun))}. Settled: {settled_of(off, "starts off the boundary")} by 1e-12 rad or more,
-        {settled_of(wrap, "starts")} exactly at +-pi, {settled_of(pole, "starts")} exactly on a pole,
-        {settled_of(goals, "goals")}, {long_way} of them by unwinding.""",
+        f"""The angles of {len(bends)} traces differ from the closed form by at most {max(bends):.1e} rad. Shares of
+        random starts that are lost: {"; ".join(map(lost_text, spun))}. Numbers of starts that settle:
+        {settled_of(off, "starts off the boundary")} by 1e-12 rad or more; {settled_of(wrap, "starts")} exactly at
+        +-pi; {settled_of(pole, "starts")} exactly on a pole; {settled_of(goals, "goals")} ({long_way} of these goals by
+        unwinding).""",
         len(rows) + sum(one.starts for one in spun) + len(near) + len(goals),
-        measured=f"""at most {max(bends):.1e} rad off linear; {percent_interval(resting.share)} of {resting.starts:,}
-        random starts lost""",
+        measured=f"""angles at most {max(bends):.1e} rad off linear; {percent_interval(resting.share)} of
+        {resting.starts:,} random starts are lost""",
     )
 
 
@@ -95,12 +96,12 @@ def c10(results: Results) -> tuple[Word, Evidence]:
     jumps = _jumps(gains) / (2 * math.pi * gains.kp)
     passes = finite == 0 and not settled(exact).any() and bool((np.abs(jumps - 1) <= LIMIT.JUMP_SLACK).all())
     divides = abs(slope + 1) <= LIMIT.GROWTH_SLACK and not math.isfinite(largest)
-    so = ", so that B^-1 is what divides" if math.isfinite(largest) else ""
+    so = ", so that the division is in B^-1" if math.isfinite(largest) else ""
     return word_of(passes and divides, passes), evidence(
         f"""{capitalize(count_of(finite, len(commands), "commands"))} at exact poles are finite, and
         {settled_of(exact, "episodes")} there settle; the largest element of B there is {largest:.3f}{so}.
-        Spinning, |u| grows as cos(beta) to the power
-        {slope:.3f}, to {grown:.1e} rad/s^2. Across +-pi the command jumps by {float(jumps.min()):.4f} to
+        If the body spins, |u| grows as cos(beta) to the power
+        {slope:.3f}, up to {grown:.1e} rad/s^2. Across +-pi the command jumps by {float(jumps.min()):.4f} to
         {float(jumps.max()):.4f} times 2 pi Kp.""",
         len(commands) + len(exact) + len(jumps),
         measured=f"""{count_of(finite, len(commands), "commands")} at exact poles are finite; u jumps by
@@ -152,14 +153,15 @@ def c11(results: Results, engine: str) -> tuple[Word, Evidence]:
     peaks = (float(frame.loc[own & (room > MARGINS_RAD[0]), "peak_u"].max()) for own in (~spins, spins))
     at_rest, spinning, near = (", ".join(map(str, each)) for each in (resting, turning, passed))
     return word_of(any(not any(each) for each in counts), not all(resting)), evidence(
-        f"""Erratic starts outside margins of {MARGINS} rad: {at_rest} at rest (of {int((~spins).sum()):,} in all),
-        {spinning} tumbling (of {int(spins.sum())}), and {near} of {probes.BESIDE} that spin at {probes.SPEED:g} rad/s
-        beside each margin; peak commands at rest up to {next(peaks):,.0f}, tumbling up to {next(peaks):,.0f} rad/s^2.
-        Of the tumbling ones that never come within {widest} rad of a pole
+        f"""We count erratic starts outside margins of {MARGINS} rad. At rest they are {at_rest} (of
+        {int((~spins).sum()):,} starts in all). Tumbling they are {spinning} (of {int(spins.sum())} starts). Of
+        {probes.BESIDE} starts that spin at {probes.SPEED:g} rad/s beside each margin they are {near}. Peak commands are
+        up to {next(peaks):,.0f} rad/s^2 at rest, and up to {next(peaks):,.0f} rad/s^2 tumbling. Of the tumbling starts
+        that never come within {widest} rad of a pole,
         {count_of(int(erratic[clear.index].sum()), len(clear), "starts")} are erratic.""",
         len(frame) + sum(len(one) for one in beside),
-        measured=f"""erratic: {count_of(resting[0], int((~spins).sum()), "starts from rest")}, {passed[0]} of
-        {probes.BESIDE} that spin at {probes.SPEED:g} rad/s near a pole""",
+        measured=f"""erratic are {count_of(resting[0], int((~spins).sum()), "starts from rest")}, and {passed[0]} of
+        {probes.BESIDE} starts that spin at {probes.SPEED:g} rad/s near a pole""",
     )
 
 
@@ -179,8 +181,8 @@ def c30(results: Results) -> tuple[Word, Evidence]:
     nominal, own_nominal = (_median(one, 1.0) for one in runs)
     keeps = all(own.low <= other.high for other, own in lost)
     told = "; ".join(
-        f"{level:g}: {own:.3f} s against {other:.3f} s, slowed by {own / own_nominal:.2f} against "
-        f"{other / nominal:.2f}, {own_lost.k} against {other_lost.k} lost"
+        f"{level:g}: {own:.3f} s against {other:.3f} s, slowed {own / own_nominal:.2f} against "
+        f"{other / nominal:.2f} times, {own_lost.k} against {other_lost.k} starts lost"
         for level, (other, own), (other_lost, own_lost) in zip(levels, times, lost, strict=True)
     )
     heaviest, (other_slow, own_slow) = levels[-1], (
@@ -190,15 +192,16 @@ def c30(results: Results) -> tuple[Word, Evidence]:
     as_quick = all(own <= (1 + LIMIT.SLACK) * other for other, own in times)
     of_inertia = word_of(keeps and as_quick, keeps)
     return Word.UNTESTED, evidence(
-        f"""Errors of B and of Bdot, which the sentence is about: not tested. A statement of its own, that feedback
-        linearization needs no better model of the inertia than a law without a model: {of_inertia}. Median settling
-        time with an inertia of so many times the model's, feedback linearization against the rotation matrix, of
-        {LIMIT.STARTS} starts each: {told}. A linear system of twice the inertia is slowed by {heavy / linear:.2f}.""",
+        f"""The sentence is about errors of B and of Bdot, which are not tested. We tested a statement of our own, that
+        feedback linearization needs no better model of the inertia than a law without a model: {of_inertia}. The list
+        gives median settling times of {LIMIT.STARTS} starts, feedback linearization against the rotation-matrix law,
+        after the inertia in multiples of the model's. {told}. A linear system of twice the inertia is slowed by
+        {heavy / linear:.2f}.""",
         sum(map(len, runs)),
-        measured=f"""not tested; an inertia of {heaviest:g} times slows it by {own_slow:.2f}, the rotation matrix by
-        {other_slow:.2f}""",
-        instead=f"""Whether an error of B or of Bdot is a problem is not tested. A statement of its own, that it needs
-        no better model of the inertia than the rotation-matrix law: {of_inertia}.""",
+        measured=f"""not tested; {heaviest:g} times the inertia slows feedback linearization {own_slow:.2f} times, the
+        rotation-matrix law {other_slow:.2f} times""",
+        instead=f"""Whether an error of B or of Bdot is a problem is not tested. A statement of our own, that feedback
+        linearization needs no better model of the inertia than the rotation-matrix law, {of_inertia}.""",
     )
 
 

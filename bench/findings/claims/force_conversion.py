@@ -9,6 +9,7 @@ import numpy as np
 
 from bench.base.on_first_use import Turn, pd
 from bench.experiments.suites import SUITES
+from bench.findings.amounts import count_of
 from bench.findings.claims.euler_jacobian import COORDINATES, DIFFERENCED, EPS, ROUNDINGS
 from bench.findings.claims.side_by_side import PROBE
 from bench.findings.claims.tables import WHOLE, Results, evidence, some
@@ -50,17 +51,20 @@ def c21(results: Results) -> tuple[Word, Evidence]:
     usable = found["gain"] <= LIMIT.USABLE
     rank = 2 if found.loc[poles, "least"].max() <= LOST else 3
     return word, evidence(
-        f"""{len(found):,} orientations, {int(poles.sum())} of them exact poles: F_E is finite at
-        {int(found["exists"].sum()):,}; F_E . Edot is m . omega to {found["gap"].max() / EPS:.1f} eps, and to
-        {found["difference_gap"].max() / DIFFERENCED:.1f} eps^(2/3) with omega differenced from R(E); in the loop, at
-        {len(looped):,} poses and forms of the wrench probe, to {residual.max():.1f} eps / cos(beta). At the poles B has
-        rank {rank}: of one moment {found.loc[poles, "lost"].max():.0g} is left. In {len(elsewhere)} other
-        representations the balance closes to {max(elsewhere) / EPS:.1f} eps. A moment that is not converted misses it
-        by {found["raw_gap"].median():.2f} in the median. Where alpha complies alone, a moment is amplified at most
-        {LIMIT.USABLE:g} times at {int(usable.sum()):,} of the orientations, and up to
-        {found.loc[~poles, "gain"].max():.1e} times off the exact poles, as 1 / cos(beta) has it.""",
+        f"""We tested {len(found):,} orientations, {int(poles.sum())} of them exact poles. The converted moment F_E is
+        finite at {count_of(int(found["exists"].sum()), len(found), "orientations")}. The work F_E . Edot is m . omega
+        to
+        {found["gap"].max() / EPS:.1f} eps. With omega from differences of R(E), it is so to
+        {found["difference_gap"].max() / DIFFERENCED:.1f} eps^(2/3); in the loop, at {len(looped):,} poses and forms of
+        the wrench probe, to {residual.max():.1f} eps / cos(beta). At the poles B has rank {rank}: of one moment
+        {found.loc[poles, "lost"].max():.0g} is left. In {len(elsewhere)} other representations work balances to
+        {max(elsewhere) / EPS:.1f} eps. If the moment is not converted, work is off by
+        {found["raw_gap"].median():.2f} in the median. Where alpha complies alone, the controller amplifies a moment at
+        most {LIMIT.USABLE:g} times at {count_of(int(usable.sum()), len(found), "orientations")}. Off the exact poles it
+        amplifies a moment up to {found.loc[~poles, "gain"].max():.1e} times, as 1 / cos(beta) predicts.""",
         len(found) + len(looped),
-        measured=f"""work balances to {found["gap"].max() / EPS:.1f} eps at {len(found):,} orientations; amplified up to
+        measured=f"""work balances to {found["gap"].max() / EPS:.1f} eps at {len(found):,} orientations; moments are
+        amplified up to
         {found.loc[~poles, "gain"].max():.1e} times""",
     )
 

@@ -58,16 +58,17 @@ def c06(results: Results, engine: str) -> tuple[Word, Evidence]:
         least >= LIMIT.INSIDE_TIGHT and outside.value <= 1 - LIMIT.OUTSIDE_SHARE, least >= LIMIT.INSIDE_LOOSE
     )
     how = uniform["outcome"][~settled(uniform)]
-    ends = ", ".join(f"{end} ({n:,})" for end, n in how.value_counts().items() if n) or "in no other way"
-    nearest = float(np.degrees(fails.min())) if len(fails) else math.nan
+    ends = ", ".join(f"as {end} ({n:,})" for end, n in how.value_counts().items() if n) or "in no way: all settle"
+    failure = "No start on a geodesic from the goal fails."
+    if len(fails):
+        failure = f"The nearest failure on a geodesic from the goal is at {float(np.degrees(fails.min())):.1f} degrees."
     return word, evidence(
-        f"""Settled: {whole} of SO(3); inside the box {inside}, of the box set's inside starts {directed}; outside
-        {outside}. The uniform ones that fail end {ends}. The nearest failure on a geodesic from the goal is at
-        {nearest:.1f} degrees. {capitalize(count_of(len(every) - len(sure), len(every), "starts"))} do not
-        converge.""",
+        f"""Of all uniform starts, {whole} settle. Inside the box {inside} of the uniform starts settle, and outside
+        it {outside}. Of the box set's starts inside the box, {directed} settle. The uniform starts that do not settle
+        end {ends}. {failure} {capitalize(count_of(len(sure), len(every), "starts"))} converge.""",
         len(every) + len(fails),
         measured=f"""{percent_interval(whole)} of {whole.n:,} uniform starts settle; inside the box
-        {percent(inside.value)} %""",
+        {percent(inside.value)} % settle""",
     )
 
 
@@ -92,16 +93,16 @@ def c07(results: Results, engine: str) -> tuple[Word, Evidence]:
     poles = poles[probes.boundary_distance(poles)["pole"] > probes.EXACT_RAD]
     beside = converged(poles)
     return word, evidence(
-        f"""{len(passing)} episodes come within {math.degrees(math.asin(LIMIT.PASSING)):.1f} degrees of the pole; of the
-        {len(converged(passing))} that converge {percent(lost_passing.value)} % do not settle
-        ({percent(lost_passing.low)} to {percent(lost_passing.high)} %, the others settling or lost), against
-        {percent_interval(lost_rest)} of the rest. Their
-        median peak command is {peak.value:,.0f} rad/s^2 ({peak.low:,.0f} to {peak.high:,.0f}) against
-        {interval(rest_peak, ",.0f")}. From rest beside the pole {settled_of(beside, "starts")} that converge settle,
-        and {len(poles) - len(beside)} do not converge.""",
+        f"""{len(passing)} episodes come within {math.degrees(math.asin(LIMIT.PASSING)):.1f} degrees of the pole, and
+        {len(converged(passing))} of these episodes converge. Of the latter, {percent(lost_passing.value)} % do not
+        settle ({percent(lost_passing.low)} to {percent(lost_passing.high)} %, whether the others settle or are lost).
+        Of the rest, {percent_interval(lost_rest)} do not settle. The median peak command is {peak.value:,.0f} rad/s^2
+        ({peak.low:,.0f} to {peak.high:,.0f}) near the pole, and {interval(rest_peak, ",.0f")} rad/s^2 for the rest.
+        From rest beside the pole, {settled_of(beside, "starts")} that converge settle; {len(poles) - len(beside)}
+        starts do not converge.""",
         len(frame) + len(poles),
         measured=f"""{percent_interval(lost_passing)} of {len(passing)} starts that pass a pole are lost,
-        {percent(lost_rest.value)} % of the rest""",
+        and {percent(lost_rest.value)} % of the rest""",
     )
 
 
@@ -116,16 +117,16 @@ def c08(results: Results, engine: str) -> tuple[Word, Evidence]:
     works = cure.high >= zero.low - LIMIT.CURE_SLACK and cure.low > base.high
     word = word_of(works and base.high <= LIMIT.FEW_GOALS and not near.k, works and base.high < LIMIT.MANY_GOALS)
     return word, evidence(
-        f"""With E_d subtracted it reaches {base} of the goals, and
-        {count_of(near.k, near.n, "goals")} {LIMIT.NEAR_GOAL_RAD} rad
-        from zero; with angles from the goal {cure} of the goals, against {zero} of uniform starts with goal zero. By
-        its eigenvalues it holds {percent(held_goals.held_share(results.gains()))} % of all goals: those with
-        alpha_d under
+        f"""With E_d subtracted, the law reaches {base} of the goals, and
+        {count_of(near.k, near.n, "goals")} at {LIMIT.NEAR_GOAL_RAD} rad
+        from zero. With angles from the goal, it reaches {cure} of the goals; with goal zero it settles from {zero} of
+        the uniform starts. By its eigenvalues, the law with E_d subtracted can hold
+        {percent(held_goals.held_share(results.gains()))} % of all goals: those with alpha_d under
         {math.degrees(math.acos(held_goals.least_cosine(0.0, results.gains()))):.1f} degrees at beta_d = 0 and under 90
-        at the poles, whatever gamma_d. As printed, u contains no goal.""",
+        degrees at the poles, whatever gamma_d is. As printed, the command u contains no goal.""",
         base.n + cure.n + zero.n + near.n,
-        measured=f"""{percent_interval(base)} of {base.n} goals reached; with angles from the goal
-        {percent(cure.value)} %""",
+        measured=f"""{percent_interval(base)} of {base.n} goals are reached; with angles from the goal
+        {percent(cure.value)} % are""",
     )
 
 
@@ -145,10 +146,10 @@ def c29(results: Results) -> tuple[Word, Evidence]:
     )
     is_tight, is_loose = (small <= SMALL_ANGLES + ticks).all(), (small <= LOOSE_SETTLING + ticks).all()
     return word_of(is_tight, is_loose), evidence(
-        f"""{LIMIT.DIRECTIONS} axes at {len(GAINS)} pairs of gains: at most {by_angle} from the
-        closed form ({closed_form.linear_settling(*gains):.4f} s at the run's gains). Every time is
-        within {100 * LOOSE_SETTLING:.0f} % up to {within:g} rad of
-        {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} tried.""",
+        f"""We tested {LIMIT.DIRECTIONS} axes at {len(GAINS)} pairs of gains. Settling times differ from
+        the closed form ({closed_form.linear_settling(*gains):.4f} s at the run's gains) by at most
+        {by_angle}. Larger rotations of {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} rad
+        were tried too: every settling time is within {100 * LOOSE_SETTLING:.0f} % up to {within:g} rad.""",
         LIMIT.DIRECTIONS * (small.size + len(LIMIT.LARGER_RAD)),
         measured=f"""settling times differ from the linear model's by at most {percent(small.max())}
         % up to {max(SMALL_ANGLES):g} rad ({LIMIT.DIRECTIONS} axes)""",
@@ -168,18 +169,19 @@ def c37(results: Results) -> tuple[Word, Evidence]:
     in_time = pd.Series(tables.settling_times(rows) <= LIMIT.PACE * small, index=rows.index)
     in_box = rows["alpha0"].abs() < math.pi / 2
     every, inside, outside = share(in_time), share(in_time[in_box]), share(in_time[~in_box])
+    is_satisfactory = "is satisfactory too" if outside.low >= LIMIT.REASONABLE else "is not satisfactory"
     return word_of(inside.high <= LIMIT.FEW, inside.low < LIMIT.REASONABLE), evidence(
-        f"""Uniform starts at {LIMIT.BEYOND_RAD:g} rad or more that settle within {LIMIT.PACE * small:.3f} s,
-        {LIMIT.PACE:g} times the time of a small error: in the box of C06 {inside}, outside it {outside}, of all
-        {every}.""",
+        f"""We count uniform starts at {LIMIT.BEYOND_RAD:g} rad or more that settle within {LIMIT.PACE * small:.3f} s,
+        which is {LIMIT.PACE:g} times the time of a small error. In the box of C06 {inside} of the starts do so, outside
+        the box {outside}, and of all starts {every}.""",
         len(rows),
         instead=f"""If the goal is zero, the law is satisfactory in half of SO(3), the box of C06: there
-        {count_of(inside.k, inside.n, "starts")} at {LIMIT.BEYOND_RAD:g} rad or more settle in time. Outside the box it
-        is not: {count_of(outside.k, outside.n, "starts")} do."""
+        {count_of(inside.k, inside.n, "starts")} at {LIMIT.BEYOND_RAD:g} rad or more settle in time. Outside the box
+        the law {is_satisfactory}: there {count_of(outside.k, outside.n, "starts")} settle in time."""
         if inside.low >= LIMIT.REASONABLE
         else "",
-        measured=f"""beyond {LIMIT.BEYOND_RAD:g} rad {percent_interval(inside)} settle in time inside the box,
-        {percent(outside.value)} % outside""",
+        measured=f"""beyond {LIMIT.BEYOND_RAD:g} rad {percent_interval(inside)} of the starts inside the box settle in
+        time, and {percent(outside.value)} % outside""",
     )
 
 
@@ -196,15 +198,16 @@ def c38(results: Results) -> tuple[Word, Evidence]:
     is_slowed, loses = typical >= LIMIT.OFF, unsettled.low > 0.0
     word = word_of(is_alone_linear and is_slowed and loses, is_alone_linear and (is_slowed or loses))
     return word, evidence(
-        f"""Of {len(rows):,} uniform starts at {LIMIT.BEYOND_RAD:g} rad or more
-        {percent_interval(unsettled)} are lost; the others settle {percent(typical)} % off the
-        linear time, in the median, {percent(float(np.mean(off >= LIMIT.OFF)))} % of them
-        {100 * LIMIT.OFF:.0f} % or more off it. Turns of one angle alone, up to
-        {max(LIMIT.ALONE_RAD):g} rad, settle within {percent(alone)} % of it.""",
+        f"""Of {len(rows):,} uniform starts at {LIMIT.BEYOND_RAD:g} rad or more,
+        {percent_interval(unsettled)} are lost. The settling times of the others are
+        {percent(typical)} % off the linear model's time, in the median; for
+        {percent(float(np.mean(off >= LIMIT.OFF)))} % of them they are {100 * LIMIT.OFF:.0f} % or
+        more off. Turns of one angle alone, up to {max(LIMIT.ALONE_RAD):g} rad, settle within
+        {percent(alone)} % of the linear model's time.""",
         len(rows) + 3 * len(LIMIT.ALONE_RAD),
-        instead=f"""{percent(unsettled.value)} % of the starts outside the region are lost, and the median settling time
-        is {percent(typical)} % off.""",
-        measured=f"{percent_interval(unsettled)} lost, times {percent(typical)} % off",
+        instead=f"""{percent(unsettled.value)} % of the starts outside the linear region are lost, and settling times
+        are {percent(typical)} % off the linear model's time, in the median.""",
+        measured=f"{percent_interval(unsettled)} are lost, times are {percent(typical)} % off",
     )
 
 
@@ -220,14 +223,15 @@ def c39(results: Results) -> tuple[Word, Evidence]:
     by_speed = ratio.groupby(both["level"]).max()
     kept = [speed for speed, worst in by_speed.items() if worst <= LIMIT.AS_WELL]
     fastest, worst_ratio = max(by_speed.index), float(by_speed.max())
-    measured = f"error at most {worst_ratio:.2f} times the rotation matrix's, for goals up to {fastest:g} rad/s"
+    measured = f"error at most {worst_ratio:.2f} times the rotation-matrix law's, for goals up to {fastest:g} rad/s"
     if not np.isfinite(worst_ratio):
-        measured = f"it loses some goals that move at up to {fastest:g} rad/s"
+        measured = f"the law loses some goals that move at up to {fastest:g} rad/s"
     tails = own["tail_max_rad"].groupby(own["level"]).max()
     said = ", ".join(f"{tails[speed]:.1e} rad ({worst:.2f}) at {speed:g} rad/s" for speed, worst in by_speed.items())
     return word_of(len(kept) == len(by_speed), min(by_speed.index) in kept), evidence(
-        f"""{both["start_id"].nunique()} starts within {LIMIT.SMALL_RAD:g} rad, goals that sway: greatest error once it
-        follows, and greatest ratio to the rotation-matrix law's, {said}.""",
+        f"""{both["start_id"].nunique()} starts within {LIMIT.SMALL_RAD:g} rad were tested with goals that sway. The
+        greatest error once the law follows is, with its greatest ratio to the rotation-matrix law's error in brackets:
+        {said}.""",
         len(both),
         measured=measured,
     )
@@ -251,10 +255,11 @@ def c45(results: Results) -> tuple[Word, Evidence]:
     off = float(np.abs(by_input - np.eye(3)[::-1]).max())
     rest = float(max(np.abs(by_angles).max(), np.abs(by_rates).max()))
     return word_of(max(off, rest) <= LIMIT.DIFFERENCED, False), evidence(
-        f"""Central differences of (2.11) at zero: by u the permutation of (2.14) to {rounding(off)}; by the angles and
-        their rates zero to {rounding(rest)}.""",
+        f"""We took central differences of (2.11) at zero. Largest difference of the derivatives by u from the
+        permutation of (2.14): {rounding(off)}. Largest derivative by the angles or their rates: {rounding(rest)}.""",
         2 * 9,
-        measured=f"differs from the permutation by at most {rounding(off)}; other derivatives at most {rounding(rest)}",
+        measured=f"""largest difference from the permutation: {rounding(off)}; largest other derivative:
+        {rounding(rest)}""",
     )
 
 

@@ -72,18 +72,19 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         if pair.by_time
     ]
     instead = f"""The order is that of time and operations together. Time parts {" and ".join(parted) or "no two laws"};
-        operations decide the rest. By flops alone, calls left out: {"; ".join(others) or "the same order"}."""
+        operations decide the rest. By flops alone, with calls left out, the order is:
+        {"; ".join(others) or "the same"}."""
     word = word_of(by_one_measure, is_ordered or all(np.logical_or(in_order, [pair.is_disputed for pair in pairs])))
     return word, evidence(
-        f"""Time a tick over the rotation matrix's: {timed}; its intervals part
-        {count_of(timed_pairs, len(pairs), "pairs")}. Flops and calls: {paper}; with the goal's
-        angles taken from its matrix: {total}; the columns decide
+        f"""Times per control period, over the rotation-matrix law's, are: {timed}. Intervals of these
+        times part {count_of(timed_pairs, len(pairs), "pairs")}. Flops and calls are: {paper}. With
+        the goal's angles taken from its matrix, they are: {total}. The columns decide
         {count_of(sum(0 not in pair.by_columns for pair in pairs), len(pairs), "pairs")}{priced}. By
-        flops alone, calls left out: {"; ".join(others) or "the same order"}. {as_printed}""",
+        flops alone, with calls left out, the order is: {"; ".join(others) or "the same order"}. {as_printed}""",
         len(THREE) * (len(known.accountings) + len(known.times)),
         ("costs", "timings") if known.times else ("costs",),
         instead if word == Word.CORRECTED else "",
-        f"operations and calls {totals}; {ratios}",
+        f"flops and calls {totals}; {ratios} (in the paper's order)",
     )
 
 
@@ -106,22 +107,23 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
     if open_yet and word != Word.FAILS:
         word = Word.UNTESTED
     if adequate:
-        beside_it = " but for isolated orientations, or by one measure of cost alone" if is_isolated else ""
-        instead = f"{' and '.join(adequate)} is adequate in both{beside_it}."
+        beside_it = ", except at isolated orientations, or by one measure of cost alone" if is_isolated else ""
+        instead = f"{' and '.join(adequate)} is adequate in both cost and performance{beside_it}."
     else:
-        instead = "None of the three is adequate in both."
+        instead = "None of the three laws is adequate in both cost and performance."
     if open_yet:
         lacking = "; ".join(f"{name} ({asked[name]})" for name in open_yet)
-        instead = f"Whether one is adequate in both is not tested: {lacking}."
+        instead = f"Whether a law is adequate in both cost and performance is not tested: {lacking}."
     beside = probes.beside_pole(0.1, THREE[-1], results.gains(), results.dt_s)
     return word, evidence(
-        f"""Adequate in both: {", ".join(adequate) or "none"}. A small error settles in {linear:.3f} s. Of starts that
+        f"""Laws adequate in both cost and performance: {", ".join(adequate) or "none"}. A small error settles in
+        {linear:.3f} s. Of starts that
         spin at {probes.SPEED:g} rad/s beside a pole, which are not counted, feedback-linearized loses
         {count_of(int((~settled(beside)).sum()), len(beside), "starts")}.""",
         len(THREE) + sum(law.rows for law in three),
         ("episodes", "costs", "timings") if known.times else ("episodes", "costs"),
         instead,
-        f"""{" and ".join(adequate) or "none"} adequate, first law
+        f"""{" and ".join(adequate) or "none"} adequate; first law takes
         {tables.interval_or_never(three[0].pace, ".2f", " s")} for 99 %""",
         (PLACES, *(_placed(law, asked[name], known) for name, law in zip(NAMES, three, strict=True))),
     )
@@ -185,17 +187,20 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
     passing = sum(result.passes for result in without)
     rest = "laws without memory: not tested"
     if without:
-        rest = f"without memory {count_of(passing, len(without), 'laws')}"
+        rest = f"without memory, {count_of(passing, len(without), 'laws')} do"
     # (e) and (f) together are impossible without memory: Bhat and Bernstein 2000; Mayhew, Sanfelice, Teel 2011.
-    impossible = "" if passing or not without else f" Without memory none can; we tested {len(without)}."
+    impossible = ""
+    if without and not passing:
+        impossible = f" Without memory none can pass them all; we tested {len(without)} such laws."
     instead = f"Yes: {named}.{impossible}" if answers else ""
     return word, evidence(
         f"""Of {by_others} later laws by others, {counts[ADAPTED]} of them adapted here, and {counts[OURS]} of ours,
-        {len(adequate) or "none"} are adequate in both cost and performance, tests (a) to (d). All eight tests:
-        {", ".join(told) or "none"}. The paper's laws on angles take
-        {" and ".join(known.over(name, THREE[0]) for name in THREE[1:])} times the rotation matrix's time; not timed,
-        so that operations decide: {", ".join(untimed) or "none"}. In these times a call takes {known.price:.0f} flops.
-        A small error settles in {small:.3f} s, and {adequacy.SLOW * small:.3f} s is the slowest that is adequate.""",
+        {len(adequate) or "none"} are adequate in both cost and performance: tests (a) to (d). Laws that
+        pass all eight tests: {", ".join(told) or "none"}. The paper's laws on angles take
+        {" and ".join(known.over(name, THREE[0]) for name in THREE[1:])} times the rotation-matrix law's time.
+        Of laws that were not timed, operations decide: {", ".join(untimed) or "none"}. In these times a call takes
+        {known.price:.0f} flops.
+        A small error settles in {small:.3f} s, and {adequacy.SLOW * small:.3f} s is the longest adequate time.""",
         sum(law.rows + held.get(law.name, (0, 0))[1] for law in later),
         instead=instead,
         measured=f"""{count_of(len(answers), len(later), "later laws")} pass all eight tests; {rest}""",
@@ -268,10 +273,11 @@ def c31(results: Results) -> tuple[Word, Evidence]:
         {percent(linearized.value)} % with the linearized one, {percent(mine.value)} % with feedback linearization.""",
         3 * len(laws[-1]),
         instead=f"""{100 * LIMIT.NEARLY_ALL:.0f} % of the starts settle {longer[0]} times as late
-        with the rotation-matrix law, which settles {count_of(matrix.k, matrix.n, "starts")}.""",
-        measured=f"first law {longer[0]} times as late for 99 %",
+        with the rotation-matrix law as with feedback linearization. The former settles
+        {count_of(matrix.k, matrix.n, "starts")}.""",
+        measured=f"first law is {longer[0]} times as late for 99 %",
         numbers=(
-            ("Law", "Uniform starts that settle", "Its time for 99 % of the starts over feedback linearization's"),
+            ("Law", "Uniform starts that settle", "Time for 99 % of the starts over feedback linearization's time"),
             *zip(THREE, settles, (*longer, "1"), strict=True),
         ),
     )
@@ -306,11 +312,12 @@ def c35(results: Results) -> tuple[Word, Evidence]:
     matrix, linearized, feedback = (one for _, one, _ in found)
     reasonable = [name for name, one, time in found if one.low >= LIMIT.REASONABLE and time.high <= LIMIT.PACE * small]
     told = "; ".join(
-        f"{name} {one}, in {tables.interval_or_never(time, '.3f', ' s')} in the median"
+        f"{name} {one}, {tables.interval_or_never(time, '.3f', ' s')}"
         for name, one, time in found
     )
     return word_of(len(reasonable) == 2, len(reasonable) == 3), evidence(
-        f"""Reasonable: {", ".join(reasonable) or "none"}. {told}. A small error settles in {small:.3f} s.""",
+        f"""Reasonable laws: {", ".join(reasonable) or "none"}. Shares that settle and median times are: {told}. A
+        small error settles in {small:.3f} s.""",
         sum(one.n for _, one, _ in found),
         measured=f"""{percent(matrix.value)} %, {percent_interval(linearized)} and {percent(feedback.value)} % of
         {matrix.n:,} starts settle (in the paper's order)""",
@@ -325,8 +332,9 @@ def c36(results: Results) -> tuple[Word, Evidence]:
     tested = {law.name: adequacy.examine(law, known, small, {}).among(LIMIT.TESTS) for law in three}
     told = "; ".join(
         f"{one.name.partition('/')[0]} {tested[one.name].in_words()} ({percent(one.settled)} % of {one.n:,} settle, "
-        f"{count_of(one.lost, one.directed, 'directed starts')} are lost, {one.lost_exact} exactly on a boundary, "
-        f"99 % settle: {tables.interval_or_never(one.pace, '.2f', ' s')})"
+        f"{count_of(one.lost, one.directed, 'directed starts')} are lost, "
+        f"{one.lost_exact} starts exactly on a boundary are lost, "
+        f"time for 99 % of the starts: {tables.interval_or_never(one.pace, '.2f', ' s')})"
         for one in three
     )
     word = word_of(len(three) == len(THREE) and all(result.failed for result in tested.values()), False)
@@ -339,5 +347,5 @@ def c36(results: Results) -> tuple[Word, Evidence]:
     return word, evidence(
         f"{told}.",
         sum(law.rows for law in three),
-        measured=f"lost starts exactly on a boundary: {on_boundary} (in the paper's order)",
+        measured=f"starts lost exactly on a boundary: {on_boundary} (in the paper's order)",
     )

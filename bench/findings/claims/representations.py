@@ -30,10 +30,11 @@ def c40(results: Results) -> tuple[Word, Evidence]:
     apart = min(float(np.median(np.abs(other - R).max(axis=(1, 2)))) for other in second)
     divides, is_double = off <= LIMIT.SAME, left <= LIMIT.SAME and apart > LIMIT.APART
     return word_of(divides and not is_double and len(possible) == len(trios), divides and is_double), evidence(
-        f"""Of {len(trios)} choices of three elements of n and o {len(possible)} can be eliminated. Their divisor, the
-        determinant of the constraints' derivatives over 4, is a product of two elements of the matrix, to {off:.0e} at
-        {LIMIT.MATRICES} random orientations, and so zero somewhere. For each choice a second matrix, apart by
-        {apart:.2f} in the median, has the same three elements left and meets (2.5) to {left:.0e}.""",
+        f"""There are {len(trios)} choices of three elements of n and o, and {len(possible)} of them can be eliminated.
+        Their divisor is the determinant of the constraints' derivatives over 4. At {LIMIT.MATRICES} random orientations
+        it is a product of two elements of the matrix, to {off:.0e}, and so it is zero somewhere. For each choice a
+        second matrix has the same three elements left and meets (2.5) to {left:.0e}. It is at least {apart:.2f} away
+        from the first matrix, in the median.""",
         LIMIT.MATRICES * len(trios),
         measured=f"""{len(possible)} of {len(trios)} choices can be eliminated; a second matrix is {apart:.2f} away
         (median)""",
@@ -95,11 +96,13 @@ def c41(results: Results) -> tuple[Word, Evidence]:
     spread = {name: float(np.abs(R - R[0]).max()) for name, R in many.items()}
     word = word_of(max(twice.values()) <= LIMIT.SAME and max(spread.values()) <= LIMIT.SAME, False)
     return word, evidence(
-        f"""Two different sets give the same matrix to {max(twice.values()):.0e} at {LIMIT.MATRICES} orientations, in
-        each of {", ".join(pairs)}. {LIMIT.MATRICES} sets along a line give one matrix to {max(spread.values()):.0e}: at
-        beta = pi/2 of Z-Y-X angles and of roll, pitch and yaw, at zero rotation of the others.""",
+        f"""Two different sets of variables give the same matrix to {max(twice.values()):.0e} at {LIMIT.MATRICES}
+        orientations, in each of these: {"; ".join(pairs)}. {LIMIT.MATRICES} sets along a line give one matrix to
+        {max(spread.values()):.0e}. The line is at beta = pi/2 for Z-Y-X angles and for roll, pitch and yaw, and at zero
+        rotation for the others.""",
         2 * len(pairs) * LIMIT.MATRICES,
-        measured=f"""two sets give one matrix to {max(twice.values()):.0e} at {LIMIT.MATRICES} orientations, in
+        measured=f"""two sets of variables give one matrix to {max(twice.values()):.0e} at {LIMIT.MATRICES}
+        orientations, in
         {len(pairs)} representations""",
     )
 
@@ -127,11 +130,13 @@ def c42(results: Results) -> tuple[Word, Evidence]:
     }
     regular = min(least_of(form, (one, 0.8, two)) for form in FORMS for one, two in outer)
     return word_of(max(least.values()) <= LIMIT.SAME and regular > LIMIT.APART, False), evidence(
-        f"""Smallest singular value of B: at most {max(least.values()):.0e} in all {len(FORMS)} forms at a middle angle
-        of 0 (where the first and the last axis are the same) or pi/2, whatever the others are; at a middle angle of 0.8
-        rad at least {regular:.2f}.""",
+        f"""In all {len(FORMS)} forms the smallest singular value of B is at most {max(least.values()):.0e} at one
+        middle angle, whatever the other angles are. This middle angle is 0 if the first and the last axis are the same,
+        and pi/2 if they differ. At a middle angle of 0.8 rad the smallest singular value is at least
+        {regular:.2f}.""",
         2 * len(FORMS) * LIMIT.PAIRS,
-        measured=f"least singular value of B is at most {max(least.values()):.0e} in each of the {len(FORMS)} forms",
+        measured=f"""the smallest singular value of B is at most {max(least.values()):.0e} in each of the
+        {len(FORMS)} forms""",
     )
 
 
@@ -158,11 +163,12 @@ def c43(results: Results) -> tuple[Word, Evidence]:
     tilts = np.abs(np.sin(first[:, 1]))
     uneven = float(np.median(np.sqrt((1 + tilts) / (1 - tilts))))  # singular values of B: 1 and sqrt(1 -+ |sin beta|)
     return word_of(longer.value >= LIMIT.LONGER and uneven >= LIMIT.UNEVEN, False), evidence(
-        f"""Between {LIMIT.MATRICES} pairs of random orientations the straight way in Z-Y-X angles
-        is {longer.value:.2f} times the shortest, in the median; in the rotation vector of the
-        difference it is the shortest. Equal errors of three Z-Y-X angles turn a hand {uneven:.2f}
-        times as far in one direction as in another, in the median; as errors of a small rotation
-        vector they are even. Compliance: C22 to C25.""",
+        f"""Between {LIMIT.MATRICES} pairs of random orientations, the straight way in Z-Y-X angles
+        is {longer.value:.2f} times the shortest way, in the median. The straight way in the
+        rotation vector of the difference is the shortest way. Equal errors of three Z-Y-X angles turn a hand
+        {uneven:.2f}
+        times as far in one direction as in another, in the median. Equal errors of a small
+        rotation vector turn it equally far in all directions. C22 to C25 judge compliance.""",
         2 * LIMIT.MATRICES,
         measured=f"""the way in Z-Y-X angles is {interval(longer, ".2f")} times the shortest, the median of
         {LIMIT.MATRICES} pairs""",

@@ -60,9 +60,9 @@ def c01(results: Results, engine: str) -> tuple[Word, Evidence]:
     exactly = int((probes.boundary_distance(left)["half_turn"].abs() <= probes.EXACT_RAD).sum())
     is_stray = uniform.n - uniform.k <= LIMIT.STRAY_SHARE * uniform.n
     return word_of(not unstable and exactly == len(left), not unstable and is_stray), evidence(
-        f"""{capitalize(count_of(unstable, len(frame), "starts"))} diverge or gain energy. {len(left)} do not settle;
-        {count_of(exactly, len(left), "of these")} begin exactly 180° from the goal. Of uniform starts
-        {uniform} settle.""",
+        f"""{capitalize(count_of(unstable, len(frame), "starts"))} diverge or gain energy. Starts that do
+        not settle: {len(left):,}. Starts among them that begin exactly 180° from the goal: {exactly:,}. Of the uniform
+        starts, {uniform} settle.""",
         len(frame),
         measured=f"""{percent_interval(uniform)} of {uniform.n:,} uniform starts settle;
         {count_of(unstable, len(frame), "starts")} diverge""",
@@ -84,12 +84,12 @@ def c02(results: Results) -> tuple[Word, Evidence]:
     largest, count = max(one.max() for one in off), sum(map(len, off))
     is_tight = all((one <= most).all() for one, most in zip(off, allowed, strict=True))
     return word_of(is_tight, largest <= LOOSE_SETTLING), evidence(
-        f"""{count} small rotations at {len(GAINS)} pairs of gains: settling times from {min(times):.3f} to
-        {max(times):.3f} s, at most {percent(largest)} % from the closed form
-        ({closed_form.linear_settling(*Gains()):.4f} s at the paper's gains).""",
+        f"""We simulated {count} small rotations at {len(GAINS)} pairs of gains. The closed form gives settling times of
+        {min(times):.3f} to {max(times):.3f} s ({closed_form.linear_settling(*Gains()):.4f} s at the paper's gains). The
+        simulated times differ from it by at most {percent(largest)} %.""",
         count,
-        measured=f"""{count} small rotations settle within {percent(largest)} % of the chosen time, {min(times):.2f} to
-        {max(times):.2f} s""",
+        measured=f"""{count} small rotations settle within {percent(largest)} % of the chosen times, {min(times):.2f}
+        to {max(times):.2f} s""",
     )
 
 
@@ -115,13 +115,13 @@ def c03(results: Results, engine: str) -> tuple[Word, Evidence]:
     grows = growth.low > 0.0
     return word_of(grows and off <= LIMIT.SLOPE_TIGHT and is_infinite, grows and off <= LIMIT.SLOPE_LOOSE), evidence(
         f"""Settling time rises by {growth.value:.3f} s ({growth.low:.3f} to {growth.high:.3f}) per
-        rad of the initial angle; towards 180° by {float(slope):.4f} s a decade (closed form
-        {closed:.4f} s), to {float(slowest):.2f} s at 1e-12 rad.
-        {capitalize(count_of(len(stay), len(exact), "exact 180° rotations"))} never settle in
-        {float(exact["horizon_s"].min()):g} s.""",
+        rad of the initial angle. Towards 180° it rises by {float(slope):.4f} s per decade of the
+        distance from 180° (closed form: {closed:.4f} s), up to {float(slowest):.2f} s at 1e-12 rad.
+        {capitalize(count_of(len(exact) - len(stay), len(exact), "exact 180° rotations"))} settle
+        within {float(exact["horizon_s"].min()):g} s.""",
         len(uniform) + len(turns),
-        measured=f"""{interval_or_never(growth, ".3f", " s")} longer per rad;
-        {count_of(len(stay), len(exact), "exact 180° rotations")} never settle""",
+        measured=f"""settling takes {interval_or_never(growth, ".3f", " s")} longer per rad;
+        {count_of(len(exact) - len(stay), len(exact), "exact 180° rotations")} settle""",
     )
 
 
@@ -143,13 +143,13 @@ def c04(results: Results, engine: str) -> tuple[Word, Evidence]:
     parallel = sum(product <= ZERO_ERROR for product in products)
     is_zero = largest <= ZERO_ERROR
     return word_of(is_zero and parallel == len(exact), is_zero), evidence(
-        f"""At {len(exact)} exact 180° rotations the error is at most {largest:.1g};
-        {count_of(int(settled(exact).sum()), len(exact), "rotations")} settle. Each single cross product is zero at
-        {parallel} (axes x, y, z); at the other {len(exact) - parallel} they cancel in the sum only, the largest being
-        {max(products):.2f}.""",
+        f"""We tested {len(exact)} exact 180° rotations. The largest error |e| there is {largest:.1g}, and
+        {count_of(int(settled(exact).sum()), len(exact), "rotations")} settle. Each of the three cross products is zero
+        at {parallel} rotations (axes x, y, z). At the other {len(exact) - parallel} rotations the products cancel only
+        in their sum; the largest product is {max(products):.2f}.""",
         len(exact),
-        measured=f"""error at most {largest:.1g} at {len(exact)} rotations by 180°; each cross product is zero at
-        {parallel} (x, y, z)""",
+        measured=f"""the largest error at {len(exact)} rotations by 180° is {largest:.1g}; each cross product is zero
+        at {parallel} of them (x, y, z)""",
     )
 
 
@@ -171,11 +171,12 @@ def c05(results: Results) -> tuple[Word, Evidence]:
     cancel = sum(_size(R) <= ZERO_ERROR < _largest_product(R) for R in probes.rotations(exact))
     readings = (least < LIMIT.NEAR_ZERO, cancel > 0)
     return word_of(all(readings), any(readings)), evidence(
-        f"""Ambiguous. (a) Off the 180° rotation |e| / sin(angle) is never below {lowest:.9f} at {len(frame):,} starts
-        and {states:,} states of a search, and |e| never below {least:.1e}. (b) At {cancel} of {len(exact)} exact 180°
-        rotations the cross products are not zero and their sum is.""",
+        f"""The paper's sentence is ambiguous. (a) Off the 180° rotation we computed |e| at {len(frame):,} starts and
+        {states:,} states of a search. There |e| / sin(angle) is never below {lowest:.9f}, and |e| is never below
+        {least:.1e}. (b) At {cancel} of {len(exact)} exact 180° rotations the cross products are not zero, but their sum
+        is zero.""",
         len(frame) + states + len(exact),
-        measured=f"""the products cancel at {cancel} of {len(exact)} rotations by 180°; elsewhere
+        measured=f"""the cross products cancel at {cancel} of {len(exact)} rotations by 180°; elsewhere
         |e| is at least {lowest:.4f} sin(angle)""",
     )
 
@@ -228,11 +229,12 @@ def c32(results: Results) -> tuple[Word, Evidence]:
     asked = int(costs[["div", *CALLS]].to_numpy().sum())
     sound = bool(np.isfinite(ours).all() and off.max() <= LIMIT.ROUNDINGS * EPS and not asked and not ended)
     return word_of(sound and relative.max() <= LIMIT.DIGITS, sound), evidence(
-        f"""At {len(frame):,} starts e is off by at most {off.max() / EPS:.1f} eps, and by {relative.max():.1e} of its
-        length, closest to a 180° rotation. It takes {asked or "no"} divisions and calls;
-        {count_of(ended, len(every), "episodes")} end {" or ".join(LIMIT.BROKEN)}.""",
+        f"""At {len(frame):,} starts the computed error e is off by at most {off.max() / EPS:.1f} eps. It is off by at
+        most {relative.max():.1e} of its length; this is closest to a 180° rotation. The law takes {asked or "no"}
+        divisions and calls, and {count_of(ended, len(every), "episodes")} end as {" or ".join(LIMIT.BROKEN)}.""",
         len(every) + len(costs),
-        measured=f"""e is off by at most {relative.max():.1e} of its length at {len(frame):,} starts; {asked or "no"}
+        measured=f"""the error e is off by at most {relative.max():.1e} of its length at {len(frame):,} starts;
+        {asked or "no"}
         divisions""",
     )
 

@@ -23,9 +23,9 @@ PAIRED = ("task", "arm", "form", "pose", "complies")
 """What two controllers' rows have in common: the same arm, scene, frame of the hand, order and form."""
 
 DECIDES = f"""
-    Rows of the form '{PAPERS_FORM}' decide, the paper's force control ("converted to joint torques by the Jacobian
-    transpose", 3.3); {" and ".join(f"'{form}'" for form in ACCELERATION_FORMS)}, which had been judged before it was
-    there, are said beside it by the same criterion.
+    Rows of the form '{PAPERS_FORM}' decide. This form is the paper's force control ("converted to joint torques by the
+    Jacobian transpose", 3.3). The forms {" and ".join(f"'{form}'" for form in ACCELERATION_FORMS)} had been judged
+    before it was there. We report them beside it, by the same criterion.
     """
 
 
@@ -39,9 +39,13 @@ def by_either_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[...
     def judge(results: Results) -> Any:
         word, papers = decide(results, (PAPERS_FORM,))
         other, ours = decide(results, ACCELERATION_FORMS)
-        instead = f"By commanded accelerations: {other}. {ours.instead} With forces by the Jacobian transpose: {word}. "
+        instead = (
+            f"By commanded accelerations the claim {other}. {ours.instead} "
+            f"With forces by the Jacobian transpose the claim {word}. "
+        )
         return word if word == other else Word.READING, evidence(
-            f"""Forces by the Jacobian transpose, {word}: {papers} By commanded accelerations, {other}: {ours}""",
+            f"""With forces by the Jacobian transpose the claim {word}. {papers}
+            By commanded accelerations the claim {other}. {ours}""",
             papers.rows + ours.rows,
             papers.tables,
             instead + papers.instead if word != other else "",
@@ -59,7 +63,8 @@ def by_papers_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[...
         word, papers = decide(results, (PAPERS_FORM,))
         other, ours = decide(results, ACCELERATION_FORMS)
         return word, evidence(
-            f"""Forces by the Jacobian transpose, {word}: {papers} By commanded accelerations, {other}: {ours}""",
+            f"""With forces by the Jacobian transpose the claim {word}. {papers}
+            By commanded accelerations the claim {other}. {ours}""",
             papers.rows + ours.rows,
             papers.tables,
             measured=papers.measured,

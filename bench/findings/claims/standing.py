@@ -18,10 +18,11 @@ from bench.experiments.tables.statistics import Estimate
 ORDERED, UNDECIDED, REVERSED = 1, 0, -1
 
 RULE = """
-    A pair is in order by time if the 95 % intervals of both, interleaved on one machine (results/timings), part that
-    way wherever both are timed; by columns if the dearer has no fewer flops, no fewer calls and more of one. Time
-    decides; where it does not part the two, or has not both, the columns decide; where these differ, flops and calls at
-    the price of a call that the times of all laws give.
+    The times of a pair are interleaved on one machine (results/timings). The pair is in order by time if the 95 %
+    intervals of both laws part that way wherever both are timed. It is in order by columns if the dearer law has no
+    fewer flops, no fewer calls and more of one of them. Time decides. Where time does not part the two laws, or one of
+    them has no time, the columns decide. Where the columns differ, flops and calls together decide, at the price of a
+    call that the times of all laws give.
     """
 
 MEASURABLE = 0.04

@@ -54,8 +54,8 @@ def does(word: Word, number: int) -> str:
 
 
 MISPRINTS = """
-    A slip of symbol, or a misprint that the paper's own other equations or sentences correct, makes "holds with a
-    correction"; a false statement of substance makes "does not hold".
+    A slip of a symbol makes "holds with a correction". So does a misprint that the paper's own other equations or
+    sentences correct. A false statement of substance makes "does not hold".
     """
 """The rule of C10, C14, C15, C16 and C18."""
 
@@ -65,7 +65,7 @@ def word_of(holds: object, corrected: object) -> Word:
     return Word.HOLDS if holds else Word.CORRECTED if corrected else Word.FAILS
 
 
-LONGEST_MEASURED = 100
+LONGEST_MEASURED = 120
 """Characters of a measured value: a cell of a table reads it at a glance."""
 
 

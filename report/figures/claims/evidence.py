@@ -7,7 +7,7 @@ from bench.base.files import read_json
 from bench.findings import claims
 from bench.findings.claims import Verdict, at_gains
 from bench.findings.claims.errata import ERRATA, UNTESTABLE, Erratum
-from bench.findings.claims.verdict import MISPRINTS
+from bench.findings.claims.verdict import MISPRINTS, Earlier
 from report.figures.claims.places import read_places
 from report.figures.kit import html
 from report.figures.kit.law_names import call_laws
@@ -15,12 +15,12 @@ from report.figures.kit.offered import OFFERED_BYTES, SITE_DATA
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose, typeset
 
-SENTENCES = html.Table("Section | The paper | Why it is not tested")
-SLIPS = html.Table("Slip | Where | Printed | Should be | Checked")
+SENTENCES = html.Table("Section of the paper | Sentence of the paper | Why no simulation can decide")
+SLIPS = html.Table("Error | Where in the paper | Printed words | Right words | How we checked this error")
 
 
 STUDIES = {
-    "experiment": "computed by <code>bench claims</code> itself",
+    "experiment": "an experiment that <code>bench claims</code> makes itself",
     "timings": "<code>results/timings</code> of the repository; made by <code>bench time</code>",
     "maps": "<code>results/maps</code> of the repository; made by <code>bench map</code>",
 }
@@ -54,20 +54,20 @@ def describe_slip(one: Erratum) -> tuple:
 def section(one: Verdict, run: Run) -> str:
     """Return what decided a claim, folded under its sentence; a link to it opens it, for the anchor is inside."""
     claim = one.claim
-    value = "" if claim.value == "none given" else f" (Its value: {claim.value}.)"
+    value = "" if claim.value == "none given" else f" (What it states: {claim.value}.)"
     quoted = f"“{claim.quote}”{value}" if claim.quote else claim.sentence
     rows = {
-        "The paper": f"{escape.escape(claim.place)}: {marked_up(quoted)}",
-        "Measured": marked_up(one.measured),
+        "The paper says": f"{escape.escape(claim.place)}: {marked_up(quoted)}",
+        "We measured": marked_up(one.measured),
         "What is true": marked_up(call_laws(one.correction)),
         "Evidence": marked_up(call_laws(str(one.evidence))) + draw_numbers(one.evidence.numbers, claim.id),
         "Shown in": "<br>".join(place.html for place in read_places().get(claim.id, ())),
-        "Rows": describe_rows(one, run),
+        "Rows that decide": describe_rows(one, run),
         "Commands": describe_commands(one),
         "Criterion": marked_up(f"{claim.criterion} ({written(claim.written)})" if claim.written else claim.criterion),
-        "Before": _listed(f"{written(old.written)}: {old.criterion} By it: {old.word}." for old in claim.earlier),
-        "Left open": marked_up(claim.open),
-        "Readings": _listed(claim.readings),
+        "Earlier criteria": _listed(map(describe_earlier, claim.earlier)),
+        "The paper leaves open": marked_up(claim.open),
+        "Possible readings": _listed(claim.readings),
     }
     entries = "".join(f"<dt>{name}</dt><dd>{text}</dd>" for name, text in rows.items() if text)
     head = f"<b>{claim.id}</b> <span>{marked_up(claim.sentence)}</span> {html.badge(str(one.word))}"
@@ -75,6 +75,11 @@ def section(one: Verdict, run: Run) -> str:
         f'<details class="claim-fold"><summary>{head}</summary><dl class="claim" id="{one.id.lower()}">{entries}</dl>'
         "</details>"
     )
+
+
+def describe_earlier(old: Earlier) -> str:
+    """Return a criterion that stood before, with its date and the word that it gave."""
+    return f"{written(old.written)}: {old.criterion} This criterion gave: {old.word}."
 
 
 def draw_numbers(numbers: Sequence[Sequence[str]], id: str) -> str:
@@ -97,7 +102,8 @@ def describe_rows(one: Verdict, run: Run) -> str:
         return ""
     sources = [STUDIES.get(name) or link_file(name, run) for name in evidence.tables]
     listed = f'{"; ".join(sources)} (<a href="appendix-data.html#tab-files">all files</a>)'
-    return f"{html.number(evidence.rows)} rows and states: {listed}.{list_conditions(evidence.chosen)}"
+    number = html.number(evidence.rows)
+    return f"{number} rows and states decide this claim. They are in: {listed}.{list_conditions(evidence.chosen)}"
 
 
 def link_file(table: str, run: Run) -> str:
