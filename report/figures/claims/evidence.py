@@ -8,7 +8,7 @@ from bench.findings import claims
 from bench.findings.claims import Verdict, at_gains
 from bench.findings.claims.errata import COVERAGE, ERRATA, UNTESTABLE, Erratum, Item
 from bench.findings.claims.verdict import MISPRINTS, Earlier
-from report.figures.claims.places import read_places
+from report.figures.claims.places import Place, read_places
 from report.figures.kit import html
 from report.figures.kit.law_names import call_laws
 from report.figures.kit.offered import OFFERED_BYTES, SITE_DATA
@@ -48,7 +48,7 @@ def facts(run: Run) -> dict:
 def describe_item(one: Item) -> tuple:
     """Return a row of the table of what the book does with each part of the paper."""
     ids = ", ".join(f'<a href="#{id.lower()}">{id}</a>' if id.startswith("C") else id for id in one.claims)
-    pages = ", ".join(f"[{page.partition('-')[2].replace('-', ' ')}]({page}.md)" for page in one.pages)
+    pages = ", ".join(Place("", page, "").markdown for page in one.pages)
     return prose(one.paper), prose(one.says), ids, pages
 
 
