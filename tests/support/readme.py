@@ -1,5 +1,7 @@
 """The tables of the README as the committed results give them; `python -m tests.support.readme` prints them."""
 
+import re
+
 from bench.findings.answer import find_answer
 from bench.findings.claims import Results, judge_possible, told
 from bench.findings.conclusions import conclude
@@ -18,13 +20,14 @@ NEEDS = ("default", "weak-motors", "no-memory", "arm")
 
 
 def list_conclusions() -> list[str]:
-    """Return a row of Markdown for each conclusion shown: his words, the verdict, what was measured."""
+    """Return a row of Markdown for each conclusion shown: his words, the verdict, the first sentence of what was measured."""
     conclusions = {conclusion.name: conclusion for conclusion in conclude(Results(RUN))}
     rows = []
     for name, title in CONCLUSIONS.items():
         conclusion = conclusions[name]
+        first_sentence = re.match(r".*?\.(?= |$)", conclusion.finding)[0]
         # A bar would end the cell.
-        finding = conclusion.finding.replace("|", r"\|")
+        finding = first_sentence.replace("|", r"\|")
         rows.append(f"| {title}: “{conclusion.short}” | {conclusion.verdict} | {finding} |")
     return rows
 
