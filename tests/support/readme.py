@@ -20,7 +20,7 @@ NEEDS = ("default", "weak-motors", "no-memory", "arm")
 
 
 def list_conclusions() -> list[str]:
-    """Return a row of Markdown for each conclusion shown: his words, the verdict, the first sentence of what was measured."""
+    """Return a row of Markdown for each conclusion shown: his words, the verdict, the finding's first sentence."""
     conclusions = {conclusion.name: conclusion for conclusion in conclude(Results(RUN))}
     rows = []
     for name, title in CONCLUSIONS.items():
