@@ -242,7 +242,7 @@ def _by_map(name: str, controller: str, law: str, default: str, folder: Path, wh
     costs = _list_costs(law, folder)
     slower = find_price(law, folder).time / find_price(default, folder).time
     if slower > 1.0 + SPOKEN:
-        costs.append(f"settles in {slower:.1f} times the time of {default} if the command is not limited")
+        costs.append(f"takes {slower:.1f} times as long as {default} without a command limit")
     return Need(controller, law, attribute(law), why, _join(costs), name)
 
 

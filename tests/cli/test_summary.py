@@ -117,7 +117,7 @@ def test_summary_names_the_law_of_the_answer_and_its_price(capsys, judged):
     said = joined(bench(capsys, "show", REFERENCE))
     need = find_answer().needs[0]
     assert need.law == find_default()
-    assert f"Use today {need.law} ({need.attribution}); price: {need.price}" in said
+    assert f"Use today {need.law} ({need.attribution}) {need.price}" in said
     for other in find_answer().needs[1:]:
         assert f"{other.law} ({other.attribution})" in said
 

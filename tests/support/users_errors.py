@@ -127,7 +127,7 @@ RNG = np.random.default_rng(3)
 
 USERS: dict = {
     # of a referee
-    "degrees | stiffness | 57.3 times as stiff": of_log(lambda e, _: np.degrees(e)),
+    "degrees | stiffness | the stiffness is 57.3 times": of_log(lambda e, _: np.degrees(e)),
     "half-angle | stiffness | multiply by 2: the angle of a quaternion": of_log(lambda e, _: 0.5 * e),
     "degrees-in-sine | stiffness | in degrees; Cure: convert to radians (": of_log(
         lambda e, theta: np.sin(np.degrees(theta)) * e / theta if theta else e

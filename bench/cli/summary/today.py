@@ -39,16 +39,16 @@ def print_today_in_short(gains: Gains | None, parts: Sequence[str]) -> None:
         print_text("Use today", advise_gains(gains or PAPERS_GAINS), indent=ABOUT)
     elif "arms" in parts:
         needs = {need.name: need for need in find_answer().needs}
-        said = [f"{NAMES['arm']}: {_name_law(needs['arm'])}; price: {needs['arm'].price}"]
+        said = [f"{NAMES['arm']}: {_name_law(needs['arm'])} {needs['arm'].price}"]
         print_text("Use today", *said, f"any start: {_name_law(needs['default'])}", indent=ABOUT)
 
 
 def _list_sentences(answer: Answer) -> Iterator[str]:
     needs = {need.name: need for need in answer.needs}
-    yield f"{answer.law} ({answer.attribution}); price: {needs['default'].price}"
+    yield f"{answer.law} ({answer.attribution}) {needs['default'].price}"
     for name in PRICED:
         if name in needs:
-            yield f"{NAMES[name]}: {_name_law(needs[name])}; price: {needs[name].price}"
+            yield f"{NAMES[name]}: {_name_law(needs[name])} {needs[name].price}"
     others: dict[str, list[str]] = {}
     for need in answer.needs:
         if need.name in NAMES and need.name not in PRICED:
