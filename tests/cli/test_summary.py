@@ -191,8 +191,8 @@ def test_lines_on_jacobians_and_compliance_are_read_off_the_rows(tables):
     assert re.search(r"geometric +16 of 16 moves +2 +807$", line)
     turned = changed(rows, rows["misalignment_rad"].notna(), misalignment_rad=0.5)
     two, one = paper.compare_compliance(Results(REFERENCE, {**tables, "compliance": turned}))
-    assert two == "two axes: wrong axis by 29 deg at beta = 60 deg (2 arms: 29-29)"
-    assert one.startswith("one axis: the Cartesian axis at 29 of 102 poses, 28 % ")
+    assert two == "Euler, two axes: turns 29 deg off at beta = 60 deg (2 arms: 29-29)"
+    assert one.startswith("Euler, one axis: right axis at 29 of 102 poses, 28 % ")
     assert paper.compare_jacobians(Results(REFERENCE, {**tables, "episodes": episodes[episodes["arm"] == ""]})) == []
     assert paper.compare_compliance(Results(REFERENCE, {**tables, "compliance": rows.iloc[:0]})) == []
 

@@ -167,10 +167,10 @@ USERS: dict = {
     "arc-cosine-kept-from-1 | dead-at-180 | e = 0 for 240": of_sine(
         lambda v, s, c, X: v / np.sinc(np.arccos(np.clip(c, -1 + 1e-6, 1 - 1e-6)) / np.pi)
     ),
-    "arc-sine | dead-at-180, non-unit | atan2 for an arc sine": of_sine(
+    "arc-sine | dead-at-180, non-unit | atan2 instead of an arc sine": of_sine(
         lambda v, s, c, X: np.arcsin(min(s, 1.0)) * v / s if s else v
     ),
-    "arc-tangent | long-way | atan2 for": of_sine(lambda v, s, c, X: np.arctan(s / c) * v / s if s else v),
+    "arc-tangent | long-way | atan2 instead of an arc tangent": of_sine(lambda v, s, c, X: np.arctan(s / c) * v / s if s else v),
     "arc-cosine-of-dot | digits-near-0, non-unit | no arc cosine": arc_cosine_of_dot,
     "constant-in-a-denominator | digits-near-0 | no constant": of_log(lambda e, theta: e * theta / (theta + 1e-6)),
     "rotation-vectors-subtracted | misaligned | each θ k": lambda R, R_d: log(R_d) - log(R),
@@ -218,7 +218,7 @@ USERS: dict = {
     "half-forgotten-near-goal | jump | at 1.81193°": of_sine(lambda v, s, c, X: 2.0 * v if c > 0.9995 else log(X)),
     "zero-if-close | deadband | e = 0 up to": lambda R, R_d: np.zeros(3) if np.allclose(R, R_d) else log(R_d @ R.T),
     "rounded-to-6-digits | deadband | a multiple of 1e-06": of_log(lambda e, _: np.round(e, 6)),
-    "hysteresis | memory | may be meant": hysteresis(),
+    "hysteresis | memory | if you intend hysteresis": hysteresis(),
     "flips-in-place | changes-inputs | R = R.copy()": flips_in_place,
     "share-of-half-a-turn | stiffness | e is in half turns": of_log(lambda e, _: e / np.pi),
 }

@@ -62,13 +62,13 @@ def compare_compliance(results: Results) -> list[str]:
 def _describe_two_axes(results: Results) -> str:
     wrong = replication.measure_wrong_axis(results)
     arms = f"{len(wrong.off)} arm{'s' * (len(wrong.off) > 1)}: {wrong.off[0]:.0f}-{wrong.off[-1]:.0f}"
-    return f"two axes: wrong axis by {wrong.middle:.0f} deg at beta = {wrong.tilt_deg:.0f} deg ({arms})"
+    return f"Euler, two axes: turns {wrong.middle:.0f} deg off at beta = {wrong.tilt_deg:.0f} deg ({arms})"
 
 
 def _describe_one_axis(results: Results) -> str:
     same = replication.count_single_axes(results)
     ends = f"{write_percent(same.low)}-{write_percent(same.high)}"
-    return f"one axis: the Cartesian axis at {same.k} of {same.n} poses, {write_percent(same.value)} % ({ends})"
+    return f"Euler, one axis: right axis at {same.k} of {same.n} poses, {write_percent(same.value)} % ({ends})"
 
 
 def print_verdicts(results: Results) -> None:

@@ -172,7 +172,7 @@ def describe(study: dict, words: dict[str, str]) -> str:
 
 def _lacking(stale: list[str]) -> str:
     """Name the claims that the study judged by a criterion which stands no more."""
-    return f" Not tested, because their criteria are newer: {', '.join(stale)}." if stale else ""
+    return f" The claims {', '.join(stale)} are not tested here, because their criteria are newer." if stale else ""
 
 
 def by_gains(study: dict, words: dict[str, str]) -> str:

@@ -174,8 +174,10 @@ def c26(results: Results) -> tuple[Word, Evidence]:
         listed.append(f"On {joints} joints: {'; '.join(told)}; time {ratios}")
     dearer = sum(set(one.by_columns) == {ORDERED} for one in stands)
     return word_of(dearer == len(stands), False), evidence(
-        f"""We count flops and calls per control period of three controllers: (2.2) with (2.15), (2.2) with the law on
-        R, and (3.7). We also give the time of (3.7) over the time of each other controller. {". ".join(listed)}. With
+        f"""We count flops and calls per control period of three controllers: the law on Euler angles with the
+        geometric Jacobian, (2.2) with (2.15); the law on R with the geometric Jacobian, (2.2); and the law on Euler
+        angles with the Euler Jacobian, (3.7). We also give the time of (3.7) over the time of each other controller.
+        {". ".join(listed)}. With
         and without the goal's angles, in {count_of(dearer, len(stands), "pairs")} (3.7) takes more operations. The
         times differ in {sum(bool(one.by_time) for one in stands)} of these pairs, and (3.7) takes longer in
         {sum(one.by_time == ORDERED for one in stands)} of these pairs.""",
@@ -204,7 +206,7 @@ def c33(results: Results) -> tuple[Word, Evidence]:
     for joints in INVERSES:
         base, euler = (results.found_by(in_contact, f"{one}+{PAPERS_FORM}", joints) for one in (BASE, EULER))
         dearer = euler.weighed(price) / base.weighed(price) - 1
-        weighed = f", {100 * dearer:.0f} % more with a call at its price in C12's times"
+        weighed = f", {100 * dearer:.0f} % more if a call counts as the flops that take its time in C12"
         more = euler.flops / base.flops - 1
         is_more.append(by_columns(base, euler) == ORDERED)
         is_few.append(more <= LIMIT.FEW)

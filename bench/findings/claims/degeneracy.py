@@ -180,7 +180,7 @@ def c28(results: Results) -> tuple[Word, Evidence]:
         integrals sum to zero, the body is turned by {missed} rad. If all turns are about one axis, the integral is the
         rotation, to {plane:.0e} rad.""",
         2 * len(ends) + len(loops),
-        measured=f"""the integrals of two paths to one end differ by
+        measured=f"""the integrals of omega along two paths to one orientation differ by
         {interval(quantile_estimate(ends, 0.5), ".2f")} rad (median of {len(ends)} pairs)""",
     )
 
