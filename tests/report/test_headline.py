@@ -50,7 +50,7 @@ def test_finding_counts_the_starts_that_are_lost(episodes):
     rows = of_law[find_default()]
     assert [int(one) for one in re.findall(r"from (\d+)", finding)] == lost[:3]
     assert lost[3] == 0
-    assert finding.endswith(f"MRP with memory settles from all {len(rows)}.")
+    assert finding.endswith(f"MRP with memory settles from all {len(rows)} starts.")
 
 
 def test_planted_failure_of_the_advised_law_is_said(episodes):

@@ -40,7 +40,9 @@ const texts = root => {
 };
 const cells = [...document.querySelectorAll("article table :is(td, th)")].flatMap(texts);
 const words = cells.flatMap(node => [...node.data.matchAll(/[\\p{L}\\d]{2,}/gu)].map(word => [node, word]));
-const torn = words.filter(([node, word]) => lines(spans(node, word.index, word.index + word[0].length)) > 1);
+const isDigest = text => /^[0-9a-f]{32,}$/.test(text);  // no word, and wider than a phone
+const isTorn = ([node, word]) => lines(spans(node, word.index, word.index + word[0].length)) > 1;
+const torn = words.filter(pair => !isDigest(pair[1][0]) && isTorn(pair));
 const marks = [...document.querySelectorAll("article math:not([display=block])")].filter(math => {
   const next = math.nextSibling;
   if (!next || next.nodeType !== 3 || !/^[,.;:)]/.test(next.data) || !math.checkVisibility()) return false;
@@ -64,6 +66,8 @@ return {
 
 PHONE = screenshots.View("light", 390)
 EIGHTEEN_COLUMNS = "tab-side-by-side"
+IN_A_FOLD = "plain evidence"
+"""Tables of up to ten columns in the folds of the claims, which scroll in their box."""
 """The one table that scrolls sideways."""
 
 # All of axe-core's rules, and one that it leaves out unless asked; colours that are still changing are not looked at.
@@ -139,7 +143,7 @@ def test_page_never_scrolls_sideways(seen):
 
 def test_no_table_is_cut_off_on_a_wide_screen(seen):
     cut = {table for view, facts in seen[0].items() if view.width > 1000 for table in facts["cut"]}
-    assert cut - {EIGHTEEN_COLUMNS} == set()
+    assert cut - {EIGHTEEN_COLUMNS, IN_A_FOLD} == set()
 
 
 def test_print_crops_nothing(seen):
@@ -237,7 +241,7 @@ def test_ten_chapters_stay_short(opened):
     pixels, tables, figures = map(sum, zip(*sizes, strict=True))
     assert len(CHAPTERS) == 10
     # 45.1 screens and 23 figures: chapter 1 has the index of the paper, and each figure of the paper one of its own.
-    assert pixels <= 46 * screenshots.HEIGHT
+    assert pixels <= 49 * screenshots.HEIGHT
     assert tables <= 20
     assert figures <= 23
 

@@ -170,7 +170,9 @@ USERS: dict = {
     "arc-sine | dead-at-180, non-unit | atan2 instead of an arc sine": of_sine(
         lambda v, s, c, X: np.arcsin(min(s, 1.0)) * v / s if s else v
     ),
-    "arc-tangent | long-way | atan2 instead of an arc tangent": of_sine(lambda v, s, c, X: np.arctan(s / c) * v / s if s else v),
+    "arc-tangent | long-way | atan2 instead of an arc tangent": of_sine(
+        lambda v, s, c, X: np.arctan(s / c) * v / s if s else v
+    ),
     "arc-cosine-of-dot | digits-near-0, non-unit | no arc cosine": arc_cosine_of_dot,
     "constant-in-a-denominator | digits-near-0 | no constant": of_log(lambda e, theta: e * theta / (theta + 1e-6)),
     "rotation-vectors-subtracted | misaligned | each θ k": lambda R, R_d: log(R_d) - log(R),

@@ -89,7 +89,7 @@ def draw_numbers(numbers: Sequence[Sequence[str]], id: str) -> str:
     heads, *rows = numbers
     head = "".join(f'<th scope="col">{marked_up(text)}</th>' for text in heads)
     body = "".join(f"<tr>{''.join(f'<td>{marked_up(call_laws(text))}</td>' for text in row)}</tr>" for row in rows)
-    table = f'<table class="plain"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
+    table = f'<table class="plain evidence"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
     # A box that scrolls must be reached by key.
     reached = f'tabindex="0" role="region" aria-label="Numbers of {id}"'
     return f'<div class="pst-scrollable-table-container numbers" {reached}>{table}</div>'

@@ -12,6 +12,7 @@ from matplotlib.ticker import FixedLocator, NullLocator
 
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import RESULTS
+from bench.findings.amounts import count
 from bench.findings.claims.tables import settled
 from bench.findings.conclusions import read_texts
 from bench.findings.maps import at_gains, counted, lost_share, read_maps
@@ -138,12 +139,14 @@ def say_finding(episodes: pd.DataFrame) -> str:
     for name, rows in find_common_starts(episodes).items():
         lost[name] = int((rows["outcome"] != "settled").sum())
         starts = len(rows)
-    papers = [f"{families.word(name)} from {lost[name] or 'none'}" for name in laws.TITLES if name in lost]
+    papers = [
+        f"{families.word(name)} from {count(lost[name], 'start')}" for name in laws.TITLES if name in lost
+    ]
     default = find_default()
     advised = "is not in this run"
     if default in lost:
-        settles_from_all = f"settles from all {html.number(starts)}"
-        advised = f"never settles from {lost[default]}" if lost[default] else settles_from_all
+        settles_from_all = f"settles from all {html.number(starts)} starts"
+        advised = f"never settles from {count(lost[default], 'start')}" if lost[default] else settles_from_all
     return (
         f"Each law runs from the same {html.number(starts)} starts. Murphy's laws never settle from some of these "
         f"starts ({', '.join(papers)}); {families.word(default)} {advised}."

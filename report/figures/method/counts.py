@@ -29,7 +29,7 @@ IN_ENGINE = "in-engine"
 
 CONTINUOUS, HELD = "continuous time", "command held for a period"
 COUNTS = html.Table(
-    "Name | Where | Number of laws | Which laws | Starts per law | Continuous time or held command "
+    "Name | Where | Number of laws | Which laws | Starts per law | Continuous or sampled control "
     "| Starts that the rotation matrix loses"
 )
 
