@@ -192,7 +192,12 @@ def _list_mapped(default: str, folder: Path) -> Iterator[Need]:
         why = f"up to {percent(bounded.faster)} faster than {default} at these limits"
         yield _by_map("weak-motors", controller, bounded.law, default, folder, why)
     for name, controller, laws, rule in (
-        ("no-memory", "commands torque; the law must need no memory", "without memory", Rule(forgetful=True)),
+        (
+            "no-memory",
+            "commands torque; the law must need no memory",
+            "without memory",
+            Rule(forgetful=True),
+        ),
         (
             "continuous",
             "commands torque; the command must be continuous",
@@ -228,7 +233,9 @@ def _find_bounded(default: str, folder: Path) -> Bounded | None:
     found: dict[str, list[Bounded]] = {}
     for place in follow_lines(default, folder, tie=SPOKEN)["bound"]:
         law = at_bound[place.value].law
-        faster = [rival.faster for rival in place.standing.rivals if rival.law == law and rival.qualified]
+        faster = [
+            rival.faster for rival in place.standing.rivals if rival.law == law and rival.qualified
+        ]
         if law and faster:
             found.setdefault(law, []).append(Bounded(law, place.value, place.value, faster[0]))
     if not found:
@@ -252,7 +259,9 @@ def _list_costs(law: str, folder: Path) -> list[str]:
     From the law's row of the map.
     """
     rows = regions.read_map(folder)
-    [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == law)].to_dict("records")
+    [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == law)].to_dict(
+        "records"
+    )
     memory = facts_of(law).memory
     costs = [f"stores {memory} numbers"] if memory else []
     costs.append(f"commands up to {row['peak']:.2g} kp")

@@ -49,7 +49,10 @@ class Conclusion(NamedTuple):
 def read_texts() -> dict[str, dict[str, Any]]:
     """Return what conclusions.toml says, by the name of the conclusion."""
     text = Path(__file__).with_suffix(".toml").read_text(encoding="utf-8")
-    return {name: {**said, "quote": " ".join(said["quote"].split())} for name, said in tomllib.loads(text).items()}
+    return {
+        name: {**said, "quote": " ".join(said["quote"].split())}
+        for name, said in tomllib.loads(text).items()
+    }
 
 
 def conclude(results: Results) -> list[Conclusion]:
@@ -118,7 +121,11 @@ def _rows_of(results: Results, law: str) -> Any:
 def _fails_at(results: Results, law: str, subject: str) -> str:
     places = describe_failures(_rows_of(results, law))
     starts = [f"from {name_starts(place)}" for place in places]
-    return f"{subject} fails {together(starts, len(starts))}" if starts else f"{subject} settles from every start"
+    return (
+        f"{subject} fails {together(starts, len(starts))}"
+        if starts
+        else f"{subject} settles from every start"
+    )
 
 
 def name_starts(place: str) -> str:
@@ -221,9 +228,17 @@ def _name_answers(examined: replication.Examined, what: str) -> str:
     names = sorted(examined.answers, key=lambda name: name != advised)
     if not names:
         is_open = any(one.may_pass for name, one in examined.tested.items() if name not in PAPERS)
-        return "Whether a later law passes every test is not tested." if is_open else "No later law passes every test."
+        return (
+            "Whether a later law passes every test is not tested."
+            if is_open
+            else "No later law passes every test."
+        )
     laws = together([f"{name} ({attribute(name)})" for name in names])
-    return f"These later laws {what}: {laws}." if len(names) > 1 else f"One later law passes every test: {laws}."
+    return (
+        f"These later laws {what}: {laws}."
+        if len(names) > 1
+        else f"One later law passes every test: {laws}."
+    )
 
 
 FINDINGS: dict[str, Callable[[Results], str]] = {

@@ -41,7 +41,9 @@ def describe_failures(rows: pd.DataFrame) -> list[str]:
             is_left &= ~here
     left = is_left & is_failed
     if left.any():
-        words.append(_describe_rest(rows[left], {name: place[left] for name, place in places.items()}))
+        words.append(
+            _describe_rest(rows[left], {name: place[left] for name, place in places.items()})
+        )
     return words
 
 

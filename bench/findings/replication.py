@@ -12,12 +12,29 @@ from bench.experiments.suites import IDEAL_MOTORS
 from bench.experiments.tables.read import FREE_BODY, converged
 from bench.experiments.tables.statistics import Estimate, bootstrap, quantile_estimate
 from bench.findings.claims import compliance, side_by_side
-from bench.findings.claims.adequacy import HELD_RAD, PAPERS, Adequacy, Tested, every, examine, held, of_three
+from bench.findings.claims.adequacy import (
+    HELD_RAD,
+    PAPERS,
+    Adequacy,
+    Tested,
+    every,
+    examine,
+    held,
+    of_three,
+)
 from bench.findings.claims.controller_costs import BY_EULER, ON_MATRIX
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE, PROBE
 from bench.findings.claims.standing import Ledger
-from bench.findings.claims.tables import MAIN_ENGINE, Results, Share, settled, settling_times, share, some
+from bench.findings.claims.tables import (
+    MAIN_ENGINE,
+    Results,
+    Share,
+    settled,
+    settling_times,
+    share,
+    some,
+)
 from bench.findings.selection.tables import by_standard_inverse
 from bench.findings.theory.closed_form import linear_settling
 from bench.law.control.contact_controller import PAPERS_FORM
@@ -49,7 +66,9 @@ def measure_settling(rows: pd.DataFrame) -> Settling:
     """Return how the uniform starts among a law's rows end; NoEvidence: there is none."""
     uniform = some(rows[rows["start_set"] == "uniform"], "uniform start of a law")
     times = settling_times(uniform)
-    return Settling(share(settled(uniform)), quantile_estimate(times, 0.5), quantile_estimate(times, NEARLY_ALL))
+    return Settling(
+        share(settled(uniform)), quantile_estimate(times, 0.5), quantile_estimate(times, NEARLY_ALL)
+    )
 
 
 class Jacobians(NamedTuple):
@@ -68,7 +87,9 @@ class Jacobians(NamedTuple):
 
 def compare_jacobians(results: Results) -> Jacobians:
     """Return how both Jacobians do past gimbal lock; NoEvidence: no arm ran such moves by both."""
-    rows = results.table("episodes", task="arm-regulation", variation=IDEAL_MOTORS, start_set="pole", engine="native")
+    rows = results.table(
+        "episodes", task="arm-regulation", variation=IDEAL_MOTORS, start_set="pole", engine="native"
+    )
     rows = by_standard_inverse(some(rows, "move of an arm past gimbal lock"))
     controller = rows["contender"].astype(str).str.partition("+")[0]
     columns = ["arm", "kp", "start_id", "outcome", "peak_torque_ratio"]
@@ -80,8 +101,14 @@ def compare_jacobians(results: Results) -> Jacobians:
     return Jacobians(
         len(both),
         both["arm"].nunique(),
-        (int((both["outcome"] != "settled").sum()), int((both["outcome_euler"] != "settled").sum())),
-        (float(both["peak_torque_ratio"].median()), float(both["peak_torque_ratio_euler"].median())),
+        (
+            int((both["outcome"] != "settled").sum()),
+            int((both["outcome_euler"] != "settled").sum()),
+        ),
+        (
+            float(both["peak_torque_ratio"].median()),
+            float(both["peak_torque_ratio_euler"].median()),
+        ),
         bootstrap(harder.fillna(math.inf).to_numpy(float), np.median),
     )
 
@@ -105,7 +132,9 @@ def measure_wrong_axis(results: Results, tilt_deg: float = TILT_DEG) -> WrongAxi
     """Return how far off the axis is at the tilt that is nearest; NoEvidence: no arm was tilted about y alone."""
     rows = results.table("compliance", task=PROBE, controller="hybrid", representation=COORDINATES)
     is_level = (rows["alpha"].abs() < 1e-9) & (rows["gamma"].abs() < 1e-9)
-    is_wanted = is_level & (rows["form"] == PAPERS_FORM) & (rows["complies"] == compliance.LEVEL_PAIR)
+    is_wanted = (
+        is_level & (rows["form"] == PAPERS_FORM) & (rows["complies"] == compliance.LEVEL_PAIR)
+    )
     rows = rows[is_wanted & (rows["outcome"] == "done") & (rows["beta"] > 0.0)]
     some(rows, f"tilted end effector by {PROBE}, {compliance.LEVEL_PAIR}")
     away = (np.degrees(rows["beta"]) - tilt_deg).abs()
@@ -121,7 +150,11 @@ def count_single_axes(results: Results) -> Share:
     is_away = (rows["cos_beta"] >= compliance.LIMIT.CLOSE_TO_POLE).to_numpy()
     C, base = side_by_side.compliances(rows), side_by_side.compliances(rows, "_base")
     same = side_by_side.apart(C, base) <= compliance.LIMIT.SAME
-    return share(pd.Series(same[some(is_away.nonzero()[0], f"pose of {PROBE} by {BASE} away from gimbal lock")]))
+    return share(
+        pd.Series(
+            same[some(is_away.nonzero()[0], f"pose of {PROBE} by {BASE} away from gimbal lock")]
+        )
+    )
 
 
 class Examined(NamedTuple):
@@ -135,7 +168,9 @@ class Examined(NamedTuple):
     @property
     def answers(self) -> list[str]:
         """Return the later laws that pass every test."""
-        return [name for name, result in self.tested.items() if name not in PAPERS and result.passes]
+        return [
+            name for name, result in self.tested.items() if name not in PAPERS and result.passes
+        ]
 
 
 def examine_laws(results: Results) -> Examined:

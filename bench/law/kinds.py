@@ -52,7 +52,8 @@ class Law(NamedTuple):
         shipped: AsShipped for a controller as its authors ship it; otherwise None. Its formula is the formula of the
             error, with clips and deadbands in their order. Its gains are in N m/rad; in 1/s^2 if the controller cancels
             or simulates an inertia; in 1/s if it commands a velocity.
-        origin: the file of a law that a user wrote, with its content in text; both are empty for our laws.
+        origin: the file of a law that a user wrote, with its content in text; both are
+            empty for our laws.
         later: whether the law is not in the paper; it then runs from fewer starts.
         costing_only: whether the law is another way to write a law of the list; it is costed and tested, but not run.
         in_engine: whether MuJoCo's actuator makes the command, on its free body; `law` computes the same command.

@@ -6,6 +6,8 @@ from support.command_line import started
 INTERRUPT = """
 import builtins, os, signal, sys
 
+# A job in a shell's background inherits that SIGINT is ignored.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 import_as_usual = builtins.__import__
 
 def interrupt_at(name, *rest):

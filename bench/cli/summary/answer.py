@@ -26,24 +26,54 @@ from tasks.situation import KP, NOMINAL
 def paragraphs(found: Measured | None) -> list[Paragraph]:
     """Return what the map advises, what else to use elsewhere, and how laws of ours and the user's compare."""
     default = regions.find_regions()[0]
-    said = [Paragraph("Which law", _default(found, default)), Paragraph("Elsewhere", _elsewhere(default.law))]
-    for law in list_faster_ours():
-        said.append(Paragraph("Ours", (f"{describe_law_of_ours(law)} {_compared(found, law, default.law)}",)))
-    own = [law for law in (found.laws if found else ()) if found and found.tables.contenders[law].regulator.origin]
-    said += [Paragraph("Yours", (f"{law}: {_compared(found, law, default.law)}",)) for law in own]
-    others = [
-        one for one in vary()[1:] if one.law != default.law and one.words not in ("no memory", "a continuous command")
+    said = [
+        Paragraph("Which law", _default(found, default)),
+        Paragraph("Elsewhere", _elsewhere(default.law)),
     ]
-    rules = "; ".join(f"if {one.words}: {one.law} ({one.advised:.0%})" for one in others)
-    text = f"{rules[:1].upper()}{rules[1:]}." if rules else "Every other rule that was tried advises the same."
+    for law in list_faster_ours():
+        said.append(
+            Paragraph(
+                "Ours",
+                (f"{describe_law_of_ours(law)} {_compared(found, law, default.law)}",),
+            )
+        )
+    own = [
+        law
+        for law in (found.laws if found else ())
+        if found and found.tables.contenders[law].regulator.origin
+    ]
+    said += [
+        Paragraph("Yours", (f"{law}: {_compared(found, law, default.law)}",))
+        for law in own
+    ]
+    others = [
+        one
+        for one in vary()[1:]
+        if one.law != default.law
+        and one.words not in ("no memory", "a continuous command")
+    ]
+    rules = "; ".join(
+        f"if {one.words}: {one.law} ({one.advised:.0%})" for one in others
+    )
+    text = (
+        f"{rules[:1].upper()}{rules[1:]}."
+        if rules
+        else "Every other rule that was tried advises the same."
+    )
     return [*said, Paragraph("Other rules", (text,))]
 
 
 def _default(found: Measured | None, region: regions.Region) -> tuple[str, ...]:
     rows = regions.read_map()
-    [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == region.law)].to_dict("records")
+    [row] = rows[
+        (rows["situation"] == NOMINAL.word) & (rows["contender"] == region.law)
+    ].to_dict("records")
     drawn = sum(map(regions.is_drawn, regions.decide_all()))
-    priced = f" A tick takes {cost(found, region.law)}." if found and region.law in found.laws else ""
+    priced = (
+        f" A tick takes {cost(found, region.law)}."
+        if found and region.law in found.laws
+        else ""
+    )
     return (
         f"Use the law {region.law} ({_attributed(region.law)}) for a body that turns freely, in simulation. Of {drawn} "
         f"situations drawn at random it is advised in {percent(region.advised)}. "
@@ -64,8 +94,16 @@ def _attributed(law: str) -> str:
 
 def _elsewhere(default: str) -> tuple[str, ...]:
     """Return the law for each other region, for robots beside those of the map, and without memory."""
-    others = [f"{one.law} ({one.advised:.0%})" for one in regions.find_regions()[1:] if one.advised >= 0.05]
-    lines = [f"In other situations: {together(others)}; bench advise says which."] if others else []
+    others = [
+        f"{one.law} ({one.advised:.0%})"
+        for one in regions.find_regions()[1:]
+        if one.advised >= 0.05
+    ]
+    lines = (
+        [f"In other situations: {together(others)}; bench advise says which."]
+        if others
+        else []
+    )
     for one in list_elsewhere():
         tied = f", tied with {together(one.tied)}" if one.tied else ""
         lines.append(f"If {one.words}: {one.law}{tied}.")

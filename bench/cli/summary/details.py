@@ -15,7 +15,10 @@ def print_sentences(folder: Path) -> None:
     results = Results(folder)
     results.table("episodes")  # refuses a run that has not finished
     said = keep(folder, "answer", lambda: _find_answer(results))["said"]
-    print_paragraphs(*(Paragraph(head, tuple(sentences)) for head, sentences in said), failures.paragraph(results))
+    print_paragraphs(
+        *(Paragraph(head, tuple(sentences)) for head, sentences in said),
+        failures.paragraph(results),
+    )
 
 
 def _find_answer(results: Results) -> dict:

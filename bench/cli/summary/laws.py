@@ -13,7 +13,13 @@ from bench.experiments.tables.statistics import quantile
 from bench.findings.answer import attribute
 from bench.findings.claims import Results
 from bench.findings.claims.adequacy import tallied
-from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, settled, settling_times, share
+from bench.findings.claims.tables import (
+    CHECK_ENGINES,
+    MAIN_ENGINE,
+    settled,
+    settling_times,
+    share,
+)
 from bench.findings.failure_places import describe_failures, least_trapping_noise
 from bench.findings.perturbed import DETOUR
 from bench.findings.replication import AT_REST, NEARLY_ALL
@@ -73,7 +79,9 @@ def measure_law(results: Results, law: str) -> Row:
     rows = results.table("episodes", **FREE_BODY, task="free-body")
     rows = rows[rows["contender"].astype(str) == law]
     engine = next(
-        name for name in (MAIN_ENGINE, *CHECK_ENGINES, *rows["engine"].astype(str)) if (rows["engine"] == name).any()
+        name
+        for name in (MAIN_ENGINE, *CHECK_ENGINES, *rows["engine"].astype(str))
+        if (rows["engine"] == name).any()
     )
     rows = converged(rows[rows["engine"] == engine])
     at_rest = rows[rows["start_set"].isin(AT_REST)]
@@ -138,7 +146,11 @@ def _count_operations(results: Results, law: str) -> tuple[int, int] | None:
 def _find_nanoseconds(results: Results, law: str) -> float:
     """Return the time of a step, the median over the machines that were timed; NaN if none timed the law."""
     timings = results.timings()
-    return float(np.median(own)) if len(own := timings.loc[timings["contender"] == law, "ns_per_tick"]) else math.nan
+    return (
+        float(np.median(own))
+        if len(own := timings.loc[timings["contender"] == law, "ns_per_tick"])
+        else math.nan
+    )
 
 
 HEADS = f"{'':{HEAD}} {'settles %':14} {'50 %':>5} {'99 %':>6}  {'fails at':17} {'ops':>5} {'ns':>4}"
@@ -147,7 +159,8 @@ WITH_EFFORT = f"{'':{HEAD}} {'settles %':14} {'50 %':>5} {'99 %':>6} {'peak/kp':
 
 
 UNITS_WITH_EFFORT = (
-    "peak/kp: greatest command over kp [rad]; effort: integral of the squared command, median start [rad2/s3]."
+    "peak/kp: greatest command over kp [rad]; "
+    "effort: integral of the squared command, median start [rad2/s3]."
 )
 
 
@@ -212,7 +225,9 @@ def describe_columns(rows: Sequence[Row], results: Results) -> list[str]:
     """Say what the columns are, of how many starts, and what was not tested."""
     counts = sorted({row.starts for row in rows}, reverse=True)
     starts = " or ".join(f"{count:,}" for count in counts)
-    notes = [f"settles: of {starts} uniform starts, 95 % interval; 50 %, 99 %: within [s]."]
+    notes = [
+        f"settles: of {starts} uniform starts, 95 % interval; 50 %, 99 %: within [s]."
+    ]
     if any(row.fails and row.fails[0] == TRAPPED for row in rows):
         least = min(row.noise for row in rows if row.noise is not None)
         notes.append(f"{TRAPPED}: a sensor error of {least:g} rad holds it at 180 deg.")
@@ -228,7 +243,9 @@ def describe_columns(rows: Sequence[Row], results: Results) -> list[str]:
 
 def _describe_costs(rows: Sequence[Row], results: Results) -> str:
     timings = results.timings()
-    machines = ", ".join(sorted(set(timings["machine"].astype(str)))) if len(timings) else ""
+    machines = (
+        ", ".join(sorted(set(timings["machine"].astype(str)))) if len(timings) else ""
+    )
     is_untimed = [math.isnan(row.nanoseconds) for row in rows]
     if not machines or all(is_untimed):
         return "ops: flops + calls a step (not timed)."

@@ -29,20 +29,26 @@ def compare_jacobians(results: Results) -> list[str]:
         return []
     head = f"Jacobian, {both.arms} arm{'s' * (both.arms > 1)}"
     times = f"x {write_ratio(both.harder.value)} ({write_ratio(both.harder.low)}-{write_ratio(both.harder.high)})"
-    lines = [f"{head:{HEAD}} {'fails past gimbal lock':24} {'peak torque / rated':24} {'ops':>7}"]
+    lines = [
+        f"{head:{HEAD}} {'fails past gimbal lock':24} {'peak torque / rated':24} {'ops':>7}"
+    ]
     for name, controller, failed, torque in (
         ("geometric", ON_MATRIX, both.failed[0], write_ratio(both.torque[0])),
         ("Euler", BY_EULER, both.failed[1], f"{write_ratio(both.torque[1])}; {times}"),
     ):
         count = f"{failed or 'none'} of {both.moves} moves"
-        lines.append(f"{name:{HEAD}} {count:24} {torque:24} {_count(results, controller):>7}")
+        lines.append(
+            f"{name:{HEAD}} {count:24} {torque:24} {_count(results, controller):>7}"
+        )
     return lines
 
 
 def _count(results: Results, controller: str) -> str:
     """Write the flops and calls of a whole controller's step on six joints; a dash where they were not counted."""
     try:
-        flops, calls = tallied(controller_costs(results, controller, SIX_JOINTS), with_goal=True)
+        flops, calls = tallied(
+            controller_costs(results, controller, SIX_JOINTS), with_goal=True
+        )
     except (NoEvidence, NoTable):
         return "-"
     return f"{flops}+{calls}" if calls else str(flops)
@@ -82,7 +88,10 @@ IN_SHORT = {
     Word.HOLDS: ("holds", "hold"),
     Word.CORRECTED: ("holds with a correction", "hold with a correction"),
     Word.FAILS: ("does not", "do not"),
-    Word.ANSWERED: ("was open in 1988 and is answered", "were open in 1988 and are answered"),
+    Word.ANSWERED: (
+        "was open in 1988 and is answered",
+        "were open in 1988 and are answered",
+    ),
     Word.DEPENDS: ("depends on the gains", "depend on the gains"),
     Word.READING: ("depends on the reading", "depend on the reading"),
     Word.UNTESTABLE: ("is not testable", "are not testable"),
@@ -98,7 +107,11 @@ def count_verdicts(results: Results) -> str:
     if not decided:
         return f"None of the paper's {every} claims can be judged from this run."
     counts = Counter(verdict.word for verdict in decided)
-    parts = [f"{counts[word]} {IN_SHORT[word][counts[word] != 1]}" for word in Word if counts[word]]
+    parts = [
+        f"{counts[word]} {IN_SHORT[word][counts[word] != 1]}"
+        for word in Word
+        if counts[word]
+    ]
     if lacks:
         parts.append(f"{len(lacks)} cannot be judged from this run")
     return f"Of {every}, {', '.join(parts)} (bench claims)."

@@ -29,8 +29,14 @@ CONTROLLER = 42
 def list_parts(results: Results) -> list[str]:
     """Return the parts of a run, as `show` names them, that have rows."""
     episodes = results.table("episodes")
-    has = {"free-body": (episodes["arm"] == "").any(), "arms": (episodes["arm"] != "").any()}
-    has |= {"contact": len(results.table("compliance")), "robustness": len(results.table("robustness"))}
+    has = {
+        "free-body": (episodes["arm"] == "").any(),
+        "arms": (episodes["arm"] != "").any(),
+    }
+    has |= {
+        "contact": len(results.table("compliance")),
+        "robustness": len(results.table("robustness")),
+    }
     return [part for part in PARTS if has[part]]
 
 
@@ -39,7 +45,10 @@ def describe_arms(results: Results, most: int) -> Iterator[str]:
     episodes = results.table("episodes")
     rows = episodes[episodes["arm"] != ""]
     variation = rows["variation"].astype(str)
-    plants = {"": rows[variation == NOMINAL], ", ideal motors": rows[variation == IDEAL_MOTORS]}
+    plants = {
+        "": rows[variation == NOMINAL],
+        ", ideal motors": rows[variation == IDEAL_MOTORS],
+    }
     plants = {words: own for words, own in plants.items() if len(own)}
     for words, own in plants.items():
         arms = ", ".join(own["arm"].astype(str).unique())
@@ -54,12 +63,18 @@ def describe_arms(results: Results, most: int) -> Iterator[str]:
 
 def _list_controllers(rows: pd.DataFrame, most: int) -> Iterator[str]:
     """Yield a line a controller, the one that settles most first. Torque: median peak over the rated one."""
-    by_controller = {str(name): own for name, own in rows.groupby("contender", observed=True)}
-    ranked = sorted(by_controller, key=lambda name: (-settled(by_controller[name]).mean(), name))
+    by_controller = {
+        str(name): own for name, own in rows.groupby("contender", observed=True)
+    }
+    ranked = sorted(
+        by_controller, key=lambda name: (-settled(by_controller[name]).mean(), name)
+    )
     for name in ranked[:most]:
         own = by_controller[name]
         times = settling_times(own)
-        median, nearly_all = (write_seconds(float(quantile(times, level))) for level in (0.5, NEARLY_ALL))
+        median, nearly_all = (
+            write_seconds(float(quantile(times, level))) for level in (0.5, NEARLY_ALL)
+        )
         torque = write_ratio(float(own["peak_torque_ratio"].median()))
         count = f"{int(settled(own).sum())}/{len(own)}"
         if len(name) > CONTROLLER:
@@ -74,9 +89,18 @@ def describe_contact(results: Results) -> Iterator[str]:
     """Yield a line a task: at how many poses each controller does it."""
     rows = results.table("compliance")
     for task, own in rows.groupby("task", observed=True, sort=False):
-        done = (own["outcome"] == "done").groupby(own["contender"].astype(str)).agg(["sum", "size"])
-        done = done.assign(share=done["sum"] / done["size"]).sort_values("share", ascending=False, kind="stable")
-        cells = [f"{name} {good}/{of}" for name, good, of in done[["sum", "size"]].itertuples()]
+        done = (
+            (own["outcome"] == "done")
+            .groupby(own["contender"].astype(str))
+            .agg(["sum", "size"])
+        )
+        done = done.assign(share=done["sum"] / done["size"]).sort_values(
+            "share", ascending=False, kind="stable"
+        )
+        cells = [
+            f"{name} {good}/{of}"
+            for name, good, of in done[["sum", "size"]].itertuples()
+        ]
         more = [f"{len(cells) - OF_TASK} more"] if len(cells) > OF_TASK else []
         yield f"{task}, done: {', '.join(cells[:OF_TASK] + more)}"
 
@@ -93,6 +117,10 @@ def describe_robustness(results: Results) -> Iterator[str]:
     summary = robustness.summary(rows)
     laws = summary[summary["law"] != robustness.NEAR]
     for way in [name for name in laws.columns[2:] if not str(name).endswith("theory")]:
-        cells = [f"{law} {level}" for law, level in zip(laws["law"], laws[way], strict=True) if level]
+        cells = [
+            f"{law} {level}"
+            for law, level in zip(laws["law"], laws[way], strict=True)
+            if level
+        ]
         more = [f"{len(cells) - AXES} more"] if len(cells) > AXES else []
         yield f"{way}, withstood up to: {', '.join(cells[:AXES] + more)}"

@@ -24,7 +24,11 @@ def print_today(gains: Gains | None) -> None:
     """Print the law that is advised, and for other controllers; at other gains than the paper's, the law for these."""
     answer = find_answer()
     if not answer.is_tested:
-        print_text("Use today", "Not tested: there is no map of situations (results/situations).", indent=ABOUT)
+        print_text(
+            "Use today",
+            "Not tested: there is no map of situations (results/situations).",
+            indent=ABOUT,
+        )
         return
     if gains and gains != PAPERS_GAINS:
         usual = f"other gains: {next(_list_sentences(answer))}"
@@ -40,7 +44,12 @@ def print_today_in_short(gains: Gains | None, parts: Sequence[str]) -> None:
     elif "arms" in parts:
         needs = {need.name: need for need in find_answer().needs}
         said = [f"{NAMES['arm']}: {_name_law(needs['arm'])} {needs['arm'].price}"]
-        print_text("Use today", *said, f"any start: {_name_law(needs['default'])}", indent=ABOUT)
+        print_text(
+            "Use today",
+            *said,
+            f"any start: {_name_law(needs['default'])}",
+            indent=ABOUT,
+        )
 
 
 def _list_sentences(answer: Answer) -> Iterator[str]:
@@ -57,4 +66,6 @@ def _list_sentences(answer: Answer) -> Iterator[str]:
 
 
 def _name_law(need: Need) -> str:
-    return f"{need.law} ({need.attribution})" if need.law != need.attribution else need.law
+    return (
+        f"{need.law} ({need.attribution})" if need.law != need.attribution else need.law
+    )

@@ -37,7 +37,9 @@ def print_summary(folder: Path, is_named: bool) -> None:
     else:
         print_some_laws(results, gains)
     print_parts(results, is_whole)
-    for broken in failures.describe_broken(results.table("episodes"), results.table("robustness")):
+    for broken in failures.describe_broken(
+        results.table("episodes"), results.table("robustness")
+    ):
         print_text("Broken", broken, indent=ABOUT)
     print_lines("")
     if is_whole:
@@ -52,7 +54,12 @@ def find_gains(results: Results) -> Gains | None:
     """Return the gains of a run: of the free body, else of its arms, contact or perturbed laws if all have the same."""
     episodes = results.table("episodes")
     free = episodes[episodes["arm"] == ""]
-    for rows in (free, episodes, results.table("compliance"), results.table("robustness")):
+    for rows in (
+        free,
+        episodes,
+        results.table("compliance"),
+        results.table("robustness"),
+    ):
         if len(rows) and len(rows[["kp", "kv"]].drop_duplicates()) == 1:
             return Gains(float(rows["kp"].iloc[0]), float(rows["kv"].iloc[0]))
     return None
@@ -63,7 +70,11 @@ def describe_run(folder: Path, results: Results, gains: Gains | None) -> str:
     found = read_provenance(folder, ("suite", "episodes", "wall_s"))
     episodes = sum(found.get(name, 0) for name in ("episodes", "trials", "troubled"))
     ran = laws.list_laws(results)
-    head = counted(len(ran), "law") if ran else ", ".join(parts.list_parts(results)).capitalize()
+    head = (
+        counted(len(ran), "law")
+        if ran
+        else ", ".join(parts.list_parts(results)).capitalize()
+    )
     if paper.holds_papers_laws(results):
         head = "Murphy (1988), replicated"
     at = f"kp {gains.kp:g} /s2, kv {gains.kv:g} /s, " if gains else "several gains, "
@@ -83,7 +94,9 @@ def print_replication(results: Results) -> None:
     yours = [law for law in ran if laws.attribute(law) == laws.YOURS]
     advised = list_later_laws()
     known = advised if advised else [law for law in ran if law not in (*PAPERS, *yours)]
-    later = [law for law in dict.fromkeys([*yours, *known]) if law in ran][: max(FEW, len(yours))]
+    later = [law for law in dict.fromkeys([*yours, *known]) if law in ran][
+        : max(FEW, len(yours))
+    ]
     since = [laws.measure_law(results, law) for law in later]
     print_lines(*laws.format_groups(since))
     print_text("", *laws.describe_columns([*papers, *since], results), indent=0)
@@ -97,11 +110,16 @@ def print_some_laws(results: Results, gains: Gains | None) -> None:
     ran.sort(key=lambda law: laws.attribute(law) != laws.YOURS)
     rows = [laws.measure_law(results, law) for law in ran[:FEW]]
     kp = gains.kp if gains else 1.0
-    print_lines(laws.WITH_EFFORT, *(line for row in rows for line in laws.format_with_effort(row, kp)))
+    print_lines(
+        laws.WITH_EFFORT,
+        *(line for row in rows for line in laws.format_with_effort(row, kp)),
+    )
     if len(ran) > FEW:
         print_lines(f"and {counted(len(ran) - FEW, 'law')} more")
     compared = [compare_pace(results, ran[0], law) for law in ran[1:FEW]]
-    print_text("", *filter(None, compared), *laws.describe_columns(rows, results), indent=0)
+    print_text(
+        "", *filter(None, compared), *laws.describe_columns(rows, results), indent=0
+    )
     print_text("", laws.UNITS_WITH_EFFORT, indent=0)
 
 
@@ -110,12 +128,16 @@ def compare_pace(results: Results, law: str, other: str) -> str:
     rows = results.table("episodes", arm="", start_set="uniform", task="free-body")
     for engine in dict.fromkeys((MAIN_ENGINE, *rows["engine"].astype(str))):
         own, beside = (
-            rows[(rows["engine"] == engine) & (rows["contender"].astype(str) == name)].set_index("start_id")
+            rows[
+                (rows["engine"] == engine) & (rows["contender"].astype(str) == name)
+            ].set_index("start_id")
             for name in (law, other)
         )
         shared = own.index.intersection(beside.index)
         if len(shared):
-            ratio = _compare_times(settling_times(own.loc[shared]), settling_times(beside.loc[shared]))
+            ratio = _compare_times(
+                settling_times(own.loc[shared]), settling_times(beside.loc[shared])
+            )
             if not np.isfinite(ratio.value):
                 return f"{law} beside {other}: 99 % do not settle with both."
             return (
@@ -159,7 +181,11 @@ def print_next(folder: Path, is_named: bool, results: Results, is_whole: bool) -
     found = read_provenance(folder, ("commit", "dirty", "cpu"))
     changed = " with changes" if found["dirty"] else ""
     commit = found["commit"][:10] or "none"
-    print_text("This run", f"{here}, commit {commit}{changed}, {found['cpu']}{list_absent(results)}", indent=ABOUT)
+    print_text(
+        "This run",
+        f"{here}, commit {commit}{changed}, {found['cpu']}{list_absent(results)}",
+        indent=ABOUT,
+    )
     if not is_named and folder == REFERENCE and published.VARIABLE not in os.environ:
         came = "It came with the benchmark; results/latest has no finished run (try: make bench)."
         print_text("", came, indent=ABOUT)
