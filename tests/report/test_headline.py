@@ -58,7 +58,7 @@ def test_planted_failure_of_the_advised_law_is_said(episodes):
     rows = failure_map.find_common_starts(planted)[find_default()]
     stuck = int((rows["start_set"] == "poles").sum())
     assert stuck > 0
-    assert failure_map.say_finding(planted).endswith(f"MRP with memory never settles from {stuck}.")
+    assert failure_map.say_finding(planted).endswith(f"MRP with memory never settles from {stuck} starts.")
 
 
 def test_run_without_the_advised_law_says_so_and_shows_the_others(episodes):
