@@ -80,7 +80,9 @@ def evaluate(function: Callable, now: np.ndarray, goal: np.ndarray) -> Answers:
     return Answers(e, raised, changed)
 
 
-def _answer(function: Callable, now: np.ndarray, goal: np.ndarray) -> tuple[np.ndarray | float, str]:
+def _answer(
+    function: Callable, now: np.ndarray, goal: np.ndarray
+) -> tuple[np.ndarray | float, str]:
     """Three numbers, or NaN and the reason."""
     try:
         said = function(now, goal)
@@ -88,7 +90,9 @@ def _answer(function: Callable, now: np.ndarray, goal: np.ndarray) -> tuple[np.n
         raise
     except SystemExit as error:
         raise Lost(ENDS, f"it exits (SystemExit: {error})", now, goal) from error
-    except BaseException as error:  # whatever else it raises is its answer; panics of Rust are no Exception
+    except (
+        BaseException
+    ) as error:  # whatever else it raises is its answer; panics of Rust are no Exception
         return np.nan, f"{type(error).__name__}: {error}"
     try:
         numbers = np.asarray(said).astype(float)
@@ -120,9 +124,20 @@ class Examined:
     """
 
     def __init__(
-        self, function: Callable, stated: Stated, takes: str, found: Convention | None, fresh: Fresh | None = None
+        self,
+        function: Callable,
+        stated: Stated,
+        takes: str,
+        found: Convention | None,
+        fresh: Fresh | None = None,
     ):
-        self.function, self.stated, self.takes, self.convention, self.fresh = function, stated, takes, found, fresh
+        self.function, self.stated, self.takes, self.convention, self.fresh = (
+            function,
+            stated,
+            takes,
+            found,
+            fresh,
+        )
         self.pairs = pairs.every_pair()
         self.e, self.raised, self.changed = self.evaluate(self.pairs)
         self.size = np.linalg.norm(self.e, axis=1)
@@ -163,22 +178,32 @@ class Examined:
         truth = self.truth[i] if right and np.isfinite(self.truth[i]).all() else ""
         return Evidence(now, goal, self.raised[i] or self.e[i], truth)
 
-    def first(self, which: np.ndarray, text: str, right: bool = True, severity: str = FAULT) -> Found | None:
+    def first(
+        self, which: np.ndarray, text: str, right: bool = True, severity: str = FAULT
+    ) -> Found | None:
         """Return what is found at the first pair of a mask; None if the mask is empty."""
-        return Found(text, self.evidence(int(np.argmax(which)), right), severity) if which.any() else None
+        return (
+            Found(text, self.evidence(int(np.argmax(which)), right), severity)
+            if which.any()
+            else None
+        )
 
     @functools.cached_property
     def error(self) -> np.ndarray:
         """|e - truth| (n), of the nearer direction where 180° is too close to tell; NaN without a form."""
         straight = np.linalg.norm(self.e - self.truth, axis=1)
         either = self.pairs.distance < UNDECIDED_RAD
-        return np.where(either, np.minimum(straight, np.linalg.norm(self.e + self.truth, axis=1)), straight)
+        return np.where(
+            either, np.minimum(straight, np.linalg.norm(self.e + self.truth, axis=1)), straight
+        )
 
     @functools.cached_property
     def apart(self) -> np.ndarray:
         """Angle (n) between answers and where they should point [rad]."""
         angle = convention.apart(self.e, self.direction)
-        return np.where(self.pairs.distance < UNDECIDED_RAD, np.minimum(angle, np.pi - angle), angle)
+        return np.where(
+            self.pairs.distance < UNDECIDED_RAD, np.minimum(angle, np.pi - angle), angle
+        )
 
     @functools.cached_property
     def noise(self) -> float:

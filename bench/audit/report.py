@@ -59,7 +59,9 @@ class Report(NamedTuple):
     def code(self) -> str:
         """Return how the function is called."""
         function = self.name.rpartition(":")[2].rpartition(".")[2] or self.name
-        return self.call.code(function, *(("R", "R_d") if self.call.takes == "matrix" else ("q", "q_d")))
+        return self.call.code(
+            function, *(("R", "R_d") if self.call.takes == "matrix" else ("q", "q_d"))
+        )
 
     def as_dict(self) -> dict[str, Any]:
         """For JSON."""
@@ -127,7 +129,9 @@ def as_dict(finding: Finding) -> dict[str, Any]:
         "cure": found.cure or fault.cure,
         "law": fault.law,
         "file": f"bench/audit/faults/{fault.name.replace('-', '_')}.py",
-        "evidence": {key: plain(value) for key, value in evidence._asdict().items()} if evidence else None,
+        "evidence": {key: plain(value) for key, value in evidence._asdict().items()}
+        if evidence
+        else None,
     }
 
 
@@ -135,4 +139,6 @@ def plain(value: np.ndarray | str) -> Any:
     """Return it as JSON can hold it."""
     if isinstance(value, str):
         return value
-    return value.tolist() if np.isfinite(value).all() else [str(one) for one in value.ravel().tolist()]
+    return (
+        value.tolist() if np.isfinite(value).all() else [str(one) for one in value.ravel().tolist()]
+    )

@@ -1,7 +1,6 @@
 """the error is a difference of Euler angles, not a vector along an axis.
 
-effect: the robot takes a detour that depends on the orientation; at the pole a tiny error can
-become a large rotation
+effect: the robot takes a detour that depends on the orientation; at the pole a tiny error can become a large rotation
 cure: use an error along the axis; or convert angle rates to angular velocity, and avoid the pole
 unless: quaternion-order, transpose, frame
 """

@@ -1,10 +1,8 @@
 """unwinding: the error points the longer way, after a wrong wrap or sign.
 
-effect: the robot turns by up to 360° although a small rotation would be enough; the command jumps
-where the wrap
+effect: the robot turns by up to 360° although a small rotation would be enough; the command jumps where the wrap
   changes
-cure: wrap angles to [-180°, 180°], use atan2 instead of an arc tangent, and change the sign of a
-quaternion with a
+cure: wrap angles to [-180°, 180°], use atan2 instead of an arc tangent, and change the sign of a quaternion with a
   negative scalar part
 law: quaternion-shortest
 """

@@ -1,9 +1,7 @@
 """the error is infinite or not a number.
 
-effect: comparisons with limits do not stop a command that is not a number, and it reaches the
-motors
-cure: do not divide by a length that can be zero; limit the arguments of acos and sqrt to their
-ranges
+effect: comparisons with limits do not stop a command that is not a number, and it reaches the motors
+cure: do not divide by a length that can be zero; limit the arguments of acos and sqrt to their ranges
 """
 
 import numpy as np

@@ -1,9 +1,7 @@
 """the function computes in single precision.
 
-effect: the error has steps of 1e-7 rad, which become audible if the controller uses a derivative
-or high damping
-cure: compute the difference of two orientations in double precision; later steps may use single
-precision
+effect: the error has steps of 1e-7 rad, which become audible if the controller uses a derivative or high damping
+cure: compute the difference of two orientations in double precision; later steps may use single precision
 """
 
 import numpy as np

@@ -1,7 +1,6 @@
 """the real stiffness is not the stiffness that the user sets.
 
-effect: the slope of the error at the goal multiplies the stiffness; 1/sqrt(slope) multiplies the
-damping ratio
+effect: the slope of the error at the goal multiplies the stiffness; 1/sqrt(slope) multiplies the damping ratio
 cure: divide the error or the stiffness by the slope
 law: quaternion-shortest
 unless: euler-angles
