@@ -3,21 +3,16 @@
 import re
 import shutil
 
-import numpy as np
 import pytest
 import yaml
-from scipy.spatial.transform import Rotation
 from support.pages import RUN
-from support.states import as_rotation, vector
+from support.pasted_law import check_command
 
 from bench.base.files import read_json
 from bench.base.provenance import ROOT
 from bench.findings.answer import find_answer
 from bench.findings.conclusions import conclude
-from bench.findings.selection.regions import find_default
 from bench.law.attribution import IN_WORDS
-from bench.law.contenders.registry import find_contender
-from bench.law.inputs import Gains, Goal
 from report.figures import index
 from report.figures.kit import families, html
 from report.figures.kit.page import REPORT, run_in, text_of
@@ -30,15 +25,7 @@ BOOK = "".join(path.read_text(encoding="utf-8") for path in REPORT.glob("pages/*
 def test_code_to_paste_is_the_advised_law_over_random_states():
     shown = {}
     exec(CODE, shown)
-    generator, law = np.random.default_rng(7), find_contender(find_default()).regulator
-    for _ in range(50):
-        rotations = Rotation.random(40, rng=generator)
-        goal, memory, q_old = rotations[0].as_matrix(), law.memory, np.array([0.0, 0.0, 0.0, 1.0])
-        for R in rotations.as_matrix():
-            omega, (kp, kv) = generator.normal(size=3) * 9.0, generator.uniform(1.0, 200.0, 2)
-            wanted, memory = law.law(as_rotation(R.T), vector(omega), Goal(as_rotation(goal.T)), Gains(kp, kv), memory)
-            found, q_old = shown["command"](R, goal, omega, q_old, kp, kv)
-            np.testing.assert_allclose(found, wanted, rtol=1e-9, atol=1e-7)
+    check_command(shown["command"])
 
 
 def test_front_page_has_the_eight_conclusions_as_they_are_judged():

@@ -3,20 +3,17 @@
 import re
 import subprocess
 
-import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
 from support.command_line import bench
 from support.map_rule import SPOKEN, shares_of, widest
+from support.pasted_law import check_command
 from support.readme import count_claims, list_conclusions, list_needs
-from support.states import as_rotation
 
 from bench.base.provenance import ROOT
 from bench.experiments.tables import store
 from bench.findings.selection.regions import Rule, find_default
 from bench.findings.selection.robots import ARM, decide_for
 from bench.law.contenders.registry import find_contender
-from bench.law.inputs import Gains, Goal
 
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```", TEXT, re.DOTALL | re.MULTILINE)
@@ -80,18 +77,15 @@ def test_audit_finds_the_two_faults_of_the_example_of_the_docs(capsys, here):
     assert "slope at the goal 0.5" in said.out
 
 
-def test_error_to_paste_is_the_advised_law_at_rest():
+def test_error_to_paste_makes_the_advised_law_over_random_states():
     shown = {}
     exec(ERROR, shown)
-    generator, law = np.random.default_rng(7), find_contender(find_default()).regulator
-    for _ in range(20):
-        rotations = Rotation.random(40, rng=generator)
-        goal, memory, q_old = rotations[0].as_matrix(), law.memory, np.array([0.0, 0.0, 0.0, 1.0])
-        for R in rotations.as_matrix():
-            state = as_rotation(R.T), (0.0, 0.0, 0.0), Goal(as_rotation(goal.T)), Gains(1.0, 1.0)
-            command, memory = law.law(*state, memory)
-            error, q_old = shown["error"](R, goal, q_old)
-            np.testing.assert_allclose(error, command, rtol=1e-9, atol=1e-9)
+
+    def command(R, R_d, omega, q_old, kp, kv):
+        error, q = shown["error"](R, R_d, q_old)
+        return kp * error - kv * omega, q
+
+    check_command(command)
 
 
 def test_readme_is_short():
