@@ -39,34 +39,44 @@ class Law(NamedTuple):
     """A law u = law(R, omega, goal, gains), which commands an angular acceleration in the base frame [rad/s^2].
 
     Args:
-        coordinates: "rotation-matrix" if the law acts on R; otherwise the names of the coordinates that it acts on, or
-            "any". Such a law gives `law_in(coordinates)`, which returns the law in those coordinates.
+        coordinates: "rotation-matrix" if the law acts on R; otherwise the names of the coordinates
+            that it acts on, or "any". Such a law gives `law_in(coordinates)`, which returns the law
+            in those coordinates.
         relative: whether the coordinates, and their margin, are computed from R_d^T R.
-        memory: initial memory of a law with memory, law(R, omega, goal, gains, memory) -> (u, memory); otherwise None.
-            The memory is passed on unchanged from one control step to the next, and does not need the control period.
-        state: state of a law with a state, law(R, omega, goal, gains, state) -> (u, rates); otherwise None. The caller
-            integrates the rates of the state over the control period.
-        property: what is proved: "local", "almost global", "global with memory", "none", or for which gains.
+        memory: initial memory of a law with memory; otherwise None. Such a law is
+            law(R, omega, goal, gains, memory) -> (u, memory). The memory is passed on unchanged
+            from one control step to the next, and does not need the control period.
+        state: state of a law with a state, law(R, omega, goal, gains, state) -> (u, rates);
+            otherwise None. The caller integrates the rates of the state over the control period.
+        property: what is proved: "local", "almost global", "global with memory", "none", or for
+            which gains.
         level: the kind of command.
         gains: the gains that the authors set, or the paper's gains.
-        shipped: AsShipped for a controller as its authors ship it; otherwise None. Its formula is the formula of the
-            error, with clips and deadbands in their order. Its gains are in N m/rad; in 1/s^2 if the controller cancels
-            or simulates an inertia; in 1/s if it commands a velocity.
+        shipped: AsShipped for a controller as its authors ship it; otherwise None. Its formula is
+            the formula of the error, with clips and deadbands in their order. Its gains are in
+            N m/rad; in 1/s^2 if the controller cancels or simulates an inertia; in 1/s if it
+            commands a velocity.
         origin: the file of a law that a user wrote, with its content in text; both are
             empty for our laws.
         later: whether the law is not in the paper; it then runs from fewer starts.
-        costing_only: whether the law is another way to write a law of the list; it is costed and tested, but not run.
-        in_engine: whether MuJoCo's actuator makes the command, on its free body; `law` computes the same command.
+        costing_only: whether the law is another way to write a law of the list; it is costed and
+            tested, but not run.
+        in_engine: whether MuJoCo's actuator makes the command, on its free body; `law` computes the
+            same command.
         stiffness: stiffness near the goal about n_d, o_d and a_d, divided by kp.
-        margin: for a law on R that is singular somewhere: margin(R, R_d) in [0, 1], which is 0 exactly there.
-        coordinate_law_in: for a law that commands Eddot itself: coordinate_law_in(coordinates) returns
-            law(chart, E_d, Edot, gains) -> u_E, for the controller on an analytic Jacobian (Murphy 1988, 3.7).
+        margin: for a law on R that is singular somewhere: margin(R, R_d) in [0, 1], which is 0
+            exactly there.
+        coordinate_law_in: for a law that commands Eddot itself: coordinate_law_in(coordinates)
+            returns law(chart, E_d, Edot, gains) -> u_E, for the controller on an analytic Jacobian
+            (Murphy 1988, 3.7).
         assemble: for a baseline (contenders/baselines): assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory),
             which replaces (2.2) and (3.7).
-        through: the Jacobian and the inverse of a baseline that acts on the joints; otherwise empty.
+        through: the Jacobian and the inverse of a baseline that acts on the joints; otherwise
+            empty.
         papers: the place of the law among the paper's three laws; 0 for another law.
         control: whether the law is a negative control, which must fail.
-        attribution: published, adapted or ours, as `bench.law.attribution` defines them; yours for a user's file.
+        attribution: published, adapted or ours, as `bench.law.attribution` defines them; yours for
+            a user's file.
     """
 
     name: str
