@@ -61,7 +61,7 @@ def link(law: str) -> str:
 @responsive_picture
 def draw_slopes(rows: list[Tuned], narrow: bool) -> Drawing:
     """Draw a line from a law's time at equal stiffness to its time at equal peak command, over the fastest law's."""
-    figure, axes = style.panels(height=4.6, narrow=narrow)
+    figure, axes = style.panels(height=4.6 if narrow else 4.1, narrow=narrow)
     left, right = (min(getattr(tuned, field) for tuned in rows) for field in ("time", "peak_time"))
     ends = {}
     for tuned in rows:

@@ -60,7 +60,7 @@ def list_laws(run: Run) -> list[Law]:
 @responsive_picture
 def draw_laws(found: list[Law], narrow: bool) -> Drawing:
     """Draw one dot a law; those of NAMED have names, the others are grey."""
-    figure, axes = style.panels(height=4.6 if narrow else 4.2, narrow=narrow)
+    figure, axes = style.panels(height=4.6 if narrow else 3.6, narrow=narrow)
     axes.axhspan(2.5, TOP_S, facecolor=style.GRID, alpha=0.45, zorder=0)
     for each in sorted(found, key=lambda each: each.law in NAMED):
         colour = style.look(each.law).colour

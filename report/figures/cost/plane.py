@@ -94,7 +94,7 @@ def describe_plane(points: list[Point], limit_s: float) -> str:
 @responsive_picture
 def draw_plane(points: list[Point], limit_s: float, narrow: bool) -> Drawing:
     """Draw a dot a law: the paper's three and the later ones of the answer by name, all others in grey."""
-    figure, axes = style.panels(height=3.6 if narrow else 3.4, narrow=narrow)
+    figure, axes = style.panels(height=3.6 if narrow else 3.0, narrow=narrow)
     named = (*PAPERS_ORDER, *LATER)
     for point in sorted(points, key=lambda point: point.law in named):
         is_named = point.law in named

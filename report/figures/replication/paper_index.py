@@ -81,7 +81,7 @@ def list_sentences() -> str:
         first_section = re.split(r"[, ]", claim.section)[0]
         sections.setdefault(first_section, []).append(f"<li>{link} {marked_up(claim.sentence)}</li>")
     titles = {name: f"Section {name}" if name[0].isdigit() else name.capitalize() for name in sections}
-    lists = "".join(f"<h3>{titles[name]}</h3><ul>{''.join(items)}</ul>" for name, items in sections.items())
+    lists = "".join(f"<h2>{titles[name]}</h2><ul>{''.join(items)}</ul>" for name, items in sections.items())
     return (
         '<details class="paper-sentences">'
         f"<summary>All {len(all_claims())} statements in our words, by section</summary>{lists}</details>"

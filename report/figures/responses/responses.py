@@ -150,7 +150,7 @@ def euler_deg(trace: pd.DataFrame) -> np.ndarray:
 def draw_response(response: Response, kp: float, kv: float, limits: Limits, narrow: bool) -> Drawing:
     """Draw one law's Euler angles, dashed their linear closed form; beside them its angle to the goal."""
     shape = (2, 1) if narrow else (1, 2)
-    figure, (left, right) = style.panels(*shape, height=4.6 if narrow else 2.3, narrow=narrow)
+    figure, (left, right) = style.panels(*shape, height=4.6 if narrow else 2.1, narrow=narrow)
     times = response.trace["time_s"].to_numpy()
     angles = euler_deg(response.trace)
     goal = np.degrees(response.trace["angle_rad"].to_numpy())
