@@ -18,9 +18,9 @@ from bench.findings.claims.verdict import NoEvidence
 from bench.findings.kept import keep
 from bench.findings.selection import regions
 from bench.findings.selection.nearest import decide_nearest, find_outside
-from bench.findings.selection.needs import Decision, measured
+from bench.findings.selection.needs import Decision
 from bench.findings.selection.regions import STUDY, Rule, facts_of, find_default, find_regions
-from bench.findings.selection.robots import ROBOTS, RUN, Robot, decide_for
+from bench.findings.selection.robots import ROBOTS, RUN, decide_for
 from bench.findings.selection.unbeaten import (
     SPOKEN,
     find_bounds,
@@ -285,7 +285,7 @@ def _list_robots(run: Path) -> Iterator[Need]:
         if decision is None or decision.law is None:
             yield _untested(controller, name)
             continue
-        why, price = _describe_decision(decision), _price_on_robot(robot, decision.law, run)
+        why, price = _describe_decision(decision), _price_on_robot(decision.law, run)
         yield Need(controller, decision.law, attribute(decision.law), why, price, name)
 
 
@@ -305,29 +305,41 @@ def _describe_decision(decision: Decision) -> str:
     return f"none of the {len(decision.asked)} laws that were tried is better"
 
 
-def _price_on_robot(robot: Robot, law: str, run: Path) -> str:
-    """Return what a law costs there: numbers kept, and whether exact 180° rotations or noise hold it."""
+def _price_on_robot(law: str, run: Path) -> str:
+    """Return what a law costs there: numbers kept, and where the free body of the run fails or is slow with it."""
     memory = facts_of(law).memory
     costs = [f"stores {memory} numbers" if memory else "needs no memory"]
-    lost = measured(run, robot.measure).number("lost", law)
-    if not math.isnan(lost) and lost:
-        costs += ["is stuck at exactly 180°", "is slow near 180°"]
-    elif not memory:
-        noise = _least_noise(law, run)
-        if noise is not None and math.isfinite(noise):
-            costs.append(f"can be trapped at 180° by a sensor error of {noise:g} rad")
-    return _join(costs)
+    return _join([*costs, *_list_weak_places(law, run)])
 
 
-def _least_noise(law: str, run: Path) -> float | None:
-    """Return the least noise tried that traps a law on the free body; None where that was not tried."""
+def _list_weak_places(law: str, run: Path) -> Iterator[str]:
+    """Yield where a law fails from rest, where it is slow, and what noise traps it; nothing that was not tried."""
+    # They read rows, which the answer of the map does not need.
+    from bench.findings.claims.adequacy import SLOW
     from bench.findings.claims.tables import Results
-    from bench.findings.failure_places import least_trapping_noise
+    from bench.findings.failure_places import (
+        HALF_TURN,
+        describe_failures,
+        least_trapping_noise,
+        slowness_near_half_turn,
+    )
+    from bench.findings.replication import starts_at_rest
 
     try:
-        return least_trapping_noise(Results(run), law)
+        results = Results(run)
+        rows = starts_at_rest(results)
+        rows = rows[rows["contender"].astype(str) == law]
+        noise = least_trapping_noise(results, law)
     except (BadResults, NoEvidence):
-        return None
+        return
+    places = describe_failures(rows)
+    for place in places:
+        yield "is stuck at exactly 180°" if place == HALF_TURN else f"fails at {place}"
+    slowness = slowness_near_half_turn(rows)
+    if slowness is not None and slowness > SLOW:
+        yield f"takes up to {slowness:.0f} times its median time near 180°"
+    if noise is not None and math.isfinite(noise):
+        yield f"can be trapped at 180° by a sensor error of {noise:g} rad"
 
 
 def _join(parts: list[str]) -> str:

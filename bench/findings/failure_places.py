@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from bench.base.on_first_use import pd
+from bench.experiments.tables.statistics import quantile_estimate
 from bench.findings.claims import probes
 from bench.findings.claims.adequacy import HELD_RAD, NOISE
 from bench.findings.claims.probes import EXACT_RAD
-from bench.findings.claims.tables import Results, settled
+from bench.findings.claims.tables import Results, settled, settling_times
 
 HALF_TURN, GIMBAL_LOCK = "exactly 180 deg", "gimbal lock"
 
@@ -69,6 +70,20 @@ def _down(degrees: float) -> str:
     digits = 0 if degrees < 179.0 else 2
     scale = 10.0**digits
     return f"{np.floor(degrees * scale) / scale:g}"
+
+
+def slowness_near_half_turn(rows: pd.DataFrame) -> float | None:
+    """Return how many times the median time the slowest start near 180 degrees takes, of those that settle.
+
+    rows: as of `describe_failures`. The median is the median of the uniform starts. None: no start of either kind
+    settles.
+    """
+    times = settling_times(rows)
+    is_near = np.degrees(rows["angle0_rad"]) >= NEAR_DEG
+    near = times[is_near & np.isfinite(times)]
+    uniform = times[rows["start_set"] == "uniform"]
+    median = quantile_estimate(uniform, 0.5).value if len(uniform) else np.inf
+    return float(near.max() / median) if len(near) and np.isfinite(median) else None
 
 
 def least_trapping_noise(results: Results, law: str) -> float | None:

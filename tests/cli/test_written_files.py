@@ -73,8 +73,8 @@ def test_command_refuses_it_before_it_works(capsys, tmp_path, words, kind):
     [
         ("run", "what was finished is kept"),
         ("map", "what was finished is kept"),
-        ("judge", "keeps nothing"),
-        ("advise", "keeps nothing"),
+        ("judge", "nothing was written"),
+        ("advise", "nothing was written"),
         ("prove", "keeps nothing"),
     ],
 )

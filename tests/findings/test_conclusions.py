@@ -10,7 +10,11 @@ from bench.findings.answer import NOT_TESTED, find_answer
 from bench.findings.claims.tables import Results
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.conclusions import FINDINGS, find_all, read_texts
-from bench.findings.failure_places import describe_failures, least_trapping_noise
+from bench.findings.failure_places import (
+    describe_failures,
+    least_trapping_noise,
+    slowness_near_half_turn,
+)
 from bench.findings.selection.regions import find_default
 
 REFERENCE = RESULTS / "reference"
@@ -104,6 +108,18 @@ def test_places_of_failure_are_read_off_the_rows(frames):
         assert describe_failures(changed(settled, is_failed, outcome="stuck"))[-1].endswith(place)
     assert describe_failures(settled) == []
     assert describe_failures(rows) == ["exactly 180 deg"]
+
+
+def test_slow_start_near_180_degrees_is_held_against_the_median_of_the_uniform_starts():
+    common = {"start_set": "uniform", "outcome": "settled", "goal_quat_w": 1.0}
+    rows = pd.DataFrame([{**common, "angle0_rad": 1.0, "settling_time_s": time} for time in (1.0, 2.0, 3.0)])
+    near = pd.DataFrame([{**common, "start_set": "half-turn", "angle0_rad": 3.1, "settling_time_s": 8.0}])
+    both = pd.concat([rows, near], ignore_index=True)
+    assert slowness_near_half_turn(both) == 4.0
+    assert slowness_near_half_turn(rows) is None
+    # What never settles is no slow start: it is a failure.
+    assert slowness_near_half_turn(both.assign(outcome=["settled"] * 3 + ["stuck"])) is None
+    assert slowness_near_half_turn(both.assign(outcome=["stuck"] * 3 + ["settled"])) is None
 
 
 def test_noise_that_traps_a_law_is_read_off_the_rows(frames):

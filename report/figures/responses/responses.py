@@ -158,7 +158,7 @@ def draw_response(response: Response, kp: float, kv: float, limits: Limits, narr
     linear = closed_form.linear(fine, kp, kv)
     colour = style.look(response.law).colour
     dashed: dict[str, Any] = {"color": style.MUTED, "linewidth": 0.9, "linestyle": style.DASHED}
-    heights = style.apart([*angles[0]], limits.euler / 4.0)
+    heights = style.apart([*angles[0]], limits.euler / 3.0)
     for i, (_, symbol, line) in enumerate(ANGLES):
         left.plot(fine, angles[0, i] * linear, **dashed)
         left.plot(times, angles[:, i], color=colour, linestyle=line)
