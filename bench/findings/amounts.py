@@ -1,5 +1,7 @@
 """Counts in words, as pages and commands say them: none is a word, all is a word, and a number has its noun."""
 
+from collections.abc import Sequence
+
 
 def count(number: int, noun: str, nouns: str = "") -> str:
     """Return a number with its noun: no law, 1 law, 1,200 laws; `nouns` where the plural is not noun + s."""
@@ -29,3 +31,9 @@ def part_of(part: int, whole: int) -> str:
 def capitalize(text: str) -> str:
     """Return a text as the start of a sentence: its first letter large, the others as they are."""
     return f"{text[:1].upper()}{text[1:]}"
+
+
+def join_words(parts: Sequence[str]) -> str:
+    """Return a list in words: 'a', 'a and b', 'a, b and c'; nothing of an empty list."""
+    *first, last = parts or [""]
+    return f"{', '.join(first)} and {last}" if first else last

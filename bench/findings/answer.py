@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from bench.base.errors import BadResults, UnknownWord
+from bench.findings.amounts import join_words
 from bench.findings.claims.adequacy import HELD_RAD, PAPERS
 from bench.findings.claims.verdict import NoEvidence
 from bench.findings.kept import keep
@@ -158,7 +159,7 @@ def _condition(law: str, folder: Path) -> str:
 def _price_of_default(law: str, folder: Path) -> str:
     """Return what the advised law costs, beside the law of the second widest region; it goes on from the law's name."""
     price, other = find_price(law, folder), find_runner_up(folder)
-    costs = _join(_list_costs(law, folder))
+    costs = join_words(_list_costs(law, folder))
     if other is None:
         return f"{costs}; the median overshoot of the law in the random situations is {price.typical_overshoot:.1f}°"
     beside = find_price(other, folder)
@@ -177,7 +178,7 @@ def _usual(law: str, folder: Path) -> Need:
         f"requirements, such as to settle from every start tried; in {percent(shares.qualified.value)} of the "
         f"situations it meets them, and no other law that meets them is more than {percent(SPOKEN)} faster"
     )
-    return Need(ANY_START, law, attribute(law), why, _join(_list_costs(law, folder)))
+    return Need(ANY_START, law, attribute(law), why, join_words(_list_costs(law, folder)))
 
 
 def _list_mapped(default: str, folder: Path) -> Iterator[Need]:
@@ -250,7 +251,7 @@ def _by_map(name: str, controller: str, law: str, default: str, folder: Path, wh
     slower = find_price(law, folder).time / find_price(default, folder).time
     if slower > 1.0 + SPOKEN:
         costs.append(f"takes {slower:.1f} times as long as {default} without a command limit")
-    return Need(controller, law, attribute(law), why, _join(costs), name)
+    return Need(controller, law, attribute(law), why, join_words(costs), name)
 
 
 def _list_costs(law: str, folder: Path) -> list[str]:
@@ -309,7 +310,7 @@ def _price_on_robot(law: str, run: Path) -> str:
     """Return what a law costs there: numbers kept, and where the free body of the run fails or is slow with it."""
     memory = facts_of(law).memory
     costs = [f"stores {memory} numbers" if memory else "needs no memory"]
-    return _join([*costs, *_list_weak_places(law, run)])
+    return join_words([*costs, *_list_weak_places(law, run)])
 
 
 def _list_weak_places(law: str, run: Path) -> Iterator[str]:
@@ -340,11 +341,6 @@ def _list_weak_places(law: str, run: Path) -> Iterator[str]:
         yield f"takes up to {slowness:.0f} times its median time near 180°"
     if noise is not None and math.isfinite(noise):
         yield f"can be trapped at 180° by a sensor error of {noise:g} rad"
-
-
-def _join(parts: list[str]) -> str:
-    *first, last = parts
-    return f"{', '.join(first)} and {last}" if first else last
 
 
 def advise_gains(gains: Gains, situations: Path = STUDY) -> str:

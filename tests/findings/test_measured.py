@@ -133,14 +133,14 @@ def test_measured_value_is_of_the_run_s_gains_and_names_those_with_another_word(
     def decide(run):
         word = Word.HOLDS if run.kv == 20.0 else Word.FAILS
         numbers = (("Law", "Time"), ("a", f"{run.kv:g} s"))
-        return word, Evidence("", 1, measured=f"{run.kv:g} starts", numbers=numbers)
+        return word, Evidence("", 1, measured=f"{run.kv:g} starts.", numbers=numbers)
 
     own = Run(20.0)
     own.experiments = {"other_gains": lambda results: [Run(10.0)]}
     _, evidence = at_every_gain(decide)(own)
-    assert evidence.measured == "Kv 20: 20 starts; does not hold at Kv 10"
+    assert evidence.measured == "At Kp = 100, Kv = 20: 20 starts. At Kp = 100, Kv = 10 the claim does not hold."
     assert evidence.numbers == (
         ("Gains", "Law", "Time"),
-        ("Kp 100, Kv 10", "a", "10 s"),
-        ("Kp 100, Kv 20", "a", "20 s"),
+        ("Kp = 100, Kv = 10", "a", "10 s"),
+        ("Kp = 100, Kv = 20", "a", "20 s"),
     )

@@ -10,8 +10,9 @@ from collections.abc import Callable
 from typing import Any
 
 from bench.experiments.tables.schema import RESULTS
+from bench.findings.amounts import join_words
 from bench.findings.claims.tables import CHECK_ENGINES, MAIN_ENGINE, Results, evidence
-from bench.findings.claims.verdict import Evidence, NoEvidence, Word
+from bench.findings.claims.verdict import Evidence, NoEvidence, Word, does
 from bench.law.inputs import Gains
 
 REFERENCE = RESULTS / "reference"
@@ -84,23 +85,14 @@ def _at_every_gain(decide: Callable, combine: Callable[[list[Word]], Word]) -> C
 def _measured(own: Gains, found: dict[Gains, tuple[Word, Evidence]]) -> str:
     """Return what was measured at a run's own gains, and the gains at which the word is another one."""
     own_word, said = found[own]
-    is_same_stiffness = all(gains.kp == own.kp for gains in found)
     others: dict[Word, list[Gains]] = {}
     for gains, (word, _) in found.items():
         if word != own_word:
             others.setdefault(word, []).append(gains)
-    at_own = f"Kv {own.kv:g}" if is_same_stiffness else _short(own)
-    parts = [f"{at_own}: {said.measured}"]
+    parts = [f"At {_told(own)}: {said.measured}"]
     for word, at in others.items():
-        where = ", ".join(map(_short, at))
-        if is_same_stiffness:
-            where = f"Kv {', '.join(f'{gains.kv:g}' for gains in at)}"
-        parts.append(f"{word} at {where}")
-    return "; ".join(parts)
-
-
-def _short(gains: Gains) -> str:
-    return f"Kp {gains.kp:g}, Kv {gains.kv:g}"
+        parts.append(f"At {_told_all(at)} the claim {does(word, 1)}.")
+    return " ".join(parts)
 
 
 def _numbers(said: dict[Gains, Evidence]) -> list[tuple[str, ...]]:
@@ -109,16 +101,16 @@ def _numbers(said: dict[Gains, Evidence]) -> list[tuple[str, ...]]:
     if not tables:
         return []
     heads = next(iter(tables.values()))[0]
-    rows = [(_short(gains), *row) for gains, (_, *rows) in tables.items() for row in rows]
+    rows = [(_told(gains), *row) for gains, (_, *rows) in tables.items() for row in rows]
     return [("Gains", *heads), *rows]
 
 
 def _told_all(at: list[Gains]) -> str:
     """Return some gains: 'Kp = 100, Kv = 14, 20 and 30'; the stiffness is said once where it is the same."""
-    *others, last = at
-    if not others or any(gains.kp != last.kp for gains in others):
+    stiffness = at[0].kp
+    if any(gains.kp != stiffness for gains in at):
         return "; ".join(map(_told, at))
-    return f"Kp = {last.kp:g}, Kv = {', '.join(f'{gains.kv:g}' for gains in others)} and {last.kv:g}"
+    return f"Kp = {stiffness:g}, Kv = {join_words([f'{gains.kv:g}' for gains in at])}"
 
 
 def _told(gains: Gains) -> str:

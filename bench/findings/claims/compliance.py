@@ -73,7 +73,8 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         len(rows),
         instead=f"""One compliant angle is one compliant axis of the base {_by_order(judged, "same")} poses and
         forms. It is one axis turned by the angles before it {_by_order(judged, "same_turned")} poses and forms.""",
-        measured=f"one angle is one turned axis at {count_of(int(judged['same_turned'].sum()), len(judged), 'poses')}",
+        measured=f"""One compliant angle is one turned axis at
+        {count_of(int(judged["same_turned"].sum()), len(judged), "poses")}.""",
     )
 
 
@@ -124,9 +125,8 @@ def c23(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         {_greatest(np.tan(beta)):.2f}. With Cartesian compliance the ratio is at most
         {_greatest(by_base):.2g}.""",
         len(rows),
-        measured=f"""the compliances differ at {count_of(int(parted.sum()), len(parted), "poses")} with no angle zero,
-        by
-        {percent(least)} % or more""",
+        measured=f"""The compliances differ at {count_of(int(parted.sum()), len(parted), "poses")} where no angle is
+        zero, by {percent(least)} % or more.""",
     )
 
 
@@ -160,8 +160,8 @@ def c24(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         about x. Z-Y-X angles are a problem at {_problems(zyx)}; with them the rotation about x is
         {zyx["yields"].min():.3f} or more of the wanted rotation.""",
         len(zyz) + len(zyx),
-        measured=f"""Z-Y-Z angles: {done["leak"].min():.1f} to {done["leak"].max():.1f} times as much
-        rotation about z as about x, at {_problems(near)}""",
+        measured=f"""With compliance about x in Z-Y-Z angles, the end effector turns {done["leak"].min():.1f} to
+        {done["leak"].max():.1f} times as far about z as about x. This is a problem at {_problems(near)}.""",
     )
 
 

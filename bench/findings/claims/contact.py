@@ -64,9 +64,9 @@ def c25(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         Where fewer turns comply, {count_of(int(simple["parts"].sum()), len(simple), "pairs")}
         differ.""",
         len(rows),
-        measured=f"""{count_of(int(turned["parts"].sum()), len(turned), "pairs")} with a frame turned by
-        {LIMIT.TURNED_DEG:g}° or more differ, {part_of(int(straight["parts"].sum()), len(straight))} with a
-        straight one""",
+        measured=f"""If the task frame is turned by {LIMIT.TURNED_DEG:g}° or more, the two Jacobians perform differently
+        in {count_of(int(turned["parts"].sum()), len(turned), "pairs")} of runs. If the frame is not turned, they do in
+        {part_of(int(straight["parts"].sum()), len(straight))}.""",
     )
 
 
@@ -148,6 +148,6 @@ def c47(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         two axes lies flush to {moment:.1e} rad; rotations that the controller holds have
         changed by at most {turn:.1e} rad at the end.""",
         len(rows),
-        measured=f"""the force is off by at most {percent(force)} % of {LIMIT.FORCE_N:g} N; a rotation
-        that the controller holds by up to {turn:.2g} rad""",
+        measured=f"""The force differs from the commanded {LIMIT.FORCE_N:g} N by at most {percent(force)} %. A rotation
+        that the controller holds changes by up to {turn:.2g} rad.""",
     )

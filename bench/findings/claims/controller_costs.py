@@ -12,7 +12,7 @@ import tasks
 from bench.base.on_first_use import pd
 from bench.experiments.suites import SUITES
 from bench.experiments.tables.read import chosen
-from bench.findings.amounts import count_of, part_of
+from bench.findings.amounts import count_of, join_words, part_of
 from bench.findings.claims import adequacy, probes, standing
 from bench.findings.claims.adequacy import CALLS, of_stage, tallied
 from bench.findings.claims.side_by_side import BASE
@@ -88,9 +88,8 @@ def c20(results: Results) -> tuple[Word, Evidence]:
         {count_of(_count_failures(clear), len(clear), "clear starts")} (with the same law on the common Jacobian:
         {_count_failures(common) or "none"}). {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
-        measured=f"""angles are {max(limits):.1e} rad off the linear response; (3.7) fails from {all_failures} of
-        {all_poles}
-        starts at poles""",
+        measured=f"""The angles differ from the linear response by at most {max(limits):.1e} rad. From starts at poles,
+        (3.7) fails in {count_of(all_failures, all_poles, "episodes")}.""",
     )
 
 
@@ -161,7 +160,10 @@ def c26(results: Results) -> tuple[Word, Evidence]:
     for joints, inverse in INVERSES.items():
         three = {f"{one}+{inverse}": controller_costs(results, one, joints) for one in (BY_COMMON, ON_MATRIX, BY_EULER)}
         alone, whole = ({name: tallied(own, goal) for name, own in three.items()} for goal in (False, True))
-        sizes.append(f"{euler_count(whole, three)} on {joints} joints, {surplus(whole, three)} % more")
+        sizes.append(
+            f"{euler_count(whole, three)} operations on {joints} joints ({surplus(whole, three)} % more than the "
+            "cheapest other controller)"
+        )
         times = standing.times_of(timed[timed["contender"].isin(list(three))])
         known = standing.Ledger(times, (alone, whole), math.nan, standing.MEASURABLE)
         *others, euler = three
@@ -183,7 +185,7 @@ def c26(results: Results) -> tuple[Word, Evidence]:
         {sum(one.by_time == ORDERED for one in stands)} of these pairs.""",
         3 * 2 * len(INVERSES) + len(timed),
         ("costs", "timings") if len(timed) else ("costs",),
-        measured=f"operations of (3.7): {'; '.join(sizes)}",
+        measured=f"Per control period, (3.7) takes {join_words(sizes)}.",
     )
 
 
@@ -210,7 +212,7 @@ def c33(results: Results) -> tuple[Word, Evidence]:
         more = euler.flops / base.flops - 1
         is_more.append(by_columns(base, euler) == ORDERED)
         is_few.append(more <= LIMIT.FEW)
-        by_joints.append(f"{percent(more)} % ({joints} joints)")
+        by_joints.append(f"{percent(more)} % more operations on {joints} joints")
         told.append(
             f"on {joints} joints {base} with the common Jacobian, {euler} with the Euler Jacobian: "
             f"{percent(more)} % more flops "
@@ -219,7 +221,7 @@ def c33(results: Results) -> tuple[Word, Evidence]:
     return word_of(all(is_more) and all(is_few), all(is_more)), evidence(
         f"Flops and calls per control period are: {'; '.join(told)}.",
         2 * len(told),
-        measured=f"{' or '.join(by_joints)} more operations",
+        measured=f"The Euler Jacobian needs {join_words(by_joints)}.",
     )
 
 
@@ -244,7 +246,7 @@ def c46(results: Results) -> tuple[Word, Evidence]:
         law = {one: of_stage(own, "regulate") for one, own in rows.items()}
         is_less += [by_columns(total[BY_EULER], total[one]) == ORDERED for one in (BY_COMMON, ON_MATRIX)]
         whole = {one: total[one] for one in (BY_COMMON, ON_MATRIX, BY_EULER)}
-        sizes.append(f"{surplus(whole, whole)} % ({joints} joints)")
+        sizes.append(f"{surplus(whole, whole)} % more operations on {joints} joints")
         is_left.append(law[BY_EULER].flops <= LIMIT.MUCH * law[ON_MATRIX].flops)
         told.append(
             f"on {joints} joints (3.7) takes {total[BY_EULER]} flops and calls, (2.2) with (2.15) {total[BY_COMMON]}, "
@@ -254,6 +256,6 @@ def c46(results: Results) -> tuple[Word, Evidence]:
     return word_of(all(is_less) and all(is_left), all(is_left)), evidence(
         f"In a typical control period, {'; '.join(told)}.",
         3 * len(told),
-        measured=f"""(3.7) takes {' or '.join(sizes)} more operations; the law alone {law[BY_EULER].flops} instead of
-        {law[ON_MATRIX].flops} operations""",
+        measured=f"""(3.7) takes {join_words(sizes)}. The law alone takes {law[BY_EULER].flops} instead of
+        {law[ON_MATRIX].flops} operations.""",
     )

@@ -11,7 +11,7 @@ import tasks
 from bench.base.on_first_use import pd
 from bench.experiments.tables.read import FREE_BODY
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
-from bench.findings.amounts import count_of
+from bench.findings.amounts import count_of, join_words
 from bench.findings.claims import tables
 from bench.findings.claims.degeneracy import condition_in
 from bench.findings.claims.feedback_linearized import LAW
@@ -80,8 +80,8 @@ def c18(results: Results) -> tuple[Word, Evidence]:
         condition number of J at {worse}. The largest element of J_E is nowhere below {rows["largest"].min():.2f}, so
         that only its determinant is ever zero.""",
         len(rows),
-        measured=f"""elements up to {ways["nearest"].max():.1e} at 1e-{LIMIT.NEAREST} rad; ten times J's condition
-        number in {percent_interval(worse)} of poses""",
+        measured=f"""At 1e-{LIMIT.NEAREST} rad from a pole, elements of J_E are up to {ways["nearest"].max():.1e}. In
+        {percent_interval(worse)} of random poses, its condition number is over ten times that of J.""",
     )
 
 
@@ -124,7 +124,8 @@ def c19(results: Results) -> tuple[Word, Evidence]:
         of the forward kinematics differ by at most {measured.max():.1f} eps^(2/3) / cos(beta). Poses left out, because
         an angle jumps between both ends of a difference: {len(differenced) - len(kept)}.""",
         len(rows),
-        measured=f"the two derivations differ by at most {derived.max():.1f} eps / cos(beta) at {len(rows):,} poses",
+        measured=f"""At {len(rows):,} poses, the two derivations differ by at most {derived.max():.1f} eps / cos(beta),
+        which is rounding (eps = 2.2e-16).""",
     )
 
 
@@ -150,7 +151,7 @@ def c34(results: Results) -> tuple[Word, Evidence]:
     }
     told = ". ".join(f"{form}: {_told(found[form])}; {degenerate[form][1]}" for form in forms)
     near_180 = {form: own[LIMIT.SETS[-1]][0] for form, own in found.items()}
-    lost_by_form = ", ".join(f"{kept.n - kept.k} ({form})" for form, kept in near_180.items())
+    lost_by_form = join_words([f"{kept.n - kept.k} never settle with {form}" for form, kept in near_180.items()])
     starts = max(kept.n for kept in near_180.values())
     return word_of(all(alike.values()), alike[LIMIT.REGULAR] and not all(alike.values())), evidence(
         f"""For each form we give the starts lost and the median settling time of each set, and how fast the condition
@@ -158,7 +159,7 @@ def c34(results: Results) -> tuple[Word, Evidence]:
         {"; ".join(" and ".join(pair) for pair, facts in alike.items() if facts) or "none"}.""",
         sum(kept.n for own in found.values() for kept, _ in own.values())
         + len(forms) * LIMIT.PAIRS * LIMIT.FORM_DECADES,
-        measured=f"starts lost, of {starts} near 180°: {lost_by_form}",
+        measured=f"Of {starts} starts near 180°, {lost_by_form}.",
     )
 
 
@@ -203,8 +204,9 @@ def c44(results: Results) -> tuple[Word, Evidence]:
         all masses {LIMIT.OFF.partition("-")[2]} times the model's, it misses u by {typical:.2g} times u, in the
         median.""",
         2 * LIMIT.POSES * len(arms),
-        measured=f"""the acceleration is u within {exact:.0e} of u ({LIMIT.POSES * len(arms)} states); with
-        {LIMIT.OFF.partition("-")[2]} times the masses it is off by {typical:.2g} u""",
+        measured=f"""In {LIMIT.POSES * len(arms)} states, the acceleration differs from u by at most {exact:.0e} of u.
+        If all masses are {LIMIT.OFF.partition("-")[2]} times those of the model, it differs by {typical:.2g} times u,
+        in the median.""",
     )
 
 

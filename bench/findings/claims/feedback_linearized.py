@@ -71,8 +71,8 @@ def c09(results: Results) -> tuple[Word, Evidence]:
         +-pi; {settled_of(pole, "starts")} exactly on a pole; {settled_of(goals, "goals")} ({long_way} of these goals by
         unwinding).""",
         len(rows) + sum(one.starts for one in spun) + len(near) + len(goals),
-        measured=f"""angles at most {max(bends):.1e} rad off linear; {percent_interval(resting.share)} of
-        {resting.starts:,} random starts are lost""",
+        measured=f"""The angles differ from the linear response by at most {max(bends):.1e} rad. Of {resting.starts:,}
+        random starts at rest, {percent_interval(resting.share)} never settle.""",
     )
 
 
@@ -104,8 +104,8 @@ def c10(results: Results) -> tuple[Word, Evidence]:
         {slope:.3f}, up to {grown:.1e} rad/s^2. Across +-pi the command jumps by {float(jumps.min()):.4f} to
         {float(jumps.max()):.4f} times 2 pi Kp.""",
         len(commands) + len(exact) + len(jumps),
-        measured=f"""{count_of(finite, len(commands), "commands")} at exact poles are finite; u jumps by
-        {float(jumps.max()):.4f} times 2 pi Kp at +-pi""",
+        measured=f"""{capitalize(count_of(finite, len(commands), "commands"))} at exact poles are finite. At +-pi the
+        command jumps by {float(jumps.max()):.4f} times 2 pi Kp.""",
     )
 
 
@@ -160,8 +160,9 @@ def c11(results: Results, engine: str) -> tuple[Word, Evidence]:
         that never come within {widest} rad of a pole,
         {count_of(int(erratic[clear.index].sum()), len(clear), "starts")} are erratic.""",
         len(frame) + sum(len(one) for one in beside),
-        measured=f"""erratic are {count_of(resting[0], int((~spins).sum()), "starts from rest")}, and {passed[0]} of
-        {probes.BESIDE} starts that spin at {probes.SPEED:g} rad/s near a pole""",
+        measured=f"""Outside the excluded region, {count_of(resting[0], int((~spins).sum()), "starts at rest")} pass the
+        boundary points erratically. Of {probes.BESIDE} starts that spin at {probes.SPEED:g} rad/s near a pole,
+        {passed[0] or "none"} do.""",
     )
 
 
@@ -198,8 +199,8 @@ def c30(results: Results) -> tuple[Word, Evidence]:
         after the inertia in multiples of the model's. {told}. A linear system of twice the inertia is slowed by
         {heavy / linear:.2f}.""",
         sum(map(len, runs)),
-        measured=f"""not tested; {heaviest:g} times the inertia slows feedback linearization {own_slow:.2f} times, the
-        rotation-matrix law {other_slow:.2f} times""",
+        measured=f"""Errors of B are not tested. If the inertia is {heaviest:g} times that of the model, feedback
+        linearization takes {own_slow:.2f} times as long, and the rotation-matrix law {other_slow:.2f} times.""",
         instead=f"""Whether an error of B or of Bdot is a problem is not tested. A statement of our own, that feedback
         linearization needs no better model of the inertia than the rotation-matrix law, {of_inertia}.""",
     )

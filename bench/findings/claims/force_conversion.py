@@ -63,9 +63,9 @@ def c21(results: Results) -> tuple[Word, Evidence]:
         most {LIMIT.USABLE:g} times at {count_of(int(usable.sum()), len(found), "orientations")}. Off the exact poles it
         amplifies a moment up to {found.loc[~poles, "gain"].max():.1e} times, as 1 / cos(beta) predicts.""",
         len(found) + len(looped),
-        measured=f"""work balances to {found["gap"].max() / EPS:.1f} eps at {len(found):,} orientations; moments are
-        amplified up to
-        {found.loc[~poles, "gain"].max():.1e} times""",
+        measured=f"""At {len(found):,} orientations, the work in both coordinates is the same to
+        {found["gap"].max() / EPS:.1f} eps (rounding). Near the poles, the controller amplifies moments up to
+        {found.loc[~poles, "gain"].max():.1e} times.""",
     )
 
 

@@ -67,8 +67,8 @@ def c06(results: Results, engine: str) -> tuple[Word, Evidence]:
         it {outside}. Of the box set's starts inside the box, {directed} settle. The uniform starts that do not settle
         end {ends}. {failure} {capitalize(count_of(len(sure), len(every), "starts"))} converge.""",
         len(every) + len(fails),
-        measured=f"""{percent_interval(whole)} of {whole.n:,} uniform starts settle; inside the box
-        {percent(inside.value)} % settle""",
+        measured=f"""{percent_interval(whole)} of {whole.n:,} uniform starts settle. Of those inside the box,
+        {percent(inside.value)} % settle.""",
     )
 
 
@@ -101,8 +101,8 @@ def c07(results: Results, engine: str) -> tuple[Word, Evidence]:
         From rest beside the pole, {settled_of(beside, "starts")} that converge settle; {len(poles) - len(beside)}
         starts do not converge.""",
         len(frame) + len(poles),
-        measured=f"""{percent_interval(lost_passing)} of {len(passing)} starts that pass a pole are lost,
-        and {percent(lost_rest.value)} % of the rest""",
+        measured=f"""Of {len(passing)} starts that pass a pole, {percent_interval(lost_passing)} never settle. Of the
+        other starts, {percent(lost_rest.value)} % never settle.""",
     )
 
 
@@ -125,8 +125,8 @@ def c08(results: Results, engine: str) -> tuple[Word, Evidence]:
         {math.degrees(math.acos(held_goals.least_cosine(0.0, results.gains()))):.1f} degrees at beta_d = 0 and under 90
         degrees at the poles, whatever gamma_d is. As printed, the command u contains no goal.""",
         base.n + cure.n + zero.n + near.n,
-        measured=f"""{percent_interval(base)} of {base.n} goals are reached; with angles from the goal
-        {percent(cure.value)} % are""",
+        measured=f"""The law reaches {percent_interval(base)} of {base.n} goals. With angles measured from the goal, it
+        reaches {percent(cure.value)} %.""",
     )
 
 
@@ -151,8 +151,8 @@ def c29(results: Results) -> tuple[Word, Evidence]:
         {by_angle}. Larger rotations of {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} rad
         were tried too: every settling time is within {100 * LOOSE_SETTLING:.0f} % up to {within:g} rad.""",
         LIMIT.DIRECTIONS * (small.size + len(LIMIT.LARGER_RAD)),
-        measured=f"""settling times differ from the linear model's by at most {percent(small.max())}
-        % up to {max(SMALL_ANGLES):g} rad ({LIMIT.DIRECTIONS} axes)""",
+        measured=f"""For rotations of at most {max(SMALL_ANGLES):g} rad about {LIMIT.DIRECTIONS} axes, settling times
+        differ from those of the linear model by at most {percent(small.max())} %.""",
     )
 
 
@@ -180,8 +180,8 @@ def c37(results: Results) -> tuple[Word, Evidence]:
         the law {is_satisfactory}: there {count_of(outside.k, outside.n, "starts")} settle in time."""
         if inside.low >= LIMIT.REASONABLE
         else "",
-        measured=f"""beyond {LIMIT.BEYOND_RAD:g} rad {percent_interval(inside)} of the starts inside the box settle in
-        time, and {percent(outside.value)} % outside""",
+        measured=f"""Of the starts at {LIMIT.BEYOND_RAD:g} rad or more, {percent_interval(inside)} of those inside the
+        box settle in time, and {percent(outside.value)} % of those outside it.""",
     )
 
 
@@ -207,7 +207,8 @@ def c38(results: Results) -> tuple[Word, Evidence]:
         len(rows) + 3 * len(LIMIT.ALONE_RAD),
         instead=f"""{percent(unsettled.value)} % of the starts outside the linear region are lost, and settling times
         are {percent(typical)} % off the linear model's time, in the median.""",
-        measured=f"{percent_interval(unsettled)} are lost, times are {percent(typical)} % off",
+        measured=f"""{percent_interval(unsettled)} of the starts never settle. The settling times of the others differ
+        from the linear model's by {percent(typical)} %, in the median.""",
     )
 
 
@@ -223,9 +224,12 @@ def c39(results: Results) -> tuple[Word, Evidence]:
     by_speed = ratio.groupby(both["level"]).max()
     kept = [speed for speed, worst in by_speed.items() if worst <= LIMIT.AS_WELL]
     fastest, worst_ratio = max(by_speed.index), float(by_speed.max())
-    measured = f"error at most {worst_ratio:.2f} times the rotation-matrix law's, for goals up to {fastest:g} rad/s"
+    measured = (
+        f"For goals that move at up to {fastest:g} rad/s, the error is at most {worst_ratio:.2f} times that of the "
+        "rotation-matrix law."
+    )
     if not np.isfinite(worst_ratio):
-        measured = f"the law loses some goals that move at up to {fastest:g} rad/s"
+        measured = f"The law loses some goals that move at up to {fastest:g} rad/s."
     tails = own["tail_max_rad"].groupby(own["level"]).max()
     said = ", ".join(f"{tails[speed]:.1e} rad ({worst:.2f}) at {speed:g} rad/s" for speed, worst in by_speed.items())
     return word_of(len(kept) == len(by_speed), min(by_speed.index) in kept), evidence(
@@ -258,8 +262,8 @@ def c45(results: Results) -> tuple[Word, Evidence]:
         f"""We took central differences of (2.11) at zero. Largest difference of the derivatives by u from the
         permutation of (2.14): {rounding(off)}. Largest derivative by the angles or their rates: {rounding(rest)}.""",
         2 * 9,
-        measured=f"""largest difference from the permutation: {rounding(off)}; largest other derivative:
-        {rounding(rest)}""",
+        measured=f"""The derivatives of (2.11) by u differ from the permutation by at most {rounding(off)}. Its other
+        derivatives are at most {rounding(rest)}.""",
     )
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.experiments.tables.statistics import bootstrap, quantile, quantile_estimate
-from bench.findings.amounts import count_of, part_of
+from bench.findings.amounts import capitalize, count_of, join_words, part_of
 from bench.findings.claims import adequacy, probes, tables
 from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy
 from bench.findings.claims.at_gains import at_every_gain, on_every_engine
@@ -51,9 +51,12 @@ def c12(results: Results) -> tuple[Word, Evidence]:
     paper, total = (
         ", ".join(f"{short} {one[name]}" for short, name in zip(NAMES, THREE, strict=True)) for one in known.accountings
     )
-    totals = ", ".join(str(known.accountings[0][name]) for name in THREE)
+    own = [known.accountings[0][name] for name in THREE]
+    flops, calls = join_words([str(one.flops) for one in own]), join_words([str(one.calls) for one in own])
     times = [known.over(name, THREE[0]) for name in THREE[1:]]
-    ratios = f"time 1, {', '.join(times)}" if known.times else "not timed"
+    ratios = "Their times were not measured."
+    if known.times:
+        ratios = f"The last two take {join_words(times)} times as long as the first."
     timed = ", ".join(f"{short} {known.over(name, THREE[0])}" for short, name in zip(NAMES[1:], THREE[1:], strict=True))
     orders = [
         [short for _, short in sorted((one[name].flops, short) for short, name in zip(NAMES, THREE, strict=True))]
@@ -71,9 +74,9 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         for pair, (short, other) in zip(pairs, itertools.pairwise(NAMES), strict=True)
         if pair.by_time
     ]
-    instead = f"""The order is that of time and operations together. Time parts {" and ".join(parted) or "no two laws"};
-        operations decide the rest. By flops alone, with calls left out, the order is:
-        {"; ".join(others) or "the same"}."""
+    instead = f"""The claimed order is right by time and operations together. The times separate
+        {" and ".join(parted) or "no two laws"}. Operations decide the rest. By flops alone, with calls left out, the
+        order is: {"; ".join(others) or "the same"}."""
     word = word_of(by_one_measure, is_ordered or all(np.logical_or(in_order, [pair.is_disputed for pair in pairs])))
     return word, evidence(
         f"""Times per control period, over the rotation-matrix law's, are: {timed}. Intervals of these
@@ -84,7 +87,7 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         len(THREE) * (len(known.accountings) + len(known.times)),
         ("costs", "timings") if known.times else ("costs",),
         instead if word == Word.CORRECTED else "",
-        f"flops and calls {totals}; {ratios} (in the paper's order)",
+        f"""In the paper's order, the three laws take {flops} flops and {calls} calls. {ratios}""",
     )
 
 
@@ -123,8 +126,8 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
         len(THREE) + sum(law.rows for law in three),
         ("episodes", "costs", "timings") if known.times else ("episodes", "costs"),
         instead,
-        f"""{" and ".join(adequate) or "none"} adequate; first law takes
-        {tables.interval_or_never(three[0].pace, ".2f", " s")} for 99 %""",
+        f"""{join_words(adequate) or "None of the three laws"} is adequate. The rotation-matrix law takes
+        {tables.interval_or_never(three[0].pace, ".2f", " s")} until 99 % of the starts have settled.""",
         (PLACES, *(_placed(law, asked[name], known) for name, law in zip(NAMES, three, strict=True))),
     )
 
@@ -185,9 +188,9 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
     named = "; ".join(told)
     without = [result for name, result in tested.items() if is_without_memory(name) and not result.may_pass]
     passing = sum(result.passes for result in without)
-    rest = "laws without memory: not tested"
+    rest = "Laws without memory were not tested."
     if without:
-        rest = f"without memory, {count_of(passing, len(without), 'laws')} do"
+        rest = f"Of {len(without)} laws without memory, {passing or 'none'} do."
     # (e) and (f) together are impossible without memory: Bhat and Bernstein 2000; Mayhew, Sanfelice, Teel 2011.
     impossible = ""
     if without and not passing:
@@ -203,7 +206,7 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
         A small error settles in {small:.3f} s, and {adequacy.SLOW * small:.3f} s is the longest adequate time.""",
         sum(law.rows + held.get(law.name, (0, 0))[1] for law in later),
         instead=instead,
-        measured=f"""{count_of(len(answers), len(later), "later laws")} pass all eight tests; {rest}""",
+        measured=f"""{capitalize(count_of(len(answers), len(later), "later laws"))} pass all eight tests. {rest}""",
         numbers=(ANSWERS, *(_answer(law, tested[law.name], known) for law in (*answers, *others))),
     )
 
@@ -275,7 +278,8 @@ def c31(results: Results) -> tuple[Word, Evidence]:
         instead=f"""{100 * LIMIT.NEARLY_ALL:.0f} % of the starts settle {longer[0]} times as late
         with the rotation-matrix law as with feedback linearization. The former settles
         {count_of(matrix.k, matrix.n, "starts")}.""",
-        measured=f"first law is {longer[0]} times as late for 99 %",
+        measured=f"""Until 99 % of the starts have settled, the rotation-matrix law takes {longer[0]} times as long as
+        feedback linearization.""",
         numbers=(
             ("Law", "Uniform starts that settle", "Time for 99 % of the starts over feedback linearization's time"),
             *zip(THREE, settles, (*longer, "1"), strict=True),
@@ -319,8 +323,8 @@ def c35(results: Results) -> tuple[Word, Evidence]:
         f"""Reasonable laws: {", ".join(reasonable) or "none"}. Shares that settle and median times are: {told}. A
         small error settles in {small:.3f} s.""",
         sum(one.n for _, one, _ in found),
-        measured=f"""{percent(matrix.value)} %, {percent_interval(linearized)} and {percent(feedback.value)} % of
-        {matrix.n:,} starts settle (in the paper's order)""",
+        measured=f"""With the three laws, in the paper's order, {percent(matrix.value)} %,
+        {percent_interval(linearized)} and {percent(feedback.value)} % of {matrix.n:,} starts settle.""",
     )
 
 
@@ -341,11 +345,12 @@ def c36(results: Results) -> tuple[Word, Evidence]:
     if word == Word.FAILS and not any(result.passes for result in tested.values()):
         word = Word.UNTESTED
     by_name = {law.name: law for law in three}
-    on_boundary = ", ".join(
+    on_boundary = join_words([
         f"{by_name[name].lost_exact} of {by_name[name].exact}" for name in THREE if name in by_name
-    )
+    ])
     return word, evidence(
         f"{told}.",
         sum(law.rows for law in three),
-        measured=f"starts lost exactly on a boundary: {on_boundary} (in the paper's order)",
+        measured=f"""From starts exactly on a boundary, the three laws, in the paper's order, fail at
+        {on_boundary}.""",
     )

@@ -11,6 +11,7 @@ import numpy as np
 
 from bench.base.on_first_use import Turn
 from bench.experiments.tables.statistics import quantile_estimate
+from bench.findings.amounts import capitalize, count_of
 from bench.findings.claims.tables import Results, evidence, interval
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 
@@ -36,8 +37,8 @@ def c40(results: Results) -> tuple[Word, Evidence]:
         second matrix has the same three elements left and meets (2.5) to {left:.0e}. It is at least {apart:.2f} away
         from the first matrix, in the median.""",
         LIMIT.MATRICES * len(trios),
-        measured=f"""{len(possible)} of {len(trios)} choices can be eliminated; a second matrix is {apart:.2f} away
-        (median)""",
+        measured=f"""{capitalize(count_of(len(possible), len(trios), "choices"))} of three elements can be eliminated.
+        The same three elements that remain belong to a second matrix, which is {apart:.2f} away in the median.""",
     )
 
 
@@ -101,9 +102,8 @@ def c41(results: Results) -> tuple[Word, Evidence]:
         {max(spread.values()):.0e}. The line is at beta = pi/2 for Z-Y-X angles and for roll, pitch and yaw, and at zero
         rotation for the others.""",
         2 * len(pairs) * LIMIT.MATRICES,
-        measured=f"""two sets of variables give one matrix to {max(twice.values()):.0e} at {LIMIT.MATRICES}
-        orientations, in
-        {len(pairs)} representations""",
+        measured=f"""In {len(pairs)} representations and at {LIMIT.MATRICES} orientations, two sets of variables give
+        the same matrix to {max(twice.values()):.0e}.""",
     )
 
 
@@ -135,8 +135,8 @@ def c42(results: Results) -> tuple[Word, Evidence]:
         and pi/2 if they differ. At a middle angle of 0.8 rad the smallest singular value is at least
         {regular:.2f}.""",
         2 * len(FORMS) * LIMIT.PAIRS,
-        measured=f"""the smallest singular value of B is at most {max(least.values()):.0e} in each of the
-        {len(FORMS)} forms""",
+        measured=f"""Each of the {len(FORMS)} forms has an orientation where the smallest singular value of B is
+        {max(least.values()):.0e} or less.""",
     )
 
 
@@ -170,6 +170,6 @@ def c43(results: Results) -> tuple[Word, Evidence]:
         times as far in one direction as in another, in the median. Equal errors of a small
         rotation vector turn it equally far in all directions. C22 to C25 judge compliance.""",
         2 * LIMIT.MATRICES,
-        measured=f"""the way in Z-Y-X angles is {interval(longer, ".2f")} times the shortest, the median of
-        {LIMIT.MATRICES} pairs""",
+        measured=f"""A straight line in Z-Y-X angles is {interval(longer, ".2f")} times as long as the shortest path.
+        This is the median of {LIMIT.MATRICES} pairs of orientations.""",
     )

@@ -49,7 +49,7 @@ def by_either_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[...
             papers.rows + ours.rows,
             papers.tables,
             instead + papers.instead if word != other else "",
-            f"{papers.measured} (by J^T), at {ours.measured.partition(' at ')[2]} (by accelerations)",
+            f"With forces by J^T: {papers.measured} With commanded accelerations: {ours.measured}",
         )
 
     return judge

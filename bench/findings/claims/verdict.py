@@ -65,8 +65,8 @@ def word_of(holds: object, corrected: object) -> Word:
     return Word.HOLDS if holds else Word.CORRECTED if corrected else Word.FAILS
 
 
-LONGEST_MEASURED = 120
-"""Characters of a measured value: a cell of a table reads it at a glance."""
+LONGEST_MEASURED = 240
+"""Characters of what was measured: one sentence or two, which a cell of a table holds."""
 
 
 class NoEvidence(BenchError):
@@ -79,9 +79,9 @@ class Evidence(NamedTuple):
     sentence: plain prose, every number in it computed. rows: table rows, states and episodes looked at. tables: where
     they come from, if not those that the claim's texts name; "experiment" for what the claim computes itself.
     instead: what is true, written from the rows; empty where the claim's own text says it.
-    measured: the number that decides, with its noun and unit, and its 95 % interval where it is of a sample: one short
-    phrase. numbers: a table of all numbers, heads first, where prose would be a log. chosen: the rows that were read of
-    each table, a condition as pandas.DataFrame.query takes it; empty where all rows were read.
+    measured: the number that decides, with its unit, and its 95 % interval where it is of a sample: whole sentences.
+    numbers: a table of all numbers, heads first, where prose would be a log. chosen: the rows that were read of each
+    table, a condition as pandas.DataFrame.query takes it; empty where all rows were read.
     """
 
     sentence: str

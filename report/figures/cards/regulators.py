@@ -135,8 +135,8 @@ def measured(episodes: pd.DataFrame, regulator: Law) -> str:
     times = uniform.loc[settled, "settling_time_s"]
     if times.empty:
         return f"{amount} settle ({interval})."
-    pace = f"{times.median():.2f} s (median) to {times.max():.2f} s (slowest start)"
-    return f"{amount} settle ({interval}). The settling time is {pace}."
+    pace = f"The median settling time is {times.median():.2f} s, and the longest is {times.max():.2f} s."
+    return f"{amount} settle ({interval}). {pace}"
 
 
 def say_share(value: float) -> str:
