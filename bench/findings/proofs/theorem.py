@@ -12,11 +12,11 @@ from bench.findings.proofs.reasons import LIMITS, DoesNotFit, LemmaFails, TimeIs
 from bench.findings.proofs.solver import Lemma
 from bench.law.kinds import Law
 
-LASALLE = "that the body then comes to rest where V' stays zero is LaSalle's invariance principle"
+LASALLE = "the body then comes to rest where V' stays zero (LaSalle's invariance principle)"
 MEASURE_ZERO = (
-    "that few starts end at an unstable point of rest, a set of measure zero, is the stable manifold theorem"
+    "only a set of starts of measure zero ends at an unstable equilibrium (stable manifold theorem)"
 )
-FINITE_JUMPS = "that V falls by a constant at each change of side, so that the changes are finitely many, is by reading"
+FINITE_JUMPS = "V falls by a constant at each change of side, so that the number of changes is finite (by hand)"
 """Parts of a proof that no program checks, in the words of a certificate."""
 
 

@@ -28,7 +28,7 @@ from bench.findings.proofs.traced_number import Traced
 from bench.law.kinds import Law
 from bench.law.so3 import cross, from_quaternion
 
-CITED = (LASALLE, FINITE_JUMPS, "that X_q is at rest nowhere but at the goal and three half-turns is by reading")
+CITED = (LASALLE, FINITE_JUMPS, "X_q has no equilibrium except the goal and three half-turns (by hand)")
 
 AXIS = ("axis_1", "axis_2", "axis_3")
 

@@ -118,7 +118,7 @@ def say_property(law: Law) -> dict[str, str]:
     text += f" The proof is {certificate['scope']}."
     text += f" A program proved {len(lemmas)} lemmas from the source of the law, by {by}, "
     text += f"in {certificate['seconds']:.1f} s."
-    text += f" No program checked this part of the proof: {'; '.join(certificate['cited'])}."
+    text += f" These steps of the proof were not checked by a program: {'; '.join(certificate['cited'])}."
     text += f" Equilibria away from the goal: {certificate['equilibria']}."
     if "upper" in certificate["settling"]:
         upper = f"{certificate['settling']['upper']:.4f} s"
