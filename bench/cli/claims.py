@@ -64,5 +64,5 @@ def _count(verdicts: Sequence[Any]) -> Paragraph:
 def _record(one: Any) -> tuple[str, ...]:
     """Return the paper's words, the criterion, and those before it."""
     claim = one.claim
-    before = (f"Before ({old.written}): {old.criterion} This criterion gave: {old.word}." for old in claim.earlier)
+    before = (f"Before ({old.written}): {old}" for old in claim.earlier)
     return f"Paper, {claim.place}: {claim.quote}", f"Criterion ({claim.written}): {claim.criterion}", *before

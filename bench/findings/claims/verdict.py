@@ -106,6 +106,10 @@ class Earlier(NamedTuple):
     criterion: str
     word: Word
 
+    def __str__(self) -> str:
+        """Return the criterion, why it was given up, and what came out by it."""
+        return f"{self.criterion} By this criterion, the claim {does(self.word, 1)}."
+
 
 SECTION = re.compile(r"\d+(?:\.\d+)?")
 """The first section that a claim's `section` names."""

@@ -79,7 +79,7 @@ def section(one: Verdict, run: Run) -> str:
 
 def describe_earlier(old: Earlier) -> str:
     """Return a criterion that stood before, with its date and the word that it gave."""
-    return f"{written(old.written)}: {old.criterion} This criterion gave: {old.word}."
+    return f"{written(old.written)}: {old}"
 
 
 def draw_numbers(numbers: Sequence[Sequence[str]], id: str) -> str:
