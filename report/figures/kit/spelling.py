@@ -29,6 +29,9 @@ SIGNS = (
     (r" deg\b", "°"),
     (r"(?<=\d) ?%", "\N{NO-BREAK SPACE}%"),
     (r"(?<=[\d⁰¹²³⁴⁵⁶⁷⁸⁹ᵏ]) (?=(?:rad|s|ms|µs|ns|mm)\b)|(?<=\bn) (?==)|(?<=\bn =) (?=\d)", "\N{NO-BREAK SPACE}"),
+    # An absolute value and its comparison stay on one line.
+    (r"\|(?=[α-ω]\|)", "|\N{WORD JOINER}"),
+    (r"(?<=[α-ω]\|) (?=[<>≤≥])|(?<=[α-ω]\| [<>≤≥]) (?=\d)", "\N{NO-BREAK SPACE}"),
     (r"(?<![\w'])'(\w[^']*)'(?!\w)", r"‘\1’"),
     (r"\"([^\"]+)\"", r"“\1”"),
     (r"(?<=\w)'(?=\w)", "’"),
