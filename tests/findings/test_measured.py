@@ -73,9 +73,9 @@ def test_open_question_is_answered_by_the_default_law_among_others(verdicts):
     default = find_default()
     assert answer.word == Word.ANSWERED
     assert default in passing
-    assert answer.correction.startswith("Yes: ")
+    assert answer.correction.startswith("These laws answer the question: ")
     assert all(f"{law} ({whose(law)})" in answer.correction for law in passing)
-    assert ("Without memory none can" in answer.correction) == (not any(map(is_without_memory, passing)))
+    assert ("A law without memory cannot" in answer.correction) == (not any(map(is_without_memory, passing)))
 
 
 @pytest.mark.slow

@@ -47,7 +47,7 @@ def test_every_sentence_leads_to_its_evidence():
 
 def test_pages_of_chapters_are_named_by_their_numbers():
     assert paper_index.link_page("10-try-it") == "[chapter 10](10-try-it.md)"
-    assert paper_index.link_page("appendix-laws") == "[laws](appendix-laws.md)"
+    assert paper_index.link_page("appendix-laws") == "[appendix laws](appendix-laws.md)"
     assert (REPORT / "pages" / "10-try-it.md").is_file()
 
 

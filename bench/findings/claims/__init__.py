@@ -18,8 +18,8 @@ from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Verdict, 
 from bench.findings.kept import keep
 
 RULE = (
-    f"The continuous-time simulation ({MAIN_ENGINE}) decides, as in the paper. Sampled simulations "
-    f"({' and '.join(CHECK_ENGINES)}) are reported and change no verdict. A claim without data has no verdict."
+    f"The verdicts come from the continuous-time simulation ({MAIN_ENGINE}), as in the paper. We also report sampled "
+    f"simulations ({' and '.join(CHECK_ENGINES)}), but these change no verdict. A claim without data has no verdict."
 )
 """What is common to all criteria."""
 

@@ -168,13 +168,13 @@ TESTS = "abcdefgh"
 
 TEST_NAMES = {
     "a": "uniform starts",
-    "b": "directed or spinning starts",
-    "c": "time",
-    "d": "cost",
+    "b": "difficult or spinning starts",
+    "c": "settling time",
+    "d": "cost by measured time",
     "e": "starts exactly on a boundary",
     "f": "noise at 180°",
-    "g": "no unwinding",
-    "h": "cost in operations",
+    "g": "length of the path",
+    "h": "cost by counted operations",
 }
 
 BOTH = "abcd"
@@ -213,7 +213,7 @@ class Tested(NamedTuple):
         return "; ".join(parts) or PASSES
 
     def in_words(self) -> str:
-        """Return the same with the name of each test: 'fails (c) time'."""
+        """Return the same with the name of each test: 'fails (c) settling time'."""
         parts = [f"fails {_named(self.failed)}"] if self.failed else []
         parts += [f"not tested: {_named(self.untested)}"] if self.untested else []
         return "; ".join(parts) or PASSES

@@ -71,9 +71,10 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         Euler compliance is the same as compliance about the hand's own axes {_by_order(judged, "same_in_hand")} poses
         and forms. Ends of episodes closer to the pole: {close}.""",
         len(rows),
-        instead=f"""One compliant angle is one compliant axis of the base {_by_order(judged, "same")} poses and
-        forms. It is one axis turned by the angles before it {_by_order(judged, "same_turned")} poses and forms.""",
-        measured=f"""One compliant angle is one turned axis at
+        instead=f"""One compliant angle acts as one compliant axis of the base {_by_order(judged, "same")} poses and
+        forms. One compliant angle acts as one axis, turned by the earlier angles,
+        {_by_order(judged, "same_turned")} poses and forms.""",
+        measured=f"""One compliant angle acts as one axis, turned by the earlier angles, at
         {count_of(int(judged["same_turned"].sum()), len(judged), "poses")}.""",
     )
 
@@ -125,7 +126,7 @@ def c23(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         {_greatest(np.tan(beta)):.2f}. With Cartesian compliance the ratio is at most
         {_greatest(by_base):.2g}.""",
         len(rows),
-        measured=f"""The compliances differ at {count_of(int(parted.sum()), len(parted), "poses")} where no angle is
+        measured=f"""The two compliances differ at {count_of(int(parted.sum()), len(parted), "poses")} where no angle is
         zero, by {percent(least)} % or more.""",
     )
 

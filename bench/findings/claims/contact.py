@@ -6,7 +6,7 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.engines.metrics.contact_force import WINDOW_S
-from bench.findings.amounts import capitalize, count_of, part_of
+from bench.findings.amounts import capitalize, count_of
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE, by_papers_form, paired
 from bench.findings.claims.tables import Results, evidence, percent, some
@@ -65,8 +65,8 @@ def c25(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         differ.""",
         len(rows),
         measured=f"""If the task frame is turned by {LIMIT.TURNED_DEG:g}° or more, the two Jacobians perform differently
-        in {count_of(int(turned["parts"].sum()), len(turned), "pairs")} of runs. If the frame is not turned, they do in
-        {part_of(int(straight["parts"].sum()), len(straight))}.""",
+        in {count_of(int(turned["parts"].sum()), len(turned), "pairs")} of runs. If the frame is not turned, they
+        perform differently in {count_of(int(straight["parts"].sum()), len(straight), "pairs")}.""",
     )
 
 
@@ -149,5 +149,5 @@ def c47(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         changed by at most {turn:.1e} rad at the end.""",
         len(rows),
         measured=f"""The force differs from the commanded {LIMIT.FORCE_N:g} N by at most {percent(force)} %. A rotation
-        that the controller holds changes by up to {turn:.2g} rad.""",
+        that the controller should keep constant changes by up to {turn:.2g} rad.""",
     )

@@ -89,7 +89,7 @@ def c20(results: Results) -> tuple[Word, Evidence]:
         {_count_failures(common) or "none"}). {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
         measured=f"""The angles differ from the linear response by at most {max(limits):.1e} rad. From starts at poles,
-        (3.7) fails in {count_of(all_failures, all_poles, "episodes")}.""",
+        {count_of(all_failures, all_poles, "episodes")} fail with (3.7) and settle with the rotation-matrix law.""",
     )
 
 
@@ -161,8 +161,8 @@ def c26(results: Results) -> tuple[Word, Evidence]:
         three = {f"{one}+{inverse}": controller_costs(results, one, joints) for one in (BY_COMMON, ON_MATRIX, BY_EULER)}
         alone, whole = ({name: tallied(own, goal) for name, own in three.items()} for goal in (False, True))
         sizes.append(
-            f"{euler_count(whole, three)} operations on {joints} joints ({surplus(whole, three)} % more than the "
-            "cheapest other controller)"
+            f"On {joints} joints, (3.7) takes {euler_count(whole, three)} operations per control period, "
+            f"{surplus(whole, three)} % more than the cheapest controller by (2.2)."
         )
         times = standing.times_of(timed[timed["contender"].isin(list(three))])
         known = standing.Ledger(times, (alone, whole), math.nan, standing.MEASURABLE)
@@ -185,7 +185,7 @@ def c26(results: Results) -> tuple[Word, Evidence]:
         {sum(one.by_time == ORDERED for one in stands)} of these pairs.""",
         3 * 2 * len(INVERSES) + len(timed),
         ("costs", "timings") if len(timed) else ("costs",),
-        measured=f"Per control period, (3.7) takes {join_words(sizes)}.",
+        measured=" ".join(sizes),
     )
 
 
@@ -212,7 +212,7 @@ def c33(results: Results) -> tuple[Word, Evidence]:
         more = euler.flops / base.flops - 1
         is_more.append(by_columns(base, euler) == ORDERED)
         is_few.append(more <= LIMIT.FEW)
-        by_joints.append(f"{percent(more)} % more operations on {joints} joints")
+        by_joints.append(f"{percent(more)} % more on {joints} joints")
         told.append(
             f"on {joints} joints {base} with the common Jacobian, {euler} with the Euler Jacobian: "
             f"{percent(more)} % more flops "
@@ -221,7 +221,8 @@ def c33(results: Results) -> tuple[Word, Evidence]:
     return word_of(all(is_more) and all(is_few), all(is_more)), evidence(
         f"Flops and calls per control period are: {'; '.join(told)}.",
         2 * len(told),
-        measured=f"The Euler Jacobian needs {join_words(by_joints)}.",
+        measured=f"""With the Euler Jacobian, force control needs more operations than with the common Jacobian:
+        {join_words(by_joints)}.""",
     )
 
 
@@ -246,7 +247,7 @@ def c46(results: Results) -> tuple[Word, Evidence]:
         law = {one: of_stage(own, "regulate") for one, own in rows.items()}
         is_less += [by_columns(total[BY_EULER], total[one]) == ORDERED for one in (BY_COMMON, ON_MATRIX)]
         whole = {one: total[one] for one in (BY_COMMON, ON_MATRIX, BY_EULER)}
-        sizes.append(f"{surplus(whole, whole)} % more operations on {joints} joints")
+        sizes.append(f"{surplus(whole, whole)} % more on {joints} joints")
         is_left.append(law[BY_EULER].flops <= LIMIT.MUCH * law[ON_MATRIX].flops)
         told.append(
             f"on {joints} joints (3.7) takes {total[BY_EULER]} flops and calls, (2.2) with (2.15) {total[BY_COMMON]}, "
@@ -256,6 +257,7 @@ def c46(results: Results) -> tuple[Word, Evidence]:
     return word_of(all(is_less) and all(is_left), all(is_left)), evidence(
         f"In a typical control period, {'; '.join(told)}.",
         3 * len(told),
-        measured=f"""(3.7) takes {join_words(sizes)}. The law alone takes {law[BY_EULER].flops} instead of
-        {law[ON_MATRIX].flops} operations.""",
+        measured=f"""(3.7) takes more operations than the cheapest controller by (2.2): {join_words(sizes)}. The law
+        in (3.7) takes {law[BY_EULER].flops} of these operations, the rotation-matrix law takes
+        {law[ON_MATRIX].flops}.""",
     )

@@ -54,8 +54,8 @@ def c13(results: Results) -> tuple[Word, Evidence]:
         {axis[1]:.3f} decades for angle and axis (to {axis[2]:.1e}). For the rotation vector it is at most
         {vector[2]:.5f}.""",
         3 * len(tables),
-        measured=f"""Towards zero rotation, the condition number of Z-Y-Z angles rises to {zyz[2]:.1e}. That of the
-        rotation vector stays at {vector[2]:.4f} or less.""",
+        measured=f"""Towards zero rotation, the condition number of the matrix B of Z-Y-Z angles rises to
+        {zyz[2]:.1e}. That of the matrix B of the rotation vector stays at {vector[2]:.4f} or less.""",
     )
 
 
@@ -137,8 +137,8 @@ def c15(results: Results) -> tuple[Word, Evidence]:
         by {moved[-1, "sum"]:.0e} at -90 degrees. If their difference stays, R changes by {moved[1, "difference"]:.0e}
         at +90 degrees and by {moved[-1, "difference"]:.1g} at -90 degrees. {so}.""",
         4 * len(grid) ** 2,
-        measured=f"""If alpha and gamma change and their sum stays the same, R changes by {moved[1, "sum"]:.1g} at beta
-        = +90° and by {moved[-1, "sum"]:.0e} at beta = -90°.""",
+        measured=f"""If alpha and gamma change and their sum stays the same, elements of R change by up to
+        {moved[1, "sum"]:.1g} at beta = +90°, and by up to {moved[-1, "sum"]:.0e} at beta = -90°.""",
     )
 
 
@@ -160,8 +160,8 @@ def c16(results: Results) -> tuple[Word, Evidence]:
         the next is
         {float(values[:, 1].min()):.2f}. {so}.""",
         len(frame),
-        measured=f"""The elements of B are at most {largest:.3g} at {len(frame):,} orientations. B^-1 does not exist at
-        the {len(at_poles)} of them that are poles.""",
+        measured=f"""At {len(frame):,} orientations, the elements of B are at most {largest:.3g}. {len(at_poles)} of
+        these orientations are poles, where B^-1 does not exist.""",
     )
 
 

@@ -81,7 +81,7 @@ def c18(results: Results) -> tuple[Word, Evidence]:
         that only its determinant is ever zero.""",
         len(rows),
         measured=f"""At 1e-{LIMIT.NEAREST} rad from a pole, elements of J_E are up to {ways["nearest"].max():.1e}. In
-        {percent_interval(worse)} of random poses, its condition number is over ten times that of J.""",
+        {percent_interval(worse)} of random poses, the condition number of J_E is more than ten times that of J.""",
     )
 
 
@@ -151,7 +151,9 @@ def c34(results: Results) -> tuple[Word, Evidence]:
     }
     told = ". ".join(f"{form}: {_told(found[form])}; {degenerate[form][1]}" for form in forms)
     near_180 = {form: own[LIMIT.SETS[-1]][0] for form, own in found.items()}
-    lost_by_form = join_words([f"{kept.n - kept.k} never settle with {form}" for form, kept in near_180.items()])
+    lost_by_form = join_words([
+        f"{kept.n - kept.k} never settle with {'-'.join(form[:3].upper())} angles" for form, kept in near_180.items()
+    ])
     starts = max(kept.n for kept in near_180.values())
     return word_of(all(alike.values()), alike[LIMIT.REGULAR] and not all(alike.values())), evidence(
         f"""For each form we give the starts lost and the median settling time of each set, and how fast the condition
@@ -204,9 +206,9 @@ def c44(results: Results) -> tuple[Word, Evidence]:
         all masses {LIMIT.OFF.partition("-")[2]} times the model's, it misses u by {typical:.2g} times u, in the
         median.""",
         2 * LIMIT.POSES * len(arms),
-        measured=f"""In {LIMIT.POSES * len(arms)} states, the acceleration differs from u by at most {exact:.0e} of u.
-        If all masses are {LIMIT.OFF.partition("-")[2]} times those of the model, it differs by {typical:.2g} times u,
-        in the median.""",
+        measured=f"""In {LIMIT.POSES * len(arms)} states, the hand's acceleration differs from the input u by at most
+        {exact:.0e} |u|. If all masses are {LIMIT.OFF.partition("-")[2]} times those of the model, the median difference
+        is {typical:.2g} |u|.""",
     )
 
 

@@ -162,7 +162,7 @@ def c11(results: Results, engine: str) -> tuple[Word, Evidence]:
         len(frame) + sum(len(one) for one in beside),
         measured=f"""Outside the excluded region, {count_of(resting[0], int((~spins).sum()), "starts at rest")} pass the
         boundary points erratically. Of {probes.BESIDE} starts that spin at {probes.SPEED:g} rad/s near a pole,
-        {passed[0] or "none"} do.""",
+        {passed[0] or "none"} pass them erratically.""",
     )
 
 
@@ -199,10 +199,12 @@ def c30(results: Results) -> tuple[Word, Evidence]:
         after the inertia in multiples of the model's. {told}. A linear system of twice the inertia is slowed by
         {heavy / linear:.2f}.""",
         sum(map(len, runs)),
-        measured=f"""Errors of B are not tested. If the inertia is {heaviest:g} times that of the model, feedback
-        linearization takes {own_slow:.2f} times as long, and the rotation-matrix law {other_slow:.2f} times.""",
-        instead=f"""Whether an error of B or of Bdot is a problem is not tested. A statement of our own, that feedback
-        linearization needs no better model of the inertia than the rotation-matrix law, {of_inertia}.""",
+        measured=f"""Errors of B are not tested. If the inertia is {heaviest:g} times that of the model, the settling
+        time of feedback linearization grows to {own_slow:.2f} times its value, and that of the rotation-matrix law to
+        {other_slow:.2f} times.""",
+        instead=f"""We did not test whether an error of B or of Bdot is a problem. We judged a statement of our own:
+        feedback linearization needs no better model of the inertia than the rotation-matrix law. This statement
+        {of_inertia}.""",
     )
 
 

@@ -67,8 +67,8 @@ def c06(results: Results, engine: str) -> tuple[Word, Evidence]:
         it {outside}. Of the box set's starts inside the box, {directed} settle. The uniform starts that do not settle
         end {ends}. {failure} {capitalize(count_of(len(sure), len(every), "starts"))} converge.""",
         len(every) + len(fails),
-        measured=f"""{percent_interval(whole)} of {whole.n:,} uniform starts settle. Of those inside the box,
-        {percent(inside.value)} % settle.""",
+        measured=f"""Of {whole.n:,} uniform starts, {percent_interval(whole)} settle. Of the uniform starts in the
+        claimed range of angles, {percent(inside.value)} % settle.""",
     )
 
 
@@ -101,8 +101,8 @@ def c07(results: Results, engine: str) -> tuple[Word, Evidence]:
         From rest beside the pole, {settled_of(beside, "starts")} that converge settle; {len(poles) - len(beside)}
         starts do not converge.""",
         len(frame) + len(poles),
-        measured=f"""Of {len(passing)} starts that pass a pole, {percent_interval(lost_passing)} never settle. Of the
-        other starts, {percent(lost_rest.value)} % never settle.""",
+        measured=f"""Of {len(passing)} starts whose path comes close to a pole, {percent_interval(lost_passing)} never
+        settle. Of the other starts, {percent(lost_rest.value)} % never settle.""",
     )
 
 
@@ -125,8 +125,8 @@ def c08(results: Results, engine: str) -> tuple[Word, Evidence]:
         {math.degrees(math.acos(held_goals.least_cosine(0.0, results.gains()))):.1f} degrees at beta_d = 0 and under 90
         degrees at the poles, whatever gamma_d is. As printed, the command u contains no goal.""",
         base.n + cure.n + zero.n + near.n,
-        measured=f"""The law reaches {percent_interval(base)} of {base.n} goals. With angles measured from the goal, it
-        reaches {percent(cure.value)} %.""",
+        measured=f"""The law that subtracts the angles E_d of the goal reaches {percent_interval(base)} of {base.n}
+        goals. With angles measured from the goal, the law reaches {percent(cure.value)} % of these goals.""",
     )
 
 
@@ -175,13 +175,14 @@ def c37(results: Results) -> tuple[Word, Evidence]:
         which is {LIMIT.PACE:g} times the time of a small error. In the box of C06 {inside} of the starts do so, outside
         the box {outside}, and of all starts {every}.""",
         len(rows),
-        instead=f"""If the goal is zero, the law is satisfactory in half of SO(3), the box of C06: there
-        {count_of(inside.k, inside.n, "starts")} at {LIMIT.BEYOND_RAD:g} rad or more settle in time. Outside the box
-        the law {is_satisfactory}: there {count_of(outside.k, outside.n, "starts")} settle in time."""
+        instead=f"""If the goal is zero, the law is satisfactory where |alpha| < pi/2, which is half of SO(3). There
+        {count_of(inside.k, inside.n, "starts")} at {LIMIT.BEYOND_RAD:g} rad or more settle in time. In the other half,
+        the law {is_satisfactory}: {count_of(outside.k, outside.n, "starts")} settle in time."""
         if inside.low >= LIMIT.REASONABLE
         else "",
-        measured=f"""Of the starts at {LIMIT.BEYOND_RAD:g} rad or more, {percent_interval(inside)} of those inside the
-        box settle in time, and {percent(outside.value)} % of those outside it.""",
+        measured=f"""We took uniform starts at {LIMIT.BEYOND_RAD:g} rad or more. Of those with |alpha| < pi/2,
+        {percent_interval(inside)} settle in time, that is in {LIMIT.PACE * small:.2f} s. Of the others,
+        {percent(outside.value)} % do.""",
     )
 
 
@@ -207,8 +208,8 @@ def c38(results: Results) -> tuple[Word, Evidence]:
         len(rows) + 3 * len(LIMIT.ALONE_RAD),
         instead=f"""{percent(unsettled.value)} % of the starts outside the linear region are lost, and settling times
         are {percent(typical)} % off the linear model's time, in the median.""",
-        measured=f"""{percent_interval(unsettled)} of the starts never settle. The settling times of the others differ
-        from the linear model's by {percent(typical)} %, in the median.""",
+        measured=f"""{percent_interval(unsettled)} of the starts never settle. The median settling time of the others
+        is {percent(typical)} % off that of the linear model.""",
     )
 
 
@@ -225,11 +226,11 @@ def c39(results: Results) -> tuple[Word, Evidence]:
     kept = [speed for speed, worst in by_speed.items() if worst <= LIMIT.AS_WELL]
     fastest, worst_ratio = max(by_speed.index), float(by_speed.max())
     measured = (
-        f"For goals that move at up to {fastest:g} rad/s, the error is at most {worst_ratio:.2f} times that of the "
-        "rotation-matrix law."
+        f"For goals that move at up to {fastest:g} rad/s, the error of the linearized law is at most {worst_ratio:.2f} "
+        "times the error of the rotation-matrix law."
     )
     if not np.isfinite(worst_ratio):
-        measured = f"The law loses some goals that move at up to {fastest:g} rad/s."
+        measured = f"The linearized law does not follow all goals that move at up to {fastest:g} rad/s."
     tails = own["tail_max_rad"].groupby(own["level"]).max()
     said = ", ".join(f"{tails[speed]:.1e} rad ({worst:.2f}) at {speed:g} rad/s" for speed, worst in by_speed.items())
     return word_of(len(kept) == len(by_speed), min(by_speed.index) in kept), evidence(
@@ -262,9 +263,13 @@ def c45(results: Results) -> tuple[Word, Evidence]:
         f"""We took central differences of (2.11) at zero. Largest difference of the derivatives by u from the
         permutation of (2.14): {rounding(off)}. Largest derivative by the angles or their rates: {rounding(rest)}.""",
         2 * 9,
-        measured=f"""The derivatives of (2.11) by u differ from the permutation by at most {rounding(off)}. Its other
-        derivatives are at most {rounding(rest)}.""",
+        measured=f"""The derivatives of (2.11) with respect to u differ from the permutation matrix of (2.14) by
+        {_at_most(off)}. The derivatives with respect to the angles and their rates are {_at_most(rest)}.""",
     )
+
+
+def _at_most(value: float) -> str:
+    return f"at most {rounding(value)}" if value else "0"
 
 
 def angular_acceleration(E: np.ndarray, rates: np.ndarray, u: np.ndarray) -> np.ndarray:

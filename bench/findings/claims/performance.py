@@ -38,6 +38,8 @@ LIMIT = read_limits(__file__)
 
 
 NAMES = [name.partition("/")[0] for name in THREE]
+IN_WORDS = ["the rotation-matrix law", "the linearized law", "feedback linearization"]
+"""What the three laws are called in sentences."""
 
 
 @claim("C12")
@@ -52,11 +54,10 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         ", ".join(f"{short} {one[name]}" for short, name in zip(NAMES, THREE, strict=True)) for one in known.accountings
     )
     own = [known.accountings[0][name] for name in THREE]
-    flops, calls = join_words([str(one.flops) for one in own]), join_words([str(one.calls) for one in own])
     times = [known.over(name, THREE[0]) for name in THREE[1:]]
     ratios = "Their times were not measured."
     if known.times:
-        ratios = f"The last two take {join_words(times)} times as long as the first."
+        ratios = f"The last two take {join_words(times)} times as long as the first law."
     timed = ", ".join(f"{short} {known.over(name, THREE[0])}" for short, name in zip(NAMES[1:], THREE[1:], strict=True))
     orders = [
         [short for _, short in sorted((one[name].flops, short) for short, name in zip(NAMES, THREE, strict=True))]
@@ -69,14 +70,15 @@ def c12(results: Results) -> tuple[Word, Evidence]:
     timed_pairs = sum(bool(pair.by_time) for pair in pairs)
     is_ordered = all(pair.sign == ORDERED for pair in pairs)
     by_one_measure = timed_pairs == len(pairs) and not others and all(in_order)
-    parted = [
-        f"{short} from {other}"
-        for pair, (short, other) in zip(pairs, itertools.pairwise(NAMES), strict=True)
-        if pair.by_time
-    ]
-    instead = f"""The claimed order is right by time and operations together. The times separate
-        {" and ".join(parted) or "no two laws"}. Operations decide the rest. By flops alone, with calls left out, the
-        order is: {"; ".join(others) or "the same"}."""
+    ordered: dict[str, list[str]] = {"Measured times": [], "Operations": []}
+    for pair, neighbours in zip(pairs, itertools.pairwise(IN_WORDS), strict=True):
+        ordered["Measured times" if pair.by_time else "Operations"].append(" and ".join(neighbours))
+    decided = " ".join(f"{what} order {', and '.join(each)}." for what, each in ordered.items() if each)
+    by_flops = "; ".join(order.replace(" < ", ", ") for order in others) or "the same"
+    for short, law in zip(NAMES, IN_WORDS, strict=True):
+        by_flops = by_flops.replace(short, law.removeprefix("the "))
+    instead = f"""The claimed order is right by time and operations together. {decided} By flops alone, the order is:
+        {by_flops}."""
     word = word_of(by_one_measure, is_ordered or all(np.logical_or(in_order, [pair.is_disputed for pair in pairs])))
     return word, evidence(
         f"""Times per control period, over the rotation-matrix law's, are: {timed}. Intervals of these
@@ -87,7 +89,8 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         len(THREE) * (len(known.accountings) + len(known.times)),
         ("costs", "timings") if known.times else ("costs",),
         instead if word == Word.CORRECTED else "",
-        f"""In the paper's order, the three laws take {flops} flops and {calls} calls. {ratios}""",
+        f"""Flops and calls are {own[0]} for the rotation-matrix law, {own[1]} for the linearized law and {own[2]} for
+        feedback linearization. {ratios}""",
     )
 
 
@@ -109,9 +112,15 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
     word = word_of(not adequate, is_isolated)
     if open_yet and word != Word.FAILS:
         word = Word.UNTESTED
+    words = [law for law, name in zip(IN_WORDS, NAMES, strict=True) if name in adequate]
+    fine = f"{capitalize(join_words(words))} {'is' if len(words) == 1 else 'are'}" if words else "None of the laws is"
     if adequate:
-        beside_it = ", except at isolated orientations, or by one measure of cost alone" if is_isolated else ""
-        instead = f"{' and '.join(adequate)} is adequate in both cost and performance{beside_it}."
+        beside_it = "".join(
+            said
+            for test, said in BESIDE.items()
+            if is_isolated and any(test in every[name].failed for name in adequate)
+        )
+        instead = f"{fine} adequate in both cost and performance.{beside_it}"
     else:
         instead = "None of the three laws is adequate in both cost and performance."
     if open_yet:
@@ -126,22 +135,28 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
         len(THREE) + sum(law.rows for law in three),
         ("episodes", "costs", "timings") if known.times else ("episodes", "costs"),
         instead,
-        f"""{join_words(adequate) or "None of the three laws"} is adequate. The rotation-matrix law takes
+        f"""{fine} adequate in cost and performance. The rotation-matrix law takes
         {tables.interval_or_never(three[0].pace, ".2f", " s")} until 99 % of the starts have settled.""",
         (PLACES, *(_placed(law, asked[name], known) for name, law in zip(NAMES, three, strict=True))),
     )
 
 
+BESIDE = {
+    "e": " But it does not settle from every start exactly on a boundary.",
+    "h": " But by operations alone it does not cost less than each other law on Euler angles.",
+}
+"""What an adequate law may fail: tests of C27 that C17 leaves out."""
+
 PLACES = (
     "Law",
-    "Tests",
+    "Tests (a) to (d)",
     "Uniform starts that settle",
     "Difficult starts that do not settle",
     "Starts exactly on a boundary that do not settle",
     "Spinning starts that do not settle",
-    "99 % of the starts settle in",
-    "Operations and calls",
-    "Time over the rotation matrix's",
+    "Time until 99 % of the uniform starts settle",
+    "Flops and calls",
+    "Computing time over that of the rotation-matrix law",
 )
 """Heads of what was measured of a law."""
 
@@ -190,12 +205,12 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
     passing = sum(result.passes for result in without)
     rest = "Laws without memory were not tested."
     if without:
-        rest = f"Of {len(without)} laws without memory, {passing or 'none'} do."
+        rest = f"Of the {len(without)} later laws without memory, {passing or 'none'} pass all eight."
     # (e) and (f) together are impossible without memory: Bhat and Bernstein 2000; Mayhew, Sanfelice, Teel 2011.
     impossible = ""
     if without and not passing:
-        impossible = f" Without memory none can pass them all; we tested {len(without)} such laws."
-    instead = f"Yes: {named}.{impossible}" if answers else ""
+        impossible = " A law without memory cannot pass all eight tests."
+    instead = f"These laws answer the question: {named}.{impossible}" if answers else ""
     return word, evidence(
         f"""Of {by_others} later laws by others, {counts[ADAPTED]} of them adapted here, and {counts[OURS]} of ours,
         {len(adequate) or "none"} are adequate in both cost and performance: tests (a) to (d). Laws that
@@ -213,13 +228,13 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
 
 ANSWERS = (
     "Law",
-    "Whose",
-    "Tests",
-    "Operations and calls",
-    "Time over the rotation matrix's",
+    "Attribution",
+    "Tests (a) to (h)",
+    "Flops and calls",
+    "Computing time over that of the rotation-matrix law",
     "Uniform starts that settle",
-    "99 % of the starts settle in",
-    "Longest path over the shortest",
+    "Time until 99 % of the uniform starts settle",
+    "Greatest ratio of the path to the shortest path",
 )
 """Heads of what was measured of a later law."""
 
@@ -275,13 +290,17 @@ def c31(results: Results) -> tuple[Word, Evidence]:
         f"""Of {matrix.n:,} uniform starts {percent(matrix.value)} % settle with the rotation-matrix law,
         {percent(linearized.value)} % with the linearized one, {percent(mine.value)} % with feedback linearization.""",
         3 * len(laws[-1]),
-        instead=f"""{100 * LIMIT.NEARLY_ALL:.0f} % of the starts settle {longer[0]} times as late
-        with the rotation-matrix law as with feedback linearization. The former settles
+        instead=f"""Until {100 * LIMIT.NEARLY_ALL:.0f} % of the starts have settled, the rotation-matrix law takes
+        {longer[0]} times as long as feedback linearization. The rotation-matrix law settles from
         {count_of(matrix.k, matrix.n, "starts")}.""",
         measured=f"""Until 99 % of the starts have settled, the rotation-matrix law takes {longer[0]} times as long as
         feedback linearization.""",
         numbers=(
-            ("Law", "Uniform starts that settle", "Time for 99 % of the starts over feedback linearization's time"),
+            (
+                "Law",
+                "Uniform starts that settle",
+                "Time until 99 % of the starts settle, over that of feedback linearization",
+            ),
             *zip(THREE, settles, (*longer, "1"), strict=True),
         ),
     )
@@ -323,8 +342,9 @@ def c35(results: Results) -> tuple[Word, Evidence]:
         f"""Reasonable laws: {", ".join(reasonable) or "none"}. Shares that settle and median times are: {told}. A
         small error settles in {small:.3f} s.""",
         sum(one.n for _, one, _ in found),
-        measured=f"""With the three laws, in the paper's order, {percent(matrix.value)} %,
-        {percent_interval(linearized)} and {percent(feedback.value)} % of {matrix.n:,} starts settle.""",
+        measured=f"""Of {matrix.n:,} uniform starts, {percent(matrix.value)} % settle with the rotation-matrix law,
+        {percent_interval(linearized)} with the linearized law, and {percent(feedback.value)} % with feedback
+        linearization.""",
     )
 
 
@@ -346,11 +366,13 @@ def c36(results: Results) -> tuple[Word, Evidence]:
         word = Word.UNTESTED
     by_name = {law.name: law for law in three}
     on_boundary = join_words([
-        f"{by_name[name].lost_exact} of {by_name[name].exact}" for name in THREE if name in by_name
+        f"{part_of(by_name[name].lost_exact, by_name[name].exact)} with {law}"
+        for law, name in zip(IN_WORDS, THREE, strict=True)
+        if name in by_name
     ])
     return word, evidence(
         f"{told}.",
         sum(law.rows for law in three),
-        measured=f"""From starts exactly on a boundary, the three laws, in the paper's order, fail at
+        measured=f"""Of the starts exactly on a boundary (a 180° rotation, a pole or ±π), these do not settle:
         {on_boundary}.""",
     )

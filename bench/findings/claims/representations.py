@@ -38,7 +38,8 @@ def c40(results: Results) -> tuple[Word, Evidence]:
         from the first matrix, in the median.""",
         LIMIT.MATRICES * len(trios),
         measured=f"""{capitalize(count_of(len(possible), len(trios), "choices"))} of three elements can be eliminated.
-        The same three elements that remain belong to a second matrix, which is {apart:.2f} away in the median.""",
+        For each of these, a second rotation matrix has the same three remaining elements. In the median, the two
+        matrices differ by {apart:.2f} or more in one element.""",
     )
 
 
@@ -102,8 +103,8 @@ def c41(results: Results) -> tuple[Word, Evidence]:
         {max(spread.values()):.0e}. The line is at beta = pi/2 for Z-Y-X angles and for roll, pitch and yaw, and at zero
         rotation for the others.""",
         2 * len(pairs) * LIMIT.MATRICES,
-        measured=f"""In {len(pairs)} representations and at {LIMIT.MATRICES} orientations, two sets of variables give
-        the same matrix to {max(twice.values()):.0e}.""",
+        measured=f"""In {len(pairs)} representations and at {LIMIT.MATRICES} orientations, two different sets of
+        variables give the same rotation matrix. The elements differ by at most {max(twice.values()):.0e}.""",
     )
 
 

@@ -64,8 +64,8 @@ def c01(results: Results, engine: str) -> tuple[Word, Evidence]:
         not settle: {len(left):,}. Starts among them that begin exactly 180° from the goal: {exactly:,}. Of the uniform
         starts, {uniform} settle.""",
         len(frame),
-        measured=f"""{percent_interval(uniform)} of {uniform.n:,} uniform starts settle. With this law,
-        {count_of(unstable, len(frame), "starts")} diverge.""",
+        measured=f"""Of {uniform.n:,} uniform starts, {percent_interval(uniform)} settle. Of all {len(frame):,} starts
+        with this law, {unstable or "none"} diverge.""",
     )
 
 
@@ -88,8 +88,8 @@ def c02(results: Results) -> tuple[Word, Evidence]:
         {min(times):.3f} to {max(times):.3f} s ({closed_form.linear_settling(*Gains()):.4f} s at the paper's gains). The
         simulated times differ from it by at most {percent(largest)} %.""",
         count,
-        measured=f"""The settling times of {count} small rotations differ from the chosen times, {min(times):.2f} to
-        {max(times):.2f} s, by at most {percent(largest)} %.""",
+        measured=f"""We chose gains for settling times of {min(times):.2f} to {max(times):.2f} s. The settling times of
+        {count} small rotations differ from the chosen times by at most {percent(largest)} %.""",
     )
 
 
@@ -148,8 +148,8 @@ def c04(results: Results, engine: str) -> tuple[Word, Evidence]:
         at {parallel} rotations (axes x, y, z). At the other {len(exact) - parallel} rotations the products cancel only
         in their sum; the largest product is {max(products):.2f}.""",
         len(exact),
-        measured=f"""At {len(exact)} rotations by 180°, the largest error of the law is {largest:.1g}. At {parallel} of
-        them, about x, y and z, each cross product is zero.""",
+        measured=f"""At {len(exact)} rotations by 180°, the largest orientation error of the law is {largest:.1g}. At
+        {parallel} of these rotations (about x, y and z), each of the three cross products is zero.""",
     )
 
 
@@ -176,8 +176,9 @@ def c05(results: Results) -> tuple[Word, Evidence]:
         {least:.1e}. (b) At {cancel} of {len(exact)} exact 180° rotations the cross products are not zero, but their sum
         is zero.""",
         len(frame) + states + len(exact),
-        measured=f"""The cross products cancel at {cancel} of {len(exact)} rotations by 180°. Elsewhere |e| is at least
-        {lowest:.4f} sin(angle).""",
+        measured=f"""The sum of the cross products is zero at {cancel} of {len(exact)} rotations by 180°, where the
+        single products are not zero. At other orientations, the error |e| is at least {lowest:.4f} times the sine of
+        the angle.""",
     )
 
 
@@ -233,8 +234,8 @@ def c32(results: Results) -> tuple[Word, Evidence]:
         most {relative.max():.1e} of its length; this is closest to a 180° rotation. The law takes {asked or "no"}
         divisions and calls, and {count_of(ended, len(every), "episodes")} end as {" or ".join(LIMIT.BROKEN)}.""",
         len(every) + len(costs),
-        measured=f"""At {len(frame):,} starts, rounding changes the error e by at most {relative.max():.1e} of its
-        length. The law needs {asked or "no"} divisions.""",
+        measured=f"""At {len(frame):,} starts, rounding changes the orientation error e by at most
+        {relative.max():.1e} of the length of e. The law needs {asked or "no"} divisions.""",
     )
 
 

@@ -267,9 +267,9 @@ def lost(frame: pd.DataFrame) -> Estimate:
 
 def lost_text(one: Spun) -> str:
     """Return the share lost of starts at a stated speed, with its interval, and how many do not converge."""
-    apart = f", {one.unconverged} not converged" if one.unconverged else ""
+    apart = f" ({one.unconverged} of them do not converge)" if one.unconverged else ""
     at = f"at {one.speed:g} rad/s" if one.speed else "at rest"
-    return f"{at} {percent_interval(one.share).removesuffix(')')}, n = {one.starts:,}{apart})"
+    return f"{percent_interval(one.share)} of {one.starts:,} starts {at}{apart}"
 
 
 def settled(frame: pd.DataFrame) -> pd.Series:

@@ -54,8 +54,8 @@ def does(word: Word, number: int) -> str:
 
 
 MISPRINTS = """
-    A slip of a symbol makes "holds with a correction". So does a misprint that the paper's own other equations or
-    sentences correct. A false statement of substance makes "does not hold".
+    If only a symbol is wrong, the claim "holds with a correction". The same is so if other equations or sentences of
+    the paper correct the misprint. If the statement is false in substance, the claim "does not hold".
     """
 """The rule of C10, C14, C15, C16 and C18."""
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from bench.findings.amounts import join_words
 from bench.findings.claims import all_claims, judge_possible
 from bench.findings.claims.errata import COVERAGE, Item
 from bench.findings.claims.verdict import Verdict
@@ -16,7 +17,7 @@ from report.figures.kit.spelling import marked_up, prose
 from report.figures.replication.conclusions import EVIDENCE, link_claims
 
 ITEMS = html.Table(
-    "Part of the paper | What this part says | Chapter of this book | Claims | Tables of results | Command"
+    "Part of the paper | What this part says | Chapter of this book | Claims | Where the evidence is | Command"
 )
 
 COMPUTED = "experiment"
@@ -49,22 +50,30 @@ def describe_item(item: Item, verdicts: Mapping[str, Verdict]) -> tuple:
     shown = f"`{command}`" if command else html.MISSING
     pages = ", ".join(map(link_page, item.pages))
     shown_links, shown_tables = ", ".join(links) or html.MISSING, tables or html.MISSING
-    return prose(item.paper), prose(item.says), pages, shown_links, shown_tables, shown
+    return prose(name_part(item.paper)), prose(item.says), pages, shown_links, shown_tables, shown
+
+
+def name_part(paper: str) -> str:
+    """Return a part of the paper as a reader calls it: '(2.1)', 'Section 3.3: compliance'."""
+    if not paper[0].isdigit():
+        return paper
+    places, _, subject = paper.rpartition(", ")
+    return f"Section{'s' * (' ' in places)} {places}: {subject}"
 
 
 def list_tables(verdicts: Iterable[Verdict]) -> str:
-    """Return the tables that hold the evidence of some claims."""
+    """Return the tables that hold the evidence of some claims, and whether a command calculates some of it."""
     names = {name for verdict in verdicts for name in verdict.evidence.tables}
-    stored = sorted(names - {COMPUTED})
-    words = ["computed"] if COMPUTED in names else []
-    links = [f"[{name}](appendix-data.md)" for name in stored]
-    return ", ".join([*links, *words])
+    links = [f"[{name}](appendix-data.md)" for name in sorted(names - {COMPUTED})]
+    stored = [f"result table{'s' * (len(links) > 1)} {join_words(links)}"] if links else []
+    calculated = ["calculated by `bench claims`"] if COMPUTED in names else []
+    return "; ".join([*stored, *calculated])
 
 
 def link_page(name: str) -> str:
     """Return a link to a page: chapters by number, the rest of the book by name."""
     number = PAGE.match(name)
-    text = f"chapter {int(number[1])}" if number else name.partition("-")[2].replace("-", " ")
+    text = f"chapter {int(number[1])}" if number else name.replace("-", " ")
     return f"[{text}]({name}.md)"
 
 
