@@ -43,11 +43,11 @@ def rows_of(passing: dict[str, int], of: int = 20, **columns) -> pd.DataFrame:
 
 def test_lead_names_a_winner_only_where_one_is_told_apart():
     winner = arms.leading(rows_of({"rotation-matrix": 15, "mrp": 8, "hybrid": 4}), "range")
-    assert winner.startswith("(2.2) Rotation matrix is better than every other law: 75 % (")
+    assert winner.startswith("(2.2) Rotation matrix is better than every other law. With this law, 75 % (")
     assert winner.endswith("n = 20)")
     tie = arms.leading(rows_of({"rotation-matrix": 15, "mrp": 12, "hybrid": 4}), "range")
     assert "(2.2) Rotation matrix and (2.2) MRP do not differ significantly from the best of them" in tie
-    assert "(2.2) Rotation matrix: 75 % (" in tie
+    assert "With (2.2) Rotation matrix, 75 % (" in tie
     every = rows_of(dict.fromkeys(("rotation-matrix", "mrp", "hybrid", "late-braking", "rotation-vector"), 20))
     assert arms.leading(every, "settled").startswith("5 laws do not differ significantly from the best of them")
 

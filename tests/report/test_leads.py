@@ -16,7 +16,7 @@ LEAD = re.compile(r"^(:{3,})\{div\} (?:lead|answer)\n(.*?)^\1$", re.DOTALL | re.
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in (REPORT / "index.md", *REPORT.glob("pages/*.md"))}
 NO_NUMBER = {"plane.quote"}
 """The paper's words, which test_conclusions has."""
-UNITS = re.compile(r"1/s²?|rad²?/s[²³]")
+UNITS = re.compile(r"1/s²?|rad²?/s[²³]|/s²")
 SIGNS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789 ", "\u202f")
 
 

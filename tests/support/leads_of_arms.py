@@ -104,9 +104,9 @@ def recompute_arms():
     rows = rows[~rows["regulator"].isin(("joint-pd", "resolved-rate"))]
     rows = rows.assign(settled=rows["outcome"] == "settled", by=rows["law"] + "@" + rows["jacobian"])
     said = [*lead_on_arms(rows.pivot(index=["arm", "kp", "start_id"], columns="by", values="settled")), "three"]
-    wide = rows.assign(kind=rows["kp"].map({25.0: "kp = 25", 100.0: "kp = 100"}).fillna("shipped"))
+    wide = rows.assign(kind=rows["kp"].map({25.0: "Kp = 25", 100.0: "Kp = 100"}).fillna("shipped"))
     wide = wide.pivot(index=["arm", "start_id", "by"], columns="kind", values="settled").dropna().astype(float)
-    for kind in ("kp = 100", "kp = 25", "shipped"):
+    for kind in ("Kp = 100", "Kp = 25", "shipped"):
         said += [round(100 * wide[kind].mean()), kind]
     said.append(round(100 * (rows.loc[~rows["settled"], "range_excess_rad"] > 0).mean()))
     by_arm = rows.groupby("arm")["settled"].mean().sort_values()

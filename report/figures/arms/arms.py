@@ -2,7 +2,9 @@
 
 import itertools
 import re
+import tomllib
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -26,14 +28,16 @@ RANKED = html.Table(
     "| Moves that settle and touch no limit [%]"
 )
 LIMITED = html.Table(
-    "Arm | Motors | Stiffness Kp [1/s²] | Episodes that settle [%] | Episodes with a motor at its rating [%] "
-    "| Episodes stopped by a joint's end [%] | Episodes that fail otherwise [%]"
+    "Arm | Motors | Stiffness Kp [1/s²] | Turns that settle [%] | Turns in which a motor reaches its rated torque [%] "
+    "| Turns stopped by a joint's end [%] | Turns that fail for another reason [%]"
 )
 SETS = ("uniform", "reach")
 MOTORS = {
     **{"nominal": "usual inertia", "motors-low": "least inertia", "motors-high": "greatest inertia"},
-    **{"motors-slow": "torque lags by 5 ms", "motors-late": "torque delayed by 5 ms"},
+    **{"motors-slow": "torque with a lag of 5 ms", "motors-late": "torque with a delay of 5 ms"},
 }
+ORIGINS = tomllib.loads(Path(__file__).with_name("origins.toml").read_text(encoding="utf-8"))
+"""Where our arms are from, in the sentences of the page; of another arm its file says it."""
 COLUMNS = tuple((name, measure) for name in SETS for measure in ("settled", "range"))
 FEW = 4  # names up to this number are said, more are counted; the table has them
 
@@ -57,8 +61,7 @@ def facts(run: Run) -> dict:
 
 def describe_arm(name: str) -> str:
     """Return an item of a list: where an arm is from, and what it has here."""
-    source = tasks.arm(name).source.replace("As it is:", "In this benchmark it has:")
-    source = re.sub(r"(?<![\w.])(?=\.\d)", "0", source)
+    source = ORIGINS.get(name, re.sub(r"(?<![\w.])(?=\.\d)", "0", tasks.arm(name).source))
     return f"- **{arm_rows.name_arm(name)}** (`{name}`): {prose(source)}"
 
 
@@ -126,15 +129,15 @@ def lead(uniform: pd.DataFrame) -> str:
     """State who settles most on arms as they are, what gains do, and what stops the others; uniform: of `of_laws`."""
     is_settled, by_arm = settled(uniform), settled(uniform).groupby(uniform["arm"]).mean()
     is_shipped = uniform["kp"] == uniform["arm"].map(lambda arm: (*tasks.arm(arm).gains, 0.0)[0])
-    kinds = uniform["kp"].map("kp = {:g} 1/s²".format).mask(is_shipped, "shipped gains")
+    kinds = uniform["kp"].map("Kp = {:g}/s²".format).mask(is_shipped, "shipped gains")
     both = uniform.assign(kind=kinds, settled=is_settled)
     both = compare_settings(both[both.groupby("arm")["kp"].transform("nunique") > 2], ["kp"])
     levels = [f"{100 * own['settled'].mean():.0f} % with {kind}" for kind, own in both.groupby("kind")]
     ends = [f"{arm_rows.name_arm(arm)} ({100 * by_arm[arm]:.0f} %)" for arm in (by_arm.idxmin(), by_arm.idxmax())]
     return (
         "Motors give at most their rated torque, and joints stop at the ends of their ranges. From evenly spread "
-        f"starts, {leading(uniform, 'settled').replace('(2.2) ', '')} of the episodes with this law "
-        "settle. On arms that run with three pairs of gains, the share of episodes that settle, over all laws, is "
+        f"starts, {leading(uniform, 'settled').replace('(2.2) ', '')} of the episodes settle. "
+        "Some arms run with three pairs of gains. On these arms the share of episodes that settle, over all laws, is "
         f"{listed(levels or [html.UNTESTED])}. "
         f"A joint was at the end of its range in {percent_stopped(uniform):.0f} % of the episodes that do not settle. "
         f"The arm on which the fewest episodes settle is the {ends[0]}; the arm on which the most "
@@ -147,9 +150,10 @@ def leading(rows: pd.DataFrame, measure: str) -> str:
     names = best(rows, measure, "controller")
     share_of_first = describe_share(rows, names[0], measure)
     if len(names) == 1:
-        return f"{arm_rows.title(names[0])} is better than every other law: {share_of_first}"
+        return f"{arm_rows.title(names[0])} is better than every other law. With this law, {share_of_first}"
     words = listed(map(arm_rows.title, names)) if len(names) <= FEW else f"{len(names)} laws"
-    return f"{words} do not differ significantly from the best of them, {arm_rows.title(names[0])}: {share_of_first}"
+    first = arm_rows.title(names[0])
+    return f"{words} do not differ significantly from the best of them, {first}. With {first}, {share_of_first}"
 
 
 def joint_pd(rows: pd.DataFrame) -> str:
@@ -167,7 +171,7 @@ def describe_model_errors(run: Run) -> str:
     apart = np.degrees(np.ptp(angles.to_numpy(), axis=1))
     medians = np.degrees(rows.groupby("variation")["final_angle_rad"].median())
     return (
-        f"From the same start, the final angles of the controllers differ by {np.median(apart):.1g}° (median). With "
-        f"the variation `{medians.idxmax()}` the median error is largest, {medians.max():.1f}°; with the variation "
-        f"`{medians.idxmin()}` the median error is smallest, {medians.min():.2f}°."
+        f"From the same start, the final angles of the controllers differ by {np.median(apart):.1g}° (median). The "
+        f"median error is largest with the variation `{medians.idxmax()}`: {medians.max():.1f}°. The median error is "
+        f"smallest with the variation `{medians.idxmin()}`: {medians.min():.2f}°."
     )

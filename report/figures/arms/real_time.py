@@ -20,20 +20,21 @@ from report.figures.kit.spelling import listed
 
 STUDY = RESULTS / "real-time"
 LOOPS = html.Table(
-    "Arm | Law | Substeps in a period | Episodes | Settled in real time | Settled in simulation "
-    "| Same outcome in both | Median delay [µs] | 99th percentile of the delay [µs] | Longest delay [µs]"
+    "Arm | Law | Substeps in a period | Episodes | Episodes that settle in real time "
+    "| Episodes that settle in simulation | Episodes with the same outcome in both "
+    "| Median delay [µs] | 99th percentile of the delay [µs] | Longest delay [µs]"
 )
 GAINS = html.Table(
     "Arm | Law | Substeps in a period | Largest Kv in real time [1/s] "
-    "| Largest Kv predicted from the delays [1/s] | Largest Kv with replayed delays [1/s] "
+    "| Largest Kv predicted from measured delays [1/s] | Largest Kv with replayed delays [1/s] "
     "| Largest Kv predicted from replayed delays [1/s]"
 )
 PARTS = html.Table("Part of the delay | Median [µs] | 99th percentile [µs] | Longest [µs]")
 PART_NAMES = {
     "published": "From the start of the period until the arm's process has written the state",
-    "read": "Until the controller's process has read the state",
-    "written": "Until the controller's process has written the torques",
-    "noticed": "Until the arm's process has read the torques (not counted as delay)",
+    "read": "From the writing of the state until the controller's process has read this state",
+    "written": "From the reading of the state until the controller's process has written the torques",
+    "noticed": "From the writing of the torques until the arm's process has read these torques (not counted as delay)",
 }
 STATISTICS = ("median", "p99", "max")
 DELAYS = np.linspace(0.0, 1.0, 401)
@@ -68,7 +69,7 @@ def facts(_: Run) -> dict:
             f"{html.number(round(median))}/s with {substeps} substeps" for substeps, median in medians.items()
         ),
         "substeps_gap": f"{100 * (medians.max() / medians.min() - 1.0):.1f}",
-        "replay_substeps_gap": f"{100 * spread_of_replays(study):.1g}",
+        "replay_substeps_gap": describe_spread(spread_of_replays(study)),
         "step": f"{100 * GREATEST / 2**HALVINGS / PERIOD_S / study['kv_measured'].median():.1g}",
         "undelayed": format_limit(0.0),
         "eighth": format_limit(0.125),
@@ -88,6 +89,11 @@ def spread_of_replays(study: pd.DataFrame) -> float:
     """Return how far the limits of an arm and law with the same delays are apart, at most, as a share."""
     limits = study.groupby(["arm", "regulator"])["kv_replayed"].agg(["min", "max"])
     return float((limits["max"] / limits["min"] - 1.0).max())
+
+
+def describe_spread(share: float) -> str:
+    """Say by how much limits differ."""
+    return f"differ by at most {100 * share:.1g} %" if share else "are equal"
 
 
 def find_greatest_limit() -> tuple[float, float]:

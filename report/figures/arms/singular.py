@@ -35,7 +35,7 @@ def compare_torques(rows: pd.DataFrame) -> str:
     others = torques[torques.index != INVERSE].max()
     return (
         f"the largest torque with the plain inverse is {html.number(torques[INVERSE])} times the rated torque, "
-        f"with the other rules {html.number(others)} times"
+        f"and with the other rules it is {html.number(others)} times the rated torque"
     )
 
 
@@ -54,9 +54,9 @@ def describe_rules(rows: pd.DataFrame) -> str:
         f"{settled[others].min():.0f} to {settled[others].max():.0f} % of the episodes, with at most "
         f"{html.number(torque[others].max())} times the rated torque. With limited torques the plain inverse settles "
         f"in {cut[INVERSE]:.0f} % of the episodes and the other rules in {cut[others].min():.0f} to "
-        f"{cut[others].max():.0f} %, but until then the tool leaves its position. The largest "
-        f"distances from this position are {drifts}. On the Panda, every rule "
-        f"settles in {100 * panda['settled'].mean():.0f} % of the episodes."
+        f"{cut[others].max():.0f} %, but before that the tool moves away from its position. The largest "
+        f"distances from this position are {drifts}. With every rule, "
+        f"{100 * panda['settled'].mean():.0f} % of the episodes on the Panda settle."
     )
 
 

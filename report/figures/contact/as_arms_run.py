@@ -52,7 +52,7 @@ def facts(run: Run) -> dict:
         "slower": f"{slower(run.rows('impedance')):.2g}",
         "tick": f"{1000 * float(run.rows('impedance')['dt_s'].iloc[0]):g}",
         "worst_limit": f"{100 * max(gaps):.1g}",
-        "practice": f"{frankapys.translation:g} N/m, {frankapys.rotation:g} N m/rad",
+        "practice": f"{frankapys.translation:g} N/m and {frankapys.rotation:g} N m/rad",
         "practice_tick": in_ms(driven(franka)["held_dt_s"]),
         "bare_tick": f"{1000.0 * franka['held_dt_s'].min():.2g}",
         "integrator": f"{100.0 * shortened_by_integrator(zeta=1.0):.0f}",

@@ -14,8 +14,10 @@ SETTINGS = {
     "sensor": "Result with limited torque and a noisy sensor",
 }
 NAMES = {PAPERS: "Cartesian", PAPERS_EULER: "Euler", SPRINGS: "springs"}
+TITLES = {"crank": "angle by which the crank turned [deg]"}
+"""What this table calls a measure, if not by its title."""
 LIMITS = html.Table(
-    f"Task | Quantity measured at the end | Compliance | Episodes | {':.2g | '.join(SETTINGS.values())}:.2g"
+    f"Task | Measured quantity | Compliance | Episodes | {':.2g | '.join(SETTINGS.values())}:.2g"
 )
 
 
@@ -23,10 +25,11 @@ def compare_settings() -> Iterator[tuple]:
     """Return a row a task and controller, with what is measured in each setting."""
     rows = table(RESULTS / "contact", "contact_limits")
     for task, measure in MEASURES.items():
+        title = TITLES.get(task, measure.title)
         for controller, name in NAMES.items():
             own = rows[(rows["task"] == task) & (rows["contender"] == controller)]
             by_setting = [own[own["setting"] == setting] for setting in SETTINGS]
-            yield task.replace("-", " "), measure.title, name, len(by_setting[0]), *map(measure.compute, by_setting)
+            yield task.replace("-", " "), title, name, len(by_setting[0]), *map(measure.compute, by_setting)
 
 
 def facts(_: Run) -> dict:

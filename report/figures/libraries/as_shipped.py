@@ -54,7 +54,7 @@ FACTS: dict[str, Callable[[pd.DataFrame], object]] = {
     "bent": lambda own: count_of(int((own["bent"] > 0.0).sum()), len(own), "controllers"),
     "bent_most": lambda own: f"{math.degrees(own['bent'].max()):.0f}",
     "unsettled": lambda own: named(own[own["settling_1_s"].isna() & (own["starts"] > 0)]),
-    "away": lambda own: count_of(int((own["away"] > 0).sum()), len(own), "controllers"),
+    "away": lambda own: count_of(int((own["away"] > 0).sum()), int((own["starts"] > 0).sum()), "controllers"),
     "starts": lambda own: int(own["starts"].max()),
     "measured": lambda own: MEASURED(in_lines(own)),
 }

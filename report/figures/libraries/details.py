@@ -8,7 +8,7 @@ from report.figures.libraries.as_shipped import reported
 from report.figures.libraries.libraries import COUNT_RAD, SINGLE_RAD, lines, passed, table
 
 PASSED = html.Table("Library | Functions")
-ASKED = html.Table("Question | Cause | Cure | Quantity measured | Value without the cure:.3g | Value with the cure:.3g")
+ASKED = html.Table("Question | Cause | Fix | Measured quantity | Value without the fix:.3g | Value with the fix:.3g")
 
 
 def facts(_: Run) -> dict:
