@@ -32,7 +32,11 @@ SENTENCES: dict[str, dict[str, dict[str, str]]]
 SENTENCES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 """Finding -> what -> text, page and, if it is one, fault."""
 
-SETS = {"every": "every 180° rotation (all {of} axes that were tried)", "plane": "180° rotations about axes in one plane"}
+SETS = {
+    "every": "every 180° rotation (all {of} axes that were tried)",
+    "plane": "180° rotations about axes in one plane",
+    "some": "180° rotations about {found} of the {of} axes that were tried",
+}
 SETS |= {f"plane-{axis}": f"180° rotations about axes normal to {axis}" for axis in "xyz"}
 
 MOST, NEAR_RAD = 3, 0.01
@@ -249,7 +253,7 @@ def describe_row(row: dict) -> dict[str, str]:
         "at_most": f"at most {row['value']:.3g} kp" if row["value"] else "zero",
         "states": count_of(found, of, "states") if found <= of else "",
         **{"what": what, "found": f"{found:,}", "of": f"{of:,}"},
-        "set": SETS.get(what, "180° rotations about {found} of the {of} axes that were tried").format(found=found, of=of),
+        "set": SETS.get(what, SETS["some"]).format(found=found, of=of),
         "at_goal": "for the goal R_d = I"
         if goal[0] == 1.0
         else f"for the goal with the quaternion (w, x, y, z) = {vector(goal)}",

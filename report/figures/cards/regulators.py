@@ -177,8 +177,8 @@ def advised(law: str) -> str:
         return beside
     price = find_price(law)
     costs = (
-        f"In the nominal situation the largest command of the law is {price.peak:.1f} kp. With the nominal damping ratio "
-        f"and gains for a largest command of p [rad/s²], the body settles from 99 % of the starts within "
+        f"In the nominal situation the largest command of the law is {price.peak:.1f} kp. With the nominal damping "
+        f"ratio and gains for a largest command of p [rad/s²], the body settles from 99 % of the starts within "
         f"{price.at_equal_peak:.1f}/√p seconds."
     )
     return f"Our rule recommends this law in {say_share(region.advised)}. {beside} {costs}"
