@@ -170,8 +170,8 @@ def advised(law: str) -> str:
     if is_ours:
         beats = say_share(compare_with_advised(law).value)
         return (
-            f"Our rule does not recommend this law, because it is ours. In {beats} the law is more than "
-            f"{percent(SPOKEN)} faster than the recommended law. {beside}"
+            f"Our rule does not recommend this law, because it is ours. The law is more than {percent(SPOKEN)} "
+            f"faster than the recommended law in {beats}. {beside}"
         )
     if region is None:
         return beside
