@@ -63,7 +63,7 @@ def compare_at_equal_peak() -> str:
         rivals = f"{capitalize(count_of(as_fast, len(others), 'published and adapted laws'))} need no more time."
     else:
         rivals = f"The best of the {len(others)} published and adapted laws needs {min(others):.2f}/√p seconds."
-    needed = f"late braking needs {times[NEW]:.2f}/√p seconds to settle from 99 % of the starts"
+    needed = f"99 % of the starts settle in {times[NEW]:.2f}/√p seconds with late braking"
     return f"At equal peak command p [rad/s²], {needed}. {rivals}"
 
 
