@@ -45,7 +45,7 @@ KEPT_SIDE = ("hybrid", "mrp-memory", "rotation-vector-memory", "sliding-memory")
 
 CONSTANTS = (
     Constant("joshi-kelkar-wen", "HARDENING", "γ/Gp", 2.0, (1.25, 1.5, 2.5, 3.0, 4.0)),
-    Constant("slew-limited", "SLEW", "greatest rate over Kp/Kv", 1.0, (0.5, 0.7, 1.4, 2.0)),
+    Constant("slew-limited", "SLEW", "greatest rate, divided by Kp/Kv", 1.0, (0.5, 0.7, 1.4, 2.0)),
     # KAPPA |s| must stay below 1, and |s| is 1.1 at most.
     Constant("synergistic", "KAPPA", "κ", 0.3, (0.2, 0.4, 0.6, 0.8)),
     Constant("synergistic", "GAP", "δ", 0.08, (0.02, 0.04, 0.12)),
@@ -54,7 +54,7 @@ CONSTANTS = (
     *(Constant(law, "DELTA", "δ", 0.4, (0.1, 0.2, 0.6)) for law in KEPT_SIDE),
     Constant("mrp-linearized", "SWITCH", "|σ|² at the switch", 1.5, (1.1, 2.0, 3.0)),
     Constant("predicted-side", "MARGIN", "δ", 0.8, (0.4, 1.2)),
-    Constant("late-braking", "EASED", "share of the damper", 0.8, (0.6, 0.7, 0.9)),
+    Constant("late-braking", "EASED", "share of the damping that is removed at 180°", 0.8, (0.6, 0.7, 0.9)),
 )
 
 

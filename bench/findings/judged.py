@@ -118,7 +118,7 @@ def judgement(one: Contender, parts: Parts, is_lost: bool = False, reason: str =
     robust = [] if is_lost else why.perturbed(perturbed)  # the first loss ends them: the rest was not tried
     cause = why.find_cause(field, one.regulator.memory is not None)
     skipped = why.not_run(cause, episodes, is_lost)
-    said = (*why.sentences(field, declared, cause), *moves, *robust, *skipped)
+    said = (*why.sentences(field, declared, cause, one.regulator.stiffness), *moves, *robust, *skipped)
     if any(each.fault == why.FAULTS["crashed"] for each in said):  # where it raises its command is no number
         said = tuple(each for each in said if each.fault != "no number")
     heading = why.head_lost(one.name, episodes, reason or find_reason(one, episodes))

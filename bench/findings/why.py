@@ -17,6 +17,7 @@ from bench.audit.faults.stiffness import UNITS
 from bench.experiments.command_field import EXCHANGED
 from bench.experiments.tables.read import with_contender
 from bench.experiments.tables.statistics import quantile
+from bench.findings.amounts import count_of, join_words
 from bench.findings.judgement import Said
 from bench.findings.perturbed import WITHSTANDS, by_level, thresholds
 from bench.findings.selection.needs import CHATTER
@@ -31,7 +32,11 @@ SENTENCES: dict[str, dict[str, dict[str, str]]]
 SENTENCES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 """Finding -> what -> text, page and, if it is one, fault."""
 
-SETS = {"every": "every 180° rotation ({found} of {of} axes tried)", "plane": "180° rotations about axes in one plane"}
+SETS = {
+    "every": "every 180° rotation (all {of} axes that were tried)",
+    "plane": "180° rotations about axes in one plane",
+    "some": "180° rotations about {found} of the {of} axes that were tried",
+}
 SETS |= {f"plane-{axis}": f"180° rotations about axes normal to {axis}" for axis in "xyz"}
 
 MOST, NEAR_RAD = 3, 0.01
@@ -53,14 +58,19 @@ FAULTS |= {"crashed": "raises or exits", "hung": "does not return"}
 """Fault by outcome; starts of any other outcome are called lost."""
 
 
-def sentences(rows: pd.DataFrame, declared: str, cause: str = "") -> list[Said]:
-    """Return what its rows of command-field.parquet say of a law; declared: its `property`.
+def sentences(
+    rows: pd.DataFrame, declared: str, cause: str = "", stiffness: tuple[float, ...] = (1.0, 1.0, 1.0)
+) -> list[Said]:
+    """Return what its rows of command-field.parquet say of a law; declared, stiffness: as its file has them.
 
     cause: the fault that explains all others (`find_cause`); then only it and what is known of the goal are said.
     """
     if rows.empty:
         return [Said("Its command was not looked at: it crashed or hung.", FAILURES, "broken")]
     whats = find_words(rows, declared)
+    if whats["stiffness"] == "as-set" and len(set(stiffness)) > 1:
+        whats["stiffness"] = "by-axis"
+    about_axes = {"declared": join_words([f"{share:g}" for share in stiffness])}
     if cause in EVERYWHERE:
         return [_say(SENTENCES["everywhere"][cause], {})]
     said = []
@@ -70,7 +80,7 @@ def sentences(rows: pd.DataFrame, declared: str, cause: str = "") -> list[Said]:
             continue
         is_excused = finding in ("dead-half-turns", "no-number-half-turns") and what != "between"
         is_declared = is_excused and declared.startswith("almost global")
-        said.append(_say(known, describe_row(row), is_fault=not is_declared))
+        said.append(_say(known, describe_row(row) | about_axes, is_fault=not is_declared))
     return said
 
 
@@ -239,12 +249,23 @@ def describe_row(row: dict) -> dict[str, str]:
     return {
         **{"order": ", ".join(what.removeprefix(EXCHANGED)), "unit": unit, "unit_number": unit_number},
         **{name: f"{row[name] + 0.0:.3g}" for name in ("value", "least", "most")},
+        **{f"times_{gain}": _times(row["value"], gain) for gain in ("kp", "kv")},
+        "at_most": f"at most {row['value']:.3g} kp" if row["value"] else "zero",
+        "states": count_of(found, of, "states") if found <= of else "",
         **{"what": what, "found": f"{found:,}", "of": f"{of:,}"},
-        "set": SETS.get(what, "{found} of {of} 180° rotations tried").format(found=found, of=of),
-        "at_goal": "at R_d = I" if goal[0] == 1.0 else f"at R_d = {vector(goal)} (w x y z)",
+        "set": SETS.get(what, SETS["some"]).format(found=found, of=of),
+        "at_goal": "for the goal R_d = I"
+        if goal[0] == 1.0
+        else f"for the goal with the quaternion (w, x, y, z) = {vector(goal)}",
         "state": _state([row[f"quat_{part}"] for part in "wxyz"]),
         "u": f"{vector([row[f'u_{axis}'] for axis in 'xyz'])} rad/s²",
     }
+
+
+def _times(share: float, gain: str) -> str:
+    """Return a share of a gain in words: the gain itself where it is 1."""
+    number = f"{share + 0.0:.3g}"
+    return {"1": gain, "-1": f"-{gain}"}.get(number, f"{number} {gain}")
 
 
 def _state(quat_wxyz: list[float]) -> str:

@@ -36,6 +36,7 @@ def test_numbers_of_the_texts_are_those_of_the_laws():
     beyond, at_switch = (round(2.0 * math.degrees(angle)) for angle in (math.asin(DELTA), math.acos(DELTA)))
     for law in ("hybrid", "mrp-memory", "rotation-vector-memory", "sliding-memory"):
         assert f"2 arcsin(δ) = {beyond}°" in texts[law]
+        assert f"-δ = -{DELTA:g}" in texts[law]
     for law in ("mrp-memory", "rotation-vector-memory"):
         assert f"2 arccos(δ) = {at_switch}°" in texts[law]
     assert f"theta up to {round(2.0 * math.degrees(math.acos(-DELTA)))}°" in texts["rotation-vector-memory"]

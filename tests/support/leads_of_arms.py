@@ -205,7 +205,8 @@ def recompute_new_law():
     return {
         "slowest": f"{late[1.0]:.3f}",
         "linear": f"{linear[1.0]:.3f}",
-        "later": [ratio for ratio in kvs if late[ratio] > linear[ratio] + 1e-3],
+        # the ratios at which it is later, then the others
+        "later": sorted(kvs, key=lambda ratio: late[ratio] <= linear[ratio] + 1e-3),
         "later_of": [*kvs],
         "pull": f"{brake_late(-np.linspace(0, np.pi, 100_001), 0.0, 1.0, 2.0).max():.2f}",
         "at_peak": said,

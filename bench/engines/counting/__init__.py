@@ -10,18 +10,24 @@ from bench.engines.counting.counted import OPERATIONS, STAGES, TOTAL, Counted, C
 from bench.engines.counting.on_arms import rows_on_arm
 
 RULES = (
-    "All inputs of a law are variables in each control step, also the goal R_d and the gains.",
-    "Operations count as written: an expression that occurs twice costs once if the law stores its result, else twice.",
+    "In each control step, all inputs of a law count as variables, also the goal R_d and the gains.",
+    "Operations count as written: an expression that occurs twice counts twice, unless the code stores its result.",
     "A subtraction counts as an addition. A change of sign (-x) is free, because it only changes one bit.",
-    "A multiplication by a constant counts, also by 1 or 0; an operation on constants alone does not count.",
-    "sqrt counts as a flop; sin, cos, acos and atan2 each have a column, and no column is a weighted sum of them.",
-    "Each of < <= > >= counts as one comparison; only the branch that the law takes is counted.",
-    "A function that a law calls counts in the stage of the call, unless it belongs to the representation.",
-    "Typical is the most frequent count over uniformly distributed orientations, at rest and spinning. On an arm it is "
-    "the median over the starts, because the number of steps of an iterated inverse depends on its matrix.",
-    "Worst is the largest number of operations of any kind over all states, directed states included. Of equal "
-    "numbers we take the count with more flops, and then the count that came first.",
-    "A law with memory is counted in each state with three memories: the initial memory, the memory after the state "
-    "before, and the memory after this state. Only the last of these counts enters the typical branch.",
+    "A multiplication by a constant counts, even if the constant is 1 or 0. An operation on constants alone does not "
+    "count.",
+    "A call of sqrt counts as one floating-point operation (flop). Calls of sin, cos, acos and atan2 are counted "
+    "separately, in one column for each function.",
+    "Each of < <= > >= counts as one comparison. After a comparison, we count only the branch that the law takes.",
+    "The operations of a function count in the stage in which the law calls the function. Functions of the "
+    "coordinates, such as the conversion from the matrix, count in stages of their own.",
+    "The typical count is the most frequent count over uniformly distributed orientations, at rest and spinning. On "
+    "an arm the typical count is the median over the starts, because the number of steps of an iterated inverse "
+    "depends on the matrix.",
+    "The worst count is the count of the state with the most operations, all kinds added. We compare all states, also "
+    "states that we chose because a law may take a rare branch there. If two states have equally many operations, we "
+    "take the count with more flops, and if these are equal too, the first count.",
+    "A law with memory is counted three times in each state: with the initial memory, with the memory that the "
+    "previous state left, and with the memory that this state left. Only the last of these counts is used for the "
+    "typical count.",
 )
 """The count rules, in the order the report states them."""

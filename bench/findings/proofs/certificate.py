@@ -8,6 +8,7 @@ from typing import Any
 from bench.base.errors import BadLaw
 from bench.base.files import read_json
 from bench.experiments.tables.schema import RESULTS
+from bench.findings.amounts import count_of
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.law_process import answer, ask
 from bench.law.contenders.registry import contenders, contenders_of
@@ -171,12 +172,12 @@ def describe_sampled(certificate: dict[str, Any]) -> str:
     """Return in words what was measured beside a proof."""
     measured = certificate.get("sampled")
     if not measured:
-        return "Sampled: not tested."
-    period = f"{1e3 * measured['period_s']:g} ms"
-    gains = "at the paper's gains"
-    if measured["settled"] == measured["starts"]:
-        return f"Sampled at {period}, {gains}: it settles from all {measured['starts']} starts that were tried."
-    return f"Sampled at {period}, {gains}: it settles from {measured['settled']} of {measured['starts']} starts tried."
+        return "We did not simulate this law with a sampled command."
+    starts = count_of(measured["settled"], measured["starts"], "starts")
+    return (
+        f"In a simulation with the paper's gains and a control period of {1e3 * measured['period_s']:g} ms, the body "
+        f"settles from {starts} that were tried."
+    )
 
 
 NOT_RUN = "not run"

@@ -14,7 +14,9 @@ from pygments.lexers import PythonLexer
 from bench.export.language import find_language, language_words
 from bench.export.short import write_short
 from bench.export.subject import find_subject
-from bench.findings.proofs.certificate import DRAWN, describe_sampled, read_certificates
+from bench.findings.amounts import capitalize
+from bench.findings.proofs.certificate import DRAWN, SCOPE, describe_sampled, read_certificates
+from bench.findings.proofs.theorem import FINITE_JUMPS, LASALLE, MEASURE_ZERO
 from bench.law.attribution import describe_source
 from bench.law.kinds import Law
 from report.figures.kit import html
@@ -27,15 +29,39 @@ BACK = (
     else ""
 )
 PROPERTIES = {
-    "local": "The goal is stable, and near the goal the law has the stiffness and damping of the gains.",
+    "local": "The goal is stable, and near the goal the law has the stiffness and damping that the gains define.",
     "almost global": "The goal is stable from all starts except a set of measure zero. No continuous law without "
-    "memory can do more (Bhat & Bernstein 2000).",
+    "memory can make the goal stable from all starts (Bhat & Bernstein 2000).",
     "almost global from rest": "The goal is stable from all starts at rest except a set of measure zero.",
-    "global with memory": "With its memory, the law makes the goal stable from every start. No continuous law "
-    "without memory can do this (Bhat & Bernstein 2000).",
-    "none": "No stability is proved.",
+    "global with memory": "With its memory, the law makes the goal stable from every start. A continuous law "
+    "without memory cannot make the goal stable from every start (Bhat & Bernstein 2000).",
+    "none": "We did not prove that the goal is stable.",
     "": "",
 }
+ASSUMED = {
+    SCOPE: "The proof assumes continuous time, exact numbers, exact measurements, a command with no bound and no "
+    "delay, and a correct model of the inertia."
+}
+SOLVERS = {"Z3": "the solver Z3"}
+BY_HAND = "(by hand)"
+CITED = {
+    LASALLE: "By LaSalle's invariance principle, the body comes to rest at a point where the derivative V' stays zero.",
+    MEASURE_ZERO: "By the stable manifold theorem, the body comes to an unstable equilibrium only from a set of starts "
+    "of measure zero.",
+    FINITE_JUMPS: "We proved by hand that V falls by a constant at each change of the stored sign, so the sign changes "
+    "only a finite number of times.",
+    "X_q has no equilibrium except the goal and three half-turns (by hand)": "We proved by hand that the force of V on "
+    "the turned body is zero only at the goal and at three 180° rotations.",
+}
+EQUILIBRIA = {
+    "none": "The law has no equilibrium away from the goal.",
+    "none, but the command jumps at 180°": "The law has no equilibrium away from the goal, but its command jumps at "
+    "180°.",
+    "not defined at 180°": "The law is not defined at 180°.",
+    "every 180° rotation": "Every 180° rotation is an equilibrium.",
+    "180° rotations about n_d, o_d and a_d": "The 180° rotations about n_d, o_d and a_d are equilibria.",
+}
+"""What certificates have in short, as a card says it; what is not among these is said as the certificate has it."""
 GREEK = {**LETTERS, "eps": "ε", "eta": "η", "lambda": "λ"}
 DOTTED = re.compile(rf"\b({'|'.join(GREEK)}|[A-Za-z])(d?)dot\b")
 SIGNS: tuple[tuple[str, Any], ...] = (
@@ -112,21 +138,30 @@ def say_property(law: Law) -> dict[str, str]:
     certificate = read_certificates().get(law.name)
     text = PROPERTIES.get(law.property, f"{law.property[:1].upper()}{law.property[1:]}.")
     if not certificate or not certificate["is_proved"] or certificate["declared"] != law.property:
-        return {"Proved" if law.property == "none" else "Measured, not proved": text}
+        return {"Stability" if law.property == "none" else "Measured, not proved": text}
     lemmas = [lemma for lemma in certificate["lemmas"] if lemma["by"] != DRAWN]
-    by = " and ".join(sorted({lemma["by"] for lemma in lemmas}))
-    text += f" The proof is {certificate['scope']}."
-    text += f" A program proved {len(lemmas)} lemmas from the source of the law, by {by}, "
-    text += f"in {certificate['seconds']:.1f} s."
-    text += f" These steps of the proof were not checked by a program: {'; '.join(certificate['cited'])}."
-    text += f" Equilibria away from the goal: {certificate['equilibria']}."
+    by = " and ".join(sorted({SOLVERS.get(lemma["by"], lemma["by"]) for lemma in lemmas}, reverse=True))
+    text += f" {ASSUMED.get(certificate['scope'], certificate['scope'])}"
+    steps = [f"({i}) {say_cited(step)}" for i, step in enumerate(certificate["cited"], 1)]
+    text += f" The proof uses the function V below. A program took the law from its source and proved {len(lemmas)} "
+    text += f"lemmas with {by}, in {certificate['seconds']:.1f} s."
+    text += f" No program checked {'these steps' if len(steps) > 1 else 'this step'} of the proof: {' '.join(steps)}"
+    text += f" {EQUILIBRIA.get(certificate['equilibria'], certificate['equilibria'])}"
     if "upper" in certificate["settling"]:
         upper = f"{certificate['settling']['upper']:.4f} s"
         text += (
-            f" From rest at the paper's gains, every start settles to 2 % of the angle within {upper}, proved by Arb."
+            f" With the paper's gains and from every start at rest, the angle to the goal stays within 2 % of its "
+            f"first value after at most {upper} (proved with the library Arb)."
         )
     text += f" {describe_sampled(certificate)}"
     return {"Proved": html.Html(f"{set_words(text)} {html.formula(certificate['V'])}")}
+
+
+def say_cited(step: str) -> str:
+    """Return a step of a proof that no program checked, as a sentence."""
+    if step in CITED or BY_HAND not in step:
+        return CITED.get(step, f"{capitalize(step)}.")
+    return f"We proved by hand that {step.replace(BY_HAND, '').strip()}."
 
 
 def docstring(file: Path) -> tuple[str, str]:

@@ -13,8 +13,8 @@ from report.figures.kit.spelling import listed
 
 TABLE = html.Table(
     "Law | Constant | Value used | Other values tried "
-    "| Settling time with the value used, relative to the default law:.2f "
-    "| Settling time with other values, relative to the default law "
+    "| Settling time with the value used, divided by that of the default law:.2f "
+    "| Settling time with other values, divided by that of the default law "
     "| Rank with the value used | Rank with other values",
     words=("Value used",),
 )
@@ -71,8 +71,8 @@ def say(constant: Constant, every: list[Varied], default: str) -> str:
     return (
         f"{name}: we use {constant.shipped:g}, and also tried values from {values[0]:g} to "
         f"{values[-1]:g}. "
-        f"The law then needs {_span(ratios)} times as long to settle as {beside} (median over the "
-        f"situations), and its rank among the laws of the map is {_span(ranks)}."
+        f"With these values the law needs {_span(ratios)} times as long to settle as {beside} (median over the "
+        f"situations). Its rank among the laws of the map is {_span(ranks)} (1 is the fastest)."
     )
 
 

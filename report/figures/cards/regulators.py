@@ -8,7 +8,7 @@ import pandas as pd
 
 from bench.experiments.tables import read
 from bench.findings import why
-from bench.findings.amounts import capitalize, count_of
+from bench.findings.amounts import count_of
 from bench.findings.claims.tables import share
 from bench.findings.proofs.certificate import read_certificates
 from bench.findings.selection.regions import find_regions, list_ours
@@ -38,11 +38,11 @@ LAWS = html.Table(
 )
 TEXTS: dict[str, dict[str, str]]
 TEXTS = tomllib.loads(Path(__file__).with_name("laws.toml").read_text(encoding="utf-8"))
-"""Law -> about, limitations."""
+"""Law -> about, limitations, and memory if it differs from MEMORY."""
 
 MEMORY = (
-    "Reset the memory before the first control step and after a pause. The memory stays unchanged when the goal "
-    "changes. If you also reset the memory when the goal jumps, the path becomes shorter, but the body does not settle "
+    "Reset the memory before the first control step and after a pause. If the goal changes, the law keeps its "
+    "memory. If you also reset the memory when the goal jumps, the path becomes shorter, but the body does not settle "
     "sooner. The measured orientation must turn by less than 180° between two control steps: e + phi/2 < 90°, where e "
     "is the error of the measured orientation and phi the rotation within a control step."
 )
@@ -77,6 +77,12 @@ def text_of(regulator: Law) -> tuple[str, str]:
     return docstring(source(regulator).file) if regulator.law or regulator.law_in else (UNTRUSTED, "")
 
 
+def describe_memory(regulator: Law) -> str:
+    """Return when a law's memory is reset: in its own words of laws.toml, or in those of all laws with memory."""
+    own = {} if regulator.origin else TEXTS.get(regulator.name, {})
+    return own.get("memory", MEMORY)
+
+
 def page(one: Contender, run: Run, live: str = "") -> LawPage:
     """Return the page of a law; live: the page on which laws run, from the site's root, or empty."""
     word, is_exported = one.on_free_body, not (one.regulator.origin or one.regulator.costing_only)
@@ -89,19 +95,21 @@ def card(one: Contender, run: Run) -> str:
     title, episodes = laws.title_of(one), run.any_rows("episodes", contender=one.name, engine=engine_of(one.regulator))
     what, fails = text_of(one.regulator)
     found = run.any_rows("command-field", contender=one.name)
-    said = why.sentences(found, one.regulator.property) if len(found) else []
+    # a law with memory stores its side of 180°, whatever is proved of it
+    declared = "global with memory" if one.regulator.memory else one.regulator.property
+    said = why.sentences(found, declared, stiffness=one.regulator.stiffness) if len(found) else []
     # without the states that show it, which `judge` prints
     command = " ".join(EXAMPLE.split(each.text)[0].rstrip(".") + "." for each in said)
     acts = one.representation.title if one.representation else "the rotation matrix"
     fields = {
         "Limitations": set_words(fails),
-        "Memory": set_words(MEMORY) if one.regulator.memory else "",
+        "Memory": set_words(describe_memory(one.regulator)) if one.regulator.memory else "",
         "Coordinates": f"{acts[:1].upper()}{acts[1:]}.",
         **say_property(one.regulator),
         "Measured": measured(episodes, one.regulator),
         "Properties of the command": set_words(command),
-        "Recommended": advised(one.name),
-        "Constants that are ours": describe_constants(one.name),
+        "Recommended": set_words(advised(one.name)),
+        "Constants that are ours": set_words(describe_constants(one.name)),
     }
     look, costs = html.both(style.look(one.name).colour), costs_of(one, run)
     shown = costs.to_html(index=False, classes="plain", border=0, formatters=[html.cell] * len(costs.columns))
@@ -130,13 +138,14 @@ def measured(episodes: pd.DataFrame, regulator: Law) -> str:
         return "The law is not in this run."
     settled = uniform["outcome"] == "settled"
     found = share(settled)
-    amount = capitalize(count_of(int(settled.sum()), len(settled), "uniform starts"))
-    interval = f"95\N{NO-BREAK SPACE}% interval: {100 * found.low:.1f} to {100 * found.high:.1f} %"
+    amount = count_of(int(settled.sum()), len(settled), "uniform starts")
+    interval = f"95\N{NO-BREAK SPACE}% interval of this share: {100 * found.low:.1f} to {100 * found.high:.1f} %"
+    said = f"The body settles from {amount}, which are spread evenly over all orientations ({interval})."
     times = uniform.loc[settled, "settling_time_s"]
     if times.empty:
-        return f"{amount} settle ({interval})."
+        return said
     pace = f"The median settling time is {times.median():.2f} s, and the longest is {times.max():.2f} s."
-    return f"{amount} settle ({interval}). {pace}"
+    return f"{said} {pace}"
 
 
 def say_share(value: float) -> str:
@@ -154,9 +163,9 @@ def advised(law: str) -> str:
         return ""
     shares = measure_shares(law, tie=SPOKEN)
     beside = (
-        f"In {say_share(shares.qualified.value)} this law meets the requirements and no other law that meets "
-        f"the requirements is more than {percent(SPOKEN)} faster. If all published and adapted laws count, "
-        f"this share is {percent(shares.all.value)}."
+        f"In {say_share(shares.qualified.value)} this law meets the requirements, and no published or adapted law that "
+        f"also meets the requirements is more than {percent(SPOKEN)} faster. If we also compare this law with the "
+        f"published and adapted laws that do not meet the requirements, this share is {percent(shares.all.value)}."
     )
     if is_ours:
         beats = say_share(compare_with_advised(law).value)
@@ -168,8 +177,9 @@ def advised(law: str) -> str:
         return beside
     price = find_price(law)
     costs = (
-        f"In the nominal situation the law commands up to {price.peak:.1f} kp. With gains for a peak command of "
-        f"p [rad/s²] and the nominal damping ratio, 99 % of the starts settle in {price.at_equal_peak:.1f}/√p seconds."
+        f"In the nominal situation the largest command of the law is {price.peak:.1f} kp. With the nominal damping "
+        f"ratio and gains for a largest command of p [rad/s²], the body settles from 99 % of the starts within "
+        f"{price.at_equal_peak:.1f}/√p seconds."
     )
     return f"Our rule recommends this law in {say_share(region.advised)}. {beside} {costs}"
 

@@ -7,7 +7,7 @@ import pandas as pd
 
 from bench.experiments.tables import read
 from bench.export.short import write_short
-from bench.findings.amounts import count_of
+from bench.findings.amounts import capitalize, count_of
 from bench.findings.proofs.certificate import read_certificates
 from bench.findings.selection.regions import facts_of, find_default
 from bench.findings.selection.sensitivity import tune
@@ -60,10 +60,11 @@ def compare_at_equal_peak() -> str:
     others = [time for law, time in times.items() if not facts_of(law).is_ours]
     as_fast = sum(time <= times[NEW] for time in others)
     if as_fast:
-        rivals = f"{count_of(as_fast, len(others), 'published and adapted laws')} need no more time"
+        rivals = f"{capitalize(count_of(as_fast, len(others), 'published and adapted laws'))} need no more time."
     else:
-        rivals = f"the best of the {len(others)} published and adapted laws takes {min(others):.2f}/√p"
-    return f"At equal peak command p [rad/s²], 99 % of the starts settle in {times[NEW]:.2f}/√p seconds; {rivals}."
+        rivals = f"The best of the {len(others)} published and adapted laws needs {min(others):.2f}/√p seconds."
+    needed = f"99 % of the starts settle in {times[NEW]:.2f}/√p seconds with late braking"
+    return f"At equal peak command p [rad/s²], {needed}. {rivals}"
 
 
 def say_later(ratios: list[float]) -> str:
@@ -72,7 +73,9 @@ def say_later(ratios: list[float]) -> str:
         return "at none of these ratios"
     if len(ratios) == len(RATIOS):
         return "at all these ratios"
-    return f"at {listed(map('{:g}'.format, ratios))} and not at the other damping ratios"
+    earlier = [ratio for ratio in RATIOS if ratio not in ratios]
+    late, others = (listed(map("{:g}".format, each)) for each in (ratios, earlier))
+    return f"at the damping ratios {late}, but not at {others}"
 
 
 def is_later(ratio: float) -> bool:

@@ -27,8 +27,8 @@ def facts(run: Run) -> dict:
     with_memory = count(len(leave), len(groups.get(WITH, [])))
     return {
         "finding": (
-            f"Noise of {first:g} rad traps the body at 180° with {without_memory} other laws without memory. With "
-            f"{with_memory} other laws with memory, the body leaves 180° from every start"
+            f"Noise of {first:g} rad traps the body at 180° with {without_memory} laws without memory that this "
+            f"picture shows. With {with_memory} laws with memory that it shows, the body leaves 180° from every start"
         ),
         "starts": starts(rows),
         "most": f"{float(noisy.index.max()):g}",

@@ -30,7 +30,7 @@ LABELS = {
     "command": "Command",
     "suite": "Suite",
     **EPISODES,
-    "lost": "Rows lost",
+    "lost": "Rows of user laws that crashed or hung",
     "seed": "Seed of the random starts",
     "commit": "Commit",
     "dirty": "Changes that were not committed",
