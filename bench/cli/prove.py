@@ -63,7 +63,7 @@ def COMMAND(laws: tuple[str, ...], workers: int, lemma_limit: float, law_limit: 
         f"{1e3 * certificate.SAMPLED_S:g} ms. That is measured, not proved."
     )
     for text in list_cited(certificates):
-        console().print(f"Cited, and not checked by a program: {text}.")
+        console().print(f"Not checked by a program: {text}")
     if loops:
         proved = sum(lemma["is_proved"] for lemma in loops)
         console().print(f"Loops that are held between ticks: {proved} of {len(loops)} limits of stability proved.")

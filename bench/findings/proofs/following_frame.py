@@ -21,7 +21,8 @@ from bench.law.kinds import Law
 from bench.law.so3 import dot, from_quaternion
 from tasks.rotations import multiply
 
-CITED = (LASALLE, MEASURE_ZERO, "if Kp < 2 Kv^2, V <= 2 Kp from rest keeps theta_F below 180° (by hand)")
+STAYS_BELOW = "We proved by hand: if Kp < 2 Kv^2 and the body starts at rest, then V <= 2 Kp keeps theta_F below 180°."
+CITED = (LASALLE, MEASURE_ZERO, STAYS_BELOW)
 BEGINS = "the frame begins at the first orientation"
 FRAME = ("p_w", "p_x", "p_y", "p_z")
 

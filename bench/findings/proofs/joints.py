@@ -16,7 +16,7 @@ from bench.law.inputs import Gains
 from bench.law.kinds import Law
 
 JOINTS = 7
-CITED = (LASALLE, "D' - 2 C is skew, so that V' has no term of C (Takegaki and Arimoto)")
+CITED = (LASALLE, "By Takegaki and Arimoto, D' - 2 C is skew-symmetric, so that V' has no term of C.")
 
 
 def prove(law: Law) -> Proof:

@@ -12,11 +12,14 @@ from bench.findings.proofs.reasons import LIMITS, DoesNotFit, LemmaFails, TimeIs
 from bench.findings.proofs.solver import Lemma
 from bench.law.kinds import Law
 
-LASALLE = "the body then comes to rest where V' stays zero (LaSalle's invariance principle)"
+LASALLE = "By LaSalle's invariance principle, the body comes to rest at a point where the derivative V' stays zero."
 MEASURE_ZERO = (
-    "only a set of starts of measure zero ends at an unstable equilibrium (stable manifold theorem)"
+    "By the stable manifold theorem, only a set of starts of measure zero ends at an unstable equilibrium."
 )
-FINITE_JUMPS = "V falls by a constant at each change of side, so that the number of changes is finite (by hand)"
+FINITE_JUMPS = (
+    "We proved by hand that V falls by a constant at each change of the stored sign, so the sign changes only a finite "
+    "number of times."
+)
 """Parts of a proof that no program checks, in the words of a certificate."""
 
 

@@ -28,7 +28,10 @@ from bench.findings.proofs.traced_number import Traced
 from bench.law.kinds import Law
 from bench.law.so3 import cross, from_quaternion
 
-CITED = (LASALLE, FINITE_JUMPS, "X_q has no equilibrium except the goal and three half-turns (by hand)")
+FOUR_RESTS = (
+    "We proved by hand that the force of V on the turned body is zero only at the goal and at three 180° rotations."
+)
+CITED = (LASALLE, FINITE_JUMPS, FOUR_RESTS)
 
 AXIS = ("axis_1", "axis_2", "axis_3")
 

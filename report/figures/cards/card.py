@@ -14,9 +14,7 @@ from pygments.lexers import PythonLexer
 from bench.export.language import find_language, language_words
 from bench.export.short import write_short
 from bench.export.subject import find_subject
-from bench.findings.amounts import capitalize
 from bench.findings.proofs.certificate import DRAWN, SCOPE, describe_sampled, read_certificates
-from bench.findings.proofs.theorem import FINITE_JUMPS, LASALLE, MEASURE_ZERO
 from bench.law.attribution import describe_source
 from bench.law.kinds import Law
 from report.figures.kit import html
@@ -43,16 +41,6 @@ ASSUMED = {
     "delay, and a correct model of the inertia."
 }
 SOLVERS = {"Z3": "the solver Z3"}
-BY_HAND = "(by hand)"
-CITED = {
-    LASALLE: "By LaSalle's invariance principle, the body comes to rest at a point where the derivative V' stays zero.",
-    MEASURE_ZERO: "By the stable manifold theorem, the body comes to an unstable equilibrium only from a set of starts "
-    "of measure zero.",
-    FINITE_JUMPS: "We proved by hand that V falls by a constant at each change of the stored sign, so the sign changes "
-    "only a finite number of times.",
-    "X_q has no equilibrium except the goal and three half-turns (by hand)": "We proved by hand that the force of V on "
-    "the turned body is zero only at the goal and at three 180° rotations.",
-}
 EQUILIBRIA = {
     "none": "The law has no equilibrium away from the goal.",
     "none, but the command jumps at 180°": "The law has no equilibrium away from the goal, but its command jumps at "
@@ -142,7 +130,7 @@ def say_property(law: Law) -> dict[str, str]:
     lemmas = [lemma for lemma in certificate["lemmas"] if lemma["by"] != DRAWN]
     by = " and ".join(sorted({SOLVERS.get(lemma["by"], lemma["by"]) for lemma in lemmas}, reverse=True))
     text += f" {ASSUMED.get(certificate['scope'], certificate['scope'])}"
-    steps = [f"({i}) {say_cited(step)}" for i, step in enumerate(certificate["cited"], 1)]
+    steps = [f"({i}) {step}" for i, step in enumerate(certificate["cited"], 1)]
     text += f" The proof uses the function V below. A program took the law from its source and proved {len(lemmas)} "
     text += f"lemmas with {by}, in {certificate['seconds']:.1f} s."
     text += f" No program checked {'these steps' if len(steps) > 1 else 'this step'} of the proof: {' '.join(steps)}"
@@ -155,13 +143,6 @@ def say_property(law: Law) -> dict[str, str]:
         )
     text += f" {describe_sampled(certificate)}"
     return {"Proved": html.Html(f"{set_words(text)} {html.formula(certificate['V'])}")}
-
-
-def say_cited(step: str) -> str:
-    """Return a step of a proof that no program checked, as a sentence."""
-    if step in CITED or BY_HAND not in step:
-        return CITED.get(step, f"{capitalize(step)}.")
-    return f"We proved by hand that {step.replace(BY_HAND, '').strip()}."
 
 
 def docstring(file: Path) -> tuple[str, str]:
