@@ -50,7 +50,7 @@ def is_for_arms(task: str) -> bool:
 
 
 def pairs() -> list[tuple[str, str]]:
-    """Return every pair (task, arm) that can be loaded; the name of the arm is empty if the task has no arm."""
+    """Return every pair (task, arm) that `load` accepts; the name of the arm is empty if the task has no arm."""
     return [(name, arm) for name in names() for arm in (arm_names() if is_for_arms(name) else [""])]
 
 
@@ -62,7 +62,10 @@ def described(name: str) -> Task | ArmTask:
 
 
 def task(name: str, arm: str = "") -> Task:
-    """Return the task of this name on this arm; BadValue if a task for arms has no arm, or another task has an arm."""
+    """Return the task of this name on this arm.
+
+    The error BadValue says that a task for arms needs an arm, or that the task has no arm.
+    """
     found = described(name)
     if isinstance(found, ArmTask):
         return found.on(_needed(arm, name))
@@ -96,14 +99,14 @@ def load(
     """Return a dm_control Environment that begins every episode at `start` and lasts `horizon` seconds.
 
     Args:
-        start: a Start. The default is the first start of the set `paper`; on an arm, of the first set of the task. For
-            a task in contact, a Trial; the default is the first Trial of the task.
+        start: a Start; for a task in contact, a Trial. The default is the first start of the set `paper`; on an arm,
+            the first start of the first set of the task; for a task in contact, the first Trial of the task.
         dt: control period and integration step [s].
-        horizon: length of an episode [s], rounded to whole control periods. The default is HORIZON_S; for a task in
-            contact, the length that the task sets.
+        horizon: length of an episode [s], rounded to whole control periods. The default is HORIZON_S (20 s); for a task
+            in contact, the length that the task sets.
         integrator: "euler" (the default), "rk4", "implicit" or "implicitfast" (the default for tasks in contact).
-        vary: a function that changes the compiled model before the first episode, so that the plant differs from the
-            model of the controller.
+        vary: a function that changes the compiled model before the first episode. The plant then differs from the model
+            that the controller uses.
     """
     from tasks import contact_episode  # dm_control takes a second to import; listing names must not
     from tasks.episode import environment
@@ -130,9 +133,10 @@ def knows_joints(name: str) -> bool:
 
 
 def start_set(name: str, count: int | None = None, seed: int = 0, arm: str = "") -> list[Start]:
-    """Return the starts of a set, always the same starts in the same order; by default as many as the set defines.
+    """Return the first `count` starts of a set; by default as many as the set defines.
 
-    A longer list of a sampled set begins with the starts of a shorter list. A fixed set has only its defined starts.
+    For one seed, the starts and their order are always the same. If a set is sampled, `count` may be larger than the
+    number that the set defines.
     """
     if count is not None and count < 1:
         raise BadValue(f"count {count} starts of '{name}': a start set needs at least 1 (try: count=10)")
@@ -160,7 +164,7 @@ def start_set_length(name: str, count: int | None = None, seed: int = 0, arm: st
 def starts_between(name: str, first: int, end: int, seed: int = 0) -> list[Start]:
     """Return the starts of the free body from number `first` to number `end` - 1: start_set(name, end, seed)[first:].
 
-    From a sampled set only these starts are computed, so that starts with large numbers cost no more time.
+    If the set is sampled, only these starts are computed, and starts with large numbers take no more time.
     """
     chosen = find_start_set(name, False)
     if isinstance(chosen, StartSet) and chosen.between:

@@ -189,7 +189,7 @@ def _list_mapped(default: str, folder: Path) -> Iterator[Need]:
         limits = f"{bounded.low:g} to {bound.format(bounded.high)}"
         if bounded.low == bounded.high:
             limits = bound.format(bounded.low)
-        controller = f"{ANY_START}; the motors limit the command to {limits}"
+        controller = f"{ANY_START}; motors limit the command to {limits}"
         why = f"up to {percent(bounded.faster)} faster than {default} at these limits"
         yield _by_map("weak-motors", controller, bounded.law, default, folder, why)
     for name, controller, laws, rule in (
@@ -250,7 +250,7 @@ def _by_map(name: str, controller: str, law: str, default: str, folder: Path, wh
     costs = _list_costs(law, folder)
     slower = find_price(law, folder).time / find_price(default, folder).time
     if slower > 1.0 + SPOKEN:
-        costs.append(f"takes {slower:.1f} times as long as {default} without a command limit")
+        costs.append(f"without a command limit needs {slower:.1f} times the settling time of {default}")
     return Need(controller, law, attribute(law), why, join_words(costs), name)
 
 
@@ -265,7 +265,7 @@ def _list_costs(law: str, folder: Path) -> list[str]:
     )
     memory = facts_of(law).memory
     costs = [f"stores {memory} numbers"] if memory else []
-    costs.append(f"commands up to {row['peak']:.2g} kp")
+    costs.append(f"gives commands up to {row['peak']:.2g} kp")
     if row["stuck"]:
         costs.append("is stuck at exactly 180°")
     elif row["trapped"]:
@@ -291,9 +291,9 @@ def _list_robots(run: Path) -> Iterator[Need]:
 
 
 _CONTROLLERS = {
-    "arm": "drives an arm whose goal is never exactly 180° away",
+    "arm": "controls an arm; no goal is exactly 180° away",
     "velocity": "commands velocities",
-    "position": "commands positions that are followed with a lag",
+    "position": "commands positions, which the robot follows with a lag",
 }
 
 
@@ -301,8 +301,10 @@ def _describe_decision(decision: Decision) -> str:
     if len(decision.asked) == 1:
         return "no other law that was tried meets the requirements"
     if decision.tied:
-        ties = f"ties with {together(decision.tied)}"
-        return f"the law {ties} and is the simplest of these; {len(decision.asked)} laws were tried"
+        is_pair = len(decision.tied) == 1
+        others = f"{' and' if is_pair else ','} {together(decision.tied)}"
+        simplest = "simpler" if is_pair else "the simplest of these"
+        return f"of {len(decision.asked)} laws tried, this law{others} are best; this law is {simplest}"
     return f"none of the {len(decision.asked)} laws that were tried is better"
 
 
@@ -338,7 +340,7 @@ def _list_weak_places(law: str, run: Path) -> Iterator[str]:
         yield "is stuck at exactly 180°" if place == HALF_TURN else f"fails at {place}"
     slowness = slowness_near_half_turn(rows)
     if slowness is not None and slowness > SLOW:
-        yield f"takes up to {slowness:.0f} times its median time near 180°"
+        yield f"near 180° takes up to {slowness:.0f} times its median time"
     if noise is not None and math.isfinite(noise):
         yield f"can be trapped at 180° by a sensor error of {noise:g} rad"
 

@@ -212,12 +212,13 @@ def _find_compliance(results: Results) -> str:
 def _find_answers(results: Results) -> str:
     examined, advised = replication.examine_laws(results), find_answer().law
     if advised not in examined.laws:
-        return f"{_name_answers(examined, 'pass every test')} The advised law, {advised}, was not tested in this run."
+        untested = f"The advised law, {advised}, was not tested in this run."
+        return f"{_name_answers(examined, 'pass all our tests (claim C27)')} {untested}"
     settling = replication.measure_settling(_rows_of(results, advised))
-    failed = f" The advised law does not pass every test: {examined.tested[advised]}."
+    failed = f" The advised law fails a test: {examined.tested[advised]}."
     passes = "" if advised in examined.answers else failed
     return (
-        f"{_name_answers(examined, 'pass every test')}{passes} The law {advised} settles from "
+        f"{_name_answers(examined, 'pass all our tests (claim C27)')}{passes} The law {advised} settles from "
         f"{percents(settling.share)} of the random starts."
     )
 

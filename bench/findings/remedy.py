@@ -44,7 +44,7 @@ def smallest_fix(one: Law) -> Fix:
         else:
             bound = largest(free, None)
             steps.append(
-                f"for goals beyond 90°, return the vector axis times angle, of a length of at most {bound:.3g}"
+                f"for goals more than 90° away, return axis times angle, clipped to a length of at most {bound:.3g}"
             )
             fixed = logarithm
     if HALF[0] < np.dot(free(about(DIRECTIONS[0], NEAR_RAD)), DIRECTIONS[0]) / NEAR_RAD < HALF[1]:

@@ -10,7 +10,7 @@ NO_MEMORY = (0.0, 0.0, 0.0, 0.0)
 
 
 class Gains(NamedTuple):
-    """Position and velocity gain: for small errors every law is u = kp (rotation vector error) - kv omega.
+    """Position gain kp and velocity gain kv: for small errors every law is u = kp (rotation vector error) - kv omega.
 
     kp in 1/s^2, kv in 1/s. The defaults are the paper's (Murphy 1988, 2.3): critically damped at 10 rad/s.
     """
@@ -23,7 +23,7 @@ PAPERS_GAINS = Gains()
 
 
 class Goal(NamedTuple):
-    """Desired rotation; for tracking, also its angular velocity and angular acceleration (zero in regulation)."""
+    """Desired rotation R, with angular velocity omega and angular acceleration alpha (zero if the goal is at rest)."""
 
     R: Rotation = IDENTITY
     omega: tuple = AT_REST

@@ -42,41 +42,43 @@ class Law(NamedTuple):
         coordinates: "rotation-matrix" if the law acts on R; otherwise the names of the coordinates
             that it acts on, or "any". Such a law gives `law_in(coordinates)`, which returns the law
             in those coordinates.
-        relative: whether the coordinates, and their margin, are computed from R_d^T R.
+        relative: whether the coordinates and the margin are computed from R_d^T R.
         memory: initial memory of a law with memory; otherwise None. Such a law is
-            law(R, omega, goal, gains, memory) -> (u, memory). The memory is passed on unchanged
-            from one control step to the next, and does not need the control period.
-        state: state of a law with a state, law(R, omega, goal, gains, state) -> (u, rates);
-            otherwise None. The caller integrates the rates of the state over the control period.
-        property: what is proved: "local", "almost global", "global with memory", "none", or for
-            which gains.
-        level: the kind of command.
+            law(R, omega, goal, gains, memory) -> (u, memory). The law returns the new memory, which
+            the caller passes to the next control step without a change. Such a law does not need
+            the control period.
+        state: a State for a law with a state; otherwise None. Such a law is
+            law(R, omega, goal, gains, state) -> (u, rates). The caller integrates the rates of the
+            state over the control period.
+        property: what is proved of convergence: "local", "almost global", "global with memory" or
+            "none", or the gains for which it is proved.
+        level: the kind of command: "acceleration", "torque", "velocity" or "position".
         gains: the gains that the authors set, or the paper's gains.
-        shipped: AsShipped for a controller as its authors ship it; otherwise None. Its formula is
-            the formula of the error, with clips and deadbands in their order. Its gains are in
-            N m/rad; in 1/s^2 if the controller cancels or simulates an inertia; in 1/s if it
-            commands a velocity.
-        origin: the file of a law that a user wrote, with its content in text; both are
+        shipped: AsShipped for a controller as its authors ship it; otherwise None. The formula of
+            such a law is the formula of the error, with clips and deadbands in their order. The
+            stiffness is in N m/rad; in 1/s^2 if the controller cancels or simulates an inertia; in
+            1/s if the controller commands a velocity.
+        origin: the file of a law that a user wrote; `text` is the content of this file. Both are
             empty for our laws.
-        later: whether the law is not in the paper; it then runs from fewer starts.
-        costing_only: whether the law is another way to write a law of the list; it is costed and
-            tested, but not run.
-        in_engine: whether MuJoCo's actuator makes the command, on its free body; `law` computes the
-            same command.
+        later: whether the law is not in the paper. A later law runs from fewer starts.
+        costing_only: whether the law is another way to write a law of the list. We count the
+            operations of such a law and test it, but do not simulate it.
+        in_engine: whether an actuator of MuJoCo makes the command on MuJoCo's free body. The
+            function `law` computes the same command.
         stiffness: stiffness near the goal about n_d, o_d and a_d, divided by kp.
-        margin: for a law on R that is singular somewhere: margin(R, R_d) in [0, 1], which is 0
-            exactly there.
-        coordinate_law_in: for a law that commands Eddot itself: coordinate_law_in(coordinates)
-            returns law(chart, E_d, Edot, gains) -> u_E, for the controller on an analytic Jacobian
-            (Murphy 1988, 3.7).
-        assemble: for a baseline (contenders/baselines): assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory),
-            which replaces (2.2) and (3.7).
+        margin: for a law on R with singular orientations: margin(R, R_d) in [0, 1], which is 0
+            exactly at the singular orientations.
+        coordinate_law_in: for a law that commands Eddot, the second derivatives of the coordinates.
+            coordinate_law_in(coordinates) returns law(chart, E_d, Edot, gains) -> u_E. The
+            controller with an analytic Jacobian (Murphy 1988, 3.7) uses this law.
+        assemble: for a baseline (contenders/baselines): assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory).
+            This function replaces equations (2.2) and (3.7).
         through: the Jacobian and the inverse of a baseline that acts on the joints; otherwise
             empty.
-        papers: the place of the law among the paper's three laws; 0 for another law.
-        control: whether the law is a negative control, which must fail.
-        attribution: published, adapted or ours, as `bench.law.attribution` defines them; yours for
-            a user's file.
+        papers: the number (1 to 3) of one of the paper's three laws; 0 for another law.
+        control: whether the law is a negative control: a law that is wrong on purpose and must fail.
+        attribution: "published", "adapted" or "ours" (see `bench.law.attribution`); "yours" for the
+            law of a user.
     """
 
     name: str
@@ -128,12 +130,13 @@ class Coordinates(NamedTuple):
     generalized(chart, m) -> B^T m                               (3.12, rotational part)
     margin(R) -> number in [0, 1], 0 exactly on the singular set
 
-    Some coordinates can be differentiated element by element, as in (3.5); for others these functions are None:
+    Some coordinates can be differentiated element by element, as in (3.5). For other coordinates, these two functions
+    are None:
     differentiate(R, Rdot) -> Edot                               dE/dR along Rdot, Rdot by columns
     differentiate_twice(R, Rdot, Rddot) -> Eddot
 
-    about: the coordinates for the rotations about x, y and z; None if there are no such coordinates.
-    papers: whether they are the paper's own (Murphy 1988, 2.2).
+    about: the indices of the coordinates that turn about x, y and z; None if there are no such coordinates.
+    papers: whether the coordinates are those of the paper (Murphy 1988, 2.2).
     """
 
     name: str

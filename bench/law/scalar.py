@@ -22,7 +22,7 @@ KERNELS: list = []
 
 
 def kernel(function):
-    """Mark a function as code of a law that can be translated. It does not compile the function."""
+    """Mark a function as code of a law that can be translated. The mark does not compile the function."""
     KERNELS.append(function)
     return function
 

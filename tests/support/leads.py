@@ -123,7 +123,7 @@ def recompute_noise():
     return {
         "half_turn_noise.middle": f"{middle:g}",
         "half_turn_noise.blind_middle": f"{100 * left.loc[~remembers, middle].max():.0f}",
-        "half_turn_noise.memory_middle": "even the worst law leaves 180° from every start",
+        "half_turn_noise.memory_middle": "all these laws leave 180° from every start",
     }
 
 

@@ -1,6 +1,6 @@
-"""each component is clipped, so that the direction of the error changes.
+"""each component of the error is clipped, which changes the direction of the error.
 
-effect: far from the goal the robot turns about another axis than that of the shortest rotation
+effect: far from the goal the robot turns about an axis that is not the axis of the shortest rotation
 cure: if the vector is longer than the limit, scale the whole vector down to the limit
 """
 

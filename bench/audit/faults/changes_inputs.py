@@ -1,6 +1,6 @@
 """the function changes its inputs.
 
-effect: the pose or the goal of the controller is changed after the call, and its next results are wrong
+effect: after the call, the pose or the goal of the controller is changed, and later results of the controller are wrong
 cure: copy each input before the function changes it: R = R.copy()
 law: rotation-matrix
 """

@@ -1,8 +1,8 @@
 """the error is zero at 180°.
 
 effect: a robot that starts 180° from its goal stays there; a robot that starts close to 180° leaves slowly
-cure: use 1 as the sign of 0, atan2 instead of an arc sine, and the axis from a column of R + R^T; replace a sine
-  of the angle by another form
+cure: use 1 as the sign of 0; use atan2 instead of an arc sine; take the axis from a column of R + R^T; do not use
+  the sine of the angle as the length of the error
 law: quaternion-shortest
 unless: not-a-number, raises, long-way, misaligned
 """

@@ -1,6 +1,6 @@
 """the error has a dead band.
 
-effect: the robot rests beside its goal; an integral term, or a force near the edge of the dead band, makes it chatter
+effect: the robot stops beside its goal; an integral term, or a force near the edge of the dead band, causes chatter
 cure: remove the dead band and any rounding; use a filter against noise
 unless: single-precision
 """

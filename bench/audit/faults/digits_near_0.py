@@ -1,8 +1,8 @@
 """the error loses digits near the goal.
 
 effect: near the goal the command flickers or is zero
-cure: use no arc cosine of a trace or scalar part, and add no constant to a denominator; use atan2 of the length of the
-  vector and the scalar, which loses no digits, and a branch only for a length of exactly zero
+cure: use atan2 of the length of the vector part and the scalar part, which loses no digits, and not the arc cosine of
+  a trace or scalar part; add no constant to a denominator; use a branch only if the length is exactly zero
 unless: single-precision, deadband, euler-angles, norm-clip, axis-clip, long-way
 """
 

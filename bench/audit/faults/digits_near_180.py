@@ -1,6 +1,6 @@
 """the error loses digits near 180°.
 
-effect: near 180° the command has a wrong size or a wrong axis, and flickers
+effect: near 180° the command flickers and has a wrong size or a wrong axis
 cure: do not divide by sin(theta); first compute a quaternion from the largest diagonal element of the matrix
 unless: single-precision, misaligned, euler-angles, axis-clip, norm-clip, long-way, deadband, jump
 """

@@ -1,6 +1,6 @@
 """the error differs between the goals q and -q, which are the same orientation.
 
-effect: the robot unwinds, by up to 360°, or tumbles when the quaternion in a stream of goals changes its sign
+effect: the robot turns by up to 360°, and tumbles if the sign of the quaternion changes in a stream of goals
 cure: change the sign of the error quaternion if its scalar part is negative
 law: quaternion-shortest
 """

@@ -1,7 +1,7 @@
-"""the error is in the body frame instead of the base frame, or the reverse.
+"""the error is in the body frame instead of the base frame, or in the base frame instead of the body frame.
 
 effect: near R = I the torque has a wrong axis; far from R = I the robot moves away from the goal
-cure: multiply an error in the body frame by R, once, before it is used with quantities in the base frame
+cure: multiply an error in the body frame by R once, before you use the error with quantities in the base frame
 law: rotation-matrix
 unless: transpose
 """

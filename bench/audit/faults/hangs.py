@@ -1,5 +1,5 @@
 """the function does not return.
 
 effect: the control loop stops, and its motors keep the last command
-cure: use no lock and no unlimited iteration; the rotation between two orientations has a closed form
+cure: use no lock and no unlimited loop; compute the rotation between the two orientations in closed form
 """

@@ -1,7 +1,7 @@
 """the same pair of orientations gets different errors, because of a state or of noise.
 
 effect: the error depends on earlier calls; this audit tests each pair alone, so its other results are not valid
-cure: audit the function without its filter; if you intend hysteresis between the two signs of q, allow this fault
+cure: audit the function without a filter; if the function intentionally remembers the sign of q, allow this fault
 law: quaternion-shortest
 """
 

@@ -1,7 +1,7 @@
 """the error is not along the axis of the rotation.
 
 effect: the robot takes a detour, or does not reach the goal
-cure: compute R_d R^T or q_d q*, and use the axis of this rotation
+cure: compute the rotation R_d R^T or q_d q*, and use the axis of this rotation
 unless: quaternion-order, transpose, frame, euler-angles, raises, not-a-number, axis-clip, long-way, deadband, memory
 """
 

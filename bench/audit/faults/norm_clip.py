@@ -1,6 +1,6 @@
 """the length of the error is clipped.
 
-effect: beyond the limit the stiffness decreases with the angle but the damping does not, so the robot returns slowly
+effect: beyond the limit the stiffness decreases with the angle but the damping does not, so the robot moves slowly
 cure: clip the command, not the error; or allow this fault, because the direction stays right
 unless: axis-clip
 """

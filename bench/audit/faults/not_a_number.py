@@ -1,6 +1,6 @@
 """the error is infinite or not a number.
 
-effect: comparisons with limits do not stop a command that is not a number, and it reaches the motors
+effect: comparisons with limits do not stop a command that is not a number, so this command reaches the motors
 cure: do not divide by a length that can be zero; limit the arguments of acos and sqrt to their ranges
 """
 

@@ -1,7 +1,7 @@
 """the function reads the elements of a quaternion in the wrong order.
 
 effect: the command hardly depends on the real error; the robot turns about a wrong axis, and may never stop
-cure: convert the order between libraries that use different orders, and write wxyz or xyzw in variable names
+cure: convert the order between libraries that use different orders; name the order, wxyz or xyzw, in each variable
 law: quaternion-shortest
 """
 

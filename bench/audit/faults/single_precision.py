@@ -1,6 +1,6 @@
 """the function computes in single precision.
 
-effect: the error has steps of 1e-7 rad, which become audible if the controller uses a derivative or high damping
+effect: the error changes in steps of 1e-7 rad; a derivative or high damping turns these steps into audible noise
 cure: compute the difference of two orientations in double precision; later steps may use single precision
 """
 

@@ -1,7 +1,7 @@
 """the real stiffness is not the stiffness that the user sets.
 
-effect: the slope of the error at the goal multiplies the stiffness; 1/sqrt(slope) multiplies the damping ratio
-cure: divide the error or the stiffness by the slope
+effect: the real stiffness is the set stiffness times the slope; the damping ratio is divided by sqrt(slope)
+cure: divide the error or the stiffness by the slope of the error at the goal
 law: quaternion-shortest
 unless: euler-angles
 """

@@ -1,7 +1,7 @@
 """a matrix is transposed.
 
 effect: if R is not near the identity, the command does not lead to the goal
-cure: transpose one matrix only, R_d R^T or R^T R_d; check whether a library stores matrices by columns
+cure: transpose only one of the two matrices: R_d R^T or R^T R_d; check whether a library stores matrices by columns
 law: rotation-matrix
 """
 

@@ -33,9 +33,10 @@ MARKS = {"controller": "", "regulator": "", "representation": "/", "jacobian": "
 
 
 def folder() -> Path:
-    """Return the folder that the environment variable ORIENTATION_BENCH_RESULTS names.
+    """Return the folder of results that `rows` and `provenance` read.
 
-    If the variable is not set, it is results/latest if that run is finished, and results/reference otherwise.
+    The environment variable ORIENTATION_BENCH_RESULTS can name the folder. If the variable is not set, the folder is
+    results/latest if the run in this folder is finished, and results/reference otherwise.
     """
     named = os.environ.get(VARIABLE)
     if named:
@@ -45,7 +46,7 @@ def folder() -> Path:
 
 
 def rows(name: str, **words: str) -> pd.DataFrame:
-    """Return the rows of a table with these values: `rows("episodes", engine="native", start_set="poles")`."""
+    """Return the rows with the given values: `rows("episodes", engine="native", start_set="poles")`."""
     return chosen(table(folder(), name), words)
 
 
@@ -56,12 +57,12 @@ episodes, traces, costs, boundaries, poses, compliance, robustness = (
 
 
 def converged(frame: pd.DataFrame) -> pd.DataFrame:
-    """Return the episodes whose end shorter steps do not change, and the episodes without this test."""
+    """Return all episodes except those whose outcome changes if the time step is shorter."""
     return frame[frame["converged"] != "no"]
 
 
 def provenance() -> dict:
-    """Return the contents of provenance.json, which tell how the run was made."""
+    """Return the contents of provenance.json: how the results were made."""
     return read_provenance(folder())
 
 
@@ -73,7 +74,7 @@ def own_laws(run: Path | None = None) -> tuple[Law, ...]:
 
 @functools.cache
 def table(path: Path, name: str) -> pd.DataFrame:
-    """Return a whole table, with a column `contender` if it has laws. Copy the table before you change it."""
+    """Return a whole table; if it has laws, with a column `contender`. Copy the table before you change it."""
     from bench.experiments.tables.store import read
 
     frame = read(path, name)

@@ -149,10 +149,10 @@ def describe_lines(law: str, called: Called = str, folder: Path = STUDY) -> str:
     if everything == "none":
         return f"{first}."
     if qualified == "none":
-        return f"{first} and meets the requirements. Laws that do not meet these are faster at: {everything}."
+        return f"{first} and meets the requirements. Laws that fail a requirement are faster at: {everything}."
     return (
-        f"{first}, except at: {everything}. The brackets name the fastest law, and say how much faster it is. The laws "
-        f"that meet the requirements are faster at: {qualified}."
+        f"{first}, except at: {everything}. The brackets name the fastest law, and say how much faster it is. Laws "
+        f"that meet the requirements are more than {percent(SPOKEN)} faster at: {qualified}."
     )
 
 
@@ -172,7 +172,7 @@ def describe_law_of_ours(law: str, called: Called = str, folder: Path = STUDY) -
     return (
         f"We do not advise our own law, {called(law)} (2026, simulation only, not reviewed). Our law is more than "
         f"{percent(SPOKEN)} faster than the advised law in {percent(compare_with_advised(law, folder).value)} of the "
-        f"random situations. In {percent(shares.qualified.value)} of these situations our law meets the "
+        f"random situations. In {percent(shares.qualified.value)} of the random situations our law meets the "
         f"requirements, and no published or adapted law that meets them is more than {percent(SPOKEN)} faster. If "
         f"our law is compared with all published and adapted laws, the share is {percent(shares.all.value)}."
     )
@@ -198,11 +198,11 @@ NAMES = {
     "zeta": "damping ratio",
     "bound": "command limit",
     "delay": "delay",
-    "period": "period",
-    "inertia": "inertia",
-    "unevenness": "unevenness of the inertia",
-    "spin": "spin",
-    "jump": "time at which the goal jumps",
+    "period": "control period",
+    "inertia": "inertia ratio",
+    "unevenness": "spread of the principal inertias",
+    "spin": "initial spin",
+    "jump": "time of the goal jump",
 }
 """What the numbers of a situation are called in a sentence."""
 
@@ -214,4 +214,4 @@ def _span(one: Coordinate, low: float, high: float) -> str:
         return low_text
     if low == min(one.levels):
         return f"up to {high_text}"
-    return f"from {low_text}" if high == max(one.levels) else f"{low_text} to {high_text}"
+    return f"{low_text} or more" if high == max(one.levels) else f"{low_text} to {high_text}"

@@ -49,6 +49,11 @@ RULE_WORDS = {
     "noise is left out": "the noise test is left out",
     "no memory": "laws with memory are left out",
     "a continuous command": "laws whose command is not continuous are left out",
+    "the median time decides": "laws are compared by their median time",
+    "the 99.9 % time decides": "laws are compared by their 99.9 % time",
+    "the least effort decides": "laws are compared by their effort",
+    "times within 5 % are equal": "times within 5 % count as equal",
+    "times within 10 % are equal": "times within 10 % count as equal",
 }
 """What the table calls a rule where its short name needs the text."""
 
@@ -107,7 +112,7 @@ def lead() -> str:
     if not answer.is_tested:
         return "Which law to use is not tested: the map of situations is missing."
     law = f"**{families.word(answer.law)}**, {describe_attribution(answer.law)}"
-    return f"Use {law}. It {prose(call_laws(answer.price))}."
+    return f"Use {law}. The law {prose(call_laws(answer.price))}."
 
 
 def describe_answer() -> dict[str, str]:
@@ -164,8 +169,8 @@ def describe_condition(answer: Answer) -> str:
         if need.name == "weak-motors":
             law = families.word(need.law)
             sentences.append(
-                f"This counts every law that meets the requirements; the command limits in the row of {law} below "
-                f"are those at which {law} itself is more than {100 * SPOKEN:.0f} % faster."
+                f"These values count every law that meets the requirements. In the row of {law} below, the command "
+                f"limits are those at which {law} itself is more than {100 * SPOKEN:.0f} % faster."
             )
     return " ".join(sentences)
 
@@ -178,8 +183,8 @@ def list_needs() -> Iterator[tuple]:
         law = f"{_named(need.law)} ({need.attribution})" if need.law != NOT_TESTED else need.law
         yield prose(need.controller), law, prose(call_laws(need.why)), prose(call_laws(need.price)), rows
     uneven = list_elsewhere()[0]
-    ties = f"it ties with {together([families.word(law) for law in uneven.tied])}"
-    why = f"{uneven.compared} laws meet the requirements, and {ties if uneven.tied else 'no law ties with it'}"
+    ties = f"this law ties with {together([families.word(law) for law in uneven.tied])}"
+    why = f"{uneven.compared} laws meet the requirements; {ties if uneven.tied else 'no law ties with this law'}"
     law = f"{_named(uneven.law)} ({find_contender(uneven.law).attribution})"
     yield "commands torque and does not cancel the inertia", law, why, html.MISSING, html.MISSING
 

@@ -137,7 +137,7 @@ def describe_weak_motors(both: pd.DataFrame) -> str:
             continue
         torque = motor.torque(kp)
         sentences.append(
-            f"The {name_arm(str(arm))} needs {ratio:.2g} times its rated torque without Euler angles, too. The model "
+            f"The {name_arm(str(arm))} needs {ratio:.2g} times its rated torque even without Euler angles. The model "
             f"of this arm has a motor inertia of {motor.inertia:g} kg m² at a joint whose motor is rated at "
             f"{motor.rated:g} N m. With Kp = {kp:g}/s² and an error of 1 rad, this motor needs {torque:g} N m, "
             f"{torque / motor.rated:.0f} times the rated torque. The gains are too high for this arm, with "

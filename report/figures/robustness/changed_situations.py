@@ -102,9 +102,9 @@ def describe_widest(line: pd.DataFrame) -> str:
     """Say at which bound another law is faster than the default by the most."""
     default, other = list_shown()[:2]
     place = (line[default] / line[other]).idxmax()
-    times = {law: f"{line.loc[place, law]:.1f}/√Kp" for law in (default, other)}
+    times = {law: f"{line.loc[place, law]:.1f}/√kp" for law in (default, other)}
     return (
-        f"At a bound of {place:g} Kp, 99 % of the starts settle within {times[other]} with {families.word(other)} and "
+        f"At a bound of {place:g} kp, 99 % of the starts settle within {times[other]} with {families.word(other)} and "
         f"within {times[default]} with the default law, {families.word(default)}"
     )
 

@@ -156,14 +156,14 @@ def trap(noisy: pd.DataFrame, law: str) -> str:
     """Return the share of starts that leave at the first noise at which not all do, in words."""
     trapping = noisy[law][noisy[law] < 1.0]
     share = f"{100 * trapping.iloc[0]:.0f} %" if trapping.iloc[0] else "none"
-    return f"{families.word(law)} leaves 180° from {share} of the starts at δ = {trapping.index[0]:g} rad"
+    return f"{families.word(law)} leaves 180° from {share} of the starts (δ = {trapping.index[0]:g} rad)"
 
 
 def describe_worst(share: float) -> str:
     """Say from how many starts the body leaves 180° with the worst of some laws."""
     if share == 1.0:
-        return "even the worst law leaves 180° from every start"
-    return f"the worst law leaves 180° from {100 * share:.0f} % of these starts"
+        return "all these laws leave 180° from every start"
+    return f"the worst of these laws leaves 180° from {100 * share:.0f} % of these starts"
 
 
 def describe_trapped(rows: pd.DataFrame) -> str:
