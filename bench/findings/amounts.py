@@ -1,6 +1,6 @@
 """Counts in words, as pages and commands say them: none is a word, all is a word, and a number has its noun."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 
 
 def count(number: int, noun: str, nouns: str = "") -> str:
@@ -33,7 +33,7 @@ def capitalize(text: str) -> str:
     return f"{text[:1].upper()}{text[1:]}"
 
 
-def join_words(parts: Sequence[str]) -> str:
+def join_words(parts: Iterable[str]) -> str:
     """Return a list in words: 'a', 'a and b', 'a, b and c'; nothing of an empty list."""
-    *first, last = parts or [""]
+    *first, last = list(parts) or [""]
     return f"{', '.join(first)} and {last}" if first else last

@@ -9,9 +9,10 @@ from bench.audit.pairs import every_pair
 from bench.export.language import find_language, language_words
 from bench.export.subject import subject_words
 from bench.export.vectors import CLOSE
+from bench.findings.amounts import join_words
 from report.figures.kit import html
 from report.figures.kit.page import Run
-from report.figures.kit.spelling import listed, power
+from report.figures.kit.spelling import power
 
 FAULTS = html.Table("Fault | Description | Effect on the controller | Cure | Law without the fault")
 
@@ -20,12 +21,12 @@ def facts(_: Run) -> dict[str, Any]:
     """Return the numbers and names in the text, and a row a fault."""
     pairs = every_pair()
     return {
-        "languages": listed([find_language(word).title for word in language_words()]),
-        "words": listed([f"`{word}`" for word in language_words()]),
+        "languages": join_words([find_language(word).title for word in language_words()]),
+        "words": join_words([f"`{word}`" for word in language_words()]),
         "close": f"{CLOSE:g}",
         "subjects": len(subject_words()),
         "faults": len(every_fault()),
-        "forms": listed([f"{one.title} (`{name}`)" for name, one in FORMS.items()]),
+        "forms": join_words([f"{one.title} (`{name}`)" for name, one in FORMS.items()]),
         "pairs": len(pairs.angle),
         "smallest": power(pairs.angle[pairs.at("near-identity")].min()),
         "count": power(COUNT_RAD),

@@ -3,10 +3,10 @@
 import math
 
 from bench.experiments.situations import NOISE_RAD
+from bench.findings.amounts import join_words
 from bench.findings.selection.needs import is_unheld, measured, settles_everywhere
 from report.figures.kit import families, html, media
 from report.figures.kit.page import Run, in_run
-from report.figures.kit.spelling import listed
 
 MUJOCOS = "in-engine"
 """MuJoCo's actuator, which is the rotation vector's law."""
@@ -40,7 +40,7 @@ def describe_fates() -> str:
         angle = round(math.degrees(episode["angle0_rad"]))
         verb = "is " if episode["outcome"] == STUCK else ""
         by_start.setdefault(angle, []).append(f"{verb}{episode['says']} with {families.word(episode['contender'])}")
-    return ". ".join(f"From {angle}°, the body {listed(says)}" for angle, says in by_start.items())
+    return ". ".join(f"From {angle}°, the body {join_words(says)}" for angle, says in by_start.items())
 
 
 def count_laws(run: Run) -> dict[str, object]:

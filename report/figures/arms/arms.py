@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 
 import tasks
+from bench.findings.amounts import join_words
 from bench.findings.claims.tables import settled, share, some
 from bench.findings.on_arms import FULL, best, passed
 from bench.findings.selection.robots import ARM, decide_for
@@ -17,7 +18,7 @@ from bench.law.contenders.registry import baselines_of_arms
 from report.figures.arms import arm_rows
 from report.figures.kit import families, html, media
 from report.figures.kit.page import Run, in_run
-from report.figures.kit.spelling import listed, prose
+from report.figures.kit.spelling import prose
 
 HOMES = (
     "Renders of the four arms side by side, each in its home pose: Kinova Jaco, Franka Emika Panda, Unimation PUMA "
@@ -138,7 +139,7 @@ def lead(uniform: pd.DataFrame) -> str:
         "Motors give at most their rated torque, and joints stop at the ends of their ranges. From evenly spread "
         f"starts, {leading(uniform, 'settled').replace('(2.2) ', '')} of the episodes settle. "
         "Some arms run with three pairs of gains. On these arms the share of episodes that settle, over all laws, is "
-        f"{listed(levels or [html.UNTESTED])}. "
+        f"{join_words(levels or [html.UNTESTED])}. "
         f"A joint was at the end of its range in {percent_stopped(uniform):.0f} % of the episodes that do not settle. "
         f"The arm on which the fewest episodes settle is the {ends[0]}; the arm on which the most "
         f"episodes settle is the {ends[1]}."
@@ -151,7 +152,7 @@ def leading(rows: pd.DataFrame, measure: str) -> str:
     share_of_first = describe_share(rows, names[0], measure)
     if len(names) == 1:
         return f"{arm_rows.title(names[0])} is better than every other law. With this law, {share_of_first}"
-    words = listed(map(arm_rows.title, names)) if len(names) <= FEW else f"{len(names)} laws"
+    words = join_words(map(arm_rows.title, names)) if len(names) <= FEW else f"{len(names)} laws"
     first = arm_rows.title(names[0])
     return f"{words} do not differ significantly from the best of them, {first}. With {first}, {share_of_first}"
 

@@ -8,7 +8,7 @@ import pandas as pd
 from bench.base.files import read_json
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
-from bench.findings.amounts import count_of
+from bench.findings.amounts import count_of, join_words
 from bench.findings.theory.late_torques import find_alternating_limit, find_constant_limit
 from bench.studies.real_time.__main__ import GREATEST, HALVINGS
 from bench.studies.real_time.loop import PERIOD_S
@@ -16,7 +16,6 @@ from report.figures.arms import arm_rows
 from report.figures.kit import families, html, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
-from report.figures.kit.spelling import listed
 
 STUDY = RESULTS / "real-time"
 LOOPS = html.Table(
@@ -65,7 +64,7 @@ def facts(_: Run) -> dict:
         "apart_ms": f"{1e3 * study['time_difference_s'].max():.1f}",
         "gap": f"{100 * live_gaps.max():.1f}",
         "replay_gap": f"{100 * replay_gaps.max():.1f}",
-        "medians": listed(
+        "medians": join_words(
             f"{html.number(round(median))}/s with {substeps} substeps" for substeps, median in medians.items()
         ),
         "substeps_gap": f"{100 * (medians.max() / medians.min() - 1.0):.1f}",

@@ -5,12 +5,12 @@ from collections.abc import Iterator
 import pandas as pd
 
 from bench.experiments.suites import IDEAL_MOTORS, LISTS, NOMINAL
+from bench.findings.amounts import join_words
 from bench.findings.claims.tables import settled, some
 from bench.law.contenders.registry import contenders
 from report.figures.arms import arm_rows
 from report.figures.kit import html
 from report.figures.kit.page import Run
-from report.figures.kit.spelling import listed
 
 RULES = html.Table(
     "Rule for Λ | Arms | Episodes that settle with unlimited torque [%]:.0f | Largest torque / rated torque "
@@ -46,7 +46,7 @@ def describe_rules(rows: pd.DataFrame) -> str:
     shares, torques = (ideal.groupby("inverse")[column] for column in ("settled", "peak_torque_ratio"))
     settled, torque, cut = 100.0 * shares.mean(), torques.max(), 100.0 * real.groupby("inverse")["settled"].mean()
     others, drift = settled.index != INVERSE, 1000.0 * real.groupby("inverse")["position_error_m"].max().sort_values()
-    drifts = listed(f"{value:.0f} mm ({name_rule(word)})" for word, value in drift.items())
+    drifts = join_words(f"{value:.0f} mm ({name_rule(word)})" for word, value in drift.items())
     return (
         f"Each rule ran from {rows.groupby('arm')['start_id'].nunique().max()} starts on each arm. On the arms of six "
         f"joints with unlimited torques, {settled[INVERSE]:.0f} % of the episodes with the plain inverse settle, and "

@@ -4,6 +4,7 @@ from collections.abc import Iterable
 
 import pandas as pd
 
+from bench.findings.amounts import join_words
 from bench.findings.claims.adequacy import DETOUR
 from bench.findings.selection.needs import Decision, decide, measured
 from bench.findings.selection.robots import VELOCITY
@@ -11,7 +12,6 @@ from bench.findings.selection.words import standing
 from bench.findings.theory.velocity_limits import with_theory
 from report.figures.kit import families
 from report.figures.kit.page import Run
-from report.figures.kit.spelling import listed
 
 
 def with_law(rows: pd.DataFrame) -> pd.DataFrame:
@@ -46,7 +46,7 @@ def facts(run: Run) -> dict:
 def named(laws: Iterable[str]) -> str:
     """Laws by their short words."""
     names = [families.word(name).replace(",", "") for name in families.in_order(laws)]
-    return listed(names) if names else "no law"
+    return join_words(names) if names else "no law"
 
 
 def lead(one: Decision) -> str:

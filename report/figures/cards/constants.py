@@ -4,12 +4,11 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from bench.findings.amounts import capitalize
+from bench.findings.amounts import capitalize, join_words
 from bench.findings.constants import CONSTANTS, Constant, Varied, default_times, read_rows, vary
 from bench.findings.selection.regions import find_default
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
-from report.figures.kit.spelling import listed
 
 TABLE = html.Table(
     "Law | Constant | Value used | Other values tried "
@@ -32,7 +31,7 @@ def facts(_: Run) -> dict[str, Any]:
         "usable": int(times.map(math.isfinite).sum()),
         "starts": int(rows["starts"].max()),
         "laws": rows["regulator"].nunique(),
-        "moved": listed([families.word(law) for law in dict.fromkeys(moved)]) if moved else "no law",
+        "moved": join_words([families.word(law) for law in dict.fromkeys(moved)]) if moved else "no law",
         "table": TABLE(make_rows(varied)),
     }
 

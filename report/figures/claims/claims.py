@@ -4,13 +4,14 @@ from collections import Counter
 from collections.abc import Iterable
 
 from bench.findings import claims
+from bench.findings.amounts import join_words
 from bench.findings.claims import Verdict, Word
 from bench.findings.claims.verdict import does
 from report.figures.claims.places import read_places
 from report.figures.kit import html
 from report.figures.kit.law_names import call_laws
 from report.figures.kit.page import Run
-from report.figures.kit.spelling import listed, prose
+from report.figures.kit.spelling import prose
 
 VERDICTS = html.Table("Claim | What the paper states, in our words | Verdict | What we measured | Shown in")
 
@@ -63,7 +64,7 @@ def draw_tiles(verdicts: list[Verdict]) -> str:
     """Return a square for each claim in the colour and pattern of its verdict, and a key with the counts."""
     counts = Counter(verdict.word for verdict in verdicts)
     present = [word for word in Word if counts[word]]
-    said = listed(f"{counts[word]} {does(word, counts[word])}" for word in present)
+    said = join_words(f"{counts[word]} {does(word, counts[word])}" for word in present)
     squares = "".join(map(_square, verdicts))
     keys = "".join(
         f'<li><span class="tile {LOOKS[word]}" aria-hidden="true"></span>{counts[word]} {does(word, counts[word])}</li>'

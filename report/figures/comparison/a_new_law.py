@@ -7,7 +7,7 @@ import pandas as pd
 
 from bench.experiments.tables import read
 from bench.export.short import write_short
-from bench.findings.amounts import capitalize, count_of
+from bench.findings.amounts import capitalize, count_of, join_words
 from bench.findings.proofs.certificate import read_certificates
 from bench.findings.selection.regions import facts_of, find_default
 from bench.findings.selection.sensitivity import tune
@@ -19,7 +19,6 @@ from report.figures.cost.cost import CALLS
 from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run
-from report.figures.kit.spelling import listed
 from tasks.rules import RULES
 
 NEW = "late-braking"
@@ -44,7 +43,7 @@ def facts(run: Run) -> dict:
         "seconds": f"{proved['seconds']:.0f}",
         "lines": len([line for line in write_short(NEW).splitlines() if line]),
         "later": say_later([ratio for ratio in RATIOS if is_later(ratio)]),
-        "later_of": listed(map("{:g}".format, RATIOS)),
+        "later_of": join_words(map("{:g}".format, RATIOS)),
         **(describe_operations(spent.loc[NEW, "typical"]) if (NEW, "typical") in spent.index else {}),
         "pull": f"{max(map(LATE.spring, np.linspace(0.0, math.pi, 1801))):.2f}",  # max f
         "at_180": f"{LATE.spring(math.pi):.1f}",
@@ -74,7 +73,7 @@ def say_later(ratios: list[float]) -> str:
     if len(ratios) == len(RATIOS):
         return "at all these ratios"
     earlier = [ratio for ratio in RATIOS if ratio not in ratios]
-    late, others = (listed(map("{:g}".format, each)) for each in (ratios, earlier))
+    late, others = (join_words(map("{:g}".format, each)) for each in (ratios, earlier))
     return f"at the damping ratios {late}, but not at {others}"
 
 
@@ -109,5 +108,5 @@ def draw_springs(shown: tuple[str, ...], narrow: bool) -> Drawing:
         style.label_line(axes, 182.0, f[-1], families.word(law), style.look(law).colour)
     axes.set(xlim=(0, 180), ylim=(0, None), xticks=range(0, 181, 30))
     axes.set(xlabel="angle to the goal [deg]", ylabel="command from rest / kp")
-    ends = listed(f"{EQUATIONS[law].spring(math.pi):.1f} kp by {families.word(law)}" for law in shown)
+    ends = join_words(f"{EQUATIONS[law].spring(math.pi):.1f} kp by {families.word(law)}" for law in shown)
     return figure, f"Command from rest against the angle to the goal. At 180 degrees it is {ends}."

@@ -18,6 +18,7 @@ from matplotlib.ticker import NullLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from scipy.spatial.transform import Rotation
 
+from bench.findings.amounts import join_words
 from bench.findings.claims.side_by_side import compliances, predicted
 from report.figures.arms.arm_rows import name_arm
 from report.figures.contact import as_arms_run
@@ -25,7 +26,7 @@ from report.figures.contact.in_contact import EULER, PAPERS, PAPERS_EULER, level
 from report.figures.kit import style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run, in_run
-from report.figures.kit.spelling import listed, power
+from report.figures.kit.spelling import power
 
 PROBE = "wrench-probe"
 COLOURS = {PAPERS: style.CARTESIAN, PAPERS_EULER: style.EULER}
@@ -143,8 +144,8 @@ def describe_turns(rows: pd.DataFrame) -> dict[str, str]:
     named = dict.fromkeys(nearest(turns, beta).beta_deg for beta in BETAS if beta)
     tilted = [nearest(turns, beta) for beta in named]
     return {
-        "off": listed([f"{turn.off_deg:.0f}° at {beta_of(turn)}" for turn in tilted]),
-        "held": listed([f"{turn.held:.2g} at {beta_of(turn)}" for turn in tilted]),
+        "off": join_words([f"{turn.off_deg:.0f}° at {beta_of(turn)}" for turn in tilted]),
+        "held": join_words([f"{turn.held:.2g} at {beta_of(turn)}" for turn in tilted]),
         "off_cartesian": power(max(turn.off_deg for turn in cartesian)),
         "held_cartesian": f"{max(turn.held for turn in cartesian):.2g}",
     }

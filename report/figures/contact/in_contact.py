@@ -12,11 +12,11 @@ import pandas as pd
 from scipy.stats import fisher_exact
 
 import tasks
-from bench.findings.amounts import part_of
+from bench.findings.amounts import join_words, part_of
 from bench.findings.claims.tables import some
 from report.figures.kit import html, media
 from report.figures.kit.page import ABSENT, Run, in_run
-from report.figures.kit.spelling import listed, spell_powers
+from report.figures.kit.spelling import spell_powers
 
 CARTESIAN, EULER = "hybrid-base+inverse", "hybrid/zyx-euler+inverse"
 PAPERS, PAPERS_EULER = "hybrid-base+transpose", "hybrid/zyx-euler+transpose"
@@ -83,7 +83,7 @@ def describe_tasks(run: Run) -> dict:
     return {
         "outcomes": OUTCOMES(compare_tasks(rows)),
         **plate(rows),
-        "betas": listed([f"{beta:.0f}°" for beta in sorted(set(rows["beta_deg"]))]),
+        "betas": join_words([f"{beta:.0f}°" for beta in sorted(set(rows["beta_deg"]))]),
         "flat": flat(rows),
         "pegs": in_run(count_pegs, rows),
         "pegs_differ": compare_pegs(rows, PAPERS, PAPERS_EULER),

@@ -2,7 +2,6 @@
 
 import html
 import re
-from collections.abc import Iterable
 
 LETTERS = {"alpha": "α", "beta": "β", "gamma": "γ", "theta": "θ", "phi": "φ", "sigma": "σ", "tau": "τ"}
 LETTERS |= {"omega": "ω", "pi": "π"}
@@ -84,9 +83,3 @@ def marked_up(text: str) -> str:
 def prose(text: str) -> str:
     """Typeset text as HTML for Markdown: escape the characters that Markdown would interpret."""
     return marked_up(text).replace("_", "\\_").replace("*", "\\*")
-
-
-def listed(words: Iterable[str]) -> str:
-    """Join words by commas and an "and"."""
-    *most, last = words
-    return f"{', '.join(most)} and {last}" if most else last

@@ -14,12 +14,12 @@ import pandas as pd
 from bench.base.files import read_json
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
-from bench.findings.amounts import capitalize, count_of
+from bench.findings.amounts import capitalize, count_of, join_words
 from bench.findings.remedy import KEEP, fix_of
 from bench.studies.libraries.judge import COUNT_RAD, FORMS, SINGLE_RAD, WRONG_AXIS_RAD
 from report.figures.kit import html, spelling
 from report.figures.kit.page import Run, in_run
-from report.figures.kit.spelling import listed, power
+from report.figures.kit.spelling import power
 from report.figures.libraries import as_shipped
 
 FOLDER = RESULTS / "libraries"
@@ -189,7 +189,7 @@ def shipped_facts(run: Run) -> dict:
         "weak": f"{capitalize(weak)} apply",
         "shipped_dead": f"{capitalize(dead)} never move",
         "fixable": capitalize(count_of(len(fixed), len(own), "controllers")),
-        "kept": listed(f"`{name}`" for name in own["shipped"] if fix_of(name).words == KEEP),
+        "kept": join_words(f"`{name}`" for name in own["shipped"] if fix_of(name).words == KEEP),
     }
 
 

@@ -5,14 +5,14 @@ from typing import Any
 import pandas as pd
 
 from bench.engines.counting import RULES as COUNT_RULES
-from bench.findings.amounts import count, count_of
+from bench.findings.amounts import count, count_of, join_words
 from bench.findings.selection.needs import CHATTER
 from bench.findings.theory.closed_form import linear_settling
 from bench.law.attribution import ADAPTED, OURS, PUBLISHED
 from bench.law.contenders.registry import contenders
 from report.figures.kit import families, html
 from report.figures.kit.page import Run
-from report.figures.kit.spelling import listed, prose
+from report.figures.kit.spelling import prose
 from tasks.rules import RULES
 
 KEY = ["contender", "start_set", "start_id"]
@@ -54,8 +54,8 @@ def count_attributions() -> dict[str, Any]:
     return {
         "laws": len(laws),
         **counts,
-        "adapted_laws": listed(groups[ADAPTED]),
-        "ours_laws": listed(groups[OURS]),
+        "adapted_laws": join_words(groups[ADAPTED]),
+        "ours_laws": join_words(groups[OURS]),
     }
 
 

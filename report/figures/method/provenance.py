@@ -11,11 +11,11 @@ import pyarrow.parquet as pq
 from bench.base.provenance import ROOT
 from bench.experiments.tables import read
 from bench.experiments.tables.schema import all_tables
+from bench.findings.amounts import join_words
 from report.figures.cost.cost import timings
 from report.figures.kit import html
 from report.figures.kit.offered import OFFERED_BYTES, SITE_DATA
 from report.figures.kit.page import Run
-from report.figures.kit.spelling import listed
 
 CITATION = ROOT / "CITATION.cff"
 FACTS = html.Table("Property of the run | Value")
@@ -66,7 +66,7 @@ def facts(run: Run) -> dict[str, Any]:
         "title": said["title"],
         "version": version,
         "episodes": html.number(count_episodes(given)),
-        "kinds": listed(f"{html.number(given.get(key, 0))} {label.lower()}" for key, label in EPISODES.items()),
+        "kinds": join_words(f"{html.number(given.get(key, 0))} {label.lower()}" for key, label in EPISODES.items()),
         "run": describe_run(given),
         "tables": files,
     }

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from bench.experiments.tables import read
+from bench.findings.amounts import join_words
 from bench.findings.theory.thresholds import DELTAS, HALF_TURN, keeps, least
 from bench.law import DELTA
 from bench.law.contenders.registry import find_contender
@@ -22,7 +23,7 @@ from report.figures.kit import families, style
 from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.laws import TITLES, gains
 from report.figures.kit.page import Run
-from report.figures.kit.spelling import listed, power
+from report.figures.kit.spelling import power
 from report.figures.robustness.robustness import along, laws, starts
 
 FOOT, TOP = 1e-4, 1.6
@@ -208,7 +209,7 @@ def facts(run: Run) -> dict:
         "blind_middle": f"{100 * float(noisy.loc[middle, without_memory].max()):.0f}",
         "sided": len(on_a_side),
         "memory_middle": describe_worst(float(noisy.loc[middle, on_a_side].min())),
-        "caught": listed(trapped) if trapped else "all other laws with memory leave 180° from every start, too",
+        "caught": join_words(trapped) if trapped else "all other laws with memory leave 180° from every start, too",
         "least": power(min(jumping)),
         "most": power(max(jumping)),
         **{law: f"{keeps(law):.2f}" for law in ("hybrid", "late-braking", "mrp-linearized")},
