@@ -131,10 +131,11 @@ def _untested(controller: str, name: str = "default") -> Need:
 def _reason(law: str, folder: Path) -> str:
     shares = measure_shares(law, folder, tie=SPOKEN)
     return (
-        f"In {percent(1.0 - shares.failing.value)} of the random situations of gains and motors, the law meets our "
-        f"requirements: it settles from every start tried, does not first turn away from the goal, and is not trapped "
-        f"at 180° by a sensor error of {HELD_RAD:g} rad. In {shares.qualified} of the random situations, the law meets "
-        f"the requirements, and no other law that meets them is more than {percent(SPOKEN)} faster."
+        f"In {percent(1.0 - shares.failing.value)} of the random situations of gains and motors, "
+        "the law meets our requirements: it settles from every start tried, does not first turn "
+        f"away from the goal, and is not trapped at 180° by a sensor error of {HELD_RAD:g} rad. "
+        f"In {shares.qualified} of the random situations, the law meets the requirements, and no "
+        f"other law that meets them is more than {percent(SPOKEN)} faster."
     )
 
 
@@ -143,16 +144,18 @@ def _tested(folder: Path) -> str:
     population = find_population(folder)
     laws = len(population.qualified) + len(population.excluded)
     return (
-        f"{drawn} random situations with {laws} published and adapted laws, in simulations of a freely turning body. "
-        f"A situation has random gains, command limit, delay, control period, inertia, spin and jump of the goal"
+        f"{drawn} random situations with {laws} published and adapted laws, in simulations of a "
+        "freely turning body. A situation has random gains, command limit, delay, control "
+        "period, inertia, spin and jump of the goal"
     )
 
 
 def _condition(law: str, folder: Path) -> str:
     bounds = describe_bounds(find_bounds(law, folder=folder))
     return (
-        f"You command torque and cancel the inertia. We changed one number of the usual situation at a time. No other "
-        f"law that meets the requirements is more than {percent(SPOKEN)} faster at these values: {bounds}."
+        "You command torque and cancel the inertia. We changed one number of the usual situation "
+        f"at a time. No other law that meets the requirements is more than {percent(SPOKEN)} "
+        f"faster at these values: {bounds}."
     )
 
 
@@ -164,19 +167,21 @@ def _price_of_default(law: str, folder: Path) -> str:
         return f"{costs}; the median overshoot of the law in the random situations is {price.typical_overshoot:.1f}°"
     beside = find_price(other, folder)
     return (
-        f"{costs} ({other}: {beside.peak:.2g} kp). With gains that give both laws the same peak command, in rad/s², "
-        f"99 % of the starts settle in {price.at_equal_peak:.1f}/√peak seconds ({other}: "
-        f"{beside.at_equal_peak:.1f}/√peak seconds). The median overshoot of the law in the random situations is "
-        f"{price.typical_overshoot:.1f}° ({other}: {beside.typical_overshoot:.1f}°)"
+        f"{costs} ({other}: {beside.peak:.2g} kp). With gains that give both laws the same peak "
+        f"command, in rad/s², 99 % of the starts settle in {price.at_equal_peak:.1f}/√peak "
+        f"seconds ({other}: {beside.at_equal_peak:.1f}/√peak seconds). The median overshoot of "
+        f"the law in the random situations is {price.typical_overshoot:.1f}° ({other}: "
+        f"{beside.typical_overshoot:.1f}°)"
     )
 
 
 def _usual(law: str, folder: Path) -> Need:
     shares = measure_shares(law, folder, tie=SPOKEN)
     why = (
-        f"in {percent(1.0 - shares.failing.value)} of {shares.failing.of} random situations the law meets our "
-        f"requirements, such as to settle from every start tried; in {percent(shares.qualified.value)} of the "
-        f"situations it meets them, and no other law that meets them is more than {percent(SPOKEN)} faster"
+        f"in {percent(1.0 - shares.failing.value)} of {shares.failing.of} random situations the "
+        "law meets our requirements, such as to settle from every start tried; in "
+        f"{percent(shares.qualified.value)} of the situations it meets them, and no other law "
+        f"that meets them is more than {percent(SPOKEN)} faster"
     )
     return Need(ANY_START, law, attribute(law), why, join_words(_list_costs(law, folder)))
 

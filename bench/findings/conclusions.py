@@ -160,9 +160,9 @@ def _find_linearized(results: Results) -> str:
 def _find_feedback(results: Results) -> str:
     gain, gains = feedback_gain(results), results.gains()
     return (
-        f"With the rotation-matrix law, the time in which 99 % of the starts settle is {interval(gain)} times the "
-        f"time with feedback linearization, at kp = {gains.kp:g} and kv = {gains.kv:g}. "
-        f"{_fails_at(results, FEEDBACK, 'Feedback linearization')}."
+        "With the rotation-matrix law, the time in which 99 % of the starts settle is "
+        f"{interval(gain)} times the time with feedback linearization, at kp = {gains.kp:g} and "
+        f"kv = {gains.kv:g}. {_fails_at(results, FEEDBACK, 'Feedback linearization')}."
     )
 
 
@@ -172,8 +172,8 @@ def _find_cost(results: Results) -> str:
     if ratio is None:
         raise NoEvidence("no law of the paper was timed: run bench time")
     return (
-        f"A control step of feedback linearization takes {interval(ratio, '.1f')} times as long as a step of the "
-        f"rotation-matrix law. "
+        f"A control step of feedback linearization takes {interval(ratio, '.1f')} times as long "
+        "as a step of the rotation-matrix law. "
         f"{_name_answers(examined, 'cost less and perform better than both laws of Murphy on Euler angles')}"
     )
 
@@ -185,9 +185,10 @@ def _find_no_regulator(results: Results) -> str:
     pace = examined.laws[MATRIX].pace
     slower = Estimate(*(time / examined.small_s for time in pace))
     return (
-        f"With the cheapest law, rotation matrix, the time in which 99 % of the starts settle is "
-        f"{interval(slower, '.1f')} times the settling time of a small error, at kp = {gains.kp:g} and "
-        f"kv = {gains.kv:g}. {_name_answers(examined, 'are adequate in both cost and performance')}"
+        "With the cheapest law, rotation matrix, the time in which 99 % of the starts settle is "
+        f"{interval(slower, '.1f')} times the settling time of a small error, at kp = "
+        f"{gains.kp:g} and kv = {gains.kv:g}. "
+        f"{_name_answers(examined, 'are adequate in both cost and performance')}"
     )
 
 
@@ -195,17 +196,18 @@ def _find_jacobian(results: Results) -> str:
     both = replication.compare_jacobians(results)
     harder = Estimate(*(float(f"{ratio:.2g}") for ratio in both.harder))
     return (
-        f"When an arm passes gimbal lock, the Euler Jacobian needs {interval(harder, 'g')} times the peak torque of "
-        f"the geometric Jacobian. This is the median of {both.moves} moves of {both.arms} arms."
+        f"When an arm passes gimbal lock, the Euler Jacobian needs {interval(harder, 'g')} times "
+        f"the peak torque of the geometric Jacobian. This is the median of {both.moves} moves of "
+        f"{both.arms} arms."
     )
 
 
 def _find_compliance(results: Results) -> str:
     wrong = replication.measure_wrong_axis(results)
     return (
-        f"If two axes comply and the end effector is tilted by β = {wrong.tilt_deg:.0f}°, the end effector turns "
-        f"about an axis that is {wrong.middle:.0f}° away from the axis of the moment ({wrong.off[0]:.0f}° to "
-        f"{wrong.off[-1]:.0f}° on {len(wrong.off)} arms)."
+        f"If two axes comply and the end effector is tilted by β = {wrong.tilt_deg:.0f}°, the end "
+        f"effector turns about an axis that is {wrong.middle:.0f}° away from the axis of the "
+        f"moment ({wrong.off[0]:.0f}° to {wrong.off[-1]:.0f}° on {len(wrong.off)} arms)."
     )
 
 
@@ -218,8 +220,8 @@ def _find_answers(results: Results) -> str:
     failed = f" The advised law fails a test: {examined.tested[advised]}."
     passes = "" if advised in examined.answers else failed
     return (
-        f"{_name_answers(examined, 'pass all our tests (claim C27)')}{passes} The law {advised} settles from "
-        f"{percents(settling.share)} of the random starts."
+        f"{_name_answers(examined, 'pass all our tests (claim C27)')}{passes} The law {advised} "
+        f"settles from {percents(settling.share)} of the random starts."
     )
 
 

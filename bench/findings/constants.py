@@ -128,12 +128,12 @@ def describe(constant: Constant, every: list[Varied], default: str) -> str:
     fastest = f"{min(ratios):.2f}"
     times = fastest if fastest == slowest else f"{fastest} to {slowest}"
     said = (
-        f"With {constant.name} from {low:g} to {high:g}, {constant.law} takes {times} times as long as {default} "
-        "(median over the situations)."
+        f"With {constant.name} from {low:g} to {high:g}, {constant.law} takes {times} times as "
+        f"long as {default} (median over the situations)."
     )
     if min(ranks) == max(ranks):
         return f"{said} Its rank among the laws of the map is {min(ranks)} for each of these values."
     return (
-        f"{said} Its rank among the laws of the map is between {min(ranks)} and {max(ranks)}, so that one value does "
-        "not rank a family of laws."
+        f"{said} Its rank among the laws of the map is between {min(ranks)} and {max(ranks)}, so "
+        "that one value does not rank a family of laws."
     )

@@ -44,7 +44,8 @@ def smallest_fix(one: Law) -> Fix:
         else:
             bound = largest(free, None)
             steps.append(
-                f"for goals more than 90° away, return axis times angle, clipped to a length of at most {bound:.3g}"
+                "for goals more than 90° away, return axis times angle, clipped to a length of "
+                f"at most {bound:.3g}"
             )
             fixed = logarithm
     if HALF[0] < np.dot(free(about(DIRECTIONS[0], NEAR_RAD)), DIRECTIONS[0]) / NEAR_RAD < HALF[1]:

@@ -13,21 +13,23 @@ RULES = (
     "In each control step, all inputs of a law count as variables, also the goal R_d and the gains.",
     "Operations count as written: an expression that occurs twice counts twice, unless the code stores its result.",
     "A subtraction counts as an addition. A change of sign (-x) is free, because it only changes one bit.",
-    "A multiplication by a constant counts, even if the constant is 1 or 0. An operation on constants alone does not "
-    "count.",
-    "A call of sqrt counts as one floating-point operation (flop). Calls of sin, cos, acos and atan2 are counted "
-    "separately, in one column for each function.",
+    "A multiplication by a constant counts, even if the constant is 1 or 0. An operation on "
+    "constants alone does not count.",
+    "A call of sqrt counts as one floating-point operation (flop). Calls of sin, cos, acos and "
+    "atan2 are counted separately, in one column for each function.",
     "Each of < <= > >= counts as one comparison. After a comparison, we count only the branch that the law takes.",
-    "The operations of a function count in the stage in which the law calls the function. Functions of the "
-    "coordinates, such as the conversion from the matrix, count in stages of their own.",
-    "The typical count is the most frequent count over uniformly distributed orientations, at rest and spinning. On "
-    "an arm the typical count is the median over the starts, because the number of steps of an iterated inverse "
-    "depends on the matrix.",
-    "The worst count is the count of the state with the most operations, all kinds added. We compare all states, also "
-    "states that we chose because a law may take a rare branch there. If two states have equally many operations, we "
-    "take the count with more flops, and if these are equal too, the first count.",
-    "A law with memory is counted three times in each state: with the initial memory, with the memory that the "
-    "previous state left, and with the memory that this state left. Only the last of these counts is used for the "
-    "typical count.",
+    "The operations of a function count in the stage in which the law calls the function. "
+    "Functions of the coordinates, such as the conversion from the matrix, count in stages of "
+    "their own.",
+    "The typical count is the most frequent count over uniformly distributed orientations, at "
+    "rest and spinning. On an arm the typical count is the median over the starts, because the "
+    "number of steps of an iterated inverse depends on the matrix.",
+    "The worst count is the count of the state with the most operations, all kinds added. We "
+    "compare all states, also states that we chose because a law may take a rare branch there. If "
+    "two states have equally many operations, we take the count with more flops, and if these are "
+    "equal too, the first count.",
+    "A law with memory is counted three times in each state: with the initial memory, with the "
+    "memory that the previous state left, and with the memory that this state left. Only the last "
+    "of these counts is used for the typical count.",
 )
 """The count rules, in the order the report states them."""

@@ -18,8 +18,9 @@ from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Verdict, 
 from bench.findings.kept import keep
 
 RULE = (
-    f"The verdicts come from the continuous-time simulation ({MAIN_ENGINE}), as in the paper. We also report sampled "
-    f"simulations ({' and '.join(CHECK_ENGINES)}), but these change no verdict. A claim without data has no verdict."
+    f"The verdicts come from the continuous-time simulation ({MAIN_ENGINE}), as in the paper. We "
+    f"also report sampled simulations ({' and '.join(CHECK_ENGINES)}), but these change no "
+    "verdict. A claim without data has no verdict."
 )
 """What is common to all criteria."""
 

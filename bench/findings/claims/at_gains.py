@@ -20,8 +20,9 @@ GAINS = RESULTS / "gains"
 """Runs of the same starts at other gains, a folder each."""
 
 RULE = (
-    "The same is decided on results/reference and on every run of results/gains, whatever run is judged: where they do "
-    "not all give one word, it depends on the gains; gains at which it was not tested do not count, and are named."
+    "The same is decided on results/reference and on every run of results/gains, whatever run is "
+    "judged: where they do not all give one word, it depends on the gains; gains at which it was "
+    "not tested do not count, and are named."
 )
 
 STORED = RESULTS / "verdicts" / "verdicts.json"
@@ -177,8 +178,8 @@ def by_gains(study: dict, words: dict[str, str]) -> str:
         decided = len(one["words"].keys() - set(stale))
         if changed:
             said.append(
-                f" {decided} verdicts were tested at a damping ratio of {ratio:g}, and these change: "
-                f"{', '.join(changed)}."
+                f" {decided} verdicts were tested at a damping ratio of {ratio:g}, and these "
+                f"change: {', '.join(changed)}."
             )
         else:
             unchanged.setdefault(decided, []).append(f"{ratio:g}")

@@ -32,8 +32,8 @@ def c22(results: Results) -> tuple[Word, Evidence]:
     by_gamma = np.abs(B[:, :, 2] - [R.n for R in turns]).max()
     axes = (
         f"At {LIMIT.POSES} orientations we compare axes. The axis of alpha is the base's z axis "
-        f"(difference {rounding(by_alpha)}), and the axis of gamma is the hand's x axis (difference "
-        f"{rounding(by_gamma)})."
+        f"(difference {rounding(by_alpha)}), and the axis of gamma is the hand's x axis "
+        f"(difference {rounding(by_gamma)})."
     )
     return word, found._replace(sentence=f"{axes} {found.sentence}")
 
@@ -126,8 +126,9 @@ def c23(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         {_greatest(np.tan(beta)):.2f}. With Cartesian compliance the ratio is at most
         {_greatest(by_base):.2g}.""",
         len(rows),
-        measured=f"""The two compliances differ at {count_of(int(parted.sum()), len(parted), "poses")} where no angle is
-        zero, by {percent(least)} % or more.""",
+        measured=f"""The two compliances differ at
+        {count_of(int(parted.sum()), len(parted), "poses")} where no angle is zero, by
+        {percent(least)} % or more.""",
     )
 
 
@@ -161,8 +162,9 @@ def c24(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         about x. Z-Y-X angles are a problem at {_problems(zyx)}; with them the rotation about x is
         {zyx["yields"].min():.3f} or more of the wanted rotation.""",
         len(zyz) + len(zyx),
-        measured=f"""With compliance about x in Z-Y-Z angles, the end effector turns {done["leak"].min():.1f} to
-        {done["leak"].max():.1f} times as far about z as about x. This is a problem at {_problems(near)}.""",
+        measured=f"""With compliance about x in Z-Y-Z angles, the end effector turns
+        {done["leak"].min():.1f} to {done["leak"].max():.1f} times as far about z as about x. This
+        is a problem at {_problems(near)}.""",
     )
 
 

@@ -64,9 +64,10 @@ def c25(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         Where fewer turns comply, {count_of(int(simple["parts"].sum()), len(simple), "pairs")}
         differ.""",
         len(rows),
-        measured=f"""If the task frame is turned by {LIMIT.TURNED_DEG:g}° or more, the two Jacobians perform differently
-        in {count_of(int(turned["parts"].sum()), len(turned), "pairs")} of runs. If the frame is not turned, they
-        perform differently in {count_of(int(straight["parts"].sum()), len(straight), "pairs")}.""",
+        measured=f"""If the task frame is turned by {LIMIT.TURNED_DEG:g}° or more, the two Jacobians
+        perform differently in {count_of(int(turned["parts"].sum()), len(turned), "pairs")} of runs.
+        If the frame is not turned, they perform differently in
+        {count_of(int(straight["parts"].sum()), len(straight), "pairs")}.""",
     )
 
 
@@ -79,7 +80,8 @@ def _depends(task: str, rows: pd.DataFrame, forms: tuple[str, ...]) -> bool:
         turned, straight = own[own["is_turned"]], own[own["beta"].abs() <= LIMIT.ZERO_RAD]
         if turned.empty or straight.empty:
             raise NoEvidence(
-                f"{task} on {arm}, {form}: no frames both at beta = 0 and from {LIMIT.TURNED_DEG:g} degrees"
+                f"{task} on {arm}, {form}: no frames both at beta = 0 and from "
+                f"{LIMIT.TURNED_DEG:g} degrees"
             )
         found.append(turned["parts"].any())
     return all(found)
@@ -114,7 +116,8 @@ def _told(task: str, rows: pd.DataFrame) -> str:
     """Describe how the pairs of a task with turned and with straight frames part."""
     turned, straight = rows[rows["is_turned"]], rows[rows["beta"].abs() <= LIMIT.ZERO_RAD]
     return (
-        f"{task}, {_parted(turned)} with |beta| >= {LIMIT.TURNED_DEG:g} degrees and {_parted(straight)} with beta = 0"
+        f"{task}, {_parted(turned)} with |beta| >= {LIMIT.TURNED_DEG:g} degrees and "
+        f"{_parted(straight)} with beta = 0"
     )
 
 
@@ -148,6 +151,7 @@ def c47(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         two axes lies flush to {moment:.1e} rad; rotations that the controller holds have
         changed by at most {turn:.1e} rad at the end.""",
         len(rows),
-        measured=f"""The force differs from the commanded {LIMIT.FORCE_N:g} N by at most {percent(force)} %. A rotation
-        that the controller should keep constant changes by up to {turn:.2g} rad.""",
+        measured=f"""The force differs from the commanded {LIMIT.FORCE_N:g} N by at most
+        {percent(force)} %. A rotation that the controller should keep constant changes by up to
+        {turn:.2g} rad.""",
     )

@@ -88,8 +88,9 @@ def c20(results: Results) -> tuple[Word, Evidence]:
         {count_of(_count_failures(clear), len(clear), "clear starts")} (with the same law on the common Jacobian:
         {_count_failures(common) or "none"}). {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
-        measured=f"""The angles differ from the linear response by at most {max(limits):.1e} rad. From starts at poles,
-        {count_of(all_failures, all_poles, "episodes")} fail with (3.7) and settle with the rotation-matrix law.""",
+        measured=f"""The angles differ from the linear response by at most {max(limits):.1e} rad.
+        From starts at poles, {count_of(all_failures, all_poles, "episodes")} fail with (3.7) and
+        settle with the rotation-matrix law.""",
     )
 
 
@@ -147,7 +148,8 @@ def _hidden(results: Results, joints: int) -> tuple[bool, str]:
     seems_cheaper = seen[BY_EULER].flops < seen[ON_MATRIX].flops and seen[BY_EULER].calls <= seen[ON_MATRIX].calls
     is_dearer = by_columns(total[ON_MATRIX], total[BY_EULER]) == ORDERED
     told = "; ".join(
-        f"{seen[one].flops} of the {total[one].flops} flops of {name}, which takes {total[one].calls or 'no'} calls"
+        f"{seen[one].flops} of the {total[one].flops} flops of {name}, which takes "
+        f"{total[one].calls or 'no'} calls"
         for name, one in (("(3.7)", BY_EULER), ("(2.2) with the law on R", ON_MATRIX), ("(2.2) with (2.15)", BY_COMMON))
     )
     return seems_cheaper and is_dearer, f"On {joints} joints the law itself takes {told}."
@@ -161,8 +163,8 @@ def c26(results: Results) -> tuple[Word, Evidence]:
         three = {f"{one}+{inverse}": controller_costs(results, one, joints) for one in (BY_COMMON, ON_MATRIX, BY_EULER)}
         alone, whole = ({name: tallied(own, goal) for name, own in three.items()} for goal in (False, True))
         sizes.append(
-            f"On {joints} joints, (3.7) takes {euler_count(whole, three)} operations per control period, "
-            f"{surplus(whole, three)} % more than the cheapest controller by (2.2)."
+            f"On {joints} joints, (3.7) takes {euler_count(whole, three)} operations per control "
+            f"period, {surplus(whole, three)} % more than the cheapest controller by (2.2)."
         )
         times = standing.times_of(timed[timed["contender"].isin(list(three))])
         known = standing.Ledger(times, (alone, whole), math.nan, standing.MEASURABLE)
@@ -221,8 +223,8 @@ def c33(results: Results) -> tuple[Word, Evidence]:
     return word_of(all(is_more) and all(is_few), all(is_more)), evidence(
         f"Flops and calls per control period are: {'; '.join(told)}.",
         2 * len(told),
-        measured=f"""With the Euler Jacobian, force control needs more operations than with the common Jacobian:
-        {join_words(by_joints)}.""",
+        measured=f"""With the Euler Jacobian, force control needs more operations than with the
+        common Jacobian: {join_words(by_joints)}.""",
     )
 
 
@@ -250,14 +252,14 @@ def c46(results: Results) -> tuple[Word, Evidence]:
         sizes.append(f"{surplus(whole, whole)} % more on {joints} joints")
         is_left.append(law[BY_EULER].flops <= LIMIT.MUCH * law[ON_MATRIX].flops)
         told.append(
-            f"on {joints} joints (3.7) takes {total[BY_EULER]} flops and calls, (2.2) with (2.15) {total[BY_COMMON]}, "
-            f"(2.2) with the law on R {total[ON_MATRIX]}; the law alone {law[BY_EULER].flops} flops against "
-            f"{law[ON_MATRIX].flops} on R"
+            f"on {joints} joints (3.7) takes {total[BY_EULER]} flops and calls, (2.2) with (2.15) "
+            f"{total[BY_COMMON]}, (2.2) with the law on R {total[ON_MATRIX]}; the law alone "
+            f"{law[BY_EULER].flops} flops against {law[ON_MATRIX].flops} on R"
         )
     return word_of(all(is_less) and all(is_left), all(is_left)), evidence(
         f"In a typical control period, {'; '.join(told)}.",
         3 * len(told),
-        measured=f"""(3.7) takes more operations than the cheapest controller by (2.2): {join_words(sizes)}. The law
-        in (3.7) takes {law[BY_EULER].flops} of these operations, the rotation-matrix law takes
-        {law[ON_MATRIX].flops}.""",
+        measured=f"""(3.7) takes more operations than the cheapest controller by (2.2):
+        {join_words(sizes)}. The law in (3.7) takes {law[BY_EULER].flops} of these operations, the
+        rotation-matrix law takes {law[ON_MATRIX].flops}.""",
     )

@@ -54,8 +54,9 @@ def c13(results: Results) -> tuple[Word, Evidence]:
         {axis[1]:.3f} decades for angle and axis (to {axis[2]:.1e}). For the rotation vector it is at most
         {vector[2]:.5f}.""",
         3 * len(tables),
-        measured=f"""Towards zero rotation, the condition number of the matrix B of Z-Y-Z angles rises to
-        {zyz[2]:.1e}. That of the matrix B of the rotation vector stays at {vector[2]:.4f} or less.""",
+        measured=f"""Towards zero rotation, the condition number of the matrix B of Z-Y-Z angles
+        rises to {zyz[2]:.1e}. That of the matrix B of the rotation vector stays at {vector[2]:.4f}
+        or less.""",
     )
 
 
@@ -110,8 +111,8 @@ def c14(results: Results) -> tuple[Word, Evidence]:
         law {"settles" if settled(about_y).all() else "does not settle"}; it settles from
         {settled_of(poles, "exact poles")}. {so}.""",
         len(least) + len(about_y) + len(poles),
-        measured=f"""The smallest singular value of B is {least[180]:.3g} at a rotation of 180° about y, and
-        {rounding(least[90])} at a rotation of 90°.""",
+        measured=f"""The smallest singular value of B is {least[180]:.3g} at a rotation of 180°
+        about y, and {rounding(least[90])} at a rotation of 90°.""",
     )
 
 
@@ -137,8 +138,9 @@ def c15(results: Results) -> tuple[Word, Evidence]:
         by {moved[-1, "sum"]:.0e} at -90 degrees. If their difference stays, R changes by {moved[1, "difference"]:.0e}
         at +90 degrees and by {moved[-1, "difference"]:.1g} at -90 degrees. {so}.""",
         4 * len(grid) ** 2,
-        measured=f"""If alpha and gamma change and their sum stays the same, elements of R change by up to
-        {moved[1, "sum"]:.1g} at beta = +90°, and by up to {moved[-1, "sum"]:.0e} at beta = -90°.""",
+        measured=f"""If alpha and gamma change and their sum stays the same, elements of R change by
+        up to {moved[1, "sum"]:.1g} at beta = +90°, and by up to {moved[-1, "sum"]:.0e} at beta =
+        -90°.""",
     )
 
 
@@ -160,8 +162,8 @@ def c16(results: Results) -> tuple[Word, Evidence]:
         the next is
         {float(values[:, 1].min()):.2f}. {so}.""",
         len(frame),
-        measured=f"""At {len(frame):,} orientations, the elements of B are at most {largest:.3g}. {len(at_poles)} of
-        these orientations are poles, where B^-1 does not exist.""",
+        measured=f"""At {len(frame):,} orientations, the elements of B are at most {largest:.3g}.
+        {len(at_poles)} of these orientations are poles, where B^-1 does not exist.""",
     )
 
 
@@ -181,7 +183,8 @@ def c28(results: Results) -> tuple[Word, Evidence]:
         rotation, to {plane:.0e} rad.""",
         2 * len(ends) + len(loops),
         measured=f"""The integrals of omega along two paths to one orientation differ by
-        {interval(quantile_estimate(ends, 0.5), ".2f")} rad. This is the median of {len(ends)} pairs of paths.""",
+        {interval(quantile_estimate(ends, 0.5), ".2f")} rad. This is the median of {len(ends)} pairs
+        of paths.""",
     )
 
 

@@ -80,8 +80,9 @@ def c18(results: Results) -> tuple[Word, Evidence]:
         condition number of J at {worse}. The largest element of J_E is nowhere below {rows["largest"].min():.2f}, so
         that only its determinant is ever zero.""",
         len(rows),
-        measured=f"""At 1e-{LIMIT.NEAREST} rad from a pole, elements of J_E are up to {ways["nearest"].max():.1e}. In
-        {percent_interval(worse)} of random poses, the condition number of J_E is more than ten times that of J.""",
+        measured=f"""At 1e-{LIMIT.NEAREST} rad from a pole, elements of J_E are up to
+        {ways["nearest"].max():.1e}. In {percent_interval(worse)} of random poses, the condition
+        number of J_E is more than ten times that of J.""",
     )
 
 
@@ -124,8 +125,8 @@ def c19(results: Results) -> tuple[Word, Evidence]:
         of the forward kinematics differ by at most {measured.max():.1f} eps^(2/3) / cos(beta). Poses left out, because
         an angle jumps between both ends of a difference: {len(differenced) - len(kept)}.""",
         len(rows),
-        measured=f"""At {len(rows):,} poses, the two derivations differ by at most {derived.max():.1f} eps / cos(beta),
-        which is rounding (eps = 2.2e-16).""",
+        measured=f"""At {len(rows):,} poses, the two derivations differ by at most
+        {derived.max():.1f} eps / cos(beta), which is rounding (eps = 2.2e-16).""",
     )
 
 
@@ -206,9 +207,9 @@ def c44(results: Results) -> tuple[Word, Evidence]:
         all masses {LIMIT.OFF.partition("-")[2]} times the model's, it misses u by {typical:.2g} times u, in the
         median.""",
         2 * LIMIT.POSES * len(arms),
-        measured=f"""In {LIMIT.POSES * len(arms)} states, the hand's acceleration differs from the input u by at most
-        {exact:.0e} |u|. If all masses are {LIMIT.OFF.partition("-")[2]} times those of the model, the median difference
-        is {typical:.2g} |u|.""",
+        measured=f"""In {LIMIT.POSES * len(arms)} states, the hand's acceleration differs from the
+        input u by at most {exact:.0e} |u|. If all masses are {LIMIT.OFF.partition("-")[2]} times
+        those of the model, the median difference is {typical:.2g} |u|.""",
     )
 
 

@@ -55,8 +55,9 @@ def c09(results: Results) -> tuple[Word, Evidence]:
     if not from_rest:
         gains = results.gains()
         raise NoEvidence(
-            f"random starts of {CONTENDER} from rest with these gains are not tested; map them first: bench map "
-            f"--regulator {CONTENDER} --kp {gains.kp:g} --kv {gains.kv:g} --speed 0 --out results/maps/NAME"
+            f"random starts of {CONTENDER} from rest with these gains are not tested; map them "
+            f"first: bench map --regulator {CONTENDER} --kp {gains.kp:g} --kv {gains.kv:g} "
+            "--speed 0 --out results/maps/NAME"
         )
     resting = max(from_rest, key=lambda one: one.share.high)
     lost_at_rest = resting.share.high
@@ -71,8 +72,9 @@ def c09(results: Results) -> tuple[Word, Evidence]:
         +-pi; {settled_of(pole, "starts")} exactly on a pole; {settled_of(goals, "goals")} ({long_way} of these goals by
         unwinding).""",
         len(rows) + sum(one.starts for one in spun) + len(near) + len(goals),
-        measured=f"""The angles differ from the linear response by at most {max(bends):.1e} rad. Of {resting.starts:,}
-        random starts at rest, {percent_interval(resting.share)} never settle.""",
+        measured=f"""The angles differ from the linear response by at most {max(bends):.1e} rad. Of
+        {resting.starts:,} random starts at rest, {percent_interval(resting.share)} never
+        settle.""",
     )
 
 
@@ -104,8 +106,8 @@ def c10(results: Results) -> tuple[Word, Evidence]:
         {slope:.3f}, up to {grown:.1e} rad/s^2. Across +-pi the command jumps by {float(jumps.min()):.4f} to
         {float(jumps.max()):.4f} times 2 pi Kp.""",
         len(commands) + len(exact) + len(jumps),
-        measured=f"""{capitalize(count_of(finite, len(commands), "commands"))} at exact poles are finite. At +-pi the
-        command jumps by {float(jumps.max()):.4f} times 2 pi Kp.""",
+        measured=f"""{capitalize(count_of(finite, len(commands), "commands"))} at exact poles are
+        finite. At +-pi the command jumps by {float(jumps.max()):.4f} times 2 pi Kp.""",
     )
 
 
@@ -160,8 +162,9 @@ def c11(results: Results, engine: str) -> tuple[Word, Evidence]:
         that never come within {widest} rad of a pole,
         {count_of(int(erratic[clear.index].sum()), len(clear), "starts")} are erratic.""",
         len(frame) + sum(len(one) for one in beside),
-        measured=f"""Outside the excluded region, {count_of(resting[0], int((~spins).sum()), "starts at rest")} pass the
-        boundary points erratically. Of {probes.BESIDE} starts that spin at {probes.SPEED:g} rad/s near a pole,
+        measured=f"""Outside the excluded region,
+        {count_of(resting[0], int((~spins).sum()), "starts at rest")} pass the boundary points
+        erratically. Of {probes.BESIDE} starts that spin at {probes.SPEED:g} rad/s near a pole,
         {passed[0] or "none"} pass them erratically.""",
     )
 
@@ -199,9 +202,9 @@ def c30(results: Results) -> tuple[Word, Evidence]:
         after the inertia in multiples of the model's. {told}. A linear system of twice the inertia is slowed by
         {heavy / linear:.2f}.""",
         sum(map(len, runs)),
-        measured=f"""Errors of B are not tested. If the inertia is {heaviest:g} times that of the model, the settling
-        time of feedback linearization grows to {own_slow:.2f} times its value, and that of the rotation-matrix law to
-        {other_slow:.2f} times.""",
+        measured=f"""Errors of B are not tested. If the inertia is {heaviest:g} times that of the
+        model, the settling time of feedback linearization grows to {own_slow:.2f} times its value,
+        and that of the rotation-matrix law to {other_slow:.2f} times.""",
         instead=f"""We did not test whether an error of B or of Bdot is a problem. We judged a statement of our own:
         feedback linearization needs no better model of the inertia than the rotation-matrix law. This statement
         {of_inertia}.""",

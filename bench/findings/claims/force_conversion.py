@@ -40,7 +40,8 @@ def c21(results: Results) -> tuple[Word, Evidence]:
     poses, least = looped["pose"].nunique(), SUITES["quick"].in_contact.redundant_poses or 0
     if results.folder and poses < least:
         raise NoEvidence(
-            f"hybrid/{COORDINATES} ran {PROBE} at {poses} poses of the {least} that the claim needs: {WHOLE}"
+            f"hybrid/{COORDINATES} ran {PROBE} at {poses} poses of the {least} that the claim "
+            f"needs: {WHOLE}"
         )
     residual = looped["work_residual"] * np.cos(looped["beta"]) / EPS
     found, elsewhere = results.found_by(experiment)
@@ -64,8 +65,8 @@ def c21(results: Results) -> tuple[Word, Evidence]:
         amplifies a moment up to {found.loc[~poles, "gain"].max():.1e} times, as 1 / cos(beta) predicts.""",
         len(found) + len(looped),
         measured=f"""At {len(found):,} orientations, the work in both coordinates is the same to
-        {found["gap"].max() / EPS:.1f} eps (rounding). Near the poles, the controller amplifies moments up to
-        {found.loc[~poles, "gain"].max():.1e} times.""",
+        {found["gap"].max() / EPS:.1f} eps (rounding). Near the poles, the controller amplifies
+        moments up to {found.loc[~poles, "gain"].max():.1e} times.""",
     )
 
 

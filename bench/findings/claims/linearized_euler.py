@@ -67,8 +67,8 @@ def c06(results: Results, engine: str) -> tuple[Word, Evidence]:
         it {outside}. Of the box set's starts inside the box, {directed} settle. The uniform starts that do not settle
         end {ends}. {failure} {capitalize(count_of(len(sure), len(every), "starts"))} converge.""",
         len(every) + len(fails),
-        measured=f"""Of {whole.n:,} uniform starts, {percent_interval(whole)} settle. Of the uniform starts in the
-        claimed range of angles, {percent(inside.value)} % settle.""",
+        measured=f"""Of {whole.n:,} uniform starts, {percent_interval(whole)} settle. Of the uniform
+        starts in the claimed range of angles, {percent(inside.value)} % settle.""",
     )
 
 
@@ -101,8 +101,9 @@ def c07(results: Results, engine: str) -> tuple[Word, Evidence]:
         From rest beside the pole, {settled_of(beside, "starts")} that converge settle; {len(poles) - len(beside)}
         starts do not converge.""",
         len(frame) + len(poles),
-        measured=f"""Of {len(passing)} starts whose path comes close to a pole, {percent_interval(lost_passing)} never
-        settle. Of the other starts, {percent(lost_rest.value)} % never settle.""",
+        measured=f"""Of {len(passing)} starts whose path comes close to a pole,
+        {percent_interval(lost_passing)} never settle. Of the other starts,
+        {percent(lost_rest.value)} % never settle.""",
     )
 
 
@@ -125,8 +126,9 @@ def c08(results: Results, engine: str) -> tuple[Word, Evidence]:
         {math.degrees(math.acos(held_goals.least_cosine(0.0, results.gains()))):.1f} degrees at beta_d = 0 and under 90
         degrees at the poles, whatever gamma_d is. As printed, the command u contains no goal.""",
         base.n + cure.n + zero.n + near.n,
-        measured=f"""The law that subtracts the angles E_d of the goal reaches {percent_interval(base)} of {base.n}
-        goals. With angles measured from the goal, the law reaches {percent(cure.value)} % of these goals.""",
+        measured=f"""The law that subtracts the angles E_d of the goal reaches
+        {percent_interval(base)} of {base.n} goals. With angles measured from the goal, the law
+        reaches {percent(cure.value)} % of these goals.""",
     )
 
 
@@ -151,8 +153,9 @@ def c29(results: Results) -> tuple[Word, Evidence]:
         {by_angle}. Larger rotations of {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} rad
         were tried too: every settling time is within {100 * LOOSE_SETTLING:.0f} % up to {within:g} rad.""",
         LIMIT.DIRECTIONS * (small.size + len(LIMIT.LARGER_RAD)),
-        measured=f"""For rotations of at most {max(SMALL_ANGLES):g} rad about {LIMIT.DIRECTIONS} axes, settling times
-        differ from those of the linear model by at most {percent(small.max())} %.""",
+        measured=f"""For rotations of at most {max(SMALL_ANGLES):g} rad about {LIMIT.DIRECTIONS}
+        axes, settling times differ from those of the linear model by at most {percent(small.max())}
+        %.""",
     )
 
 
@@ -180,9 +183,9 @@ def c37(results: Results) -> tuple[Word, Evidence]:
         the law {is_satisfactory}: {count_of(outside.k, outside.n, "starts")} settle in time."""
         if inside.low >= LIMIT.REASONABLE
         else "",
-        measured=f"""We took uniform starts at {LIMIT.BEYOND_RAD:g} rad or more. Of those with |alpha| < pi/2,
-        {percent_interval(inside)} settle in time, that is in {LIMIT.PACE * small:.2f} s. Of the others,
-        {percent(outside.value)} % do.""",
+        measured=f"""We took uniform starts at {LIMIT.BEYOND_RAD:g} rad or more. Of those with
+        |alpha| < pi/2, {percent_interval(inside)} settle in time, that is in
+        {LIMIT.PACE * small:.2f} s. Of the others, {percent(outside.value)} % do.""",
     )
 
 
@@ -208,8 +211,8 @@ def c38(results: Results) -> tuple[Word, Evidence]:
         len(rows) + 3 * len(LIMIT.ALONE_RAD),
         instead=f"""{percent(unsettled.value)} % of the starts outside the linear region are lost, and settling times
         are {percent(typical)} % off the linear model's time, in the median.""",
-        measured=f"""{percent_interval(unsettled)} of the starts never settle. The median settling time of the others
-        is {percent(typical)} % off that of the linear model.""",
+        measured=f"""{percent_interval(unsettled)} of the starts never settle. The median settling
+        time of the others is {percent(typical)} % off that of the linear model.""",
     )
 
 
@@ -226,8 +229,8 @@ def c39(results: Results) -> tuple[Word, Evidence]:
     kept = [speed for speed, worst in by_speed.items() if worst <= LIMIT.AS_WELL]
     fastest, worst_ratio = max(by_speed.index), float(by_speed.max())
     measured = (
-        f"For goals that move at up to {fastest:g} rad/s, the error of the linearized law is at most {worst_ratio:.2f} "
-        "times the error of the rotation-matrix law."
+        f"For goals that move at up to {fastest:g} rad/s, the error of the linearized law is at "
+        f"most {worst_ratio:.2f} times the error of the rotation-matrix law."
     )
     if not np.isfinite(worst_ratio):
         measured = f"The linearized law does not follow all goals that move at up to {fastest:g} rad/s."
@@ -263,8 +266,9 @@ def c45(results: Results) -> tuple[Word, Evidence]:
         f"""We took central differences of (2.11) at zero. Largest difference of the derivatives by u from the
         permutation of (2.14): {rounding(off)}. Largest derivative by the angles or their rates: {rounding(rest)}.""",
         2 * 9,
-        measured=f"""The derivatives of (2.11) with respect to u differ from the permutation matrix of (2.14) by
-        {_at_most(off)}. The derivatives with respect to the angles and their rates are {_at_most(rest)}.""",
+        measured=f"""The derivatives of (2.11) with respect to u differ from the permutation matrix
+        of (2.14) by {_at_most(off)}. The derivatives with respect to the angles and their rates are
+        {_at_most(rest)}.""",
     )
 
 

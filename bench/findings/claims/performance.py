@@ -221,7 +221,8 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
         A small error settles in {small:.3f} s, and {adequacy.SLOW * small:.3f} s is the longest adequate time.""",
         sum(law.rows + held.get(law.name, (0, 0))[1] for law in later),
         instead=instead,
-        measured=f"""{capitalize(count_of(len(answers), len(later), "later laws"))} pass all eight tests. {rest}""",
+        measured=f"""{capitalize(count_of(len(answers), len(later), "later laws"))} pass all eight
+        tests. {rest}""",
         numbers=(ANSWERS, *(_answer(law, tested[law.name], known) for law in (*answers, *others))),
     )
 
@@ -293,8 +294,8 @@ def c31(results: Results) -> tuple[Word, Evidence]:
         instead=f"""Until {100 * LIMIT.NEARLY_ALL:.0f} % of the starts have settled, the rotation-matrix law takes
         {longer[0]} times as long as feedback linearization. The rotation-matrix law settles from
         {count_of(matrix.k, matrix.n, "starts")}.""",
-        measured=f"""Until 99 % of the starts have settled, the rotation-matrix law takes {longer[0]} times as long as
-        feedback linearization.""",
+        measured=f"""Until 99 % of the starts have settled, the rotation-matrix law takes
+        {longer[0]} times as long as feedback linearization.""",
         numbers=(
             (
                 "Law",
@@ -342,9 +343,9 @@ def c35(results: Results) -> tuple[Word, Evidence]:
         f"""Reasonable laws: {", ".join(reasonable) or "none"}. Shares that settle and median times are: {told}. A
         small error settles in {small:.3f} s.""",
         sum(one.n for _, one, _ in found),
-        measured=f"""Of {matrix.n:,} uniform starts, {percent(matrix.value)} % settle with the rotation-matrix law,
-        {percent_interval(linearized)} with the linearized law, and {percent(feedback.value)} % with feedback
-        linearization.""",
+        measured=f"""Of {matrix.n:,} uniform starts, {percent(matrix.value)} % settle with the
+        rotation-matrix law, {percent_interval(linearized)} with the linearized law, and
+        {percent(feedback.value)} % with feedback linearization.""",
     )
 
 
@@ -355,10 +356,10 @@ def c36(results: Results) -> tuple[Word, Evidence]:
     three = some([one for one in adequacy.every(results, MAIN_ENGINE) if one.name in THREE], "law of the paper")
     tested = {law.name: adequacy.examine(law, known, small, {}).among(LIMIT.TESTS) for law in three}
     told = "; ".join(
-        f"{one.name.partition('/')[0]} {tested[one.name].in_words()} ({percent(one.settled)} % of {one.n:,} settle, "
-        f"{count_of(one.lost, one.directed, 'directed starts')} are lost, "
-        f"{one.lost_exact} starts exactly on a boundary are lost, "
-        f"time for 99 % of the starts: {tables.interval_or_never(one.pace, '.2f', ' s')})"
+        f"{one.name.partition('/')[0]} {tested[one.name].in_words()} ({percent(one.settled)} % of "
+        f"{one.n:,} settle, {count_of(one.lost, one.directed, 'directed starts')} are lost, "
+        f"{one.lost_exact} starts exactly on a boundary are lost, time for 99 % of the starts: "
+        f"{tables.interval_or_never(one.pace, '.2f', ' s')})"
         for one in three
     )
     word = word_of(len(three) == len(THREE) and all(result.failed for result in tested.values()), False)
@@ -373,6 +374,6 @@ def c36(results: Results) -> tuple[Word, Evidence]:
     return word, evidence(
         f"{told}.",
         sum(law.rows for law in three),
-        measured=f"""Of the starts exactly on a boundary (a 180° rotation, a pole or ±π), these do not settle:
-        {on_boundary}.""",
+        measured=f"""Of the starts exactly on a boundary (a 180° rotation, a pole or ±π), these do
+        not settle: {on_boundary}.""",
     )

@@ -37,9 +37,9 @@ def c40(results: Results) -> tuple[Word, Evidence]:
         second matrix has the same three elements left and meets (2.5) to {left:.0e}. It is at least {apart:.2f} away
         from the first matrix, in the median.""",
         LIMIT.MATRICES * len(trios),
-        measured=f"""{capitalize(count_of(len(possible), len(trios), "choices"))} of three elements can be eliminated.
-        For each of these, a second rotation matrix has the same three remaining elements. In the median, the two
-        matrices differ by {apart:.2f} or more in one element.""",
+        measured=f"""{capitalize(count_of(len(possible), len(trios), "choices"))} of three elements
+        can be eliminated. For each of these, a second rotation matrix has the same three remaining
+        elements. In the median, the two matrices differ by {apart:.2f} or more in one element.""",
     )
 
 
@@ -103,8 +103,9 @@ def c41(results: Results) -> tuple[Word, Evidence]:
         {max(spread.values()):.0e}. The line is at beta = pi/2 for Z-Y-X angles and for roll, pitch and yaw, and at zero
         rotation for the others.""",
         2 * len(pairs) * LIMIT.MATRICES,
-        measured=f"""In {len(pairs)} representations and at {LIMIT.MATRICES} orientations, two different sets of
-        variables give the same rotation matrix. The elements differ by at most {max(twice.values()):.0e}.""",
+        measured=f"""In {len(pairs)} representations and at {LIMIT.MATRICES} orientations, two
+        different sets of variables give the same rotation matrix. The elements differ by at most
+        {max(twice.values()):.0e}.""",
     )
 
 
@@ -136,8 +137,8 @@ def c42(results: Results) -> tuple[Word, Evidence]:
         and pi/2 if they differ. At a middle angle of 0.8 rad the smallest singular value is at least
         {regular:.2f}.""",
         2 * len(FORMS) * LIMIT.PAIRS,
-        measured=f"""Each of the {len(FORMS)} forms has an orientation where the smallest singular value of B is
-        {max(least.values()):.0e} or less.""",
+        measured=f"""Each of the {len(FORMS)} forms has an orientation where the smallest singular
+        value of B is {max(least.values()):.0e} or less.""",
     )
 
 
@@ -171,6 +172,6 @@ def c43(results: Results) -> tuple[Word, Evidence]:
         times as far in one direction as in another, in the median. Equal errors of a small
         rotation vector turn it equally far in all directions. C22 to C25 judge compliance.""",
         2 * LIMIT.MATRICES,
-        measured=f"""A straight line in Z-Y-X angles is {interval(longer, ".2f")} times as long as the shortest path.
-        This is the median of {LIMIT.MATRICES} pairs of orientations.""",
+        measured=f"""A straight line in Z-Y-X angles is {interval(longer, ".2f")} times as long as
+        the shortest path. This is the median of {LIMIT.MATRICES} pairs of orientations.""",
     )

@@ -64,8 +64,8 @@ def c01(results: Results, engine: str) -> tuple[Word, Evidence]:
         not settle: {len(left):,}. Starts among them that begin exactly 180° from the goal: {exactly:,}. Of the uniform
         starts, {uniform} settle.""",
         len(frame),
-        measured=f"""Of {uniform.n:,} uniform starts, {percent_interval(uniform)} settle. Of all {len(frame):,} starts
-        with this law, {unstable or "none"} diverge.""",
+        measured=f"""Of {uniform.n:,} uniform starts, {percent_interval(uniform)} settle. Of all
+        {len(frame):,} starts with this law, {unstable or "none"} diverge.""",
     )
 
 
@@ -88,8 +88,9 @@ def c02(results: Results) -> tuple[Word, Evidence]:
         {min(times):.3f} to {max(times):.3f} s ({closed_form.linear_settling(*Gains()):.4f} s at the paper's gains). The
         simulated times differ from it by at most {percent(largest)} %.""",
         count,
-        measured=f"""We chose gains for settling times of {min(times):.2f} to {max(times):.2f} s. The settling times of
-        {count} small rotations differ from the chosen times by at most {percent(largest)} %.""",
+        measured=f"""We chose gains for settling times of {min(times):.2f} to {max(times):.2f} s.
+        The settling times of {count} small rotations differ from the chosen times by at most
+        {percent(largest)} %.""",
     )
 
 
@@ -120,8 +121,9 @@ def c03(results: Results, engine: str) -> tuple[Word, Evidence]:
         {capitalize(count_of(len(exact) - len(stay), len(exact), "exact 180° rotations"))} settle
         within {float(exact["horizon_s"].min()):g} s.""",
         len(uniform) + len(turns),
-        measured=f"""For each rad of the initial angle, settling takes {interval_or_never(growth, ".3f", " s")} longer.
-        At exactly 180°, {count_of(len(exact) - len(stay), len(exact), "starts")} settle.""",
+        measured=f"""For each rad of the initial angle, settling takes
+        {interval_or_never(growth, ".3f", " s")} longer. At exactly 180°,
+        {count_of(len(exact) - len(stay), len(exact), "starts")} settle.""",
     )
 
 
@@ -148,8 +150,9 @@ def c04(results: Results, engine: str) -> tuple[Word, Evidence]:
         at {parallel} rotations (axes x, y, z). At the other {len(exact) - parallel} rotations the products cancel only
         in their sum; the largest product is {max(products):.2f}.""",
         len(exact),
-        measured=f"""At {len(exact)} rotations by 180°, the largest orientation error of the law is {largest:.1g}. At
-        {parallel} of these rotations (about x, y and z), each of the three cross products is zero.""",
+        measured=f"""At {len(exact)} rotations by 180°, the largest orientation error of the law is
+        {largest:.1g}. At {parallel} of these rotations (about x, y and z), each of the three cross
+        products is zero.""",
     )
 
 
@@ -176,9 +179,9 @@ def c05(results: Results) -> tuple[Word, Evidence]:
         {least:.1e}. (b) At {cancel} of {len(exact)} exact 180° rotations the cross products are not zero, but their sum
         is zero.""",
         len(frame) + states + len(exact),
-        measured=f"""The sum of the cross products is zero at {cancel} of {len(exact)} rotations by 180°, where the
-        single products are not zero. At other orientations, the error |e| is at least {lowest:.4f} times the sine of
-        the angle.""",
+        measured=f"""The sum of the cross products is zero at {cancel} of {len(exact)} rotations by
+        180°, where the single products are not zero. At other orientations, the error |e| is at
+        least {lowest:.4f} times the sine of the angle.""",
     )
 
 

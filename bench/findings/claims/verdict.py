@@ -252,7 +252,7 @@ def decide(claim: Claim, results: Any) -> Verdict:
     word, evidence = claim.judge(results)
     if evidence.rows < 1:
         raise NoEvidence(
-            f"{claim.id}: no row of {', '.join(evidence.tables) or 'any table'} speaks of it; run the suite "
-            "'quick', 'default' or 'full' without narrowing it"
+            f"{claim.id}: no row of {', '.join(evidence.tables) or 'any table'} speaks of it; run "
+            "the suite 'quick', 'default' or 'full' without narrowing it"
         )
     return Verdict(claim, word, evidence)

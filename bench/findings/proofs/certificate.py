@@ -25,8 +25,8 @@ DRAWN = "drawn states"
 """Method of a lemma that is checked and not proved: a law's numbers are those of its trace."""
 PROVED, REFUTED, NOT_PROVED = "proved", "refuted", "not proved"
 SCOPE = (
-    "in continuous time, with exact numbers and the exact state, no bound of the command, no delay, and the inertia as "
-    "modelled"
+    "in continuous time, with exact numbers and the exact state, no bound of the command, no "
+    "delay, and the inertia as modelled"
 )
 """What a property is about, wherever it is said to be proved."""
 WITH_TIME = "spring-and-damper"
@@ -175,8 +175,8 @@ def describe_sampled(certificate: dict[str, Any]) -> str:
         return "We did not simulate this law with a sampled command."
     starts = count_of(measured["settled"], measured["starts"], "starts")
     return (
-        f"In a simulation with the paper's gains and a control period of {1e3 * measured['period_s']:g} ms, the body "
-        f"settles from {starts} that were tried."
+        "In a simulation with the paper's gains and a control period of "
+        f"{1e3 * measured['period_s']:g} ms, the body settles from {starts} that were tried."
     )
 
 

@@ -31,8 +31,8 @@ def standing(one: Decision, called: Called) -> str:
         return "No other published or adapted law of this run meets these conditions."
     if not one.tied:
         return (
-            f"{len(one.asked)} published or adapted laws meet these conditions. The advised law is at least as good as "
-            "the others on every criterion and better on one."
+            f"{len(one.asked)} published or adapted laws meet these conditions. The advised law "
+            "is at least as good as the others on every criterion and better on one."
         )
     return f"The law ties with {together([called(law) for law in one.tied])} and is the simplest of these laws."
 
@@ -132,12 +132,14 @@ def describe_shares(law: str, folder: Path = STUDY) -> str:
     close = measure_shares(law, folder)
     laws = len(population.qualified) + len(population.excluded)
     return (
-        f"In {percent(shares.qualified.value)} of {shares.qualified.of} random situations, no other law that meets the "
-        f"requirements is more than {percent(SPOKEN)} faster. If the law is compared with all {laws} published and "
-        f"adapted laws of the map, the share is {percent(shares.all.value)}; {len(population.excluded)} of these laws "
-        f"fail a requirement in every situation. If a law that is {percent(RULE.tie)} faster counts as faster, the two "
-        f"shares are {percent(close.qualified.value)} and {percent(close.all.value)}. In "
-        f"{percent(shares.losing.value)} of the situations, the law itself never settles from some starts."
+        f"In {percent(shares.qualified.value)} of {shares.qualified.of} random situations, no "
+        f"other law that meets the requirements is more than {percent(SPOKEN)} faster. If the law "
+        f"is compared with all {laws} published and adapted laws of the map, the share is "
+        f"{percent(shares.all.value)}; {len(population.excluded)} of these laws fail a "
+        f"requirement in every situation. If a law that is {percent(RULE.tie)} faster counts as "
+        f"faster, the two shares are {percent(close.qualified.value)} and "
+        f"{percent(close.all.value)}. In {percent(shares.losing.value)} of the situations, the "
+        "law itself never settles from some starts."
     )
 
 
@@ -151,8 +153,9 @@ def describe_lines(law: str, called: Called = str, folder: Path = STUDY) -> str:
     if qualified == "none":
         return f"{first} and meets the requirements. Laws that fail a requirement are faster at: {everything}."
     return (
-        f"{first}, except at: {everything}. The brackets name the fastest law, and say how much faster it is. Laws "
-        f"that meet the requirements are more than {percent(SPOKEN)} faster at: {qualified}."
+        f"{first}, except at: {everything}. The brackets name the fastest law, and say how much "
+        f"faster it is. Laws that meet the requirements are more than {percent(SPOKEN)} faster "
+        f"at: {qualified}."
     )
 
 
@@ -170,11 +173,13 @@ def describe_law_of_ours(law: str, called: Called = str, folder: Path = STUDY) -
     """Say in how many drawn situations a law of ours is faster than the advised one, and beaten by no law of a set."""
     shares = measure_shares(law, folder, tie=SPOKEN)
     return (
-        f"We do not advise our own law, {called(law)} (2026, simulation only, not reviewed). Our law is more than "
-        f"{percent(SPOKEN)} faster than the advised law in {percent(compare_with_advised(law, folder).value)} of the "
-        f"random situations. In {percent(shares.qualified.value)} of the random situations our law meets the "
-        f"requirements, and no published or adapted law that meets them is more than {percent(SPOKEN)} faster. If "
-        f"our law is compared with all published and adapted laws, the share is {percent(shares.all.value)}."
+        f"We do not advise our own law, {called(law)} (2026, simulation only, not reviewed). Our "
+        f"law is more than {percent(SPOKEN)} faster than the advised law in "
+        f"{percent(compare_with_advised(law, folder).value)} of the random situations. In "
+        f"{percent(shares.qualified.value)} of the random situations our law meets the "
+        "requirements, and no published or adapted law that meets them is more than "
+        f"{percent(SPOKEN)} faster. If our law is compared with all published and adapted laws, "
+        f"the share is {percent(shares.all.value)}."
     )
 
 
@@ -186,10 +191,11 @@ def describe_price(law: str, folder: Path = STUDY, called: Called = str) -> str:
         return f"The law commands up to {price.peak:.1f} kp."
     beside = find_price(other, folder)
     return (
-        f"The price: the law commands up to {price.peak:.1f} kp ({called(other)}: {beside.peak:.1f} kp). With gains "
-        f"that give both laws the same peak command, in rad/s², 99 % of the starts settle in "
-        f"{price.at_equal_peak:.1f}/√peak seconds ({called(other)}: {beside.at_equal_peak:.1f}/√peak seconds). The "
-        f"median overshoot in the random situations is {price.typical_overshoot:.1f}° ({called(other)}: "
+        f"The price: the law commands up to {price.peak:.1f} kp ({called(other)}: "
+        f"{beside.peak:.1f} kp). With gains that give both laws the same peak command, in rad/s², "
+        f"99 % of the starts settle in {price.at_equal_peak:.1f}/√peak seconds ({called(other)}: "
+        f"{beside.at_equal_peak:.1f}/√peak seconds). The median overshoot in the random "
+        f"situations is {price.typical_overshoot:.1f}° ({called(other)}: "
         f"{beside.typical_overshoot:.1f}°)."
     )
 

@@ -39,10 +39,10 @@ RULES = html.Table(
     "Situations where this rule and our rule advise different laws [%]:.0f"
 )
 RELIABLE = html.Table(
-    "Advice in new situations | Situations where the advised law is unbeaten among the qualified laws | "
-    "Situations where the advised law is unbeaten among all laws | "
-    f"Situations where a qualified law is more than {100 * SPOKEN:.0f} % faster than the advised law | "
-    "Median extra time [%] | Extra time that is not exceeded in 95 % of the situations [%]",
+    "Advice in new situations | Situations where the advised law is unbeaten among the qualified "
+    "laws | Situations where the advised law is unbeaten among all laws | Situations where a "
+    f"qualified law is more than {100 * SPOKEN:.0f} % faster than the advised law | Median extra "
+    "time [%] | Extra time that is not exceeded in 95 % of the situations [%]",
 )
 RULE_WORDS = {
     "the rule": "our rule",
@@ -169,8 +169,9 @@ def describe_condition(answer: Answer) -> str:
         if need.name == "weak-motors":
             law = families.word(need.law)
             sentences.append(
-                f"These values count every law that meets the requirements. In the row of {law} below, the command "
-                f"limits are those at which {law} itself is more than {100 * SPOKEN:.0f} % faster."
+                f"These values count every law that meets the requirements. In the row of {law} "
+                f"below, the command limits are those at which {law} itself is more than "
+                f"{100 * SPOKEN:.0f} % faster."
             )
     return " ".join(sentences)
 
@@ -219,10 +220,10 @@ def describe_default() -> str:
     law, rows = find_regions()[0].law, read_map()
     [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == law)].to_dict("records")
     return (
-        f"With kp = {KP:g} 1/s², critical damping and no bound, the body settles from every start that we tried. From "
-        f"99 % of these starts the body settles within {row['time'] / KP**0.5:.2f} s. Noise up to {NOISE_RAD:g} rad "
-        "cannot keep the body at 180°. "
-        f"{words.describe_shares(law)} {words.describe_price(law, called=families.word)}"
+        f"With kp = {KP:g} 1/s², critical damping and no bound, the body settles from every start "
+        "that we tried. From 99 % of these starts the body settles within "
+        f"{row['time'] / KP**0.5:.2f} s. Noise up to {NOISE_RAD:g} rad cannot keep the body at "
+        f"180°. {words.describe_shares(law)} {words.describe_price(law, called=families.word)}"
     )
 
 

@@ -21,16 +21,17 @@ from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import prose
 
 HOMES = (
-    "Renders of the four arms side by side, each in its home pose: Kinova Jaco, Franka Emika Panda, Unimation PUMA "
-    "560, Universal Robots UR5e. Axes mark the base and the tool."
+    "Renders of the four arms side by side, each in its home pose: Kinova Jaco, Franka Emika "
+    "Panda, Unimation PUMA 560, Universal Robots UR5e. Axes mark the base and the tool."
 )
 RANKED = html.Table(
-    "Law | Turns that settle [%] | Turns that settle and touch no limit [%] | Moves that settle [%] "
-    "| Moves that settle and touch no limit [%]"
+    "Law | Turns that settle [%] | Turns that settle and touch no limit [%] | Moves that settle "
+    "[%] | Moves that settle and touch no limit [%]"
 )
 LIMITED = html.Table(
-    "Arm | Motors | Stiffness Kp [1/s²] | Turns that settle [%] | Turns in which a motor reaches its rated torque [%] "
-    "| Turns stopped by a joint's end [%] | Turns that fail for another reason [%]"
+    "Arm | Motors | Stiffness Kp [1/s²] | Turns that settle [%] | Turns in which a motor reaches "
+    "its rated torque [%] | Turns stopped by a joint's end [%] | Turns that fail for another "
+    "reason [%]"
 )
 SETS = ("uniform", "reach")
 MOTORS = {
@@ -38,7 +39,7 @@ MOTORS = {
     **{"motors-slow": "torque with a lag of 5 ms", "motors-late": "torque with a delay of 5 ms"},
 }
 ORIGINS = tomllib.loads(Path(__file__).with_name("origins.toml").read_text(encoding="utf-8"))
-"""Where our arms are from, in the sentences of the page; of another arm its file says it."""
+"""Sentences of the page: where our arms are from. Of another arm, its file says it."""
 COLUMNS = tuple((name, measure) for name in SETS for measure in ("settled", "range"))
 FEW = 4  # names up to this number are said, more are counted; the table has them
 
@@ -136,13 +137,13 @@ def lead(uniform: pd.DataFrame) -> str:
     levels = [f"{100 * own['settled'].mean():.0f} % with {kind}" for kind, own in both.groupby("kind")]
     ends = [f"{arm_rows.name_arm(arm)} ({100 * by_arm[arm]:.0f} %)" for arm in (by_arm.idxmin(), by_arm.idxmax())]
     return (
-        "Motors give at most their rated torque, and joints stop at the ends of their ranges. From evenly spread "
-        f"starts, {leading(uniform, 'settled').replace('(2.2) ', '')} of the episodes settle. "
-        "Some arms run with three pairs of gains. On these arms the share of episodes that settle, over all laws, is "
-        f"{join_words(levels or [html.UNTESTED])}. "
-        f"A joint was at the end of its range in {percent_stopped(uniform):.0f} % of the episodes that do not settle. "
-        f"The arm on which the fewest episodes settle is the {ends[0]}; the arm on which the most "
-        f"episodes settle is the {ends[1]}."
+        "Motors give at most their rated torque, and joints stop at the ends of their ranges. "
+        f"From evenly spread starts, {leading(uniform, 'settled').replace('(2.2) ', '')} of the "
+        "episodes settle. Some arms run with three pairs of gains. On these arms the share of "
+        f"episodes that settle, over all laws, is {join_words(levels or [html.UNTESTED])}. A "
+        f"joint was at the end of its range in {percent_stopped(uniform):.0f} % of the episodes "
+        f"that do not settle. The arm on which the fewest episodes settle is the {ends[0]}; the "
+        f"arm on which the most episodes settle is the {ends[1]}."
     )
 
 
@@ -172,7 +173,8 @@ def describe_model_errors(run: Run) -> str:
     apart = np.degrees(np.ptp(angles.to_numpy(), axis=1))
     medians = np.degrees(rows.groupby("variation")["final_angle_rad"].median())
     return (
-        f"From the same start, the final angles of the controllers differ by {np.median(apart):.1g}° (median). The "
-        f"median error is largest with the variation `{medians.idxmax()}`: {medians.max():.1f}°. The median error is "
-        f"smallest with the variation `{medians.idxmin()}`: {medians.min():.2f}°."
+        "From the same start, the final angles of the controllers differ by "
+        f"{np.median(apart):.1g}° (median). The median error is largest with the variation "
+        f"`{medians.idxmax()}`: {medians.max():.1f}°. The median error is smallest with the "
+        f"variation `{medians.idxmin()}`: {medians.min():.2f}°."
     )

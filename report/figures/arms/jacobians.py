@@ -29,15 +29,16 @@ BAD = 100.0
 HAMMERED = 10.0
 """Peak torque over that of the law on R from the same start, as in claim C20: beyond it something hammers the arm."""
 POLE = html.Table(
-    "Arm | Moves | Moves that settle with the geometric Jacobian | Peak torque / rated torque, geometric Jacobian | "
-    "Moves that settle with the Euler Jacobian | Peak torque / rated torque, Euler Jacobian"
+    "Arm | Moves | Moves that settle with the geometric Jacobian | Peak torque / rated torque, "
+    "geometric Jacobian | Moves that settle with the Euler Jacobian | Peak torque / rated torque, "
+    "Euler Jacobian"
 )
 QUOTED = {"adds": "C18", "fails": "C20", "dearer": "C26"}
 """Key of a sentence of the paper on the page -> its claim."""
 FIRST_EXAMPLE = {"representation": PAPERS, "pose_set": "named", "arm": "puma560", "pose_id": "qn"}
 FILM = (
-    "The same motion with two controllers, side by side: the Euler Jacobian throws the arm about, and the geometric "
-    "Jacobian turns the tool in place."
+    "The same motion with two controllers, side by side: the Euler Jacobian throws the arm about, "
+    "and the geometric Jacobian turns the tool in place."
 )
 
 
@@ -137,11 +138,11 @@ def describe_weak_motors(both: pd.DataFrame) -> str:
             continue
         torque = motor.torque(kp)
         sentences.append(
-            f"The {name_arm(str(arm))} needs {ratio:.2g} times its rated torque even without Euler angles. The model "
-            f"of this arm has a motor inertia of {motor.inertia:g} kg m² at a joint whose motor is rated at "
-            f"{motor.rated:g} N m. With Kp = {kp:g}/s² and an error of 1 rad, this motor needs {torque:g} N m, "
-            f"{torque / motor.rated:.0f} times the rated torque. The gains are too high for this arm, with "
-            f"either Jacobian."
+            f"The {name_arm(str(arm))} needs {ratio:.2g} times its rated torque even without "
+            f"Euler angles. The model of this arm has a motor inertia of {motor.inertia:g} kg m² "
+            f"at a joint whose motor is rated at {motor.rated:g} N m. With Kp = {kp:g}/s² and an "
+            f"error of 1 rad, this motor needs {torque:g} N m, {torque / motor.rated:.0f} times "
+            "the rated torque. The gains are too high for this arm, with either Jacobian."
         )
     none = "With the geometric Jacobian, no arm needs more than its rated torque in the median move."
     return " ".join(sentences) or none
@@ -156,10 +157,11 @@ def describe_operations(run: Run) -> str:
         )
         more = euler.flops / geometric.flops - 1.0
         sentences.append(
-            f"On an arm with {joints} joints, a control step takes {html.number(geometric.flops)} operations with the "
-            f"geometric Jacobian and the rotation-matrix law. With the Euler Jacobian and the feedback-linearized law, "
-            f"a control step takes {html.number(euler.flops)} operations ({100 * more:+.0f} %) and {euler.calls} calls "
-            f"of sine, cosine and arctangent."
+            f"On an arm with {joints} joints, a control step takes {html.number(geometric.flops)} "
+            "operations with the geometric Jacobian and the rotation-matrix law. With the Euler "
+            "Jacobian and the feedback-linearized law, a control step takes "
+            f"{html.number(euler.flops)} operations ({100 * more:+.0f} %) and {euler.calls} calls "
+            "of sine, cosine and arctangent."
         )
     return " ".join(sentences)
 
@@ -177,8 +179,9 @@ def describe_first(rows: pd.DataFrame) -> str:
     of_angles = float(at["condition_analytic"])
     number = html.MISSING if math.isnan(of_angles) else power(of_angles) if of_angles > LOST else f"{of_angles:.1f}"
     return (
-        f"the geometric Jacobian has the condition number {at['condition']:.1f}. The Euler Jacobian has the condition "
-        f"number {number}, because the tool is at β = {math.degrees(at['beta']):.0f}°"
+        f"the geometric Jacobian has the condition number {at['condition']:.1f}. The Euler "
+        f"Jacobian has the condition number {number}, because the tool is at β = "
+        f"{math.degrees(at['beta']):.0f}°"
     )
 
 
@@ -187,9 +190,9 @@ def count_spoilt(rows: pd.DataFrame) -> str:
     fine = rows[rows["condition"] <= WELL_CONDITIONED]
     by = 100.0 * (fine["condition_analytic"] > BAD).groupby(fine["arm"].astype(str)).mean()
     return (
-        f"We took random poses where the geometric Jacobian has a condition number of at most {WELL_CONDITIONED:g}. In "
-        f"{by.min():.1f} to {by.max():.1f} % of these poses, depending on the arm, the Euler Jacobian has a condition "
-        f"number above {BAD:g}."
+        "We took random poses where the geometric Jacobian has a condition number of at most "
+        f"{WELL_CONDITIONED:g}. In {by.min():.1f} to {by.max():.1f} % of these poses, depending "
+        f"on the arm, the Euler Jacobian has a condition number above {BAD:g}."
     )
 
 

@@ -169,8 +169,9 @@ def limits(study: pd.DataFrame, narrow: bool) -> Drawing:
     style.label_line(axes, 0.16, 3.3, "eigenvalue −1", style.MUTED)
     delay, gain = find_greatest_limit()
     return figure, (
-        f"With a constant delay the greatest stable Kv T rises from {find_constant_limit(0.0):.2f} without "
-        f"delay to {gain:.2f} at {delay:.3f} periods and falls to {find_constant_limit(SHOWN_DELAY):.2f} at "
-        f"{SHOWN_DELAY:g}. The {len(study)} loops in real time, at median delays of {delays.min():.3f} to "
-        f"{delays.max():.3f} periods, lie at {gains.min():.2f} to {gains.max():.2f}."
+        "With a constant delay the greatest stable Kv T rises from "
+        f"{find_constant_limit(0.0):.2f} without delay to {gain:.2f} at {delay:.3f} periods and "
+        f"falls to {find_constant_limit(SHOWN_DELAY):.2f} at {SHOWN_DELAY:g}. The {len(study)} "
+        f"loops in real time, at median delays of {delays.min():.3f} to {delays.max():.3f} "
+        f"periods, lie at {gains.min():.2f} to {gains.max():.2f}."
     )

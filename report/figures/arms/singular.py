@@ -13,8 +13,9 @@ from report.figures.kit import html
 from report.figures.kit.page import Run
 
 RULES = html.Table(
-    "Rule for Λ | Arms | Episodes that settle with unlimited torque [%]:.0f | Largest torque / rated torque "
-    "| Episodes that settle with limited torque [%]:.0f | Largest error of the tool's position [mm]:.0f"
+    "Rule for Λ | Arms | Episodes that settle with unlimited torque [%]:.0f | Largest torque / "
+    "rated torque | Episodes that settle with limited torque [%]:.0f | Largest error of the "
+    "tool's position [mm]:.0f"
 )
 START_SET, INVERSE = "wrist", "dynamically-consistent"
 REDUNDANT = {False: "six joints", True: "Panda"}
@@ -34,8 +35,9 @@ def compare_torques(rows: pd.DataFrame) -> str:
     torques = rows[rows["variation"] == IDEAL_MOTORS].groupby("inverse")["peak_torque_ratio"].max()
     others = torques[torques.index != INVERSE].max()
     return (
-        f"the largest torque with the plain inverse is {html.number(torques[INVERSE])} times the rated torque, "
-        f"and with the other rules it is {html.number(others)} times the rated torque"
+        f"the largest torque with the plain inverse is {html.number(torques[INVERSE])} times the "
+        f"rated torque, and with the other rules it is {html.number(others)} times the rated "
+        "torque"
     )
 
 
@@ -48,15 +50,16 @@ def describe_rules(rows: pd.DataFrame) -> str:
     others, drift = settled.index != INVERSE, 1000.0 * real.groupby("inverse")["position_error_m"].max().sort_values()
     drifts = join_words(f"{value:.0f} mm ({name_rule(word)})" for word, value in drift.items())
     return (
-        f"Each rule ran from {rows.groupby('arm')['start_id'].nunique().max()} starts on each arm. On the arms of six "
-        f"joints with unlimited torques, {settled[INVERSE]:.0f} % of the episodes with the plain inverse settle, and "
-        f"the largest torque is {html.number(torque[INVERSE])} times the rated torque. The other rules settle in "
-        f"{settled[others].min():.0f} to {settled[others].max():.0f} % of the episodes, with at most "
-        f"{html.number(torque[others].max())} times the rated torque. With limited torques the plain inverse settles "
-        f"in {cut[INVERSE]:.0f} % of the episodes and the other rules in {cut[others].min():.0f} to "
-        f"{cut[others].max():.0f} %, but before that the tool moves away from its position. The largest "
-        f"distances from this position are {drifts}. With every rule, "
-        f"{100 * panda['settled'].mean():.0f} % of the episodes on the Panda settle."
+        f"Each rule ran from {rows.groupby('arm')['start_id'].nunique().max()} starts on each "
+        f"arm. On the arms of six joints with unlimited torques, {settled[INVERSE]:.0f} % of the "
+        "episodes with the plain inverse settle, and the largest torque is "
+        f"{html.number(torque[INVERSE])} times the rated torque. The other rules settle in "
+        f"{settled[others].min():.0f} to {settled[others].max():.0f} % of the episodes, with at "
+        f"most {html.number(torque[others].max())} times the rated torque. With limited torques "
+        f"the plain inverse settles in {cut[INVERSE]:.0f} % of the episodes and the other rules "
+        f"in {cut[others].min():.0f} to {cut[others].max():.0f} %, but before that the tool moves "
+        f"away from its position. The largest distances from this position are {drifts}. With "
+        f"every rule, {100 * panda['settled'].mean():.0f} % of the episodes on the Panda settle."
     )
 
 

@@ -29,8 +29,9 @@ from report.figures.kit import families, html, laws, style
 from report.figures.kit.page import Run
 
 UNTRUSTED = (
-    "Somebody else wrote this law. Its file came with these results, and we did not run it: this page has its results "
-    "only. If you have read the file, `bench trust FILE` lets it run, and this page then describes the law."
+    "Somebody else wrote this law. Its file came with these results, and we did not run it: this "
+    "page has its results only. If you have read the file, `bench trust FILE` lets it run, and "
+    "this page then describes the law."
 )
 LAWS = html.Table(
     "Law | Origin | Stability | Uniform starts that settle | Name on the command line",
@@ -41,10 +42,11 @@ TEXTS = tomllib.loads(Path(__file__).with_name("laws.toml").read_text(encoding="
 """Law -> about, limitations, and memory if it differs from MEMORY."""
 
 MEMORY = (
-    "Reset the memory before the first control step and after a pause. If the goal changes, the law keeps its "
-    "memory. If you also reset the memory when the goal jumps, the path becomes shorter, but the body does not settle "
-    "sooner. The measured orientation must turn by less than 180° between two control steps: e + phi/2 < 90°, where e "
-    "is the error of the measured orientation and phi the rotation within a control step."
+    "Reset the memory before the first control step and after a pause. If the goal changes, the "
+    "law keeps its memory. If you also reset the memory when the goal jumps, the path becomes "
+    "shorter, but the body does not settle sooner. The measured orientation must turn by less "
+    "than 180° between two control steps: e + phi/2 < 90°, where e is the error of the measured "
+    "orientation and phi the rotation within a control step."
 )
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 EXAMPLE = re.compile(r" Shown by |, as from |, as at ")
@@ -163,23 +165,24 @@ def advised(law: str) -> str:
         return ""
     shares = measure_shares(law, tie=SPOKEN)
     beside = (
-        f"In {say_share(shares.qualified.value)} this law meets the requirements, and no published or adapted law that "
-        f"also meets the requirements is more than {percent(SPOKEN)} faster. If we also compare this law with the "
-        f"published and adapted laws that do not meet the requirements, this share is {percent(shares.all.value)}."
+        f"In {say_share(shares.qualified.value)} this law meets the requirements, and no "
+        "published or adapted law that also meets the requirements is more than "
+        f"{percent(SPOKEN)} faster. If we also compare this law with the published and adapted "
+        f"laws that do not meet the requirements, this share is {percent(shares.all.value)}."
     )
     if is_ours:
         beats = say_share(compare_with_advised(law).value)
         return (
-            f"Our rule does not recommend this law, because it is ours. The law is more than {percent(SPOKEN)} "
-            f"faster than the recommended law in {beats}. {beside}"
+            "Our rule does not recommend this law, because it is ours. The law is more than "
+            f"{percent(SPOKEN)} faster than the recommended law in {beats}. {beside}"
         )
     if region is None:
         return beside
     price = find_price(law)
     costs = (
-        f"In the nominal situation the largest command of the law is {price.peak:.1f} kp. With the nominal damping "
-        f"ratio and gains for a largest command of p [rad/s²], the body settles from 99 % of the starts within "
-        f"{price.at_equal_peak:.1f}/√p seconds."
+        f"In the nominal situation the largest command of the law is {price.peak:.1f} kp. With "
+        "the nominal damping ratio and gains for a largest command of p [rad/s²], the body "
+        f"settles from 99 % of the starts within {price.at_equal_peak:.1f}/√p seconds."
     )
     return f"Our rule recommends this law in {say_share(region.advised)}. {beside} {costs}"
 

@@ -27,8 +27,9 @@ def facts(run: Run) -> dict:
     with_memory = count(len(leave), len(groups.get(WITH, [])))
     return {
         "finding": (
-            f"Noise of {first:g} rad traps the body at 180° with {without_memory} laws without memory that this "
-            f"picture shows. With {with_memory} laws with memory that it shows, the body leaves 180° from every start"
+            f"Noise of {first:g} rad traps the body at 180° with {without_memory} laws without "
+            f"memory that this picture shows. With {with_memory} laws with memory that it shows, "
+            "the body leaves 180° from every start"
         ),
         "starts": starts(rows),
         "most": f"{float(noisy.index.max()):g}",

@@ -174,9 +174,9 @@ def axes_of_turning(rows: pd.DataFrame, narrow: bool) -> Drawing:
     for view, beta in zip(views, (0, DRAWN_DEG), strict=True):
         draw_hand(view, nearest(euler, beta))
     return figure, (
-        "Error of the axis about which a moment about x turns the hand, and rotation by a moment about z, against the "
-        f"tilt of the hand's frame. {'. '.join(words)}. Beside it two drawings of one hand with its frame at 0 and at "
-        f"{DRAWN_DEG} degrees."
+        "Error of the axis about which a moment about x turns the hand, and rotation by a moment "
+        f"about z, against the tilt of the hand's frame. {'. '.join(words)}. Beside it two "
+        f"drawings of one hand with its frame at 0 and at {DRAWN_DEG} degrees."
     )
 
 

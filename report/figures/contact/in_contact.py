@@ -27,8 +27,8 @@ P_VALUE = 0.05
 SPRINGS = "impedance-geometric"
 DEGREES = 180.0 / np.pi
 LOOP = (
-    "Two arms press a square tool onto a tilted plate. With Cartesian compliance the tool turns until it lies flat; "
-    "with the Euler Jacobian it stays level, on one edge."
+    "Two arms press a square tool onto a tilted plate. With Cartesian compliance the tool turns "
+    "until it lies flat; with the Euler Jacobian it stays level, on one edge."
 )
 
 
@@ -148,8 +148,8 @@ def describe_pegs(rows: pd.DataFrame) -> str:
         return f"How pegs end is {ABSENT}"
     cartesian, euler = (count_out(read_pegs(rows, contender)[True]) for contender in (CARTESIAN, EULER))
     return (
-        f"With a tilted frame and commanded accelerations, the Euler Jacobian leaves {euler} pegs outside the hole and "
-        f"Cartesian compliance leaves {cartesian} pegs"
+        f"With a tilted frame and commanded accelerations, the Euler Jacobian leaves {euler} pegs "
+        f"outside the hole and Cartesian compliance leaves {cartesian} pegs"
     )
 
 
@@ -164,8 +164,8 @@ def compare_pegs(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
     differ = "differ significantly" if p_value < P_VALUE else "do not differ significantly"
     p_text = spell_powers(f"{p_value:.2g}")
     return (
-        f"With a tilted frame, the shares of pegs that are not inserted {differ} between Cartesian compliance and the "
-        f"Euler Jacobian (Fisher's exact test, p = {p_text})."
+        f"With a tilted frame, the shares of pegs that are not inserted {differ} between "
+        f"Cartesian compliance and the Euler Jacobian (Fisher's exact test, p = {p_text})."
     )
 
 
@@ -181,8 +181,9 @@ def flat(rows: pd.DataFrame) -> str:
         return f"how tools end is {ABSENT}."
     euler, cartesian = (of(plates, name)["time_to_align_s"].notna() for name in (PAPERS_EULER, PAPERS))
     return (
-        f"at the end the tool lay flat in {count_flat(euler)} simulations with Euler angles (the Euler Jacobian), "
-        f"and in {count_flat(cartesian)} simulations with the axes of the base frame (Cartesian compliance)."
+        f"at the end the tool lay flat in {count_flat(euler)} simulations with Euler angles (the "
+        f"Euler Jacobian), and in {count_flat(cartesian)} simulations with the axes of the base "
+        "frame (Cartesian compliance)."
     )
 
 
@@ -195,8 +196,8 @@ def describe_cranks(rows: pd.DataFrame) -> str:
     most = euler["beta_deg"].max()
     cartesian, tilted = measure.of(of(cranks, PAPERS)), measure.of(euler[euler["beta_deg"] == most])
     return (
-        f"The hand turns the crank by {cartesian}° with Cartesian compliance, and by {tilted}° with the Euler Jacobian "
-        f"at β = {most:.0f}°"
+        f"The hand turns the crank by {cartesian}° with Cartesian compliance, and by {tilted}° "
+        f"with the Euler Jacobian at β = {most:.0f}°"
     )
 
 

@@ -23,13 +23,14 @@ WEAK = 0.75
 HOST = "https://github.com"
 
 MEASURED = html.Table(
-    "Controller | Gains K, D | Stiffness at 0.06°, 3° and 57° [% of K] | Damping ratio:.3g "
-    "| Inertia for critical damping [kg m²]:.2g | Starts at 180° that the body never leaves | Starts with unwinding "
-    "| Largest change of the command's direction by a clip [°]:.0f | Settling time from 1°, 90° and 179.9° [s]"
+    "Controller | Gains K, D | Stiffness at 0.06°, 3° and 57° [% of K] | Damping ratio:.3g | "
+    "Inertia for critical damping [kg m²]:.2g | Starts at 180° that the body never leaves | "
+    "Starts with unwinding | Largest change of the command's direction by a clip [°]:.0f | "
+    "Settling time from 1°, 90° and 179.9° [s]"
 )
 FIXES = html.Table(
-    "Controller | Stiffness at 3° [% of K]:.0f | Starts at 180° that the body never leaves | Smallest fix "
-    "| Largest command as shipped → with the fix"
+    "Controller | Stiffness at 3° [% of K]:.0f | Starts at 180° that the body never leaves | "
+    "Smallest fix | Largest command as shipped → with the fix"
 )
 
 

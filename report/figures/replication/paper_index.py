@@ -17,7 +17,8 @@ from report.figures.kit.spelling import marked_up, prose
 from report.figures.replication.conclusions import EVIDENCE, link_claims
 
 ITEMS = html.Table(
-    "Part of the paper | What this part says | Chapter of this book | Claims | Where the evidence is | Command"
+    "Part of the paper | What this part says | Chapter of this book | Claims | Where the evidence "
+    "is | Command"
 )
 
 COMPUTED = "experiment"
@@ -93,5 +94,6 @@ def list_sentences() -> str:
     lists = "".join(f"<h2>{titles[name]}</h2><ul>{''.join(items)}</ul>" for name, items in sections.items())
     return (
         '<details class="paper-sentences">'
-        f"<summary>All {len(all_claims())} statements in our words, by section</summary>{lists}</details>"
+        f"<summary>All {len(all_claims())} statements in our words, by "
+        f"section</summary>{lists}</details>"
     )

@@ -136,8 +136,8 @@ def describe_finding(response: Response) -> str:
     if response.peak_deg > response.first_deg + AWAY_DEG:
         away = f" The body first turns away from the goal, from {response.first_deg:.0f}° to {response.peak_deg:.0f}°."
     return (
-        f"The Euler angles stay within {distance} of the linear response. The body {settles}, on a path that is "
-        f"{row['path_ratio']:.2f} times as long as the shortest path.{away}"
+        f"The Euler angles stay within {distance} of the linear response. The body {settles}, on "
+        f"a path that is {row['path_ratio']:.2f} times as long as the shortest path.{away}"
     )
 
 
@@ -180,8 +180,9 @@ def describe_picture(response: Response, first: np.ndarray, goal: np.ndarray) ->
     begins = ", ".join(f"{name} {angle:.0f}" for name, angle in zip(names, first, strict=True))
     bends = ", ".join(f"{name} {bend:.2g}" for name, bend in zip(names, response.bend_deg, strict=True))
     return (
-        f"{laws.TITLES[response.law]} from {begins} degrees. Distance from the linear form, in degrees: {bends}. "
-        f"Its angle to the goal begins at {goal[0]:.0f}, peaks at {goal.max():.0f}, ends at {goal[-1]:.2g} degrees."
+        f"{laws.TITLES[response.law]} from {begins} degrees. Distance from the linear form, in "
+        f"degrees: {bends}. Its angle to the goal begins at {goal[0]:.0f}, peaks at "
+        f"{goal.max():.0f}, ends at {goal[-1]:.2g} degrees."
     )
 
 

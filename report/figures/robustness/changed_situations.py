@@ -104,8 +104,9 @@ def describe_widest(line: pd.DataFrame) -> str:
     place = (line[default] / line[other]).idxmax()
     times = {law: f"{line.loc[place, law]:.1f}/√kp" for law in (default, other)}
     return (
-        f"At a bound of {place:g} kp, 99 % of the starts settle within {times[other]} with {families.word(other)} and "
-        f"within {times[default]} with the default law, {families.word(default)}"
+        f"At a bound of {place:g} kp, 99 % of the starts settle within {times[other]} with "
+        f"{families.word(other)} and within {times[default]} with the default law, "
+        f"{families.word(default)}"
     )
 
 

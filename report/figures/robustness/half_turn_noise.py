@@ -177,9 +177,10 @@ def describe_trapped(rows: pd.DataFrame) -> str:
     trapped = [law for law in without_memory if noisy.loc[first, law] == 0.0]
     resisted = [float(level) for level in noisy.index if (noisy.loc[level, on_a_side] == 1.0).all()]
     return (
-        f"Noise of {first:g} rad traps the body at 180° with {count(len(trapped), len(without_memory))} laws without "
-        f"memory. With the {len(on_a_side)} laws that store a side and whose limit is known, the body leaves 180° from "
-        f"every start at noise up to {max(resisted, default=0.0):g} rad"
+        f"Noise of {first:g} rad traps the body at 180° with "
+        f"{count(len(trapped), len(without_memory))} laws without memory. With the "
+        f"{len(on_a_side)} laws that store a side and whose limit is known, the body leaves 180° "
+        f"from every start at noise up to {max(resisted, default=0.0):g} rad"
     )
 
 
