@@ -215,13 +215,13 @@ def _find_answers(results: Results) -> str:
     examined, advised = replication.examine_laws(results), find_answer().law
     if advised not in examined.laws:
         untested = f"The advised law, {advised}, was not tested in this run."
-        return f"{_name_answers(examined, 'pass all our tests (claim C27)')} {untested}"
+        return f"{_name_answers(examined, 'pass all our tests of a better regulator')} {untested}"
     settling = replication.measure_settling(_rows_of(results, advised))
     failed = f" The advised law fails a test: {examined.tested[advised]}."
     passes = "" if advised in examined.answers else failed
     return (
-        f"{_name_answers(examined, 'pass all our tests (claim C27)')}{passes} The law {advised} "
-        f"settles from {percents(settling.share)} of the random starts."
+        f"{_name_answers(examined, 'pass all our tests of a better regulator')}{passes} "
+        f"The law {advised} settles from {percents(settling.share)} of the random starts."
     )
 
 

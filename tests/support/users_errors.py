@@ -173,7 +173,7 @@ USERS: dict = {
     "arc-tangent | long-way | atan2 instead of an arc tangent": of_sine(
         lambda v, s, c, X: np.arctan(s / c) * v / s if s else v
     ),
-    "arc-cosine-of-dot | digits-near-0, non-unit | no arc cosine": arc_cosine_of_dot,
+    "arc-cosine-of-dot | digits-near-0, non-unit | not the arc cosine": arc_cosine_of_dot,
     "constant-in-a-denominator | digits-near-0 | no constant": of_log(lambda e, theta: e * theta / (theta + 1e-6)),
     "rotation-vectors-subtracted | misaligned | each θ k": lambda R, R_d: log(R_d) - log(R),
     "vector-parts-subtracted | misaligned | each 2 sin(θ/2) k": lambda q, q_d: 2.0 * (q_d - q)[1:],
@@ -220,7 +220,7 @@ USERS: dict = {
     "half-forgotten-near-goal | jump | at 1.81193°": of_sine(lambda v, s, c, X: 2.0 * v if c > 0.9995 else log(X)),
     "zero-if-close | deadband | e = 0 up to": lambda R, R_d: np.zeros(3) if np.allclose(R, R_d) else log(R_d @ R.T),
     "rounded-to-6-digits | deadband | a multiple of 1e-06": of_log(lambda e, _: np.round(e, 6)),
-    "hysteresis | memory | if you intend hysteresis": hysteresis(),
+    "hysteresis | memory | intentionally remembers": hysteresis(),
     "flips-in-place | changes-inputs | R = R.copy()": flips_in_place,
     "share-of-half-a-turn | stiffness | e is in half turns": of_log(lambda e, _: e / np.pi),
 }
