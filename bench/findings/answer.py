@@ -153,7 +153,7 @@ def _tested(folder: Path) -> str:
 def _condition(law: str, folder: Path) -> str:
     bounds = describe_bounds(find_bounds(law, folder=folder))
     return (
-        "You command torque and cancel the inertia. We changed one number of the usual situation "
+        "You command torque and cancel the inertia. We changed one number of the nominal situation "
         f"at a time. No other law that meets the requirements is more than {percent(SPOKEN)} "
         f"faster at these values: {bounds}."
     )

@@ -131,7 +131,7 @@ def say_property(law: Law) -> dict[str, str]:
     by = " and ".join(sorted({SOLVERS.get(lemma["by"], lemma["by"]) for lemma in lemmas}, reverse=True))
     text += f" {ASSUMED.get(certificate['scope'], certificate['scope'])}"
     steps = [f"({i}) {step}" for i, step in enumerate(certificate["cited"], 1)]
-    text += f" The proof uses the function V below. A program took the law from its source and proved {len(lemmas)} "
+    text += f" The proof uses the function V below. A program read the source code of the law and proved {len(lemmas)} "
     text += f"lemmas with {by}, in {certificate['seconds']:.1f} s."
     text += f" No program checked {'these steps' if len(steps) > 1 else 'this step'} of the proof: {' '.join(steps)}"
     text += f" {EQUILIBRIA.get(certificate['equilibria'], certificate['equilibria'])}"

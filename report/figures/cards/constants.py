@@ -14,7 +14,7 @@ TABLE = html.Table(
     "Law | Constant | Value used | Other values tried "
     "| Settling time with the value used, divided by that of the default law:.2f "
     "| Settling time with other values, divided by that of the default law "
-    "| Rank with the value used | Rank with other values",
+    "| Rank among the laws with the value used | Rank among the laws with other values",
     words=("Value used",),
 )
 

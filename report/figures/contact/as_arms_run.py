@@ -20,8 +20,8 @@ from report.figures.kit import html
 from report.figures.kit.page import Run
 
 PANDA = html.Table(
-    "Controller | Stiffness [N/m; N m/rad] | Longest control period with exact hold [ms] "
-    "| Longest control period in MuJoCo [ms] | Longest delay at 1 kHz with exact hold [ms] "
+    "Controller | Stiffness [N/m; N m/rad] | Longest stable control period, exact simulation [ms] "
+    "| Longest stable control period in MuJoCo [ms] | Longest stable delay at 1 kHz, exact simulation [ms] "
     "| Longest delay at 1 kHz in MuJoCo [ms]"
 )
 LIMITS = ("held_dt_s", "longest_dt_s", "held_delay_s", "longest_delay_s")

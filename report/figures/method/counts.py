@@ -123,7 +123,7 @@ def count_at_equal_peak() -> Count:
         name="laws at equal peak command",
         where="Chapter 7, [equal peak command](#fig-equal-peak); [late braking](appendix-late-braking.md)",
         laws=len(tune()),
-        which_laws="the laws of the map that settle from every start of the nominal situation",
+        which_laws="the laws of the map with which the body settles from every start of the nominal situation",
         starts="as for the laws of the map",
         time=HELD,
     )
@@ -203,7 +203,7 @@ def count_random(run: Run) -> Count:
     at_rest = rows[rows["most_speed"] == 0.0]
     matrix = at_rest[at_rest["contender"] == MATRIX]
     return Count(
-        name="laws from random starts",
+        name="laws simulated from random starts",
         where="Chapter 2, random starts",
         laws=at_rest["contender"].nunique(),
         which_laws=describe_set(set(at_rest["contender"].astype(str)), run),
