@@ -13,8 +13,9 @@ from report.figures.kit.inline import Drawing, responsive_picture
 from report.figures.kit.page import Run, in_run
 
 TUNED = html.Table(
-    "Law | Time in which 99 % of the starts settle, at critical damping [1/√kp]:.2f | Best damping ratio at equal stiffness:.2f | "
-    "That time at this best ratio [1/√kp]:.2f | Best damping ratio at equal peak command:.2f | "
+    "Law | Time in which 99 % of the starts settle, at critical damping [1/√kp]:.2f | "
+    "Best damping ratio at equal stiffness:.2f | That time at this best ratio [1/√kp]:.2f | "
+    "Best damping ratio at equal peak command:.2f | "
     "That time at equal peak command [1/√(peak command)]:.2f"
 )
 LABEL_GAP = 0.034
