@@ -69,7 +69,7 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         differ by up to {_greatest(differs[away]):.2f} of the Cartesian compliance. If the Cartesian compliance is
         turned by the Euler angles that come before, they differ by at most {_greatest(differs_turned[away]):.1e} of it.
         Euler compliance is the same as compliance about the hand's own axes {_by_order(judged, "same_in_hand")} poses
-        and forms. Ends of episodes closer to the pole: {close}.""",
+        and forms. The numbers do not count poses closer to the pole; there the episodes end as follows: {close}.""",
         len(rows),
         instead=f"""One compliant angle acts as one compliant axis of the base {_by_order(judged, "same")} poses and
         forms. One compliant angle acts as one axis, turned by the earlier angles,

@@ -66,11 +66,12 @@ def c09(results: Results) -> tuple[Word, Evidence]:
     long_way = int((goals["path_ratio"] * goals["angle0_rad"] > math.pi).sum())
     is_tight = max(bends) <= LIMIT.LINEAR_TIGHT and lost_at_rest <= LIMIT.LOST_SHARE and settled(off).all()
     return word_of(is_tight, max(bends) <= LIMIT.LINEAR_LOOSE and lost_at_rest <= LIMIT.STRAY_SHARE), evidence(
-        f"""The angles of {len(bends)} traces differ from the closed form by at most {max(bends):.1e} rad. Shares of
-        random starts that are lost: {"; ".join(map(lost_text, spun))}. Numbers of starts that settle:
-        {settled_of(off, "starts off the boundary")} by 1e-12 rad or more; {settled_of(wrap, "starts")} exactly at
-        +-pi; {settled_of(pole, "starts")} exactly on a pole; {settled_of(goals, "goals")} ({long_way} of these goals by
-        unwinding).""",
+        f"""The angles of {len(bends)} traces differ from the closed form by at most {max(bends):.1e} rad.
+        The shares of random starts that never settle, by the spin at the start, are:
+        {"; ".join(map(lost_text, spun))}.
+        The body settles from {settled_of(off, "starts")} at 1e-12 rad or more from the boundary, from
+        {settled_of(wrap, "starts")} exactly at +-pi, and from {settled_of(pole, "starts")} exactly on a pole. It
+        settles at {settled_of(goals, "goals")}; on the way to {long_way} of them it turns by more than 180° (unwinding).""",
         len(rows) + sum(one.starts for one in spun) + len(near) + len(goals),
         measured=f"""The angles differ from the linear response by at most {max(bends):.1e} rad. Of
         {resting.starts:,} random starts at rest, {percent_interval(resting.share)} never
@@ -155,12 +156,13 @@ def c11(results: Results, engine: str) -> tuple[Word, Evidence]:
     peaks = (float(frame.loc[own & (room > MARGINS_RAD[0]), "peak_u"].max()) for own in (~spins, spins))
     at_rest, spinning, near = (", ".join(map(str, each)) for each in (resting, turning, passed))
     return word_of(any(not any(each) for each in counts), not all(resting)), evidence(
-        f"""We count erratic starts outside margins of {MARGINS} rad. At rest they are {at_rest} (of
-        {int((~spins).sum()):,} starts in all). Tumbling they are {spinning} (of {int(spins.sum())} starts). Of
-        {probes.BESIDE} starts that spin at {probes.SPEED:g} rad/s beside each margin they are {near}. Peak commands are
-        up to {next(peaks):,.0f} rad/s^2 at rest, and up to {next(peaks):,.0f} rad/s^2 tumbling. Of the tumbling starts
-        that never come within {widest} rad of a pole,
-        {count_of(int(erratic[clear.index].sum()), len(clear), "starts")} are erratic.""",
+        f"""We excluded the starts closer to the boundary points than {MARGINS} rad, and counted the erratic
+        episodes from the other starts. The numbers for these margins, in this order, are: {at_rest} of the {int((~spins).sum()):,} starts
+        at rest; {spinning} of the {int(spins.sum())} tumbling starts; and {near} of {probes.BESIDE} starts that spin at
+        {probes.SPEED:g} rad/s beside each margin. The largest command is {next(peaks):,.0f} rad/s^2 from starts at
+        rest, and {next(peaks):,.0f} rad/s^2 from tumbling starts. Of the tumbling starts from which the body never
+        comes within {widest} rad of a pole, {count_of(int(erratic[clear.index].sum()), len(clear), "starts")} are
+        erratic.""",
         len(frame) + sum(len(one) for one in beside),
         measured=f"""Outside the excluded region,
         {count_of(resting[0], int((~spins).sum()), "starts at rest")} pass the boundary points

@@ -59,11 +59,13 @@ def c12(results: Results) -> tuple[Word, Evidence]:
     if known.times:
         ratios = f"The last two take {join_words(times)} times as long as the first law."
     timed = ", ".join(f"{short} {known.over(name, THREE[0])}" for short, name in zip(NAMES[1:], THREE[1:], strict=True))
+    in_words = [law.removeprefix("the ") for law in IN_WORDS]
     orders = [
-        [short for _, short in sorted((one[name].flops, short) for short, name in zip(NAMES, THREE, strict=True))]
+        [law for _, law in sorted((one[name].flops, law) for law, name in zip(in_words, THREE, strict=True))]
         for one in known.accountings
     ]
-    others = [" < ".join(order) for order in orders if order != NAMES]
+    others = [", ".join(order) for order in orders if order != in_words]
+    by_flops = "; ".join(others) or "the same"
     literal = known.accountings[0].get(LIMIT.LITERAL)  # the law that is compared shares sines and folds Bdot
     as_printed = f"(2.15) as printed, term by term, takes {literal}." if literal else ""
     priced = f"; in these times a call takes {known.price:.0f} flops" if np.isfinite(known.price) else ""
@@ -74,18 +76,16 @@ def c12(results: Results) -> tuple[Word, Evidence]:
     for pair, neighbours in zip(pairs, itertools.pairwise(IN_WORDS), strict=True):
         ordered["Measured times" if pair.by_time else "Operations"].append(" and ".join(neighbours))
     decided = " ".join(f"{what} order {', and '.join(each)}." for what, each in ordered.items() if each)
-    by_flops = "; ".join(order.replace(" < ", ", ") for order in others) or "the same"
-    for short, law in zip(NAMES, IN_WORDS, strict=True):
-        by_flops = by_flops.replace(short, law.removeprefix("the "))
-    instead = f"""The claimed order is right by time and operations together. {decided} By flops alone, the order is:
-        {by_flops}."""
+    instead = f"""The claimed order is right by time and operations together. {decided}
+        By flops alone, the order is: {by_flops}."""
     word = word_of(by_one_measure, is_ordered or all(np.logical_or(in_order, [pair.is_disputed for pair in pairs])))
     return word, evidence(
-        f"""Times per control period, over the rotation-matrix law's, are: {timed}. Intervals of these
-        times part {count_of(timed_pairs, len(pairs), "pairs")}. Flops and calls are: {paper}. With
-        the goal's angles taken from its matrix, they are: {total}. The columns decide
-        {count_of(sum(0 not in pair.by_columns for pair in pairs), len(pairs), "pairs")}{priced}. By
-        flops alone, with calls left out, the order is: {"; ".join(others) or "the same order"}. {as_printed}""",
+        f"""The times per control period, divided by that of the rotation-matrix law, are: {timed}. Of the two pairs of
+        neighbours in the paper's order, the intervals of these times do not overlap in
+        {timed_pairs or "none"}. Flops and calls are: {paper}. If the law also computes the goal's angles from the
+        goal's matrix, they are: {total}. Flops and calls give one order in
+        {count_of(sum(0 not in pair.by_columns for pair in pairs), len(pairs), "pairs")}{priced}. By flops alone, the
+        order is: {by_flops}. {as_printed}""",
         len(THREE) * (len(known.accountings) + len(known.times)),
         ("costs", "timings") if known.times else ("costs",),
         instead if word == Word.CORRECTED else "",
