@@ -71,7 +71,8 @@ def c09(results: Results) -> tuple[Word, Evidence]:
         {"; ".join(map(lost_text, spun))}.
         The body settles from {settled_of(off, "starts")} at 1e-12 rad or more from the boundary, from
         {settled_of(wrap, "starts")} exactly at +-pi, and from {settled_of(pole, "starts")} exactly on a pole. It
-        settles at {settled_of(goals, "goals")}; on the way to {long_way} of them it turns by more than 180° (unwinding).""",
+        settles at {settled_of(goals, "goals")}; on the way to {long_way} of them it turns by more than
+        180° (unwinding).""",
         len(rows) + sum(one.starts for one in spun) + len(near) + len(goals),
         measured=f"""The angles differ from the linear response by at most {max(bends):.1e} rad. Of
         {resting.starts:,} random starts at rest, {percent_interval(resting.share)} never
@@ -157,8 +158,8 @@ def c11(results: Results, engine: str) -> tuple[Word, Evidence]:
     at_rest, spinning, near = (", ".join(map(str, each)) for each in (resting, turning, passed))
     return word_of(any(not any(each) for each in counts), not all(resting)), evidence(
         f"""We excluded the starts closer to the boundary points than {MARGINS} rad, and counted the erratic
-        episodes from the other starts. The numbers for these margins, in this order, are: {at_rest} of the {int((~spins).sum()):,} starts
-        at rest; {spinning} of the {int(spins.sum())} tumbling starts; and {near} of {probes.BESIDE} starts that spin at
+        episodes from the other starts. The numbers for these margins, in this order, are:
+        {at_rest} of the {int((~spins).sum()):,} starts at rest; {spinning} of the {int(spins.sum())} tumbling starts; and {near} of {probes.BESIDE} starts that spin at
         {probes.SPEED:g} rad/s beside each margin. The largest command is {next(peaks):,.0f} rad/s^2 from starts at
         rest, and {next(peaks):,.0f} rad/s^2 from tumbling starts. Of the tumbling starts from which the body never
         comes within {widest} rad of a pole, {count_of(int(erratic[clear.index].sum()), len(clear), "starts")} are
