@@ -158,9 +158,10 @@ def c11(results: Results, engine: str) -> tuple[Word, Evidence]:
     at_rest, spinning, near = (", ".join(map(str, each)) for each in (resting, turning, passed))
     return word_of(any(not any(each) for each in counts), not all(resting)), evidence(
         f"""We excluded the starts closer to the boundary points than {MARGINS} rad, and counted the erratic
-        episodes from the other starts. The numbers for these margins, in this order, are:
-        {at_rest} of the {int((~spins).sum()):,} starts at rest; {spinning} of the {int(spins.sum())} tumbling starts; and {near} of {probes.BESIDE} starts that spin at
-        {probes.SPEED:g} rad/s beside each margin. The largest command is {next(peaks):,.0f} rad/s^2 from starts at
+        episodes from the other starts. The numbers for these margins, in this order, are, for
+        {int((~spins).sum()):,} starts at rest: {at_rest}; for {int(spins.sum())} tumbling starts: {spinning}; and for
+        {probes.BESIDE} starts that spin at {probes.SPEED:g} rad/s beside each margin: {near}. The largest command is
+        {next(peaks):,.0f} rad/s^2 from starts at
         rest, and {next(peaks):,.0f} rad/s^2 from tumbling starts. Of the tumbling starts from which the body never
         comes within {widest} rad of a pole, {count_of(int(erratic[clear.index].sum()), len(clear), "starts")} are
         erratic.""",
