@@ -60,7 +60,7 @@ class Law(NamedTuple):
             1/s if the controller commands a velocity.
         origin: the file of a law that a user wrote; `text` is the content of this file. Both are
             empty for our laws.
-        later: whether the law is not in the paper. A later law runs from fewer starts.
+        later: True for a law that is not in the paper. Such a law is simulated from fewer starts.
         costing_only: whether the law is another way to write a law of the list. We count the
             operations of such a law and test it, but do not simulate it.
         in_engine: whether an actuator of MuJoCo makes the command on MuJoCo's free body. The

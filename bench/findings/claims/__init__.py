@@ -19,8 +19,9 @@ from bench.findings.kept import keep
 
 RULE = (
     f"The verdicts come from the continuous-time simulation ({MAIN_ENGINE}), as in the paper. We "
-    f"also report sampled simulations ({' and '.join(CHECK_ENGINES)}), but these change no "
-    "verdict. A claim without data has no verdict."
+    f"also report simulations in which the command is held for a control period "
+    f"({' and '.join(CHECK_ENGINES)}), but these change no verdict. A claim without data has no "
+    "verdict."
 )
 """What is common to all criteria."""
 

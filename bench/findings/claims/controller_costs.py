@@ -155,10 +155,28 @@ def _hidden(results: Results, joints: int) -> tuple[bool, str]:
     return seems_cheaper and is_dearer, f"On {joints} joints the law itself takes {told}."
 
 
+TITLES = (
+    "law on Euler angles, geometric Jacobian: (2.2) with (2.15)",
+    "law on R, geometric Jacobian: (2.2)",
+    "law on Euler angles, Euler Jacobian: (3.7)",
+)
+"""The controllers that C26 compares."""
+
+OPERATIONS = (
+    "Joints",
+    "Controller",
+    "Flops and calls",
+    "Flops and calls, with those for the goal's angles",
+    "Time of (3.7), divided by the time of this controller, on each machine",
+)
+"""Heads of what was counted and timed of a controller."""
+
+
 @claim("C26")
 def c26(results: Results) -> tuple[Word, Evidence]:
     """Pairs of controllers on six and seven joints."""
-    timed, stands, listed, sizes = results.controller_timings(), [], [], []
+    timed, stands, sizes = results.controller_timings(), [], []
+    rows: list[tuple[str, ...]] = []
     for joints, inverse in INVERSES.items():
         three = {f"{one}+{inverse}": controller_costs(results, one, joints) for one in (BY_COMMON, ON_MATRIX, BY_EULER)}
         alone, whole = ({name: tallied(own, goal) for name, own in three.items()} for goal in (False, True))
@@ -170,24 +188,19 @@ def c26(results: Results) -> tuple[Word, Evidence]:
         known = standing.Ledger(times, (alone, whole), math.nan, standing.MEASURABLE)
         *others, euler = three
         stands += [known.stand(one, euler) for one in others]
-        told = (
-            f"{', '.join(map(str, one.values()))} {goal} the goal's angles"
-            for one, goal in ((alone, "without"), (whole, "with"))
-        )
-        ratios = ", ".join(known.over(euler, one) for one in others)
-        listed.append(f"On {joints} joints: {'; '.join(told)}; time {ratios}")
+        for name, title in zip(three, TITLES, strict=True):
+            ratio = "" if name == euler else known.over(euler, name)
+            rows.append((str(joints), title, str(alone[name]), str(whole[name]), ratio))
     dearer = sum(set(one.by_columns) == {ORDERED} for one in stands)
     return word_of(dearer == len(stands), False), evidence(
-        f"""We count flops and calls per control period of three controllers: the law on Euler angles with the
-        geometric Jacobian, (2.2) with (2.15); the law on R with the geometric Jacobian, (2.2); and the law on Euler
-        angles with the Euler Jacobian, (3.7). We also give the time of (3.7) over the time of each other controller.
-        {". ".join(listed)}. With
-        and without the goal's angles, in {count_of(dearer, len(stands), "pairs")} (3.7) takes more operations. The
+        f"""We count the flops and calls of three controllers in a control period. With and without the goal's angles,
+        (3.7) takes more operations than the other controller in {count_of(dearer, len(stands), "pairs")}. The measured
         times differ in {sum(bool(one.by_time) for one in stands)} of these pairs, and (3.7) takes longer in
         {sum(one.by_time == ORDERED for one in stands)} of these pairs.""",
         3 * 2 * len(INVERSES) + len(timed),
         ("costs", "timings") if len(timed) else ("costs",),
         measured=" ".join(sizes),
+        numbers=(OPERATIONS, *rows),
     )
 
 
@@ -210,18 +223,22 @@ def c33(results: Results) -> tuple[Word, Evidence]:
     for joints in INVERSES:
         base, euler = (results.found_by(in_contact, f"{one}+{PAPERS_FORM}", joints) for one in (BASE, EULER))
         dearer = euler.weighed(price) / base.weighed(price) - 1
-        weighed = f", {100 * dearer:.0f} % more if a call counts as the flops that take its time in C12"
+        weighed = (
+            ". If a call counts as the flops that take the same time, these are "
+            f"{100 * dearer:.0f} % more operations"
+        )
         more = euler.flops / base.flops - 1
         is_more.append(by_columns(base, euler) == ORDERED)
         is_few.append(more <= LIMIT.FEW)
         by_joints.append(f"{percent(more)} % more on {joints} joints")
         told.append(
-            f"on {joints} joints {base} with the common Jacobian, {euler} with the Euler Jacobian: "
-            f"{percent(more)} % more flops "
-            f"and {euler.calls - base.calls} more calls{weighed if math.isfinite(price) else ''}"
+            f"On {joints} joints, a control period takes {base.flops:,} flops and "
+            f"{base.calls or 'no'} calls with the common Jacobian, and {euler.flops:,} flops and "
+            f"{euler.calls} calls with the Euler Jacobian"
+            f"{weighed if math.isfinite(price) else ''}."
         )
     return word_of(all(is_more) and all(is_few), all(is_more)), evidence(
-        f"Flops and calls per control period are: {'; '.join(told)}.",
+        " ".join(told),
         2 * len(told),
         measured=f"""With the Euler Jacobian, force control needs more operations than with the
         common Jacobian: {join_words(by_joints)}.""",
@@ -252,12 +269,13 @@ def c46(results: Results) -> tuple[Word, Evidence]:
         sizes.append(f"{surplus(whole, whole)} % more on {joints} joints")
         is_left.append(law[BY_EULER].flops <= LIMIT.MUCH * law[ON_MATRIX].flops)
         told.append(
-            f"on {joints} joints (3.7) takes {total[BY_EULER]} flops and calls, (2.2) with (2.15) "
-            f"{total[BY_COMMON]}, (2.2) with the law on R {total[ON_MATRIX]}; the law alone "
-            f"{law[BY_EULER].flops} flops against {law[ON_MATRIX].flops} on R"
+            f"On {joints} joints, the flops and calls in a typical control period are "
+            f"{total[BY_EULER]} for (3.7), {total[BY_COMMON]} for (2.2) with (2.15), and "
+            f"{total[ON_MATRIX]} for (2.2) with the law on R. Of these flops, the law itself "
+            f"takes {law[BY_EULER].flops} on Euler angles and {law[ON_MATRIX].flops} on R."
         )
     return word_of(all(is_less) and all(is_left), all(is_left)), evidence(
-        f"In a typical control period, {'; '.join(told)}.",
+        " ".join(told),
         3 * len(told),
         measured=f"""(3.7) takes more operations than the cheapest controller by (2.2):
         {join_words(sizes)}. The law in (3.7) takes {law[BY_EULER].flops} of these operations, the

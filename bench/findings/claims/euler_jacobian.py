@@ -130,6 +130,18 @@ def c19(results: Results) -> tuple[Word, Evidence]:
     )
 
 
+NAMED = {form: "-".join(form[:3].upper()) for form in (*LIMIT.REGULAR, LIMIT.AT_ZERO)}
+"""What forms of Euler angles are called in sentences."""
+
+HEADS = (
+    "Form",
+    "Uniform starts that never settle; median settling time",
+    "Starts near 180° that never settle; median settling time",
+    "Growth of the condition number of B towards the pole",
+)
+"""Heads of what was measured of a form."""
+
+
 @claim("C34")
 def c34(results: Results) -> tuple[Word, Evidence]:
     """Pairs of forms by how their laws settle, and each form's Jacobian at its pole."""
@@ -150,19 +162,21 @@ def c34(results: Results) -> tuple[Word, Evidence]:
         and all(_alike(found[one][name], found[two][name]) for name in LIMIT.SETS)
         for one, two in itertools.combinations(forms, 2)
     }
-    told = ". ".join(f"{form}: {_told(found[form])}; {degenerate[form][1]}" for form in forms)
+    rows = [(NAMED[form], *_numbers(found[form]), degenerate[form][1]) for form in forms]
     near_180 = {form: own[LIMIT.SETS[-1]][0] for form, own in found.items()}
     lost_by_form = join_words([
-        f"{kept.n - kept.k} never settle with {'-'.join(form[:3].upper())} angles" for form, kept in near_180.items()
+        f"{kept.n - kept.k} never settle with {NAMED[form]} angles" for form, kept in near_180.items()
     ])
     starts = max(kept.n for kept in near_180.values())
     return word_of(all(alike.values()), alike[LIMIT.REGULAR] and not all(alike.values())), evidence(
-        f"""For each form we give the starts lost and the median settling time of each set, and how fast the condition
-        number of B grows towards the form's own pole. {told}. Forms that are alike:
-        {"; ".join(" and ".join(pair) for pair, facts in alike.items() if facts) or "none"}.""",
+        f"""We compared {len(forms)} forms: how the law settles with each, and how fast the condition number of B grows
+        towards the pole of the form.
+        These forms give the same results:
+        {"; ".join(" and ".join(NAMED[form] for form in pair) for pair, facts in alike.items() if facts) or "none"}.""",
         sum(kept.n for own in found.values() for kept, _ in own.values())
         + len(forms) * LIMIT.PAIRS * LIMIT.FORM_DECADES,
         measured=f"Of {starts} starts near 180°, {lost_by_form}.",
+        numbers=(HEADS, *rows),
     )
 
 
@@ -185,11 +199,12 @@ def _degenerates(form: str) -> tuple[bool, str]:
     return bool(tight), f"{slopes.min():.3f} to {slopes.max():.3f} decades per decade"
 
 
-def _told(found: dict[str, tuple[Share, Estimate]]) -> str:
-    return "; ".join(
-        f"of {name} {count_of(kept.n - kept.k, kept.n, 'starts')} lost, {time.value:.3f} s"
-        for name, (kept, time) in found.items()
-    )
+def _numbers(found: dict[str, tuple[Share, Estimate]]) -> list[str]:
+    """Return how many starts of each set are lost, and the median settling time."""
+    return [
+        f"{count_of(kept.n - kept.k, kept.n, 'starts')}; {time.value:.3f} s"
+        for kept, time in found.values()
+    ]
 
 
 @claim("C44")

@@ -203,8 +203,8 @@ def c30(results: Results) -> tuple[Word, Evidence]:
         f"""The sentence is about errors of B and of Bdot, which are not tested. We tested a statement of our own, that
         feedback linearization needs no better model of the inertia than a law without a model: {of_inertia}. The list
         gives median settling times of {LIMIT.STARTS} starts, feedback linearization against the rotation-matrix law,
-        after the inertia in multiples of the model's. {told}. A linear system of twice the inertia is slowed by
-        {heavy / linear:.2f}.""",
+        after the inertia in multiples of the model's. {told}. For comparison, a linear system with twice the inertia
+        takes {heavy / linear:.2f} times as long.""",
         sum(map(len, runs)),
         measured=f"""Errors of B are not tested. If the inertia is {heaviest:g} times that of the
         model, the settling time of feedback linearization grows to {own_slow:.2f} times its value,

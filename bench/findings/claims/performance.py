@@ -67,7 +67,7 @@ def c12(results: Results) -> tuple[Word, Evidence]:
     others = [", ".join(order) for order in orders if order != in_words]
     by_flops = "; ".join(others) or "the same"
     literal = known.accountings[0].get(LIMIT.LITERAL)  # the law that is compared shares sines and folds Bdot
-    as_printed = f"(2.15) as printed, term by term, takes {literal}." if literal else ""
+    as_printed = f"If (2.15) is computed term by term, as printed, it takes {literal}." if literal else ""
     priced = f"; in these times a call takes {known.price:.0f} flops" if np.isfinite(known.price) else ""
     timed_pairs = sum(bool(pair.by_time) for pair in pairs)
     is_ordered = all(pair.sign == ORDERED for pair in pairs)
@@ -85,7 +85,7 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         {timed_pairs or "none"}. Flops and calls are: {paper}. If the law also computes the goal's angles from the
         goal's matrix, they are: {total}. Flops and calls give one order in
         {count_of(sum(0 not in pair.by_columns for pair in pairs), len(pairs), "pairs")}{priced}. By flops alone, the
-        order is: {by_flops}. {as_printed}""",
+        order from the cheapest law is: {by_flops}. {as_printed}""",
         len(THREE) * (len(known.accountings) + len(known.times)),
         ("costs", "timings") if known.times else ("costs",),
         instead if word == Word.CORRECTED else "",
@@ -335,13 +335,14 @@ def c35(results: Results) -> tuple[Word, Evidence]:
     ]
     matrix, linearized, feedback = (one for _, one, _ in found)
     reasonable = [name for name, one, time in found if one.low >= LIMIT.REASONABLE and time.high <= LIMIT.PACE * small]
-    told = "; ".join(
-        f"{name} {one}, {tables.interval_or_never(time, '.3f', ' s')}"
+    told = " ".join(
+        f"With {name}, {one} of the starts settle; the median settling time is "
+        f"{tables.interval_or_never(time, '.3f', ' s')}."
         for name, one, time in found
     )
     return word_of(len(reasonable) == 2, len(reasonable) == 3), evidence(
-        f"""Reasonable laws: {", ".join(reasonable) or "none"}. Shares that settle and median times are: {told}. A
-        small error settles in {small:.3f} s.""",
+        f"""These laws perform reasonably: {", ".join(reasonable) or "none"}. {told} A small error settles in
+        {small:.3f} s.""",
         sum(one.n for _, one, _ in found),
         measured=f"""Of {matrix.n:,} uniform starts, {percent(matrix.value)} % settle with the
         rotation-matrix law, {percent_interval(linearized)} with the linearized law, and
@@ -355,11 +356,12 @@ def c36(results: Results) -> tuple[Word, Evidence]:
     small, known = closed_form.linear_settling(*results.gains()), adequacy.of_three(results)
     three = some([one for one in adequacy.every(results, MAIN_ENGINE) if one.name in THREE], "law of the paper")
     tested = {law.name: adequacy.examine(law, known, small, {}).among(LIMIT.TESTS) for law in three}
-    told = "; ".join(
-        f"{one.name.partition('/')[0]} {tested[one.name].in_words()} ({percent(one.settled)} % of "
-        f"{one.n:,} settle, {count_of(one.lost, one.directed, 'directed starts')} are lost, "
-        f"{one.lost_exact} starts exactly on a boundary are lost, time for 99 % of the starts: "
-        f"{tables.interval_or_never(one.pace, '.2f', ' s')})"
+    told = " ".join(
+        f"The law {one.name.partition('/')[0]} {tested[one.name].in_words()}. With it, "
+        f"{percent(one.settled)} % of {one.n:,} uniform starts settle. The time in which 99 % of "
+        f"them settle is: {tables.interval_or_never(one.pace, '.2f', ' s')}. The body never "
+        f"settles from {count_of(one.lost, one.directed, 'difficult starts')}, and from "
+        f"{one.lost_exact} starts exactly on a boundary."
         for one in three
     )
     word = word_of(len(three) == len(THREE) and all(result.failed for result in tested.values()), False)
@@ -372,7 +374,7 @@ def c36(results: Results) -> tuple[Word, Evidence]:
         if name in by_name
     ])
     return word, evidence(
-        f"{told}.",
+        told,
         sum(law.rows for law in three),
         measured=f"""Of the starts exactly on a boundary (a 180° rotation, a pole or ±π), these do
         not settle: {on_boundary}.""",

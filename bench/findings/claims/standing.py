@@ -18,11 +18,12 @@ from bench.experiments.tables.statistics import Estimate
 ORDERED, UNDECIDED, REVERSED = 1, 0, -1
 
 RULE = """
-    The times of a pair are interleaved on one machine (results/timings). The pair is in order by time if the 95 %
-    intervals of both laws part that way wherever both are timed. It is in order by columns if the dearer law has no
-    fewer flops, no fewer calls and more of one of them. Time decides. Where time does not part the two laws, or one of
-    them has no time, the columns decide. Where the columns differ, flops and calls together decide, at the price of a
-    call that the times of all laws give.
+    We compare two laws at a time, and ask whether the law that the paper calls cheaper is cheaper. The two laws are
+    timed in turns on one machine (results/timings). The times confirm the paper's order if, on every machine that timed
+    both laws, the cheaper law takes less time and the 95 % intervals do not overlap. The operations confirm this order
+    if the dearer law has no fewer flops, no fewer calls and more of one of them. The times decide. If the intervals
+    overlap, or if one of the laws has no time, the operations decide. If flops and calls give different orders, their
+    sum decides; a call then counts as the number of flops that take the same time.
     """
 
 MEASURABLE = 0.04

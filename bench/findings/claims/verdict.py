@@ -108,7 +108,7 @@ class Earlier(NamedTuple):
 
     def __str__(self) -> str:
         """Return the criterion, why it was given up, and what came out by it."""
-        return f"{self.criterion} By this criterion, the claim {does(self.word, 1)}."
+        return f'{self.criterion} By that earlier criterion, the verdict was "{self.word}".'
 
 
 SECTION = re.compile(r"\d+(?:\.\d+)?")

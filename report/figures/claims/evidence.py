@@ -20,7 +20,7 @@ SLIPS = html.Table("Error | Where in the paper | Printed words | Right words | H
 
 
 STUDIES = {
-    "experiment": "an experiment that <code>bench claims</code> makes itself",
+    "experiment": "no table, because the command <code>bench claims</code> computes them",
     "timings": "<code>results/timings</code> of the repository; made by <code>bench time</code>",
     "maps": "<code>results/maps</code> of the repository; made by <code>bench map</code>",
 }
@@ -103,7 +103,8 @@ def describe_rows(one: Verdict, run: Run) -> str:
     sources = [STUDIES.get(name) or link_file(name, run) for name in evidence.tables]
     listed = f'{"; ".join(sources)} (<a href="appendix-data.html#tab-files">all files</a>)'
     number = html.number(evidence.rows)
-    return f"{number} rows and states decide this claim. They are in: {listed}.{list_conditions(evidence.chosen)}"
+    where = f"The rows and states are in: {listed}.{list_conditions(evidence.chosen)}"
+    return f"The verdict uses {number} rows of result tables and computed states of a law or an arm. {where}"
 
 
 def link_file(table: str, run: Run) -> str:
