@@ -64,16 +64,18 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
     ends = rows.loc[~away, "outcome"].astype(str).value_counts()
     close = ", ".join(f"{n} {end}" for end, n in ends.items()) or "no pose"
     return word, evidence(
-        f"""Euler compliance and Cartesian compliance along the base's axes are the same
-        {_by_order(judged, "same")} poses and forms ({judged["arm"].nunique()} arms); elsewhere the two compliances
-        differ by up to {_greatest(differs[away]):.2f} of the Cartesian compliance. If the Cartesian compliance is
-        turned by the Euler angles that come before, they differ by at most {_greatest(differs_turned[away]):.1e} of it.
-        Euler compliance is the same as compliance about the hand's own axes {_by_order(judged, "same_in_hand")} poses
-        and forms. The numbers do not count poses closer to the pole; there the episodes end as follows: {close}.""",
+        f"""A case is one pose of an arm with one kind of force control. Euler compliance and
+        Cartesian compliance along the base's axes are the same {_by_order(judged, "same")} cases
+        ({judged["arm"].nunique()} arms). In the other cases the two compliances differ by up to
+        {_greatest(differs[away]):.2f} of the Cartesian compliance. If the Cartesian compliance is
+        turned by the Euler angles that come before, they differ by at most
+        {_greatest(differs_turned[away]):.1e} of it. Euler compliance is the same as compliance
+        about the hand's own axes {_by_order(judged, "same_in_hand")} cases. The numbers do not
+        count poses closer to the pole; there the episodes end as follows: {close}.""",
         len(rows),
-        instead=f"""One compliant angle acts as one compliant axis of the base {_by_order(judged, "same")} poses and
-        forms. One compliant angle acts as one axis, turned by the earlier angles,
-        {_by_order(judged, "same_turned")} poses and forms.""",
+        instead=f"""One compliant angle acts as one compliant axis of the base {_by_order(judged, "same")} cases.
+        One compliant angle acts as one axis, turned by the earlier angles,
+        {_by_order(judged, "same_turned")} cases.""",
         measured=f"""One compliant angle acts as one axis, turned by the earlier angles, at
         {count_of(int(judged["same_turned"].sum()), len(judged), "poses")}.""",
     )
@@ -115,10 +117,10 @@ def c23(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     least = float(np.nanmin(differs[general], initial=np.inf))
     special = _by_order(rows.assign(same=differs <= LIMIT.SAME)[~general], "same") or "at none of the 0"
     return word, evidence(
-        f"""If no angle is zero, the two compliances differ at
-        {count_of(int(parted.sum()), len(parted), "poses and forms")}, by {least:.2f} of the
-        Cartesian compliance or more. If an angle is zero, they are the same {special} poses and
-        forms. Compliance {LEVEL_PAIR} is tested at {int(level.sum())} poses and forms up to |beta|
+        f"""A case is one pose of an arm with one kind of force control. If none of the Euler angles is
+        zero, the two compliances differ at {count_of(int(parted.sum()), len(parted), "cases")}, by
+        {least:.2f} of the Cartesian compliance or more. If an Euler angle is zero, they are the same
+        {special} cases. Compliance {LEVEL_PAIR} is tested at {int(level.sum())} cases up to |beta|
         = {math.degrees(beta.max()):.0f} degrees on {rows["arm"].nunique()} arms. Both compliant
         planes lie as predicted to {_greatest(tilt):.1e} rad. A moment about the level axis also
         turns the hand about z. The ratio of the two rotations is as predicted to

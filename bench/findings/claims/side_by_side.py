@@ -24,8 +24,8 @@ PAIRED = ("task", "arm", "form", "pose", "complies")
 
 DECIDES = f"""
     Rows of the form '{PAPERS_FORM}' decide. This form is the paper's force control ("converted to joint torques by the
-    Jacobian transpose", 3.3). The forms {" and ".join(f"'{form}'" for form in ACCELERATION_FORMS)} had been judged
-    before it was there. We report them beside it, by the same criterion.
+    Jacobian transpose", 3.3). The forms {" and ".join(f"'{form}'" for form in ACCELERATION_FORMS)} were
+    judged first. We also report their results, by the same criterion.
     """
 
 

@@ -138,8 +138,8 @@ def say_property(law: Law) -> dict[str, str]:
     if "upper" in certificate["settling"]:
         upper = f"{certificate['settling']['upper']:.4f} s"
         text += (
-            " With the paper's gains and from every start at rest, the angle to the goal stays "
-            f"within 2 % of its first value after at most {upper} (proved with the library Arb)."
+            " With the paper's gains and from every start at rest, the angle to the goal falls below 2 % "
+            f"of its first value after at most {upper}, and stays below it (proved with the library Arb)."
         )
     text += f" {describe_sampled(certificate)}"
     return {"Proved": html.Html(f"{set_words(text)} {html.formula(certificate['V'])}")}

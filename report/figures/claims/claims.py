@@ -41,7 +41,7 @@ def table(verdicts: Iterable[Verdict]) -> html.Markdown | None:
 def describe(verdict: Verdict) -> tuple:
     """Return the row of a claim."""
     claim = verdict.claim
-    first = "" if verdict.first == verdict.word else f"<br>first: {verdict.first}"
+    first = "" if verdict.first == verdict.word else f"<br>(first verdict: {verdict.first})"
     measured, correction = prose(verdict.measured), prose(call_laws(verdict.correction))
     if correction and len(verdict.correction) <= LONGEST_CORRECTION:
         measured += f'<br><span class="what-is-true">{correction}</span>'

@@ -20,11 +20,13 @@ SLIPS = html.Table("Error | Where in the paper | Printed words | Right words | H
 
 
 STUDIES = {
-    "experiment": "no table, because the command <code>bench claims</code> computes them",
     "timings": "<code>results/timings</code> of the repository; made by <code>bench time</code>",
     "maps": "<code>results/maps</code> of the repository; made by <code>bench map</code>",
 }
 """Evidence that is in no table of a run, and what makes it."""
+
+COMPUTED = "experiment"
+"""The word among a claim's tables for evidence that the claim computes itself."""
 
 
 def facts(run: Run) -> dict:
@@ -54,7 +56,7 @@ def describe_slip(one: Erratum) -> tuple:
 def section(one: Verdict, run: Run) -> str:
     """Return what decided a claim, folded under its sentence; a link to it opens it, for the anchor is inside."""
     claim = one.claim
-    value = "" if claim.value == "none given" else f" (What it states: {claim.value}.)"
+    value = "" if claim.value == "none given" else f" (The value that we test: {claim.value}.)"
     quoted = f"“{claim.quote}”{value}" if claim.quote else claim.sentence
     rows = {
         "The paper says": f"{escape.escape(claim.place)}: {marked_up(quoted)}",
@@ -96,15 +98,19 @@ def draw_numbers(numbers: Sequence[Sequence[str]], id: str) -> str:
 
 
 def describe_rows(one: Verdict, run: Run) -> str:
-    """Return how many rows decide a claim, the files that hold them, and the lines of Python that choose them."""
+    """Return how many rows and states decide a claim, the files, and the lines of Python that choose the rows."""
     evidence = one.evidence
     if not evidence.rows:
         return ""
-    sources = [STUDIES.get(name) or link_file(name, run) for name in evidence.tables]
-    listed = f'{"; ".join(sources)} (<a href="appendix-data.html#tab-files">all files</a>)'
+    files = [STUDIES.get(name) or link_file(name, run) for name in evidence.tables if name != COMPUTED]
+    computed = "states of a law or an arm, which the command <code>bench claims</code> computes"
     number = html.number(evidence.rows)
-    where = f"The rows and states are in: {listed}.{list_conditions(evidence.chosen)}"
-    return f"The verdict uses {number} rows of result tables and computed states of a law or an arm. {where}"
+    if not files:
+        return f"The verdict uses {number} {computed}."
+    listed = f'{"; ".join(files)} (<a href="appendix-data.html#tab-files">all files</a>)'
+    used = f"The verdict uses {number} rows of these files: {listed}"
+    beside = f", together with {computed}" if COMPUTED in evidence.tables else ""
+    return f"{used}{beside}.{list_conditions(evidence.chosen)}"
 
 
 def link_file(table: str, run: Run) -> str:
@@ -128,7 +134,7 @@ def list_conditions(chosen: Iterable[tuple[str, str]]) -> str:
 
 def describe_commands(one: Verdict) -> str:
     """Return the commands that make the rows of a claim again and judge it."""
-    stored = [name for name in one.evidence.tables if name not in STUDIES]
+    stored = [name for name in one.evidence.tables if name not in (*STUDIES, COMPUTED)]
     made = "<code>make bench</code> makes the tables, and " if stored or not one.evidence.tables else ""
     return f"{made}<code>bench claims</code> judges the claim ({HOW_TO_RUN})."
 
