@@ -53,8 +53,8 @@ def c21(results: Results) -> tuple[Word, Evidence]:
     rank = 2 if found.loc[poles, "least"].max() <= LOST else 3
     return word, evidence(
         f"""We tested {len(found):,} orientations, {int(poles.sum())} of them exact poles. The converted moment F_E is
-        finite at {count_of(int(found["exists"].sum()), len(found), "orientations")}. The power F_E . Edot is the
-        same as m . omega, to {found["gap"].max() / EPS:.1f} eps. With omega from differences of R(E), it is so to
+        finite at {count_of(int(found["exists"].sum()), len(found), "orientations")}. The power F_E^T Edot is the
+        same as m^T omega, to {found["gap"].max() / EPS:.1f} eps. With omega from differences of R(E), it is so to
         {found["difference_gap"].max() / DIFFERENCED:.1f} eps^(2/3); in the loop, at {len(looped):,} episodes of
         the wrench probe, to {residual.max():.1f} eps / cos(beta). At the poles B has rank {rank}: of one moment
         {found.loc[poles, "lost"].max():.0g} is left. In {len(elsewhere)} other representations work balances to
