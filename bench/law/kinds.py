@@ -42,7 +42,8 @@ class Law(NamedTuple):
         coordinates: "rotation-matrix" if the law acts on R; otherwise the names of the coordinates
             that it acts on, or "any". Such a law gives `law_in(coordinates)`, which returns the law
             in those coordinates.
-        relative: whether the coordinates and the margin are computed from R_d^T R.
+        relative: True if the coordinates, and the margin to their singularity, are computed from
+            R_d^T R; False if they are computed from R.
         memory: initial memory of a law with memory; otherwise None. Such a law is
             law(R, omega, goal, gains, memory) -> (u, memory). The law returns the new memory, which
             the caller passes to the next control step without a change. Such a law does not need

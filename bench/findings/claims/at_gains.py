@@ -20,9 +20,9 @@ GAINS = RESULTS / "gains"
 """Runs of the same starts at other gains, a folder each."""
 
 RULE = (
-    "The same is decided on results/reference and on every run of results/gains, whatever run is "
-    "judged: where they do not all give one word, it depends on the gains; gains at which it was "
-    "not tested do not count, and are named."
+    "Whichever run is judged, we also judge results/reference and every run of results/gains in this "
+    "way. If these verdicts differ, the verdict is 'depends on the gains'. We do not count gains at "
+    "which the claim was not tested, and name them."
 )
 
 STORED = RESULTS / "verdicts" / "verdicts.json"

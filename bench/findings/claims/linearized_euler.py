@@ -206,8 +206,8 @@ def c38(results: Results) -> tuple[Word, Evidence]:
         {percent_interval(unsettled)} are lost. The settling times of the others are
         {percent(typical)} % off the linear model's time, in the median; for
         {percent(float(np.mean(off >= LIMIT.OFF)))} % of them they are {100 * LIMIT.OFF:.0f} % or
-        more off. Turns of one angle alone, up to {max(LIMIT.ALONE_RAD):g} rad, settle within
-        {percent(alone)} % of the linear model's time.""",
+        more off. For turns of one angle alone, up to {max(LIMIT.ALONE_RAD):g} rad, the
+        settling time differs from the linear model's by at most {percent(alone)} %.""",
         len(rows) + 3 * len(LIMIT.ALONE_RAD),
         instead=f"""{percent(unsettled.value)} % of the starts outside the linear region are lost, and settling times
         are {percent(typical)} % off the linear model's time, in the median.""",

@@ -23,9 +23,10 @@ PAIRED = ("task", "arm", "form", "pose", "complies")
 """What two controllers' rows have in common: the same arm, scene, frame of the hand, order and form."""
 
 DECIDES = f"""
-    Rows of the form '{PAPERS_FORM}' decide. This form is the paper's force control ("converted to joint torques by the
-    Jacobian transpose", 3.3). The forms {" and ".join(f"'{form}'" for form in ACCELERATION_FORMS)} were
-    judged first. We also report their results, by the same criterion.
+    Force control has several variants here (the column `form`). The rows of the variant '{PAPERS_FORM}' decide, because
+    it is the paper's force control ("converted to joint torques by the Jacobian transpose", 3.3). Our first verdict was
+    on the variants {" and ".join(f"'{form}'" for form in ACCELERATION_FORMS)}; we still report their results, judged by
+    the same criterion.
     """
 
 

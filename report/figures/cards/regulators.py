@@ -173,8 +173,9 @@ def advised(law: str) -> str:
     if is_ours:
         beats = say_share(compare_with_advised(law).value)
         return (
-            "Our rule does not recommend this law, because it is ours. The law is more than "
-            f"{percent(SPOKEN)} faster than the recommended law in {beats}. {beside}"
+            "Our rule recommends published and adapted laws only. It does not recommend this "
+            f"law, which is ours. The law is more than {percent(SPOKEN)} faster than the "
+            f"recommended law in {beats}. {beside}"
         )
     if region is None:
         return beside
