@@ -167,7 +167,7 @@ def _price_of_default(law: str, folder: Path) -> str:
         return f"{costs}; the median overshoot of the law in the random situations is {price.typical_overshoot:.1f}°"
     beside = find_price(other, folder)
     return (
-        f"{costs} (the law {other}: {beside.peak:.2g} kp). With gains that give both laws the same peak "
+        f"{costs} (law {other}: {beside.peak:.2g} kp). With gains that give both laws the same peak "
         f"command, in rad/s², 99 % of the starts settle in {price.at_equal_peak:.1f}/√peak "
         f"seconds ({other}: {beside.at_equal_peak:.1f}/√peak seconds). The median overshoot of "
         f"the law in the random situations is {price.typical_overshoot:.1f}° ({other}: "
@@ -255,7 +255,7 @@ def _by_map(name: str, controller: str, law: str, default: str, folder: Path, wh
     costs = _list_costs(law, folder)
     slower = find_price(law, folder).time / find_price(default, folder).time
     if slower > 1.0 + SPOKEN:
-        costs.append(f"without a command limit needs {slower:.1f} times the settling time of {default}")
+        costs.append(f"takes, if not limited, {slower:.1f} times as long as {default}")
     return Need(controller, law, attribute(law), why, join_words(costs), name)
 
 
