@@ -1,7 +1,7 @@
 """the error is zero at 180°.
 
 effect: a robot that starts 180° from its goal stays there; a robot that starts close to 180° leaves slowly
-cure: use 1 as the sign of 0; use atan2 instead of an arc sine; take the axis from a column of R + R^T; do not use
+cure: let the sign of zero be 1; use atan2 instead of an arc sine; take the axis from a column of R + R^T; do not use
   the sine of the angle as the length of the error
 law: quaternion-shortest
 unless: not-a-number, raises, long-way, misaligned
