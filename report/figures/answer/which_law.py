@@ -169,9 +169,8 @@ def describe_condition(answer: Answer) -> str:
         if need.name == "weak-motors":
             law = families.word(need.law)
             sentences.append(
-                f"The row of {law} below has narrower command limits: at these limits {law} itself "
-                f"is more than {100 * SPOKEN:.0f} % faster than "
-                f"{families.word(answer.law)}. At the other limits, another law is."
+                f"In the row of {law} below, the command limits are those at which {law} is more than "
+                f"{100 * SPOKEN:.0f} % faster than {families.word(answer.law)}."
             )
     return " ".join(sentences)
 
