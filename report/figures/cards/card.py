@@ -14,7 +14,7 @@ from pygments.lexers import PythonLexer
 from bench.export.language import find_language, language_words
 from bench.export.short import write_short
 from bench.export.subject import find_subject
-from bench.findings.proofs.certificate import DRAWN, SCOPE, describe_sampled, read_certificates
+from bench.findings.proofs.certificate import DRAWN, describe_sampled, read_certificates
 from bench.law.attribution import describe_source
 from bench.law.kinds import Law
 from report.figures.kit import html
@@ -36,11 +36,6 @@ PROPERTIES = {
     "none": "We did not prove that the goal is stable.",
     "": "",
 }
-ASSUMED = {
-    SCOPE: "The proof assumes continuous time, exact numbers, exact measurements, a command with no bound and no "
-    "delay, and a correct model of the inertia."
-}
-SOLVERS = {"Z3": "the solver Z3"}
 EQUILIBRIA = {
     "none": "The law has no equilibrium away from the goal.",
     "none, but the command jumps at 180°": "The law has no equilibrium away from the goal, but its command jumps at "
@@ -49,7 +44,7 @@ EQUILIBRIA = {
     "every 180° rotation": "Every 180° rotation is an equilibrium.",
     "180° rotations about n_d, o_d and a_d": "The 180° rotations about n_d, o_d and a_d are equilibria.",
 }
-"""What certificates have in short, as a card says it; what is not among these is said as the certificate has it."""
+"""Where a law can rest away from the goal: the words of a certificate -> a sentence of its card."""
 GREEK = {**LETTERS, "eps": "ε", "eta": "η", "lambda": "λ"}
 DOTTED = re.compile(rf"\b({'|'.join(GREEK)}|[A-Za-z])(d?)dot\b")
 SIGNS: tuple[tuple[str, Any], ...] = (
@@ -128,8 +123,8 @@ def say_property(law: Law) -> dict[str, str]:
     if not certificate or not certificate["is_proved"] or certificate["declared"] != law.property:
         return {"Stability" if law.property == "none" else "Measured, not proved": text}
     lemmas = [lemma for lemma in certificate["lemmas"] if lemma["by"] != DRAWN]
-    by = " and ".join(sorted({SOLVERS.get(lemma["by"], lemma["by"]) for lemma in lemmas}, reverse=True))
-    text += f" {ASSUMED.get(certificate['scope'], certificate['scope'])}"
+    by = " and ".join(sorted({lemma["by"] for lemma in lemmas}))
+    text += f" The proof holds {certificate['scope']}."
     steps = [f"({i}) {step}" for i, step in enumerate(certificate["cited"], 1)]
     text += f" The proof uses the function V below. A program read the source code of the law and proved {len(lemmas)} "
     text += f"lemmas with {by}, in {certificate['seconds']:.1f} s."
