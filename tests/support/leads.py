@@ -282,7 +282,7 @@ def recompute_verdicts():
         for word_of_first in (one.word for one in verdict.claim.earlier[:1]):
             first[verdict.claim.id] = str(word_of_first or verdict.evidence.earlier[0])
     order = {"holds": [], "holds with a correction": [], "does not hold": []}
-    order |= {"open in 1988; answered since": [1988], "depends on the gains": [], "depends on the reading": []}
+    order |= {"open in 1988; answered since": [1988], "depends on the gains": [], "depends on how it is read": []}
     order |= {"not testable": [], "not tested": []}
     said = [
         [number for word, more in order.items() if (n := list(words.values()).count(word)) for number in (n, *more)]

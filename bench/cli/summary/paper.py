@@ -93,7 +93,7 @@ IN_SHORT = {
         "were open in 1988 and are answered",
     ),
     Word.DEPENDS: ("depends on the gains", "depend on the gains"),
-    Word.READING: ("depends on the reading", "depend on the reading"),
+    Word.READING: ("depends on how it is read", "depend on how they are read"),
     Word.UNTESTABLE: ("is not testable", "are not testable"),
     Word.UNTESTED: ("is not tested", "are not tested"),
 }

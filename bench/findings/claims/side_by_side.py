@@ -33,7 +33,7 @@ DECIDES = f"""
 def by_either_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[..., tuple[Word, Evidence]]:
     """Wrap a judging function of (results, forms): if both ways to control forces give one word, that is the word.
 
-    Else it depends on the reading, for the paper's sentence says of neither that it is meant.
+    Else it depends on how it is read, for the paper's sentence says of neither that it is meant.
     """
 
     @functools.wraps(decide)

@@ -27,7 +27,7 @@ class Word(StrEnum):
     FAILS = "does not hold"
     ANSWERED = "open in 1988; answered since"
     DEPENDS = "depends on the gains"
-    READING = "depends on the reading"
+    READING = "depends on how it is read"
     UNTESTABLE = "not testable"
     UNTESTED = "not tested"
 
@@ -38,7 +38,7 @@ PLURAL = {
     Word.FAILS: "do not hold",
     Word.ANSWERED: "were open in 1988 and are answered since",
     Word.DEPENDS: "depend on the gains",
-    Word.READING: "depend on the reading",
+    Word.READING: "depend on how they are read",
     Word.UNTESTABLE: "are not testable",
     Word.UNTESTED: "are not tested",
 }

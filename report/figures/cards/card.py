@@ -44,7 +44,7 @@ EQUILIBRIA = {
     "every 180° rotation": "Every 180° rotation is an equilibrium.",
     "180° rotations about n_d, o_d and a_d": "The 180° rotations about n_d, o_d and a_d are equilibria.",
 }
-"""Where a law can rest away from the goal: the words of a certificate -> a sentence of its card."""
+"""Say where a law can rest away from the goal: the words of a certificate -> a sentence of its card."""
 GREEK = {**LETTERS, "eps": "ε", "eta": "η", "lambda": "λ"}
 DOTTED = re.compile(rf"\b({'|'.join(GREEK)}|[A-Za-z])(d?)dot\b")
 SIGNS: tuple[tuple[str, Any], ...] = (

@@ -20,7 +20,7 @@ VERDICTS = {
     "does not hold": "fails",
     "open in 1988; answered since": "answered",
     "depends on the gains": "untestable",
-    "depends on the reading": "untestable",
+    "depends on how it is read": "untestable",
     "not tested": "untestable",
     "not testable": "untestable",
 }
