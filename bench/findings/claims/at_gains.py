@@ -20,9 +20,9 @@ GAINS = RESULTS / "gains"
 """Runs of the same starts at other gains, a folder each."""
 
 RULE = (
-    "Whichever run is judged, we also judge results/reference and every run of results/gains in this "
-    "way. If these verdicts differ, the verdict is 'depends on the gains'. We do not count gains at "
-    "which the claim was not tested, and name them."
+    "Whichever run is judged, we also judge results/reference and every run of results/gains by this "
+    "criterion. If these verdicts differ, the verdict is 'depends on the gains'. We do not count gains "
+    "at which the claim was not tested, and we name these gains."
 )
 
 STORED = RESULTS / "verdicts" / "verdicts.json"
@@ -129,9 +129,9 @@ def on_every_engine(decide: Callable) -> Callable:
             with contextlib.suppress(NoEvidence):
                 others[engine], also = decide(results, engine)
                 rows += also.rows
-        said = "No sampled engine has rows for this."
+        said = "No sampled engine has rows for this claim."
         if others:
-            said = f"Sampled engines agree ({', '.join(others)})."
+            said = f"Sampled engines give the same verdict ({', '.join(others)})."
         if set(others.values()) - {word}:
             said = "Sampled: " + ", ".join(f"{engine} says '{other}'" for engine, other in others.items()) + "."
         return word, found._replace(sentence=f"{found.sentence} {said}", rows=rows)
