@@ -99,10 +99,11 @@ def c07(results: Results, engine: str) -> tuple[Word, Evidence]:
         {len(converged(passing))} of these episodes converge. Of those that converge, {percent(lost_passing.value)} % do
         not settle. The 95 % interval is {percent(lost_passing.low)} to {percent(lost_passing.high)} %. Its lower
         end counts the episodes that do not converge as settled, and its upper end counts them as lost. Of the episodes
-        that stay farther from the pole, {percent_interval(lost_rest)} do not settle. The median peak command is {peak.value:,.0f} rad/s^2
-        ({peak.low:,.0f} to {peak.high:,.0f}) in the episodes near the pole, and {interval(rest_peak, ",.0f")} rad/s^2
-        in the others. We also simulated starts at rest near a pole. {capitalize(settled_of(beside, "starts"))} that
-        converge settle, and {len(poles) - len(beside)} starts do not converge.""",
+        that stay farther from the pole, {percent_interval(lost_rest)} do not settle. The median peak command is
+        {peak.value:,.0f} rad/s^2 ({peak.low:,.0f} to {peak.high:,.0f}) in the episodes near the pole, and
+        {interval(rest_peak, ",.0f")} rad/s^2 in the others. We also simulated starts at rest near a pole.
+        {capitalize(settled_of(beside, "starts"))} that converge settle, and {len(poles) - len(beside)} starts do not
+        converge.""",
         len(frame) + len(poles),
         measured=f"""Of {len(passing)} starts whose path comes close to a pole,
         {percent_interval(lost_passing)} never settle. Of the other starts,
@@ -220,8 +221,8 @@ def c38(results: Results) -> tuple[Word, Evidence]:
         instead=f"""{percent(unsettled.value)} % of the starts outside the linear region are lost. From the other
         starts, the median difference between the settling time and that of the linear model is
         {percent(typical)} %.""",
-        measured=f"""{percent_interval(unsettled)} of the starts never settle. From the other starts,
-        the median difference between the settling time and that of the linear model is {percent(typical)} %.""",
+        measured=f"""{percent_interval(unsettled)} of the starts never settle. The settling times of
+        the others differ from that of the linear model by {percent(typical)} % (median).""",
     )
 
 
