@@ -129,11 +129,12 @@ def on_every_engine(decide: Callable) -> Callable:
             with contextlib.suppress(NoEvidence):
                 others[engine], also = decide(results, engine)
                 rows += also.rows
-        said = "No sampled engine has rows for this claim."
+        said = "No simulation with sampled control has rows for this claim."
         if others:
-            said = f"Sampled engines give the same verdict ({', '.join(others)})."
+            said = f"Simulations with sampled control give the same verdict (engine {', '.join(others)})."
         if set(others.values()) - {word}:
-            said = "Sampled: " + ", ".join(f"{engine} says '{other}'" for engine, other in others.items()) + "."
+            listed = ", ".join(f"'{other}' (engine {engine})" for engine, other in others.items())
+            said = f"Simulations with sampled control give the verdict {listed}."
         return word, found._replace(sentence=f"{found.sentence} {said}", rows=rows)
 
     return judge
