@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from bench.base.on_first_use import Turn, pd
-from bench.findings.amounts import count_of, part_of
+from bench.findings.amounts import count_of, join_words, part_of
 from bench.findings.claims import probes, side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.force_conversion import random_orientations
@@ -66,28 +66,28 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
     return word, evidence(
         f"""A case is one pose of one arm with one variant of force control. We tested
         {judged["arm"].nunique()} arms. Euler compliance is the same as Cartesian compliance about
-        the base's axes in these cases: {_by_order(judged, "same")} cases. In the other cases, the
+        the base's axes {_by_order(judged, "same")}. In the other cases, the
         two compliances differ by up to {_greatest(differs[away]):.2f} times the Cartesian
         compliance. If the Cartesian compliance is turned by the Euler angles before the compliant
         angle, the two compliances differ by at most {_greatest(differs_turned[away]):.1e} times the
         Cartesian compliance. Euler compliance is the same as compliance about the hand's own axes
-        in these cases: {_by_order(judged, "same_in_hand")} cases. These numbers leave out the poses
+        {_by_order(judged, "same_in_hand")}. These numbers leave out the poses
         closest to the pole. At these poses, the episodes end as follows: {close}.""",
         len(rows),
-        instead=f"""One compliant angle acts as one compliant axis of the base in these cases:
-        {_by_order(judged, "same")} cases. One compliant angle acts as one axis that the earlier
-        angles turn in these cases: {_by_order(judged, "same_turned")} cases.""",
+        instead=f"""One compliant angle acts as one compliant axis of the base
+        {_by_order(judged, "same")}. One compliant angle acts as one axis that the earlier angles
+        turn {_by_order(judged, "same_turned")}.""",
         measured=f"""One compliant angle acts as one axis that the earlier angles turn, at
         {count_of(int(judged["same_turned"].sum()), len(judged), "poses")}.""",
     )
 
 
 def _by_order(rows: pd.DataFrame, fact: str) -> str:
-    """Return at how many poses a fact is true, by order: 'about x at 3 of 12, about y at all 12'."""
+    """Return in how many cases a fact is true, by order: 'in 3 of 12 cases about x and in all 12 cases about y'."""
     parts = []
-    for order, own in rows.groupby("complies")[fact]:
-        parts.append(f"{order} at {part_of(int(own.sum()), len(own))}")
-    return ", ".join(parts)
+    for order, cases in rows.groupby("complies")[fact]:
+        parts.append(f"in {part_of(int(cases.sum()), len(cases))} cases {order}")
+    return join_words(parts)
 
 
 def _greatest(numbers: np.ndarray) -> float:
@@ -116,13 +116,13 @@ def c23(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     as_predicted = (missed <= LIMIT.LEAK).all() and (tilt <= LIMIT.PLANE_RAD).all()
     word = word_of(parted.all() and as_predicted, parted.mean() > 0.5)
     least = float(np.nanmin(differs[general], initial=np.inf))
-    special = _by_order(rows.assign(same=differs <= LIMIT.SAME)[~general], "same") or "at none of the 0"
+    special = _by_order(rows.assign(same=differs <= LIMIT.SAME)[~general], "same") or "in no case"
     return word, evidence(
         f"""A case is one pose of one arm with one variant of force control. If none of the Euler
         angles is zero, the two compliances differ in
         {count_of(int(parted.sum()), len(parted), "cases")}, by {least:.2f} times the Cartesian
-        compliance or more. If an Euler angle is zero, the two compliances are the same in these
-        cases: {special} cases. We tested compliance {LEVEL_PAIR} in {int(level.sum())} cases, up to
+        compliance or more. If an Euler angle is zero, the two compliances are the same
+        {special}. We tested compliance {LEVEL_PAIR} in {int(level.sum())} cases, up to
         |beta| = {math.degrees(beta.max()):.0f} degrees, on {rows["arm"].nunique()} arms. The
         compliant planes of both controllers lie as predicted to {_greatest(tilt):.1e} rad. A moment
         about the level axis also turns the hand about z. The ratio of the rotation about z to the
