@@ -62,8 +62,8 @@ def c21(results: Results) -> tuple[Word, Evidence]:
         {max(elsewhere) / EPS:.1f} eps. If the moment is not converted, the powers differ by
         {found["raw_gap"].median():.2f} in the median. Where alpha alone complies, the controller amplifies a moment by
         a factor of at most {LIMIT.USABLE:g} at {count_of(int(usable.sum()), len(found), "orientations")}. Except at
-        the exact poles, the controller amplifies a moment by a factor of up to {found.loc[~poles, "gain"].max():.1e}, as
-        1 / cos(beta) predicts.""",
+        the exact poles, the controller amplifies a moment by a factor of up to
+        {found.loc[~poles, "gain"].max():.1e}, as 1 / cos(beta) predicts.""",
         len(found) + len(looped),
         measured=f"""At {len(found):,} orientations, the work in both coordinates is the same to
         {found["gap"].max() / EPS:.1f} eps (rounding). Near the poles, the controller amplifies
