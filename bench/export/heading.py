@@ -25,7 +25,7 @@ RESET = (
 )
 SIDE = (
     "The side is followed from tick to tick, so the measured orientation must turn by less than 180° between two "
-    "ticks: e + phi/2 < 90°, where e is the error of the measured orientation and phi the rotation within a tick. The "
+    "ticks: phi + 2 e < 180°, phi the rotation within a tick, e the angle from the measured to the true one. The "
     "results with noise need this too."
 )
 """What a user of a law with memory must know."""

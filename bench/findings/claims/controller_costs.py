@@ -184,7 +184,7 @@ def c26(results: Results) -> tuple[Word, Evidence]:
         alone, whole = ({name: tallied(own, goal) for name, own in three.items()} for goal in (False, True))
         sizes.append(
             f"On {joints} joints, (3.7) takes {euler_count(whole, three)} operations per control "
-            f"period, {surplus(whole, three)} % more than the cheapest controller by (2.2)."
+            f"step, {surplus(whole, three)} % more than the cheapest controller that uses (2.2)."
         )
         times = standing.times_of(timed[timed["contender"].isin(list(three))])
         known = standing.Ledger(times, (alone, whole), math.nan, standing.MEASURABLE)
@@ -279,7 +279,7 @@ def c46(results: Results) -> tuple[Word, Evidence]:
     return word_of(all(is_less) and all(is_left), all(is_left)), evidence(
         " ".join(told),
         3 * len(told),
-        measured=f"""(3.7) takes more operations than the cheapest controller by (2.2):
+        measured=f"""(3.7) takes more operations than the cheapest controller that uses (2.2):
         {join_words(sizes)}. The law within (3.7) takes {law[BY_EULER].flops} flops; the
         rotation-matrix law takes {law[ON_MATRIX].flops} flops.""",
     )

@@ -12,7 +12,7 @@ import numpy as np
 from bench.base.on_first_use import Turn
 from bench.experiments.tables.statistics import quantile_estimate
 from bench.findings.amounts import capitalize, count_of
-from bench.findings.claims.tables import Results, evidence, interval
+from bench.findings.claims.tables import Results, evidence
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 
 LIMIT = read_limits(__file__)
@@ -173,6 +173,7 @@ def c43(results: Results) -> tuple[Word, Evidence]:
         the median. Equal errors of a small rotation vector turn a hand equally far in all
         directions. C22 to C25 judge compliance.""",
         2 * LIMIT.MATRICES,
-        measured=f"""A straight line in Z-Y-X angles is {interval(longer, ".2f")} times as long as
-        the shortest path. This is the median of {LIMIT.MATRICES} pairs of orientations.""",
+        measured=f"""For {LIMIT.MATRICES} pairs of orientations, the straight line in Z-Y-X angles is
+        {longer.value:.2f} times as long as the shortest path. This is the median; its 95 % interval
+        is {longer.low:.2f} to {longer.high:.2f}.""",
     )
