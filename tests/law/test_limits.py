@@ -1,4 +1,4 @@
-"""A law is told the bound of its command and the delay, wherever it is called; one that takes no notice is unchanged."""
+"""A law is told the bound of its command and the delay; a law that takes no notice of them is unchanged."""
 
 import math
 import subprocess
@@ -10,6 +10,7 @@ from support.limited import CASCADE, SHOWS, write_law
 
 import tasks
 from bench.engines.episode import FIRST_METRIC, Settings
+from bench.engines.metrics.registry import known_metrics
 from bench.engines.simulate_bodies import run_disturbed
 from bench.experiments.situations import plan_of, run_starts
 from bench.export.subject import find_subject
@@ -18,12 +19,17 @@ from bench.findings.proofs.reasons import Untraceable
 from bench.law.contender import Contender
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import all_contenders, find_contender
-from bench.law.inputs import Gains, Tuning, reads_limits
+from bench.law.inputs import Gains, Goal, Tuning, reads_limits
+from bench.law.so3 import from_quaternion
 from tasks.condition import Condition
 from tasks.situation import Situation
 
 README = Situation(zeta=0.7, bound=0.075, delay=0.1, period=0.04)
 """The situation of README's question: kp = 400, kv = 28, bound 30, 5 ms, 500 Hz."""
+
+
+STATE = from_quaternion((0.8, 0.6, 0.0, 0.0)), (0.1, 0.2, 0.3), Goal()
+"""R, omega and the goal of a call."""
 
 
 @pytest.fixture
@@ -37,9 +43,7 @@ def cascade(tmp_path):
 
 
 def commanded(one, condition):
-    """Return the greatest command of a second, from rest [rad/s^2]."""
-    from bench.engines.metrics.registry import known_metrics
-
+    """Return the greatest command of 50 ms, from rest [rad/s^2]."""
     starts = tasks.start_set("uniform", 1, 0)
     settings = Settings(Gains(), 1e-3, 50, 51)
     [row] = run_disturbed(one, starts, condition, settings, (known_metrics()["peak_u"],))
@@ -55,17 +59,8 @@ def test_law_is_told_the_bound_and_the_delay_of_its_condition(shows, bound, dela
 
 
 def test_law_without_a_condition_has_no_limits(shows):
-    u = shows.law(*(tasks_state := state()), Tuning())
-    assert u == (1.0, 0.0, 0.0)
-    assert len(tasks_state) == 3
-
-
-def state():
-    """Return R, omega and a goal."""
-    from bench.law.inputs import Goal
-    from bench.law.so3 import from_quaternion
-
-    return from_quaternion((0.8, 0.6, 0.0, 0.0)), (0.1, 0.2, 0.3), Goal()
+    assert shows.law(*STATE, Tuning()) == (1.0, 0.0, 0.0)
+    assert commanded(shows, Condition()) == 1.0
 
 
 def test_limits_are_found_in_the_law_and_in_what_it_calls(shows, cascade):
@@ -80,8 +75,8 @@ def test_other_laws_answer_the_same_with_limits_and_without():
     for name in ("hybrid", "rotation-matrix", "quaternion-shortest"):
         one = find_contender(name)
         memory = () if one.regulator.memory is None else ((1.0, 1.0, 0.0, 0.0),)
-        plain = one.law(*state(), Gains(), *memory)
-        assert one.law(*state(), Tuning(bound=3.0, delay=0.1), *memory) == plain
+        plain = one.law(*STATE, Gains(), *memory)
+        assert one.law(*STATE, Tuning(bound=3.0, delay=0.1), *memory) == plain
 
 
 def test_rate_that_can_be_braked_does_not_overshoot_where_motors_are_weak(cascade):
@@ -114,5 +109,6 @@ def test_exported_law_with_limits_answers_its_vectors(cascade, tmp_path):
 
 
 def test_proof_of_a_law_that_reads_a_bound_is_refused_with_the_reason(cascade):
-    with pytest.raises(Untraceable, match=r"it reads gains\.bound, and the theorems are about a command without limits"):
+    reason = r"it reads gains\.bound, and the theorems are about a command without limits"
+    with pytest.raises(Untraceable, match=reason):
         dialect.check(cascade.regulator)
