@@ -39,8 +39,8 @@ class Settings(NamedTuple):
 class Numbers(NamedTuple):
     """Settings as a compiled loop takes them: floats and integers only.
 
-    tolerance_squared, divisions, most_steps: those of `refined`. bound [rad/s^2], delay [s]: what a law is told of its
-    motors (`bench.law.inputs.Tuning`); the plant applies its own condition.
+    tolerance_squared, divisions, most_steps: those of `refined`. bound [rad/s^2], delay [s]: the limits of
+    its motors that a law can read (`bench.law.inputs.Tuning`); the plant applies its own condition.
     """
 
     kp: float

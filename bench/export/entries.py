@@ -98,8 +98,8 @@ REGULATING = Gains(1.0, 2.0)
 """The gains of the orientation error: stiffness 1, critically damped as the paper's gains are."""
 
 UNLIMITED = Tuning(*REGULATING, bound=1e30)
-"""The same for a law that reads a bound: no command reaches this one, and every language can write it, in single
-precision too."""
+"""The gains of the orientation error of a law that reads a bound. No command reaches this bound, and every language can
+write it, in single precision too."""
 
 ACCELERATION = "angular acceleration u [rad/s^2] that the law commands"
 TRACKING = (

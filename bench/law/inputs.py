@@ -45,7 +45,7 @@ class Tuning(NamedTuple):
 
 
 LIMITS = frozenset(Tuning._fields) - frozenset(Gains._fields)
-"""What a law may be told of its motors."""
+"""The limits of its motors that a law can read."""
 
 
 def reads_limits(law: Callable) -> bool:

@@ -217,7 +217,7 @@ def loop_of(observe):
 def in_steps(numbers: Numbers, condition: Condition, hold_s: float, horizon_s: float) -> Numbers:
     """Return the numbers in steps of the plant, the horizon from a goal's jump on; what lasts stops none early.
 
-    A law is told the bound of its command and the delay.
+    They hold the bound of the command and the delay, which a law can read.
     """
     step_s = condition.period_s / steps_of(condition)
     ticks = max(1, round(horizon_s / step_s)) + timing(condition).jump
