@@ -24,14 +24,17 @@ from bench.engines.plants import arm as on_arm
 from bench.engines.plants import contact, free_body
 from bench.engines.simulated import model_view, plain_view
 from bench.law.control.resolved_acceleration import assembly
-from bench.law.inputs import Tuning
 from tasks.contact_episode import environment as scene_of
 
 
 def _run(loop: Callable, laws: tuple, world: Any, contender: Any, begun: Any, limits: Numbers, row: Any) -> None:
     """Run one episode, in numbers of numpy's throughout."""
-    told = {name: np.float64(getattr(limits, name)) for name in Tuning._fields}
-    exact = limits._replace(**told)
+    exact = limits._replace(
+        kp=np.float64(limits.kp),
+        kv=np.float64(limits.kv),
+        bound=np.float64(limits.bound),
+        delay=np.float64(limits.delay),
+    )
     functions = (*laws, *[None] * (3 - len(laws)))
     memory = tuple(map(np.float64, memory_of(contender))) if contender else ()
     loop(*functions, world, memory, begun[None], exact, row[None], blank_curves(1))
