@@ -38,6 +38,8 @@ class State(NamedTuple):
 class Law(NamedTuple):
     """A law u = law(R, omega, goal, gains), which commands an angular acceleration in the base frame [rad/s^2].
 
+    The law is called with a `Tuning` as gains: gains.kp, gains.kv, and the limits gains.bound and gains.delay.
+
     Args:
         coordinates: "rotation-matrix" if the law acts on R; otherwise the names of the coordinates
             that it acts on, or "any". Such a law gives `law_in(coordinates)`, which returns the law

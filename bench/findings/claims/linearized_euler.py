@@ -122,9 +122,9 @@ def c08(results: Results, engine: str) -> tuple[Word, Evidence]:
     works = cure.high >= zero.low - LIMIT.CURE_SLACK and cure.low > base.high
     word = word_of(works and base.high <= LIMIT.FEW_GOALS and not near.k, works and base.high < LIMIT.MANY_GOALS)
     return word, evidence(
-        f"""The law that subtracts E_d reaches {base} of the goals of the start set goals, and
+        f"""The law that subtracts E_d reaches {base} of the goals (start set “goals”), and
         {count_of(near.k, near.n, "goals")} at {LIMIT.NEAR_GOAL_RAD} rad
-        from zero. The law with angles measured from the goal reaches {cure} of the goals of the start set goals. With
+        from zero. The law with angles measured from the goal reaches {cure} of these goals. With
         goal zero, this second law settles from {zero} of the uniform starts. The eigenvalues of the law that subtracts
         E_d show which goals it can hold: {percent(held_goals.held_share(results.gains()))} % of all goals. It can hold
         a goal if |alpha_d| is below a limit. The limit is

@@ -150,8 +150,8 @@ def c04(results: Results, engine: str) -> tuple[Word, Evidence]:
         x, y and z), each of the three cross products is zero. At the other {len(exact) - parallel} rotations, only the
         sum of the three products is zero. The largest product is {max(products):.2f}.""",
         len(exact),
-        measured=f"""At {len(exact)} rotations by 180°, the largest orientation error of the law is
-        {largest:.1g}. At {parallel} of these rotations (about x, y and z), each of the three cross
+        measured=f"""At {len(exact)} rotations by 180°, the largest error vector that the law computes has
+        the length {largest:.1g}. At {parallel} of these rotations (about x, y and z), each of the three cross
         products is zero.""",
     )
 

@@ -104,13 +104,13 @@ def describe_rows(one: Verdict, run: Run) -> str:
     if not evidence.rows:
         return ""
     files = [STUDIES.get(name) or link_file(name, run) for name in evidence.tables if name != COMPUTED]
-    computed = "states of a law or an arm, which the command <code>bench claims</code> computes"
+    computed = "values that the command <code>bench claims</code> computes from the law or the arm"
     number = html.number(evidence.rows)
     if not files:
         return f"The verdict uses {number} {computed}."
     listed = join_words(files)
     used = f"The verdict uses {number} rows of {listed}"
-    beside = f", together with {computed}" if COMPUTED in evidence.tables else ""
+    beside = f". It also uses {computed}" if COMPUTED in evidence.tables else ""
     others = '<a href="appendix-data.html#tab-files">List of all files</a>.'
     return f"{used}{beside}. {others}{list_conditions(evidence.chosen)}"
 
