@@ -43,6 +43,9 @@ CANDIDATES = 120
 
 MOST_UNEVEN = max(COORDINATES["unevenness"].levels)
 
+SHORTEST = min(COORDINATES["period"].levels)
+"""The map's shortest period [1/sqrt(kp)]; a shorter one is hardly different, and laws are asked with this one."""
+
 
 class Question(NamedTuple):
     """What the user says.
@@ -98,9 +101,9 @@ class End(NamedTuple):
 class ArmAnswer(NamedTuple):
     """All numbers of the answer.
 
-    damping: the constant D that is used or proposed. motors: the smallest inertia felt with the least and the greatest
-    motor inertia of the arm's file; None if it states none. is_stable: whether every pose is stable with K and D, or,
-    where no D was given, with D set pose by pose.
+    damping: the constant D that is used or proposed, NaN if none is stable. motors: the smallest inertia felt with the
+    least and the greatest motor inertia of the arm's file; None if it states none. is_stable: whether every pose is
+    stable with K and D, or, where no D was given, with D set pose by pose.
     """
 
     question: Question
@@ -117,16 +120,14 @@ class ArmAnswer(NamedTuple):
 def find_range(question: Question, inertia: float, damping: float) -> Range:
     """Return what is stable about an axis of this inertia."""
     low, high = find_dampings(question, inertia)
-    at_damping = question.loop_about(inertia, damping)
+    greatest = math.nan
+    if not math.isnan(damping):
+        at_damping = question.loop_about(inertia, damping)
+        # K from far below on, where the loop is the damper alone.
+        greatest = _rise(lambda kp: at_damping._replace(kp=kp), 1e-6 * question.stiffness)
     designed = question.loop_about(inertia, question.design(inertia))
     slow = 1e-3 * inertia / (question.delay + question.period)
-    return Range(
-        low,
-        high,
-        # K from far below on, where the loop is the damper alone.
-        _rise(lambda kp: at_damping._replace(kp=kp), 1e-6 * question.stiffness),
-        designed.with_kv(_rise(designed.with_kv, slow)).kp,
-    )
+    return Range(low, high, greatest, designed.with_kv(_rise(designed.with_kv, slow)).kp)
 
 
 def _rise(changed: Callable[[float], Loop], first: float) -> float:
@@ -165,11 +166,7 @@ def answer_arm(
     low, high = felt.ends
     damping = question.damping
     if damping is None:
-        greatest = find_dampings(question, felt.least)[1]
-        damping = question.design(high)
-        # NaN, where no D is stable, compares false.
-        if greatest / MARGIN < damping:
-            damping = greatest / MARGIN
+        damping = propose_damping(question, felt)
     limits = find_range(question, felt.least, damping)
     used = question.design(felt.least) if question.damping is None else damping
     uneven = min(felt.unevenness, MOST_UNEVEN, (high - low) / (high + low))
@@ -187,6 +184,12 @@ def answer_arm(
         is_stable(question.loop_about(felt.least, used)),
         *ends,
     )
+
+
+def propose_damping(question: Question, felt: Felt) -> float:
+    """Return a constant D: of the ratio ZETA about heavy axes if light ones bear it; NaN if none is stable."""
+    greatest = find_dampings(question, felt.least)[1]
+    return min(greatest / MARGIN, question.design(felt.ends[1]))
 
 
 def feel_motors(arm: str) -> tuple[float, float]:
@@ -212,7 +215,7 @@ def _ask(
         zeta=0.5 * kv / root,
         bound=question.torque / question.stiffness,
         delay=question.delay * root,
-        period=question.period * root,
+        period=max(question.period * root, SHORTEST),
         inertia=1.0,
         unevenness=uneven,
         spin=question.spin / root,
