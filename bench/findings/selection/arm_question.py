@@ -36,7 +36,7 @@ FIRST, MOST = 256, 1024
 """Starts of every law, and of those among which one is advised: a quarter of `advice`, because two ends are asked."""
 
 DECADES = 1e9
-"""Up to so many times a value limits are looked for: beyond it there is none in practice."""
+"""Up to so many times a low value limits are looked for; each is a thousand times less, by the lateness."""
 
 CANDIDATES = 120
 """Values of D among which a stable one is looked for."""
@@ -61,6 +61,11 @@ class Question(NamedTuple):
     delay: float = 0.0
     spin: float = 0.0
     jump: float = 0.0
+
+    @property
+    def lateness(self) -> float:
+        """Return the mean age [s] of a command: the delay and half a period."""
+        return self.delay + 0.5 * self.period
 
     def loop_about(self, inertia: float, damping: float) -> Loop:
         """Return the loop about an axis, with K and D in place of kp and kv."""
@@ -123,10 +128,11 @@ def find_range(question: Question, inertia: float, damping: float) -> Range:
     greatest = math.nan
     if not math.isnan(damping):
         at_damping = question.loop_about(inertia, damping)
-        # K from far below on, where the loop is the damper alone.
-        greatest = _rise(lambda kp: at_damping._replace(kp=kp), 1e-6 * question.stiffness)
+        # A stable K is less than D over the lateness, about; far below, the loop is the damper alone.
+        first = 1e-6 * damping / question.lateness
+        greatest = _rise(lambda kp: at_damping._replace(kp=kp), first)
     designed = question.loop_about(inertia, question.design(inertia))
-    slow = 1e-3 * inertia / (question.delay + question.period)
+    slow = 1e-3 * inertia / question.lateness
     return Range(low, high, greatest, designed.with_kv(_rise(designed.with_kv, slow)).kp)
 
 
@@ -140,7 +146,7 @@ def find_dampings(question: Question, inertia: float) -> tuple[float, float]:
 
     The least is about K (delay + half a period), and the greatest of the order of J over that time.
     """
-    lateness = question.delay + 0.5 * question.period
+    lateness = question.lateness
     first, last = 0.5 * question.stiffness * lateness, 4.0 * inertia / lateness
 
     def damped(damping: float) -> Loop:

@@ -106,7 +106,7 @@ def feel(chain: ToolChain, count: int = POSES, seed: int = SEED) -> Felt:
         mobility = J @ np.linalg.solve(M, J.T)
         poses.append(pose)
         moments.append(_invert(mobility[ROTATION, ROTATION]))
-        if np.linalg.cond(J) <= CONDITION:
+        if len(pose) >= TASK_AXES and np.linalg.cond(J) <= CONDITION:
             held.append(np.linalg.eigvalsh(np.linalg.inv(mobility)[ROTATION, ROTATION]))
     if len(poses) < FEWEST:
         raise Incompatible(
