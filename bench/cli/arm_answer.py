@@ -1,4 +1,4 @@
-"""What `advise` prints of an arm: inertia, damping, stable range, bound and law, in the user's units."""
+"""What `advise` prints of an arm, in the units of its user."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import math
 from bench.cli.advised import attribution, describe_outside
 from bench.cli.paragraphs import Paragraph, listed
 from bench.cli.screen import counted
-from bench.findings.selection.arm_question import MARGIN, ZETA, ArmAnswer, End, Question
+from bench.findings.selection.arm_question import MARGIN, ZETA, ArmAnswer, Body, End, Question
 from bench.findings.selection.felt_inertia import QUICKEST
 
 NEAR_ONE = 0.995
@@ -35,10 +35,12 @@ def write(number: float) -> str:
 def _describe_poses(answer: ArmAnswer) -> tuple[str, ...]:
     chain, felt = answer.chain, answer.felt
     joints = counted(len(chain.joints), "joint")
-    text = f"{chain.title}, {joints} to {chain.effector}; {felt.drawn:,} poses drawn in the joint ranges"
+    poses = f"{felt.drawn:,} poses drawn in the joint ranges"
+    text = f"{chain.title}, {joints} to {chain.effector}; {poses}"
     left_out = felt.drawn - len(felt.poses)
     if left_out:
-        text += f", less {left_out} where a joint turns more than {QUICKEST:g} times as fast as the tool"
+        rule = f"a joint turns more than {QUICKEST:g} times as fast as the tool"
+        text += f", less {left_out} where {rule}"
     return (f"{text}.",)
 
 
@@ -51,11 +53,19 @@ def _describe_inertia(answer: ArmAnswer) -> tuple[str, ...]:
     )
     if felt.held_ends:
         text += ", {} to {} with it held".format(*map(write, felt.held_ends))
-    sentences = [f"{text}. So kp = K/inertia is {write(stiffness / high)} to {write(stiffness / low)} 1/s²."]
+    sentences = [
+        f"{text}. So kp = K/inertia is {write(stiffness / high)} to {write(stiffness / low)} 1/s²."
+    ]
     if answer.motors:
         least, greatest = map(write, answer.motors)
         sentences.append(
-            f"The motors' inertia is a guess: with the range in the arm's file the least is {least} to {greatest}."
+            "The motors' inertia is a guess: with the range in the arm's file the least is "
+            f"{least} to {greatest}."
+        )
+    elif not answer.chain.has_motor_inertia:
+        sentences.append(
+            "A joint of the file has no motor inertia (armature): with it, this and the limits are "
+            "greater."
         )
     return tuple(sentences)
 
@@ -64,7 +74,9 @@ def _describe_damping(answer: ArmAnswer) -> tuple[str, ...]:
     question, damping = answer.question, answer.damping
     low, high = answer.felt.ends
     ends = f"{write(question.design(low))} to {write(question.design(high))}"
-    design = f"D = 2 √(K Λ) pose by pose (double diagonalization): {ends} N m s/rad, ratio {ZETA:g}."
+    design = (
+        f"D = 2 √(K Λ) pose by pose (double diagonalization): {ends} N m s/rad, ratio {ZETA:g}."
+    )
     if math.isnan(damping):
         return (design,)
     heavy, light = question.ratio(high, damping), question.ratio(low, damping)
@@ -113,45 +125,54 @@ def _describe_laws(answer: ArmAnswer) -> tuple[str, ...]:
     if light == heavy:
         first = f"Use {light} at any inertia of this range." if light else "No law, at either end."
     else:
-        first = f"It depends on the pose: {light or 'none'} at low inertia, {heavy or 'none'} at high."
+        first = (
+            f"It depends on the pose: {light or 'none'} at low inertia, {heavy or 'none'} at high."
+        )
     return (first, _describe_end("Low", answer.light), _describe_end("High", answer.heavy))
 
 
 def _describe_end(words: str, end: End) -> str:
-    advice, uneven = end.advice, end.at.unevenness
-    least, greatest = write((1.0 - uneven) * end.inertia), write((1.0 + uneven) * end.inertia)
-    where = f"{words}, {least} to {greatest} kg m² (mean: kp {write(end.kp)} 1/s², ratio {end.at.zeta:g})"
+    body, advice = end.body, end.advice
+    uneven = body.at.unevenness
+    least, greatest = write((1.0 - uneven) * body.inertia), write((1.0 + uneven) * body.inertia)
+    mean = f"kp {write(body.kp)} 1/s², ratio {body.at.zeta:g}"
+    where = f"{words}, {least} to {greatest} kg m² (mean: {mean})"
     if advice.law is None:
         if advice.near_goal.radius >= 1.0:
             return f"{where}: no law, because the loop is unstable (see Stable)."
         if advice.near_goal.is_hopeless:
-            return f"{where}: no law settles before an episode ends; take a ratio nearer to {ZETA:g}."
+            return (
+                f"{where}: no law settles before an episode ends; take a ratio nearer to {ZETA:g}."
+            )
         return f"{where}: no law that was simulated meets the requirements."
-    seconds = advice.row(advice.law)["time"] / math.sqrt(end.kp)
+    seconds = advice.row(advice.law)["time"] / math.sqrt(body.kp)
     ties = f"{listed(advice.tied)} within 5%" if advice.tied else "no other law within 5%"
-    return f"{where}: {advice.law} ({attribution(advice.law)}) settles 99 % in {seconds:.3g} s; {ties}."
+    law = f"{advice.law} ({attribution(advice.law)})"
+    return f"{where}: {law} settles 99 % in {seconds:.3g} s; {ties}."
 
 
 def _describe_evidence(answer: ArmAnswer) -> tuple[str, ...]:
-    uneven = f"uneven by {answer.light.at.unevenness:g} (the arm's median is {answer.felt.unevenness:.2g})"
+    asked, median = answer.light.body.at.unevenness, answer.felt.unevenness
+    uneven = f"uneven by {asked:g} (the arm's median is {median:.2g})"
+    rubbed = "the file's joint damping" if answer.chain.is_rubbed else "friction"
     sentences = [
-        "Limits: theory, within 10 % of simulations of our arms; friction and filters are left out.",
+        f"Limits: theory, within 10 % of simulations of our arms; {rubbed} and filters are left out.",
         f"Laws: simulated on a free body {uneven}, not on the arm.",
     ]
     answered = [end for end in (answer.light, answer.heavy) if end.advice.law]
     for end in answered:
         sentences += [describe_outside(number) for number in end.advice.outside]
     if answered:
-        sentences.append(f"More on the first: {_write_command(answer.question, answered[0])}")
+        sentences.append(f"More on the first: {_write_command(answer.question, answered[0].body)}")
     return tuple(dict.fromkeys(sentences))
 
 
-def _write_command(question: Question, end: End) -> str:
-    """Return the command that asks for the laws of an end alone."""
-    words = [f"--kp {end.kp:.4g}", f"--kv {end.kv:.4g}", f"--rate {1.0 / question.period:g}"]
+def _write_command(question: Question, body: Body) -> str:
+    """Return the command that asks for the laws of a body."""
+    words = [f"--kp {body.kp:.4g}", f"--kv {body.kv:.4g}", f"--rate {1.0 / question.period:g}"]
     if question.delay:
         words.append(f"--delay {1e3 * question.delay:g}ms")
     if math.isfinite(question.torque):
-        words.append(f"--bound {question.torque / end.inertia:.4g}")
-    words.append(f"--unevenness {end.at.unevenness:g} --robot torque-no-model")
+        words.append(f"--bound {question.torque / body.inertia:.4g}")
+    words.append(f"--unevenness {body.at.unevenness:g} --robot torque-no-model")
     return f"bench advise {' '.join(words)}"

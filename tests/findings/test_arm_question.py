@@ -1,7 +1,7 @@
-"""The answer to an arm user: inertias felt, and limits of stability against those of a simulated arm.
+"""The answer to an arm user: inertias felt, and limits against those of a simulated arm.
 
-The simulation (`support.sprung_arm`) computes torques from MuJoCo's state and looks whether the tool's rate grows; it
-shares nothing with the theory.
+The simulation (`support.sprung_arm`) computes torques from MuJoCo's state and looks whether the
+tool's rate grows; it shares nothing with the theory.
 """
 
 import math
@@ -13,8 +13,13 @@ from support.sprung_arm import STEPS, Spring, SprungArm
 
 import tasks
 from bench.base.errors import BadModel, Incompatible
-from bench.findings.selection import arm_question
-from bench.findings.selection.arm_question import Question, answer_arm, find_dampings, find_range
+from bench.findings.selection.arm_question import (
+    Question,
+    find_bodies,
+    find_dampings,
+    find_range,
+    propose_damping,
+)
 from bench.findings.selection.felt_inertia import ENDS, Mechanics, feel
 from bench.findings.selection.tool_chain import load_arm, load_mjcf, load_urdf
 from bench.findings.theory.sampled_loop import is_stable
@@ -140,7 +145,9 @@ def test_pose_in_which_the_gimbal_locks_is_left_out(tmp_path):
 def test_mobility_is_that_of_the_judge(name):
     arm, chain = tasks.arm(name), load_arm(name, "ideal-motors")
     J, M = Mechanics(chain).look(np.array(arm.home))
-    assert J @ np.linalg.solve(M, J.T) == pytest.approx(kinematics(arm).mobility(arm.home), rel=1e-9)
+    assert J @ np.linalg.solve(M, J.T) == pytest.approx(
+        kinematics(arm).mobility(arm.home), rel=1e-9
+    )
 
 
 @pytest.mark.parametrize("name", ARMS)
@@ -152,32 +159,40 @@ def test_inertias_hardly_depend_on_the_draw(felt, name):
     assert 100.0 * below == pytest.approx(ENDS[0], abs=0.1)
 
 
-def test_ends_of_kp_are_bodies_between_the_ends_of_inertia(monkeypatch):
-    asked = []
-    monkeypatch.setattr(arm_question, "advise", lambda at, *_, **__: asked.append(at))
-    answer = answer_arm(Question(50.0, 10.0, 12.0, delay=2e-3, spin=1.0), load_arm("panda"))
-    low, high = answer.felt.ends
-    for end, lightest in ((answer.light, low), (answer.heavy, high / 3.0)):
-        # s is at most the map's 0.5: moments from half to one and a half times the mean.
-        assert end.at.unevenness == 0.5
-        assert 0.5 * end.inertia == pytest.approx(lightest)
-        assert end.kp == pytest.approx(50.0 / end.inertia)
-        assert end.at.bound == pytest.approx(12.0 / 50.0)
-        assert end.at.zeta == pytest.approx(10.0 / (2.0 * math.sqrt(50.0 * end.inertia)), rel=5e-3)
-        assert end.at.delay == pytest.approx(2e-3 * math.sqrt(end.kp), rel=5e-3)
-        assert end.at.spin == pytest.approx(1.0 / math.sqrt(end.kp), rel=5e-3)
-    assert [end.at for end in (answer.light, answer.heavy)] == asked
-    assert answer.is_stable
-    assert not answer_arm(Question(50.0, 100.0), load_arm("panda")).is_stable
+def test_ends_of_kp_are_bodies_between_the_ends_of_inertia(felt):
+    question = Question(50.0, 10.0, 12.0, delay=2e-3, spin=1.0)
+    low, high = felt["panda"].ends
+    light, heavy = find_bodies(question, felt["panda"])
+    # s is at most the map's 0.5: moments from half to one and a half times the mean.
+    assert 0.5 * light.inertia == pytest.approx(low)
+    assert 1.5 * heavy.inertia == pytest.approx(high)
+    for body in (light, heavy):
+        assert body.at.unevenness == 0.5
+        assert body.kp == pytest.approx(50.0 / body.inertia)
+        assert body.kv == pytest.approx(10.0 / body.inertia)
+        assert body.at.bound == pytest.approx(12.0 / 50.0)
+        assert body.at.zeta == pytest.approx(body.kv / (2.0 * math.sqrt(body.kp)), rel=5e-3)
+        assert body.at.delay == pytest.approx(2e-3 * math.sqrt(body.kp), rel=5e-3)
+        assert body.at.spin == pytest.approx(1.0 / math.sqrt(body.kp), rel=5e-3)
+
+
+def test_bodies_without_a_damping_have_the_ratio_one(felt):
+    for body in find_bodies(Question(50.0), felt["ur5e"]):
+        assert body.at.zeta == 1.0
+        assert math.isinf(body.at.bound)
 
 
 def test_proposed_damping_is_critical_for_heavy_axes_unless_light_ones_cannot_bear_it(felt):
     quick, late = Question(50.0), Question(50.0, delay=5e-3)
     heavy = felt["ur5e"].ends[1]
-    assert quick.ratio(heavy, arm_question.propose_damping(quick, felt["ur5e"])) == pytest.approx(1.0)
-    held_back = arm_question.propose_damping(late, felt["ur5e"])
+    assert quick.ratio(heavy, propose_damping(quick, felt["ur5e"])) == pytest.approx(1.0)
+    held_back = propose_damping(late, felt["ur5e"])
     assert late.ratio(heavy, held_back) < 0.9
     assert held_back == pytest.approx(0.5 * find_dampings(late, felt["ur5e"].least)[1])
+    for stiffness in (300.0, 600.0, 650.0):
+        question = late._replace(stiffness=stiffness)
+        low, high = find_dampings(question, felt["ur5e"].least)
+        assert low < propose_damping(question, felt["ur5e"]) < high
 
 
 BALL_JOINT = MJCF.replace('<joint name="roll" axis="1 0 0"/>', '<joint name="roll" type="ball"/>')
@@ -187,12 +202,27 @@ ENDLESS = MJCF.replace(' range="0 .05"', "")
 @pytest.mark.parametrize(
     ("text", "effector", "refusal", "words"),
     [
-        (MJCF, {}, BadModel, "which site is the end effector? its sites: grip; its bodies: base, ring, ball, finger"),
+        (
+            MJCF,
+            {},
+            BadModel,
+            "which site is the end effector? its sites: grip; its bodies: base, ring, ball, finger",
+        ),
         (MJCF, {"site": "grop"}, BadModel, "no site 'grop'; its sites: grip"),
         (MJCF, {"body": "bell"}, BadModel, "no body 'bell'; its bodies: base, ring, ball, finger"),
         (MJCF, {"body": "ring"}, Incompatible, "2 hinges move body ring, and it takes at least 3"),
-        ("<mujoco><worldbody><site name='a'/></worldbody></mujoco>", {"site": "a"}, Incompatible, "0 hinges move"),
-        ("<mujoco/>", {}, BadModel, "its sites: none; its bodies: none (it has no sites; try: --body NAME)"),
+        (
+            "<mujoco><worldbody><site name='a'/></worldbody></mujoco>",
+            {"site": "a"},
+            Incompatible,
+            "0 hinges move",
+        ),
+        (
+            "<mujoco/>",
+            {},
+            BadModel,
+            "its sites: none; its bodies: none (it has no sites; try: --body NAME)",
+        ),
         ("not XML", {"site": "a"}, BadModel, "MuJoCo cannot load"),
         (BALL_JOINT, {"site": "grip"}, Incompatible, "joint 'roll' is a ball or free joint"),
         (ENDLESS, {"body": "finger"}, Incompatible, "slide 'squeeze' has no range"),

@@ -1,7 +1,7 @@
 """A gimbal whose tool has the same inertia about every axis in every pose, as MJCF and as URDF."""
 
 INERTIA = 0.02
-"""Of the tool [kg m^2], a ball on the point where three axes meet; rings weigh next to nothing."""
+"""Inertia of the tool [kg m^2], a ball on the point where three axes meet; rings weigh next to nothing."""
 
 MJCF = f"""
 <mujoco>

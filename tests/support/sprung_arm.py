@@ -1,7 +1,7 @@
-"""An arm whose tool an orientation spring and damper hold, simulated: what is stable, by looking at what grows.
+"""An arm whose tool an orientation spring and damper hold, simulated: what grows is unstable.
 
-The command tau = J_r^T (-K e - D omega) + bias is computed once a control period from MuJoCo's state, comes late, and
-is held. Nothing here knows an inertia of the tool or a limit.
+The command tau = J_r^T (-K e - D omega) + bias is computed once a control period from MuJoCo's
+state, comes late, and is held. Nothing here knows an inertia of the tool or a limit.
 """
 
 import math
@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 
 STEPS = 4
-"""Simulation steps a control period; a delay is a whole number of them. RK4: the motion in a step is exact to 1e-8."""
+"""Simulation steps a control period; a delay is a whole number of them."""
 BUMP = 1e-6
 """Joint rates at the start [rad/s]: small, so that the motion is linear."""
 ROUNDING = 1e-11
@@ -21,7 +21,7 @@ FAST = 1.0
 
 
 class Spring(NamedTuple):
-    """K [N m/rad] and D [N m s/rad] of the orientation; of the position [N/m] and [N s/m], if it is held too."""
+    """K [N m/rad] and D [N m s/rad] of the orientation; of the position [N/m], [N s/m]."""
 
     stiffness: float
     damping: float
@@ -42,7 +42,7 @@ class SprungArm:
         self.model.opt.disableflags |= int(without)
 
     def is_stable(self, pose, spring, ticks=500):
-        """Return whether the tool's rate, at its largest, falls from the second quarter of a run to the last one."""
+        """Return whether the tool's rate falls from the second quarter of a run to the last."""
         model, data = self.model, self.data
         mujoco.mj_resetData(model, data)
         data.qpos[self.angles] = pose

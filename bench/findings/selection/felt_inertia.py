@@ -1,18 +1,22 @@
-"""Compute the rotational inertia that an orientation spring on an arm's tool feels, over its workspace.
+"""Compute the rotational inertia that an orientation spring on an arm's tool feels.
 
-The controller sends tau = J_r^T (-K e - D omega) + what the arm needs at rest, and shapes no inertia; J_r are the rows
-of the Jacobian with omega = J_r qdot. Near the goal the tool then moves as
+The controller sends tau = J_r^T (-K e - D omega) + what the arm needs at rest, and shapes no
+inertia; J_r are the rows of the Jacobian with omega = J_r qdot. Near the goal the tool then moves
+as
 
     Lambda domega/dt = -K e - D omega,   Lambda = (J_r M^-1 J_r^T)^-1   [kg m^2]
 
-with the tool's position free: this is what a torque on the tool meets at once, whatever holds the position later. With
-the position held rigidly it is the rotational block of (J M^-1 J^T)^-1, which is more. The eigenvalues of Lambda are
-the inertias about three axes, and with scalars K and D each axis is a loop of its own.
+with the tool's position free: this is what a torque on the tool meets at once, whatever holds the
+position later. With the position held rigidly it is the rotational block of (J M^-1 J^T)^-1, which
+is more. The eigenvalues of Lambda are the inertias about three axes, and with scalars K and D each
+axis is a loop of its own.
 
-Poses are drawn uniformly between the ends of the joint ranges. A pose is left out if its joints turn more than
-QUICKEST times as fast as the tool about some axis: 1 over the least singular value of J_r, a number without unit.
+Poses are drawn uniformly between the ends of the joint ranges. A pose is left out if its joints
+turn more than QUICKEST times as fast as the tool about some axis: 1 over the least singular value
+of J_r, a number without unit.
 
-Limitations: hits of the arm with itself or the floor are not looked for. Joint friction and damping are left out.
+Limitations: hits of the arm with itself or the floor are not looked for. Joint friction and damping
+are left out.
 """
 
 from __future__ import annotations
@@ -27,12 +31,12 @@ from bench.findings.selection.tool_chain import ToolChain
 from tasks.clearance import CONDITION
 
 POSES = 2000
-"""Poses that are drawn: against five times as many the least inertia errs by 3 %, and the 95 % by some 10 %."""
+"""Poses drawn: against five times as many the least inertia errs by 3 %, the 95 % by some 10 %."""
 
 SEED = 2026
 
 QUICKEST = 5.0
-"""Joint rate over the tool's rate from which on a pose counts as singular; well conditioned poses have 1 to 2."""
+"""Joint rate over the tool's rate from which on a pose counts as singular; it is usually 1 to 2."""
 
 FEWEST = 50
 """Poses that must be left, for 5 and 95 % to mean something."""
@@ -47,9 +51,10 @@ TASK_AXES = 6
 class Felt(NamedTuple):
     """Inertias over the workspace [kg m^2].
 
-    poses: joint positions, shape (poses, joints). moments: about three axes of each pose, ascending, shape (poses, 3).
-    held: the same with the position held, of the poses where J is well conditioned, shape (some, 3); empty with fewer
-    than six joints. drawn: how many poses were drawn.
+    poses: joint positions, shape (poses, joints). moments: about three axes of each pose,
+    ascending, shape (poses, 3). held: the same with the position held, of the poses where J is well
+    conditioned, shape (some, 3); empty with fewer than six joints. drawn: how many poses were
+    drawn.
     """
 
     poses: np.ndarray
@@ -88,7 +93,7 @@ class Felt(NamedTuple):
 
     @property
     def unevenness(self) -> float:
-        """Return the median over poses of s, where 1 - s and 1 + s are the extreme inertias over their mean."""
+        """Return the median of s, with 1 - s and 1 + s the extreme inertias over their mean."""
         low, high = self.moments[:, 0], self.moments[:, 2]
         return float(np.median((high - low) / (high + low)))
 
@@ -110,14 +115,15 @@ def feel(chain: ToolChain, count: int = POSES, seed: int = SEED) -> Felt:
             held.append(np.linalg.eigvalsh(np.linalg.inv(mobility)[ROTATION, ROTATION]))
     if len(poses) < FEWEST:
         raise Incompatible(
-            f"{chain.title}: {chain.effector} turns freely about every axis in {len(poses)} of {count} drawn poses, "
-            f"and it takes {FEWEST} (name an end effector with three joint axes that are not in one plane)"
+            f"{chain.title}: {chain.effector} turns freely about every axis in {len(poses)} of "
+            f"{count} drawn poses, and it takes {FEWEST} (name an end effector with three joint "
+            "axes that are not in one plane)"
         )
     return Felt(np.array(poses), np.array(moments), np.reshape(held, (-1, 3)), count)
 
 
 def is_regular(J: np.ndarray) -> bool:
-    """Tell whether joints turn at most QUICKEST times as fast as the tool, about every axis; J: 6 x n."""
+    """Tell whether joints turn at most QUICKEST times as fast as the tool; J: 6 x n."""
     least = np.linalg.svd(J[ROTATION], compute_uv=False)[-1]
     return bool(least * QUICKEST >= 1.0)
 

@@ -1,8 +1,9 @@
-"""Load an arm for the advice: the joints that move its end effector, of this repository, of MJCF or of URDF.
+"""Load the joints that move an end effector: of an arm of ours, of MJCF or of URDF.
 
-Only the joints between the base and the end effector count; the others, as those of fingers, are locked where the file
-puts them. Actuators, contacts, equalities, friction and joint damping do not enter. MuJoCo reads every file; of URDF
-the shapes are dropped first, because their meshes are often elsewhere and the inertia is in <inertial>.
+Only the joints between the base and the end effector count; the others, as those of fingers, are
+locked where the file puts them. Actuators, contacts, equalities, friction and joint damping do not
+enter. MuJoCo reads every file; of URDF the shapes are dropped first, because their meshes are often
+elsewhere and the inertia is in <inertial>.
 
 Limitations: hinges and slides alone. A URDF has no sites, so a body is the end effector there.
 """
@@ -11,6 +12,7 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
@@ -34,9 +36,10 @@ FEWEST_HINGES = 3
 class ToolChain(NamedTuple):
     """The joints that move an end effector.
 
-    title: name for a reader. effector: the site or body, in words. body: its number. point: place of the site in that
-    body [m]. joints: numbers of its joints, from the base. dofs: their places in the velocities, and angles in the
-    positions. motors: least, usual and greatest motor inertia of an arm of ours [kg m^2]; empty if none is stated.
+    title: name for a reader. effector: the site or body, in words. body: its number. point: place
+    of the site in that body [m]. joints: numbers of its joints, from the base. dofs: their places
+    in the velocities, and angles in the positions. motors: least, usual and greatest motor inertia
+    of an arm of ours [kg m^2]; empty if none is stated.
     """
 
     title: str
@@ -57,6 +60,18 @@ class ToolChain(NamedTuple):
         """Return the places of the joints in the vector of positions."""
         return self.model.jnt_qposadr[list(self.joints)]
 
+    @property
+    def has_motor_inertia(self) -> bool:
+        """Tell whether every joint has a reflected motor inertia (armature)."""
+        return bool(self.model.dof_armature[self.dofs].all())
+
+    @property
+    def is_rubbed(self) -> bool:
+        """Tell whether a joint has damping or friction, which the answer leaves out."""
+        return bool(
+            self.model.dof_damping[self.dofs].any() or self.model.dof_frictionloss[self.dofs].any()
+        )
+
     def ranges(self) -> tuple[np.ndarray, np.ndarray]:
         """Return both ends of the joint ranges [rad, m]; of a hinge without ends -pi and pi."""
         joints = list(self.joints)
@@ -75,7 +90,7 @@ def load_arm(name: str, variation: str = AS_IT_IS) -> ToolChain:
 
 
 def load_mjcf(path: Path, site: str | None = None, body: str | None = None) -> ToolChain:
-    """Return the chain of a file of MJCF to a site or a body; BadModel says what is wrong with the file or the name."""
+    """Return the chain of MJCF to a site or a body; BadModel says what is wrong."""
     model = _compile(path, lambda: mujoco.MjModel.from_xml_path(str(path)))
     if body is not None:
         return _follow(path.name, model, _find_body(model, body, path.name))
@@ -83,14 +98,14 @@ def load_mjcf(path: Path, site: str | None = None, body: str | None = None) -> T
 
 
 def load_urdf(path: Path, body: str | None = None) -> ToolChain:
-    """Return the chain of a URDF to a link, by default the last of the file; BadModel says what is wrong."""
+    """Return the chain of a URDF to a link, by default the last; BadModel says what is wrong."""
     text = _without_shapes(path)
     model = _compile(path, lambda: mujoco.MjModel.from_xml_string(text))
     name = model.body(model.nbody - 1).name if body is None else body
     return _follow(path.name, model, _find_body(model, name, path.name))
 
 
-def _compile(path: Path, load) -> mujoco.MjModel:
+def _compile(path: Path, load: Callable[[], mujoco.MjModel]) -> mujoco.MjModel:
     """Return the model of a file; BadModel with MuJoCo's reason."""
     if not path.is_file():
         raise BadModel(f"'{path}' is no file (give the path of a robot's MJCF or URDF)")
@@ -103,7 +118,7 @@ def _compile(path: Path, load) -> mujoco.MjModel:
 
 
 def _without_shapes(path: Path) -> str:
-    """Return a URDF without visual and collision shapes, whose links at the end of fixed joints remain bodies."""
+    """Return a URDF without shapes, whose links at the end of fixed joints remain bodies."""
     if not path.is_file():
         raise BadModel(f"'{path}' is no file (give the path of a robot's URDF)")
     try:
@@ -168,7 +183,7 @@ def _find_body(model: mujoco.MjModel, name: str, file: str) -> _Effector:
 
 
 def _follow(title: str, model: mujoco.MjModel, effector: _Effector) -> ToolChain:
-    """Return the chain from the base to an effector; Incompatible if its joints cannot be an arm's."""
+    """Return the chain from the base to an effector; Incompatible if its joints are no arm's."""
     joints: list[int] = []
     body = effector.body
     while body:
@@ -179,21 +194,25 @@ def _follow(title: str, model: mujoco.MjModel, effector: _Effector) -> ToolChain
     return ToolChain(title, effector.words, model, effector.body, effector.point, tuple(joints))
 
 
-def _check_joints(title: str, model: mujoco.MjModel, effector: _Effector, joints: list[int]) -> None:
-    """Refuse a chain that does not turn its end about every axis, or that has joints of other kinds."""
+def _check_joints(
+    title: str, model: mujoco.MjModel, effector: _Effector, joints: list[int]
+) -> None:
+    """Refuse a chain that cannot turn its end about every axis, or has joints of other kinds."""
     hinge, slide = mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE
     kinds = [int(model.jnt_type[joint]) for joint in joints]
     for joint, kind in zip(joints, kinds, strict=True):
         name = model.joint(joint).name or f"number {joint}"
         if kind not in (hinge, slide):
             raise Incompatible(
-                f"{title}: joint '{name}' is a ball or free joint, and an arm here has hinges and slides on a fixed "
-                "base (fix the base, or write a ball joint as three hinges)"
+                f"{title}: joint '{name}' is a ball or free joint, and an arm here has hinges and "
+                "slides on a fixed base (fix the base, or write a ball joint as three hinges)"
             )
         if kind == slide and not model.jnt_limited[joint]:
-            raise Incompatible(f"{title}: slide '{name}' has no range, from which poses are drawn (give it one)")
+            raise Incompatible(
+                f"{title}: slide '{name}' has no range, from which poses are drawn (give it one)"
+            )
     if kinds.count(hinge) < FEWEST_HINGES:
         raise Incompatible(
-            f"{title}: {kinds.count(hinge)} hinges move {effector.words}, and it takes at least {FEWEST_HINGES} to "
-            "turn it about every axis (name an end effector farther from the base)"
+            f"{title}: {kinds.count(hinge)} hinges move {effector.words}, and it takes at least "
+            f"{FEWEST_HINGES} to turn it about every axis (name an end effector farther from the base)"
         )
