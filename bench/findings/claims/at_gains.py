@@ -166,7 +166,10 @@ def describe(study: dict, words: dict[str, str]) -> str:
 
 def _lacking(stale: list[str]) -> str:
     """Name the claims that the study judged by a criterion which stands no more."""
-    return f" The claims {', '.join(stale)} are not tested here, because we wrote their present criteria after this study." if stale else ""
+    if not stale:
+        return ""
+    names = ", ".join(stale)
+    return f" The claims {names} are not tested here, because we wrote their present criteria after this study."
 
 
 def by_gains(study: dict, words: dict[str, str]) -> str:

@@ -60,9 +60,10 @@ def c21(results: Results) -> tuple[Word, Evidence]:
         At the poles, B has rank {rank}, and B^T converts one moment of length 1 to a vector of length
         {found.loc[poles, "lost"].max():.0g}. In {len(elsewhere)} other representations, the powers are equal to
         {max(elsewhere) / EPS:.1f} eps. If the moment is not converted, the powers of a
-        moment of 1 N m and of rates of length 1 differ by {found["raw_gap"].median():.2f} W in the median. Where alpha alone complies, the controller amplifies a moment by
-        a factor of at most {LIMIT.USABLE:g} at {count_of(int(usable.sum()), len(found), "orientations")}. Except at
-        the exact poles, the controller amplifies a moment by a factor of up to
+        moment of 1 N m and of rates of length 1 differ by {found["raw_gap"].median():.2f} W in the median. Where
+        alpha alone complies, the controller amplifies a moment by a factor of at most {LIMIT.USABLE:g} at
+        {count_of(int(usable.sum()), len(found), "orientations")}. Except at the exact poles, the controller
+        amplifies a moment by a factor of up to
         {found.loc[~poles, "gain"].max():.1e}, as 1 / cos(beta) predicts.""",
         len(found) + len(looped),
         measured=f"""At {len(found):,} orientations, the work in both coordinates is the same to
