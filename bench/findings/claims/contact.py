@@ -128,13 +128,13 @@ def _parted(rows: pd.DataFrame) -> str:
     pairs = count_of(int(rows["parts"].sum()), len(rows), "pairs")
     among = " of the other pairs" if by_outcome.any() else ""
     most = rows["factor"][~by_outcome].max()
-    return f"{pairs} differ{ends}. The numbers{among} differ by factors of up to {most:.3g}."
+    return f"{pairs} differ{ends}. The measured results{among} differ by factors of up to {most:.3g}."
 
 
 @claim("C47")
 @by_papers_form
 def c47(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
-    """Errors of force, of moment and of rotation of the controller on the common Jacobian."""
+    """Errors of force, of moment and of rotation of the controller on the geometric Jacobian."""
     rows = results.table("compliance", controller=BASE)
     rows = rows[rows["form"].isin(forms) & rows["task"].isin((LIMIT.PRESSED, LIMIT.ALIGNED))]
     pressed, aligned = (

@@ -86,8 +86,8 @@ def c20(results: Results) -> tuple[Word, Evidence]:
         step zero, the angles differ by at most {max(limits):.1e} rad, and the position of the tool by
         {max(drifts):.1e} m. From these starts at a pole, (3.7) fails and the law on R settles: {at_poles}. {capitalize(
             count_of(_count_failures(clear), len(clear), "episodes")
-        )} from clear starts fail with (3.7) and settle with the law on R. With the law of (3.7) on the common Jacobian,
-        {count_of(_count_failures(common), len(common), "episodes")} fail in this way.
+        )} from clear starts fail with (3.7) and settle with the law on R. With the law of (3.7) on the geometric
+        Jacobian, {count_of(_count_failures(common), len(common), "episodes")} fail in this way.
         {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
         measured=f"""The angles differ from the linear response by at most {max(limits):.1e} rad.
@@ -235,7 +235,7 @@ def c33(results: Results) -> tuple[Word, Evidence]:
         by_joints.append(f"{percent(more)} % more on {joints} joints")
         told.append(
             f"On {joints} joints, a control period takes {base.flops:,} flops and "
-            f"{base.calls or 'no'} calls with the common Jacobian, and {euler.flops:,} flops and "
+            f"{base.calls or 'no'} calls with the geometric Jacobian, and {euler.flops:,} flops and "
             f"{euler.calls} calls with the Euler Jacobian"
             f"{weighed if math.isfinite(price) else ''}."
         )
@@ -243,7 +243,7 @@ def c33(results: Results) -> tuple[Word, Evidence]:
         " ".join(told),
         2 * len(told),
         measured=f"""With the Euler Jacobian, force control needs more operations than with the
-        common Jacobian: {join_words(by_joints)}.""",
+        geometric Jacobian: {join_words(by_joints)}.""",
     )
 
 

@@ -146,7 +146,7 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
 
 
 BESIDE = {
-    "e": " But it does not settle from every start exactly on a boundary.",
+    "e": " But from some starts exactly on a boundary (180°, a pole, or an angle of ±π) the body does not settle.",
     "h": " But by operations alone it does not cost less than each other law on Euler angles.",
 }
 """What an adequate law may fail: tests of C27 that C17 leaves out."""
@@ -306,7 +306,7 @@ def c31(results: Results) -> tuple[Word, Evidence]:
             (
                 "Law",
                 "Uniform starts that settle",
-                "Time until 99 % of the starts settle, over that of feedback linearization",
+                "Time until 99 % of the starts settle, divided by this time of feedback linearization",
             ),
             *zip(THREE, settles, (*longer, "1"), strict=True),
         ),

@@ -39,8 +39,9 @@ def c40(results: Results) -> tuple[Word, Evidence]:
         by at least {apart:.2f} in one element.""",
         LIMIT.MATRICES * len(trios),
         measured=f"""{capitalize(count_of(len(possible), len(trios), "choices"))} of three elements
-        can be eliminated. For each of these, a second rotation matrix has the same three remaining
-        elements. In the median, the two matrices differ by {apart:.2f} or more in one element.""",
+        can be eliminated. For each of these choices, the three elements that remain do not determine
+        the matrix: two different rotation matrices have them. In the median, the two matrices
+        differ by {apart:.2f} or more in one element.""",
     )
 
 

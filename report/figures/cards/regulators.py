@@ -186,7 +186,8 @@ def advised(law: str) -> str:
         "the nominal damping ratio and gains for a largest command of p [rad/s²], the body "
         f"settles from 99 % of the starts within {price.at_equal_peak:.1f}/√p seconds."
     )
-    return f"Our rule recommends this law in {say_share(region.advised)}. {beside} {costs}"
+    recommends = f"It recommends this law in {say_share(region.advised)}."
+    return f"In each situation, our rule recommends one law. {recommends} {beside} {costs}"
 
 
 def facts(run: Run) -> dict:

@@ -21,8 +21,8 @@ SLIPS = html.Table("Error | Where in the paper | Printed words | Right words | H
 
 
 STUDIES = {
-    "timings": "<code>results/timings</code> of the repository; made by <code>bench time</code>",
-    "maps": "<code>results/maps</code> of the repository; made by <code>bench map</code>",
+    "timings": "the folder <code>results/timings</code> of the repository, which <code>bench time</code> makes",
+    "maps": "the folder <code>results/maps</code> of the repository, which <code>bench map</code> makes",
 }
 """Evidence that is in no table of a run, and what makes it."""
 
@@ -104,7 +104,7 @@ def describe_rows(one: Verdict, run: Run) -> str:
     if not evidence.rows:
         return ""
     files = [STUDIES.get(name) or link_file(name, run) for name in evidence.tables if name != COMPUTED]
-    computed = "values that the command <code>bench claims</code> computes from the law or the arm"
+    computed = "values that the command <code>bench claims</code> computes without a simulation"
     number = html.number(evidence.rows)
     if not files:
         return f"The verdict uses {number} {computed}."

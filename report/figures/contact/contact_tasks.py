@@ -19,7 +19,7 @@ def facts(run: Run) -> dict:
     arm = tasks.arm(media.facts()["contact"]["arm"])
     orders = []
     for task in map(tasks.contact_task, MEASURES):
-        axes = task.trials(arm)[0].specification.name.replace(", about", " and about")
+        axes = task.trials(arm)[0].specification.name.replace(", about", ", and about")
         name, title = task.name.replace("-", " ").capitalize(), f"{task.title[0].lower()}{task.title[1:]}"
         orders.append(f"- **{name}** ({title}): the hand is compliant along {axes}.")
     return {
