@@ -77,9 +77,8 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         instead=f"""One compliant angle acts as one compliant axis of the base
         {_by_order(judged, "same")}. One compliant angle acts as one axis that the earlier angles
         turn {_by_order(judged, "same_turned")}.""",
-        measured=f"""At {count_of(int(judged["same_turned"].sum()), len(judged), "poses")}, one compliant
-        angle acts like compliance about one axis: the axis of this angle after the rotations by the
-        earlier angles.""",
+        measured=f"""At {count_of(int(judged["same_turned"].sum()), len(judged), "poses")}, a compliant
+        angle is compliance about the axis that this angle turns about.""",
     )
 
 
