@@ -78,7 +78,7 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         {_by_order(judged, "same")}. One compliant angle acts as one axis that the earlier angles
         turn {_by_order(judged, "same_turned")}.""",
         measured=f"""At {count_of(int(judged["same_turned"].sum()), len(judged), "poses")}, a compliant
-        angle is compliance about the axis that this angle turns about.""",
+        angle is compliance about the axis that it turns about.""",
     )
 
 
