@@ -21,6 +21,7 @@ import pandas as pd
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
 from bench.findings.theory.time_optimal import certain_least_time
+from tasks.rules import RULES
 
 STUDY = RESULTS / "floor"
 """What `python -P -m bench.studies.floor` keeps."""
@@ -67,7 +68,7 @@ class Grid(NamedTuple):
 def find_coordinates(start: Start) -> np.ndarray:
     """Return the coordinates of starts as the table has them, a row each of AXES."""
     energy = start.angle + 0.5 * start.speed**2
-    share = start.angle / np.minimum(energy, np.pi)
+    share = np.divide(start.angle, np.minimum(energy, np.pi), out=np.ones_like(energy), where=energy > 0.0)
     mixture = np.arccos(np.sqrt(np.minimum(share, 1.0)))
     return np.stack([np.sqrt(energy), mixture, start.cosine])
 
@@ -150,9 +151,10 @@ def find_floor(
     """
     grid = grid or read_grid()
     start = measure_starts(quats_wxyz, omegas, acceleration)
-    certain = certain_least_time(start.angle, start.speed, 1.0)
+    is_away = start.angle >= RULES.at_goal_rad
+    certain = np.where(is_away, certain_least_time(start.angle, start.speed, 1.0), 0.0)
     coordinates = find_coordinates(start)
-    is_known = coordinates[0] <= grid.axes[0][-1]
+    is_known = is_away & (coordinates[0] <= grid.axes[0][-1])
     known = np.maximum(interpolate(grid, coordinates) * coordinates[0], certain)
     times = np.where(is_known, known, certain)
     unit_s = 1.0 / np.sqrt(acceleration)

@@ -1,10 +1,10 @@
 """What is the least settling time with a bounded command? A table over all starts of the map: results/floor.
 
-First to rest at the goal. Every fourth node of the grid along each axis is solved from drawn guesses. Then every node is solved from
-what its neighbours have, for as long as any time becomes shorter: a family of extremals that is the fastest in a region
-grows until another is faster. Then to the band: from the extremals to rest that a node and its neighbours lead to,
-those that are the fastest or nearly so. Nodes at rest and nodes that spin about the axis of the turn have closed forms,
-too, and the shorter is kept.
+First to rest at the goal. Every fourth node of the grid along each axis is solved from drawn guesses. Then every node
+is solved from what its neighbours have, for as long as any time becomes shorter: a family of extremals that is the
+fastest in a region grows until another is faster. Then to the band: from the extremals to rest that a node and its
+neighbours lead to, those that are the fastest or nearly so. Nodes at rest and nodes that spin about the axis of the
+turn have closed forms, too, and the shorter is kept.
 """
 
 import time

@@ -23,7 +23,7 @@ LONGEST_STAY = 3.2
 
 
 class Program(NamedTuple):
-    """A nonlinear program: its variables, and the parameters that say where the body starts and the band's half width."""
+    """A nonlinear program: its variables, and its parameters: where the body starts, and the band's half width."""
 
     opti: casadi.Opti
     state: casadi.MX
