@@ -125,10 +125,15 @@ def seed_nodes(nodes: Nodes) -> np.ndarray:
 def draw_extremals(nodes: Nodes, chosen: np.ndarray) -> np.ndarray:
     """Solve some nodes to rest from drawn guesses; return which nodes changed."""
     target = np.repeat(chosen, GUESSES)
-    shortest = certain_least_time(nodes.start.angle, nodes.start.speed, 1.0, 0.0)
+    shortest = find_bounds(nodes)
     drawn = draw_guesses(shortest[target], np.random.default_rng(SEED))
     unknown, missing = improve(nodes.bodies.take(target), drawn, miss_rest)
     return keep_shorter(nodes, target, unknown, missing)
+
+
+def find_bounds(nodes: Nodes) -> np.ndarray:
+    """Return the proved lower bound of the time to rest of each node."""
+    return np.asarray(certain_least_time(nodes.start.angle, nodes.start.speed, 1.0, 0.0))
 
 
 def keep_shorter(
@@ -137,7 +142,7 @@ def keep_shorter(
     """Keep solved extremals of nodes that are shorter than what is known; return which nodes changed."""
     times = np.where(missing <= SOLVED, np.exp(unknown[6]), np.inf)
     # An extremal before the proved bound would be an error of the integration.
-    certain = certain_least_time(nodes.start.angle, nodes.start.speed, 1.0, 0.0)
+    certain = find_bounds(nodes)
     times[times < (1.0 - SHORTER) * certain[target]] = np.inf
     changed = np.zeros(len(nodes.times), dtype=bool)
     for entry in np.argsort(times):

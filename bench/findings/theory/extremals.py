@@ -49,6 +49,9 @@ SMOOTH = 1e-3
 SOLVED = 1e-10
 """Greatest sum of squares of what is missing at T: in rad and sqrt(a), or over the band."""
 
+GUESSED_TIMES = (0.9, 3.0)
+"""Between which a time is guessed, over a lower bound. To brake and return takes 2.4 times the braking."""
+
 DIFFERENCE = 1e-6
 MOST_STEP = 0.5
 CHUNK = 512
@@ -94,7 +97,7 @@ def draw_guesses(shortest: np.ndarray, rng: np.random.Generator) -> np.ndarray:
     count = len(shortest)
     costates = rng.standard_normal((6, count))
     costates /= np.linalg.norm(costates, axis=0)
-    times = shortest * rng.uniform(0.9, 2.5, count)
+    times = shortest * rng.uniform(*GUESSED_TIMES, count)
     return np.vstack([costates, np.log(times)])
 
 
