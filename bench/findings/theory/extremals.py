@@ -81,7 +81,7 @@ class Bodies(NamedTuple):
 
 
 class End(NamedTuple):
-    """Where motions end: the turn q, omega and L, one a column."""
+    """The ends of motions: the turn q, omega and L, one a column."""
 
     quat: np.ndarray
     omega: np.ndarray
