@@ -38,6 +38,10 @@ class BadMetric(BenchError):
     """A metric's file that cannot be used."""
 
 
+class BadModel(BenchError):
+    """A robot's file that cannot be loaded, or has no such end effector."""
+
+
 class BadResults(BenchError):
     """A results folder that cannot be read, written, or continued."""
 

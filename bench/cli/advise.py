@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import math
 import re
+from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
 from bench.cli import options
+from bench.cli.arm_options import is_asked_of_arm, load_chain, read_question, take_arm_options
 from bench.cli.paragraphs import Paragraph, listed, print_paragraphs
 from bench.cli.progress import progress
 from bench.cli.screen import console, counted, examples, frame_table
 from tasks.situation import NOMINAL, UNCANCELLED, rounded
+
+if TYPE_CHECKING:
+    from bench.findings.selection.regions import Rule
 
 UNITS = {"": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6}
 FORMS = re.compile(r"([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?) *(|s|ms|us)")
@@ -72,9 +77,11 @@ UNEVENNESS = options.Number(0.0, 0.5, 0.3)
 @click.option("--continuous", is_flag=True, help="Only laws whose command is continuous; 180° rotations hold them.")
 @click.option("--no-adversary", is_flag=True, help="Do not ask that worst-case noise cannot trap the law at 180°.")
 @click.option("--run", "is_run", is_flag=True, help="Simulate all laws, not only those that the map names.")
+@take_arm_options
+@click.pass_context
 def COMMAND(
-    kp: float, kv: float, bound: float | None, delay: float, rate: float, spin: float, jump: float, inertia: float,
-    unevenness: float | None, robot: str, no_memory: bool, continuous: bool, no_adversary: bool, is_run: bool,
+    context: click.Context, kp: float, kv: float, bound: float | None, delay: float, rate: float, spin: float,
+    jump: float, inertia: float, unevenness: float | None, robot: str, is_run: bool, **_: Any,
 ) -> None:  # fmt: skip
     """Say which law to use in your situation, which laws tie with it, and what it costs.
 
@@ -83,13 +90,18 @@ def COMMAND(
     --run, all are. Laws that settle from every start without unwinding, and that noise cannot trap at 180°, are
     compared by the time in which 99 % of the starts settle; the map's law is advised unless another one is faster. A
     law of ours is compared, not advised. "No law" is an answer, too: the exit code is 0.
+
+    For an arm, name it and its stiffness in place of kp: you get the inertia that the tool's orientation spring feels
+    over the workspace, the damping to set, the stable range of K and D, bound over kp, and the law at both ends.
     """
+    if is_asked_of_arm(context):
+        _answer_arm(context.params)
+        return
     if robot not in TORQUES:
         print_paragraphs(_of_other_robot(robot))
         return
     from bench.cli.advised import paragraphs, table
     from bench.findings.selection.advice import advise
-    from bench.findings.selection.regions import Rule
 
     if unevenness is None:
         unevenness = (UNCANCELLED if robot == TORQUES[1] else NOMINAL).unevenness
@@ -97,12 +109,40 @@ def COMMAND(
     root = math.sqrt(kp)
     numbers = kv / (2.0 * root), bound / kp, delay * root, root / rate, inertia, unevenness, spin / root, jump * root
     wanted = rounded(numbers)
-    rule = Rule(adversary=not no_adversary, forgetful=no_memory, continuous=continuous)
+    rule = _rule_of(context.params)
     with progress("laws", "reading the map") as steps:
         advice = advise(wanted, rule, is_run, report=lambda law: steps.now(f"simulating {law}"))
     print_paragraphs(*paragraphs(advice, kp))
     if advice.rows is not None:
         console().print(frame_table(table(advice, kp), "\nLaws simulated in your situation, the fastest first"))
+
+
+def _answer_arm(words: dict[str, Any]) -> None:
+    """Answer a question about an arm."""
+    from bench.cli.arm_answer import describe_arm
+    from bench.findings.selection.arm_question import answer_arm
+
+    with progress("laws", "reading the arm") as steps:
+        answer = answer_arm(
+            read_question(words),
+            load_chain(words),
+            arm=words["arm"],
+            rule=_rule_of(words),
+            is_whole=words["is_run"],
+            report=lambda law: steps.now(f"simulating {law}"),
+        )
+    print_paragraphs(*describe_arm(answer))
+
+
+def _rule_of(words: dict[str, Any]) -> Rule:
+    """Return what the law must have, by the options."""
+    from bench.findings.selection.regions import Rule
+
+    return Rule(
+        adversary=not words["no_adversary"],
+        forgetful=words["no_memory"],
+        continuous=words["continuous"],
+    )
 
 
 def _of_other_robot(robot: str) -> Paragraph:

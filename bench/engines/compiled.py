@@ -31,7 +31,7 @@ from bench.engines.uncompiled import explain_failure
 from bench.law import scalar
 from bench.law.chain import Chain, Scratch
 from bench.law.control.setpoint import ContactParameters, Rows, Setpoint
-from bench.law.inputs import Gains, Goal
+from bench.law.inputs import Goal, Tuning
 from bench.law.so3 import Rotation
 from tasks import contact_rest, moving_goal, rules, truth, velocity, verdict
 
@@ -89,7 +89,7 @@ JIT = {"nogil": True, "error_model": "numpy"}
 VECTOR, MATRIX = float64[::1], float64[:, ::1]
 THREE, FOUR = type_of(Three), type_of(Four)
 NUMBERS, CURVES, ROTATION, GOAL, GAINS, CHAIN, SCRATCH = map(
-    type_of, (Numbers, Curves, Rotation, Goal, Gains, Chain, Scratch)
+    type_of, (Numbers, Curves, Rotation, Goal, Tuning, Chain, Scratch)
 )
 
 EVALUATE = types.Tuple((THREE, FOUR, float64))(ROTATION, THREE, GOAL, GAINS, FOUR)
@@ -101,7 +101,7 @@ MARGIN = float64(ROTATION, ROTATION)
 LIMIT = THREE(THREE, float64)
 DESIGN = types.void(VECTOR, MATRIX, float64, MATRIX, SCRATCH)
 STATEFUL, BEGIN_STATE = types.Tuple((THREE, FOUR))(ROTATION, THREE, GOAL, GAINS, FOUR), FOUR(ROTATION)
-TOUCH = types.void(CHAIN, *map(type_of, (Setpoint, Three, Three, Gains, ContactParameters)), MATRIX, type_of(Rows))
+TOUCH = types.void(CHAIN, *map(type_of, (Setpoint, Three, Three, Tuning, ContactParameters)), MATRIX, type_of(Rows))
 """The other functions that loops call: see `plants`."""
 
 INLINED = (

@@ -37,7 +37,11 @@ class Settings(NamedTuple):
 
 
 class Numbers(NamedTuple):
-    """Settings as a compiled loop takes them: floats and integers only; the last three are those of `refined`."""
+    """Settings as a compiled loop takes them: floats and integers only.
+
+    tolerance_squared, divisions, most_steps: those of `refined`. bound [rad/s^2], delay [s]: the limits of
+    its motors that a law can read (`bench.law.inputs.Tuning`); the plant applies its own condition.
+    """
 
     kp: float
     kv: float
@@ -53,6 +57,8 @@ class Numbers(NamedTuple):
     tolerance_squared: float = 0.0
     divisions: int = 1
     most_steps: int = 0
+    bound: float = math.inf
+    delay: float = 0.0
 
 
 class Sample(NamedTuple):

@@ -16,7 +16,7 @@ from numba import types
 from bench.engines import ideal
 from bench.engines.compiled import FOUR, MATRIX, NUMBERS, compile_function
 from bench.engines.episode import FIRST_METRIC, Sample, blamed, finish
-from bench.law.inputs import AT_REST, Gains, Goal
+from bench.law.inputs import AT_REST, Goal, Tuning
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation, dot, from_quaternion
 from tasks.verdict import GOING, Watch, check_command, check_state, first_watch, watched
@@ -176,7 +176,7 @@ def episodes_of(engine, evaluate, observe, metrics: int, cache: bool = True):
     columns = FIRST_METRIC + metrics
 
     def episodes(memory0, starts, numbers, rows):
-        gains, dt = Gains(numbers.kp, numbers.kv), numbers.dt
+        gains, dt = Tuning(numbers.kp, numbers.kv, numbers.bound, numbers.delay), numbers.dt
         x, n, measured = np.zeros((REALS, LANES)), np.zeros((INTEGERS, LANES), np.int64), np.zeros((columns, LANES))
         for i in range(LANES):
             n[EPISODE, i], n[ENDED, i] = NONE, 1

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from bench.engines.curve import keep
 from bench.engines.episode import Sample, blamed, finish
 from bench.engines.typed import borrow
-from bench.law.inputs import AT_REST, Gains, Goal
+from bench.law.inputs import AT_REST, Goal, Tuning
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation, dot
 from tasks.verdict import GOING, check_command, check_state, first_watch, watched
@@ -145,7 +145,8 @@ def episodes_of(plant: Plant, controller: Controller, record: Record):
     see, account, close, restart = record
 
     def episodes(first, second, third, world, memory0, starts, numbers, rows, curves):
-        laws, gains, body = Laws(first, second, third), Gains(numbers.kp, numbers.kv), borrow(world)
+        laws, body = Laws(first, second, third), borrow(world)
+        gains = Tuning(numbers.kp, numbers.kv, numbers.bound, numbers.delay)
         for k in range(starts.shape[0]):
             start, row = starts[k], rows[k]
             state = reset(body, k, start)

@@ -29,7 +29,12 @@ from tasks.contact_episode import environment as scene_of
 
 def _run(loop: Callable, laws: tuple, world: Any, contender: Any, begun: Any, limits: Numbers, row: Any) -> None:
     """Run one episode, in numbers of numpy's throughout."""
-    exact = limits._replace(kp=np.float64(limits.kp), kv=np.float64(limits.kv))
+    exact = limits._replace(
+        kp=np.float64(limits.kp),
+        kv=np.float64(limits.kv),
+        bound=np.float64(limits.bound),
+        delay=np.float64(limits.delay),
+    )
     functions = (*laws, *[None] * (3 - len(laws)))
     memory = tuple(map(np.float64, memory_of(contender))) if contender else ()
     loop(*functions, world, memory, begun[None], exact, row[None], blank_curves(1))

@@ -10,7 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.law import AT_REST, Gains, Goal, kernel
+from bench.law import AT_REST, Gains, Goal, Tuning, kernel
+from bench.law.inputs import reads_limits
 from bench.law.so3 import cross, dot, from_quaternion, minus, rotate, rotate_back, turn_quaternion
 from bench.law.tracking import carried_along
 
@@ -19,7 +20,7 @@ class Parameter(NamedTuple):
     """An argument of an entry: its name, its kind and how many numbers it has.
 
     kind: "matrix" (a rotation), "rows" (another matrix, by rows), "vector" (in the frame of the entry, which its name
-    tells), "tuple", "number", "gains" (kp and kv) or "memory".
+    tells), "tuple", "number", "gains" (kp and kv), "tuning" (kp, kv, bound and delay) or "memory".
     """
 
     name: str
@@ -92,8 +93,13 @@ R, R_D = Parameter("R", "matrix", 9), Parameter("R_d", "matrix", 9)
 OMEGA, U, MOMENT, E, TAU = (Parameter(name, "vector", 3) for name in ("omega", "u", "moment", "e", "tau"))
 OMEGA_D, ALPHA_D = Parameter("omega_d", "vector", 3), Parameter("alpha_d", "vector", 3)
 GAINS, INERTIA = Parameter("gains", "gains", 2), Parameter("inertia_body", "rows", 9)
+TUNING = Parameter("gains", "tuning", 4)
 REGULATING = Gains(1.0, 2.0)
 """The gains of the orientation error: stiffness 1, critically damped as the paper's gains are."""
+
+UNLIMITED = Tuning(*REGULATING, bound=1e30)
+"""The gains of the orientation error of a law that reads a bound. No command reaches this bound, and every language can
+write it, in single precision too."""
 
 ACCELERATION = "angular acceleration u [rad/s^2] that the law commands"
 TRACKING = (
@@ -149,8 +155,10 @@ def name_numbers(name: str, found: tuple, quat_wxyz: tuple) -> str:
 def of_law(law: Callable, memory: tuple | None) -> list[Entry]:
     """Return angular acceleration, also for a moving goal, orientation error and torque of a regulator, in both frames.
 
-    memory: the first one; None of a law without memory.
+    memory: the first one; None of a law without memory. A law that reads the limits of its motors takes them as
+    arguments after the gains.
     """
+    given, regulating = (TUNING, UNLIMITED) if reads_limits(law) else (GAINS, REGULATING)
 
     def make(frame: Frame) -> tuple[Callable, ...]:
         _suffix, to_base, from_base, _to_body, _from_body = frame
@@ -166,7 +174,7 @@ def of_law(law: Callable, memory: tuple | None) -> list[Entry]:
 
         @kernel
         def orientation_error(R, R_d):
-            return angular_acceleration(R, AT_REST, R_d, REGULATING)
+            return angular_acceleration(R, AT_REST, R_d, regulating)
 
         @kernel
         def angular_acceleration_with_memory(R, omega, R_d, gains, memory):
@@ -180,7 +188,7 @@ def of_law(law: Callable, memory: tuple | None) -> list[Entry]:
 
         @kernel
         def orientation_error_with_memory(R, R_d, memory):
-            return angular_acceleration_with_memory(R, AT_REST, R_d, REGULATING, memory)
+            return angular_acceleration_with_memory(R, AT_REST, R_d, regulating, memory)
 
         if memory is None:
             return angular_acceleration, tracking_acceleration, orientation_error
@@ -188,12 +196,12 @@ def of_law(law: Callable, memory: tuple | None) -> list[Entry]:
 
     kept: tuple[Parameter, ...] = ()
     if memory is not None:
-        (w, v, _), (_u, after) = turn_quaternion(*SEEN), law(SEEN[0], AT_REST, Goal(SEEN[1]), REGULATING, memory)
+        (w, v, _), (_u, after) = turn_quaternion(*SEEN), law(SEEN[0], AT_REST, Goal(SEEN[1]), regulating, memory)
         kept = (Parameter(name_numbers("memory", after, (w, *v)), "memory", 4),)
     both = in_both_frames(
         make,
-        ((R, OMEGA, R_D, GAINS, *kept), U, ACCELERATION),
-        ((R, OMEGA, R_D, OMEGA_D, ALPHA_D, GAINS, *kept), U, TRACKING),
+        ((R, OMEGA, R_D, given, *kept), U, ACCELERATION),
+        ((R, OMEGA, R_D, OMEGA_D, ALPHA_D, given, *kept), U, TRACKING),
         ((R, R_D, *kept), E, ERROR),
     )
     return [*both, *of_torque()]

@@ -10,6 +10,7 @@ from bench.engines.counting.costs import FLOPS, cost
 from bench.engines.counting.counted import TOTAL
 from bench.export.subject import COMPENSATOR, IMPEDANCE, SPRING, Subject
 from bench.law.attribution import describe_source
+from bench.law.inputs import reads_limits
 
 PROJECT = describe_project()
 LICENSE = (
@@ -25,7 +26,7 @@ RESET = (
 )
 SIDE = (
     "The side is followed from tick to tick, so the measured orientation must turn by less than 180° between two "
-    "ticks: e + phi/2 < 90°, where e is the error of the measured orientation and phi the rotation within a tick. The "
+    "ticks: phi + 2 e < 180°, phi the rotation within a tick, e the angle from the measured to the true one. The "
     "results with noise need this too."
 )
 """What a user of a law with memory must know."""
@@ -43,6 +44,9 @@ UNFUSED = (
     "(-ffp-contract=off and no -march); with -march=native or on aarch64 the last digits may differ"
 )
 GAINS = "Gains     kp [1/s^2], kv [1/s]; "
+MOTORS = (
+    "Motors    bound: greatest length of u that they carry out [rad/s^2]; delay: from a measurement to its effect [s]"
+)
 OF_KIND = {
     COMPENSATOR: (
         f"{GAINS}what they set is in the formula",
@@ -96,6 +100,7 @@ def _facts(subject: Subject) -> list[str]:
     flops, calls = (sum(counted[name] for name in names) for names in (FLOPS, ("sin", "cos", "atan2", "acos")))
     lines = [
         f"{GAINS}near the goal u = kp (rotation vector to the goal) - kv omega",
+        *_wrapped(MOTORS if reads_limits(subject.contender.law) else ""),
         f"Property  {subject.record.property}",
         f"Cost      {flops} flops and {calls} calls of sin, cos, atan2, acos for u, in the typical branch",
     ]

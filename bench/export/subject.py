@@ -16,7 +16,7 @@ from bench.law.contender import Contender
 from bench.law.contenders import registry
 from bench.law.contenders.registry import contenders
 from bench.law.control.registry import all_controllers
-from bench.law.inputs import NO_MEMORY, Gains
+from bench.law.inputs import NO_MEMORY, Gains, Tuning
 from bench.law.kinds import Law
 from bench.law.so3 import Rotation
 
@@ -90,7 +90,8 @@ def find_subject(word: str, extra: tuple[Law, ...] = ()) -> Subject:
 
 MATRIX = Tuple((numbers(3),) * 3, Rotation.__name__, Rotation._fields)
 GAINS = Tuple((REAL, REAL), Gains.__name__, Gains._fields)
-KINDS: dict[str, Kind] = {"matrix": MATRIX, "gains": GAINS, "number": REAL}
+TUNING = Tuple((REAL,) * 4, Tuning.__name__, Tuning._fields)
+KINDS: dict[str, Kind] = {"matrix": MATRIX, "gains": GAINS, "tuning": TUNING, "number": REAL}
 """Kinds of the arguments of entries; those of others are numbers."""
 
 

@@ -9,13 +9,16 @@ import numpy as np
 
 from bench.export.entries import Entry, Parameter
 from bench.export.subject import Subject, translated
-from bench.law.inputs import PAPERS_GAINS, Gains
+from bench.law.inputs import PAPERS_GAINS, Gains, Tuning
 from bench.law.so3 import Rotation, from_quaternion
 from tasks.base import IDENTITY, Quat
 from tasks.rotations import about, multiply
 
 FIRST, OTHERS = 120, 15
 """Vectors of the first entry, and of every other one: together some 200 for a law."""
+
+BOUNDS, DELAY_S = (1.0, 100.0), 0.005
+"""Bounds of a law that reads one [rad/s^2]: at the paper's gains 0.01 to 1 kp. The delay is one of five ticks [s]."""
 
 SEED = 1988
 CLOSE = 1e-7
@@ -101,6 +104,8 @@ def _argument(subject: Subject, one: Parameter, state: State, random: np.random.
         return np.array(from_quaternion(quat)).T.ravel().tolist()
     if one.kind == "gains":
         return list(PAPERS_GAINS)
+    if one.kind == "tuning":
+        return [*PAPERS_GAINS, float(random.uniform(*BOUNDS)), DELAY_S]
     if one.kind == "memory":
         return list(subject.memory or ()) if state.kind == "at 180°" else list(_unit(random))
     if one.kind == "rows":  # symmetric and positive, as an inertia and a stiffness are
@@ -122,6 +127,8 @@ def _as_given(one: Parameter, value: Any) -> Any:
         return Rotation(*map(tuple, numbers.reshape(3, 3).T))
     if one.kind == "gains":
         return Gains(*numbers)
+    if one.kind == "tuning":
+        return Tuning(*numbers)
     return tuple(numbers) if numbers.ndim else np.float64(value)
 
 

@@ -11,7 +11,7 @@ side             the side of a 180° rotation that a law keeps in memory
 linalg/          products, eliminations and rotations of small matrices
 kinds            Law, Coordinates, Jacobian, Inverse, Impedance, Spring: a file of contenders/ holds one of them
 attribution      published, adapted or ours: whose a law is
-inputs           Gains, Goal; chain: an arm as kernels see it
+inputs           Gains, Tuning, Goal; chain: an arm as kernels see it
 display          what the book shows of a law: short name, look, family, equation
 contender        Contender: a law in its coordinates, on an arm with Jacobian and inverse
 euler, spring, shipped, weighting: what several files of a kind share
@@ -25,7 +25,7 @@ from bench.law.attribution import ADAPTED, OURS, PUBLISHED, YOURS
 from bench.law.chain import bias_acceleration, twist
 from bench.law.contender import Contender
 from bench.law.display import ANGLE, CHORD, LINEAR_MRP, LINEAR_SINE, QUARTER, SINE, TANGENT, Display, Equation, Look
-from bench.law.inputs import AT_REST, Gains, Goal
+from bench.law.inputs import AT_REST, Gains, Goal, Tuning
 from bench.law.kinds import Coordinates, Impedance, Inverse, Jacobian, Law, Spring, State, functions_of
 from bench.law.linalg import (
     determinant,

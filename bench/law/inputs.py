@@ -1,5 +1,8 @@
-"""What a law is given besides the body's motion: gains and a goal."""
+"""What a law is given besides the body's motion: gains, the limits of its motors, and a goal."""
 
+import inspect
+import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 from bench.law.so3 import IDENTITY, Rotation
@@ -20,6 +23,45 @@ class Gains(NamedTuple):
 
 
 PAPERS_GAINS = Gains()
+
+
+class Tuning(NamedTuple):
+    """What a law is called with as `gains`: the gains, and the limits under which its command is carried out.
+
+    A law may read the limits or take no notice of them. The plant applies them in either case: it shortens a command
+    whose length is above the bound, and keeps its direction.
+
+    Attributes:
+        kp: Position gain [1/s^2], as in `Gains`.
+        kv: Velocity gain [1/s], as in `Gains`.
+        bound: Greatest length of the command [rad/s^2], of the body that the law assumes; infinite without a limit.
+        delay: Time from a measurement to the effect of its command [s], besides the control period.
+    """
+
+    kp: float = PAPERS_GAINS.kp
+    kv: float = PAPERS_GAINS.kv
+    bound: float = math.inf
+    delay: float = 0.0
+
+
+LIMITS = frozenset(Tuning._fields) - frozenset(Gains._fields)
+"""The limits of its motors that a law can read."""
+
+
+def reads_limits(law: Callable) -> bool:
+    """Tell whether a law, or a function that it calls, reads a limit of its motors, by the names in its code."""
+    seen: set[int] = set()
+    waiting = [law]
+    while waiting:
+        function = waiting.pop()
+        if id(function) in seen or not inspect.isfunction(function):
+            continue
+        seen.add(id(function))
+        if LIMITS.intersection(function.__code__.co_names):
+            return True
+        names = inspect.getclosurevars(function)
+        waiting += [*names.nonlocals.values(), *names.globals.values()]
+    return False
 
 
 class Goal(NamedTuple):

@@ -38,6 +38,8 @@ class State(NamedTuple):
 class Law(NamedTuple):
     """A law u = law(R, omega, goal, gains), which commands an angular acceleration in the base frame [rad/s^2].
 
+    The law is called with a `Tuning` as gains: gains.kp, gains.kv, and the limits gains.bound and gains.delay.
+
     Args:
         coordinates: "rotation-matrix" if the law acts on R; otherwise the names of the coordinates
             that it acts on, or "any". Such a law gives `law_in(coordinates)`, which returns the law
@@ -74,8 +76,8 @@ class Law(NamedTuple):
             controller with an analytic Jacobian (Murphy 1988, 3.7) uses this law.
         assemble: for a baseline (contenders/baselines): assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory).
             This function replaces equations (2.2) and (3.7).
-        through: the Jacobian and the inverse of a baseline that acts on the joints; otherwise
-            empty.
+        through: for a baseline (contenders/baselines) that commands joints: its Jacobian, and
+            the method that inverts the Jacobian. Empty for every other law.
         papers: the number (1 to 3) of one of the paper's three laws; 0 for another law.
         control: whether the law is a negative control: a law that is wrong on purpose and must fail.
         attribution: "published", "adapted" or "ours" (see `bench.law.attribution`); "yours" for the

@@ -14,7 +14,7 @@ from bench.cli import options
 NONSENSE = ("nan", "-nan", "inf", "-inf", "1e400", "-1e400", "", "abc", "1e-320", "0x10", "9" * 30)
 """Words that stand for no number that a command can use; some options take one of them, see TAKEN."""
 
-TAKEN = {("advise", "--bound"): ("inf",)}
+TAKEN = {("advise", "--bound"): ("inf",), ("advise", "--torque"): ("inf",)}
 """Command and option -> words that mean something there."""
 
 
@@ -58,7 +58,7 @@ def test_every_number_is_of_our_type_or_a_time():
     assert others == []
     named = {(words[0], option.opts[0]) for words, option in NUMBERS}
     assert {("run", "--kp"), ("judge", "--law-limit"), ("prove", "--workers"), ("map", "--spin")} <= named
-    assert {("advise", name) for name in ("--kp", "--kv", "--bound", "--rate", "--inertia")} <= named
+    assert {("advise", name) for name in ("--kp", "--kv", "--bound", "--rate", "--stiffness")} <= named
 
 
 @pytest.mark.parametrize(

@@ -23,12 +23,14 @@ from bench.engines.counting.staged import STAGE_OF, law_of
 from bench.engines.episode import OUTCOME, TICKS
 from bench.engines.simulate import evaluation, run
 from bench.law.contenders.registry import all_contenders, contenders
-from bench.law.inputs import AT_REST, Gains, Goal
+from bench.law.inputs import AT_REST, Goal, Tuning
 from bench.law.so3 import IDENTITY
 from tasks.verdict import DIVERGED, OUTCOMES, SATURATED, SETTLED, SINGULAR
 
 BODIES = [name for name in tasks.names() if not tasks.is_for_arms(name)]  # arms have contracts of their own
-GAINS = Gains(kp=37.0, kv=9.0)  # not the defaults: a law that has those built in is found out
+GAINS = Tuning(kp=37.0, kv=9.0)  # not the defaults: a law that has those built in is found out
+LIMITS = 10.0, 0.005
+"""Bound and delay of a motor [rad/s^2, s]."""
 
 contender = each(all_contenders())
 
@@ -66,7 +68,7 @@ def ticks() -> list[tuple]:
     """Every orientation of interest, at rest and tumbling, towards the identity and towards another one of them."""
     draw, every = np.random.default_rng(9), rotations()
     return [
-        (R, vector(omega), Goal(R_d), Gains(*map(np.float64, draw.uniform(1.0, 200.0, 2))))
+        (R, vector(omega), Goal(R_d), Tuning(*map(np.float64, (*draw.uniform(1.0, 200.0, 2), *LIMITS))))
         for R in every
         for omega, R_d in (
             (AT_REST, IDENTITY),

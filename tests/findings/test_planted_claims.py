@@ -224,7 +224,7 @@ def test_no_time_changes_the_word_of_c26(euler):
     ]
     verdict = planted("C26", lambda frames: {"timings": pd.DataFrame(rows)})
     assert verdict.word == Word.HOLDS
-    assert "times differ in 2 of these pairs" in str(verdict.evidence)
+    assert "times differ in 2 of the 4 pairs" in str(verdict.evidence)
 
 
 STORED_WORDS = {id: Word(word) for id, word in read_json(STORED)["reference"].items()}

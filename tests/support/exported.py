@@ -13,7 +13,7 @@ from bench.engines.simulate import evaluation
 from bench.export.language import find_language
 from bench.export.subject import Subject, find_subject
 from bench.law.contender import Contender
-from bench.law.inputs import AT_REST, PAPERS_GAINS, Gains, Goal
+from bench.law.inputs import AT_REST, PAPERS_GAINS, Goal, Tuning
 from bench.law.so3 import Rotation, from_quaternion
 
 STATES, SOME = 100_000, 20_000
@@ -95,7 +95,7 @@ def _ours():
 def our_answers(contender: Contender) -> np.ndarray:
     """u and the memory at every state, by the kernel that the engines compile."""
     answers = np.zeros((STATES, ANSWERS))
-    _ours()(evaluation(contender), Gains(KP, KV), states(), answers)
+    _ours()(evaluation(contender), Tuning(KP, KV), states(), answers)
     return answers
 
 

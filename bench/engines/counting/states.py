@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 import tasks
-from bench.law.inputs import AT_REST, Gains, Goal
+from bench.law.inputs import AT_REST, PAPERS_GAINS, Goal, Tuning
 from bench.law.so3 import Rotation, from_quaternion
 from tasks.base import IDENTITY, Start
 
@@ -39,7 +39,11 @@ class State(NamedTuple):
     is_sampled: bool
 
 
-GAINS = Gains(*(np.float64(gain) for gain in Gains()))
+BOUND_OVER_KP = 0.1
+"""A bound that a law meets far from the goal and not near it, so that both its branches are counted."""
+
+LIMITED = Tuning(*PAPERS_GAINS, bound=BOUND_OVER_KP * PAPERS_GAINS.kp)
+GAINS = Tuning(*(np.float64(number) for number in LIMITED))
 
 
 @functools.cache

@@ -215,9 +215,14 @@ def loop_of(observe):
 
 
 def in_steps(numbers: Numbers, condition: Condition, hold_s: float, horizon_s: float) -> Numbers:
-    """Return the numbers in steps of the plant, the horizon from a goal's jump on; what lasts stops none early."""
+    """Return the numbers in steps of the plant, the horizon from a goal's jump on; what lasts stops none early.
+
+    They hold the bound of the command and the delay, which a law can read.
+    """
     step_s = condition.period_s / steps_of(condition)
     ticks = max(1, round(horizon_s / step_s)) + timing(condition).jump
     rest = max(1, round(hold_s / step_s))
     hold = ticks + 1 if condition.lasts else rest
-    return numbers._replace(dt=step_s, ticks=ticks, hold_ticks=hold, rest_ticks=rest)
+    return numbers._replace(
+        dt=step_s, ticks=ticks, hold_ticks=hold, rest_ticks=rest, bound=condition.bound, delay=condition.delay_s
+    )

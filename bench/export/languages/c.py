@@ -130,10 +130,12 @@ def write_entry(subject: Subject, core: Core, entry: Entry) -> str:
     declared = {
         "number": "double {name}",
         "gains": "double kp, double kv",
+        "tuning": "double kp, double kv, double bound, double delay",
         "memory": f"{subject.identifier}_state *state",
         "": "const double {name}[{size}]",
     }
     passed = {"number": "{name}", "gains": f"{core.prefix}Gains_of(kp, kv)"}
+    passed["tuning"] = f"{core.prefix}Tuning_of(kp, kv, bound, delay)"
     passed["memory"] = f"{core.prefix}real{len(subject.memory or ())}_at(state->{subject.memory_name})"
     passed |= {"matrix": f"{core.prefix}Rotation_at({{name}})", "": f"{core.prefix}real{{size}}_at({{name}})"}
     given, arguments = write_arguments(entry, declared, passed)
@@ -198,10 +200,17 @@ def _test_entry(subject: Subject, entry: Entry, calls: Calls) -> Iterator[str]:
     yield f"{deep}wrong += {' || '.join(checks)};\n{INDENT}}}\n{INDENT}return wrong;\n}}\n"
 
 
+OF_ROW = {
+    "gains": "row[{at}], row[{at} + 1]",
+    "tuning": "row[{at}], row[{at} + 1], row[{at} + 2], row[{at} + 3]",
+}
+"""Gains, and gains with limits, from place {at} of a row."""
+
+
 def write_test(subject: Subject) -> str:
     """Write the program that runs the vectors."""
     name = subject.identifier
-    passed = {"memory": "&state", "number": "row[{at}]", "gains": "row[{at}], row[{at} + 1]", "": "row + {at}"}
+    passed = {"memory": "&state", "number": "row[{at}]", **OF_ROW, "": "row + {at}"}
 
     def call(entry: Entry, arguments: str) -> str:
         if entry.returns.kind == "number":

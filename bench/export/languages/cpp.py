@@ -13,12 +13,19 @@ ROWS = "Eigen::Matrix<double, 3, 3, Eigen::RowMajor>"
 DECLARED = {
     "number": "double {name}",
     "gains": "double kp, double kv",
+    "tuning": "double kp, double kv, double bound, double delay",
     "memory": "State &state",
     "matrix": "const Rows &{name}",
     "rows": "const Rows &{name}",
     "": "const Eigen::Vector{size}d &{name}",
 }
-PASSED = {"number": "{name}", "gains": "kp, kv", "memory": "&state", "": "{name}.data()"}
+PASSED = {
+    "number": "{name}",
+    "gains": "kp, kv",
+    "tuning": "kp, kv, bound, delay",
+    "memory": "&state",
+    "": "{name}.data()",
+}
 
 
 def write_header(subject: Subject) -> str:
@@ -70,7 +77,7 @@ def write_test(subject: Subject) -> str:
     passed = {
         "memory": "state",
         "number": "row[{at}]",
-        "gains": "row[{at}], row[{at} + 1]",
+        **c.OF_ROW,
         "matrix": rows,
         "rows": rows,
         "": "Eigen::Map<const Eigen::Vector{size}d>(row + {at})",

@@ -37,7 +37,14 @@ def write_function(function: Typed) -> str:
 
 
 COPYSIGN = fill_template("copysign.js")
-PASSED = {"gains": "[kp, kv]", "memory": "state.{name}", "matrix": "columns({name})", "": "{name}"}
+PASSED = {
+    "gains": "[kp, kv]",
+    "tuning": "[kp, kv, bound, delay]",
+    "memory": "state.{name}",
+    "matrix": "columns({name})",
+    "": "{name}",
+}
+DECLARED = {"gains": "kp, kv", "tuning": "kp, kv, bound, delay", "memory": "state", "": "{name}"}
 
 
 def write_script(subject: Subject) -> str:
@@ -67,7 +74,7 @@ def write_script(subject: Subject) -> str:
 
 def write_entry(entry: Entry, function: str) -> list[str]:
     """Write one entry of the object that the script offers."""
-    given, passed = write_arguments(entry, {"gains": "kp, kv", "memory": "state", "": "{name}"}, PASSED)
+    given, passed = write_arguments(entry, DECLARED, PASSED)
     call = f"{function}({passed})"
     if entry.has_memory:
         call = f"kept({call}, state, '{entry.parameters[-1].name}')"
@@ -77,6 +84,7 @@ def write_entry(entry: Entry, function: str) -> list[str]:
 
 
 TYPED = {"number": "{name}: number", "gains": "kp: number, kv: number", "memory": "state: State"}
+TYPED["tuning"] = f"{TYPED['gains']}, bound: number, delay: number"
 TYPED[""] = "{name}: ArrayLike<number>"
 
 

@@ -18,10 +18,11 @@ NUMBERS = (
     "Numbers   matrices are three rows of three numbers, vectors three numbers: lists, tuples or NumPy arrays",
     "Errors    where C gives infinity or NaN, ZeroDivisionError or ValueError is raised",
 )
-DECLARED = {"gains": "kp, kv", "": "{name}"}
+DECLARED = {"gains": "kp, kv", "tuning": "kp, kv, bound, delay", "": "{name}"}
 PASSED = {
     "number": "{name}",
     "gains": "Gains(kp, kv)",
+    "tuning": "Tuning(kp, kv, bound, delay)",
     "matrix": "Rotation(*_columns({name}))",
     "rows": "sum(_columns({name}), ())",
     "": "_numbers({name})",

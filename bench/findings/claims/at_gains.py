@@ -20,9 +20,9 @@ GAINS = RESULTS / "gains"
 """Runs of the same starts at other gains, a folder each."""
 
 RULE = (
-    "Whichever run is judged, we also judge results/reference and every run of results/gains in this "
-    "way. If these verdicts differ, the verdict is 'depends on the gains'. We do not count gains at "
-    "which the claim was not tested, and name them."
+    "Whichever run is judged, we also judge results/reference and every run of results/gains by this "
+    "criterion. If these verdicts differ, the verdict is 'depends on the gains'. We do not count gains "
+    "at which the claim was not tested, and we name these gains."
 )
 
 STORED = RESULTS / "verdicts" / "verdicts.json"
@@ -129,11 +129,12 @@ def on_every_engine(decide: Callable) -> Callable:
             with contextlib.suppress(NoEvidence):
                 others[engine], also = decide(results, engine)
                 rows += also.rows
-        said = "No sampled engine has rows for this."
+        said = "No simulation with sampled control has rows for this claim."
         if others:
-            said = f"Sampled engines agree ({', '.join(others)})."
+            said = f"Simulations with sampled control give the same verdict (engine {', '.join(others)})."
         if set(others.values()) - {word}:
-            said = "Sampled: " + ", ".join(f"{engine} says '{other}'" for engine, other in others.items()) + "."
+            listed = ", ".join(f"'{other}' (engine {engine})" for engine, other in others.items())
+            said = f"Simulations with sampled control give the verdict {listed}."
         return word, found._replace(sentence=f"{found.sentence} {said}", rows=rows)
 
     return judge
@@ -165,7 +166,10 @@ def describe(study: dict, words: dict[str, str]) -> str:
 
 def _lacking(stale: list[str]) -> str:
     """Name the claims that the study judged by a criterion which stands no more."""
-    return f" The claims {', '.join(stale)} are not tested here, because their criteria are newer." if stale else ""
+    if not stale:
+        return ""
+    names = ", ".join(stale)
+    return f" The claims {names} are not tested here, because we wrote their present criteria after this study."
 
 
 def by_gains(study: dict, words: dict[str, str]) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from bench.base.on_first_use import Turn, pd
-from bench.findings.amounts import count_of, part_of
+from bench.findings.amounts import count_of, join_words, part_of
 from bench.findings.claims import probes, side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.force_conversion import random_orientations
@@ -31,7 +31,7 @@ def c22(results: Results) -> tuple[Word, Evidence]:
     by_alpha = np.abs(B[:, :, 0] - (0.0, 0.0, 1.0)).max()
     by_gamma = np.abs(B[:, :, 2] - [R.n for R in turns]).max()
     axes = (
-        f"At {LIMIT.POSES} orientations we compare axes. The axis of alpha is the base's z axis "
+        f"We compare axes at {LIMIT.POSES} orientations. The axis of alpha is the base's z axis "
         f"(difference {rounding(by_alpha)}), and the axis of gamma is the hand's x axis "
         f"(difference {rounding(by_gamma)})."
     )
@@ -64,29 +64,30 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
     ends = rows.loc[~away, "outcome"].astype(str).value_counts()
     close = ", ".join(f"{n} {end}" for end, n in ends.items()) or "no pose"
     return word, evidence(
-        f"""A case is one pose of an arm with one kind of force control. Euler compliance and
-        Cartesian compliance along the base's axes are the same {_by_order(judged, "same")} cases
-        ({judged["arm"].nunique()} arms). In the other cases the two compliances differ by up to
-        {_greatest(differs[away]):.2f} of the Cartesian compliance. If the Cartesian compliance is
-        turned by the Euler angles that come before, they differ by at most
-        {_greatest(differs_turned[away]):.1e} of it. Euler compliance is the same as compliance
-        about the hand's own axes {_by_order(judged, "same_in_hand")} cases. The numbers do not
-        count poses closer to the pole; there the episodes end as follows: {close}.""",
+        f"""A case is one pose of one arm with one variant of force control. We tested
+        {judged["arm"].nunique()} arms. Euler compliance is the same as Cartesian compliance about
+        the base's axes {_by_order(judged, "same")}. In the other cases, the
+        two compliances differ by up to {_greatest(differs[away]):.2f} times the Cartesian
+        compliance. If the Cartesian compliance is turned by the Euler angles before the compliant
+        angle, the two compliances differ by at most {_greatest(differs_turned[away]):.1e} times the
+        Cartesian compliance. Euler compliance is the same as compliance about the hand's own axes
+        {_by_order(judged, "same_in_hand")}. These numbers leave out the poses
+        closest to the pole. At these poses, the episodes end as follows: {close}.""",
         len(rows),
-        instead=f"""One compliant angle acts as one compliant axis of the base {_by_order(judged, "same")} cases.
-        One compliant angle acts as one axis, turned by the earlier angles,
-        {_by_order(judged, "same_turned")} cases.""",
-        measured=f"""One compliant angle acts as one axis, turned by the earlier angles, at
+        instead=f"""One compliant angle acts as one compliant axis of the base
+        {_by_order(judged, "same")}. One compliant angle acts as one axis that the earlier angles
+        turn {_by_order(judged, "same_turned")}.""",
+        measured=f"""One compliant angle acts as one axis that the earlier angles turn, at
         {count_of(int(judged["same_turned"].sum()), len(judged), "poses")}.""",
     )
 
 
 def _by_order(rows: pd.DataFrame, fact: str) -> str:
-    """Return at how many poses a fact is true, by order: 'about x at 3 of 12, about y at all 12'."""
+    """Return in how many cases a fact is true, by order: 'in 3 of 12 cases about x and in all 12 cases about y'."""
     parts = []
-    for order, own in rows.groupby("complies")[fact]:
-        parts.append(f"{order} at {part_of(int(own.sum()), len(own))}")
-    return ", ".join(parts)
+    for order, cases in rows.groupby("complies")[fact]:
+        parts.append(f"in {part_of(int(cases.sum()), len(cases))} cases {order}")
+    return join_words(parts)
 
 
 def _greatest(numbers: np.ndarray) -> float:
@@ -115,17 +116,19 @@ def c23(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     as_predicted = (missed <= LIMIT.LEAK).all() and (tilt <= LIMIT.PLANE_RAD).all()
     word = word_of(parted.all() and as_predicted, parted.mean() > 0.5)
     least = float(np.nanmin(differs[general], initial=np.inf))
-    special = _by_order(rows.assign(same=differs <= LIMIT.SAME)[~general], "same") or "at none of the 0"
+    special = _by_order(rows.assign(same=differs <= LIMIT.SAME)[~general], "same") or "in no case"
     return word, evidence(
-        f"""A case is one pose of an arm with one kind of force control. If none of the Euler angles is
-        zero, the two compliances differ at {count_of(int(parted.sum()), len(parted), "cases")}, by
-        {least:.2f} of the Cartesian compliance or more. If an Euler angle is zero, they are the same
-        {special} cases. Compliance {LEVEL_PAIR} is tested at {int(level.sum())} cases up to |beta|
-        = {math.degrees(beta.max()):.0f} degrees on {rows["arm"].nunique()} arms. Both compliant
-        planes lie as predicted to {_greatest(tilt):.1e} rad. A moment about the level axis also
-        turns the hand about z. The ratio of the two rotations is as predicted to
-        {_greatest(missed):.1e}; it is at most {_greatest(leak):.2f}, where tan |beta| is at most
-        {_greatest(np.tan(beta)):.2f}. With Cartesian compliance the ratio is at most
+        f"""A case is one pose of one arm with one variant of force control. If none of the Euler
+        angles is zero, the two compliances differ in
+        {count_of(int(parted.sum()), len(parted), "cases")}, by {least:.2f} times the Cartesian
+        compliance or more. If an Euler angle is zero, the two compliances are the same
+        {special}. We tested compliance {LEVEL_PAIR} in {int(level.sum())} cases, up to
+        |beta| = {math.degrees(beta.max()):.0f} degrees, on {rows["arm"].nunique()} arms. The
+        compliant planes of both controllers lie as predicted to {_greatest(tilt):.1e} rad. A moment
+        about the level axis also turns the hand about z. The ratio of the rotation about z to the
+        rotation about the level axis is as predicted to {_greatest(missed):.1e}. With Euler
+        compliance, this ratio is at most {_greatest(leak):.2f}; tan |beta| is at most
+        {_greatest(np.tan(beta)):.2f}. With Cartesian compliance, this ratio is at most
         {_greatest(by_base):.2g}.""",
         len(rows),
         measured=f"""The two compliances differ at
@@ -157,12 +160,13 @@ def c24(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     done = near[near["outcome"] == "done"]
     ends = ", ".join(sorted(set(at_zero["outcome"].astype(str))))
     return word, evidence(
-        f"""Z-Y-Z angles are a problem at {_problems(at_zero)} at zero rotation (ends: {ends}) and at
-        {_problems(near)} within {LIMIT.NEAR_DEG:g} degrees of zero. At the latter, the rotation about
-        x is {done["yields"].min():.1e} to {done["yields"].max():.1e} of the wanted rotation. The
-        rotation about z is {done["leak"].min():.1f} to {done["leak"].max():.1f} times the rotation
-        about x. Z-Y-X angles are a problem at {_problems(zyx)}; with them the rotation about x is
-        {zyx["yields"].min():.3f} or more of the wanted rotation.""",
+        f"""Z-Y-Z angles are a problem at {_problems(at_zero)} at zero rotation, where the outcomes of
+        the runs are: {ends}. Z-Y-Z angles are also a problem at {_problems(near)} within
+        {LIMIT.NEAR_DEG:g} degrees of zero rotation. At the poses near zero rotation, the rotation
+        about x is {done["yields"].min():.1e} to {done["yields"].max():.1e} times the wanted
+        rotation. The rotation about z is {done["leak"].min():.1f} to {done["leak"].max():.1f} times
+        the rotation about x. Z-Y-X angles are a problem at {_problems(zyx)}. With Z-Y-X angles, the
+        rotation about x is at least {zyx["yields"].min():.3f} times the wanted rotation.""",
         len(zyz) + len(zyx),
         measured=f"""With compliance about x in Z-Y-Z angles, the end effector turns
         {done["leak"].min():.1f} to {done["leak"].max():.1f} times as far about z as about x. This

@@ -52,17 +52,17 @@ def c25(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     agree = by_frame.nunique()[by_frame.size() == len(forms)] == 1
     agreed = ""
     if len(forms) > 1:
-        agreed = f" Both forms agree at {count_of(int(agree.sum()), len(agree), 'frames and scenes')}."
+        same = count_of(int(agree.sum()), len(agree), "combinations of task, arm and frame")
+        agreed = f" The variants of force control agree in {same}."
     simple = rows[rows["turns"] < 2]
-    listed = "; ".join(_told(task, own) for task, own in complex_ones.groupby("task"))
+    listed = " ".join(_told(task, own) for task, own in complex_ones.groupby("task"))
     return word, evidence(
-        f"""{capitalize(count_of(sum(depends), len(depends), "tasks"))} in which two turns comply
+        f"""{capitalize(count_of(sum(depends), len(depends), "tasks"))} in which two rotations comply
         depend on the Jacobian. We compared {len(complex_ones)} pairs on
-        {complex_ones["arm"].nunique()} arms. By task, these pairs differ: {listed}. The Euler
-        Jacobian is the worse in
+        {complex_ones["arm"].nunique()} arms. {listed} The Euler Jacobian is the worse in
         {count_of(int(parted["euler_is_worse"].sum()), len(parted), "pairs")} that differ.{agreed}
-        Where fewer turns comply, {count_of(int(simple["parts"].sum()), len(simple), "pairs")}
-        differ.""",
+        On tasks in which fewer rotations comply,
+        {count_of(int(simple["parts"].sum()), len(simple), "pairs")} differ.""",
         len(rows),
         measured=f"""If the task frame is turned by {LIMIT.TURNED_DEG:g}° or more, the two Jacobians
         perform differently in {count_of(int(turned["parts"].sum()), len(turned), "pairs")} of runs.
@@ -116,18 +116,19 @@ def _told(task: str, rows: pd.DataFrame) -> str:
     """Describe how the pairs of a task with turned and with straight frames part."""
     turned, straight = rows[rows["is_turned"]], rows[rows["beta"].abs() <= LIMIT.ZERO_RAD]
     return (
-        f"{task}, {_parted(turned)} with |beta| >= {LIMIT.TURNED_DEG:g} degrees and "
-        f"{_parted(straight)} with beta = 0"
+        f"In the task {task} with |beta| >= {LIMIT.TURNED_DEG:g} degrees, {_parted(turned)} "
+        f"In the task {task} with beta = 0, {_parted(straight)}"
     )
 
 
 def _parted(rows: pd.DataFrame) -> str:
     """How many part, how many of them by their outcomes, and the greatest factor of the others."""
     by_outcome = np.isinf(rows["factor"])
-    ends = f"{by_outcome.sum()} in the outcome; in the numbers, others differ by " if by_outcome.any() else ""
+    ends = f", {by_outcome.sum()} of them in the outcome" if by_outcome.any() else ""
     pairs = count_of(int(rows["parts"].sum()), len(rows), "pairs")
-    numbers = ends or "the numbers differ by "
-    return f"{pairs} ({numbers}factors of up to {rows['factor'][~by_outcome].max():.3g})"
+    among = " of the other pairs" if by_outcome.any() else ""
+    most = rows["factor"][~by_outcome].max()
+    return f"{pairs} differ{ends}. The numbers{among} differ by factors of up to {most:.3g}."
 
 
 @claim("C47")
@@ -146,10 +147,10 @@ def c47(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     yields = done == len(rows) and force <= LIMIT.MISSED and moment <= FLOORS["rad"]
     return word_of(yields and turn <= LIMIT.HELD_RAD, yields), evidence(
         f"""{capitalize(count_of(done, len(rows), "runs"))} of {pressed["task"].iloc[0]} and
-        {aligned["task"].iloc[0]} end as they should. The force normal to the plane is off by at
-        most {percent(force)} % of {LIMIT.FORCE_N:g} N, root mean square; a tool that complies about
-        two axes lies flush to {moment:.1e} rad; rotations that the controller holds have
-        changed by at most {turn:.1e} rad at the end.""",
+        {aligned["task"].iloc[0]} end as they should. The error of the force normal to the plane is
+        at most {percent(force)} % of {LIMIT.FORCE_N:g} N, root mean square. A tool that complies
+        about two axes lies flush with the plane to {moment:.1e} rad. Rotations that the controller
+        must keep constant have changed by at most {turn:.1e} rad at the end.""",
         len(rows),
         measured=f"""The force differs from the commanded {LIMIT.FORCE_N:g} N by at most
         {percent(force)} %. A rotation that the controller should keep constant changes by up to

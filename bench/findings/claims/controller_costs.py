@@ -12,7 +12,7 @@ import tasks
 from bench.base.on_first_use import pd
 from bench.experiments.suites import SUITES
 from bench.experiments.tables.read import chosen
-from bench.findings.amounts import count_of, join_words, part_of
+from bench.findings.amounts import capitalize, count_of, join_words, part_of
 from bench.findings.claims import adequacy, probes, standing
 from bench.findings.claims.adequacy import CALLS, of_stage, tallied
 from bench.findings.claims.side_by_side import BASE
@@ -77,16 +77,18 @@ def c20(results: Results) -> tuple[Word, Evidence]:
     hides = all(is_hidden for is_hidden, _ in hidden)
     all_failures, all_poles = (sum(map(count, compared_at.values())) for count in (_count_failures, len))
     at_poles = ", ".join(
-        f"{part_of(_count_failures(rows), len(rows))} ({arm})" for arm, rows in compared_at.items()
+        f"{part_of(_count_failures(rows), len(rows))} starts with {arm}" for arm, rows in compared_at.items()
     )
     return word_of(is_linear and fails and hides, max(limits) <= LIMIT.BEND_LOOSE and (fails or hides)), evidence(
-        f"""We computed {LIMIT.CURVES * len(arms)} curves from clear starts on {len(arms)} arms, at each time step. At
-        the full step, angles are at most {max(full):.1e} rad off the closed form; at half the step they are
-        {min(shares):.3f} to {max(shares):.3f} of that off. Extrapolated to step zero, angles are at most
-        {max(limits):.1e} rad off, and the tool {max(drifts):.1e} m. Starts at a pole from which (3.7) fails, and the
-        law on R does not: {at_poles}. Clear starts from which it is so:
-        {count_of(_count_failures(clear), len(clear), "clear starts")} (with the same law on the common Jacobian:
-        {_count_failures(common) or "none"}). {" ".join(said for _, said in hidden)}""",
+        f"""We computed {LIMIT.CURVES * len(arms)} curves from clear starts on {len(arms)} arms, with the full time step
+        and with half of it. With the full step, the angles differ from the closed form by at most {max(full):.1e} rad.
+        With half the step, the angles differ by {min(shares):.3f} to {max(shares):.3f} times as much. Extrapolated to
+        step zero, the angles differ by at most {max(limits):.1e} rad, and the position of the tool by
+        {max(drifts):.1e} m. From these starts at a pole, (3.7) fails and the law on R settles: {at_poles}. {capitalize(
+            count_of(_count_failures(clear), len(clear), "episodes")
+        )} from clear starts fail with (3.7) and settle with the law on R. With the law of (3.7) on the common Jacobian,
+        {count_of(_count_failures(common), len(common), "episodes")} fail in this way.
+        {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
         measured=f"""The angles differ from the linear response by at most {max(limits):.1e} rad.
         From starts at poles, {count_of(all_failures, all_poles, "episodes")} fail with (3.7) and
@@ -147,12 +149,12 @@ def _hidden(results: Results, joints: int) -> tuple[bool, str]:
     total = {one: tallied(own, with_goal=False) for one, own in rows.items()}
     seems_cheaper = seen[BY_EULER].flops < seen[ON_MATRIX].flops and seen[BY_EULER].calls <= seen[ON_MATRIX].calls
     is_dearer = by_columns(total[ON_MATRIX], total[BY_EULER]) == ORDERED
-    told = "; ".join(
-        f"{seen[one].flops} of the {total[one].flops} flops of {name}, which takes "
-        f"{total[one].calls or 'no'} calls"
+    told = " ".join(
+        f"{name} takes {total[one].calls or 'no'} calls and {total[one].flops} flops, of which the "
+        f"law itself takes {seen[one].flops} flops."
         for name, one in (("(3.7)", BY_EULER), ("(2.2) with the law on R", ON_MATRIX), ("(2.2) with (2.15)", BY_COMMON))
     )
-    return seems_cheaper and is_dearer, f"On {joints} joints the law itself takes {told}."
+    return seems_cheaper and is_dearer, f"On {joints} joints, {told}"
 
 
 TITLES = (
@@ -182,7 +184,7 @@ def c26(results: Results) -> tuple[Word, Evidence]:
         alone, whole = ({name: tallied(own, goal) for name, own in three.items()} for goal in (False, True))
         sizes.append(
             f"On {joints} joints, (3.7) takes {euler_count(whole, three)} operations per control "
-            f"period, {surplus(whole, three)} % more than the cheapest controller by (2.2)."
+            f"step, {surplus(whole, three)} % more than the cheapest controller that uses (2.2)."
         )
         times = standing.times_of(timed[timed["contender"].isin(list(three))])
         known = standing.Ledger(times, (alone, whole), math.nan, standing.MEASURABLE)
@@ -195,8 +197,8 @@ def c26(results: Results) -> tuple[Word, Evidence]:
     return word_of(dearer == len(stands), False), evidence(
         f"""We count the flops and calls of three controllers in a control period. With and without the goal's angles,
         (3.7) takes more operations than the other controller in {count_of(dearer, len(stands), "pairs")}. The measured
-        times differ in {sum(bool(one.by_time) for one in stands)} of these pairs, and (3.7) takes longer in
-        {sum(one.by_time == ORDERED for one in stands)} of these pairs.""",
+        times differ in {count_of(sum(bool(one.by_time) for one in stands), len(stands), "pairs")}, and (3.7) takes
+        longer in {count_of(sum(one.by_time == ORDERED for one in stands), len(stands), "pairs")}.""",
         3 * 2 * len(INVERSES) + len(timed),
         ("costs", "timings") if len(timed) else ("costs",),
         measured=" ".join(sizes),
@@ -224,7 +226,7 @@ def c33(results: Results) -> tuple[Word, Evidence]:
         base, euler = (results.found_by(in_contact, f"{one}+{PAPERS_FORM}", joints) for one in (BASE, EULER))
         dearer = euler.weighed(price) / base.weighed(price) - 1
         weighed = (
-            ". If a call counts as the flops that take the same time, these are "
+            ". If a call counts as the flops that take the same time, the Euler Jacobian needs "
             f"{100 * dearer:.0f} % more operations"
         )
         more = euler.flops / base.flops - 1
@@ -271,13 +273,13 @@ def c46(results: Results) -> tuple[Word, Evidence]:
         told.append(
             f"On {joints} joints, the flops and calls in a typical control period are "
             f"{total[BY_EULER]} for (3.7), {total[BY_COMMON]} for (2.2) with (2.15), and "
-            f"{total[ON_MATRIX]} for (2.2) with the law on R. Of these flops, the law itself "
-            f"takes {law[BY_EULER].flops} on Euler angles and {law[ON_MATRIX].flops} on R."
+            f"{total[ON_MATRIX]} for (2.2) with the law on R. Of these flops, the law on Euler "
+            f"angles takes {law[BY_EULER].flops}, and the law on R takes {law[ON_MATRIX].flops}."
         )
     return word_of(all(is_less) and all(is_left), all(is_left)), evidence(
         " ".join(told),
         3 * len(told),
-        measured=f"""(3.7) takes more operations than the cheapest controller by (2.2):
-        {join_words(sizes)}. The law in (3.7) takes {law[BY_EULER].flops} of these operations, the
-        rotation-matrix law takes {law[ON_MATRIX].flops}.""",
+        measured=f"""(3.7) takes more operations than the cheapest controller that uses (2.2):
+        {join_words(sizes)}. The law within (3.7) takes {law[BY_EULER].flops} flops; the
+        rotation-matrix law takes {law[ON_MATRIX].flops} flops.""",
     )

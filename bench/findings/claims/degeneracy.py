@@ -49,10 +49,10 @@ def c13(results: Results) -> tuple[Word, Evidence]:
     zyz, axis, vector = found["zyz-euler"], found[LIMIT.ANGLE_AND_AXIS], found["rotation-vector"]
     word = word_of(zyz[0] and axis[0] and vector[0], zyz[0] and axis[0] != vector[0])
     return word, evidence(
-        f"""We computed the condition number of the map from the rates of the coordinates to the angular velocity. Per
-        decade towards zero rotation it rises by {zyz[1]:.3f} decades for Z-Y-Z angles (to {zyz[2]:.1e}), and by
-        {axis[1]:.3f} decades for angle and axis (to {axis[2]:.1e}). For the rotation vector it is at most
-        {vector[2]:.5f}.""",
+        f"""We computed the condition number of the map from the rates of the coordinates to the angular velocity. For
+        Z-Y-Z angles, the condition number rises by {zyz[1]:.3f} decades per decade towards zero rotation, up to
+        {zyz[2]:.1e}. For angle and axis, it rises by {axis[1]:.3f} decades per decade, up to {axis[2]:.1e}. For the
+        rotation vector, it is at most {vector[2]:.5f}.""",
         3 * len(tables),
         measured=f"""Towards zero rotation, the condition number of the matrix B of Z-Y-Z angles
         rises to {zyz[2]:.1e}. That of the matrix B of the rotation vector stays at {vector[2]:.4f}
@@ -102,14 +102,14 @@ def c14(results: Results) -> tuple[Word, Evidence]:
     about_y = some(turns[turns["start_id"] == "half-turn-y-exact"], "exact 180° rotation about y")
     poles = at_boundary(turns[turns["start_set"] == "poles"], "pole", "exact pole")
     word = word_of(least[180] < LIMIT.ON_POLE, max(least[90], least[-90]) < LIMIT.ON_POLE)
-    so = "The equations do not correct section 2.2"
+    so = "The equations of the paper do not correct section 2.2"
     if word == Word.CORRECTED:
-        so = "Section 2.3 and the equations are right, section 2.2 is not"
+        so = "Section 2.3 and the equations of the paper are right, and section 2.2 is wrong"
     return word, evidence(
         f"""The smallest singular value of B is {least[180]:.3f} at 180 degrees about Y, {rounding(least[90])} at +90
-        degrees, and {rounding(least[-90])} at -90 degrees. From the exact 180° rotation about y the feedback-linearized
-        law {"settles" if settled(about_y).all() else "does not settle"}; it settles from
-        {settled_of(poles, "exact poles")}. {so}.""",
+        degrees, and {rounding(least[-90])} at -90 degrees. The feedback-linearized law
+        {"settles" if settled(about_y).all() else "does not settle"} from the exact 180° rotation about y. It settles
+        from {settled_of(poles, "exact poles")}. {so}.""",
         len(least) + len(about_y) + len(poles),
         measured=f"""The smallest singular value of B is {least[180]:.3g} at a rotation of 180°
         about y, and {rounding(least[90])} at a rotation of 90°.""",
@@ -132,11 +132,13 @@ def c15(results: Results) -> tuple[Word, Evidence]:
     by_sum = [moved[sign, "sum"] <= LIMIT.SAME < moved[sign, "difference"] for sign in (1, -1)]
     sums = [pole for pole, is_sum in zip(("+90", "-90"), by_sum, strict=True) if is_sum]
     verdict = {2: Word.HOLDS, 1: Word.CORRECTED, 0: Word.FAILS}[sum(by_sum)]
-    so = f"Only the sum is determined at {' and '.join(sums) + ' degrees' if sums else 'neither pole'}"
+    so = f"R determines the sum, and only the sum, at {' and '.join(sums) + ' degrees' if sums else 'neither pole'}"
     return verdict, evidence(
-        f"""If alpha and gamma change and their sum stays, R changes by {moved[1, "sum"]:.1g} at beta = +90 degrees and
-        by {moved[-1, "sum"]:.0e} at -90 degrees. If their difference stays, R changes by {moved[1, "difference"]:.0e}
-        at +90 degrees and by {moved[-1, "difference"]:.1g} at -90 degrees. {so}.""",
+        f"""If alpha and gamma change and their sum stays the same, elements of R change by up to
+        {moved[1, "sum"]:.1g} at beta = +90 degrees, and by up to {moved[-1, "sum"]:.0e} at -90 degrees. If alpha and
+        gamma change and their difference stays the same, elements of R change by up to
+        {moved[1, "difference"]:.0e} at +90 degrees, and by up to {moved[-1, "difference"]:.1g} at -90 degrees.
+        {so}.""",
         4 * len(grid) ** 2,
         measured=f"""If alpha and gamma change and their sum stays the same, elements of R change by
         up to {moved[1, "sum"]:.1g} at beta = +90°, and by up to {moved[-1, "sum"]:.0e} at beta =
@@ -155,12 +157,13 @@ def c16(results: Results) -> tuple[Word, Evidence]:
     largest = float(np.abs(matrices).max())
     lacks_inverse = np.isfinite(matrices).all() and values[:, 2].max() < LIMIT.ON_POLE
     word = word_of(not np.isfinite(matrices[is_pole]).all(), lacks_inverse)
-    so = "B exists everywhere, as section 3.3 says; B^-1 does not" if lacks_inverse else "Section 3.3 is not confirmed"
+    so = "The results do not confirm section 3.3"
+    if lacks_inverse:
+        so = "B exists at all orientations, as section 3.3 says, but B^-1 does not exist at the poles"
     return word, evidence(
-        f"""B is finite at all {len(frame):,} orientations (its elements are at most {largest:.3f}). At
-        {len(at_poles)} exact poles its smallest singular value is at most {rounding(float(values[:, 2].max()))} and
-        the next is
-        {float(values[:, 1].min()):.2f}. {so}.""",
+        f"""At {len(frame):,} orientations, the elements of B are at most {largest:.3f}. At {len(at_poles)} exact poles,
+        the smallest singular value of B is at most {rounding(float(values[:, 2].max()))}, and the second smallest is at
+        least {float(values[:, 1].min()):.2f}. {so}.""",
         len(frame),
         measured=f"""At {len(frame):,} orientations, the elements of B are at most {largest:.3g}.
         {len(at_poles)} of these orientations are poles, where B^-1 does not exist.""",
@@ -177,10 +180,10 @@ def c28(results: Results) -> tuple[Word, Evidence]:
     word = word_of(is_none and plane <= LIMIT.SAME_RAD, is_none)
     missed = ", ".join(f"{angle:.3f} (a = {a:.3g})" for a, angle in zip(LOOPS_RAD, loops, strict=True))
     return word, evidence(
-        f"""{len(ends)} pairs of paths have the same ends. The integrals of the two paths of a pair differ by
-        {ends.min():.2f} to {ends.max():.2f} rad, by {np.median(ends):.2f} rad in the median. After turns by a whose
-        integrals sum to zero, the body is turned by {missed} rad. If all turns are about one axis, the integral is the
-        rotation, to {plane:.0e} rad.""",
+        f"""We used {len(ends)} pairs of paths. Both paths of a pair lead to the same orientation, but their integrals
+        differ by {ends.min():.2f} to {ends.max():.2f} rad (median: {np.median(ends):.2f} rad). A body made four turns
+        by an angle a, whose integrals sum to zero. After these turns, the body was turned by {missed} rad. If all turns
+        of a path are about one axis, the integral gives the rotation, to {plane:.0e} rad.""",
         2 * len(ends) + len(loops),
         measured=f"""The integrals of omega along two paths to one orientation differ by
         {interval(quantile_estimate(ends, 0.5), ".2f")} rad. This is the median of {len(ends)} pairs

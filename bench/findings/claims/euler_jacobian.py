@@ -71,14 +71,15 @@ def c18(results: Results) -> tuple[Word, Evidence]:
     well = some(rows[(rows["pose_set"] == "random") & (rows["condition"] <= WELL_CONDITIONED)], "random pose")
     worse = share(well["condition_analytic"] > 10 * well["condition"])
     return word, evidence(
-        f"""We use {len(ways)} families on {rows["arm"].nunique()} arms; J's condition number is at most
-        {ways["condition"].max():.0f} there. Per decade towards the pole, the condition number of J_E grows by
-        {slopes[:, 0].min():.3f} to {slopes[:, 0].max():.3f} decades, and its largest element by
-        {slopes[:, 1].min():.3f} to {slopes[:, 1].max():.3f} decades. At 1e-{LIMIT.NEAREST} rad this element is
-        {ways["nearest"].min():.1e} or more. At {len(square):,} poses det J_E = -det J / cos(beta), to
-        {errors.max():.1f} eps / cos(beta). Of the random poses where J is well conditioned, J_E has ten times the
-        condition number of J at {worse}. The largest element of J_E is nowhere below {rows["largest"].min():.2f}, so
-        that only its determinant is ever zero.""",
+        f"""We use {len(ways)} families on {rows["arm"].nunique()} arms. In these families, the condition number of J is
+        at most {ways["condition"].max():.0f}. Per decade towards the pole, the condition number of J_E grows by
+        {slopes[:, 0].min():.3f} to {slopes[:, 0].max():.3f} decades, and the largest element of J_E grows by
+        {slopes[:, 1].min():.3f} to {slopes[:, 1].max():.3f} decades. At 1e-{LIMIT.NEAREST} rad from the pole, the
+        largest element is {ways["nearest"].min():.1e} or more. At {len(square):,} poses, det J_E is equal to
+        -det J / cos(beta), to {errors.max():.1f} eps / cos(beta). We also used the random poses where J is well
+        conditioned. At {worse} of these poses, the condition number of J_E is more than ten times that of J. At every
+        pose, the largest element of J_E is at least {rows["largest"].min():.2f}. Therefore the matrix J_E is zero at no
+        pose.""",
         len(rows),
         measured=f"""At 1e-{LIMIT.NEAREST} rad from a pole, elements of J_E are up to
         {ways["nearest"].max():.1e}. In {percent_interval(worse)} of random poses, the condition
@@ -121,9 +122,10 @@ def c19(results: Results) -> tuple[Word, Evidence]:
     word = word_of(everywhere, all((part <= ROUNDINGS).all() for part in away))
     return word, evidence(
         f"""At {len(rows):,} poses of {rows["arm"].nunique()} arms, (3.3) and (3.5) differ by at most
-        {derived.max():.1f} eps / cos(beta), relatively. At {len(kept):,} of these poses, (3.3) and central differences
-        of the forward kinematics differ by at most {measured.max():.1f} eps^(2/3) / cos(beta). Poses left out, because
-        an angle jumps between both ends of a difference: {len(differenced) - len(kept)}.""",
+        {derived.max():.1f} eps / cos(beta) of the largest element. At {len(kept):,} of these poses, we also
+        differentiated the forward kinematics numerically. The result and (3.3) differ by at most {measured.max():.1f}
+        eps^(2/3) / cos(beta) of the largest element. Number of poses left out because an angle jumps between the two
+        ends of a difference: {len(differenced) - len(kept)}.""",
         len(rows),
         measured=f"""At {len(rows):,} poses, the two derivations differ by at most
         {derived.max():.1f} eps / cos(beta), which is rounding (eps = 2.2e-16).""",
@@ -169,9 +171,9 @@ def c34(results: Results) -> tuple[Word, Evidence]:
     ])
     starts = max(kept.n for kept in near_180.values())
     return word_of(all(alike.values()), alike[LIMIT.REGULAR] and not all(alike.values())), evidence(
-        f"""We compared {len(forms)} forms: how the law settles with each, and how fast the condition number of B grows
-        towards the pole of the form.
-        These forms give the same results:
+        f"""We compared feedback linearization in {len(forms)} forms of Euler angles. For each form, we counted the
+        starts that never settle, and computed the median settling time and the growth of the condition number of B
+        towards the pole of the form. Forms that give the same results:
         {"; ".join(" and ".join(NAMED[form] for form in pair) for pair, facts in alike.items() if facts) or "none"}.""",
         sum(kept.n for own in found.values() for kept, _ in own.values())
         + len(forms) * LIMIT.PAIRS * LIMIT.FORM_DECADES,
@@ -217,10 +219,10 @@ def c44(results: Results) -> tuple[Word, Evidence]:
     exact, off = (max(float(gaps.max()) for gaps in found) for found in (right, wrong))
     typical = float(np.median(np.concatenate(wrong)))
     return word_of(exact <= LIMIT.SAME < off, False), evidence(
-        f"""We tested {LIMIT.POSES} random states of each arm ({", ".join(arms)}). The hand's acceleration is taken from
-        MuJoCo's forward dynamics and differences of the hand's velocity. It is u to {exact:.0e} of the size of u. With
-        all masses {LIMIT.OFF.partition("-")[2]} times the model's, it misses u by {typical:.2g} times u, in the
-        median.""",
+        f"""We tested {LIMIT.POSES} random states of each arm ({", ".join(arms)}). MuJoCo gives the velocity of the hand
+        under the torques of (2.2). Differences of this velocity give the acceleration of the hand. The acceleration
+        differs from the input u by at most {exact:.0e} |u|. If all masses are {LIMIT.OFF.partition("-")[2]} times those
+        of the model, the median difference is {typical:.2g} |u|.""",
         2 * LIMIT.POSES * len(arms),
         measured=f"""In {LIMIT.POSES * len(arms)} states, the hand's acceleration differs from the
         input u by at most {exact:.0e} |u|. If all masses are {LIMIT.OFF.partition("-")[2]} times

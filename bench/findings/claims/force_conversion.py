@@ -53,19 +53,22 @@ def c21(results: Results) -> tuple[Word, Evidence]:
     rank = 2 if found.loc[poles, "least"].max() <= LOST else 3
     return word, evidence(
         f"""We tested {len(found):,} orientations, {int(poles.sum())} of them exact poles. The converted moment F_E is
-        finite at {count_of(int(found["exists"].sum()), len(found), "orientations")}. The power F_E^T Edot is the
-        same as m^T omega, to {found["gap"].max() / EPS:.1f} eps. With omega from differences of R(E), it is so to
-        {found["difference_gap"].max() / DIFFERENCED:.1f} eps^(2/3); in the loop, at {len(looped):,} episodes of
-        the wrench probe, to {residual.max():.1f} eps / cos(beta). At the poles B has rank {rank}: of one moment
-        {found.loc[poles, "lost"].max():.0g} is left. In {len(elsewhere)} other representations work balances to
-        {max(elsewhere) / EPS:.1f} eps. If the moment is not converted, work is off by
-        {found["raw_gap"].median():.2f} in the median. Where alpha complies alone, the controller amplifies a moment at
-        most {LIMIT.USABLE:g} times at {count_of(int(usable.sum()), len(found), "orientations")}. Off the exact poles it
-        amplifies a moment up to {found.loc[~poles, "gain"].max():.1e} times, as 1 / cos(beta) predicts.""",
+        finite at {count_of(int(found["exists"].sum()), len(found), "orientations")}. The powers F_E^T Edot
+        and m^T omega are equal to {found["gap"].max() / EPS:.1f} eps. With omega from differences of R(E), these powers
+        are equal to {found["difference_gap"].max() / DIFFERENCED:.1f} eps^(2/3). In the control loop, in
+        {len(looped):,} episodes of the task wrench-probe, the powers are equal to {residual.max():.1f} eps / cos(beta).
+        At the poles, B has rank {rank}, and B^T converts one moment of length 1 to a vector of length
+        {found.loc[poles, "lost"].max():.0g}. In {len(elsewhere)} other representations, the powers are equal to
+        {max(elsewhere) / EPS:.1f} eps. If the moment is not converted, the powers of a
+        moment of 1 N m and of rates of length 1 differ by {found["raw_gap"].median():.2f} W in the median. Where
+        alpha alone complies, the controller amplifies a moment by a factor of at most {LIMIT.USABLE:g} at
+        {count_of(int(usable.sum()), len(found), "orientations")}. Except at the exact poles, the controller
+        amplifies a moment by a factor of up to
+        {found.loc[~poles, "gain"].max():.1e}, as 1 / cos(beta) predicts.""",
         len(found) + len(looped),
         measured=f"""At {len(found):,} orientations, the work in both coordinates is the same to
         {found["gap"].max() / EPS:.1f} eps (rounding). Near the poles, the controller amplifies
-        moments up to {found.loc[~poles, "gain"].max():.1e} times.""",
+        moments by a factor of up to {found.loc[~poles, "gain"].max():.1e}.""",
     )
 
 

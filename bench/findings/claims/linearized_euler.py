@@ -58,14 +58,16 @@ def c06(results: Results, engine: str) -> tuple[Word, Evidence]:
         least >= LIMIT.INSIDE_TIGHT and outside.value <= 1 - LIMIT.OUTSIDE_SHARE, least >= LIMIT.INSIDE_LOOSE
     )
     how = uniform["outcome"][~settled(uniform)]
-    ends = ", ".join(f"as {end} ({n:,})" for end, n in how.value_counts().items() if n) or "in no way: all settle"
-    failure = "No start on a geodesic from the goal fails."
+    ends = ", ".join(f"{end} ({n:,})" for end, n in how.value_counts().items() if n) or "none, because all settle"
+    failure = "Along geodesics from the goal, the law fails from no start."
     if len(fails):
-        failure = f"The nearest failure on a geodesic from the goal is at {float(np.degrees(fails.min())):.1f} degrees."
+        failure = f"""Along geodesics from the goal, the smallest rotation from which the law fails is
+        {float(np.degrees(fails.min())):.1f} degrees."""
     return word, evidence(
-        f"""Of all uniform starts, {whole} settle. Inside the box {inside} of the uniform starts settle, and outside
-        it {outside}. Of the box set's starts inside the box, {directed} settle. The uniform starts that do not settle
-        end {ends}. {failure} {capitalize(count_of(len(sure), len(every), "starts"))} converge.""",
+        f"""The box is the range of angles that the paper claims. Of all uniform starts, {whole} settle. Of the uniform
+        starts inside the box, {inside} settle. Of the uniform starts outside the box, {outside} settle. Of the starts
+        of the start set box that are inside the box, {directed} settle. Outcomes of the uniform starts that do not
+        settle: {ends}. {failure} {capitalize(count_of(len(sure), len(every), "starts"))} converge.""",
         len(every) + len(fails),
         measured=f"""Of {whole.n:,} uniform starts, {percent_interval(whole)} settle. Of the uniform
         starts in the claimed range of angles, {percent(inside.value)} % settle.""",
@@ -94,12 +96,14 @@ def c07(results: Results, engine: str) -> tuple[Word, Evidence]:
     beside = converged(poles)
     return word, evidence(
         f"""{len(passing)} episodes come within {math.degrees(math.asin(LIMIT.PASSING)):.1f} degrees of the pole, and
-        {len(converged(passing))} of these episodes converge. Of the latter, {percent(lost_passing.value)} % do not
-        settle ({percent(lost_passing.low)} to {percent(lost_passing.high)} %, whether the others settle or are lost).
-        Of the rest, {percent_interval(lost_rest)} do not settle. The median peak command is {peak.value:,.0f} rad/s^2
-        ({peak.low:,.0f} to {peak.high:,.0f}) near the pole, and {interval(rest_peak, ",.0f")} rad/s^2 for the rest.
-        From rest beside the pole, {settled_of(beside, "starts")} that converge settle; {len(poles) - len(beside)}
-        starts do not converge.""",
+        {len(converged(passing))} of these episodes converge. Of those that converge, {percent(lost_passing.value)} % do
+        not settle. The 95 % interval is {percent(lost_passing.low)} to {percent(lost_passing.high)} %. Its lower
+        end counts the episodes that do not converge as settled, and its upper end counts them as lost. Of the episodes
+        that stay farther from the pole, {percent_interval(lost_rest)} do not settle. The median peak command is
+        {peak.value:,.0f} rad/s^2 ({peak.low:,.0f} to {peak.high:,.0f}) in the episodes near the pole, and
+        {interval(rest_peak, ",.0f")} rad/s^2 in the others. We also simulated starts at rest near a pole.
+        {capitalize(settled_of(beside, "starts"))} that converge settle, and {len(poles) - len(beside)} starts do not
+        converge.""",
         len(frame) + len(poles),
         measured=f"""Of {len(passing)} starts whose path comes close to a pole,
         {percent_interval(lost_passing)} never settle. Of the other starts,
@@ -118,13 +122,15 @@ def c08(results: Results, engine: str) -> tuple[Word, Evidence]:
     works = cure.high >= zero.low - LIMIT.CURE_SLACK and cure.low > base.high
     word = word_of(works and base.high <= LIMIT.FEW_GOALS and not near.k, works and base.high < LIMIT.MANY_GOALS)
     return word, evidence(
-        f"""With E_d subtracted, the law reaches {base} of the goals, and
+        f"""The law that subtracts E_d reaches {base} of the goals (start set “goals”), and
         {count_of(near.k, near.n, "goals")} at {LIMIT.NEAR_GOAL_RAD} rad
-        from zero. With angles from the goal, it reaches {cure} of the goals; with goal zero it settles from {zero} of
-        the uniform starts. By its eigenvalues, the law with E_d subtracted can hold
-        {percent(held_goals.held_share(results.gains()))} % of all goals: those with alpha_d under
-        {math.degrees(math.acos(held_goals.least_cosine(0.0, results.gains()))):.1f} degrees at beta_d = 0 and under 90
-        degrees at the poles, whatever gamma_d is. As printed, the command u contains no goal.""",
+        from zero. The law with angles measured from the goal reaches {cure} of these goals. With
+        goal zero, this second law settles from {zero} of the uniform starts. The eigenvalues of the law that subtracts
+        E_d show which goals it can hold: {percent(held_goals.held_share(results.gains()))} % of all goals. It can hold
+        a goal if |alpha_d| is below a limit. The limit is
+        {math.degrees(math.acos(held_goals.least_cosine(0.0, results.gains()))):.1f} degrees at beta_d = 0 and 90
+        degrees at the poles, and does not depend on gamma_d. The command u that the paper prints contains no
+        goal.""",
         base.n + cure.n + zero.n + near.n,
         measured=f"""The law that subtracts the angles E_d of the goal reaches
         {percent_interval(base)} of {base.n} goals. With angles measured from the goal, the law
@@ -148,10 +154,11 @@ def c29(results: Results) -> tuple[Word, Evidence]:
     )
     is_tight, is_loose = (small <= SMALL_ANGLES + ticks).all(), (small <= LOOSE_SETTLING + ticks).all()
     return word_of(is_tight, is_loose), evidence(
-        f"""We tested {LIMIT.DIRECTIONS} axes at {len(GAINS)} pairs of gains. Settling times differ from
-        the closed form ({closed_form.linear_settling(*gains):.4f} s at the run's gains) by at most
-        {by_angle}. Larger rotations of {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} rad
-        were tried too: every settling time is within {100 * LOOSE_SETTLING:.0f} % up to {within:g} rad.""",
+        f"""We tested {LIMIT.DIRECTIONS} axes at {len(GAINS)} pairs of gains. Settling times differ from the closed form
+        of the linear model by at most {by_angle}. At the run's gains, the closed form is
+        {closed_form.linear_settling(*gains):.4f} s. We also tried rotations of
+        {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} rad. Up to {within:g} rad, every settling time is within
+        {100 * LOOSE_SETTLING:.0f} % of the closed form.""",
         LIMIT.DIRECTIONS * (small.size + len(LIMIT.LARGER_RAD)),
         measured=f"""For rotations of at most {max(SMALL_ANGLES):g} rad about {LIMIT.DIRECTIONS}
         axes, settling times differ from those of the linear model by at most {percent(small.max())}
@@ -174,9 +181,10 @@ def c37(results: Results) -> tuple[Word, Evidence]:
     every, inside, outside = share(in_time), share(in_time[in_box]), share(in_time[~in_box])
     is_satisfactory = "is satisfactory too" if outside.low >= LIMIT.REASONABLE else "is not satisfactory"
     return word_of(inside.high <= LIMIT.FEW, inside.low < LIMIT.REASONABLE), evidence(
-        f"""We count uniform starts at {LIMIT.BEYOND_RAD:g} rad or more that settle within {LIMIT.PACE * small:.3f} s,
-        which is {LIMIT.PACE:g} times the time of a small error. In the box of C06 {inside} of the starts do so, outside
-        the box {outside}, and of all starts {every}.""",
+        f"""We took uniform starts at {LIMIT.BEYOND_RAD:g} rad or more, and counted those that settle within
+        {LIMIT.PACE * small:.3f} s. This is {LIMIT.PACE:g} times the settling time of a small error. Of the starts with
+        |alpha| < pi/2, {inside} settle in this time. Of the other starts, {outside} settle in this time. Of all starts,
+        {every} settle in this time.""",
         len(rows),
         instead=f"""If the goal is zero, the law is satisfactory where |alpha| < pi/2, which is half of SO(3). There
         {count_of(inside.k, inside.n, "starts")} at {LIMIT.BEYOND_RAD:g} rad or more settle in time. In the other half,
@@ -185,7 +193,8 @@ def c37(results: Results) -> tuple[Word, Evidence]:
         else "",
         measured=f"""We took uniform starts at {LIMIT.BEYOND_RAD:g} rad or more. Of those with
         |alpha| < pi/2, {percent_interval(inside)} settle in time, that is in
-        {LIMIT.PACE * small:.2f} s. Of the others, {percent(outside.value)} % do.""",
+        {LIMIT.PACE * small:.2f} s. Of the others, {percent(outside.value)} % settle
+        in time.""",
     )
 
 
@@ -203,16 +212,17 @@ def c38(results: Results) -> tuple[Word, Evidence]:
     word = word_of(is_alone_linear and is_slowed and loses, is_alone_linear and (is_slowed or loses))
     return word, evidence(
         f"""Of {len(rows):,} uniform starts at {LIMIT.BEYOND_RAD:g} rad or more,
-        {percent_interval(unsettled)} are lost. The settling times of the others are
-        {percent(typical)} % off the linear model's time, in the median; for
-        {percent(float(np.mean(off >= LIMIT.OFF)))} % of them they are {100 * LIMIT.OFF:.0f} % or
-        more off. For turns of one angle alone, up to {max(LIMIT.ALONE_RAD):g} rad, the
-        settling time differs from the linear model's by at most {percent(alone)} %.""",
+        {percent_interval(unsettled)} are lost. From the other starts, the median difference between
+        the settling time and that of the linear model is {percent(typical)} %. From
+        {percent(float(np.mean(off >= LIMIT.OFF)))} % of these starts, the difference is {100 * LIMIT.OFF:.0f} % or
+        more. If only one angle turns, by up to {max(LIMIT.ALONE_RAD):g} rad, the settling time differs from that of the
+        linear model by at most {percent(alone)} %.""",
         len(rows) + 3 * len(LIMIT.ALONE_RAD),
-        instead=f"""{percent(unsettled.value)} % of the starts outside the linear region are lost, and settling times
-        are {percent(typical)} % off the linear model's time, in the median.""",
-        measured=f"""{percent_interval(unsettled)} of the starts never settle. The median settling
-        time of the others is {percent(typical)} % off that of the linear model.""",
+        instead=f"""{percent(unsettled.value)} % of the starts outside the linear region are lost. From the other
+        starts, the median difference between the settling time and that of the linear model is
+        {percent(typical)} %.""",
+        measured=f"""{percent_interval(unsettled)} of the starts never settle. The settling times of
+        the others differ from that of the linear model by {percent(typical)} % (median).""",
     )
 
 
@@ -237,9 +247,10 @@ def c39(results: Results) -> tuple[Word, Evidence]:
     tails = own["tail_max_rad"].groupby(own["level"]).max()
     said = ", ".join(f"{tails[speed]:.1e} rad ({worst:.2f}) at {speed:g} rad/s" for speed, worst in by_speed.items())
     return word_of(len(kept) == len(by_speed), min(by_speed.index) in kept), evidence(
-        f"""{both["start_id"].nunique()} starts within {LIMIT.SMALL_RAD:g} rad were tested with goals that sway. The
-        greatest error once the law follows is, with its greatest ratio to the rotation-matrix law's error in brackets:
-        {said}.""",
+        f"""We tested {both["start_id"].nunique()} starts within {LIMIT.SMALL_RAD:g} rad, with goals that move to and
+        fro. The list gives the greatest error while the law follows the goal, for each speed of the goal. In brackets
+        is the greatest ratio of the law's error to the error of the rotation-matrix law. The results
+        are: {said}.""",
         len(both),
         measured=measured,
     )
@@ -263,8 +274,9 @@ def c45(results: Results) -> tuple[Word, Evidence]:
     off = float(np.abs(by_input - np.eye(3)[::-1]).max())
     rest = float(max(np.abs(by_angles).max(), np.abs(by_rates).max()))
     return word_of(max(off, rest) <= LIMIT.DIFFERENCED, False), evidence(
-        f"""We took central differences of (2.11) at zero. Largest difference of the derivatives by u from the
-        permutation of (2.14): {rounding(off)}. Largest derivative by the angles or their rates: {rounding(rest)}.""",
+        f"""We differentiated (2.11) numerically at zero. The derivatives with respect to u differ from the permutation
+        matrix of (2.14) by {_at_most(off)}. The derivatives with respect to the angles and their rates are
+        {_at_most(rest)}.""",
         2 * 9,
         measured=f"""The derivatives of (2.11) with respect to u differ from the permutation matrix
         of (2.14) by {_at_most(off)}. The derivatives with respect to the angles and their rates are

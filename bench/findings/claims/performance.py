@@ -67,8 +67,12 @@ def c12(results: Results) -> tuple[Word, Evidence]:
     others = [", ".join(order) for order in orders if order != in_words]
     by_flops = "; ".join(others) or "the same"
     literal = known.accountings[0].get(LIMIT.LITERAL)  # the law that is compared shares sines and folds Bdot
-    as_printed = f"If (2.15) is computed term by term, as printed, it takes {literal}." if literal else ""
-    priced = f"; in these times a call takes {known.price:.0f} flops" if np.isfinite(known.price) else ""
+    as_printed = ""
+    if literal:
+        as_printed = (
+            f"If (2.15) is computed term by term, as printed, it takes {literal.flops} flops and {literal.calls} calls."
+        )
+    priced = f" In these times, a call takes as long as {known.price:.0f} flops." if np.isfinite(known.price) else ""
     timed_pairs = sum(bool(pair.by_time) for pair in pairs)
     is_ordered = all(pair.sign == ORDERED for pair in pairs)
     by_one_measure = timed_pairs == len(pairs) and not others and all(in_order)
@@ -80,11 +84,12 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         By flops alone, the order is: {by_flops}."""
     word = word_of(by_one_measure, is_ordered or all(np.logical_or(in_order, [pair.is_disputed for pair in pairs])))
     return word, evidence(
-        f"""The times per control period, divided by that of the rotation-matrix law, are: {timed}. Of the two pairs of
-        neighbours in the paper's order, the intervals of these times do not overlap in
-        {timed_pairs or "none"}. Flops and calls are: {paper}. If the law also computes the goal's angles from the
-        goal's matrix, they are: {total}. Flops and calls give one order in
-        {count_of(sum(0 not in pair.by_columns for pair in pairs), len(pairs), "pairs")}{priced}. By flops alone, the
+        f"""The times per control period, divided by that of the rotation-matrix law, are: {timed}. The paper's order
+        has two pairs of neighbours. The intervals of the times do not overlap in
+        {count_of(timed_pairs, len(pairs), "pairs")}. Flops and calls are: {paper}. If the
+        law also computes the goal's angles from the goal's matrix, flops and calls are: {total}. Flops give
+        the same order as calls in
+        {count_of(sum(0 not in pair.by_columns for pair in pairs), len(pairs), "pairs")}.{priced} By flops alone, the
         order from the cheapest law is: {by_flops}. {as_printed}""",
         len(THREE) * (len(known.accountings) + len(known.times)),
         ("costs", "timings") if known.times else ("costs",),
@@ -128,10 +133,9 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
         instead = f"Whether a law is adequate in both cost and performance is not tested: {lacking}."
     beside = probes.beside_pole(0.1, THREE[-1], results.gains(), results.dt_s)
     return word, evidence(
-        f"""Laws adequate in both cost and performance: {", ".join(adequate) or "none"}. A small error settles in
-        {linear:.3f} s. Of starts that
-        spin at {probes.SPEED:g} rad/s beside a pole, which are not counted, feedback-linearized loses
-        {count_of(int((~settled(beside)).sum()), len(beside), "starts")}.""",
+        f"""{fine} adequate in both cost and performance. A small error settles in {linear:.3f} s. Starts that
+        spin at {probes.SPEED:g} rad/s beside a pole do not count. The law feedback-linearized
+        loses {count_of(int((~settled(beside)).sum()), len(beside), "starts of this kind")}.""",
         len(THREE) + sum(law.rows for law in three),
         ("episodes", "costs", "timings") if known.times else ("episodes", "costs"),
         instead,
@@ -212,13 +216,14 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
         impossible = " A law without memory cannot pass all eight tests."
     instead = f"These laws answer the question: {named}.{impossible}" if answers else ""
     return word, evidence(
-        f"""Of {by_others} later laws by others, {counts[ADAPTED]} of them adapted here, and {counts[OURS]} of ours,
-        {len(adequate) or "none"} are adequate in both cost and performance: tests (a) to (d). Laws that
-        pass all eight tests: {", ".join(told) or "none"}. The paper's laws on angles take
-        {" and ".join(known.over(name, THREE[0]) for name in THREE[1:])} times the rotation-matrix law's time.
-        Of laws that were not timed, operations decide: {", ".join(untimed) or "none"}. In these times a call takes
-        {known.price:.0f} flops.
-        A small error settles in {small:.3f} s, and {adequacy.SLOW * small:.3f} s is the longest adequate time.""",
+        f"""We tested {by_others} later laws by others, of which we adapted {counts[ADAPTED]}, and {counts[OURS]} later
+        laws of ours. {capitalize(count_of(len(adequate), len(later), "later laws"))} are adequate in both cost and
+        performance, that is, they pass tests (a) to (d). These laws pass all eight tests: {", ".join(told) or "none"}.
+        The paper's laws on Euler angles take {" and ".join(known.over(name, THREE[0]) for name in THREE[1:])} times as
+        long as the rotation-matrix law. For laws that were not timed, operations decide:
+        {", ".join(untimed) or "none"}.
+        By the measured times, a call takes {known.price:.0f} flops. A small error settles in {small:.3f} s, and the
+        longest adequate settling time is {adequacy.SLOW * small:.3f} s.""",
         sum(law.rows + held.get(law.name, (0, 0))[1] for law in later),
         instead=instead,
         measured=f"""{capitalize(count_of(len(answers), len(later), "later laws"))} pass all eight
@@ -288,8 +293,9 @@ def c31(results: Results) -> tuple[Word, Evidence]:
     longer = [tables.interval_or_never(ratio, ".2f") for ratio in ratios]
     settles = [percent_interval(one) for one in ranges]
     return word_of(is_better and mine.low > matrix.high, is_better and mine.high >= matrix.low), evidence(
-        f"""Of {matrix.n:,} uniform starts {percent(matrix.value)} % settle with the rotation-matrix law,
-        {percent(linearized.value)} % with the linearized one, {percent(mine.value)} % with feedback linearization.""",
+        f"""Of {matrix.n:,} uniform starts, {percent(matrix.value)} % settle with the rotation-matrix law,
+        {percent(linearized.value)} % with the linearized law, and {percent(mine.value)} % with feedback
+        linearization.""",
         3 * len(laws[-1]),
         instead=f"""Until {100 * LIMIT.NEARLY_ALL:.0f} % of the starts have settled, the rotation-matrix law takes
         {longer[0]} times as long as feedback linearization. The rotation-matrix law settles from
@@ -336,7 +342,7 @@ def c35(results: Results) -> tuple[Word, Evidence]:
     matrix, linearized, feedback = (one for _, one, _ in found)
     reasonable = [name for name, one, time in found if one.low >= LIMIT.REASONABLE and time.high <= LIMIT.PACE * small]
     told = " ".join(
-        f"With {name}, {one} of the starts settle; the median settling time is "
+        f"With the law {name}, {one} of the starts settle. The median settling time is "
         f"{tables.interval_or_never(time, '.3f', ' s')}."
         for name, one, time in found
     )
@@ -357,11 +363,11 @@ def c36(results: Results) -> tuple[Word, Evidence]:
     three = some([one for one in adequacy.every(results, MAIN_ENGINE) if one.name in THREE], "law of the paper")
     tested = {law.name: adequacy.examine(law, known, small, {}).among(LIMIT.TESTS) for law in three}
     told = " ".join(
-        f"The law {one.name.partition('/')[0]} {tested[one.name].in_words()}. With it, "
-        f"{percent(one.settled)} % of {one.n:,} uniform starts settle. The time in which 99 % of "
-        f"them settle is: {tables.interval_or_never(one.pace, '.2f', ' s')}. The body never "
-        f"settles from {count_of(one.lost, one.directed, 'difficult starts')}, and from "
-        f"{one.lost_exact} starts exactly on a boundary."
+        f"The law {one.name.partition('/')[0]} {tested[one.name].in_words()}. With this law, "
+        f"{percent(one.settled)} % of {one.n:,} uniform starts settle. The time until 99 % of the "
+        f"uniform starts settle is: {tables.interval_or_never(one.pace, '.2f', ' s')}. The law does not "
+        f"settle from these starts: {part_of(one.lost, one.directed)} difficult starts, and "
+        f"{part_of(one.lost_exact, one.exact)} starts exactly on a boundary."
         for one in three
     )
     word = word_of(len(three) == len(THREE) and all(result.failed for result in tested.values()), False)

@@ -12,7 +12,7 @@ import numpy as np
 from bench.base.on_first_use import Turn
 from bench.experiments.tables.statistics import quantile_estimate
 from bench.findings.amounts import capitalize, count_of
-from bench.findings.claims.tables import Results, evidence, interval
+from bench.findings.claims.tables import Results, evidence
 from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, word_of
 
 LIMIT = read_limits(__file__)
@@ -31,11 +31,12 @@ def c40(results: Results) -> tuple[Word, Evidence]:
     apart = min(float(np.median(np.abs(other - R).max(axis=(1, 2)))) for other in second)
     divides, is_double = off <= LIMIT.SAME, left <= LIMIT.SAME and apart > LIMIT.APART
     return word_of(divides and not is_double and len(possible) == len(trios), divides and is_double), evidence(
-        f"""There are {len(trios)} choices of three elements of n and o, and {len(possible)} of them can be eliminated.
-        Their divisor is the determinant of the constraints' derivatives over 4. At {LIMIT.MATRICES} random orientations
-        it is a product of two elements of the matrix, to {off:.0e}, and so it is zero somewhere. For each choice a
-        second matrix has the same three elements left and meets (2.5) to {left:.0e}. It is at least {apart:.2f} away
-        from the first matrix, in the median.""",
+        f"""There are {len(trios)} choices of three elements of n and o, and {len(possible)} of these choices can be
+        eliminated. The divisor of an elimination is the determinant of the derivatives of (2.5), divided by 4. At
+        {LIMIT.MATRICES} random orientations, the divisor equals a product of two elements of the matrix to {off:.0e}.
+        Therefore the divisor is zero at some orientations. For each of these choices, a second matrix has the same
+        three remaining elements and meets (2.5) to {left:.0e}. In the median, the second matrix differs from the first
+        by at least {apart:.2f} in one element.""",
         LIMIT.MATRICES * len(trios),
         measured=f"""{capitalize(count_of(len(possible), len(trios), "choices"))} of three elements
         can be eliminated. For each of these, a second rotation matrix has the same three remaining
@@ -99,9 +100,9 @@ def c41(results: Results) -> tuple[Word, Evidence]:
     word = word_of(max(twice.values()) <= LIMIT.SAME and max(spread.values()) <= LIMIT.SAME, False)
     return word, evidence(
         f"""Two different sets of variables give the same matrix to {max(twice.values()):.0e} at {LIMIT.MATRICES}
-        orientations, in each of these: {"; ".join(pairs)}. {LIMIT.MATRICES} sets along a line give one matrix to
-        {max(spread.values()):.0e}. The line is at beta = pi/2 for Z-Y-X angles and for roll, pitch and yaw, and at zero
-        rotation for the others.""",
+        orientations, in each of these representations: {"; ".join(pairs)}. {LIMIT.MATRICES} sets along a line all give
+        the same matrix to {max(spread.values()):.0e}. The line is at beta = pi/2 for Z-Y-X angles and for roll, pitch
+        and yaw, and at zero rotation for the other two.""",
         2 * len(pairs) * LIMIT.MATRICES,
         measured=f"""In {len(pairs)} representations and at {LIMIT.MATRICES} orientations, two
         different sets of variables give the same rotation matrix. The elements differ by at most
@@ -165,13 +166,14 @@ def c43(results: Results) -> tuple[Word, Evidence]:
     tilts = np.abs(np.sin(first[:, 1]))
     uneven = float(np.median(np.sqrt((1 + tilts) / (1 - tilts))))  # singular values of B: 1 and sqrt(1 -+ |sin beta|)
     return word_of(longer.value >= LIMIT.LONGER and uneven >= LIMIT.UNEVEN, False), evidence(
-        f"""Between {LIMIT.MATRICES} pairs of random orientations, the straight way in Z-Y-X angles
-        is {longer.value:.2f} times the shortest way, in the median. The straight way in the
-        rotation vector of the difference is the shortest way. Equal errors of three Z-Y-X angles turn a hand
-        {uneven:.2f}
-        times as far in one direction as in another, in the median. Equal errors of a small
-        rotation vector turn it equally far in all directions. C22 to C25 judge compliance.""",
+        f"""In the median of {LIMIT.MATRICES} pairs of random orientations, the straight line in Z-Y-X
+        angles is {longer.value:.2f} times as long as the shortest path. A straight line in the
+        rotation vector from one orientation to the other is the shortest path. Equal errors of
+        three Z-Y-X angles turn a hand {uneven:.2f} times as far in one direction as in another, in
+        the median. Equal errors of a small rotation vector turn a hand equally far in all
+        directions. C22 to C25 judge compliance.""",
         2 * LIMIT.MATRICES,
-        measured=f"""A straight line in Z-Y-X angles is {interval(longer, ".2f")} times as long as
-        the shortest path. This is the median of {LIMIT.MATRICES} pairs of orientations.""",
+        measured=f"""For {LIMIT.MATRICES} pairs of orientations, the straight line in Z-Y-X angles is
+        {longer.value:.2f} times as long as the shortest path. This is the median; its 95 % interval
+        is {longer.low:.2f} to {longer.high:.2f}.""",
     )

@@ -60,9 +60,9 @@ def c01(results: Results, engine: str) -> tuple[Word, Evidence]:
     exactly = int((probes.boundary_distance(left)["half_turn"].abs() <= probes.EXACT_RAD).sum())
     is_stray = uniform.n - uniform.k <= LIMIT.STRAY_SHARE * uniform.n
     return word_of(not unstable and exactly == len(left), not unstable and is_stray), evidence(
-        f"""{capitalize(count_of(unstable, len(frame), "starts"))} diverge or gain energy. Starts that do
-        not settle: {len(left):,}. Starts among them that begin exactly 180° from the goal: {exactly:,}. Of the uniform
-        starts, {uniform} settle.""",
+        f"""{capitalize(count_of(unstable, len(frame), "starts"))} diverge or gain energy. Number of starts that do
+        not settle: {len(left):,}. Number of these starts that are exactly 180° from the goal: {exactly:,}. Of the
+        uniform starts, {uniform} settle.""",
         len(frame),
         measured=f"""Of {uniform.n:,} uniform starts, {percent_interval(uniform)} settle. Of all
         {len(frame):,} starts with this law, {unstable or "none"} diverge.""",
@@ -86,7 +86,7 @@ def c02(results: Results) -> tuple[Word, Evidence]:
     return word_of(is_tight, largest <= LOOSE_SETTLING), evidence(
         f"""We simulated {count} small rotations at {len(GAINS)} pairs of gains. The closed form gives settling times of
         {min(times):.3f} to {max(times):.3f} s ({closed_form.linear_settling(*Gains()):.4f} s at the paper's gains). The
-        simulated times differ from it by at most {percent(largest)} %.""",
+        simulated times differ from the closed form by at most {percent(largest)} %.""",
         count,
         measured=f"""We chose gains for settling times of {min(times):.2f} to {max(times):.2f} s.
         The settling times of {count} small rotations differ from the chosen times by at most
@@ -115,11 +115,11 @@ def c03(results: Results, engine: str) -> tuple[Word, Evidence]:
     is_infinite = bool((np.abs(stay["final_angle_rad"] - np.pi) <= LIMIT.AT_HALF_TURN).any())
     grows = growth.low > 0.0
     return word_of(grows and off <= LIMIT.SLOPE_TIGHT and is_infinite, grows and off <= LIMIT.SLOPE_LOOSE), evidence(
-        f"""Settling time rises by {growth.value:.3f} s ({growth.low:.3f} to {growth.high:.3f}) per
-        rad of the initial angle. Towards 180° it rises by {float(slope):.4f} s per decade of the
-        distance from 180° (closed form: {closed:.4f} s), up to {float(slowest):.2f} s at 1e-12 rad.
-        {capitalize(count_of(len(exact) - len(stay), len(exact), "exact 180° rotations"))} settle
-        within {float(exact["horizon_s"].min()):g} s.""",
+        f"""For each rad of the initial angle, the settling time grows by {growth.value:.3f} s ({growth.low:.3f} to
+        {growth.high:.3f}). Close to 180°, it grows by {float(slope):.4f} s each time the distance from 180° becomes ten
+        times smaller (closed form: {closed:.4f} s). At 1e-12 rad from 180°, it is {float(slowest):.2f} s.
+        {capitalize(count_of(len(exact) - len(stay), len(exact), "starts"))} at exactly 180° settle within
+        {float(exact["horizon_s"].min()):g} s.""",
         len(uniform) + len(turns),
         measured=f"""For each rad of the initial angle, settling takes
         {interval_or_never(growth, ".3f", " s")} longer. At exactly 180°,
@@ -145,13 +145,13 @@ def c04(results: Results, engine: str) -> tuple[Word, Evidence]:
     parallel = sum(product <= ZERO_ERROR for product in products)
     is_zero = largest <= ZERO_ERROR
     return word_of(is_zero and parallel == len(exact), is_zero), evidence(
-        f"""We tested {len(exact)} exact 180° rotations. The largest error |e| there is {largest:.1g}, and
-        {count_of(int(settled(exact).sum()), len(exact), "rotations")} settle. Each of the three cross products is zero
-        at {parallel} rotations (axes x, y, z). At the other {len(exact) - parallel} rotations the products cancel only
-        in their sum; the largest product is {max(products):.2f}.""",
+        f"""We tested {len(exact)} exact 180° rotations. The largest error |e| at these rotations is {largest:.1g}. The
+        body settles from {count_of(int(settled(exact).sum()), len(exact), "rotations")}. At {parallel} rotations (about
+        x, y and z), each of the three cross products is zero. At the other {len(exact) - parallel} rotations, only the
+        sum of the three products is zero. The largest product is {max(products):.2f}.""",
         len(exact),
-        measured=f"""At {len(exact)} rotations by 180°, the largest orientation error of the law is
-        {largest:.1g}. At {parallel} of these rotations (about x, y and z), each of the three cross
+        measured=f"""At {len(exact)} rotations by 180°, the largest error vector that the law computes has
+        the length {largest:.1g}. At {parallel} of these rotations (about x, y and z), each of the three cross
         products is zero.""",
     )
 
@@ -174,14 +174,14 @@ def c05(results: Results) -> tuple[Word, Evidence]:
     cancel = sum(_size(R) <= ZERO_ERROR < _largest_product(R) for R in probes.rotations(exact))
     readings = (least < LIMIT.NEAR_ZERO, cancel > 0)
     return word_of(all(readings), any(readings)), evidence(
-        f"""The paper's sentence is ambiguous. (a) Off the 180° rotation we computed |e| at {len(frame):,} starts and
-        {states:,} states of a search. There |e| / sin(angle) is never below {lowest:.9f}, and |e| is never below
-        {least:.1e}. (b) At {cancel} of {len(exact)} exact 180° rotations the cross products are not zero, but their sum
-        is zero.""",
+        f"""The paper's sentence is ambiguous. For reading (a), we computed |e| at {len(frame):,} starts and at
+        {states:,} orientations of a search, all of them away from 180°. At these orientations, |e| / sin(angle) is at
+        least {lowest:.9f}, and |e| is at least {least:.1e}. For reading (b), we looked at {len(exact)} exact 180°
+        rotations. At {cancel} of these rotations, cross products that are not zero have a zero sum.""",
         len(frame) + states + len(exact),
-        measured=f"""The sum of the cross products is zero at {cancel} of {len(exact)} rotations by
-        180°, where the single products are not zero. At other orientations, the error |e| is at
-        least {lowest:.4f} times the sine of the angle.""",
+        measured=f"""At {cancel} of {len(exact)} rotations by 180°, cross products that are not zero
+        have a zero sum. At orientations away from 180°, the error |e| is at least {lowest:.4f} times
+        the sine of the angle.""",
     )
 
 
@@ -233,9 +233,10 @@ def c32(results: Results) -> tuple[Word, Evidence]:
     asked = int(costs[["div", *CALLS]].to_numpy().sum())
     sound = bool(np.isfinite(ours).all() and off.max() <= LIMIT.ROUNDINGS * EPS and not asked and not ended)
     return word_of(sound and relative.max() <= LIMIT.DIGITS, sound), evidence(
-        f"""At {len(frame):,} starts the computed error e is off by at most {off.max() / EPS:.1f} eps. It is off by at
-        most {relative.max():.1e} of its length; this is closest to a 180° rotation. The law takes {asked or "no"}
-        divisions and calls, and {count_of(ended, len(every), "episodes")} end as {" or ".join(LIMIT.BROKEN)}.""",
+        f"""At {len(frame):,} starts, the rounding error of e is at most {off.max() / EPS:.1f} eps. It is at most
+        {relative.max():.1e} of the length of e. The law takes {asked or "no"} divisions and calls.
+        {capitalize(count_of(ended, len(every), "episodes"))} end as {", ".join(LIMIT.BROKEN[:-1])} or
+        {LIMIT.BROKEN[-1]}.""",
         len(every) + len(costs),
         measured=f"""At {len(frame):,} starts, rounding changes the orientation error e by at most
         {relative.max():.1e} of the length of e. The law needs {asked or "no"} divisions.""",

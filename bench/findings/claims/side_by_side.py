@@ -24,9 +24,9 @@ PAIRED = ("task", "arm", "form", "pose", "complies")
 
 DECIDES = f"""
     Force control has several variants here (the column `form`). The rows of the variant '{PAPERS_FORM}' decide, because
-    it is the paper's force control ("converted to joint torques by the Jacobian transpose", 3.3). Our first verdict was
-    on the variants {" and ".join(f"'{form}'" for form in ACCELERATION_FORMS)}; we still report their results, judged by
-    the same criterion.
+    this variant is the paper's force control ("converted to joint torques by the Jacobian transpose", 3.3). Our first
+    verdict used the variants {" and ".join(f"'{form}'" for form in ACCELERATION_FORMS)}. We still report the results of
+    these variants, judged by the same criterion.
     """
 
 
@@ -41,12 +41,12 @@ def by_either_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[...
         word, papers = decide(results, (PAPERS_FORM,))
         other, ours = decide(results, ACCELERATION_FORMS)
         instead = (
-            f"By commanded accelerations the claim {other}. {ours.instead} "
-            f"With forces by the Jacobian transpose the claim {word}. "
+            f"With commanded accelerations, the claim {other}. {ours.instead} "
+            f"With forces by the Jacobian transpose, the claim {word}. "
         )
         return word if word == other else Word.READING, evidence(
-            f"""With forces by the Jacobian transpose the claim {word}. {papers}
-            By commanded accelerations the claim {other}. {ours}""",
+            f"""With forces by the Jacobian transpose, the claim {word}. {papers}
+            With commanded accelerations, the claim {other}. {ours}""",
             papers.rows + ours.rows,
             papers.tables,
             instead + papers.instead if word != other else "",
@@ -64,8 +64,8 @@ def by_papers_form(decide: Callable[..., tuple[Word, Evidence]]) -> Callable[...
         word, papers = decide(results, (PAPERS_FORM,))
         other, ours = decide(results, ACCELERATION_FORMS)
         return word, evidence(
-            f"""With forces by the Jacobian transpose the claim {word}. {papers}
-            By commanded accelerations the claim {other}. {ours}""",
+            f"""With forces by the Jacobian transpose, the claim {word}. {papers}
+            With commanded accelerations, the claim {other}. {ours}""",
             papers.rows + ours.rows,
             papers.tables,
             measured=papers.measured,

@@ -18,12 +18,13 @@ from bench.experiments.tables.statistics import Estimate
 ORDERED, UNDECIDED, REVERSED = 1, 0, -1
 
 RULE = """
-    We compare two laws at a time, and ask whether the law that the paper calls cheaper is cheaper. The two laws are
-    timed in turns on one machine (results/timings). The times confirm the paper's order if, on every machine that timed
-    both laws, the cheaper law takes less time and the 95 % intervals do not overlap. The operations confirm this order
-    if the dearer law has no fewer flops, no fewer calls and more of one of them. The times decide. If the intervals
-    overlap, or if one of the laws has no time, the operations decide. If flops and calls give different orders, their
-    sum decides; a call then counts as the number of flops that take the same time.
+    For each pair, we ask whether the law that the paper calls cheaper is cheaper. The two laws are timed in turns on
+    one machine (results/timings). The times confirm the paper's order if two conditions are met on every machine that
+    timed both laws: the law that the paper calls cheaper takes less time, and the 95 % intervals do not overlap. The
+    operations confirm this order if the other law has no fewer flops, no fewer calls, and more of one of them. The
+    times decide. If the intervals overlap, or if one of the laws has no time, the operations decide. If flops and calls
+    give different orders, the sum of flops and calls decides. In this sum, a call counts as the number of flops that
+    take the same time.
     """
 
 MEASURABLE = 0.04

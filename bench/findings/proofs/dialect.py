@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from bench.findings.proofs.reasons import Untraceable
-from bench.law.inputs import Gains, Goal
+from bench.law.inputs import LIMITS, Gains, Goal
 from bench.law.kinds import Law
 from bench.law.scalar import PRIMITIVES, kernel
 from bench.law.so3 import Rotation
@@ -126,6 +126,9 @@ def _check_names(function: types.FunctionType, tree: ast.FunctionDef, where: str
             if isinstance(owner, types.ModuleType) and name not in local:
                 modules.add(name)
                 yield from _check_value(getattr(owner, node.attr, None), f"{where}, line {node.lineno}")
+            elif node.attr in LIMITS:
+                reason = f"it reads gains.{node.attr}, and the theorems are about a command without limits"
+                raise _refusal(node, where, reason)
             elif node.attr not in FIELDS:
                 raise _refusal(node, where, f"it reads .{node.attr}")
     names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load)}

@@ -14,8 +14,8 @@ from bench.law.kinds import Law
 
 LASALLE = "By LaSalle's invariance principle, the body comes to rest at a point where the derivative V' stays zero."
 MEASURE_ZERO = (
-    "By the stable manifold theorem, only a set of starts of measure zero ends at an unstable "
-    "equilibrium."
+    "By the stable manifold theorem, if the closed loop has unstable equilibria, only a set of "
+    "starts of measure zero ends at them."
 )
 FINITE_JUMPS = (
     "We proved by hand that V falls by a constant at each change of the stored sign, so the sign "

@@ -138,16 +138,28 @@ class Trial(NamedTuple):
 
 
 class Trials:
-    """Laws in one situation, each from as many of the same starts as were asked for."""
+    """Laws in one situation, each from as many of the same starts as were asked for.
 
-    def __init__(self, at: Situation, seed: int = SEED, report: Callable[[str], None] = lambda law: None):
+    first, most: starts of every law that is tried, and of those among which one is advised.
+    """
+
+    def __init__(
+        self,
+        at: Situation,
+        seed: int = SEED,
+        report: Callable[[str], None] = lambda law: None,
+        first: int = FIRST,
+        most: int = MOST,
+    ):
         self.at, self.report = at, report
+        self.first, self.most = first, most
         self.settings = Settings("situations", seed=seed)
         self.by_law: dict[str, Trial] = {}
         self.known = {law.name: law for law in mapped_laws()}
 
-    def run(self, law: str, count: int = FIRST) -> Trial:
-        """Return a law's trial of at least so many starts; those that ran before are kept."""
+    def run(self, law: str, count: int | None = None) -> Trial:
+        """Return a law's trial of at least so many starts, `first` if None; those that ran before are kept."""
+        count = count or self.first
         before = self.by_law.get(law)
         ran = len(before.times) if before else 0
         if before and ran >= count:
@@ -315,7 +327,7 @@ def shortlist(nearest: Answer, rule: Rule, folder: Path = STUDY) -> tuple[str, .
 def choose(trials: Trials, laws: Sequence[str], rule: Rule, preferred: str | None) -> str | None:
     """Return the law that is advised of some; None if none of them has what is required.
 
-    Those among which the choice is are run from MOST starts. Of so many one may be lost: then the choice is repeated.
+    Those among which the choice is are run from the most starts. Of so many one may be lost: then it is made again.
     """
     for law in laws:
         trials.run(law)
@@ -325,11 +337,11 @@ def choose(trials: Trials, laws: Sequence[str], rule: Rule, preferred: str | Non
             return None
         unbeaten = trials.find_unbeaten(qualified, rule)
         candidates = [*unbeaten, preferred] if preferred in qualified else unbeaten
-        short = [law for law in candidates if law and len(trials.by_law[law].times) < MOST]
+        short = [law for law in candidates if law and len(trials.by_law[law].times) < trials.most]
         if not short:
             break
         for law in short:
-            trials.run(law, MOST)
+            trials.run(law, trials.most)
     if preferred in unbeaten:
         return preferred
     operations = trials.rows().set_index("contender")["operations"]

@@ -10,7 +10,17 @@ import numpy as np
 import pandas as pd
 
 from bench.findings.selection.pairs import read_pairs
-from bench.findings.selection.regions import NEIGHBOURS, RULE, STUDY, Rule, Verdict, decide, decide_all, read_map
+from bench.findings.selection.regions import (
+    NEIGHBOURS,
+    RULE,
+    STUDY,
+    Rule,
+    Verdict,
+    decide,
+    decide_at,
+    group_map,
+    read_map,
+)
 from tasks.situation import COORDINATES, Situation, read_situation
 
 
@@ -60,23 +70,24 @@ def decide_nearest(wanted: Situation, rule: Rule = RULE, folder: Path = STUDY) -
 
 def answer(wanted: Situation, rule: Rule = RULE, folder: Path = STUDY) -> Answer:
     """Return the verdict on the situation of the map that is nearest to the user's."""
-    verdicts = decide_all(folder, rule)
-    situations = list(verdicts)
+    situations = list(group_map(folder))
     places = np.array([at.scaled() for at in situations])
     away = np.linalg.norm(places - np.array(wanted.scaled()), axis=1)
     order = np.argsort(away, kind="stable")
     nearest = situations[order[0]]
-    law = verdicts[nearest].law
-    beside = [verdicts[situations[place]] for place in order[1 : NEIGHBOURS + 1]]
-    agreeing = sum(law in verdict.unbeaten for verdict in beside)
+    # Only these are decided: to decide the whole map takes seconds.
+    verdict = decide_at(nearest, folder, rule)
+    law = verdict.law
+    beside = [decide_at(situations[place], folder, rule) for place in order[1 : NEIGHBOURS + 1]]
+    agreeing = sum(law in neighbour.unbeaten for neighbour in beside)
     unbeaten: collections.Counter[str] = collections.Counter()
-    for verdict in (verdicts[nearest], *beside):
-        unbeaten.update(verdict.unbeaten)
+    for each in (verdict, *beside):
+        unbeaten.update(each.unbeaten)
     laws = [name for name, _ in unbeaten.most_common() if name != law]
     rows = read_map(folder)
     return Answer(
         nearest,
-        verdicts[nearest],
+        verdict,
         rows[rows["situation"] == nearest.word],
         float(away[order[0]]),
         (agreeing, len(beside)),

@@ -160,14 +160,14 @@ def find_limits(loop: Loop) -> Limits:
     """Return the limits of a loop, each found from the side on which it is stable."""
     # So small that the loop is slow beside its own delay and period, whatever its damping ratio of use is.
     slow_kv = 1e-3 * min(loop.moments) / (loop.delay + loop.period)
-    kv = _last_stable(loop.with_kv, slow_kv, FACTOR, loop.kv)
+    kv = last_stable(loop.with_kv, slow_kv, FACTOR, loop.kv)
     kv_low, kv_high = find_band(loop)
     # Far below kp the loop is the damper alone, which is stable or is not.
-    kp_alone = _last_stable(lambda kp: loop._replace(kp=kp), 1e-6 * loop.kp, FACTOR, loop.kp)
+    kp_alone = last_stable(lambda kp: loop._replace(kp=kp), 1e-6 * loop.kp, FACTOR, loop.kp)
     delay = math.nan
     if loop.delay > 0.0 and is_stable(loop._replace(delay=0.0)):
-        delay = _last_stable(lambda delay: loop._replace(delay=delay), 1e-3 * loop.delay, FACTOR, loop.delay)
-    rate = _last_stable(
+        delay = last_stable(lambda delay: loop._replace(delay=delay), 1e-3 * loop.delay, FACTOR, loop.delay)
+    rate = last_stable(
         lambda rate: loop._replace(period=1.0 / rate),
         QUICKER / loop.period,
         1.0 / FACTOR,
@@ -198,7 +198,7 @@ def find_band(loop: Loop) -> tuple[float, float]:
     return low, high
 
 
-def _last_stable(changed: Callable[[float], Loop], first: float, factor: float, end: float) -> float:
+def last_stable(changed: Callable[[float], Loop], first: float, factor: float, end: float) -> float:
     """Return the last value, from `first` by steps of a factor to `end`, up to which the loop is stable; NaN: none."""
     if not is_stable(changed(first)):
         return math.nan

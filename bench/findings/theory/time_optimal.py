@@ -19,7 +19,8 @@ Limitations: the command's size is bounded, not each of its components; the iner
 known; the command acts from 0 on, without delay or period; the goal rests; the start is not at the
 goal (`RULES.at_goal_rad`), where the rules have another band. In 4 the band is seen as flat: of the
 tests' 20 starts the collocation, which does not see it so, is faster by 1e-4 of the time at most. Where
-no way to the band is found, 4 is the way to rest: up to 0.6 sqrt(b/a) too long, below 0.15 rad at most.
+no way to the band is found, 4 is the way to rest: up to 0.6 sqrt(b/a) too long; 95 % of such nodes of the
+table are below 0.15 rad.
 """
 
 import math

@@ -18,7 +18,7 @@ from bench.law.attribution import YOURS
 from bench.law.contender import Contender
 from bench.law.contenders.registry import contenders, contenders_of, representation
 from bench.law.display import COLOURS, LINES, MARKERS, Equation, Look
-from bench.law.inputs import NO_MEMORY, Gains, Goal
+from bench.law.inputs import NO_MEMORY, Goal, Tuning
 from bench.law.kinds import ON_MATRIX, Law
 from bench.law.so3 import Rotation
 
@@ -164,7 +164,7 @@ def _tried(one: Contender):
     """Return what the law answers at TRIAL."""
     first = one.regulator.memory
     memory = () if first is None else ((*first, *NO_MEMORY[len(first) :]),)
-    return one.law(TRIAL, (0.1, 0.2, 0.3), Goal(), Gains(), *memory)
+    return one.law(TRIAL, (0.1, 0.2, 0.3), Goal(), Tuning(), *memory)
 
 
 def trial_error(one: Contender) -> str:

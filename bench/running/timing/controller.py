@@ -15,6 +15,7 @@ from bench.engines import simulate_arms
 from bench.engines.arrays import Vector
 from bench.engines.binding import memory_of
 from bench.engines.compiled import ASSEMBLE, FOUR, MATRIX, RESOLVE, compile_function, float64, int64, types
+from bench.engines.counting.states import BOUND_OVER_KP
 from bench.engines.native.libmujoco import library_function, mj_fullM, model_of
 from bench.engines.plants.arm import Work
 from bench.engines.plants.arm import work as arm_work
@@ -23,7 +24,7 @@ from bench.engines.typed import borrow, type_of
 from bench.law.chain import Chain
 from bench.law.contender import Contender
 from bench.law.control.resolved_acceleration import control
-from bench.law.inputs import AT_REST, PAPERS_GAINS, Gains, Goal
+from bench.law.inputs import AT_REST, PAPERS_GAINS, Goal, Tuning
 from bench.law.so3 import Rotation, from_quaternion
 from bench.running.timing.benchmark import CONTROLLER, Benchmark
 from tasks.base import Start
@@ -77,7 +78,8 @@ def _loop():
 
     def loop(assemble, resolve, world, rows, memory0, states, kp, kv, sweeps):
         body = borrow(world)
-        view, p, r, gains, memory, chain = body.sim, body.position, body.frame, Gains(kp, kv), memory0, 0.0
+        view, p, r, memory, chain = body.sim, body.position, body.frame, memory0, 0.0
+        gains = Tuning(kp, kv, BOUND_OVER_KP * kp, 0.0)
         n, qpos, qvel, buffers, D, fg = view.n, view.qpos, view.qvel, body.work.buffers, body.work.D, body.work.fg
         for _ in range(sweeps):
             for k in range(states.shape[0]):

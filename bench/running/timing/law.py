@@ -15,7 +15,8 @@ import numpy as np
 
 import tasks
 from bench.engines.compiled import MATRIX, compile_function, float64, int64
-from bench.law.inputs import AT_REST, Gains, Goal
+from bench.engines.counting.states import BOUND_OVER_KP
+from bench.law.inputs import AT_REST, Goal, Tuning
 from bench.law.kinds import Law
 from bench.law.scalar import kernel
 from bench.law.so3 import Rotation, from_quaternion
@@ -56,7 +57,7 @@ def loop_of(command, memory0, cache=True):
     """`loop(states, kp, kv, sweeps)` -> the end of the chain: 0.0, or NaN if a command was not finite."""
 
     def loop(states, kp, kv, sweeps):
-        gains = Gains(kp, kv)
+        gains = Tuning(kp, kv, BOUND_OVER_KP * kp, 0.0)
         memory = memory0
         chain = 0.0
         for _ in range(sweeps):

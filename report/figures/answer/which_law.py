@@ -183,8 +183,10 @@ def list_needs() -> Iterator[tuple]:
         law = f"{_named(need.law)} ({need.attribution})" if need.law != NOT_TESTED else need.law
         yield prose(need.controller), law, prose(call_laws(need.why)), prose(call_laws(need.price)), rows
     uneven = list_elsewhere()[0]
-    ties = f"this law ties with {together([families.word(law) for law in uneven.tied])}"
-    why = f"{uneven.compared} laws meet the requirements; {ties if uneven.tied else 'no law ties with this law'}"
+    equals = together([f"“{families.word(law)}”" for law in uneven.tied])
+    ties = f"Of these laws, “{families.word(uneven.law)}” and {equals} are equally good."
+    alone = f"Of these laws, “{families.word(uneven.law)}” is the best."
+    why = f"{uneven.compared} laws meet the requirements. {ties if uneven.tied else alone}"
     law = f"{_named(uneven.law)} ({find_contender(uneven.law).attribution})"
     yield "commands torque and does not cancel the inertia", law, why, html.MISSING, html.MISSING
 

@@ -37,9 +37,8 @@ PROPERTIES = {
     "": "",
 }
 EQUILIBRIA = {
-    "none": "The law has no equilibrium away from the goal.",
-    "none, but the command jumps at 180°": "The law has no equilibrium away from the goal, but its command jumps at "
-    "180°.",
+    "none": "The goal is the only equilibrium of the law.",
+    "none, but the command jumps at 180°": "The goal is the only equilibrium of the law. At 180°, its command jumps.",
     "not defined at 180°": "The law is not defined at 180°.",
     "every 180° rotation": "Every 180° rotation is an equilibrium.",
     "180° rotations about n_d, o_d and a_d": "The 180° rotations about n_d, o_d and a_d are equilibria.",

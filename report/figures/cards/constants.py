@@ -69,7 +69,7 @@ def say(constant: Constant, every: list[Varied], default: str) -> str:
     ranks = [f"{one.rank}" for one in sorted(every, key=lambda one: one.rank)]
     return (
         f"{name}: we use {constant.shipped:g}, and also tried values from {values[0]:g} to "
-        f"{values[-1]:g}. With these values the law needs {_span(ratios)} times as long to settle "
+        f"{values[-1]:g}. With each of these values, the law needs {_span(ratios)} times as long to settle "
         f"as {beside} (median over the situations). Its rank among the laws of the map is "
         f"{_span(ranks)} (1 is the fastest)."
     )

@@ -44,9 +44,10 @@ TEXTS = tomllib.loads(Path(__file__).with_name("laws.toml").read_text(encoding="
 MEMORY = (
     "Reset the memory before the first control step and after a pause. If the goal changes, the "
     "law keeps its memory. If you also reset the memory when the goal jumps, the path becomes "
-    "shorter, but the body does not settle sooner. The measured orientation must turn by less "
-    "than 180° between two control steps: e + phi/2 < 90°, where e is the error of the measured "
-    "orientation and phi the rotation within a control step."
+    "shorter, but the body does not settle sooner. Between two control steps, the measured "
+    "orientation must turn by less than 180°. This is certain if phi + 2 e < 180°. Here phi is the "
+    "angle by which the body turns between two control steps, and e is the angle between the "
+    "measured and the true orientation."
 )
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 EXAMPLE = re.compile(r" Shown by |, as from |, as at ")

@@ -5,6 +5,7 @@ from collections.abc import Iterable, Sequence
 
 from bench.base.files import read_json
 from bench.findings import claims
+from bench.findings.amounts import join_words
 from bench.findings.claims import Verdict, at_gains
 from bench.findings.claims.errata import ERRATA, UNTESTABLE, Erratum
 from bench.findings.claims.verdict import MISPRINTS, Earlier
@@ -69,7 +70,7 @@ def section(one: Verdict, run: Run) -> str:
         "Criterion": marked_up(f"{claim.criterion} ({written(claim.written)})" if claim.written else claim.criterion),
         "Earlier criteria": _listed(map(describe_earlier, claim.earlier)),
         "The paper leaves open": marked_up(claim.open),
-        "Possible readings": _listed(claim.readings),
+        "Possible meanings": _listed(f"Meaning {k}: {text}" for k, text in enumerate(claim.readings, 1)),
     }
     entries = "".join(f"<dt>{name}</dt><dd>{text}</dd>" for name, text in rows.items() if text)
     head = f"<b>{claim.id}</b> <span>{marked_up(claim.sentence)}</span> {html.badge(str(one.word))}"
@@ -103,14 +104,15 @@ def describe_rows(one: Verdict, run: Run) -> str:
     if not evidence.rows:
         return ""
     files = [STUDIES.get(name) or link_file(name, run) for name in evidence.tables if name != COMPUTED]
-    computed = "states of a law or an arm, which the command <code>bench claims</code> computes"
+    computed = "values that the command <code>bench claims</code> computes from the law or the arm"
     number = html.number(evidence.rows)
     if not files:
         return f"The verdict uses {number} {computed}."
-    listed = f'{"; ".join(files)} (<a href="appendix-data.html#tab-files">all files</a>)'
-    used = f"The verdict uses {number} rows of these files: {listed}"
-    beside = f", together with {computed}" if COMPUTED in evidence.tables else ""
-    return f"{used}{beside}.{list_conditions(evidence.chosen)}"
+    listed = join_words(files)
+    used = f"The verdict uses {number} rows of {listed}"
+    beside = f". It also uses {computed}" if COMPUTED in evidence.tables else ""
+    others = '<a href="appendix-data.html#tab-files">List of all files</a>.'
+    return f"{used}{beside}. {others}{list_conditions(evidence.chosen)}"
 
 
 def link_file(table: str, run: Run) -> str:
