@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from bench.cli.advised import describe_least, table
 from bench.experiments.situations import CROWD, mapped_laws
 from bench.experiments.tables.statistics import quantile
 from bench.findings.selection import advice as module
@@ -18,6 +19,7 @@ from bench.findings.selection.advice import (
     advise,
     answer,
     choose,
+    find_least_time,
     list_tied,
     look_near_goal,
     shortlist,
@@ -25,6 +27,7 @@ from bench.findings.selection.advice import (
 from bench.findings.selection.checked import summarize_checked
 from bench.findings.selection.nearest import find_outside
 from bench.findings.selection.regions import RULE, Rule
+from bench.findings.theory.time_optimal import certain_least_time
 from bench.studies.advice_check import COUNT, SEED, draw
 from tasks.situation import COORDINATES, KP, NOMINAL, Situation
 
@@ -52,6 +55,39 @@ def test_no_law_is_advised_nor_simulated_where_closed_forms_say_that_none_can_se
 def test_law_loses_every_start_where_its_loop_is_unstable(law):
     at = Situation(zeta=1.9, delay=0.243, period=0.486, inertia=0.672, unevenness=0.482)
     assert not np.isfinite(Trials(at).run(law, 64).times).any()
+
+
+def test_least_time_from_rest_is_that_of_full_command_one_way_and_then_the_other():
+    at = Situation(bound=0.2, inertia=2.0)
+    starts = at.starts(FIRST, 7)
+    angles = np.array([2.0 * math.acos(min(1.0, abs(start.quat_wxyz[0]))) for start in starts])
+    to_stop = 2.0 * np.sqrt(angles / 0.1) * (math.sqrt(1.02) - math.sqrt(0.02))
+    assert find_least_time(at, FIRST, 7) == pytest.approx(quantile(to_stop, CROWD), rel=2e-3)
+
+
+def test_least_time_of_bodies_that_spin_lies_between_its_bound_and_the_times_of_laws():
+    at = Situation(bound=0.3, spin=1.0)
+    least = find_least_time(at, 256, 3)
+    starts = at.starts(256, 3)
+    angles = np.array([2.0 * math.acos(min(1.0, abs(start.quat_wxyz[0]))) for start in starts])
+    certain = quantile(certain_least_time(angles, 1.0, 0.3), CROWD)
+    assert certain < least < 3.0 * certain
+    trials = Trials(at, 3)
+    for law in ("hybrid", "mrp-memory"):
+        assert quantile(trials.run(law, 256).times[:256], CROWD) > least
+
+
+@pytest.mark.parametrize("numbers", [{}, {"bound": 0.2, "jump": 1.0}, {"bound": 0.2, "unevenness": 0.3}])
+def test_least_time_is_unknown_without_a_bound_behind_a_jump_and_of_uneven_bodies(numbers):
+    assert math.isnan(find_least_time(Situation(**numbers), 8, 0))
+
+
+def test_advice_compares_its_law_with_the_fastest_motions():
+    found = advise(BOUNDED)
+    assert 2.0 < found.row(found.law)["time"] / found.least < 4.0
+    said = describe_least(found, 1.0)
+    assert f"in {found.least:.3f} s; {found.law} takes " in said
+    assert "over least" in table(found, 1.0)
 
 
 def test_no_law_is_faster_than_the_least_time_of_its_bound():

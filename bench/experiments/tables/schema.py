@@ -10,7 +10,7 @@ RESULTS = WORKPLACE / "results"
 
 NAMES = (
     *("perturbed", "timings", "libraries", "closed_loop", "verdicts", "real_time", "contact_limits"),
-    *("constants", "situations", "pairs", "advice_check"),
+    *("constants", "situations", "pairs", "advice_check", "floor"),
 )
 STUDIED = tuple(read_table(__file__, name) for name in NAMES)
 """Tables that no experiment makes: times, results of studies, and other libraries' answers."""
@@ -39,7 +39,7 @@ def readme() -> str:
         "`timings/` holds one file for each kind of machine, `libraries/` what other robot libraries answer and do",
         "(`make libraries`), `contact/` what tasks in contact depend on, `robustness/` shares of hundreds of starts a",
         "level (CONTRIBUTING.md lists the studies), `constants/` laws with other values of constants that are ours,",
-        "`proofs/` what is proved of laws from their source (`make prove`).",
+        "`proofs/` what is proved of laws from their source (`make prove`), `floor/` the least settling time.",
         "Every table is parquet, its units are in the columns' metadata (which pandas does not keep: they are below),",
         "and `provenance.json` says where a run comes from. In `episodes` a start has a row for each `engine` that",
         "ran it: choose one, as `ideal-rk4` on the free body, before you count starts.",

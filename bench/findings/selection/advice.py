@@ -30,6 +30,8 @@ from bench.experiments.situations import (
     run_starts,
     summarize_drawn,
 )
+from bench.experiments.tables.statistics import quantile
+from bench.findings.floor import find_floor
 from bench.findings.selection.nearest import Answer, Outside, answer, find_outside
 from bench.findings.selection.pairs import compare_times, find_slower
 from bench.findings.selection.regions import (
@@ -105,6 +107,24 @@ def look_near_goal(at: Situation) -> NearGoal:
         least = at.delay + least_time(angle_of_share(CROWD), at.bound / min(loop.moments))
     knee = brake_knee(at.bound, loop.kp, loop.kv, at.inertia)
     return NearGoal(radius, settling_time(loop, HORIZON), limits, least, knee)
+
+
+def find_least_time(at: Situation, count: int, seed: int) -> float:
+    """Return the time [1/sqrt(kp)] in which the fastest motions settle CROWD of a situation's starts.
+
+    The fastest that the bound allows, of a body that is as inert about every axis, without delay and period: see
+    `bench.findings.theory.time_optimal`, also for what is proved of it. NaN where that is not known: without a bound,
+    where moments differ or the goal jumps, and where starts spin faster than those of the table.
+    """
+    if not math.isfinite(at.bound) or at.jump or at.unevenness:
+        return math.nan
+    starts = at.starts(count, seed)
+    quats = np.array([start.quat_wxyz for start in starts])
+    omegas = np.array([start.omega for start in starts])
+    floor = find_floor(quats, omegas, at.bound * KP / at.inertia)
+    if not floor.is_known.all():
+        return math.nan
+    return float(quantile(floor.times, CROWD)) * math.sqrt(KP)
 
 
 class Trial(NamedTuple):
@@ -208,6 +228,7 @@ class Advice(NamedTuple):
     that have what is required, published ones. ours: our own that have it. tied: qualified within TIE of the advised
     one, the fastest first. is_whole: every law was simulated. replaced: the map's law, where another is advised, and
     lacks: whether that is because it lacks what is required. eased: where the bound makes every law overshoot.
+    least: the time of the fastest motions that the bound allows [1/sqrt(kp)], NaN where it is not known.
     """
 
     wanted: Situation
@@ -223,6 +244,7 @@ class Advice(NamedTuple):
     replaced: str | None = None
     lacks: bool = False
     eased: Eased | None = None
+    least: float = math.nan
 
     def row(self, law: str) -> dict[str, Any]:
         """Return the row of a law that was simulated."""
@@ -274,6 +296,7 @@ def advise(
         qualified=published,
         ours=tuple(name for name in qualified if not may_be_advised(name)),
         is_whole=set(trials.by_law) == set(every),
+        least=find_least_time(wanted, FIRST, trials.settings.seed),
     )
     if law is None:
         return advice
