@@ -73,7 +73,7 @@ def test_open_question_is_answered_by_the_default_law_among_others(verdicts):
     default = find_default()
     assert answer.word == Word.ANSWERED
     assert default in passing
-    assert answer.correction.startswith("These laws answer the question: ")
+    assert answer.correction.startswith("These laws pass all eight tests and so answer the open question: ")
     assert all(f"{law} ({whose(law)})" in answer.correction for law in passing)
     assert ("A law without memory cannot" in answer.correction) == (not any(map(is_without_memory, passing)))
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from bench.base.on_first_use import Turn, pd
-from bench.findings.amounts import count_of, join_words, part_of
+from bench.findings.amounts import count, count_of, join_words, part_of
 from bench.findings.claims import probes, side_by_side
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.force_conversion import random_orientations
@@ -17,6 +17,12 @@ from bench.findings.claims.verdict import Evidence, Word, claim, read_limits, wo
 
 LIMIT = read_limits(__file__)
 
+
+MEANT = (
+    "Euler compliance is the compliance of the controller hybrid/zyx-euler. Cartesian compliance is "
+    "the compliance of the controller hybrid-base."
+)
+"""What the two compliances are called in sentences."""
 
 TWO_AXES = ("about x and y", "about y and z", "about z and x")
 LEVEL_PAIR = TWO_AXES[0]
@@ -31,9 +37,10 @@ def c22(results: Results) -> tuple[Word, Evidence]:
     by_alpha = np.abs(B[:, :, 0] - (0.0, 0.0, 1.0)).max()
     by_gamma = np.abs(B[:, :, 2] - [R.n for R in turns]).max()
     axes = (
-        f"We compare axes at {LIMIT.POSES} orientations. The axis of alpha is the base's z axis "
-        f"(difference {rounding(by_alpha)}), and the axis of gamma is the hand's x axis "
-        f"(difference {rounding(by_gamma)})."
+        f"An angle turns the hand about the axis of this angle. At {LIMIT.POSES} orientations, the axis of "
+        f"alpha is the base's z axis, and the axis of gamma is the hand's x axis. The components of "
+        f"the unit vectors differ by at most {rounding(by_alpha)} for alpha and {rounding(by_gamma)} "
+        f"for gamma. {MEANT}"
     )
     return word, found._replace(sentence=f"{axes} {found.sentence}")
 
@@ -62,31 +69,33 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         same_in_hand=differs_in_hand <= LIMIT.SAME,
     )[away]
     ends = rows.loc[~away, "outcome"].astype(str).value_counts()
-    close = ", ".join(f"{n} {end}" for end, n in ends.items()) or "no pose"
+    close = join_words(f"'{end}' in {count(n, 'case')}" for end, n in ends.items())
     return word, evidence(
-        f"""A case is one pose of one arm with one variant of force control. We tested
-        {judged["arm"].nunique()} arms. Euler compliance is the same as Cartesian compliance about
-        the base's axes {_by_order(judged, "same")}. In the other cases, the
-        two compliances differ by up to {_greatest(differs[away]):.2f} times the Cartesian
-        compliance. If the Cartesian compliance is turned by the Euler angles before the compliant
-        angle, the two compliances differ by at most {_greatest(differs_turned[away]):.1e} times the
-        Cartesian compliance. Euler compliance is the same as compliance about the hand's own axes
-        {_by_order(judged, "same_in_hand")}. These numbers leave out the poses
-        closest to the pole. At these poses, the episodes end as follows: {close}.""",
+        f"""A case is one compliant axis at one pose of one arm, with one variant of force control. We
+        tested {judged["arm"].nunique()} arms. Euler compliance is the same as Cartesian compliance
+        about the base's axes {_by_order(judged, "same")}. In the other cases, the norm of the
+        difference is up to {_greatest(differs[away]):.2f} times the norm of the Cartesian
+        compliance. The Euler angles before the compliant angle turn the axis of this angle. If the
+        Cartesian compliance is turned in the same way, the norm of the difference is at most
+        {_greatest(differs_turned[away]):.2g} times the norm of the Cartesian compliance. Euler
+        compliance is the same as compliance about the hand's own axes
+        {_by_order(judged, "same_in_hand")}. These numbers leave out the poses with cos(beta) <
+        {LIMIT.CLOSE_TO_POLE:g}, which are close to a pole.
+        {f"At these poses, the outcome with Euler compliance is {close}." if close else ""}""",
         len(rows),
-        instead=f"""One compliant angle acts as one compliant axis of the base
-        {_by_order(judged, "same")}. One compliant angle acts as one axis that the earlier angles
-        turn {_by_order(judged, "same_turned")}.""",
-        measured=f"""At {count_of(int(judged["same_turned"].sum()), len(judged), "poses")}, a compliant
-        angle is compliance about the axis that it turns about.""",
+        instead=f"""If one Euler angle is compliant, the hand complies about one axis of the base
+        {_by_order(judged, "same")}. The hand complies about the axis of the compliant angle, as the
+        earlier angles have turned it, {_by_order(judged, "same_turned")}.""",
+        measured=f"""In {count_of(int(judged["same_turned"].sum()), len(judged), "tests")}, the hand
+        complies only about the axis of the compliant Euler angle.""",
     )
 
 
 def _by_order(rows: pd.DataFrame, fact: str) -> str:
-    """Return in how many cases a fact is true, by order: 'in 3 of 12 cases about x and in all 12 cases about y'."""
+    """Return in how many cases a fact is true, by order: 'in 3 of 12 cases with compliance about x'."""
     parts = []
     for order, cases in rows.groupby("complies")[fact]:
-        parts.append(f"in {part_of(int(cases.sum()), len(cases))} cases {order}")
+        parts.append(f"in {part_of(int(cases.sum()), len(cases))} cases with compliance {order}")
     return join_words(parts)
 
 
@@ -118,22 +127,26 @@ def c23(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     least = float(np.nanmin(differs[general], initial=np.inf))
     special = _by_order(rows.assign(same=differs <= LIMIT.SAME)[~general], "same") or "in no case"
     return word, evidence(
-        f"""A case is one pose of one arm with one variant of force control. If none of the Euler
-        angles is zero, the two compliances differ in
-        {count_of(int(parted.sum()), len(parted), "cases")}, by {least:.2f} times the Cartesian
-        compliance or more. If an Euler angle is zero, the two compliances are the same
-        {special}. We tested compliance {LEVEL_PAIR} in {int(level.sum())} cases, up to
-        |beta| = {math.degrees(beta.max()):.0f} degrees, on {rows["arm"].nunique()} arms. The
-        compliant planes of both controllers lie as predicted to {_greatest(tilt):.1e} rad. A moment
-        about the level axis also turns the hand about z. The ratio of the rotation about z to the
-        rotation about the level axis is as predicted to {_greatest(missed):.1e}. With Euler
-        compliance, this ratio is at most {_greatest(leak):.2f}; tan |beta| is at most
-        {_greatest(np.tan(beta)):.2f}. With Cartesian compliance, this ratio is at most
+        f"""A case is one pair of compliant axes at one pose of one arm, with one variant of force
+        control. {MEANT} If none of the Euler angles is zero, the two compliances differ in
+        {count_of(int(parted.sum()), len(parted), "cases")}. The norm of the difference is at least
+        {least:.2f} times the norm of the Cartesian compliance. If an Euler angle is zero, the two
+        compliances are the same {special}. We tested compliance {LEVEL_PAIR} in
+        {int(level.sum())} cases, up to |beta| = {math.degrees(beta.max()):.0f} degrees, on
+        {rows["arm"].nunique()} arms. The compliant plane is the plane of the axes about which the
+        hand turns most. The measured planes of both controllers differ from the predicted planes by
+        at most {_greatest(tilt):.1e} rad. A moment about the level axis (cos alpha, sin alpha, 0)
+        also turns the hand about z. We divide the rotation about z by the rotation about the level
+        axis. The measured ratio differs from the predicted ratio by at most
+        {_greatest(missed):.1e} times the predicted ratio (times tan {LIMIT.SMALL_DEG:g} degrees,
+        where the predicted ratio is smaller than that). With Euler compliance, the ratio is at most
+        {_greatest(leak):.2f}. For comparison, tan |beta| is at most
+        {_greatest(np.tan(beta)):.2f}. With Cartesian compliance, the ratio is at most
         {_greatest(by_base):.2g}.""",
         len(rows),
-        measured=f"""The two compliances differ at
-        {count_of(int(parted.sum()), len(parted), "poses")} where no angle is zero, by
-        {percent(least)} % or more.""",
+        measured=f"""In {count_of(int(parted.sum()), len(parted), "tests")} where no Euler angle is
+        zero, compliance in two Euler angles differs from Cartesian compliance about two axes. The
+        difference is {percent(least)} % of the Cartesian compliance or more.""",
     )
 
 
@@ -158,25 +171,28 @@ def c24(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     at_zero, near = some(zyz[is_zero], f"{what} at zero rotation"), some(zyz[~is_zero], f"{what} near zero rotation")
     word = word_of(zyz["problem"].all() and not zyx["problem"].any(), zyz["problem"].any())
     done = near[near["outcome"] == "done"]
-    ends = ", ".join(sorted(set(at_zero["outcome"].astype(str))))
+    ends = join_words(f"'{end}'" for end in sorted(set(at_zero["outcome"].astype(str))))
     return word, evidence(
-        f"""Z-Y-Z angles are a problem at {_problems(at_zero)} at zero rotation, where the outcomes of
-        the runs are: {ends}. Z-Y-Z angles are also a problem at {_problems(near)} within
-        {LIMIT.NEAR_DEG:g} degrees of zero rotation. At the poses near zero rotation, the rotation
-        about x is {done["yields"].min():.1e} to {done["yields"].max():.1e} times the wanted
-        rotation. The rotation about z is {done["leak"].min():.1f} to {done["leak"].max():.1f} times
-        the rotation about x. Z-Y-X angles are a problem at {_problems(zyx)}. With Z-Y-X angles, the
-        rotation about x is at least {zyx["yields"].min():.3f} times the wanted rotation.""",
+        f"""A test is one pose of one arm with one variant of force control. A moment about x acts on
+        the hand. At zero rotation, Z-Y-Z angles are a problem in {_problems(at_zero)}. The outcomes
+        of these tests are: {ends}. Within {LIMIT.NEAR_DEG:g} degrees of zero rotation, Z-Y-Z angles
+        are also a problem in {_problems(near)}. In the tests near zero rotation that end with the
+        outcome 'done', the rotation about x is {done["yields"].min():.2g} to
+        {done["yields"].max():.2g} times the wanted rotation. The wanted rotation is that with the
+        controller hybrid-base. The rotation about z is {done["leak"].min():.1f} to
+        {done["leak"].max():.1f} times the rotation about x. Z-Y-X angles are a problem in
+        {_problems(zyx)}. With Z-Y-X angles, the rotation about x is at least
+        {zyx["yields"].min():.3f} times the wanted rotation.""",
         len(zyz) + len(zyx),
-        measured=f"""With compliance about x in Z-Y-Z angles, the end effector turns
-        {done["leak"].min():.1f} to {done["leak"].max():.1f} times as far about z as about x. This
-        is a problem at {_problems(near)}.""",
+        measured=f"""If the hand must comply about x and the controller uses Z-Y-Z angles, the hand
+        turns {done["leak"].min():.1f} to {done["leak"].max():.1f} times as far about z as about x.
+        Near zero rotation, Z-Y-Z angles are a problem in {_problems(near)}.""",
     )
 
 
 def _problems(rows: pd.DataFrame) -> str:
-    """Return at how many poses the coordinates are a problem."""
-    return count_of(int(rows["problem"].sum()), len(rows), "poses")
+    """Return in how many tests the coordinates are a problem."""
+    return count_of(int(rows["problem"].sum()), len(rows), "tests")
 
 
 def _about_x(results: Results, coordinates: str, forms: tuple[str, ...]) -> pd.DataFrame:

@@ -6,7 +6,7 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.engines.metrics.contact_force import WINDOW_S
-from bench.findings.amounts import capitalize, count_of
+from bench.findings.amounts import capitalize, count, count_of
 from bench.findings.claims.euler_jacobian import COORDINATES
 from bench.findings.claims.side_by_side import BASE, by_papers_form, paired
 from bench.findings.claims.tables import Results, evidence, percent, some
@@ -52,22 +52,25 @@ def c25(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     agree = by_frame.nunique()[by_frame.size() == len(forms)] == 1
     agreed = ""
     if len(forms) > 1:
-        same = count_of(int(agree.sum()), len(agree), "combinations of task, arm and frame")
-        agreed = f" The variants of force control agree in {same}."
+        same = count_of(int(agree.sum()), len(agree), "combinations of task, arm and frame of the hand")
+        agreed = f" All variants of force control give the same answer (the runs differ or not) in {same}."
     simple = rows[rows["turns"] < 2]
     listed = " ".join(_told(task, own) for task, own in complex_ones.groupby("task"))
     return word, evidence(
-        f"""{capitalize(count_of(sum(depends), len(depends), "tasks"))} in which two rotations comply
-        depend on the Jacobian. We compared {len(complex_ones)} pairs on
-        {complex_ones["arm"].nunique()} arms. {listed} The Euler Jacobian is the worse in
+        f"""The performance depends on the Jacobian in {count_of(sum(depends), len(depends), "tasks")}
+        in which two rotations comply. A pair is two runs of a task that differ only in the
+        Jacobian: one run with the Euler Jacobian, and one with the geometric Jacobian. The two runs
+        differ if their outcomes differ, or if a measured result differs by a factor of
+        {LIMIT.PARTS:g} or more. We compared {len(complex_ones)} pairs on
+        {complex_ones["arm"].nunique()} arms. {listed} The run with the Euler Jacobian is the worse in
         {count_of(int(parted["euler_is_worse"].sum()), len(parted), "pairs")} that differ.{agreed}
-        On tasks in which fewer rotations comply,
+        In tasks in which fewer than two rotations comply,
         {count_of(int(simple["parts"].sum()), len(simple), "pairs")} differ.""",
         len(rows),
-        measured=f"""If the task frame is turned by {LIMIT.TURNED_DEG:g}° or more, the two Jacobians
-        perform differently in {count_of(int(turned["parts"].sum()), len(turned), "pairs")} of runs.
-        If the frame is not turned, they perform differently in
-        {count_of(int(straight["parts"].sum()), len(straight), "pairs")}.""",
+        measured=f"""With |beta| >= {LIMIT.TURNED_DEG:g}°, a run with the Euler Jacobian and the same
+        run with the geometric Jacobian perform differently in
+        {count_of(int(turned["parts"].sum()), len(turned), "pairs")} of runs. With beta = 0, they
+        perform differently in {count_of(int(straight["parts"].sum()), len(straight), "pairs")}.""",
     )
 
 
@@ -116,19 +119,21 @@ def _told(task: str, rows: pd.DataFrame) -> str:
     """Describe how the pairs of a task with turned and with straight frames part."""
     turned, straight = rows[rows["is_turned"]], rows[rows["beta"].abs() <= LIMIT.ZERO_RAD]
     return (
-        f"In the task {task} with |beta| >= {LIMIT.TURNED_DEG:g} degrees, {_parted(turned)} "
-        f"In the task {task} with beta = 0, {_parted(straight)}"
+        f"In the task {task} with |beta| >= {LIMIT.TURNED_DEG:g} degrees, the two runs differ in {_parted(turned)} "
+        f"In the task {task} with beta = 0, the two runs differ in {_parted(straight)}"
     )
 
 
 def _parted(rows: pd.DataFrame) -> str:
     """How many part, how many of them by their outcomes, and the greatest factor of the others."""
     by_outcome = np.isinf(rows["factor"])
-    ends = f", {by_outcome.sum()} of them in the outcome" if by_outcome.any() else ""
     pairs = count_of(int(rows["parts"].sum()), len(rows), "pairs")
-    among = " of the other pairs" if by_outcome.any() else ""
+    ends, among = "", "The"
+    if by_outcome.any():
+        ends = f", and their outcomes differ in {count(int(by_outcome.sum()), 'pair')}"
+        among = "In the other pairs, the"
     most = rows["factor"][~by_outcome].max()
-    return f"{pairs} differ{ends}. The measured results{among} differ by factors of up to {most:.3g}."
+    return f"{pairs}{ends}. {among} greatest factor between the measured results of the two runs is {most:.3g}."
 
 
 @claim("C47")

@@ -12,6 +12,7 @@ import numpy as np
 
 from bench.base.on_first_use import Turn
 from bench.experiments.tables.statistics import quantile_estimate
+from bench.findings.amounts import join_words
 from bench.findings.claims import probes
 from bench.findings.claims.probes import at_boundary
 from bench.findings.claims.tables import (
@@ -178,16 +179,17 @@ def c28(results: Results) -> tuple[Word, Evidence]:
         missed >= LIMIT.COMMUTATOR * a * a for a, missed in zip(LOOPS_RAD, loops, strict=True)
     )
     word = word_of(is_none and plane <= LIMIT.SAME_RAD, is_none)
-    missed = ", ".join(f"{angle:.3f} (a = {a:.3g})" for a, angle in zip(LOOPS_RAD, loops, strict=True))
+    missed = join_words(f"{angle:.3f} rad for a = {a:.3g} rad" for a, angle in zip(LOOPS_RAD, loops, strict=True))
     return word, evidence(
         f"""We used {len(ends)} pairs of paths. Both paths of a pair lead to the same orientation, but their integrals
-        differ by {ends.min():.2f} to {ends.max():.2f} rad (median: {np.median(ends):.2f} rad). A body made four turns
-        by an angle a, whose integrals sum to zero. After these turns, the body was turned by {missed} rad. If all turns
-        of a path are about one axis, the integral gives the rotation, to {plane:.0e} rad.""",
+        differ by {ends.min():.2f} to {ends.max():.2f} rad. A body made four turns, each by an angle a. The integrals of
+        the four turns sum to zero. But after the four turns, the angle of the body's rotation was {missed}. If all
+        turns of a path are about one axis, the integral gives the rotation, with an error of at most {plane:.0e}
+        rad.""",
         2 * len(ends) + len(loops),
-        measured=f"""The integrals of omega along two paths to one orientation differ by
-        {interval(quantile_estimate(ends, 0.5), ".2f")} rad. This is the median of {len(ends)} pairs
-        of paths.""",
+        measured=f"""Along two paths to the same orientation, the integrals of the angular velocity
+        differ by {interval(quantile_estimate(ends, 0.5), ".2f")} rad. This is the median of
+        {len(ends)} pairs of paths, with its 95 % interval.""",
     )
 
 

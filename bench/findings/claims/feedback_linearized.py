@@ -178,10 +178,10 @@ def _is_erratic(rows: pd.DataFrame, limit: float) -> pd.Series:
 
 
 HEADS = (
-    "Inertia, divided by that of the model",
+    "Inertia of the body, divided by the inertia of the model",
     "Law",
     "Median settling time",
-    "Median settling time, divided by that with the model's inertia",
+    "Median settling time, divided by that with the right inertia",
     "Starts that do not settle",
 )
 """Heads of what was measured with a wrong inertia."""
@@ -216,9 +216,9 @@ def c30(results: Results) -> tuple[Word, Evidence]:
         {of_inertia}. The table compares both laws from the same {LIMIT.STARTS} starts. For comparison, a linear system
         with twice the inertia takes {heavy / linear:.2f} times as long to settle.""",
         sum(map(len, runs)),
-        measured=f"""Errors of B are not tested. If the inertia is {heaviest:g} times that of the
-        model, the settling time of feedback linearization grows to {own_slow:.2f} times its value,
-        and that of the rotation-matrix law to {other_slow:.2f} times.""",
+        measured=f"""Errors of B are not tested. If the inertia of the body is {heaviest:g} times that
+        of the model, the median settling time grows by a factor of {own_slow:.2f} with feedback
+        linearization, and by a factor of {other_slow:.2f} with the rotation-matrix law.""",
         instead=f"""We did not test whether an error of B or of Bdot is a problem. We judged a statement of our own:
         feedback linearization needs no better model of the inertia than the rotation-matrix law. This statement
         {of_inertia}.""",

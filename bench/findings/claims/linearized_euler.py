@@ -10,7 +10,7 @@ from bench.base.on_first_use import pd
 from bench.experiments.suites import SHORT
 from bench.experiments.tables.read import converged
 from bench.experiments.tables.statistics import quantile_estimate
-from bench.findings.amounts import capitalize, count_of
+from bench.findings.amounts import capitalize, count_of, join_words
 from bench.findings.claims import probes, tables
 from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.at_gains import on_every_engine, weakest_at_every_gain
@@ -149,20 +149,21 @@ def c29(results: Results) -> tuple[Word, Evidence]:
     ticks = np.array([[results.dt_s / closed_form.linear_settling(*pair)] for pair in GAINS])
     gains = results.gains()
     within = max((angle for angle in LIMIT.LARGER_RAD if off(angle, gains) <= LOOSE_SETTLING), default=0.0)
-    by_angle = ", ".join(
-        f"{percent(most)} % at {angle:g} rad" for angle, most in zip(SMALL_ANGLES, small.max(axis=0), strict=True)
+    by_angle = join_words(
+        f"{percent(most)} % for rotations of {angle:g} rad"
+        for angle, most in zip(SMALL_ANGLES, small.max(axis=0), strict=True)
     )
     is_tight, is_loose = (small <= SMALL_ANGLES + ticks).all(), (small <= LOOSE_SETTLING + ticks).all()
     return word_of(is_tight, is_loose), evidence(
         f"""We tested {LIMIT.DIRECTIONS} axes at {len(GAINS)} pairs of gains. Settling times differ from the closed form
-        of the linear model by at most {by_angle}. At the run's gains, the closed form is
-        {closed_form.linear_settling(*gains):.4f} s. We also tried rotations of
+        of the linear model by at most {by_angle}. With the gains of the run, the closed form gives a settling time of
+        {closed_form.linear_settling(*gains):.4f} s. With these gains, we also tried rotations of
         {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} rad. Up to {within:g} rad, every settling time is within
         {100 * LOOSE_SETTLING:.0f} % of the closed form.""",
         LIMIT.DIRECTIONS * (small.size + len(LIMIT.LARGER_RAD)),
         measured=f"""For rotations of at most {max(SMALL_ANGLES):g} rad about {LIMIT.DIRECTIONS}
-        axes, settling times differ from those of the linear model by at most {percent(small.max())}
-        %.""",
+        axes, the settling times of the linearized law differ from those of its linear model by at
+        most {percent(small.max())} %.""",
     )
 
 

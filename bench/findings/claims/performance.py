@@ -209,12 +209,14 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
     passing = sum(result.passes for result in without)
     rest = "Laws without memory were not tested."
     if without:
-        rest = f"Of the {len(without)} later laws without memory, {passing or 'none'} pass all eight."
+        rest = f"Of the {len(without)} later laws without memory, {passing or 'none'} pass all eight tests."
     # (e) and (f) together are impossible without memory: Bhat and Bernstein 2000; Mayhew, Sanfelice, Teel 2011.
     impossible = ""
     if without and not passing:
         impossible = " A law without memory cannot pass all eight tests."
-    instead = f"These laws answer the question: {named}.{impossible}" if answers else ""
+    instead = ""
+    if answers:
+        instead = f"These laws pass all eight tests and so answer the open question: {named}.{impossible}"
     return word, evidence(
         f"""We tested {by_others} later laws by others, of which we adapted {counts[ADAPTED]}, and {counts[OURS]} later
         laws of ours. {capitalize(count_of(len(adequate), len(later), "later laws"))} are adequate in both cost and
@@ -226,8 +228,8 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
         longest adequate settling time is {adequacy.SLOW * small:.3f} s.""",
         sum(law.rows + held.get(law.name, (0, 0))[1] for law in later),
         instead=instead,
-        measured=f"""{capitalize(count_of(len(answers), len(later), "later laws"))} pass all eight
-        tests. {rest}""",
+        measured=f"""{capitalize(count_of(len(answers), len(later), "later laws"))} (all laws except
+        the paper's) pass all eight tests of our criterion. {rest}""",
         numbers=(ANSWERS, *(_answer(law, tested[law.name], known) for law in (*answers, *others))),
     )
 
@@ -237,10 +239,10 @@ ANSWERS = (
     "Attribution",
     "Tests (a) to (h)",
     "Flops and calls",
-    "Computing time over that of the rotation-matrix law",
+    "Computing time, divided by that of the rotation-matrix law",
     "Uniform starts that settle",
     "Time until 99 % of the uniform starts settle",
-    "Greatest ratio of the path to the shortest path",
+    "Length of the path, divided by that of the shortest path (greatest value)",
 )
 """Heads of what was measured of a later law."""
 
@@ -297,16 +299,16 @@ def c31(results: Results) -> tuple[Word, Evidence]:
         {percent(linearized.value)} % with the linearized law, and {percent(mine.value)} % with feedback
         linearization.""",
         3 * len(laws[-1]),
-        instead=f"""Until {100 * LIMIT.NEARLY_ALL:.0f} % of the starts have settled, the rotation-matrix law takes
-        {longer[0]} times as long as feedback linearization. The rotation-matrix law settles from
+        instead=f"""The time until {100 * LIMIT.NEARLY_ALL:.0f} % of the starts have settled is {longer[0]} times as
+        long with the rotation-matrix law as with feedback linearization. The rotation-matrix law settles from
         {count_of(matrix.k, matrix.n, "starts")}.""",
-        measured=f"""Until 99 % of the starts have settled, the rotation-matrix law takes
-        {longer[0]} times as long as feedback linearization.""",
+        measured=f"""The time until 99 % of the starts have settled is {longer[0]} times as long with
+        the rotation-matrix law as with feedback linearization.""",
         numbers=(
             (
                 "Law",
                 "Uniform starts that settle",
-                "Time until 99 % of the starts settle, divided by this time of feedback linearization",
+                "Time until 99 % of the starts settle, divided by this time with feedback linearization",
             ),
             *zip(THREE, settles, (*longer, "1"), strict=True),
         ),

@@ -23,10 +23,11 @@ PAIRED = ("task", "arm", "form", "pose", "complies")
 """What two controllers' rows have in common: the same arm, scene, frame of the hand, order and form."""
 
 DECIDES = f"""
-    Force control has several variants here (the column `form`). The rows of the variant '{PAPERS_FORM}' decide, because
-    this variant is the paper's force control ("converted to joint torques by the Jacobian transpose", 3.3). Our first
-    verdict used the variants {" and ".join(f"'{form}'" for form in ACCELERATION_FORMS)}. We still report the results of
-    these variants, judged by the same criterion.
+    We simulated several variants of force control (the column `form` of compliance.parquet). The verdict comes from the
+    variant '{PAPERS_FORM}', because it is the paper's force control ("converted to joint torques by the Jacobian
+    transpose", 3.3). Our first verdict came from the variants
+    {" and ".join(f"'{form}'" for form in ACCELERATION_FORMS)}, which command accelerations. We still report the results
+    of these variants, judged by the same criterion.
     """
 
 
