@@ -227,8 +227,8 @@ def describe_default() -> str:
     law, rows = find_regions()[0].law, read_map()
     [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == law)].to_dict("records")
     return (
-        f"With {families.word(law)}, kp = {KP:g} 1/s², critical damping and no bound, the body settles from every start "
-        "that we tried. From 99 % of these starts the body settles within "
+        f"With {families.word(law)}, kp = {KP:g} 1/s², critical damping and no bound, the body settles from every "
+        "start that we tried. From 99 % of these starts the body settles within "
         f"{row['time'] / KP**0.5:.2f} s. Noise up to {NOISE_RAD:g} rad cannot keep the body at "
         f"180°. {words.describe_shares(law)}"
     )
