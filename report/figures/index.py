@@ -57,8 +57,8 @@ def describe_edition(run: Run) -> str:
     commit = found["commit"][:8] or "unknown"
     date = found["finished"][:10]
     return (
-        f"{', '.join(list_authors())}. Version {edition['version']}, with results of {date} (suite {found['suite']}, "
-        f"commit {commit}{changed}). Everything is simulated; no hardware was used."
+        f"{', '.join(list_authors())}. Version {edition['version']}, with results of {date} (suite of "
+        f"simulations: {found['suite']}; commit {commit}{changed}). Everything is simulated; no hardware was used."
     )
 
 
