@@ -57,8 +57,8 @@ def describe_edition(run: Run) -> str:
     commit = found["commit"][:8] or "unknown"
     date = found["finished"][:10]
     return (
-        f"{', '.join(list_authors())}. Version {edition['version']}, with results of {date} (suite {found['suite']}, "
-        f"commit {commit}{changed}). Everything is simulated; no hardware was used."
+        f"{', '.join(list_authors())}. Version {edition['version']}, with results of {date} (suite of "
+        f"simulations: {found['suite']}; commit {commit}{changed}). Everything is simulated; no hardware was used."
     )
 
 
@@ -73,9 +73,10 @@ def describe_replication(run: Run) -> str:
     """Return the abstract: what the paper concluded, what was simulated, and what came out."""
     sentences = [
         "In 1988 Murphy compared three regulators for the orientation of an end effector.",
-        "He concluded that no regulator combines performance with low cost, and that a Jacobian on Euler angles "
-        "excludes some orientations. He also concluded that force control with this Jacobian complies about the Euler "
-        "angles, not about the Cartesian axes. He left open whether better regulators exist.",
+        "He concluded that no regulator combines performance with low cost, and that a Jacobian for Euler angles "
+        "excludes some orientations. He also concluded that, under force control with this Jacobian, the end effector "
+        "complies about the axes of the Euler angles, not about the Cartesian axes. He left open whether better "
+        "regulators exist.",
     ]
     for find, otherwise in FOUND.items():
         sentences.append(in_run(find, run) or f"{otherwise} is not tested in this run.")
@@ -88,8 +89,8 @@ def describe_size(run: Run) -> str:
     episodes = found["episodes"] + found["trials"] + found["troubled"]
     arms = run.rows("episodes", task="arm-regulation")["arm"].nunique()
     return (
-        f"We implemented his regulators, Jacobians and force control. We simulated {html.number(episodes)} episodes "
-        f"with a free body and {arms} arms."
+        f"We implemented his regulators, Jacobians and force control. We ran {html.number(episodes)} simulations of a "
+        f"free body and of {arms} arms."
     )
 
 
@@ -97,8 +98,9 @@ def describe_statements(run: Run) -> str:
     """Say how many of the paper's statements hold, and how many criteria were revised."""
     counts = count_statements(run)
     return (
-        f"Of his {counts['decided']} statements, {counts['words']}. We revised {counts['changed']} criteria for these "
-        f"statements after the first results. We report the verdicts by the first and by the revised criteria."
+        f"Of his {counts['decided']} statements, {counts['words']}. We judged each statement by a criterion in "
+        f"numbers, and revised {counts['changed']} of these criteria after the first results. We report the verdicts "
+        f"by the original and by the revised criteria."
     )
 
 
@@ -128,8 +130,8 @@ def describe_pole(run: Run) -> str:
     both = compare_jacobians(run)
     ratio = float(f"{both.harder.value:.2g}")
     return (
-        f"When an arm passes gimbal lock, the Euler Jacobian needs {ratio:g} times the peak torque of the geometric "
-        f"Jacobian (median of {both.moves} moves)."
+        f"When an arm passes gimbal lock, a controller with the Euler Jacobian needs {ratio:g} times the peak torque "
+        f"of a controller with the geometric Jacobian (median of {both.moves} moves)."
     )
 
 

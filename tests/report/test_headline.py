@@ -48,9 +48,9 @@ def test_finding_counts_the_starts_that_are_lost(episodes):
     of_law = failure_map.find_common_starts(episodes)
     lost = [int((rows["outcome"] != "settled").sum()) for rows in of_law.values()]
     rows = of_law[find_default()]
-    assert [int(one) for one in re.findall(r"from (\d+)", finding)] == lost[:3]
+    assert [int(one) for one in re.findall(r": (\d+) start", finding)] == lost[:3]
     assert lost[3] == 0
-    assert finding.endswith(f"MRP with memory settles from all {len(rows)} starts.")
+    assert finding.endswith(f"With MRP with memory, the body settles from all {len(rows)} starts.")
 
 
 def test_planted_failure_of_the_advised_law_is_said(episodes):
@@ -58,7 +58,7 @@ def test_planted_failure_of_the_advised_law_is_said(episodes):
     rows = failure_map.find_common_starts(planted)[find_default()]
     stuck = int((rows["start_set"] == "poles").sum())
     assert stuck > 0
-    assert failure_map.say_finding(planted).endswith(f"MRP with memory never settles from {stuck} starts.")
+    assert failure_map.say_finding(planted).endswith(f"MRP with memory, the body never settles from {stuck} starts.")
 
 
 def test_run_without_the_advised_law_says_so_and_shows_the_others(episodes):

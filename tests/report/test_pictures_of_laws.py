@@ -69,7 +69,7 @@ def test_law_that_stores_a_potential_is_not_said_to_store_a_side():
     assert "With the 1 laws that store a side and whose limit is known, the body leaves 180° from every start" in said
     assert said.endswith("at noise up to 0.1 rad")
     trapped = half_turn_noise.trap(half_turn_noise.leaving(rows), "synergistic")
-    assert trapped == "synergistic leaves 180° from 50 % of the starts (δ = 0.1 rad)"
+    assert trapped == "the body leaves 180° with synergistic from 50 % of the starts (δ = 0.1 rad)"
 
 
 def test_every_law_with_noise_is_in_one_of_the_two_pictures():

@@ -66,7 +66,7 @@ def recompute_failure_map():
     bad = n - sum(fine)
     low, high = binomtest(bad, n).proportion_ci(0.95)
     return {
-        "mapped_l": f"{100 * bad / n:.2f} % ({100 * low:.2f} to {100 * high:.2f})",
+        "mapped_l": f"{100 * bad / n:.2f} % (95 % interval: {100 * low:.2f} to {100 * high:.2f} %)",
         "mapped": n,
     }
 
@@ -123,7 +123,7 @@ def recompute_noise():
     return {
         "half_turn_noise.middle": f"{middle:g}",
         "half_turn_noise.blind_middle": f"{100 * left.loc[~remembers, middle].max():.0f}",
-        "half_turn_noise.memory_middle": "all these laws leave 180° from every start",
+        "half_turn_noise.memory_middle": "with all these laws, the body leaves 180° from every start",
     }
 
 
@@ -192,14 +192,14 @@ def recompute_resets(law):
 
 def recompute_default():
     """Return what is said of the law of the widest region, in chapter 7."""
-    (law, _, _), *others = widest()
+    law = widest()[0][0]
     rows = table("situations", "situations")
     nominal = rows[(rows["zeta"] == 1.0) & (rows["law"] == law) & (rows["period"] == 0.01)]
     nominal = nominal[
         np.isinf(nominal["bound"]) & (nominal[["delay", "unevenness", "spin", "jump"]] == 0.0).all(axis=1)
     ]
     [time] = nominal.loc[nominal["inertia"] == 1.0, "time"]
-    return [100, 99, f"{time / 10:.2f} s", 0.1, 180, *recompute_shares(law), *recompute_price(law, others[0][0])]
+    return [100, 99, f"{time / 10:.2f} s", 0.1, 180, *recompute_shares(law)]
 
 
 def recompute_ours():
@@ -245,7 +245,7 @@ def recompute_abstract():
     verdicts = recompute_verdicts()
     arms = rows.loc[rows["arm"] != "", "arm"].nunique()
     said = [1988, about["episodes"] + about["trials"] + about["troubled"], f"{arms} arms"]
-    said += [verdicts["decided"], *verdicts["words"], f"{len(read_history())} criteria"]
+    said += [verdicts["decided"], *verdicts["words"], f"{len(read_history())} of these criteria"]
     said += [f"all {failed}" if failed == len(half_turns) else f"{failed} of {len(half_turns)}", 180]
     said += [f"{100 * lost / len(linearized):.1f} %", f"{100 * low:.1f} to {100 * high:.1f} %", len(linearized)]
     harder = torque_ratios_at_pole()

@@ -177,13 +177,12 @@ OPERATIONS = (
 @claim("C26")
 def c26(results: Results) -> tuple[Word, Evidence]:
     """Pairs of controllers on six and seven joints."""
-    timed, stands, flops, more = results.controller_timings(), [], [], []
+    timed, stands, sizes = results.controller_timings(), [], []
     rows: list[tuple[str, ...]] = []
     for joints, inverse in INVERSES.items():
         three = {f"{one}+{inverse}": controller_costs(results, one, joints) for one in (BY_COMMON, ON_MATRIX, BY_EULER)}
         alone, whole = ({name: tallied(own, goal) for name, own in three.items()} for goal in (False, True))
-        flops.append(f"{euler_count(whole, three)} flops per control step with {joints} joints")
-        more.append(f"{surplus(whole, three)} %")
+        sizes.append(f"{euler_count(whole, three)} with {joints} joints ({surplus(whole, three)} % more)")
         times = standing.times_of(timed[timed["contender"].isin(list(three))])
         known = standing.Ledger(times, (alone, whole), math.nan, standing.MEASURABLE)
         *others, euler = three
@@ -199,8 +198,8 @@ def c26(results: Results) -> tuple[Word, Evidence]:
         longer in {count_of(sum(one.by_time == ORDERED for one in stands), len(stands), "pairs")}.""",
         3 * 2 * len(INVERSES) + len(timed),
         ("costs", "timings") if len(timed) else ("costs",),
-        measured=f"""The controller (3.7) on the Euler Jacobian takes {join_words(flops)}. This is
-        {join_words(more)} more than the cheapest controller on the geometric Jacobian (2.2) takes.""",
+        measured=f"""The controller with the Euler Jacobian (3.7) takes more operations per control step than the
+        cheapest controller with the geometric Jacobian (2.2): {join_words(sizes)}.""",
         numbers=(OPERATIONS, *rows),
     )
 

@@ -54,10 +54,11 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         ", ".join(f"{short} {one[name]}" for short, name in zip(NAMES, THREE, strict=True)) for one in known.accountings
     )
     own = [known.accountings[0][name] for name in THREE]
+    counts = [f"{one.flops} flops and {one.calls or 'no'} calls" for one in own]
     times = [known.over(name, THREE[0]) for name in THREE[1:]]
     ratios = "Their times were not measured."
     if known.times:
-        ratios = f"The last two take {join_words(times)} times as long as the first law."
+        ratios = f"The last two laws take {join_words(times)} times as long as the rotation-matrix law."
     timed = ", ".join(f"{short} {known.over(name, THREE[0])}" for short, name in zip(NAMES[1:], THREE[1:], strict=True))
     in_words = [law.removeprefix("the ") for law in IN_WORDS]
     orders = [
@@ -94,8 +95,8 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         len(THREE) * (len(known.accountings) + len(known.times)),
         ("costs", "timings") if known.times else ("costs",),
         instead if word == Word.CORRECTED else "",
-        f"""Flops and calls are {own[0]} for the rotation-matrix law, {own[1]} for the linearized law and {own[2]} for
-        feedback linearization. {ratios}""",
+        f"""A control step takes {counts[0]} with the rotation-matrix law, {counts[1]} with the linearized law and
+        {counts[2]} with feedback linearization. {ratios}""",
     )
 
 
@@ -118,7 +119,9 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
     if open_yet and word != Word.FAILS:
         word = Word.UNTESTED
     words = [law for law, name in zip(IN_WORDS, NAMES, strict=True) if name in adequate]
-    fine = f"{capitalize(join_words(words))} {'is' if len(words) == 1 else 'are'}" if words else "None of the laws is"
+    fine = "None of the three laws is"
+    if words:
+        fine = f"{capitalize(join_words(words))} {'is' if len(words) == 1 else 'are'}"
     if adequate:
         beside_it = "".join(
             said

@@ -147,14 +147,17 @@ def describe_lines(law: str, called: Called = str, folder: Path = STUDY) -> str:
     """Say where, one number at a time, a law of either set is faster than a law, which one, and by how much."""
     lines = follow_lines(law, folder, tie=SPOKEN)
     qualified, everything = (describe_rivals(lines, among_all, called) for among_all in (False, True))
-    first = f"If one number changes at a time, no published or adapted law is more than {percent(SPOKEN)} faster"
+    first = (
+        "If one number of the nominal situation changes at a time, no published or adapted law is "
+        f"more than {percent(SPOKEN)} faster than {called(law)}"
+    )
     if everything == "none":
         return f"{first}."
     if qualified == "none":
         return f"{first} and meets the requirements. Laws that fail a requirement are faster at: {everything}."
     return (
         f"{first}, except at: {everything}. The brackets name the fastest law, and say how much "
-        f"faster it is. Laws that meet the requirements are more than {percent(SPOKEN)} faster "
+        f"faster this law is. Laws that meet the requirements are more than {percent(SPOKEN)} faster "
         f"at: {qualified}."
     )
 

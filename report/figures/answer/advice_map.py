@@ -95,9 +95,12 @@ def say_finding(points: Sequence[Point]) -> str:
     unanswered = len(points) - counts.total()
     (first, most), *others = counts.most_common()
     rest = ", ".join(f"{families.word(law)} ({count} situations)" for law, count in others)
-    others_text = f" Other advised laws: {rest}." if rest else ""
+    others_text = f" The other advised laws are {rest}." if rest else ""
     none = f" In {unanswered} situations {NONE}." if unanswered else ""
-    return f"{families.word(first)} is advised in {most} of the {len(points)} simulated situations.{others_text}{none}"
+    return (
+        f"{families.word(first)} is advised in {most} of the {len(points)} simulated situations of this map."
+        f"{others_text}{none}"
+    )
 
 
 def decide_shown(rule: str) -> dict[Situation, Verdict]:

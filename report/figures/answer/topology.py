@@ -40,7 +40,9 @@ def describe_fates() -> str:
         angle = round(math.degrees(episode["angle0_rad"]))
         verb = "is " if episode["outcome"] == STUCK else ""
         by_start.setdefault(angle, []).append(f"{verb}{episode['says']} with {families.word(episode['contender'])}")
-    return ". ".join(f"From {angle}°, the body {join_words(says)}" for angle, says in by_start.items())
+    return ". ".join(
+        f"From a start {angle}° away from the goal, the body {join_words(says)}" for angle, says in by_start.items()
+    )
 
 
 def count_laws(run: Run) -> dict[str, object]:

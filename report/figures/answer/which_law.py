@@ -49,13 +49,19 @@ RULE_WORDS = {
     "noise is left out": "the noise test is left out",
     "no memory": "laws with memory are left out",
     "a continuous command": "laws whose command is not continuous are left out",
-    "the median time decides": "laws are compared by their median time",
-    "the 99.9 % time decides": "laws are compared by their 99.9 % time",
-    "the least effort decides": "laws are compared by their effort",
-    "times within 5 % are equal": "times within 5 % count as equal",
-    "times within 10 % are equal": "times within 10 % count as equal",
+    "the median time decides": "laws are compared by their median settling time",
+    "the 99.9 % time decides": "laws are compared by the time in which 99.9 % of the starts settle",
+    "the least effort decides": "laws are compared by the integral of the squared command",
+    "times within 5 % are equal": "times that differ by up to 5 % count as equal",
+    "times within 10 % are equal": "times that differ by up to 10 % count as equal",
 }
 """What the table calls a rule where its short name needs the text."""
+
+NOMINAL_IN_WORDS = (
+    "The nominal situation has critical damping, no command limit, no delay, a control period of 0.01/√kp, the inertia "
+    "of the model, no spin and no goal jump."
+)
+"""What `tasks.situation.NOMINAL` is."""
 
 NEEDS = html.Table("Your controller | Advised law | Why we advise this law | Price of this law | All laws compared")
 LEAST = 0.01
@@ -94,7 +100,7 @@ def facts(run: Run) -> dict[str, Any]:
         "same": str(held.same),
         "map_unbeaten": f"{100 * held.map.qualified.value:.0f}",
         "default_unbeaten": f"{100 * held.default.qualified.value:.0f}",
-        "reliable": RELIABLE((_rated("the law of the map", held.map), _rated("always the default", held.default))),
+        "reliable": RELIABLE((_rated("the law of the map", held.map), _rated("always the default law", held.default))),
         "proved": count_of(proved, len(certificates), "laws"),
         "provable": len(certificates),
         "lines": words.describe_lines(find_regions()[0].law, families.word),
@@ -150,7 +156,7 @@ def count_other_needs() -> str:
     other = sum(law not in (default.law, NOT_TESTED) for law in laws)
     count = f"All {other}" if other == len(laws) else f"{other or 'None'} of the {len(laws)}"
     return (
-        f"{count} other kinds of controllers in this table need another law than the default law, "
+        f"{count} kinds of controllers below the first row need another law than the law of the first row, "
         f"{families.word(default.law)}"
     )
 
@@ -164,12 +170,12 @@ def describe_halves(halves: int, of: int) -> str:
 
 def describe_condition(answer: Answer) -> str:
     """Return the condition of the answer, and how the command limits in the table of controllers differ from it."""
-    sentences = [prose(call_laws(answer.condition))]
+    sentences = [prose(call_laws(answer.condition)), NOMINAL_IN_WORDS]
     for need in answer.needs:
         if need.name == "weak-motors":
             law = families.word(need.law)
             sentences.append(
-                f"In the row of {law} below, the command limits are those at which {law} is more than "
+                f"The table below advises {law} for the command limits at which {law} is more than "
                 f"{100 * SPOKEN:.0f} % faster than {families.word(answer.law)}."
             )
     return " ".join(sentences)
@@ -221,10 +227,10 @@ def describe_default() -> str:
     law, rows = find_regions()[0].law, read_map()
     [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == law)].to_dict("records")
     return (
-        f"With kp = {KP:g} 1/s², critical damping and no bound, the body settles from every start "
-        "that we tried. From 99 % of these starts the body settles within "
+        f"With {families.word(law)}, kp = {KP:g} 1/s², critical damping and no bound, the body settles from every "
+        "start that we tried. From 99 % of these starts the body settles within "
         f"{row['time'] / KP**0.5:.2f} s. Noise up to {NOISE_RAD:g} rad cannot keep the body at "
-        f"180°. {words.describe_shares(law)} {words.describe_price(law, called=families.word)}"
+        f"180°. {words.describe_shares(law)}"
     )
 
 

@@ -115,8 +115,8 @@ def compare_late(rows: pd.DataFrame) -> str:
     times = {law: float(settle(rows, EQUATIONS[law], angle)[0]) for law in SHOWN if law in run}
     slowest, fastest = max(times, key=times.__getitem__), min(times, key=times.__getitem__)
     return (
-        f"From {LATE_DEG}°, the body settles in {times[slowest]:.2f} s with {families.word(slowest)} and "
-        f"in {times[fastest]:.2f} s with {families.word(fastest)}"
+        f"From a start {LATE_DEG}° away from the goal, the body settles in {times[slowest]:.2f} s with "
+        f"{families.word(slowest)} and in {times[fastest]:.2f} s with {families.word(fastest)}"
     )
 
 

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import NullLocator
 
 from bench.experiments.tables.statistics import quantile_estimate
+from bench.findings.amounts import join_words
 from bench.findings.selection.regions import find_default
 from bench.findings.selection.unbeaten import find_runner_up
 from report.figures.comparison.comparison import costs, uniform
@@ -132,9 +133,9 @@ def describe_argument(found: list[Law]) -> str:
         if law in numbers and math.isfinite(numbers[law].time_s):
             each = numbers[law]
             parts.append(
-                f"within {each.time_s:.2f} s with {families.word(law)}, which commands up to {each.peak:.1f} kp"
+                f"within {each.time_s:.2f} s with {families.word(law)} (commands up to {each.peak:.1f} kp)"
             )
-    return f"99 % of the starts settle {'; '.join(parts)}"
+    return f"99 % of the starts settle {join_words(parts)}"
 
 
 def facts(run: Run) -> dict:

@@ -148,8 +148,8 @@ def describe_pegs(rows: pd.DataFrame) -> str:
         return f"How pegs end is {ABSENT}"
     cartesian, euler = (count_out(read_pegs(rows, contender)[True]) for contender in (CARTESIAN, EULER))
     return (
-        f"With a tilted frame and commanded accelerations, the Euler Jacobian leaves {euler} pegs "
-        f"outside the hole and Cartesian compliance leaves {cartesian} pegs"
+        f"With a tilted frame of the hand and commanded accelerations, {euler} pegs stay outside the hole with the "
+        f"Euler Jacobian, and {cartesian} pegs with Cartesian compliance"
     )
 
 
@@ -164,7 +164,7 @@ def compare_pegs(rows: pd.DataFrame, cartesian: str, euler: str) -> str:
     differ = "differ significantly" if p_value < P_VALUE else "do not differ significantly"
     p_text = spell_powers(f"{p_value:.2g}")
     return (
-        f"With a tilted frame, the shares of pegs that are not inserted {differ} between "
+        f"With a tilted frame of the hand, the shares of pegs that are not inserted {differ} between "
         f"Cartesian compliance and the Euler Jacobian (Fisher's exact test, p = {p_text})."
     )
 

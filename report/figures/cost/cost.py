@@ -94,7 +94,7 @@ def describe_machine(run: Run) -> str:
     table = read_arrow(paths[0], "timings")
     about, passes = json.loads(table.schema.metadata[b"about"]), max(table["passes"].to_pylist())
     return (
-        f"We measured the times on {about['cpu']} with {about['cores']} cores on {about['date'][:10]}, "
+        f"We measured the times on a computer with {about['cores']} cores ({about['cpu']}) on {about['date'][:10]}, "
         f"in {passes} passes."
     )
 

@@ -48,7 +48,6 @@ def facts(run: Run) -> dict[str, Any]:
     limit = adequacy.SLOW * closed_form.linear_settling(*run.gains())
     return {
         "quote": quote("C17"),
-        "cheap": quote("C12"),
         "laws": len(points),
         "limit": f"{limit:.2f}",
         "slow": f"{adequacy.SLOW:g}",
@@ -87,7 +86,7 @@ def describe_plane(points: list[Point], limit_s: float) -> str:
     return (
         f"Of Murphy's laws that settle from 99 % of the starts within {limit_s:.2f} s, "
         f"{families.word(cheapest.law)} takes the fewest operations: {name_counts(cheapest.flops, cheapest.calls)}. "
-        f"{count} as fast and {takes} no more operations."
+        f"{count} as fast and {takes} no more operations than this law."
     )
 
 

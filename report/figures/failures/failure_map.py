@@ -57,7 +57,7 @@ def facts(run: Run) -> dict:
     value, low, high = (100.0 * one for one in lost_share(int(own["lost"].sum()), int(own["starts"].sum())))
     return {
         "mapped": html.number(int(mapped["starts"].min())),
-        "mapped_l": f"{value:.2f} % ({low:.2f} to {high:.2f})",
+        "mapped_l": f"{value:.2f} % (95 % interval: {low:.2f} to {high:.2f} %)",
         # |Edot| over |omega| half a degree off a pole
         "gain": f"{1.0 / math.sqrt(1.0 - math.cos(math.radians(0.5))):.0f}",
         "hero": in_run(hero_picture, run),
@@ -139,17 +139,16 @@ def say_finding(episodes: pd.DataFrame) -> str:
     for name, rows in find_common_starts(episodes).items():
         lost[name] = int((rows["outcome"] != "settled").sum())
         starts = len(rows)
-    papers = [
-        f"{families.word(name)} from {count(lost[name], 'start')}" for name in laws.TITLES if name in lost
-    ]
+    papers = [f"{families.word(name)}: {count(lost[name], 'start')}" for name in laws.TITLES if name in lost]
     default = find_default()
-    advised = "is not in this run"
+    advised = f"The law {families.word(default)} is not in this run."
     if default in lost:
         settles_from_all = f"settles from all {html.number(starts)} starts"
-        advised = f"never settles from {count(lost[default], 'start')}" if lost[default] else settles_from_all
+        settles = f"never settles from {count(lost[default], 'start')}" if lost[default] else settles_from_all
+        advised = f"With {families.word(default)}, the body {settles}."
     return (
-        f"Each law runs from the same {html.number(starts)} starts. Murphy's laws never settle from some of these "
-        f"starts ({', '.join(papers)}); {families.word(default)} {advised}."
+        f"We simulated each law from the same {html.number(starts)} starts. With Murphy's laws, the body never settles "
+        f"from some of these starts ({', '.join(papers)}). {advised}"
     )
 
 

@@ -28,6 +28,9 @@ SHOWN_S = 1.2
 FIGURES = {"3": MATRIX, "4": LINEARIZED, "5": FEEDBACK}
 """Last digit of the paper's figure and of its start -> its law."""
 
+NAMES = {MATRIX: "the rotation-matrix law", LINEARIZED: "the linearized law", FEEDBACK: "feedback linearization"}
+"""What a sentence calls the law of a figure."""
+
 QUOTED = {"3": "C01", "4": "C38", "5": "C09"}
 """Last digit of the paper's figure -> the claim whose sentence describes it."""
 
@@ -136,8 +139,8 @@ def describe_finding(response: Response) -> str:
     if response.peak_deg > response.first_deg + AWAY_DEG:
         away = f" The body first turns away from the goal, from {response.first_deg:.0f}° to {response.peak_deg:.0f}°."
     return (
-        f"The Euler angles stay within {distance} of the linear response. The body {settles}, on "
-        f"a path that is {row['path_ratio']:.2f} times as long as the shortest path.{away}"
+        f"With {NAMES[response.law]}, the Euler angles stay within {distance} of the linear response. The body "
+        f"{settles}, on a path that is {row['path_ratio']:.2f} times as long as the shortest path.{away}"
     )
 
 

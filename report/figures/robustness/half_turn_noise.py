@@ -157,14 +157,14 @@ def trap(noisy: pd.DataFrame, law: str) -> str:
     """Return the share of starts that leave at the first noise at which not all do, in words."""
     trapping = noisy[law][noisy[law] < 1.0]
     share = f"{100 * trapping.iloc[0]:.0f} %" if trapping.iloc[0] else "none"
-    return f"{families.word(law)} leaves 180° from {share} of the starts (δ = {trapping.index[0]:g} rad)"
+    return f"the body leaves 180° with {families.word(law)} from {share} of the starts (δ = {trapping.index[0]:g} rad)"
 
 
 def describe_worst(share: float) -> str:
     """Say from how many starts the body leaves 180° with the worst of some laws."""
     if share == 1.0:
-        return "all these laws leave 180° from every start"
-    return f"the worst of these laws leaves 180° from {100 * share:.0f} % of these starts"
+        return "with all these laws, the body leaves 180° from every start"
+    return f"with the worst of these laws, the body leaves 180° from {100 * share:.0f} % of these starts"
 
 
 def describe_trapped(rows: pd.DataFrame) -> str:
@@ -210,7 +210,7 @@ def facts(run: Run) -> dict:
         "blind_middle": f"{100 * float(noisy.loc[middle, without_memory].max()):.0f}",
         "sided": len(on_a_side),
         "memory_middle": describe_worst(float(noisy.loc[middle, on_a_side].min())),
-        "caught": join_words(trapped) if trapped else "all other laws with memory leave 180° from every start, too",
+        "caught": join_words(trapped) or "the body also leaves 180° from every start with all other laws with memory",
         "least": power(min(jumping)),
         "most": power(max(jumping)),
         **{law: f"{keeps(law):.2f}" for law in ("hybrid", "late-braking", "mrp-linearized")},
