@@ -134,7 +134,9 @@ def describe_weaker(groups: list[list[str]], each: Found, ways: list[Way]) -> st
     common = each[usual[0]]
     apart = {law: [way for way in ways if str(each[law][way]) != str(common[way])] for law in laws}
     is_less = all(_is_less(each[law][way], common[way], way) for law in laws for way in apart[law])
-    verbs = ("withstand only milder levels", "withstands only milder levels") if is_less else ("have other thresholds", "has other thresholds")
+    verbs = ("have other thresholds", "has other thresholds")
+    if is_less:
+        verbs = ("withstand only milder levels", "withstands only milder levels")
     counts = sorted({len(ways_of_law) for ways_of_law in apart.values()})
     number = f"{counts[0]} to {counts[-1]}" if len(counts) > 1 else f"{counts[0]}"
     verb = verbs[len(laws) == 1]
