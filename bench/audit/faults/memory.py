@@ -1,4 +1,4 @@
-"""the function returns different errors for the same pair of orientations, because it has a state or noise.
+"""the function returns different errors for the same pair of orientations, because it has a state or adds noise.
 
 effect: the error depends on earlier calls; the audit tests each pair alone, so the other results of the audit are not
   valid
