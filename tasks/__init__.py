@@ -96,7 +96,7 @@ def load(
     arm: str = "",
     vary: Callable[[mujoco.MjModel], None] | None = None,
 ) -> Environment:
-    """Return a dm_control Environment that begins every episode at `start` and lasts `horizon` seconds.
+    """Return a dm_control Environment. Every episode begins at `start` and lasts `horizon` seconds.
 
     Args:
         start: a Start; for a task in contact, a Trial. The default is the first start of the set `paper`; on an arm,
@@ -135,8 +135,8 @@ def knows_joints(name: str) -> bool:
 def start_set(name: str, count: int | None = None, seed: int = 0, arm: str = "") -> list[Start]:
     """Return the first `count` starts of a set; by default as many as the set defines.
 
-    For one seed, the starts and their order are always the same. If a set is sampled, `count` may be larger than the
-    number that the set defines.
+    For one seed, the starts and their order are always the same. If a set is sampled, `count` may exceed the number of
+    starts that the set defines.
     """
     if count is not None and count < 1:
         raise BadValue(f"count {count} starts of '{name}': a start set needs at least 1 (try: count=10)")
@@ -164,7 +164,7 @@ def start_set_length(name: str, count: int | None = None, seed: int = 0, arm: st
 def starts_between(name: str, first: int, end: int, seed: int = 0) -> list[Start]:
     """Return the starts of the free body from number `first` to number `end` - 1: start_set(name, end, seed)[first:].
 
-    If the set is sampled, only these starts are computed, and starts with large numbers take no more time.
+    If the set is sampled, only these starts are computed, and starts with large numbers do not take longer to compute.
     """
     chosen = find_start_set(name, False)
     if isinstance(chosen, StartSet) and chosen.between:
@@ -178,7 +178,7 @@ def axis_names() -> list[str]:
 
 
 def axis(name: str) -> Axis:
-    """Return the perturbation axis of this name; the error UnknownName lists the known names."""
+    """Return the perturbation of this name; the error UnknownName lists the known names."""
     return pick("axis", name, known_axes(), "tasks/conditions")
 
 

@@ -13,9 +13,11 @@ NO_MEMORY = (0.0, 0.0, 0.0, 0.0)
 
 
 class Gains(NamedTuple):
-    """Position gain kp and velocity gain kv: for small errors every law is u = kp (rotation vector error) - kv omega.
+    """Position gain kp and velocity gain kv: for small errors every law is u = kp phi - kv omega.
 
-    kp in 1/s^2, kv in 1/s. The defaults are the paper's (Murphy 1988, 2.3): critically damped at 10 rad/s.
+    phi is the rotation vector to the goal; kp is in 1/s^2, kv in 1/s.
+
+    The defaults are the paper's (Murphy 1988, 2.3): critically damped at 10 rad/s.
     """
 
     kp: float = 100.0
@@ -26,16 +28,17 @@ PAPERS_GAINS = Gains()
 
 
 class Tuning(NamedTuple):
-    """What a law is called with as `gains`: the gains, and the limits under which its command is carried out.
+    """The argument `gains` of a law: the gains, and the limits of the motors that carry out the command.
 
-    A law may read the limits or take no notice of them. The plant applies them in either case: it shortens a command
-    whose length is above the bound, and keeps its direction.
+    A law may use or ignore these limits. In both cases the plant applies the limits: if a command is longer than the
+    bound, the plant shortens the command to the bound and keeps the direction of the command.
 
     Attributes:
         kp: Position gain [1/s^2], as in `Gains`.
         kv: Velocity gain [1/s], as in `Gains`.
-        bound: Greatest length of the command [rad/s^2], of the body that the law assumes; infinite without a limit.
-        delay: Time from a measurement to the effect of its command [s], besides the control period.
+        bound: Greatest length of the command [rad/s^2], for the inertia that the law assumes; infinite if there is no
+            limit.
+        delay: Time from a measurement to the effect of the command [s], in addition to the control period.
     """
 
     kp: float = PAPERS_GAINS.kp

@@ -42,33 +42,33 @@ class Law(NamedTuple):
 
     Args:
         coordinates: "rotation-matrix" if the law acts on R; otherwise the names of the coordinates
-            that it acts on, or "any". Such a law gives `law_in(coordinates)`, which returns the law
-            in those coordinates.
+            that it acts on, or "any". A law that acts on coordinates has `law_in(coordinates)`,
+            which returns the law in those coordinates.
         relative: True if the coordinates, and the margin to their singularity, are computed from
             R_d^T R; False if they are computed from R.
-        memory: initial memory of a law with memory; otherwise None. Such a law is
-            law(R, omega, goal, gains, memory) -> (u, memory). The law returns the new memory, which
-            the caller passes to the next control step without a change. Such a law does not need
-            the control period.
-        state: a State for a law with a state; otherwise None. Such a law is
+        memory: initial memory of a law with memory; otherwise None. A law with memory is
+            law(R, omega, goal, gains, memory) -> (u, memory). The law returns the new memory, and
+            the caller passes this memory unchanged to the next control step. A law with memory
+            does not need the control period.
+        state: a State for a law with a state; otherwise None. A law with a state is
             law(R, omega, goal, gains, state) -> (u, rates). The caller integrates the rates of the
             state over the control period.
-        property: what is proved of convergence: "local", "almost global", "global with memory" or
+        property: what is proved about convergence: "local", "almost global", "global with memory" or
             "none", or the gains for which it is proved.
         level: the kind of command: "acceleration", "torque", "velocity" or "position".
-        gains: the gains that the authors set, or the paper's gains.
+        gains: the gains that the authors of the law set, or Murphy's gains.
         shipped: AsShipped for a controller as its authors ship it; otherwise None. The formula of
-            such a law is the formula of the error, with clips and deadbands in their order. The
-            stiffness is in N m/rad; in 1/s^2 if the controller cancels or simulates an inertia; in
-            1/s if the controller commands a velocity.
-        origin: the file of a law that a user wrote; `text` is the content of this file. Both are
-            empty for our laws.
-        later: True for a law that is not in the paper. Such a law is simulated from fewer starts.
-        costing_only: whether the law is another way to write a law of the list. We count the
-            operations of such a law and test it, but do not simulate it.
-        in_engine: whether an actuator of MuJoCo makes the command on MuJoCo's free body. The
+            such a law is the formula of its error, with clips and deadbands in the order in which
+            the controller applies them. The unit of the stiffness is N m/rad. It is 1/s^2 if the
+            controller cancels or simulates an inertia, and 1/s if it commands a velocity.
+        origin: the file of a law that a user wrote; `text` is the content of this file. Both fields
+            are empty for our laws.
+        later: True for a law that is not in the paper. We simulate such a law from fewer starts.
+        costing_only: whether the law only writes another law of the list in a different form. We
+            count the operations of such a law and test it, but do not simulate it.
+        in_engine: whether an actuator of MuJoCo computes the command for MuJoCo's free body. The
             function `law` computes the same command.
-        stiffness: stiffness near the goal about n_d, o_d and a_d, divided by kp.
+        stiffness: stiffness near the goal about the axes n_d, o_d and a_d of the goal, divided by kp.
         margin: for a law on R with singular orientations: margin(R, R_d) in [0, 1], which is 0
             exactly at the singular orientations.
         coordinate_law_in: for a law that commands Eddot, the second derivatives of the coordinates.
@@ -76,9 +76,9 @@ class Law(NamedTuple):
             controller with an analytic Jacobian (Murphy 1988, 3.7) uses this law.
         assemble: for a baseline (contenders/baselines): assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory).
             This function replaces equations (2.2) and (3.7).
-        through: for a baseline (contenders/baselines) that commands joints: its Jacobian, and
-            the method that inverts the Jacobian. Empty for every other law.
-        papers: the number (1 to 3) of one of the paper's three laws; 0 for another law.
+        through: for a baseline (contenders/baselines) that commands joints: the Jacobian, and
+            the method that inverts this Jacobian. Empty for every other law.
+        papers: the number (1 to 3) of the law among the paper's three laws; 0 for every other law.
         control: whether the law is a negative control: a law that is wrong on purpose and must fail.
         attribution: "published", "adapted" or "ours" (see `bench.law.attribution`); "yours" for the
             law of a user.
@@ -131,15 +131,15 @@ class Coordinates(NamedTuple):
     accelerate(chart, Edot, Eddot) -> B Eddot + Bdot Edot        (2.10 solved for u = omegadot)
     angular_velocity(chart, Edot) -> B Edot                      (2.8)
     generalized(chart, m) -> B^T m                               (3.12, rotational part)
-    margin(R) -> number in [0, 1], 0 exactly on the singular set
+    margin(R) -> number in [0, 1], 0 exactly at the singular orientations
 
-    Some coordinates can be differentiated element by element, as in (3.5). For other coordinates, these two functions
-    are None:
+    Some coordinates can be differentiated element by element, as in (3.5). For other coordinates, the
+    following two functions are None:
     differentiate(R, Rdot) -> Edot                               dE/dR along Rdot, Rdot by columns
     differentiate_twice(R, Rdot, Rddot) -> Eddot
 
-    about: the indices of the coordinates that turn about x, y and z; None if there are no such coordinates.
-    papers: whether the coordinates are those of the paper (Murphy 1988, 2.2).
+    about: the indices of the coordinates that are angles about x, y and z; None if there are no such coordinates.
+    papers: whether the paper uses these coordinates (Murphy 1988, 2.2).
     """
 
     name: str

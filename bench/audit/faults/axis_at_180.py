@@ -1,6 +1,6 @@
 """at 180° the error has a wrong axis.
 
-effect: at 180° and close to it, the robot starts to turn about an axis that is not the axis of the shortest rotation
+effect: at 180° or close to 180°, the robot starts to turn about an axis that is not the axis of the shortest rotation
 cure: take the axis, with its signs, from the column of R + R^T that has the largest diagonal element
 unless: digits-near-180, euler-angles, misaligned, axis-clip
 """

@@ -1,7 +1,7 @@
 """each component of the error is clipped, which changes the direction of the error.
 
 effect: far from the goal the robot turns about an axis that is not the axis of the shortest rotation
-cure: if the vector is longer than the limit, scale the whole vector down to the limit
+cure: if the error is longer than the limit, scale the whole error vector down to the limit
 """
 
 import numpy as np

@@ -1,8 +1,9 @@
 """the error loses digits near the goal.
 
 effect: near the goal the command flickers or is zero
-cure: use atan2 of the length of the vector part and the scalar part, which loses no digits, and not the arc cosine of
-  a trace or scalar part; add no constant to a denominator; use a branch only if the length is exactly zero
+cure: compute the angle by atan2 from the length of the vector part and the scalar part, not by the arc cosine of a
+  trace or scalar part, which loses digits; add no constant to a denominator; use a branch only if the length is exactly
+  zero
 unless: single-precision, deadband, euler-angles, norm-clip, axis-clip, long-way
 """
 

@@ -1,7 +1,7 @@
 """the error jumps at an angle other than 180°.
 
 effect: the command jumps when the robot passes this angle, and chatters if the robot rests at this angle
-cure: make the error continuous at this angle; a jump cannot be avoided only at 180°
+cure: make the error continuous at this angle; only at 180° a jump is unavoidable
 unless: long-way, deadband, euler-angles, frame, misaligned, axis-at-180
 """
 

@@ -1,6 +1,7 @@
 """the error points along the longer way to the goal (unwinding), because an angle or a sign is wrong.
 
-effect: the robot turns by up to 360° although a small rotation would be enough; the command jumps where the way changes
+effect: the robot turns by up to 360° although a small rotation would be enough; the command jumps where the error
+  changes from one way to the other
 cure: wrap angles to [-180°, 180°], use atan2 instead of an arc tangent, and change the sign of a quaternion with a
   negative scalar part
 law: quaternion-shortest

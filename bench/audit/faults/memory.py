@@ -1,6 +1,7 @@
-"""the same pair of orientations gets different errors, because of a state or of noise.
+"""the function returns different errors for the same pair of orientations, because it has a state or adds noise.
 
-effect: the error depends on earlier calls; this audit tests each pair alone, so its other results are not valid
+effect: the error depends on earlier calls; the audit tests each pair alone, so the other results of the audit are not
+  valid
 cure: audit the function without a filter; if the function intentionally remembers the sign of q, allow this fault
 law: quaternion-shortest
 """

@@ -1,4 +1,4 @@
-"""a small deviation of the input from unit length changes the error.
+"""the error changes if the input deviates slightly from unit length.
 
 effect: rounding in a sensor or an integrator makes the error wrong or zero
 cure: normalize quaternions; limit arguments of acos to [-1, 1], or use atan2

@@ -1,7 +1,7 @@
 """the length of the error is clipped.
 
 effect: beyond the limit the stiffness decreases with the angle but the damping does not, so the robot moves slowly
-cure: clip the command, not the error; or allow this fault, because the direction stays right
+cure: clip the command, not the error; or allow this fault, because the direction of the error stays right
 unless: axis-clip
 """
 

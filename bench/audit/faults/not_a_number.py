@@ -1,7 +1,7 @@
 """the error is infinite or not a number.
 
 effect: comparisons with limits do not stop a command that is not a number, so this command reaches the motors
-cure: do not divide by a length that can be zero; limit the arguments of acos and sqrt to their ranges
+cure: do not divide by a length that can be zero; limit the arguments of acos and sqrt to the valid ranges
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """the function raises an exception.
 
 effect: the control loop stops, or the motors keep the last command
-cure: return an error for every pair of orientations
+cure: return an orientation error, without an exception, for every pair of orientations
 """
 
 import numpy as np

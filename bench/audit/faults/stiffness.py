@@ -1,6 +1,7 @@
 """the real stiffness is not the stiffness that the user sets.
 
-effect: the real stiffness is the set stiffness times the slope; the damping ratio is divided by sqrt(slope)
+effect: the real stiffness is the product of the set stiffness and the slope of the error; the damping ratio is the
+  intended ratio divided by sqrt(slope)
 cure: divide the error or the stiffness by the slope of the error at the goal
 law: quaternion-shortest
 unless: euler-angles

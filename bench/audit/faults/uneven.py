@@ -1,7 +1,7 @@
-"""the error has a wrong size for some pairs of orientations.
+"""the length of the error is wrong for some pairs of orientations.
 
 effect: the stiffness depends on the orientation, and may jump from one orientation to the next
-cure: compute the size of the error only from the angle between the two orientations
+cure: compute the length of the error only from the angle between the two orientations
 unless: norm-clip, axis-clip, deadband, jump, long-way, misaligned, euler-angles, single-precision, digits-near-0,
   digits-near-180, memory
 """

@@ -18,16 +18,15 @@ RULES = (
     "A call of sqrt counts as one floating-point operation (flop). Calls of sin, cos, acos and "
     "atan2 are counted separately, in one column for each function.",
     "Each of < <= > >= counts as one comparison. After a comparison, we count only the branch that the law takes.",
-    "The operations of a function count in the stage in which the law calls the function. "
-    "Functions of the coordinates, such as the conversion from the matrix, count in stages of "
-    "their own.",
+    "A stage is a part of the control step, for example the law or the Jacobian. The operations of a function count "
+    "in the stage that calls the function. Functions of the coordinates, such as the conversion from the matrix, "
+    "have separate stages.",
     "The typical count is the most frequent count over uniformly distributed orientations, at "
     "rest and spinning. On an arm the typical count is the median over the starts, because the "
     "number of steps of an iterated inverse depends on the matrix.",
-    "The worst count is the count of the state with the most operations, all kinds added. We "
-    "compare all states, also states that we chose because a law may take a rare branch there. If "
-    "two states have equally many operations, we take the count with more flops, and if these are "
-    "equal too, the first count.",
+    "The worst count is the count in the state (orientation and speed) in which the law needs the most operations, "
+    "all kinds added. We compare all states, also states that we chose because a law may take a rare branch there. "
+    "If a law needs equally many operations in two states, we take the count with more flops.",
     "A law with memory is counted three times in each state: with the initial memory, with the "
     "memory that the previous state left, and with the memory that this state left. Only the last "
     "of these counts is used for the typical count.",

@@ -46,7 +46,10 @@ def folder() -> Path:
 
 
 def rows(name: str, **words: str) -> pd.DataFrame:
-    """Return the rows with the given values: `rows("episodes", engine="native", start_set="poles")`."""
+    """Return the rows of a table whose columns have the given values.
+
+    For example: `rows("episodes", engine="native", start_set="poles")`.
+    """
     return chosen(table(folder(), name), words)
 
 
@@ -57,7 +60,7 @@ episodes, traces, costs, boundaries, poses, compliance, robustness = (
 
 
 def converged(frame: pd.DataFrame) -> pd.DataFrame:
-    """Return all episodes except those whose outcome changes if the time step is shorter."""
+    """Return all episodes of a table, without the episodes whose outcome changes if the time step is shorter."""
     return frame[frame["converged"] != "no"]
 
 
@@ -74,7 +77,10 @@ def own_laws(run: Path | None = None) -> tuple[Law, ...]:
 
 @functools.cache
 def table(path: Path, name: str) -> pd.DataFrame:
-    """Return a whole table; if it has laws, with a column `contender`. Copy the table before you change it."""
+    """Return the whole table `name` of the folder `path`. Copy the table before you change it.
+
+    If the rows of the table belong to laws, the column `contender` has the name of the law.
+    """
     from bench.experiments.tables.store import read
 
     frame = read(path, name)

@@ -96,11 +96,11 @@ def describe_resets(law: str) -> str:
     """Say what a reset buys in way and costs in time, and advise by what matters."""
     kept, reset = study_resets(law)
     return (
-        f"If the goal jumps within {SOON_S:g} s, a reset of the memory makes long paths rarer: "
-        f"{reset.long_percent:.1f} % of the paths are longer than {DETOUR:g} times the shortest "
-        f"path with the reset, and {kept.long_percent:.1f} % without the reset ({kept.far} jumps "
-        f"to a goal over {FAR_RAD:g} rad away). The reset does not save time: the median settling "
-        f"time is {_range(reset)} s with the reset and {_range(kept)} s without the reset. Reset "
+        f"If the goal jumps within the first {SOON_S:g} s, a reset of the memory makes long paths rarer. "
+        f"With the reset, {reset.long_percent:.1f} % of the paths are longer than {DETOUR:g} times the "
+        f"shortest path. Without the reset, {kept.long_percent:.1f} % are longer ({kept.far} jumps to a goal more "
+        f"than {FAR_RAD:g} rad away). The reset does not save time: the median settling time is "
+        f"{_range(reset)} s with the reset and {_range(kept)} s without the reset. Reset "
         "the memory if a short path matters; keep the memory if time matters."
     )
 

@@ -71,7 +71,7 @@ def page(contenders: list[Contender], costs: Any) -> html.Html:
     )
 
 
-WITHOUT_SCRIPT = "This page runs the laws in the browser, which needs JavaScript. The pictures show four examples."
+WITHOUT_SCRIPT = "This page needs JavaScript, because it runs the laws in the browser. The pictures show four examples."
 
 HIDE_STILLS = '<script>document.documentElement.classList.add("has-script")</script>'
 """Before they are loaded, where a script runs."""

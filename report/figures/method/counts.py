@@ -27,7 +27,7 @@ from tasks.situation import NOMINAL
 IN_ENGINE = "in-engine"
 """MuJoCo's actuator: the law of the rotation vector, which is not counted twice."""
 
-CONTINUOUS, HELD = "continuous time", "command held for a period"
+CONTINUOUS, HELD = "continuous", "sampled"
 COUNTS = html.Table(
     "Name | Where | Number of laws | Which laws | Starts per law | Continuous or sampled control "
     "| Starts that the rotation matrix loses"
@@ -123,7 +123,7 @@ def count_at_equal_peak() -> Count:
         name="laws at equal peak command",
         where="Chapter 7, [equal peak command](#fig-equal-peak); [late braking](appendix-late-braking.md)",
         laws=len(tune()),
-        which_laws="the laws of the map with which the body settles from every start of the nominal situation",
+        which_laws="the laws of the map with which the body settles from every start in the nominal situation",
         starts="as for the laws of the map",
         time=HELD,
     )

@@ -132,9 +132,9 @@ def describe_measures(resets: list[Reset]) -> str:
     most = max(resets, key=lambda law: law.kept.long_percent)
     before, after = (f"{side.long_percent:.1f} %" for side in (most.kept, most.reset))
     return (
-        f"A reset of the memory makes long paths rarer with {shorter or 'none'} of these {len(resets)} laws, most with "
-        f"{families.word(most.law)} (from {before} to {after} of the paths), and saves time with {sooner or 'none'} of "
-        "these laws"
+        f"A reset of the memory makes long paths rarer with {shorter or 'none'} of these {len(resets)} laws. With "
+        f"{families.word(most.law)}, the share of long paths drops from {before} to {after}. A reset saves time with "
+        f"{sooner or 'none'} of these laws"
     )
 
 

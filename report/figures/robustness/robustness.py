@@ -20,7 +20,7 @@ from report.figures.kit.page import Run, in_run
 
 AXES = tuple(tasks.axis_names())
 
-WEAKER = html.Table("Law | Perturbation | This law withstands | The other laws withstand")
+WEAKER = html.Table("Law | Perturbation | Threshold of this law | Threshold of the other laws")
 
 Found = dict[str, dict[Way, Threshold]]
 
@@ -134,11 +134,17 @@ def describe_weaker(groups: list[list[str]], each: Found, ways: list[Way]) -> st
     common = each[usual[0]]
     apart = {law: [way for way in ways if str(each[law][way]) != str(common[way])] for law in laws}
     is_less = all(_is_less(each[law][way], common[way], way) for law in laws for way in apart[law])
-    verbs = ("withstand less", "withstands less") if is_less else ("have other thresholds", "has other thresholds")
+    verbs = ("have other thresholds", "has other thresholds")
+    if is_less:
+        verbs = ("withstand only milder levels", "withstands only milder levels")
     counts = sorted({len(ways_of_law) for ways_of_law in apart.values()})
     number = f"{counts[0]} to {counts[-1]}" if len(counts) > 1 else f"{counts[0]}"
     verb = verbs[len(laws) == 1]
-    return f"{len(laws)} of the {len(laws) + len(usual)} laws {verb} than the others, for {number} of the perturbations"
+    each_law = " each" if len(laws) > 1 else ""
+    return (
+        f"{len(laws)} of the {len(laws) + len(usual)} laws {verb} than the other laws, for {number} "
+        f"of the perturbations{each_law}"
+    )
 
 
 def _is_less(threshold: Threshold, common: Threshold, way: Way) -> bool:
