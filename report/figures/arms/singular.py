@@ -50,9 +50,9 @@ def describe_rules(rows: pd.DataFrame) -> str:
     others, drift = settled.index != INVERSE, 1000.0 * real.groupby("inverse")["position_error_m"].max().sort_values()
     drifts = join_words(f"{value:.0f} mm ({name_rule(word)})" for word, value in drift.items())
     return (
-        f"We simulated each rule from {rows.groupby('arm')['start_id'].nunique().max()} starts on each "
-        f"arm. On the arms with six joints and unlimited torques, {settled[INVERSE]:.0f} % of the "
-        "episodes with the plain inverse settle, and the largest torque is "
+        f"We simulated each rule from {rows.groupby('arm')['start_id'].nunique().max()} starts close to "
+        f"singularities of the wrist, on each arm. On the arms with six joints and unlimited torques, "
+        f"{settled[INVERSE]:.0f} % of the episodes with the plain inverse settle, and the largest torque is "
         f"{html.number(torque[INVERSE])} times the rated torque. With the other rules, "
         f"{settled[others].min():.0f} to {settled[others].max():.0f} % of the episodes settle, and the largest "
         f"torque is {html.number(torque[others].max())} times the rated torque. With limited torques, "
