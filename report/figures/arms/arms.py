@@ -35,8 +35,9 @@ LIMITED = html.Table(
 )
 SETS = ("uniform", "reach")
 MOTORS = {
-    **{"nominal": "usual inertia", "motors-low": "least inertia", "motors-high": "greatest inertia"},
-    **{"motors-slow": "torque with a lag of 5 ms", "motors-late": "torque with a delay of 5 ms"},
+    **{"nominal": "usual motor inertia", "motors-low": "smallest motor inertia"},
+    **{"motors-high": "largest motor inertia"},
+    **{"motors-slow": "torque with a first-order lag of 5 ms", "motors-late": "torque with a delay of 5 ms"},
 }
 ORIGINS = tomllib.loads(Path(__file__).with_name("origins.toml").read_text(encoding="utf-8"))
 """Sentences of the page: where our arms are from. Of another arm, its file says it."""
@@ -124,26 +125,27 @@ def describe_share(rows: pd.DataFrame, controller: str, measure: str) -> str:
     """Share of a controller's episodes that pass, with its interval and n, in words."""
     own = passed(rows[rows["controller"] == controller])[measure]
     found = share(own)
-    return f"{100 * found.value:.0f} % ({100 * found.low:.0f} to {100 * found.high:.0f} %, n = {found.n})"
+    interval = f"{100 * found.low:.0f} to {100 * found.high:.0f} %"
+    return f"{100 * found.value:.0f} % (confidence interval {interval}, n = {found.n})"
 
 
 def lead(uniform: pd.DataFrame) -> str:
     """State who settles most on arms as they are, what gains do, and what stops the others; uniform: of `of_laws`."""
     is_settled, by_arm = settled(uniform), settled(uniform).groupby(uniform["arm"]).mean()
     is_shipped = uniform["kp"] == uniform["arm"].map(lambda arm: (*tasks.arm(arm).gains, 0.0)[0])
-    kinds = uniform["kp"].map("Kp = {:g}/s²".format).mask(is_shipped, "shipped gains")
+    kinds = uniform["kp"].map("Kp = {:g}/s²".format).mask(is_shipped, "the gains shipped for the arm")
     both = uniform.assign(kind=kinds, settled=is_settled)
     both = compare_settings(both[both.groupby("arm")["kp"].transform("nunique") > 2], ["kp"])
     levels = [f"{100 * own['settled'].mean():.0f} % with {kind}" for kind, own in both.groupby("kind")]
     ends = [f"{arm_rows.name_arm(arm)} ({100 * by_arm[arm]:.0f} %)" for arm in (by_arm.idxmin(), by_arm.idxmax())]
     return (
-        "Motors give at most their rated torque, and joints stop at the ends of their ranges. "
-        f"From evenly spread starts, {leading(uniform, 'settled').replace('(2.2) ', '')} of the "
-        "episodes settle. Some arms run with three pairs of gains. On these arms the share of "
-        f"episodes that settle, over all laws, is {join_words(levels or [html.UNTESTED])}. A "
-        f"joint was at the end of its range in {percent_stopped(uniform):.0f} % of the episodes "
-        f"that do not settle. The arm on which the fewest episodes settle is the {ends[0]}; the "
-        f"arm on which the most episodes settle is the {ends[1]}."
+        "In our simulations, motors give at most their rated torque, and joints stop at the ends of their ranges. "
+        "In the share of episodes that settle from evenly spread starts, "
+        f"{leading(uniform, 'settled').replace('(2.2) ', '')} of the episodes settle. We simulated some arms with "
+        "three pairs of gains. On these arms, with all laws counted together, the share of episodes that settle is "
+        f"{join_words(levels or [html.UNTESTED])}. A joint was at the end of its range in "
+        f"{percent_stopped(uniform):.0f} % of the episodes that do not settle. The share of episodes that settle is "
+        f"smallest on the {ends[0]} and largest on the {ends[1]}."
     )
 
 
@@ -173,7 +175,7 @@ def describe_model_errors(run: Run) -> str:
     apart = np.degrees(np.ptp(angles.to_numpy(), axis=1))
     medians = np.degrees(rows.groupby("variation")["final_angle_rad"].median())
     return (
-        "From the same start, the final angles of the controllers differ by "
+        "From the same start, the errors of the controllers that we compared differ by "
         f"{np.median(apart):.1g}° (median). The median error is largest with the variation "
         f"`{medians.idxmax()}`: {medians.max():.1f}°. The median error is smallest with the "
         f"variation `{medians.idxmin()}`: {medians.min():.2f}°."

@@ -20,7 +20,7 @@ from report.figures.kit.page import Run
 STUDY = RESULTS / "real-time"
 LOOPS = html.Table(
     "Arm | Law | Substeps in a period | Episodes | Episodes that settle in real time "
-    "| Episodes that settle in simulation | Episodes with the same outcome in both "
+    "| Episodes that settle in simulation | Episodes with the same outcome in real time and in simulation "
     "| Median delay [µs] | 99th percentile of the delay [µs] | Longest delay [µs]"
 )
 GAINS = html.Table(
@@ -165,7 +165,7 @@ def limits(study: pd.DataFrame, narrow: bool) -> Drawing:
     axes.set(xlim=(0.0, SHOWN_DELAY), ylim=(1.5, 3.5))
     axes.set(xlabel="delay [control periods]", ylabel="greatest stable Kv T")
     style.label_line(axes, 0.045, 2.02, "in real time", colour)
-    style.label_line(axes, 0.195, 2.75, "exact hold")
+    style.label_line(axes, 0.195, 2.75, "calculated")
     style.label_line(axes, 0.16, 3.3, "eigenvalue −1", style.MUTED)
     delay, gain = find_greatest_limit()
     return figure, (

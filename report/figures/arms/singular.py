@@ -13,12 +13,12 @@ from report.figures.kit import html
 from report.figures.kit.page import Run
 
 RULES = html.Table(
-    "Rule for Λ | Arms | Episodes that settle with unlimited torque [%]:.0f | Largest torque / "
-    "rated torque | Episodes that settle with limited torque [%]:.0f | Largest error of the "
-    "tool's position [mm]:.0f"
+    "Rule for Λ | Arms | Episodes that settle with unlimited torque [%]:.0f | Largest unlimited torque, "
+    "divided by the rated torque | Episodes that settle with limited torque [%]:.0f | Largest error of the "
+    "tool's position with limited torque [mm]:.0f"
 )
 START_SET, INVERSE = "wrist", "dynamically-consistent"
-REDUNDANT = {False: "six joints", True: "Panda"}
+REDUNDANT = {False: "arms with six joints", True: "Panda"}
 
 
 def facts(run: Run) -> dict:
@@ -50,22 +50,24 @@ def describe_rules(rows: pd.DataFrame) -> str:
     others, drift = settled.index != INVERSE, 1000.0 * real.groupby("inverse")["position_error_m"].max().sort_values()
     drifts = join_words(f"{value:.0f} mm ({name_rule(word)})" for word, value in drift.items())
     return (
-        f"Each rule ran from {rows.groupby('arm')['start_id'].nunique().max()} starts on each "
-        f"arm. On the arms of six joints with unlimited torques, {settled[INVERSE]:.0f} % of the "
-        "episodes with the plain inverse settle, and the largest torque is "
-        f"{html.number(torque[INVERSE])} times the rated torque. The other rules settle in "
-        f"{settled[others].min():.0f} to {settled[others].max():.0f} % of the episodes, with at "
-        f"most {html.number(torque[others].max())} times the rated torque. With limited torques "
-        f"the plain inverse settles in {cut[INVERSE]:.0f} % of the episodes and the other rules "
-        f"in {cut[others].min():.0f} to {cut[others].max():.0f} %, but before that the tool moves "
-        f"away from its position. The largest distances from this position are {drifts}. With "
+        f"We simulated each rule from {rows.groupby('arm')['start_id'].nunique().max()} starts close to "
+        f"singularities of the wrist, on each arm. On the arms with six joints and unlimited torques, "
+        f"{settled[INVERSE]:.0f} % of the episodes with the plain inverse settle, and the largest torque is "
+        f"{html.number(torque[INVERSE])} times the rated torque. With the other rules, "
+        f"{settled[others].min():.0f} to {settled[others].max():.0f} % of the episodes settle, and the largest "
+        f"torque is {html.number(torque[others].max())} times the rated torque. With limited torques, "
+        f"{cut[INVERSE]:.0f} % of the episodes with the plain inverse settle, and {cut[others].min():.0f} to "
+        f"{cut[others].max():.0f} % with the other rules. Before these episodes settle, the tool moves away from the "
+        f"position that it should keep. The largest distances from this position are {drifts}. With "
         f"every rule, {100 * panda['settled'].mean():.0f} % of the episodes on the Panda settle."
     )
 
 
 def name_rule(word: str) -> str:
     """Return what the page calls a rule."""
-    return "inverse" if word == INVERSE else contenders("inverses")[word].title.removeprefix("Operational space, ")
+    if word == INVERSE:
+        return "plain inverse"
+    return contenders("inverses")[word].title.removeprefix("Operational space, ")
 
 
 def compare_rules(rows: pd.DataFrame) -> Iterator[tuple]:

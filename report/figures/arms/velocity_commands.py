@@ -4,11 +4,11 @@ from collections.abc import Iterable
 
 import pandas as pd
 
-from bench.findings.amounts import join_words
+from bench.findings.amounts import capitalize, join_words
 from bench.findings.claims.adequacy import DETOUR
 from bench.findings.selection.needs import Decision, decide, measured
 from bench.findings.selection.robots import VELOCITY
-from bench.findings.selection.words import standing
+from bench.findings.selection.words import standing, together
 from bench.findings.theory.velocity_limits import with_theory
 from report.figures.kit import families
 from report.figures.kit.page import Run
@@ -53,5 +53,9 @@ def lead(one: Decision) -> str:
     """Return what is advised, and with whom it ties."""
     if one.law is None:
         return "No law of this run settles from every start when it commands velocities."
-    said = standing(one, families.word)
-    return f"{families.word(one.law)}. {said[0].upper()}{said[1:]}"
+    if not one.tied:
+        return f"{families.word(one.law)}. {capitalize(standing(one, families.word))}"
+    ties = together([families.word(law) for law in one.tied])
+    laws = f"{ties} laws" if ties.endswith(" more") else ties
+    tie = f"By the criteria of our rule, this law ties with {laws}. It is the simplest of these laws."
+    return f"{families.word(one.law)}. {tie}"

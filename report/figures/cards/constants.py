@@ -12,9 +12,9 @@ from report.figures.kit.page import Run
 
 TABLE = html.Table(
     "Law | Constant | Value used | Other values tried "
-    "| Settling time with the value used, divided by that of the default law:.2f "
-    "| Settling time with other values, divided by that of the default law "
-    "| Rank among the laws with the value used | Rank among the laws with other values",
+    "| Settling time with the value used, divided by the settling time of the default law:.2f "
+    "| Settling time with the other values, divided by the settling time of the default law "
+    "| Rank of the law with the value used | Rank of the law with the other values",
     words=("Value used",),
 )
 

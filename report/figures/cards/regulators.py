@@ -34,8 +34,8 @@ UNTRUSTED = (
     "this page then describes the law."
 )
 LAWS = html.Table(
-    "Law | Origin | Stability | Uniform starts that settle | Name on the command line",
-    {"Uniform starts that settle": lambda share: f"{100 * share:.1f} %"},
+    "Law | Origin | Stability | Uniform starts from which the body settles | Name on the command line",
+    {"Uniform starts from which the body settles": lambda share: f"{100 * share:.1f} %"},
 )
 TEXTS: dict[str, dict[str, str]]
 TEXTS = tomllib.loads(Path(__file__).with_name("laws.toml").read_text(encoding="utf-8"))

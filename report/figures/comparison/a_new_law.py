@@ -61,8 +61,9 @@ def compare_at_equal_peak() -> str:
     if as_fast:
         rivals = f"{capitalize(count_of(as_fast, len(others), 'published and adapted laws'))} need no more time."
     else:
-        rivals = f"The best of the {len(others)} published and adapted laws needs {min(others):.2f}/√p seconds."
-    needed = f"99 % of the starts settle in {times[NEW]:.2f}/√p seconds with late braking"
+        best = f"With the best of the {len(others)} published and adapted laws"
+        rivals = f"{best}, this time is {min(others):.2f}/√p seconds."
+    needed = f"the body settles from 99 % of the starts within {times[NEW]:.2f}/√p seconds with late braking"
     return f"At equal peak command p [rad/s²], {needed}. {rivals}"
 
 

@@ -21,8 +21,9 @@ from report.figures.kit.page import Run, in_run
 from report.figures.kit.spelling import power
 
 ALL_LAWS = html.Table(
-    "Law | Starts that settle [%] | Time for 50 % of starts [s] | Time for 99 % of starts [s] | "
-    "Median effort [rad²/s³] | Peak command [rad/s²] | Operations + function calls per step | Directed starts lost | "
+    "Law | Starts that settle [%] | Settling time for 50 % of starts [s] | Settling time for 99 % of starts [s] | "
+    "Median effort [rad²/s³] | Peak command [rad/s²] | Operations + function calls per control step | "
+    "Directed starts from which the body never settles | "
     "Sensor error that traps the body at 180° [rad]"
 )
 NEAR_DEG = 30, 60

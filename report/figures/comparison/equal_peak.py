@@ -14,9 +14,10 @@ from report.figures.kit.page import Run, in_run
 
 TUNED = html.Table(
     "Law | Time in which 99 % of the starts settle, at critical damping [1/√kp]:.2f | "
-    "Best damping ratio at equal stiffness:.2f | That time at this best ratio [1/√kp]:.2f | "
+    "Best damping ratio at equal stiffness:.2f | "
+    "Time in which 99 % of the starts settle, at the best damping ratio and equal stiffness [1/√kp]:.2f | "
     "Best damping ratio at equal peak command:.2f | "
-    "That time at equal peak command [1/√(peak command)]:.2f"
+    "Time in which 99 % of the starts settle, at the best damping ratio and equal peak command [1/√peak]:.2f"
 )
 LABEL_GAP = 0.034
 """Least distance of two labels, in decades of the axis."""

@@ -27,8 +27,8 @@ def facts(run: Run) -> dict:
     with_memory = count(len(leave), len(groups.get(WITH, [])))
     return {
         "finding": (
-            f"Noise of {first:g} rad traps the body at 180° with {without_memory} laws without "
-            f"memory that this picture shows. With {with_memory} laws with memory that it shows, "
+            f"Measurement noise of {first:g} rad traps the body at 180° with {without_memory} laws without "
+            f"memory in this picture. With {with_memory} laws with memory in this picture, "
             "the body leaves 180° from every start"
         ),
         "starts": starts(rows),

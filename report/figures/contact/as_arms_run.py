@@ -22,7 +22,7 @@ from report.figures.kit.page import Run
 PANDA = html.Table(
     "Controller | Stiffness [N/m; N m/rad] | Longest stable control period, exact simulation [ms] "
     "| Longest stable control period in MuJoCo [ms] | Longest stable delay at 1 kHz, exact simulation [ms] "
-    "| Longest delay at 1 kHz in MuJoCo [ms]"
+    "| Longest stable delay at 1 kHz in MuJoCo [ms]"
 )
 LIMITS = ("held_dt_s", "longest_dt_s", "held_delay_s", "longest_delay_s")
 """Columns of the table's limits."""

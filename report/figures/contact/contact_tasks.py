@@ -1,6 +1,7 @@
 """The page on the equations and tasks in contact: what each task is, when it ends, and how it looks."""
 
 import tasks
+from bench.findings.amounts import join_words
 from report.figures.contact import limits
 from report.figures.contact.compliance import PROBE
 from report.figures.contact.in_contact import MEASURES, PAPERS_EULER, of, of_task
@@ -19,9 +20,11 @@ def facts(run: Run) -> dict:
     arm = tasks.arm(media.facts()["contact"]["arm"])
     orders = []
     for task in map(tasks.contact_task, MEASURES):
-        axes = task.trials(arm)[0].specification.name.replace(", about", ", and about")
+        along, _, about = task.trials(arm)[0].specification.name.partition(", about ")
+        axes = f"in translation along {join_words(along.split(', '))}"
+        axes += f", and in rotation about {about}" if about else ""
         name, title = task.name.replace("-", " ").capitalize(), f"{task.title[0].lower()}{task.title[1:]}"
-        orders.append(f"- **{name}** ({title}): the hand is compliant along {axes}.")
+        orders.append(f"- **{name}** ({title}): the hand is compliant {axes}.")
     return {
         **limits.facts(run),
         "settings": limits.LIMITS(limits.compare_settings()),

@@ -67,7 +67,8 @@ def list_tables(verdicts: Iterable[Verdict]) -> str:
     names = {name for verdict in verdicts for name in verdict.evidence.tables}
     links = [f"[{name}](appendix-data.md)" for name in sorted(names - {COMPUTED})]
     stored = [f"result table{'s' * (len(links) > 1)} {join_words(links)}"] if links else []
-    calculated = ["calculated by `bench claims`"] if COMPUTED in names else []
+    part = "a part is " * bool(links)
+    calculated = [f"{part}calculated by `bench claims`"] if COMPUTED in names else []
     return "; ".join([*stored, *calculated])
 
 
@@ -94,6 +95,6 @@ def list_sentences() -> str:
     lists = "".join(f"<h2>{titles[name]}</h2><ul>{''.join(items)}</ul>" for name, items in sections.items())
     return (
         '<details class="paper-sentences">'
-        f"<summary>All {len(all_claims())} statements in our words, by "
-        f"section</summary>{lists}</details>"
+        f"<summary>All {len(all_claims())} claims of the paper in our words, by "
+        f"section of the paper</summary>{lists}</details>"
     )
