@@ -198,7 +198,7 @@ def c26(results: Results) -> tuple[Word, Evidence]:
         longer in {count_of(sum(one.by_time == ORDERED for one in stands), len(stands), "pairs")}.""",
         3 * 2 * len(INVERSES) + len(timed),
         ("costs", "timings") if len(timed) else ("costs",),
-        measured=f"""The controller with the Euler Jacobian (3.7) takes more operations per control step than the
+        measured=f"""The controller with the Euler Jacobian (3.7) takes more flops per control step than the
         cheapest controller with the geometric Jacobian (2.2): {join_words(sizes)}.""",
         numbers=(OPERATIONS, *rows),
     )
