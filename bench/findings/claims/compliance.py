@@ -78,7 +78,7 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         {_by_order(judged, "same")}. One compliant angle acts as one axis that the earlier angles
         turn {_by_order(judged, "same_turned")}.""",
         measured=f"""At {count_of(int(judged["same_turned"].sum()), len(judged), "poses")}, a compliant
-        angle is compliance about the axis that it turns about.""",
+        Euler angle makes the hand comply about that angle's axis.""",
     )
 
 
@@ -131,9 +131,9 @@ def c23(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         {_greatest(np.tan(beta)):.2f}. With Cartesian compliance, this ratio is at most
         {_greatest(by_base):.2g}.""",
         len(rows),
-        measured=f"""The two compliances differ at
-        {count_of(int(parted.sum()), len(parted), "poses")} where no angle is zero, by
-        {percent(least)} % or more.""",
+        measured=f"""Compliance in Euler angles and Cartesian compliance differ at
+        {count_of(int(parted.sum()), len(parted), "poses")} where no Euler angle is zero. The difference is
+        {percent(least)} % of the Cartesian compliance or more.""",
     )
 
 
@@ -168,9 +168,9 @@ def c24(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         the rotation about x. Z-Y-X angles are a problem at {_problems(zyx)}. With Z-Y-X angles, the
         rotation about x is at least {zyx["yields"].min():.3f} times the wanted rotation.""",
         len(zyz) + len(zyx),
-        measured=f"""With compliance about x in Z-Y-Z angles, the end effector turns
+        measured=f"""If the hand complies about x in Z-Y-Z angles near zero rotation, it turns
         {done["leak"].min():.1f} to {done["leak"].max():.1f} times as far about z as about x. This
-        is a problem at {_problems(near)}.""",
+        is a problem at {_problems(near)} that we tested.""",
     )
 
 

@@ -64,10 +64,10 @@ def c25(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         On tasks in which fewer rotations comply,
         {count_of(int(simple["parts"].sum()), len(simple), "pairs")} differ.""",
         len(rows),
-        measured=f"""If the task frame is turned by {LIMIT.TURNED_DEG:g}° or more, the two Jacobians
-        perform differently in {count_of(int(turned["parts"].sum()), len(turned), "pairs")} of runs.
-        If the frame is not turned, they perform differently in
-        {count_of(int(straight["parts"].sum()), len(straight), "pairs")}.""",
+        measured=f"""A pair is one task, done with each of the two Jacobians. If the task frame is turned by
+        {LIMIT.TURNED_DEG:g}° or more, the performance differs in
+        {count_of(int(turned["parts"].sum()), len(turned), "pairs")}. If the frame is not turned, the performance
+        differs in {count_of(int(straight["parts"].sum()), len(straight), "pairs")}.""",
     )
 
 
@@ -152,7 +152,7 @@ def c47(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         about two axes lies flush with the plane to {moment:.1e} rad. Rotations that the controller
         must keep constant have changed by at most {turn:.1e} rad at the end.""",
         len(rows),
-        measured=f"""The force differs from the commanded {LIMIT.FORCE_N:g} N by at most
-        {percent(force)} %. A rotation that the controller should keep constant changes by up to
+        measured=f"""The contact force differs from the commanded {LIMIT.FORCE_N:g} N by at most
+        {percent(force)} % (root mean square). A rotation that the controller should keep constant changes by up to
         {turn:.2g} rad.""",
     )

@@ -12,7 +12,7 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.experiments.tables.statistics import bootstrap, quantile, quantile_estimate
-from bench.findings.amounts import capitalize, count_of, join_words, part_of
+from bench.findings.amounts import capitalize, count, count_of, join_words, part_of
 from bench.findings.claims import adequacy, probes, tables
 from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy
 from bench.findings.claims.at_gains import at_every_gain, on_every_engine
@@ -54,10 +54,14 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         ", ".join(f"{short} {one[name]}" for short, name in zip(NAMES, THREE, strict=True)) for one in known.accountings
     )
     own = [known.accountings[0][name] for name in THREE]
+    takes = [
+        f"{capitalize(law)} takes {one.flops} flops and {count(one.calls, 'call')}."
+        for law, one in zip(IN_WORDS, own, strict=True)
+    ]
     times = [known.over(name, THREE[0]) for name in THREE[1:]]
     ratios = "Their times were not measured."
     if known.times:
-        ratios = f"The last two take {join_words(times)} times as long as the first law."
+        ratios = f"The last two laws take {join_words(times)} times as long as the rotation-matrix law."
     timed = ", ".join(f"{short} {known.over(name, THREE[0])}" for short, name in zip(NAMES[1:], THREE[1:], strict=True))
     in_words = [law.removeprefix("the ") for law in IN_WORDS]
     orders = [
@@ -94,8 +98,7 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         len(THREE) * (len(known.accountings) + len(known.times)),
         ("costs", "timings") if known.times else ("costs",),
         instead if word == Word.CORRECTED else "",
-        f"""Flops and calls are {own[0]} for the rotation-matrix law, {own[1]} for the linearized law and {own[2]} for
-        feedback linearization. {ratios}""",
+        f"""{" ".join(takes)} {ratios}""",
     )
 
 
@@ -140,7 +143,7 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
         ("episodes", "costs", "timings") if known.times else ("episodes", "costs"),
         instead,
         f"""{fine} adequate in cost and performance. The rotation-matrix law takes
-        {tables.interval_or_never(three[0].pace, ".2f", " s")} until 99 % of the starts have settled.""",
+        {tables.named_interval(three[0].pace, ".2f", " s")} until 99 % of the starts settle.""",
         (PLACES, *(_placed(law, asked[name], known) for name, law in zip(NAMES, three, strict=True))),
     )
 
@@ -209,7 +212,7 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
     passing = sum(result.passes for result in without)
     rest = "Laws without memory were not tested."
     if without:
-        rest = f"Of the {len(without)} later laws without memory, {passing or 'none'} pass all eight."
+        rest = f"Of the {len(without)} later laws without memory, {passing or 'none'} pass all eight tests."
     # (e) and (f) together are impossible without memory: Bhat and Bernstein 2000; Mayhew, Sanfelice, Teel 2011.
     impossible = ""
     if without and not passing:
@@ -226,8 +229,8 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
         longest adequate settling time is {adequacy.SLOW * small:.3f} s.""",
         sum(law.rows + held.get(law.name, (0, 0))[1] for law in later),
         instead=instead,
-        measured=f"""{capitalize(count_of(len(answers), len(later), "later laws"))} pass all eight
-        tests. {rest}""",
+        measured=f"""{capitalize(count_of(len(answers), len(later), "laws"))} that are later than the paper pass
+        all eight tests. {rest}""",
         numbers=(ANSWERS, *(_answer(law, tested[law.name], known) for law in (*answers, *others))),
     )
 
@@ -291,7 +294,7 @@ def c31(results: Results) -> tuple[Word, Evidence]:
     ratios = [_gain(settling_times(laws[-1]), settling_times(one)) for one in laws[:-1]]
     is_better = all(ratio.low >= LIMIT.DRAMATIC for ratio in ratios) and mine.low > linearized.high
     longer = [tables.interval_or_never(ratio, ".2f") for ratio in ratios]
-    settles = [percent_interval(one) for one in ranges]
+    settles = [tables.brief_interval(one) for one in ranges]
     return word_of(is_better and mine.low > matrix.high, is_better and mine.high >= matrix.low), evidence(
         f"""Of {matrix.n:,} uniform starts, {percent(matrix.value)} % settle with the rotation-matrix law,
         {percent(linearized.value)} % with the linearized law, and {percent(mine.value)} % with feedback
@@ -300,8 +303,8 @@ def c31(results: Results) -> tuple[Word, Evidence]:
         instead=f"""Until {100 * LIMIT.NEARLY_ALL:.0f} % of the starts have settled, the rotation-matrix law takes
         {longer[0]} times as long as feedback linearization. The rotation-matrix law settles from
         {count_of(matrix.k, matrix.n, "starts")}.""",
-        measured=f"""Until 99 % of the starts have settled, the rotation-matrix law takes
-        {longer[0]} times as long as feedback linearization.""",
+        measured=f"""Until 99 % of the starts have settled, the rotation-matrix law takes longer than feedback
+        linearization, by a factor of {tables.named_interval(ratios[0], ".2f")}.""",
         numbers=(
             (
                 "Law",
@@ -350,7 +353,7 @@ def c35(results: Results) -> tuple[Word, Evidence]:
         f"""These laws perform reasonably: {", ".join(reasonable) or "none"}. {told} A small error settles in
         {small:.3f} s.""",
         sum(one.n for _, one, _ in found),
-        measured=f"""Of {matrix.n:,} uniform starts, {percent(matrix.value)} % settle with the
+        measured=f"""Of {matrix.n:,} uniform random starts, {percent(matrix.value)} % settle with the
         rotation-matrix law, {percent_interval(linearized)} with the linearized law, and
         {percent(feedback.value)} % with feedback linearization.""",
     )
@@ -375,13 +378,12 @@ def c36(results: Results) -> tuple[Word, Evidence]:
         word = Word.UNTESTED
     by_name = {law.name: law for law in three}
     on_boundary = join_words([
-        f"{part_of(by_name[name].lost_exact, by_name[name].exact)} with {law}"
+        f"{part_of(by_name[name].lost_exact, by_name[name].exact)} do not settle with {law}"
         for law, name in zip(IN_WORDS, THREE, strict=True)
         if name in by_name
     ])
     return word, evidence(
         told,
         sum(law.rows for law in three),
-        measured=f"""Of the starts exactly on a boundary (a 180° rotation, a pole or ±π), these do
-        not settle: {on_boundary}.""",
+        measured=f"""Of the starts exactly at a 180° rotation, at a pole or at an angle of ±π, {on_boundary}.""",
     )
