@@ -294,6 +294,7 @@ def c31(results: Results) -> tuple[Word, Evidence]:
     ratios = [_gain(settling_times(laws[-1]), settling_times(one)) for one in laws[:-1]]
     is_better = all(ratio.low >= LIMIT.DRAMATIC for ratio in ratios) and mine.low > linearized.high
     longer = [tables.interval_or_never(ratio, ".2f") for ratio in ratios]
+    told = tables.named_interval(ratios[0], ".2f")
     settles = [tables.brief_interval(one) for one in ranges]
     return word_of(is_better and mine.low > matrix.high, is_better and mine.high >= matrix.low), evidence(
         f"""Of {matrix.n:,} uniform starts, {percent(matrix.value)} % settle with the rotation-matrix law,
@@ -301,10 +302,10 @@ def c31(results: Results) -> tuple[Word, Evidence]:
         linearization.""",
         3 * len(laws[-1]),
         instead=f"""Until {100 * LIMIT.NEARLY_ALL:.0f} % of the starts have settled, the rotation-matrix law takes
-        {longer[0]} times as long as feedback linearization. The rotation-matrix law settles from
+        {told} times as long as feedback linearization. The rotation-matrix law settles from
         {count_of(matrix.k, matrix.n, "starts")}.""",
         measured=f"""Until 99 % of the starts have settled, the rotation-matrix law takes longer than feedback
-        linearization, by a factor of {tables.named_interval(ratios[0], ".2f")}.""",
+        linearization, by a factor of {told}.""",
         numbers=(
             (
                 "Law",
