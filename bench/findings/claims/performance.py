@@ -309,7 +309,7 @@ def c31(results: Results) -> tuple[Word, Evidence]:
         numbers=(
             (
                 "Law",
-                "Uniform starts that settle",
+                "Uniform starts that settle (95 % interval in brackets)",
                 "Time until 99 % of the starts settle, divided by this time of feedback linearization",
             ),
             *zip(THREE, settles, (*longer, "1"), strict=True),
