@@ -121,7 +121,9 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
     if open_yet and word != Word.FAILS:
         word = Word.UNTESTED
     words = [law for law, name in zip(IN_WORDS, NAMES, strict=True) if name in adequate]
-    fine = f"{capitalize(join_words(words))} {'is' if len(words) == 1 else 'are'}" if words else "None of the laws is"
+    fine = "None of the three laws is"
+    if words:
+        fine = f"{capitalize(join_words(words))} {'is' if len(words) == 1 else 'are'}"
     if adequate:
         beside_it = "".join(
             said
