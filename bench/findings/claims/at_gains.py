@@ -160,8 +160,8 @@ def describe(study: dict, words: dict[str, str]) -> str:
     seeds = sum(name != HALF_STEP for name in runs)
     other = {id: found for id, found in turned(runs, words).items() if id not in stale}
     found = "every verdict that was tested stays the same" if not other else f"these change: {', '.join(other)}"
-    step = " and with half the step size" if HALF_STEP in runs else ""
-    return f"With {seeds} other random seeds{step}, {found}.{_lacking(stale)}{by_gains(study, words)}"
+    step = ", and also with half the time step" if HALF_STEP in runs else ""
+    return f"With each of {seeds} other random seeds{step}, {found}.{_lacking(stale)}{by_gains(study, words)}"
 
 
 def _lacking(stale: list[str]) -> str:
@@ -169,7 +169,7 @@ def _lacking(stale: list[str]) -> str:
     if not stale:
         return ""
     names = ", ".join(stale)
-    return f" The claims {names} are not tested here, because we wrote their present criteria after this study."
+    return f" The claims {names} were not tested again, because we wrote their present criteria later."
 
 
 def by_gains(study: dict, words: dict[str, str]) -> str:
