@@ -99,7 +99,7 @@ def test_share_is_written_to_three_figures_and_is_100_only_if_it_is_all(value, t
 
 
 def test_share_has_its_interval():
-    assert f"{share(pd.Series([True] * 931 + [False] * 69))}" == "93.1 % (91.4 to 94.5 %, n = 1,000)"
+    assert f"{share(pd.Series([True] * 931 + [False] * 69))}" == "93.1 % (n = 1,000; 95 % interval: 91.4 to 94.5 %)"
 
 
 @pytest.mark.parametrize(("part", "text"), [(0, "none of 4"), (3, "3 of 4"), (4, "all 4")])
@@ -138,9 +138,9 @@ def test_measured_value_is_of_the_run_s_gains_and_names_those_with_another_word(
     own = Run(20.0)
     own.experiments = {"other_gains": lambda results: [Run(10.0)]}
     _, evidence = at_every_gain(decide)(own)
-    assert evidence.measured == "At Kp = 100, Kv = 20: 20 starts. At Kp = 100, Kv = 10 the claim does not hold."
+    assert evidence.measured == "At Kp = 100, Kd = 20: 20 starts. At Kp = 100, Kd = 10, the claim does not hold."
     assert evidence.numbers == (
         ("Gains", "Law", "Time"),
-        ("Kp = 100, Kv = 10", "a", "10 s"),
-        ("Kp = 100, Kv = 20", "a", "20 s"),
+        ("Kp = 100, Kd = 10", "a", "10 s"),
+        ("Kp = 100, Kd = 20", "a", "20 s"),
     )

@@ -18,9 +18,9 @@ from bench.findings.claims.verdict import Claim, Evidence, NoEvidence, Verdict, 
 from bench.findings.kept import keep
 
 RULE = (
-    f"The verdicts come from the continuous-time simulation ({MAIN_ENGINE}), as in the paper. We "
-    f"also report simulations in which the command is held for a control period "
-    f"({' and '.join(CHECK_ENGINES)}), but these change no verdict. A claim without data has no "
+    f"Like the paper, we simulate in continuous time for all verdicts (engine {MAIN_ENGINE}). We "
+    "also report simulations in which the command stays constant during each control period "
+    f"(engines {' and '.join(CHECK_ENGINES)}). They change no verdict. A claim without data has no "
     "verdict."
 )
 """What is common to all criteria."""

@@ -92,7 +92,7 @@ def _measured(own: Gains, found: dict[Gains, tuple[Word, Evidence]]) -> str:
             others.setdefault(word, []).append(gains)
     parts = [f"At {_told(own)}: {said.measured}"]
     for word, at in others.items():
-        parts.append(f"At {_told_all(at)} the claim {does(word, 1)}.")
+        parts.append(f"At {_told_all(at)}, the claim {does(word, 1)}.")
     return " ".join(parts)
 
 
@@ -107,15 +107,15 @@ def _numbers(said: dict[Gains, Evidence]) -> list[tuple[str, ...]]:
 
 
 def _told_all(at: list[Gains]) -> str:
-    """Return some gains: 'Kp = 100, Kv = 14, 20 and 30'; the stiffness is said once where it is the same."""
+    """Return some gains: 'Kp = 100, Kd = 14, 20 and 30'; the stiffness is said once where it is the same."""
     stiffness = at[0].kp
     if any(gains.kp != stiffness for gains in at):
         return "; ".join(map(_told, at))
-    return f"Kp = {stiffness:g}, Kv = {join_words([f'{gains.kv:g}' for gains in at])}"
+    return f"Kp = {stiffness:g}, Kd = {join_words([f'{gains.kv:g}' for gains in at])}"
 
 
 def _told(gains: Gains) -> str:
-    return f"Kp = {gains.kp:g}, Kv = {gains.kv:g}"
+    return f"Kp = {gains.kp:g}, Kd = {gains.kv:g}"
 
 
 def on_every_engine(decide: Callable) -> Callable:
@@ -129,7 +129,7 @@ def on_every_engine(decide: Callable) -> Callable:
             with contextlib.suppress(NoEvidence):
                 others[engine], also = decide(results, engine)
                 rows += also.rows
-        said = "No simulation with sampled control has rows for this claim."
+        said = "The results contain no simulation with sampled control for this claim."
         if others:
             said = f"Simulations with sampled control give the same verdict (engine {', '.join(others)})."
         if set(others.values()) - {word}:
@@ -160,8 +160,8 @@ def describe(study: dict, words: dict[str, str]) -> str:
     seeds = sum(name != HALF_STEP for name in runs)
     other = {id: found for id, found in turned(runs, words).items() if id not in stale}
     found = "every verdict that was tested stays the same" if not other else f"these change: {', '.join(other)}"
-    step = " and with half the step size" if HALF_STEP in runs else ""
-    return f"With {seeds} other random seeds{step}, {found}.{_lacking(stale)}{by_gains(study, words)}"
+    step = ", and also with half the time step" if HALF_STEP in runs else ""
+    return f"With each of {seeds} other random seeds{step}, {found}.{_lacking(stale)}{by_gains(study, words)}"
 
 
 def _lacking(stale: list[str]) -> str:
@@ -169,7 +169,7 @@ def _lacking(stale: list[str]) -> str:
     if not stale:
         return ""
     names = ", ".join(stale)
-    return f" The claims {names} are not tested here, because we wrote their present criteria after this study."
+    return f" The claims {names} were not tested again, because we wrote their present criteria later."
 
 
 def by_gains(study: dict, words: dict[str, str]) -> str:

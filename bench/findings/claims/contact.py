@@ -157,7 +157,7 @@ def c47(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         about two axes lies flush with the plane to {moment:.1e} rad. Rotations that the controller
         must keep constant have changed by at most {turn:.1e} rad at the end.""",
         len(rows),
-        measured=f"""The force differs from the commanded {LIMIT.FORCE_N:g} N by at most
-        {percent(force)} %. A rotation that the controller should keep constant changes by up to
+        measured=f"""The contact force differs from the commanded {LIMIT.FORCE_N:g} N by at most
+        {percent(force)} % (root mean square). A rotation that the controller should keep constant changes by up to
         {turn:.2g} rad.""",
     )

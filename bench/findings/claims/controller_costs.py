@@ -90,8 +90,8 @@ def c20(results: Results) -> tuple[Word, Evidence]:
         Jacobian, {count_of(_count_failures(common), len(common), "episodes")} fail in this way.
         {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
-        measured=f"""The angles differ from the linear response by at most {max(limits):.1e} rad.
-        From starts at poles, {count_of(all_failures, all_poles, "episodes")} fail with (3.7) and
+        measured=f"""With (3.7), the Euler angles of the arm differ from the linear response by at most
+        {max(limits):.1e} rad. {capitalize(count_of(all_failures, all_poles, "starts"))} at a pole fail with (3.7) but
         settle with the rotation-matrix law.""",
     )
 
@@ -230,7 +230,7 @@ def c33(results: Results) -> tuple[Word, Evidence]:
         more = euler.flops / base.flops - 1
         is_more.append(by_columns(base, euler) == ORDERED)
         is_few.append(more <= LIMIT.FEW)
-        by_joints.append(f"{percent(more)} % more on {joints} joints")
+        by_joints.append(f"{percent(more)} % more on arms with {joints} joints")
         told.append(
             f"On {joints} joints, a control period takes {base.flops:,} flops and "
             f"{base.calls or 'no'} calls with the geometric Jacobian, and {euler.flops:,} flops and "
@@ -240,8 +240,8 @@ def c33(results: Results) -> tuple[Word, Evidence]:
     return word_of(all(is_more) and all(is_few), all(is_more)), evidence(
         " ".join(told),
         2 * len(told),
-        measured=f"""With the Euler Jacobian, force control needs more operations than with the
-        geometric Jacobian: {join_words(by_joints)}.""",
+        measured=f"""Force control needs more flops with the Euler Jacobian than with the geometric
+        Jacobian: {join_words(by_joints)}.""",
     )
 
 
@@ -266,7 +266,7 @@ def c46(results: Results) -> tuple[Word, Evidence]:
         law = {one: of_stage(own, "regulate") for one, own in rows.items()}
         is_less += [by_columns(total[BY_EULER], total[one]) == ORDERED for one in (BY_COMMON, ON_MATRIX)]
         whole = {one: total[one] for one in (BY_COMMON, ON_MATRIX, BY_EULER)}
-        sizes.append(f"{surplus(whole, whole)} % more on {joints} joints")
+        sizes.append(f"{surplus(whole, whole)} % more on arms with {joints} joints")
         is_left.append(law[BY_EULER].flops <= LIMIT.MUCH * law[ON_MATRIX].flops)
         told.append(
             f"On {joints} joints, the flops and calls in a typical control period are "
@@ -277,7 +277,7 @@ def c46(results: Results) -> tuple[Word, Evidence]:
     return word_of(all(is_less) and all(is_left), all(is_left)), evidence(
         " ".join(told),
         3 * len(told),
-        measured=f"""(3.7) takes more operations than the cheapest controller that uses (2.2):
-        {join_words(sizes)}. The law within (3.7) takes {law[BY_EULER].flops} flops; the
-        rotation-matrix law takes {law[ON_MATRIX].flops} flops.""",
+        measured=f"""Controller (3.7) takes more flops than the cheapest controller that uses (2.2):
+        {join_words(sizes)}. The control law in (3.7) takes {law[BY_EULER].flops} flops. The rotation-matrix law takes
+        {law[ON_MATRIX].flops} flops.""",
     )

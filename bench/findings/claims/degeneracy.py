@@ -19,7 +19,7 @@ from bench.findings.claims.tables import (
     MAIN_ENGINE,
     Results,
     evidence,
-    interval,
+        named_interval,
     rounding,
     settled,
     settled_of,
@@ -55,9 +55,9 @@ def c13(results: Results) -> tuple[Word, Evidence]:
         {zyz[2]:.1e}. For angle and axis, it rises by {axis[1]:.3f} decades per decade, up to {axis[2]:.1e}. For the
         rotation vector, it is at most {vector[2]:.5f}.""",
         3 * len(tables),
-        measured=f"""Towards zero rotation, the condition number of the matrix B of Z-Y-Z angles
-        rises to {zyz[2]:.1e}. That of the matrix B of the rotation vector stays at {vector[2]:.4f}
-        or less.""",
+        measured=f"""The matrix B converts the rates of coordinates to the angular velocity. Near zero rotation, its
+        condition number is up to {zyz[2]:.1e} for Z-Y-Z angles, and at most {vector[2]:.4f} for the rotation
+        vector.""",
     )
 
 
@@ -112,8 +112,8 @@ def c14(results: Results) -> tuple[Word, Evidence]:
         {"settles" if settled(about_y).all() else "does not settle"} from the exact 180° rotation about y. It settles
         from {settled_of(poles, "exact poles")}. {so}.""",
         len(least) + len(about_y) + len(poles),
-        measured=f"""The smallest singular value of B is {least[180]:.3g} at a rotation of 180°
-        about y, and {rounding(least[90])} at a rotation of 90°.""",
+        measured=f"""The smallest singular value of the matrix B of Z-Y-X angles is {least[180]:.3g} at a rotation of
+        180° about y, and {rounding(least[90])} at a rotation of 90° about y.""",
     )
 
 
@@ -141,8 +141,8 @@ def c15(results: Results) -> tuple[Word, Evidence]:
         {moved[1, "difference"]:.0e} at +90 degrees, and by up to {moved[-1, "difference"]:.1g} at -90 degrees.
         {so}.""",
         4 * len(grid) ** 2,
-        measured=f"""If alpha and gamma change and their sum stays the same, elements of R change by
-        up to {moved[1, "sum"]:.1g} at beta = +90°, and by up to {moved[-1, "sum"]:.0e} at beta =
+        measured=f"""We changed alpha and gamma and kept their sum constant. This changes elements of the rotation
+        matrix by up to {moved[1, "sum"]:.1g} at beta = +90°, and by at most {moved[-1, "sum"]:.0e} at beta =
         -90°.""",
     )
 
@@ -166,8 +166,8 @@ def c16(results: Results) -> tuple[Word, Evidence]:
         the smallest singular value of B is at most {rounding(float(values[:, 2].max()))}, and the second smallest is at
         least {float(values[:, 1].min()):.2f}. {so}.""",
         len(frame),
-        measured=f"""At {len(frame):,} orientations, the elements of B are at most {largest:.3g}.
-        {len(at_poles)} of these orientations are poles, where B^-1 does not exist.""",
+        measured=f"""At {len(frame):,} orientations, no element of the matrix B exceeds {largest:.3g} in absolute value.
+        Of these orientations, {len(at_poles)} are poles (beta = +-pi/2). At the poles, B^-1 does not exist.""",
     )
 
 

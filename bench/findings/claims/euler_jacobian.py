@@ -81,9 +81,9 @@ def c18(results: Results) -> tuple[Word, Evidence]:
         pose, the largest element of J_E is at least {rows["largest"].min():.2f}. Therefore the matrix J_E is zero at no
         pose.""",
         len(rows),
-        measured=f"""At 1e-{LIMIT.NEAREST} rad from a pole, elements of J_E are up to
-        {ways["nearest"].max():.1e}. In {percent_interval(worse)} of random poses, the condition
-        number of J_E is more than ten times that of J.""",
+        measured=f"""At 1e-{LIMIT.NEAREST} rad from a pole, elements of the Euler Jacobian are up to
+        {ways["nearest"].max():.1e}. At {percent_interval(worse)} of random poses, its condition number is more than
+        ten times that of the geometric Jacobian.""",
     )
 
 
@@ -127,8 +127,8 @@ def c19(results: Results) -> tuple[Word, Evidence]:
         eps^(2/3) / cos(beta) of the largest element. Number of poses left out because an angle jumps between the two
         ends of a difference: {len(differenced) - len(kept)}.""",
         len(rows),
-        measured=f"""At {len(rows):,} poses, the two derivations differ by at most
-        {derived.max():.1f} eps / cos(beta), which is rounding (eps = 2.2e-16).""",
+        measured=f"""At {len(rows):,} poses, the elements of the two Jacobians differ by at most {derived.max():.1f}
+        eps / cos(beta), relative to the largest element. This is rounding (eps = 2.2e-16).""",
     )
 
 
@@ -177,7 +177,8 @@ def c34(results: Results) -> tuple[Word, Evidence]:
         {"; ".join(" and ".join(NAMED[form] for form in pair) for pair, facts in alike.items() if facts) or "none"}.""",
         sum(kept.n for own in found.values() for kept, _ in own.values())
         + len(forms) * LIMIT.PAIRS * LIMIT.FORM_DECADES,
-        measured=f"Of {starts} starts near 180°, {lost_by_form}.",
+        measured=f"""We simulated feedback linearization from {starts} starts near a 180° rotation. Of these starts,
+        {lost_by_form}.""",
         numbers=(HEADS, *rows),
     )
 
@@ -224,9 +225,9 @@ def c44(results: Results) -> tuple[Word, Evidence]:
         differs from the input u by at most {exact:.0e} |u|. If all masses are {LIMIT.OFF.partition("-")[2]} times those
         of the model, the median difference is {typical:.2g} |u|.""",
         2 * LIMIT.POSES * len(arms),
-        measured=f"""In {LIMIT.POSES * len(arms)} states, the hand's acceleration differs from the
-        input u by at most {exact:.0e} |u|. If all masses are {LIMIT.OFF.partition("-")[2]} times
-        those of the model, the median difference is {typical:.2g} |u|.""",
+        measured=f"""We applied the torques of (2.2) in {LIMIT.POSES * len(arms)} states of arms. The acceleration of
+        the hand differs from the input u by at most {exact:.0e} |u|. If all masses are {LIMIT.OFF.partition("-")[2]}
+        times those of the model, the median difference is {typical:.2g} |u|.""",
     )
 
 

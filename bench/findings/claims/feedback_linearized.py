@@ -66,15 +66,16 @@ def c09(results: Results) -> tuple[Word, Evidence]:
     long_way = int((goals["path_ratio"] * goals["angle0_rad"] > math.pi).sum())
     is_tight = max(bends) <= LIMIT.LINEAR_TIGHT and lost_at_rest <= LIMIT.LOST_SHARE and settled(off).all()
     return word_of(is_tight, max(bends) <= LIMIT.LINEAR_LOOSE and lost_at_rest <= LIMIT.STRAY_SHARE), evidence(
-        f"""The angles of {len(bends)} traces differ from the linear response by at most {max(bends):.1e} rad.
-        The list gives the share of random starts that never settle, for each angular speed at the start:
-        {"; ".join(map(lost_text, spun))}.
-        From the start sets poles and wraps, the body settles from {settled_of(off, "starts")} that are not exactly on a
-        boundary. It settles from {settled_of(wrap, "starts")} exactly at +-pi, and from {settled_of(pole, "starts")}
-        exactly on a pole. It reaches {settled_of(goals, "goals")}. On its way to {long_way} of these goals, it turns by
-        more than 180° (unwinding).""",
+        f"""In {len(bends)} simulations, the Euler angles differ from the linear response by at most {max(bends):.1e}
+        rad. For each angular speed at the start, the list gives the share of random starts that never settle (95 %
+        interval in brackets): {"; ".join(map(lost_text, spun))}.
+        In the start sets “poles” and “wraps”, the body settles from {settled_of(off, "starts")} that are not exactly
+        on a boundary. It settles from {settled_of(wrap, "starts")} where alpha or gamma is exactly +-pi, and from
+        {settled_of(pole, "starts")} exactly at a pole. The body reaches {settled_of(goals, "goals")} of the start set
+        “goals” that are not at a pole. On its way to {long_way} of these goals, the body turns by more than 180°
+        (unwinding).""",
         len(rows) + sum(one.starts for one in spun) + len(near) + len(goals),
-        measured=f"""The angles differ from the linear response by at most {max(bends):.1e} rad. Of
+        measured=f"""The Euler angles differ from the linear response by at most {max(bends):.1e} rad. Of
         {resting.starts:,} random starts at rest, {percent_interval(resting.share)} never
         settle.""",
     )
@@ -103,13 +104,15 @@ def c10(results: Results) -> tuple[Word, Evidence]:
     so = " Therefore the division by zero is in B^-1." if math.isfinite(largest) else ""
     return word_of(passes and divides, passes), evidence(
         f"""{capitalize(count_of(finite, len(commands), "commands"))} at exact poles are finite.
-        {capitalize(settled_of(exact, "episodes"))} that start at exact poles settle. The largest element of B at these
-        poles is {largest:.3f}.{so} If the body spins near a pole, |u| is proportional to cos(beta) to the power
-        {slope:.3f}. The largest command is {grown:.1e} rad/s^2. When alpha or gamma passes +-pi, the command jumps by
-        {float(jumps.min()):.4f} to {float(jumps.max()):.4f} times 2 pi Kp.""",
+        {capitalize(settled_of(exact, "starts"))} at exact poles settle. The largest element of B at these
+        poles is {largest:.3f}.{so} If the body spins near a pole, the length |u| of the command is proportional to
+        a power of cos(beta). Its exponent is {slope:.3f}. The largest command is {grown:.1e} rad/s^2. When alpha or
+        gamma passes +-pi, the command jumps by at least {float(jumps.min()):.4f} and at most
+        {float(jumps.max()):.4f} times 2 pi Kp.""",
         len(commands) + len(exact) + len(jumps),
-        measured=f"""{capitalize(count_of(finite, len(commands), "commands"))} at exact poles are
-        finite. At +-pi the command jumps by {float(jumps.max()):.4f} times 2 pi Kp.""",
+        measured=f"""{capitalize(count_of(finite, len(commands), "commands"))} at exact poles (beta = +-pi/2) are
+        finite. When alpha or gamma passes +-pi, the command jumps by up to {float(jumps.max()):.4f} times
+        2 pi Kp.""",
     )
 
 
@@ -166,10 +169,9 @@ def c11(results: Results, engine: str) -> tuple[Word, Evidence]:
         {widest} rad of a pole. {capitalize(count_of(int(erratic[clear.index].sum()), len(clear), "starts"))} of this
         kind are erratic.""",
         len(frame) + sum(len(one) for one in beside),
-        measured=f"""Outside the excluded region,
-        {count_of(resting[0], int((~spins).sum()), "starts at rest")} pass the boundary points
-        erratically. Of {probes.BESIDE} starts that spin at {probes.SPEED:g} rad/s near a pole,
-        {passed[0] or "none"} pass them erratically.""",
+        measured=f"""We simulated {int((~spins).sum()):,} starts at rest. Outside the excluded region,
+        {resting[0] or "none"} of these starts are erratic (no settling, or an extremely large command). Of
+        {probes.BESIDE} starts that spin at {probes.SPEED:g} rad/s near a pole, {passed[0] or "none"} are erratic.""",
     )
 
 

@@ -66,8 +66,8 @@ def c21(results: Results) -> tuple[Word, Evidence]:
         amplifies a moment by a factor of up to
         {found.loc[~poles, "gain"].max():.1e}, as 1 / cos(beta) predicts.""",
         len(found) + len(looped),
-        measured=f"""At {len(found):,} orientations, the work in both coordinates is the same to
-        {found["gap"].max() / EPS:.1f} eps (rounding). Near the poles, the controller amplifies
+        measured=f"""At {len(found):,} orientations, a moment does the same work in Euler angles and in Cartesian
+        coordinates, to {found["gap"].max() / EPS:.1f} eps (rounding). Near the poles, the controller amplifies
         moments by a factor of up to {found.loc[~poles, "gain"].max():.1e}.""",
     )
 

@@ -18,8 +18,8 @@ from bench.findings.claims.rotation_matrix import GAINS, LOOSE_SETTLING, SMALL_A
 from bench.findings.claims.tables import (
     Results,
     evidence,
-    interval,
     lost,
+    named_interval,
     percent,
     percent_interval,
     rounding,
@@ -58,7 +58,8 @@ def c06(results: Results, engine: str) -> tuple[Word, Evidence]:
         least >= LIMIT.INSIDE_TIGHT and outside.value <= 1 - LIMIT.OUTSIDE_SHARE, least >= LIMIT.INSIDE_LOOSE
     )
     how = uniform["outcome"][~settled(uniform)]
-    ends = ", ".join(f"{end} ({n:,})" for end, n in how.value_counts().items() if n) or "none, because all settle"
+    ends = ", ".join(f"{end} ({count(n, 'start')})" for end, n in how.value_counts().items() if n)
+    ends = ends or "none, because all settle"
     failure = "Along geodesics from the goal, the law fails from no start."
     if len(fails):
         failure = f"""Along geodesics from the goal, the smallest rotation from which the law fails is
@@ -66,10 +67,11 @@ def c06(results: Results, engine: str) -> tuple[Word, Evidence]:
     return word, evidence(
         f"""The box is the range of angles that the paper claims. Of all uniform starts, {whole} settle. Of the uniform
         starts inside the box, {inside} settle. Of the uniform starts outside the box, {outside} settle. Of the starts
-        of the start set box that are inside the box, {directed} settle. Outcomes of the uniform starts that do not
-        settle: {ends}. {failure} {capitalize(count_of(len(sure), len(every), "starts"))} converge.""",
+        of the start set “box” that are inside the box, {directed} settle. The uniform starts that do not settle end
+        as follows: {ends}. {failure} {capitalize(count_of(len(sure), len(every), "episodes"))} converge, that is, a
+        shorter time step does not change the result.""",
         len(every) + len(fails),
-        measured=f"""Of {whole.n:,} uniform starts, {percent_interval(whole)} settle. Of the uniform
+        measured=f"""Of {whole.n:,} uniform random starts, {percent_interval(whole)} settle. Of the uniform random
         starts in the claimed range of angles, {percent(inside.value)} % settle.""",
     )
 
@@ -95,19 +97,20 @@ def c07(results: Results, engine: str) -> tuple[Word, Evidence]:
     poles = poles[probes.boundary_distance(poles)["pole"] > probes.EXACT_RAD]
     beside = converged(poles)
     return word, evidence(
-        f"""{len(passing)} episodes come within {math.degrees(math.asin(LIMIT.PASSING)):.1f} degrees of the pole, and
-        {len(converged(passing))} of these episodes converge. Of those that converge, {percent(lost_passing.value)} % do
-        not settle. The 95 % interval is {percent(lost_passing.low)} to {percent(lost_passing.high)} %. Its lower
-        end counts the episodes that do not converge as settled, and its upper end counts them as lost. Of the episodes
-        that stay farther from the pole, {percent_interval(lost_rest)} do not settle. The median peak command is
-        {peak.value:,.0f} rad/s^2 ({peak.low:,.0f} to {peak.high:,.0f}) in the episodes near the pole, and
-        {interval(rest_peak, ",.0f")} rad/s^2 in the others. We also simulated starts at rest near a pole.
-        {capitalize(settled_of(beside, "starts"))} that converge settle, and {len(poles) - len(beside)} starts do not
-        converge.""",
+        f"""An episode converges if a shorter time step does not change its result. In {len(passing)} episodes, the body
+        comes within {math.degrees(math.asin(LIMIT.PASSING)):.1f} degrees of a pole, and {len(converged(passing))} of
+        these episodes converge. In {percent(lost_passing.value)} % of those that converge, the body does not settle.
+        The 95 % interval of this share is {percent(lost_passing.low)} to {percent(lost_passing.high)} %. Its lower
+        end counts the episodes that do not converge as settled, and its upper end counts them as lost. In
+        {percent_interval(lost_rest)} of the episodes in which the body stays farther from the poles, it does not
+        settle. The median peak command is {named_interval(peak, ",.0f", " rad/s^2")} in the episodes near a pole, and
+        {named_interval(rest_peak, ",.0f", " rad/s^2")} in the other episodes. We also simulated starts at rest near a
+        pole. Of the episodes from these starts, {len(poles) - len(beside)} do not converge. In
+        {settled_of(beside, "episodes")} that converge, the body settles.""",
         len(frame) + len(poles),
-        measured=f"""Of {len(passing)} starts whose path comes close to a pole,
-        {percent_interval(lost_passing)} never settle. Of the other starts,
-        {percent(lost_rest.value)} % never settle.""",
+        measured=f"""From {len(passing)} starts, the body comes close to a pole (beta = +-pi/2). Of these starts,
+        {percent_interval(lost_passing)} never settle. Of the other starts, {percent(lost_rest.value)} % never
+        settle.""",
     )
 
 
@@ -122,19 +125,19 @@ def c08(results: Results, engine: str) -> tuple[Word, Evidence]:
     works = cure.high >= zero.low - LIMIT.CURE_SLACK and cure.low > base.high
     word = word_of(works and base.high <= LIMIT.FEW_GOALS and not near.k, works and base.high < LIMIT.MANY_GOALS)
     return word, evidence(
-        f"""The law that subtracts E_d reaches {base} of the goals (start set “goals”), and
-        {count_of(near.k, near.n, "goals")} at {LIMIT.NEAR_GOAL_RAD} rad
-        from zero. The law with angles measured from the goal reaches {cure} of these goals. With
-        goal zero, this second law settles from {zero} of the uniform starts. The eigenvalues of the law that subtracts
-        E_d show which goals it can hold: {percent(held_goals.held_share(results.gains()))} % of all goals. It can hold
-        a goal if |alpha_d| is below a limit. The limit is
+        f"""The law that subtracts E_d reaches {base} of the goals of the start set “goals”. It also reaches
+        {count_of(near.k, near.n, "goals")} at {LIMIT.NEAR_GOAL_RAD} rad from zero rotation. The law with angles
+        measured from the goal reaches {cure} of the goals of the start set “goals”. If the goal is zero rotation, the
+        law with angles measured from the goal settles from {zero} of the uniform starts. By its eigenvalues near a
+        goal, the law that subtracts E_d is stable at {percent(held_goals.held_share(results.gains()))} % of all goals.
+        It is stable at a goal if |alpha_d| is below a limit. This limit is
         {math.degrees(math.acos(held_goals.least_cosine(0.0, results.gains()))):.1f} degrees at beta_d = 0 and 90
         degrees at the poles, and does not depend on gamma_d. The command u that the paper prints contains no
         goal.""",
         base.n + cure.n + zero.n + near.n,
-        measured=f"""The law that subtracts the angles E_d of the goal reaches
-        {percent_interval(base)} of {base.n} goals. With angles measured from the goal, the law
-        reaches {percent(cure.value)} % of these goals.""",
+        measured=f"""If the linearized law subtracts the angles E_d of the goal, it reaches {percent_interval(base)} of
+        {base.n} goals. If the law uses angles measured from the goal, it reaches {percent(cure.value)} % of these
+        goals.""",
     )
 
 
@@ -192,10 +195,9 @@ def c37(results: Results) -> tuple[Word, Evidence]:
         the law {is_satisfactory}: {count_of(outside.k, outside.n, "starts")} settle in time."""
         if inside.low >= LIMIT.REASONABLE
         else "",
-        measured=f"""We took uniform starts at {LIMIT.BEYOND_RAD:g} rad or more. Of those with
-        |alpha| < pi/2, {percent_interval(inside)} settle in time, that is in
-        {LIMIT.PACE * small:.2f} s. Of the others, {percent(outside.value)} % settle
-        in time.""",
+        measured=f"""We took uniform random starts at {LIMIT.BEYOND_RAD:g} rad or more from the goal. Of the starts with
+        |alpha| < pi/2, {percent_interval(inside)} settle within {LIMIT.PACE * small:.2f} s. Of the other starts,
+        {percent(outside.value)} % settle within this time.""",
     )
 
 
@@ -222,8 +224,8 @@ def c38(results: Results) -> tuple[Word, Evidence]:
         instead=f"""{percent(unsettled.value)} % of the starts outside the linear region are lost. From the other
         starts, the median difference between the settling time and that of the linear model is
         {percent(typical)} %.""",
-        measured=f"""{percent_interval(unsettled)} of the starts never settle. The settling times of
-        the others differ from that of the linear model by {percent(typical)} % (median).""",
+        measured=f"""{percent_interval(unsettled)} of the starts never settle. The other settling times differ from
+        the linear model by {percent(typical)} % (median).""",
     )
 
 
@@ -240,8 +242,8 @@ def c39(results: Results) -> tuple[Word, Evidence]:
     kept = [speed for speed, worst in by_speed.items() if worst <= LIMIT.AS_WELL]
     fastest, worst_ratio = max(by_speed.index), float(by_speed.max())
     measured = (
-        f"For goals that move at up to {fastest:g} rad/s, the error of the linearized law is at "
-        f"most {worst_ratio:.2f} times the error of the rotation-matrix law."
+        f"For goals that move at up to {fastest:g} rad/s, the greatest orientation error with the linearized law is "
+        f"at most {worst_ratio:.2f} times that with the rotation-matrix law."
     )
     if not np.isfinite(worst_ratio):
         measured = f"The linearized law does not follow all goals that move at up to {fastest:g} rad/s."
@@ -279,9 +281,9 @@ def c45(results: Results) -> tuple[Word, Evidence]:
         matrix of (2.14) by {_at_most(off)}. The derivatives with respect to the angles and their rates are
         {_at_most(rest)}.""",
         2 * 9,
-        measured=f"""The derivatives of (2.11) with respect to u differ from the permutation matrix
-        of (2.14) by {_at_most(off)}. The derivatives with respect to the angles and their rates are
-        {_at_most(rest)}.""",
+        measured=f"""We computed the derivatives of (2.11) at zero rotation. Those with respect to the input u differ
+        from the permutation matrix of (2.14) by {_at_most(off)}. Those with respect to the angles and to their rates
+        are {_at_most(rest)}.""",
     )
 
 

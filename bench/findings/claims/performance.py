@@ -12,7 +12,7 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.experiments.tables.statistics import bootstrap, quantile, quantile_estimate
-from bench.findings.amounts import capitalize, count_of, join_words, part_of
+from bench.findings.amounts import capitalize, count, count_of, join_words, part_of
 from bench.findings.claims import adequacy, probes, tables
 from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy
 from bench.findings.claims.at_gains import at_every_gain, on_every_engine
@@ -143,7 +143,7 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
         ("episodes", "costs", "timings") if known.times else ("episodes", "costs"),
         instead,
         f"""{fine} adequate in cost and performance. The rotation-matrix law takes
-        {tables.interval_or_never(three[0].pace, ".2f", " s")} until 99 % of the starts have settled.""",
+        {tables.named_interval(three[0].pace, ".2f", " s")} until 99 % of the starts settle.""",
         (PLACES, *(_placed(law, asked[name], known) for name, law in zip(NAMES, three, strict=True))),
     )
 
@@ -296,7 +296,8 @@ def c31(results: Results) -> tuple[Word, Evidence]:
     ratios = [_gain(settling_times(laws[-1]), settling_times(one)) for one in laws[:-1]]
     is_better = all(ratio.low >= LIMIT.DRAMATIC for ratio in ratios) and mine.low > linearized.high
     longer = [tables.interval_or_never(ratio, ".2f") for ratio in ratios]
-    settles = [percent_interval(one) for one in ranges]
+    told = tables.named_interval(ratios[0], ".2f")
+    settles = [tables.brief_interval(one) for one in ranges]
     return word_of(is_better and mine.low > matrix.high, is_better and mine.high >= matrix.low), evidence(
         f"""Of {matrix.n:,} uniform starts, {percent(matrix.value)} % settle with the rotation-matrix law,
         {percent(linearized.value)} % with the linearized law, and {percent(mine.value)} % with feedback
@@ -355,7 +356,7 @@ def c35(results: Results) -> tuple[Word, Evidence]:
         f"""These laws perform reasonably: {", ".join(reasonable) or "none"}. {told} A small error settles in
         {small:.3f} s.""",
         sum(one.n for _, one, _ in found),
-        measured=f"""Of {matrix.n:,} uniform starts, {percent(matrix.value)} % settle with the
+        measured=f"""Of {matrix.n:,} uniform random starts, {percent(matrix.value)} % settle with the
         rotation-matrix law, {percent_interval(linearized)} with the linearized law, and
         {percent(feedback.value)} % with feedback linearization.""",
     )
@@ -380,13 +381,12 @@ def c36(results: Results) -> tuple[Word, Evidence]:
         word = Word.UNTESTED
     by_name = {law.name: law for law in three}
     on_boundary = join_words([
-        f"{part_of(by_name[name].lost_exact, by_name[name].exact)} with {law}"
+        f"{part_of(by_name[name].lost_exact, by_name[name].exact)} do not settle with {law}"
         for law, name in zip(IN_WORDS, THREE, strict=True)
         if name in by_name
     ])
     return word, evidence(
         told,
         sum(law.rows for law in three),
-        measured=f"""Of the starts exactly on a boundary (a 180° rotation, a pole or ±π), these do
-        not settle: {on_boundary}.""",
+        measured=f"""Of the starts exactly at a 180° rotation, at a pole or at an angle of ±π, {on_boundary}.""",
     )

@@ -38,10 +38,9 @@ def c40(results: Results) -> tuple[Word, Evidence]:
         three remaining elements and meets (2.5) to {left:.0e}. In the median, the second matrix differs from the first
         by at least {apart:.2f} in one element.""",
         LIMIT.MATRICES * len(trios),
-        measured=f"""{capitalize(count_of(len(possible), len(trios), "choices"))} of three elements
-        can be eliminated. For each of these choices, the three elements that remain do not determine
-        the matrix: two different rotation matrices have them. In the median, the two matrices
-        differ by {apart:.2f} or more in one element.""",
+        measured=f"""{capitalize(count_of(len(possible), len(trios), "choices"))} of three elements of n and o can be
+        eliminated. In each case, two different rotation matrices have the same three remaining elements. The two
+        matrices differ in one element by {apart:.2f} or more (median).""",
     )
 
 
@@ -105,9 +104,9 @@ def c41(results: Results) -> tuple[Word, Evidence]:
         the same matrix to {max(spread.values()):.0e}. The line is at beta = pi/2 for Z-Y-X angles and for roll, pitch
         and yaw, and at zero rotation for the other two.""",
         2 * len(pairs) * LIMIT.MATRICES,
-        measured=f"""In {len(pairs)} representations and at {LIMIT.MATRICES} orientations, two
-        different sets of variables give the same rotation matrix. The elements differ by at most
-        {max(twice.values()):.0e}.""",
+        measured=f"""We tested {len(pairs)} representations at {LIMIT.MATRICES} orientations. In each case, two
+        different sets of values give the same rotation matrix, except for differences of at most
+        {max(twice.values()):.0e} in the elements.""",
     )
 
 
@@ -139,8 +138,8 @@ def c42(results: Results) -> tuple[Word, Evidence]:
         and pi/2 if they differ. At a middle angle of 0.8 rad the smallest singular value is at least
         {regular:.2f}.""",
         2 * len(FORMS) * LIMIT.PAIRS,
-        measured=f"""Each of the {len(FORMS)} forms has an orientation where the smallest singular
-        value of B is {max(least.values()):.0e} or less.""",
+        measured=f"""Each of the {len(FORMS)} forms of Euler angles has orientations where the smallest singular value
+        of the matrix B is {max(least.values()):.0e} or less.""",
     )
 
 
@@ -174,7 +173,7 @@ def c43(results: Results) -> tuple[Word, Evidence]:
         the median. Equal errors of a small rotation vector turn a hand equally far in all
         directions. C22 to C25 judge compliance.""",
         2 * LIMIT.MATRICES,
-        measured=f"""For {LIMIT.MATRICES} pairs of orientations, the straight line in Z-Y-X angles is
-        {longer.value:.2f} times as long as the shortest path. This is the median; its 95 % interval
-        is {longer.low:.2f} to {longer.high:.2f}.""",
+        measured=f"""For {LIMIT.MATRICES} pairs of orientations, we divided the length of the straight line in Z-Y-X
+        angles by the length of the shortest path. The median ratio is {longer.value:.2f} (95 % interval:
+        {longer.low:.2f} to {longer.high:.2f}).""",
     )

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from bench.experiments.tables.statistics import bootstrap
-from bench.findings.amounts import capitalize, count_of
+from bench.findings.amounts import capitalize, count, count_of
 from bench.findings.claims import probes
 from bench.findings.claims.adequacy import CALLS
 from bench.findings.claims.at_gains import on_every_engine
@@ -16,7 +16,7 @@ from bench.findings.claims.tables import (
     MAIN_ENGINE,
     Results,
     evidence,
-    interval_or_never,
+        named_interval,
     percent,
     percent_interval,
     settled,
@@ -60,12 +60,12 @@ def c01(results: Results, engine: str) -> tuple[Word, Evidence]:
     exactly = int((probes.boundary_distance(left)["half_turn"].abs() <= probes.EXACT_RAD).sum())
     is_stray = uniform.n - uniform.k <= LIMIT.STRAY_SHARE * uniform.n
     return word_of(not unstable and exactly == len(left), not unstable and is_stray), evidence(
-        f"""{capitalize(count_of(unstable, len(frame), "starts"))} diverge or gain energy. Number of starts that do
-        not settle: {len(left):,}. Number of these starts that are exactly 180° from the goal: {exactly:,}. Of the
-        uniform starts, {uniform} settle.""",
+        f"""{capitalize(count_of(unstable, len(frame), "episodes"))} diverge or end with more energy than at their
+        start. The body does not settle from {count(len(left), "start")}. {capitalize(count_of(exactly, len(left),
+        "starts"))} of this kind are exactly 180° from the goal. Of the uniform starts, {uniform} settle.""",
         len(frame),
-        measured=f"""Of {uniform.n:,} uniform starts, {percent_interval(uniform)} settle. Of all
-        {len(frame):,} starts with this law, {unstable or "none"} diverge.""",
+        measured=f"""Of {uniform.n:,} uniform random starts, {percent_interval(uniform)} settle. Of all {len(frame):,}
+        starts that we simulated with the rotation-matrix law, {unstable or "none"} diverge.""",
     )
 
 
@@ -84,13 +84,13 @@ def c02(results: Results) -> tuple[Word, Evidence]:
     largest, count = max(one.max() for one in off), sum(map(len, off))
     is_tight = all((one <= most).all() for one, most in zip(off, allowed, strict=True))
     return word_of(is_tight, largest <= LOOSE_SETTLING), evidence(
-        f"""We simulated {count} small rotations at {len(GAINS)} pairs of gains. The closed form gives settling times of
-        {min(times):.3f} to {max(times):.3f} s ({closed_form.linear_settling(*Gains()):.4f} s at the paper's gains). The
-        simulated times differ from the closed form by at most {percent(largest)} %.""",
+        f"""We simulated {count} small rotations at {len(GAINS)} pairs of gains. The linear model gives settling times
+        of {min(times):.3f} to {max(times):.3f} s ({closed_form.linear_settling(*Gains()):.4f} s at the paper's gains).
+        The simulated settling times differ from those of the linear model by at most {percent(largest)} %.""",
         count,
-        measured=f"""We chose gains for settling times of {min(times):.2f} to {max(times):.2f} s.
-        The settling times of {count} small rotations differ from the chosen times by at most
-        {percent(largest)} %.""",
+        measured=f"""We chose {len(GAINS)} pairs of gains, for which the linear model gives settling times of
+        {min(times):.2f} to {max(times):.2f} s. The simulated settling times of {count} small rotations differ from
+        those of the linear model by at most {percent(largest)} %.""",
     )
 
 
@@ -115,15 +115,16 @@ def c03(results: Results, engine: str) -> tuple[Word, Evidence]:
     is_infinite = bool((np.abs(stay["final_angle_rad"] - np.pi) <= LIMIT.AT_HALF_TURN).any())
     grows = growth.low > 0.0
     return word_of(grows and off <= LIMIT.SLOPE_TIGHT and is_infinite, grows and off <= LIMIT.SLOPE_LOOSE), evidence(
-        f"""For each rad of the initial angle, the settling time grows by {growth.value:.3f} s ({growth.low:.3f} to
-        {growth.high:.3f}). Close to 180°, it grows by {float(slope):.4f} s each time the distance from 180° becomes ten
-        times smaller (closed form: {closed:.4f} s). At 1e-12 rad from 180°, it is {float(slowest):.2f} s.
+        f"""For each rad of the initial angle, the settling time grows by
+        {named_interval(growth, ".3f", " s")}. Close to 180°, the settling time grows by
+        {float(slope):.4f} s each time the distance from 180° becomes ten times smaller. The closed form of this growth
+        is {closed:.4f} s. At 1e-12 rad from 180°, the settling time is {float(slowest):.2f} s.
         {capitalize(count_of(len(exact) - len(stay), len(exact), "starts"))} at exactly 180° settle within
         {float(exact["horizon_s"].min()):g} s.""",
         len(uniform) + len(turns),
-        measured=f"""For each rad of the initial angle, settling takes
-        {interval_or_never(growth, ".3f", " s")} longer. At exactly 180°,
-        {count_of(len(exact) - len(stay), len(exact), "starts")} settle.""",
+        measured=f"""If the initial angle is larger by 1 rad, the settling time is longer by
+        {named_interval(growth, ".3f", " s")} on average.
+        {capitalize(count_of(len(exact) - len(stay), len(exact), "starts"))} at exactly 180° settle.""",
     )
 
 
@@ -145,13 +146,14 @@ def c04(results: Results, engine: str) -> tuple[Word, Evidence]:
     parallel = sum(product <= ZERO_ERROR for product in products)
     is_zero = largest <= ZERO_ERROR
     return word_of(is_zero and parallel == len(exact), is_zero), evidence(
-        f"""We tested {len(exact)} exact 180° rotations. The largest error |e| at these rotations is {largest:.1g}. The
-        body settles from {count_of(int(settled(exact).sum()), len(exact), "rotations")}. At {parallel} rotations (about
-        x, y and z), each of the three cross products is zero. At the other {len(exact) - parallel} rotations, only the
-        sum of the three products is zero. The largest product is {max(products):.2f}.""",
+        f"""We tested {len(exact)} exact 180° rotations. The largest length |e| of the error at these rotations is
+        {largest:.1g}. The body settles from {count_of(int(settled(exact).sum()), len(exact), "rotations")}. At
+        {parallel} rotations (about x, y and z), each of the three cross products is zero. At the other
+        {len(exact) - parallel} rotations, only the sum of the three products is zero. The largest length of one product
+        is {max(products):.2f}.""",
         len(exact),
-        measured=f"""At {len(exact)} rotations by 180°, the largest error vector that the law computes has
-        the length {largest:.1g}. At {parallel} of these rotations (about x, y and z), each of the three cross
+        measured=f"""We computed the error vector of the rotation-matrix law at {len(exact)} exact 180° rotations. Its
+        largest length is {largest:.1g}. At {parallel} of these rotations (about x, y and z), each of the three cross
         products is zero.""",
     )
 
@@ -174,14 +176,15 @@ def c05(results: Results) -> tuple[Word, Evidence]:
     cancel = sum(_size(R) <= ZERO_ERROR < _largest_product(R) for R in probes.rotations(exact))
     readings = (least < LIMIT.NEAR_ZERO, cancel > 0)
     return word_of(all(readings), any(readings)), evidence(
-        f"""The paper's sentence is ambiguous. For reading (a), we computed |e| at {len(frame):,} starts and at
-        {states:,} orientations of a search, all of them away from 180°. At these orientations, |e| / sin(angle) is at
-        least {lowest:.9f}, and |e| is at least {least:.1e}. For reading (b), we looked at {len(exact)} exact 180°
-        rotations. At {cancel} of these rotations, cross products that are not zero have a zero sum.""",
+        f"""The paper's sentence has two possible meanings, (a) and (b). For meaning (a), we computed |e| at
+        {len(frame):,} starts and at {states:,} orientations of a search. All these orientations are away from 180°. At
+        these orientations, |e| / sin(angle) is at least {lowest:.9f}, and |e| is at least {least:.1e}. For meaning (b),
+        we tested {len(exact)} exact 180° rotations. At {cancel} of these rotations, the sum of the three cross products
+        is zero, but not all of the products are zero.""",
         len(frame) + states + len(exact),
-        measured=f"""At {cancel} of {len(exact)} rotations by 180°, cross products that are not zero
-        have a zero sum. At orientations away from 180°, the error |e| is at least {lowest:.4f} times
-        the sine of the angle.""",
+        measured=f"""At {cancel} of {len(exact)} exact 180° rotations, the sum of the three cross products is zero, but
+        not all of the products are zero. Away from 180°, the length |e| of the error is at least {lowest:.4f} times the
+        sine of the rotation angle.""",
     )
 
 

@@ -198,6 +198,7 @@ def _free_body_query(words: Mapping[str, str]) -> str:
 
 
 WHOLE_PERCENT = 100.0
+INTERVAL = "95 % interval: "
 
 
 def percent(value: float) -> str:
@@ -213,7 +214,12 @@ def percent(value: float) -> str:
 
 
 def percent_interval(estimate: Share | Estimate) -> str:
-    """Return a share with its interval: '93.1 % (91.4 to 94.5 %)'."""
+    """Return a share with its interval, as prose: '93.1 % (95 % interval: 91.4 to 94.5 %)'."""
+    return brief_interval(estimate).replace("(", f"({INTERVAL}")
+
+
+def brief_interval(estimate: Share | Estimate) -> str:
+    """Return the same where a head or a sentence says what the brackets are: '93.1 % (91.4 to 94.5 %)'."""
     value, low, high = (percent(share) for share in (estimate.value, estimate.low, estimate.high))
     return f"{value} % ({low} to {high} %)"
 
@@ -228,7 +234,7 @@ class Share(NamedTuple):
     high: float
 
     def __format__(self, _: Any) -> str:
-        return f"{percent_interval(self).removesuffix(')')}, n = {self.n:,})"
+        return percent_interval(self).replace("(", f"(n = {self.n:,}; ")
 
 
 def share(facts: pd.Series) -> Share:
@@ -242,8 +248,8 @@ def share(facts: pd.Series) -> Share:
 
 
 def interval(one: Share | Estimate, form: str) -> str:
-    """Format a number with its interval: '0.62 (0.60 to 0.64)'."""
-    return f"{one.value:{form}} ({one.low:{form}} to {one.high:{form}})"
+    """Format a number with its interval: '0.62 (95 % interval: 0.60 to 0.64)'."""
+    return f"{one.value:{form}} ({INTERVAL}{one.low:{form}} to {one.high:{form}})"
 
 
 NEVER = "never"
@@ -255,6 +261,11 @@ def interval_or_never(one: Estimate, form: str, unit: str = "") -> str:
         return NEVER
     high = f"{one.high:{form}}" if np.isfinite(one.high) else NEVER
     return f"{one.value:{form}}{unit} ({one.low:{form}} to {high})"
+
+
+def named_interval(one: Estimate, form: str, unit: str = "") -> str:
+    """Return the same as prose: '1.68 s (95 % interval: 1.56 to 1.93 s)'."""
+    return interval_or_never(one, form, unit).replace("(", f"({INTERVAL}").replace(")", f"{unit})")
 
 
 def lost(frame: pd.DataFrame) -> Estimate:
@@ -269,7 +280,7 @@ def lost_text(one: Spun) -> str:
     """Return the share lost of starts at a stated speed, with its interval, and how many do not converge."""
     apart = f" ({one.unconverged} of them do not converge)" if one.unconverged else ""
     at = f"at {one.speed:g} rad/s" if one.speed else "at rest"
-    return f"{percent_interval(one.share)} of {one.starts:,} starts {at}{apart}"
+    return f"{brief_interval(one.share)} of {one.starts:,} starts {at}{apart}"
 
 
 def settled(frame: pd.DataFrame) -> pd.Series:

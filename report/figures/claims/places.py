@@ -39,15 +39,16 @@ class Place(NamedTuple):
     @property
     def html(self) -> str:
         """Return a link for a piece of HTML: 'figure of chapter 2, What Murphy's regulators do'."""
-        what = f"{self.kind} of {self.short}" if self.kind else self.short
+        within = self.short if CHAPTER.match(self.page) else f"the {self.short}"
+        what = f"{self.kind} of {within}" if self.kind else self.short
         target = f"{self.page}.html{'#' * bool(self.label)}{self.label}"
         return f'<a href="{target}">{what}: {self.title}</a>'
 
     @property
     def short(self) -> str:
-        """Return 'chapter 2', or the first word or two of a page of the appendix."""
+        """Return 'chapter 2', or a page of the appendix by the words of its file name: 'appendix on arms'."""
         chapter = CHAPTER.match(self.page)
-        return f"chapter {int(chapter[1])}" if chapter else f"appendix {self.page.partition('-')[2]}"
+        return f"chapter {int(chapter[1])}" if chapter else f"appendix on {self.page.partition('-')[2]}"
 
 
 @functools.cache
