@@ -19,7 +19,7 @@ from bench.findings.claims.tables import (
     MAIN_ENGINE,
     Results,
     evidence,
-        named_interval,
+    named_interval,
     rounding,
     settled,
     settled_of,
@@ -188,8 +188,8 @@ def c28(results: Results) -> tuple[Word, Evidence]:
         rad.""",
         2 * len(ends) + len(loops),
         measured=f"""Along two paths to the same orientation, the integrals of the angular velocity
-        differ by {interval(quantile_estimate(ends, 0.5), ".2f")} rad. This is the median of
-        {len(ends)} pairs of paths, with its 95 % interval.""",
+        differ by {named_interval(quantile_estimate(ends, 0.5), ".2f", " rad")}. This is the median
+        of {len(ends)} pairs of paths.""",
     )
 
 

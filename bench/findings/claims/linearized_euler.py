@@ -10,7 +10,7 @@ from bench.base.on_first_use import pd
 from bench.experiments.suites import SHORT
 from bench.experiments.tables.read import converged
 from bench.experiments.tables.statistics import quantile_estimate
-from bench.findings.amounts import capitalize, count_of, join_words
+from bench.findings.amounts import capitalize, count, count_of, join_words
 from bench.findings.claims import probes, tables
 from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.at_gains import on_every_engine, weakest_at_every_gain

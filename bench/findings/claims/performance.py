@@ -12,7 +12,7 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.experiments.tables.statistics import bootstrap, quantile, quantile_estimate
-from bench.findings.amounts import capitalize, count, count_of, join_words, part_of
+from bench.findings.amounts import capitalize, count_of, join_words, part_of
 from bench.findings.claims import adequacy, probes, tables
 from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy
 from bench.findings.claims.at_gains import at_every_gain, on_every_engine
@@ -296,7 +296,6 @@ def c31(results: Results) -> tuple[Word, Evidence]:
     ratios = [_gain(settling_times(laws[-1]), settling_times(one)) for one in laws[:-1]]
     is_better = all(ratio.low >= LIMIT.DRAMATIC for ratio in ratios) and mine.low > linearized.high
     longer = [tables.interval_or_never(ratio, ".2f") for ratio in ratios]
-    told = tables.named_interval(ratios[0], ".2f")
     settles = [tables.brief_interval(one) for one in ranges]
     return word_of(is_better and mine.low > matrix.high, is_better and mine.high >= matrix.low), evidence(
         f"""Of {matrix.n:,} uniform starts, {percent(matrix.value)} % settle with the rotation-matrix law,
@@ -311,7 +310,7 @@ def c31(results: Results) -> tuple[Word, Evidence]:
         numbers=(
             (
                 "Law",
-                "Uniform starts that settle",
+                "Uniform starts that settle (95 % interval in brackets)",
                 "Time until 99 % of the starts settle, divided by this time with feedback linearization",
             ),
             *zip(THREE, settles, (*longer, "1"), strict=True),
