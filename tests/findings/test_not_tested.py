@@ -117,7 +117,7 @@ def asked(wrapper, own, *others):
 def test_gains_at_which_it_was_not_tested_give_no_word_and_are_named():
     word, said = asked(at_every_gain, Run(16.0, Word.UNTESTED), Run(10.0, Word.HOLDS), Run(20.0, Word.HOLDS))
     assert word == Word.HOLDS
-    assert "At Kp = 100, Kv = 16: not tested." in said.sentence
+    assert "At Kp = 100, Kv = 16, the verdict is 'not tested'." in said.sentence
     assert asked(at_every_gain, Run(16.0, Word.UNTESTED), Run(20.0, Word.UNTESTED))[0] == Word.UNTESTED
 
 
