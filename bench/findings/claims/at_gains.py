@@ -64,7 +64,7 @@ def _at_every_gain(decide: Callable, combine: Callable[[list[Word]], Word]) -> C
         # What was not tested at some gains says nothing of what would come out there.
         words = [word for word, _ in found.values() if word != Word.UNTESTED]
         word = combine(words) if words else Word.UNTESTED
-        told = " ".join(f"At {_told(gains)}: {word}. {said}" for gains, (word, said) in found.items())
+        told = " ".join(f"At {_told(gains)}, the verdict is '{word}'. {said}" for gains, (word, said) in found.items())
         true_at: dict[str, list[Gains]] = {}
         for gains, (_, said) in found.items():
             if said.instead:
@@ -160,7 +160,7 @@ def describe(study: dict, words: dict[str, str]) -> str:
     seeds = sum(name != HALF_STEP for name in runs)
     other = {id: found for id, found in turned(runs, words).items() if id not in stale}
     found = "every verdict that was tested stays the same" if not other else f"these change: {', '.join(other)}"
-    step = ", and also with half the time step" if HALF_STEP in runs else ""
+    step = ", and with half the time step" if HALF_STEP in runs else ""
     return f"With each of {seeds} other random seeds{step}, {found}.{_lacking(stale)}{by_gains(study, words)}"
 
 
@@ -169,7 +169,7 @@ def _lacking(stale: list[str]) -> str:
     if not stale:
         return ""
     names = ", ".join(stale)
-    return f" The claims {names} were not tested again, because we wrote their present criteria later."
+    return f" This study did not test the claims {names}, because we wrote their present criteria later."
 
 
 def by_gains(study: dict, words: dict[str, str]) -> str:

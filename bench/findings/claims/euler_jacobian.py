@@ -137,9 +137,11 @@ NAMED = {form: "-".join(form[:3].upper()) for form in (*LIMIT.REGULAR, LIMIT.AT_
 
 HEADS = (
     "Form",
-    "Uniform starts that never settle; median settling time",
-    "Starts near 180° that never settle; median settling time",
-    "Growth of the condition number of B towards the pole",
+    "Uniform starts that never settle",
+    "Median settling time from uniform starts",
+    "Starts near 180° that never settle",
+    "Median settling time from starts near 180°",
+    "Exponent n: towards the pole, the condition number of B grows as (1 / distance)ⁿ",
 )
 """Heads of what was measured of a form."""
 
@@ -172,13 +174,12 @@ def c34(results: Results) -> tuple[Word, Evidence]:
     starts = max(kept.n for kept in near_180.values())
     return word_of(all(alike.values()), alike[LIMIT.REGULAR] and not all(alike.values())), evidence(
         f"""We compared feedback linearization in {len(forms)} forms of Euler angles. For each form, we counted the
-        starts that never settle, and computed the median settling time and the growth of the condition number of B
-        towards the pole of the form. Forms that give the same results:
+        starts that never settle, and computed the median settling time. We also computed how the condition number of B
+        grows towards the pole of the form. These forms give the same results:
         {"; ".join(" and ".join(NAMED[form] for form in pair) for pair, facts in alike.items() if facts) or "none"}.""",
         sum(kept.n for own in found.values() for kept, _ in own.values())
         + len(forms) * LIMIT.PAIRS * LIMIT.FORM_DECADES,
-        measured=f"""We simulated feedback linearization from {starts} starts near a 180° rotation. Of these starts,
-        {lost_by_form}.""",
+        measured=f"We simulated feedback linearization. Of {starts} starts near 180°, {lost_by_form}.",
         numbers=(HEADS, *rows),
     )
 
@@ -199,14 +200,16 @@ def _degenerates(form: str) -> tuple[bool, str]:
     logs = [[np.log10(condition_in(form, along.to_matrix((one, x, two)))) for x in near] for one, two in outer]
     slopes = np.diff(logs, axis=1)
     tight = np.abs(slopes - LIMIT.SLOPE).max() <= LIMIT.SLOPE_TIGHT * LIMIT.SLOPE
-    return bool(tight), f"{slopes.min():.3f} to {slopes.max():.3f} decades per decade"
+    least, most = f"{slopes.min():.3f}", f"{slopes.max():.3f}"
+    return bool(tight), f"n = {least}" if least == most else f"n = {least} to {most}"
 
 
 def _numbers(found: dict[str, tuple[Share, Estimate]]) -> list[str]:
     """Return how many starts of each set are lost, and the median settling time."""
     return [
-        f"{count_of(kept.n - kept.k, kept.n, 'starts')}; {time.value:.3f} s"
+        text
         for kept, time in found.values()
+        for text in (count_of(kept.n - kept.k, kept.n, "starts"), f"{time.value:.3f} s")
     ]
 
 
@@ -220,14 +223,14 @@ def c44(results: Results) -> tuple[Word, Evidence]:
     exact, off = (max(float(gaps.max()) for gaps in found) for found in (right, wrong))
     typical = float(np.median(np.concatenate(wrong)))
     return word_of(exact <= LIMIT.SAME < off, False), evidence(
-        f"""We tested {LIMIT.POSES} random states of each arm ({", ".join(arms)}). MuJoCo gives the velocity of the hand
-        under the torques of (2.2). Differences of this velocity give the acceleration of the hand. The acceleration
-        differs from the input u by at most {exact:.0e} |u|. If all masses are {LIMIT.OFF.partition("-")[2]} times those
-        of the model, the median difference is {typical:.2g} |u|.""",
+        f"""We tested {LIMIT.POSES} random states of each arm ({", ".join(arms)}). Equation (2.2) gives the torques, and
+        MuJoCo gives the accelerations of the joints under these torques. From them, we computed the acceleration of the
+        hand. It differs from the input u by at most {exact:.0e} |u|. If all masses of the arm are
+        {LIMIT.OFF.partition("-")[2]} times those of the model, the median difference is {typical:.2g} |u|.""",
         2 * LIMIT.POSES * len(arms),
-        measured=f"""We applied the torques of (2.2) in {LIMIT.POSES * len(arms)} states of arms. The acceleration of
-        the hand differs from the input u by at most {exact:.0e} |u|. If all masses are {LIMIT.OFF.partition("-")[2]}
-        times those of the model, the median difference is {typical:.2g} |u|.""",
+        measured=f"""In {LIMIT.POSES * len(arms)} states, the acceleration of the hand differs from the
+        input u by at most {exact:.0e} |u|. If all masses of the arm are {LIMIT.OFF.partition("-")[2]} times
+        those of the model, the median difference is {typical:.2g} |u|.""",
     )
 
 

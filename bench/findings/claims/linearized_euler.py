@@ -185,17 +185,18 @@ def c37(results: Results) -> tuple[Word, Evidence]:
     every, inside, outside = share(in_time), share(in_time[in_box]), share(in_time[~in_box])
     is_satisfactory = "is satisfactory too" if outside.low >= LIMIT.REASONABLE else "is not satisfactory"
     return word_of(inside.high <= LIMIT.FEW, inside.low < LIMIT.REASONABLE), evidence(
-        f"""We took uniform starts at {LIMIT.BEYOND_RAD:g} rad or more, and counted those that settle within
-        {LIMIT.PACE * small:.3f} s. This is {LIMIT.PACE:g} times the settling time of a small error. Of the starts with
-        |alpha| < pi/2, {inside} settle in this time. Of the other starts, {outside} settle in this time. Of all starts,
-        {every} settle in this time.""",
+        f"""We took uniform starts at {LIMIT.BEYOND_RAD:g} rad or more from the goal, and counted the starts that settle
+        within {LIMIT.PACE * small:.3f} s. This is {LIMIT.PACE:g} times the settling time of a small error. Of the
+        starts with |alpha| < pi/2, {inside} settle in this time. Of the other starts, {outside} settle in this time. Of
+        all starts, {every} settle in this time. The brackets give 95 % intervals and the number n of starts.""",
         len(rows),
-        instead=f"""If the goal is zero, the law is satisfactory where |alpha| < pi/2, which is half of SO(3). There
-        {count_of(inside.k, inside.n, "starts")} at {LIMIT.BEYOND_RAD:g} rad or more settle in time. In the other half,
-        the law {is_satisfactory}: {count_of(outside.k, outside.n, "starts")} settle in time."""
+        instead=f"""If the goal is zero rotation, the law is satisfactory from starts with |alpha| < pi/2, which is half
+        of SO(3). From this half, {count_of(inside.k, inside.n, "starts")} at {LIMIT.BEYOND_RAD:g} rad or more settle
+        within {LIMIT.PACE * small:.2f} s. From the other half of SO(3), the law {is_satisfactory}:
+        {count_of(outside.k, outside.n, "starts")} settle within this time."""
         if inside.low >= LIMIT.REASONABLE
         else "",
-        measured=f"""We took uniform random starts at {LIMIT.BEYOND_RAD:g} rad or more from the goal. Of the starts with
+        measured=f"""We took uniform starts at {LIMIT.BEYOND_RAD:g} rad or more from the goal. Of the starts with
         |alpha| < pi/2, {percent_interval(inside)} settle within {LIMIT.PACE * small:.2f} s. Of the other starts,
         {percent(outside.value)} % settle within this time.""",
     )
@@ -214,18 +215,18 @@ def c38(results: Results) -> tuple[Word, Evidence]:
     is_slowed, loses = typical >= LIMIT.OFF, unsettled.low > 0.0
     word = word_of(is_alone_linear and is_slowed and loses, is_alone_linear and (is_slowed or loses))
     return word, evidence(
-        f"""Of {len(rows):,} uniform starts at {LIMIT.BEYOND_RAD:g} rad or more,
-        {percent_interval(unsettled)} are lost. From the other starts, the median difference between
-        the settling time and that of the linear model is {percent(typical)} %. From
-        {percent(float(np.mean(off >= LIMIT.OFF)))} % of these starts, the difference is {100 * LIMIT.OFF:.0f} % or
-        more. If only one angle turns, by up to {max(LIMIT.ALONE_RAD):g} rad, the settling time differs from that of the
-        linear model by at most {percent(alone)} %.""",
+        f"""Of {len(rows):,} uniform starts at {LIMIT.BEYOND_RAD:g} rad or more from the goal,
+        {percent_interval(unsettled)} never settle. From the other starts, the settling time differs from that of the
+        linear model by {percent(typical)} % (median). From {percent(float(np.mean(off >= LIMIT.OFF)))} % of these other
+        starts, the difference is {100 * LIMIT.OFF:.0f} % or more. If only one Euler angle differs from zero, by up to
+        {max(LIMIT.ALONE_RAD):g} rad, the settling time differs from that of the linear model by at most
+        {percent(alone)} %.""",
         len(rows) + 3 * len(LIMIT.ALONE_RAD),
-        instead=f"""{percent(unsettled.value)} % of the starts outside the linear region are lost. From the other
-        starts, the median difference between the settling time and that of the linear model is
-        {percent(typical)} %.""",
-        measured=f"""{percent_interval(unsettled)} of the starts never settle. The other settling times differ from
-        the linear model by {percent(typical)} % (median).""",
+        instead=f"""The law does not settle from {percent(unsettled.value)} % of the starts outside the linear region.
+        From the other starts, the settling time differs from that of the linear model by {percent(typical)} %
+        (median).""",
+        measured=f"""{percent_interval(unsettled)} of starts at {LIMIT.BEYOND_RAD:g} rad or more never settle. The
+        others' settling times differ from the linear model's by {percent(typical)} % (median).""",
     )
 
 
@@ -248,15 +249,22 @@ def c39(results: Results) -> tuple[Word, Evidence]:
     if not np.isfinite(worst_ratio):
         measured = f"The linearized law does not follow all goals that move at up to {fastest:g} rad/s."
     tails = own["tail_max_rad"].groupby(own["level"]).max()
-    said = ", ".join(f"{tails[speed]:.1e} rad ({worst:.2f}) at {speed:g} rad/s" for speed, worst in by_speed.items())
+    rows = [(f"{speed:g} rad/s", f"{tails[speed]:.1e} rad", f"{worst:.2f}") for speed, worst in by_speed.items()]
     return word_of(len(kept) == len(by_speed), min(by_speed.index) in kept), evidence(
-        f"""We tested {both["start_id"].nunique()} starts within {LIMIT.SMALL_RAD:g} rad, with goals that move to and
-        fro. The list gives the greatest error while the law follows the goal, for each speed of the goal. In brackets
-        is the greatest ratio of the law's error to the error of the rotation-matrix law. The results
-        are: {said}.""",
+        f"""We tested {both["start_id"].nunique()} starts at {LIMIT.SMALL_RAD:g} rad or less from the goal. The goal
+        moves to and fro, and we measured the error while the law follows the goal.""",
         len(both),
         measured=measured,
+        numbers=(TRACKED, *rows),
     )
+
+
+TRACKED = (
+    "Speed of the goal",
+    "Greatest error of the linearized law",
+    "Greatest error of the linearized law, divided by that of the rotation-matrix law from the same start",
+)
+"""Heads of what was measured at a speed of the goal."""
 
 
 @claim("C45")
@@ -277,13 +285,13 @@ def c45(results: Results) -> tuple[Word, Evidence]:
     off = float(np.abs(by_input - np.eye(3)[::-1]).max())
     rest = float(max(np.abs(by_angles).max(), np.abs(by_rates).max()))
     return word_of(max(off, rest) <= LIMIT.DIFFERENCED, False), evidence(
-        f"""We differentiated (2.11) numerically at zero. The derivatives with respect to u differ from the permutation
-        matrix of (2.14) by {_at_most(off)}. The derivatives with respect to the angles and their rates are
-        {_at_most(rest)}.""",
+        f"""We differentiated equation (2.11) numerically at zero angles, zero rates and zero input. The matrix of the
+        derivatives with respect to u is the permutation matrix of (2.14): the difference is {_at_most(off)}. The
+        derivatives with respect to the angles and their rates are {_at_most(rest)}.""",
         2 * 9,
-        measured=f"""We computed the derivatives of (2.11) at zero rotation. Those with respect to the input u differ
-        from the permutation matrix of (2.14) by {_at_most(off)}. Those with respect to the angles and to their rates
-        are {_at_most(rest)}.""",
+        measured=f"""At zero, the derivatives of (2.11) with respect to u are the permutation matrix of (2.14): the
+        difference is {_at_most(off)}. The derivatives with respect to the angles and their rates are
+        {_at_most(rest)}.""",
     )
 
 

@@ -341,19 +341,19 @@ def c35(results: Results) -> tuple[Word, Evidence]:
     """Shares and medians of the three."""
     small, laws = closed_form.linear_settling(*results.gains()), _of_the_three(results)
     found = [
-        (name, share(settled(rows)), quantile_estimate(settling_times(rows), 0.5))
-        for name, rows in zip(NAMES, laws, strict=True)
+        (law, share(settled(rows)), quantile_estimate(settling_times(rows), 0.5))
+        for law, rows in zip(IN_WORDS, laws, strict=True)
     ]
     matrix, linearized, feedback = (one for _, one, _ in found)
-    reasonable = [name for name, one, time in found if one.low >= LIMIT.REASONABLE and time.high <= LIMIT.PACE * small]
+    reasonable = [law for law, one, time in found if one.low >= LIMIT.REASONABLE and time.high <= LIMIT.PACE * small]
     told = " ".join(
-        f"With the law {name}, {one} of the starts settle. The median settling time is "
+        f"With {law}, {one} of the starts settle. The median settling time is "
         f"{tables.interval_or_never(time, '.3f', ' s')}."
-        for name, one, time in found
+        for law, one, time in found
     )
     return word_of(len(reasonable) == 2, len(reasonable) == 3), evidence(
-        f"""These laws perform reasonably: {", ".join(reasonable) or "none"}. {told} A small error settles in
-        {small:.3f} s.""",
+        f"""These laws perform reasonably: {join_words(reasonable) or "none"}. {told} The settling time of a small error
+        is {small:.3f} s. The brackets give 95 % intervals and the number n of starts.""",
         sum(one.n for _, one, _ in found),
         measured=f"""Of {matrix.n:,} uniform random starts, {percent(matrix.value)} % settle with the
         rotation-matrix law, {percent_interval(linearized)} with the linearized law, and
@@ -367,12 +367,12 @@ def c36(results: Results) -> tuple[Word, Evidence]:
     small, known = closed_form.linear_settling(*results.gains()), adequacy.of_three(results)
     three = some([one for one in adequacy.every(results, MAIN_ENGINE) if one.name in THREE], "law of the paper")
     tested = {law.name: adequacy.examine(law, known, small, {}).among(LIMIT.TESTS) for law in three}
+    in_words = dict(zip(THREE, IN_WORDS, strict=True))
     told = " ".join(
-        f"The law {one.name.partition('/')[0]} {tested[one.name].in_words()}. With this law, "
-        f"{percent(one.settled)} % of {one.n:,} uniform starts settle. The time until 99 % of the "
-        f"uniform starts settle is: {tables.interval_or_never(one.pace, '.2f', ' s')}. The law does not "
-        f"settle from these starts: {part_of(one.lost, one.directed)} difficult starts, and "
-        f"{part_of(one.lost_exact, one.exact)} starts exactly on a boundary."
+        f"{capitalize(in_words[one.name])} {tested[one.name].in_words().replace('fails ', 'fails these tests: ')}. "
+        f"With this law, {percent(one.settled)} % of {one.n:,} uniform starts settle. {_paced(one)} The law loses "
+        f"{part_of(one.lost, one.directed)} difficult starts and {part_of(one.lost_exact, one.exact)} starts exactly "
+        f"on a boundary."
         for one in three
     )
     word = word_of(len(three) == len(THREE) and all(result.failed for result in tested.values()), False)
@@ -383,9 +383,17 @@ def c36(results: Results) -> tuple[Word, Evidence]:
         f"{part_of(by_name[name].lost_exact, by_name[name].exact)} do not settle with {law}"
         for law, name in zip(IN_WORDS, THREE, strict=True)
         if name in by_name
-    ])
+    ]).replace(" with ", " do not settle with ", 1)
     return word, evidence(
-        told,
+        f"{told} The brackets after a time give its 95 % interval.",
         sum(law.rows for law in three),
-        measured=f"""Of the starts exactly at a 180° rotation, at a pole or at an angle of ±π, {on_boundary}.""",
+        measured=f"""Some starts are exactly on a boundary (a 180° rotation, a pole or an angle of ±π). Of these
+        starts, {on_boundary}.""",
     )
+
+
+def _paced(law: Adequacy) -> str:
+    """Return the time within which nearly all uniform starts settle, in a sentence."""
+    if not np.isfinite(law.pace.value):
+        return "Fewer than 99 % of the uniform starts settle."
+    return f"99 % of the uniform starts settle within {tables.interval_or_never(law.pace, '.2f', ' s')}."

@@ -32,15 +32,17 @@ def c40(results: Results) -> tuple[Word, Evidence]:
     divides, is_double = off <= LIMIT.SAME, left <= LIMIT.SAME and apart > LIMIT.APART
     return word_of(divides and not is_double and len(possible) == len(trios), divides and is_double), evidence(
         f"""There are {len(trios)} choices of three elements of n and o, and {len(possible)} of these choices can be
-        eliminated. The divisor of an elimination is the determinant of the derivatives of (2.5), divided by 4. At
-        {LIMIT.MATRICES} random orientations, the divisor equals a product of two elements of the matrix to {off:.0e}.
-        Therefore the divisor is zero at some orientations. For each of these choices, a second matrix has the same
-        three remaining elements and meets (2.5) to {left:.0e}. In the median, the second matrix differs from the first
-        by at least {apart:.2f} in one element.""",
+        eliminated. The elimination divides by the determinant of the derivatives of (2.5) with respect to the three
+        elements. We call a quarter of this determinant the divisor. At {LIMIT.MATRICES} random orientations, the
+        divisor differs from a product of two elements of R by at most {off:.0e}. Therefore the divisor is zero at some
+        orientations. For each of these choices, a second matrix has the same three remaining elements and satisfies
+        (2.5) to within {left:.0e}. At the median orientation, the second matrix differs from R by at least {apart:.2f}
+        in one element.""",
         LIMIT.MATRICES * len(trios),
-        measured=f"""{capitalize(count_of(len(possible), len(trios), "choices"))} of three elements of n and o can be
-        eliminated. In each case, two different rotation matrices have the same three remaining elements. The two
-        matrices differ in one element by {apart:.2f} or more (median).""",
+        measured=f"""{capitalize(count_of(len(possible), len(trios), "choices"))} of three elements
+        can be eliminated. For each of these choices, the three elements that remain do not determine
+        the matrix: two different rotation matrices have them. At the median orientation, these two
+        matrices differ by {apart:.2f} or more in one element.""",
     )
 
 
@@ -99,14 +101,16 @@ def c41(results: Results) -> tuple[Word, Evidence]:
     spread = {name: float(np.abs(R - R[0]).max()) for name, R in many.items()}
     word = word_of(max(twice.values()) <= LIMIT.SAME and max(spread.values()) <= LIMIT.SAME, False)
     return word, evidence(
-        f"""Two different sets of variables give the same matrix to {max(twice.values()):.0e} at {LIMIT.MATRICES}
-        orientations, in each of these representations: {"; ".join(pairs)}. {LIMIT.MATRICES} sets along a line all give
-        the same matrix to {max(spread.values()):.0e}. The line is at beta = pi/2 for Z-Y-X angles and for roll, pitch
-        and yaw, and at zero rotation for the other two.""",
+        f"""We tested these representations: {"; ".join(pairs)}. In each representation and at each of
+        {LIMIT.MATRICES} orientations, two different sets of values give the same matrix to within
+        {max(twice.values()):.0e}. We also took {LIMIT.MATRICES} sets of values at one degenerate orientation. All of
+        these sets give the same matrix to within {max(spread.values()):.0e}. For Z-Y-X angles and for roll, pitch and
+        yaw, the degenerate orientation is a pole (beta = pi/2). For Z-Y-Z angles and for angle and axis, it is zero
+        rotation.""",
         2 * len(pairs) * LIMIT.MATRICES,
-        measured=f"""We tested {len(pairs)} representations at {LIMIT.MATRICES} orientations. In each case, two
-        different sets of values give the same rotation matrix, except for differences of at most
-        {max(twice.values()):.0e} in the elements.""",
+        measured=f"""We tested {len(pairs)} representations at {LIMIT.MATRICES} orientations each. In all
+        tests, two different sets of values give the same rotation matrix. The elements of the two matrices differ by at
+        most {max(twice.values()):.0e}.""",
     )
 
 
@@ -133,13 +137,13 @@ def c42(results: Results) -> tuple[Word, Evidence]:
     }
     regular = min(least_of(form, (one, 0.8, two)) for form in FORMS for one, two in outer)
     return word_of(max(least.values()) <= LIMIT.SAME and regular > LIMIT.APART, False), evidence(
-        f"""In all {len(FORMS)} forms the smallest singular value of B is at most {max(least.values()):.0e} at one
-        middle angle, whatever the other angles are. This middle angle is 0 if the first and the last axis are the same,
-        and pi/2 if they differ. At a middle angle of 0.8 rad the smallest singular value is at least
-        {regular:.2f}.""",
+        f"""In all {len(FORMS)} forms of Euler angles, one value of the middle angle makes the smallest singular value
+        of B at most {max(least.values()):.0e}. The other two angles have no influence on this singular value.
+        This value of the middle angle is 0 if the first and the last axis of the form are the same, and pi/2 if they
+        differ. If the middle angle is 0.8 rad, the smallest singular value of B is at least {regular:.2f}.""",
         2 * len(FORMS) * LIMIT.PAIRS,
-        measured=f"""Each of the {len(FORMS)} forms of Euler angles has orientations where the smallest singular value
-        of the matrix B is {max(least.values()):.0e} or less.""",
+        measured=f"""For each of the {len(FORMS)} forms of Euler angles, the matrix B is singular at some orientation:
+        there, the smallest singular value of B is {max(least.values()):.0e} or less.""",
     )
 
 
@@ -166,14 +170,14 @@ def c43(results: Results) -> tuple[Word, Evidence]:
     tilts = np.abs(np.sin(first[:, 1]))
     uneven = float(np.median(np.sqrt((1 + tilts) / (1 - tilts))))  # singular values of B: 1 and sqrt(1 -+ |sin beta|)
     return word_of(longer.value >= LIMIT.LONGER and uneven >= LIMIT.UNEVEN, False), evidence(
-        f"""In the median of {LIMIT.MATRICES} pairs of random orientations, the straight line in Z-Y-X
-        angles is {longer.value:.2f} times as long as the shortest path. A straight line in the
-        rotation vector from one orientation to the other is the shortest path. Equal errors of
-        three Z-Y-X angles turn a hand {uneven:.2f} times as far in one direction as in another, in
-        the median. Equal errors of a small rotation vector turn a hand equally far in all
-        directions. C22 to C25 judge compliance.""",
+        f"""We took {LIMIT.MATRICES} pairs of random orientations. Between the two orientations of a pair, a
+        straight line in Z-Y-X angles is {longer.value:.2f} times as long as the shortest path (median). A straight
+        line in the rotation vector from one orientation to the other is the shortest path. Errors of the three Z-Y-X
+        angles turn the hand. For error vectors of the same length, the greatest turn of the hand is {uneven:.2f} times
+        the smallest turn (median). Errors of a small rotation vector turn the hand equally far in all directions.
+        C22 to C25 judge compliance.""",
         2 * LIMIT.MATRICES,
-        measured=f"""For {LIMIT.MATRICES} pairs of orientations, we divided the length of the straight line in Z-Y-X
-        angles by the length of the shortest path. The median ratio is {longer.value:.2f} (95 % interval:
-        {longer.low:.2f} to {longer.high:.2f}).""",
+        measured=f"""We took {LIMIT.MATRICES} pairs of orientations. Between the two orientations of a pair, a straight
+        line in Z-Y-X angles is {longer.value:.2f} times as long as the shortest path. This is the median; its
+        95 % interval is {longer.low:.2f} to {longer.high:.2f}.""",
     )

@@ -17,6 +17,7 @@ from types import ModuleType, SimpleNamespace
 from typing import Any, NamedTuple
 
 from bench.base.errors import BenchError
+from bench.findings.amounts import join_words
 
 
 class Word(StrEnum):
@@ -150,8 +151,11 @@ class Claim(NamedTuple):
 
     @property
     def place(self) -> str:
-        """Section and equation."""
-        return f"section {self.section}{', ' * bool(self.equation)}{self.equation}"
+        """Section and equation: 'sections 3.0 and 3.4, equation (3.7)', or 'abstract'."""
+        parts = self.section.split(", ")
+        section = f"section{'s' * (len(parts) > 1)} {join_words(parts)}" if self.paper_order[0] else self.section
+        equations = f"equation{'s' * (self.equation.count('(') > 1)} {self.equation}" if self.equation else ""
+        return f"{section}{', ' * bool(equations)}{equations}"
 
 
 def claim(id: str) -> Callable[[Callable], Claim]:

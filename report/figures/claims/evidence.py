@@ -17,7 +17,7 @@ from report.figures.kit.page import Run
 from report.figures.kit.spelling import marked_up, prose, typeset
 
 SENTENCES = html.Table("Section of the paper | Sentence of the paper | Why no simulation can decide")
-SLIPS = html.Table("Error | Where in the paper | Printed words | Right words | How we checked this error")
+SLIPS = html.Table("Error | Where in the paper | Printed words | Correction | How we checked this error")
 
 
 STUDIES = {
@@ -57,7 +57,7 @@ def describe_slip(one: Erratum) -> tuple:
 def section(one: Verdict, run: Run) -> str:
     """Return what decided a claim, folded under its sentence; a link to it opens it, for the anchor is inside."""
     claim = one.claim
-    value = "" if claim.value == "none given" else f" (The value that we test: {claim.value}.)"
+    value = "" if claim.value == "none given" else f" (What we test in this quotation: {claim.value}.)"
     quoted = f"“{claim.quote}”{value}" if claim.quote else claim.sentence
     rows = {
         "The paper says": f"{escape.escape(claim.place)}: {marked_up(quoted)}",
@@ -67,7 +67,7 @@ def section(one: Verdict, run: Run) -> str:
         "Shown in": "<br>".join(place.html for place in read_places().get(claim.id, ())),
         "Rows that decide": describe_rows(one, run),
         "Commands": describe_commands(one),
-        "Criterion": marked_up(f"{claim.criterion} ({written(claim.written)})" if claim.written else claim.criterion),
+        "Criterion": marked_up(f"{claim.criterion} ({written(claim.written)}.)" if claim.written else claim.criterion),
         "Earlier criteria": _listed(map(describe_earlier, claim.earlier)),
         "The paper leaves open": marked_up(claim.open),
         "Possible meanings": _listed(f"Meaning {k}: {text}" for k, text in enumerate(claim.readings, 1)),
@@ -104,7 +104,7 @@ def describe_rows(one: Verdict, run: Run) -> str:
     if not evidence.rows:
         return ""
     files = [STUDIES.get(name) or link_file(name, run) for name in evidence.tables if name != COMPUTED]
-    computed = "values that the command <code>bench claims</code> computes without a simulation"
+    computed = "values that are in no file of results: the command <code>bench claims</code> computes these values"
     number = html.number(evidence.rows)
     if not files:
         return f"The verdict uses {number} {computed}."
@@ -145,9 +145,9 @@ HOW_TO_RUN = '<a href="docs-install.html">install</a>'
 
 
 def written(when: str) -> str:
-    """Return '2026-11-21 9072535' in words."""
+    """Return whence a criterion is, '2026-11-21 9072535', in words."""
     date, _, commit = when.partition(" ")
-    return f"written {date}, commit {commit}"
+    return f"Criterion of {date}, commit {commit}"
 
 
 def _listed(texts: Iterable[str]) -> str:

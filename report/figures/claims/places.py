@@ -38,11 +38,10 @@ class Place(NamedTuple):
 
     @property
     def html(self) -> str:
-        """Return a link for a piece of HTML: 'figure of chapter 2, What Murphy's regulators do'."""
-        within = self.short if CHAPTER.match(self.page) else f"the {self.short}"
-        what = f"{self.kind} of {within}" if self.kind else self.short
+        """Return a link for a piece of HTML: 'figure of chapter 2, “What Murphy's regulators do”'."""
+        what = f"{self.kind} of {self.short}" if self.kind else self.short
         target = f"{self.page}.html{'#' * bool(self.label)}{self.label}"
-        return f'<a href="{target}">{what}: {self.title}</a>'
+        return f'<a href="{target}">{what}, “{self.title}”</a>'
 
     @property
     def short(self) -> str:
