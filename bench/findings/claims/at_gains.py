@@ -129,7 +129,7 @@ def on_every_engine(decide: Callable) -> Callable:
             with contextlib.suppress(NoEvidence):
                 others[engine], also = decide(results, engine)
                 rows += also.rows
-        said = "No simulation with sampled control has rows for this claim."
+        said = "This run has too few simulations with sampled control to judge the claim."
         if others:
             said = f"Simulations with sampled control give the same verdict (engine {', '.join(others)})."
         if set(others.values()) - {word}:
