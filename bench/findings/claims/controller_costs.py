@@ -77,7 +77,7 @@ def c20(results: Results) -> tuple[Word, Evidence]:
     hides = all(is_hidden for is_hidden, _ in hidden)
     all_failures, all_poles = (sum(map(count, compared_at.values())) for count in (_count_failures, len))
     at_poles = ", ".join(
-        f"{part_of(_count_failures(rows), len(rows))} starts with {arm}" for arm, rows in compared_at.items()
+        f"{part_of(_count_failures(rows), len(rows))} starts on the arm {arm}" for arm, rows in compared_at.items()
     )
     return word_of(is_linear and fails and hides, max(limits) <= LIMIT.BEND_LOOSE and (fails or hides)), evidence(
         f"""We simulated {LIMIT.CURVES * len(arms)} motions on {len(arms)} arms with the full time step and with half of
@@ -92,8 +92,8 @@ def c20(results: Results) -> tuple[Word, Evidence]:
         {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
         measured=f"""The Euler angles differ from the linear response by at most {max(limits):.1e} rad.
-        {capitalize(count_of(all_failures, all_poles, "starts"))} that test the poles fail with (3.7) and settle with
-        the rotation-matrix law.""",
+        From {count_of(all_failures, all_poles, "starts")} that test the poles, the controller (3.7) fails and the
+        rotation-matrix law settles.""",
     )
 
 

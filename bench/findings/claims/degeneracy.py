@@ -55,8 +55,8 @@ def c13(results: Results) -> tuple[Word, Evidence]:
         for angle and axis. The largest condition numbers are {zyz[2]:.1e} for Z-Y-Z angles, {axis[2]:.1e} for angle and
         axis, and {vector[2]:.5f} for the rotation vector.""",
         3 * len(tables),
-        measured=f"""Near zero rotation (at 1e-{decades[-1]} rad or more), the condition number of the matrix B reaches
-        {zyz[2]:.1e} for Z-Y-Z angles. For the rotation vector, it is at most {vector[2]:.4f}.""",
+        measured=f"""For rotations between 1e-{decades[-1]} and {10.0 ** -decades[0]:g} rad, the condition number of the
+        matrix B reaches {zyz[2]:.1e} for Z-Y-Z angles. For the rotation vector, it is at most {vector[2]:.4f}.""",
     )
 
 
@@ -108,8 +108,8 @@ def c14(results: Results) -> tuple[Word, Evidence]:
     return word, evidence(
         f"""The smallest singular value of the matrix B is {least[180]:.3f} at a rotation by 180 degrees about Y,
         {rounding(least[90])} at +90 degrees, and {rounding(least[-90])} at -90 degrees. In the simulation, feedback
-        linearization {"settles" if settled(about_y).all() else "does not settle"} from the exact 180° rotation about Y.
-        It settles from {settled_of(poles, "starts exactly on a pole")} (beta = +-90 degrees). {so}.""",
+        linearization {"settles" if settled(about_y).all() else "does not settle"} from the exact 180° rotation about
+        Y. It settles from {settled_of(poles, "starts exactly on a pole")} (beta = +-90 degrees). {so}.""",
         len(least) + len(about_y) + len(poles),
         measured=f"""The smallest singular value of the matrix B is {least[180]:.3g} at a rotation by 180° about Y, and
         {rounding(least[90])} at a rotation by 90° about Y.""",
@@ -157,14 +157,15 @@ def c16(results: Results) -> tuple[Word, Evidence]:
     largest = float(np.abs(matrices).max())
     lacks_inverse = np.isfinite(matrices).all() and values[:, 2].max() < LIMIT.ON_POLE
     word = word_of(not np.isfinite(matrices[is_pole]).all(), lacks_inverse)
+    zero = rounding(float(values[:, 2].max()))
     so = "The results do not confirm section 3.3"
     if lacks_inverse:
         so = "B exists at all orientations, as section 3.3 says, but B^-1 does not exist at the poles"
     return word, evidence(
         f"""At {len(frame):,} orientations, no element of the matrix B is larger than {largest:.3f}. Of these
-        orientations, {len(at_poles)} are exact poles (beta = +-pi/2). We computed the singular values of B at these
-        poles. The largest value of the smallest singular value is {rounding(float(values[:, 2].max()))}. The second
-        smallest singular value is {float(values[:, 1].min()):.2f} or more. {so}.""",
+        orientations, {len(at_poles)} are exact poles (beta = +-pi/2). At these poles, the smallest
+        singular value of B is {zero if zero == "0" else f"at most {zero}"}, and the second smallest singular value is
+        {float(values[:, 1].min()):.2f} or more. {so}.""",
         len(frame),
         measured=f"""At {len(frame):,} orientations, no element of the matrix B is larger than {largest:.3g}. Of these
         orientations, {len(at_poles)} are exact poles, where the inverse B^-1 does not exist.""",

@@ -169,7 +169,7 @@ def c11(results: Results, engine: str) -> tuple[Word, Evidence]:
         len(frame) + sum(len(one) for one in beside),
         measured=f"""Of {int((~spins).sum()):,} starts at rest, {resting[0] or "none"} outside the excluded
         region are erratic (the body does not settle, or the command is extremely large). Of {probes.BESIDE} starts
-        that spin at {probes.SPEED:g} rad/s just outside this region, {passed[0] or "none"} are not erratic."""
+        that spin at {probes.SPEED:g} rad/s just outside this region, {passed[0] or "none"} are erratic."""
         .replace("XX", ""),
     )
 

@@ -51,7 +51,8 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         raise NoEvidence("flops and calls say different things, and no time decides: run bench time")
     in_order = [one.sign == ORDERED and not one.is_disputed for one in pairs]
     paper, total = (
-        "; ".join(f"{law} {one[name]}" for law, name in zip(IN_WORDS, THREE, strict=True)) for one in known.accountings
+        "; ".join(f"{one[name]} for {law}" for law, name in zip(IN_WORDS, THREE, strict=True))
+        for one in known.accountings
     )
     own = [known.accountings[0][name] for name in THREE]
     times = [known.over(name, THREE[0]) for name in THREE[1:]]
@@ -59,7 +60,7 @@ def c12(results: Results) -> tuple[Word, Evidence]:
     if known.times:
         ratios = f"The last two laws take {join_words(times)} times as long as the rotation-matrix law."
     in_words = [law.removeprefix("the ") for law in IN_WORDS]
-    timed = " and ".join(f"{law} {ratio}" for law, ratio in zip(in_words[1:], times, strict=True))
+    timed = " and ".join(f"{ratio} for {law}" for law, ratio in zip(IN_WORDS[1:], times, strict=True))
     orders = [
         [law for _, law in sorted((one[name].flops, law) for law, name in zip(in_words, THREE, strict=True))]
         for one in known.accountings
@@ -82,12 +83,13 @@ def c12(results: Results) -> tuple[Word, Evidence]:
     ordered: dict[str, list[str]] = {"measured times": [], "counted operations": []}
     for pair, neighbours in zip(pairs, itertools.pairwise(IN_WORDS), strict=True):
         ordered["measured times" if pair.by_time else "counted operations"].append(" and ".join(neighbours))
-    decided = " ".join(f"The {what} order {', and '.join(each)}." for what, each in ordered.items() if each)
+    parts = {what: ", and of ".join(each) for what, each in ordered.items() if each}
+    decided = " ".join(f"The {what} decide the order of {laws}." for what, laws in parts.items())
     instead = f"""The paper's order is right if times and operations are used together. {decided}
         By flops alone, the order from the cheapest law is: {by_flops}."""
     word = word_of(by_one_measure, is_ordered or all(np.logical_or(in_order, [pair.is_disputed for pair in pairs])))
     return word, evidence(
-        f"""The computing times per control period, divided by the time of the rotation-matrix law, are: {timed}. The
+        f"""The computing times per control period, divided by the time of the rotation-matrix law, are {timed}. The
         paper's order has two pairs of neighbouring laws. In {count_of(timed_pairs, len(pairs), "pairs")}, the 95 %
         intervals of the two times do not overlap. The numbers of flops and of calls (of sin, cos, atan2 or acos) are:
         {paper}. If a law on Euler angles also computes the goal's angles from the goal's rotation matrix, the numbers
@@ -151,7 +153,7 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
 
 
 BESIDE = {
-    "e": " But from some starts exactly on a boundary (180°, a pole, or an angle of ±π) the body does not settle.",
+    "e": " But it does not settle from some starts exactly on a boundary (180°, a pole, or an angle of ±π).",
     "h": " But its cost is lower than that of the laws on Euler angles only by time, not by counted operations.",
 }
 """What an adequate law may fail: tests of C27 that C17 leaves out."""
