@@ -12,7 +12,7 @@ import tasks
 from bench.base.on_first_use import pd
 from bench.experiments.suites import SUITES
 from bench.experiments.tables.read import chosen
-from bench.findings.amounts import capitalize, count_of, join_words, part_of
+from bench.findings.amounts import count_of, join_words, part_of
 from bench.findings.claims import adequacy, probes, standing
 from bench.findings.claims.adequacy import CALLS, of_stage, tallied
 from bench.findings.claims.side_by_side import BASE
@@ -85,15 +85,16 @@ def c20(results: Results) -> tuple[Word, Evidence]:
         linear response by at most {max(full):.1e} rad. With half the step, this difference is {min(shares):.3f} to
         {max(shares):.3f} times as large. We extrapolated the results to step zero. Then the angles differ from the
         linear response by at most {max(limits):.1e} rad, and the position of the tool differs from its goal by at most
-        {max(drifts):.1e} m. From these pole starts, the controller (3.7) fails and the rotation-matrix law settles:
-        {at_poles}. {capitalize(count_of(_count_failures(clear), len(clear), "starts"))} of the set 'clear' fail with
-        (3.7) and settle with the rotation-matrix law. With the law of (3.7) and the geometric Jacobian,
+        {max(drifts):.1e} m. A pole start is near a pole, or the shortest path from it to the goal passes near a pole.
+        From these pole starts, the controller (3.7) fails and the rotation-matrix law settles: {at_poles}. In
+        episodes.parquet, {count_of(_count_failures(clear), len(clear), "starts")} of the set 'clear' fail with (3.7)
+        and settle with the rotation-matrix law. With the law of (3.7) and the geometric Jacobian,
         {count_of(_count_failures(common), len(common), "starts")} fail in this way.
         {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
         measured=f"""The Euler angles differ from the linear response by at most {max(limits):.1e} rad.
-        From {count_of(all_failures, all_poles, "starts")} that test the poles, the controller (3.7) fails and the
-        rotation-matrix law settles.""",
+        From {count_of(all_failures, all_poles, "starts")} that test the poles, the controller with the Euler
+        Jacobian (3.7) fails and the rotation-matrix law settles.""",
     )
 
 
@@ -155,7 +156,7 @@ def _hidden(results: Results, joints: int) -> tuple[bool, str]:
         f"law within this controller takes {seen[one].flops} of these flops."
         for name, one in (("(3.7)", BY_EULER), ("(2.2) with the law on R", ON_MATRIX), ("(2.2) with (2.15)", BY_COMMON))
     )
-    return seems_cheaper and is_dearer, f"On {joints} joints, we counted these operations. {told}"
+    return seems_cheaper and is_dearer, f"On arms with {joints} joints, we counted these operations. {told}"
 
 
 TITLES = (

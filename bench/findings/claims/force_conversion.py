@@ -61,8 +61,8 @@ def c21(results: Results) -> tuple[Word, Evidence]:
         poles, B has rank {rank}, and B^T converts one moment of length 1 to a vector of length
         {found.loc[poles, "lost"].max():.0g}. In {len(elsewhere)} other representations, the powers differ by at most
         {max(elsewhere) / EPS:.1f} eps. If a moment of 1 N m is not converted, and the rates have the length 1, the
-        median difference of the powers is {found["raw_gap"].median():.2f} W. Where alpha alone complies, the controller
-        amplifies a moment by a factor of at most {LIMIT.USABLE:g} at
+        median difference of the powers is {found["raw_gap"].median():.2f} W. If alpha is the only compliant angle, the
+        controller amplifies a moment by a factor of at most {LIMIT.USABLE:g} at
         {count_of(int(usable.sum()), len(found), "orientations")}. Near the poles, but not exactly on them, this factor
         reaches {found.loc[~poles, "gain"].max():.1e}, as 1 / cos(beta) predicts.""",
         len(found) + len(looped),
