@@ -129,7 +129,7 @@ def on_every_engine(decide: Callable) -> Callable:
             with contextlib.suppress(NoEvidence):
                 others[engine], also = decide(results, engine)
                 rows += also.rows
-        said = "The results contain no simulation with sampled control for this claim."
+        said = "We did not judge the claim for sampled control, because this run has too few such simulations."
         if others:
             said = f"Simulations with sampled control give the same verdict (engine {', '.join(others)})."
         if set(others.values()) - {word}:

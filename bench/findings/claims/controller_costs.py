@@ -12,7 +12,7 @@ import tasks
 from bench.base.on_first_use import pd
 from bench.experiments.suites import SUITES
 from bench.experiments.tables.read import chosen
-from bench.findings.amounts import capitalize, count_of, join_words, part_of
+from bench.findings.amounts import count_of, join_words, part_of
 from bench.findings.claims import adequacy, probes, standing
 from bench.findings.claims.adequacy import CALLS, of_stage, tallied
 from bench.findings.claims.side_by_side import BASE
@@ -77,22 +77,24 @@ def c20(results: Results) -> tuple[Word, Evidence]:
     hides = all(is_hidden for is_hidden, _ in hidden)
     all_failures, all_poles = (sum(map(count, compared_at.values())) for count in (_count_failures, len))
     at_poles = ", ".join(
-        f"{part_of(_count_failures(rows), len(rows))} starts with {arm}" for arm, rows in compared_at.items()
+        f"{part_of(_count_failures(rows), len(rows))} starts on the arm {arm}" for arm, rows in compared_at.items()
     )
     return word_of(is_linear and fails and hides, max(limits) <= LIMIT.BEND_LOOSE and (fails or hides)), evidence(
-        f"""We computed {LIMIT.CURVES * len(arms)} curves from clear starts on {len(arms)} arms, with the full time step
-        and with half of it. With the full step, the angles differ from the closed form by at most {max(full):.1e} rad.
-        With half the step, the angles differ by {min(shares):.3f} to {max(shares):.3f} times as much. Extrapolated to
-        step zero, the angles differ by at most {max(limits):.1e} rad, and the position of the tool by
-        {max(drifts):.1e} m. From these starts at a pole, (3.7) fails and the law on R settles: {at_poles}. {capitalize(
-            count_of(_count_failures(clear), len(clear), "episodes")
-        )} from clear starts fail with (3.7) and settle with the law on R. With the law of (3.7) on the geometric
-        Jacobian, {count_of(_count_failures(common), len(common), "episodes")} fail in this way.
+        f"""We simulated {LIMIT.CURVES * len(arms)} motions on {len(arms)} arms with the full time step and with half of
+        it. Their paths stay away from the poles (start set 'clear'). With the full step, the angles differ from the
+        linear response by at most {max(full):.1e} rad. With half the step, this difference is {min(shares):.3f} to
+        {max(shares):.3f} times as large. We extrapolated the results to step zero. Then the angles differ from the
+        linear response by at most {max(limits):.1e} rad, and the position of the tool differs from its goal by at most
+        {max(drifts):.1e} m. A pole start is near a pole, or the shortest path from it to the goal passes near a pole.
+        From these pole starts, the controller (3.7) fails and the rotation-matrix law settles: {at_poles}. In
+        episodes.parquet, {count_of(_count_failures(clear), len(clear), "starts")} of the set 'clear' fail with (3.7)
+        and settle with the rotation-matrix law. With the law of (3.7) and the geometric Jacobian,
+        {count_of(_count_failures(common), len(common), "starts")} fail in this way.
         {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
-        measured=f"""With (3.7), the Euler angles of the arm differ from the linear response by at most
-        {max(limits):.1e} rad. {capitalize(count_of(all_failures, all_poles, "starts"))} at a pole fail with (3.7) but
-        settle with the rotation-matrix law.""",
+        measured=f"""The Euler angles differ from the linear response by at most {max(limits):.1e} rad.
+        From {count_of(all_failures, all_poles, "starts")} that test the poles, the controller with the Euler
+        Jacobian (3.7) fails and the rotation-matrix law settles.""",
     )
 
 
@@ -150,11 +152,11 @@ def _hidden(results: Results, joints: int) -> tuple[bool, str]:
     seems_cheaper = seen[BY_EULER].flops < seen[ON_MATRIX].flops and seen[BY_EULER].calls <= seen[ON_MATRIX].calls
     is_dearer = by_columns(total[ON_MATRIX], total[BY_EULER]) == ORDERED
     told = " ".join(
-        f"{name} takes {total[one].calls or 'no'} calls and {total[one].flops} flops, of which the "
-        f"law itself takes {seen[one].flops} flops."
+        f"{name} takes {total[one].calls or 'no'} calls and {total[one].flops} flops; the "
+        f"law within this controller takes {seen[one].flops} of these flops."
         for name, one in (("(3.7)", BY_EULER), ("(2.2) with the law on R", ON_MATRIX), ("(2.2) with (2.15)", BY_COMMON))
     )
-    return seems_cheaper and is_dearer, f"On {joints} joints, {told}"
+    return seems_cheaper and is_dearer, f"On arms with {joints} joints, we counted these operations. {told}"
 
 
 TITLES = (

@@ -50,14 +50,14 @@ def c13(results: Results) -> tuple[Word, Evidence]:
     zyz, axis, vector = found["zyz-euler"], found[LIMIT.ANGLE_AND_AXIS], found["rotation-vector"]
     word = word_of(zyz[0] and axis[0] and vector[0], zyz[0] and axis[0] != vector[0])
     return word, evidence(
-        f"""We computed the condition number of the map from the rates of the coordinates to the angular velocity. For
-        Z-Y-Z angles, the condition number rises by {zyz[1]:.3f} decades per decade towards zero rotation, up to
-        {zyz[2]:.1e}. For angle and axis, it rises by {axis[1]:.3f} decades per decade, up to {axis[2]:.1e}. For the
-        rotation vector, it is at most {vector[2]:.5f}.""",
+        f"""We computed the condition number of the matrix B, which maps the rates of the coordinates to the angular
+        velocity. We used smaller and smaller rotations, down to 1e-{decades[-1]} rad. Each time the rotation becomes
+        ten times smaller, log10 of the condition number rises by {zyz[1]:.3f} for Z-Y-Z angles, and by {axis[1]:.3f}
+        for angle and axis. The largest condition numbers are {zyz[2]:.1e} for Z-Y-Z angles, {axis[2]:.1e} for angle and
+        axis, and {vector[2]:.5f} for the rotation vector.""",
         3 * len(tables),
-        measured=f"""The matrix B converts the rates of coordinates to the angular velocity. Near zero rotation, its
-        condition number is up to {zyz[2]:.1e} for Z-Y-Z angles, and at most {vector[2]:.4f} for the rotation
-        vector.""",
+        measured=f"""For rotations between 1e-{decades[-1]} and {10.0 ** -decades[0]:g} rad, the condition number of the
+        matrix B reaches {zyz[2]:.1e} for Z-Y-Z angles. For the rotation vector, it is at most {vector[2]:.4f}.""",
     )
 
 
@@ -107,13 +107,13 @@ def c14(results: Results) -> tuple[Word, Evidence]:
     if word == Word.CORRECTED:
         so = "Section 2.3 and the equations of the paper are right, and section 2.2 is wrong"
     return word, evidence(
-        f"""The smallest singular value of B is {least[180]:.3f} at 180 degrees about Y, {rounding(least[90])} at +90
-        degrees, and {rounding(least[-90])} at -90 degrees. The feedback-linearized law
-        {"settles" if settled(about_y).all() else "does not settle"} from the exact 180° rotation about y. It settles
-        from {settled_of(poles, "exact poles")}. {so}.""",
+        f"""The smallest singular value of the matrix B is {least[180]:.3f} at a rotation by 180 degrees about Y,
+        {rounding(least[90])} at +90 degrees, and {rounding(least[-90])} at -90 degrees. In the simulation, feedback
+        linearization {"settles" if settled(about_y).all() else "does not settle"} from the exact 180° rotation about
+        Y. It settles from {settled_of(poles, "starts exactly on a pole")} (beta = +-90 degrees). {so}.""",
         len(least) + len(about_y) + len(poles),
-        measured=f"""The smallest singular value of the matrix B of Z-Y-X angles is {least[180]:.3g} at a rotation of
-        180° about y, and {rounding(least[90])} at a rotation of 90° about y.""",
+        measured=f"""The smallest singular value of the matrix B is {least[180]:.3g} at a rotation by 180° about Y, and
+        {rounding(least[90])} at a rotation by 90° about Y.""",
     )
 
 
@@ -133,17 +133,17 @@ def c15(results: Results) -> tuple[Word, Evidence]:
     by_sum = [moved[sign, "sum"] <= LIMIT.SAME < moved[sign, "difference"] for sign in (1, -1)]
     sums = [pole for pole, is_sum in zip(("+90", "-90"), by_sum, strict=True) if is_sum]
     verdict = {2: Word.HOLDS, 1: Word.CORRECTED, 0: Word.FAILS}[sum(by_sum)]
-    so = f"R determines the sum, and only the sum, at {' and '.join(sums) + ' degrees' if sums else 'neither pole'}"
+    where = f"at beta = {' and '.join(sums)} degrees" if sums else "at neither pole"
+    so = f"R determines the sum of alpha and gamma, and only this sum, {where}"
     return verdict, evidence(
-        f"""If alpha and gamma change and their sum stays the same, elements of R change by up to
-        {moved[1, "sum"]:.1g} at beta = +90 degrees, and by up to {moved[-1, "sum"]:.0e} at -90 degrees. If alpha and
-        gamma change and their difference stays the same, elements of R change by up to
-        {moved[1, "difference"]:.0e} at +90 degrees, and by up to {moved[-1, "difference"]:.1g} at -90 degrees.
-        {so}.""",
+        f"""If alpha and gamma change and their sum stays the same, elements of the rotation matrix R change by up to
+        {moved[1, "sum"]:.1g} at beta = +90 degrees, and by up to {moved[-1, "sum"]:.0e} at beta = -90 degrees. If alpha
+        and gamma change and their difference stays the same, elements of R change by up to
+        {moved[1, "difference"]:.0e} at beta = +90 degrees, and by up to {moved[-1, "difference"]:.1g} at beta = -90
+        degrees. {so}.""",
         4 * len(grid) ** 2,
-        measured=f"""We changed alpha and gamma and kept their sum constant. This changes elements of the rotation
-        matrix by up to {moved[1, "sum"]:.1g} at beta = +90°, and by at most {moved[-1, "sum"]:.0e} at beta =
-        -90°.""",
+        measured=f"""If alpha and gamma change and their sum stays the same, elements of the rotation matrix R change by
+        up to {moved[1, "sum"]:.1g} at beta = +90°, and by up to {moved[-1, "sum"]:.0e} (rounding) at beta = -90°.""",
     )
 
 
@@ -158,16 +158,18 @@ def c16(results: Results) -> tuple[Word, Evidence]:
     largest = float(np.abs(matrices).max())
     lacks_inverse = np.isfinite(matrices).all() and values[:, 2].max() < LIMIT.ON_POLE
     word = word_of(not np.isfinite(matrices[is_pole]).all(), lacks_inverse)
+    zero = rounding(float(values[:, 2].max()))
     so = "The results do not confirm section 3.3"
     if lacks_inverse:
         so = "B exists at all orientations, as section 3.3 says, but B^-1 does not exist at the poles"
     return word, evidence(
-        f"""At {len(frame):,} orientations, the elements of B are at most {largest:.3f}. At {len(at_poles)} exact poles,
-        the smallest singular value of B is at most {rounding(float(values[:, 2].max()))}, and the second smallest is at
-        least {float(values[:, 1].min()):.2f}. {so}.""",
+        f"""At {len(frame):,} orientations, no element of the matrix B is larger than {largest:.3f}. Of these
+        orientations, {len(at_poles)} are exact poles (beta = +-pi/2). At these poles, the smallest
+        singular value of B is {zero if zero == "0" else f"at most {zero}"}, and the second smallest singular value is
+        {float(values[:, 1].min()):.2f} or more. {so}.""",
         len(frame),
-        measured=f"""At {len(frame):,} orientations, no element of the matrix B exceeds {largest:.3g} in absolute value.
-        Of these orientations, {len(at_poles)} are poles (beta = +-pi/2). At the poles, B^-1 does not exist.""",
+        measured=f"""At {len(frame):,} orientations, no element of the matrix B is larger than {largest:.3g}. Of these
+        orientations, {len(at_poles)} are exact poles, where the inverse B^-1 does not exist.""",
     )
 
 

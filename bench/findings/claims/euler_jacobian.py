@@ -71,19 +71,21 @@ def c18(results: Results) -> tuple[Word, Evidence]:
     well = some(rows[(rows["pose_set"] == "random") & (rows["condition"] <= WELL_CONDITIONED)], "random pose")
     worse = share(well["condition_analytic"] > 10 * well["condition"])
     return word, evidence(
-        f"""We use {len(ways)} families on {rows["arm"].nunique()} arms. In these families, the condition number of J is
-        at most {ways["condition"].max():.0f}. Per decade towards the pole, the condition number of J_E grows by
-        {slopes[:, 0].min():.3f} to {slopes[:, 0].max():.3f} decades, and the largest element of J_E grows by
-        {slopes[:, 1].min():.3f} to {slopes[:, 1].max():.3f} decades. At 1e-{LIMIT.NEAREST} rad from the pole, the
-        largest element is {ways["nearest"].min():.1e} or more. At {len(square):,} poses, det J_E is equal to
-        -det J / cos(beta), to {errors.max():.1f} eps / cos(beta). We also used the random poses where J is well
-        conditioned. At {worse} of these poses, the condition number of J_E is more than ten times that of J. At every
-        pose, the largest element of J_E is at least {rows["largest"].min():.2f}. Therefore the matrix J_E is zero at no
-        pose.""",
+        f"""A family is one posture of an arm, brought to several distances from a pole (beta = +-pi/2). We use
+        {len(ways)} families on {rows["arm"].nunique()} arms. In these families, the condition number of the Jacobian J
+        is at most {ways["condition"].max():.0f}. Each time the distance from the pole becomes ten times smaller, log10
+        of the condition number of the Euler Jacobian J_E grows by {slopes[:, 0].min():.3f} to {slopes[:, 0].max():.3f},
+        and log10 of the largest element of J_E grows by {slopes[:, 1].min():.3f} to {slopes[:, 1].max():.3f}. (These
+        numbers are slopes by least squares.) At 1e-{LIMIT.NEAREST} rad from the pole, the largest element of J_E is
+        {ways["nearest"].min():.1e} or more. At {len(square):,} poses, det J_E is equal to -det J / cos(beta), with an
+        error of at most {errors.max():.1f} eps / cos(beta). We also used the random poses where the condition number
+        of J is at most {WELL_CONDITIONED:g}. At {worse} of these poses, the condition number of J_E is more than ten
+        times that of J. At every pose, the largest element of J_E is at least {rows["largest"].min():.2f}. Therefore
+        J_E is not a zero matrix at any pose.""",
         len(rows),
-        measured=f"""At 1e-{LIMIT.NEAREST} rad from a pole, elements of the Euler Jacobian are up to
-        {ways["nearest"].max():.1e}. At {percent_interval(worse)} of random poses, its condition number is more than
-        ten times that of the geometric Jacobian.""",
+        measured=f"""At 1e-{LIMIT.NEAREST} rad from a pole, elements of the Euler Jacobian J_E reach
+        {ways["nearest"].max():.1e}. At {percent_interval(worse)} of the random poses where the arm's Jacobian J is well
+        conditioned, the condition number of J_E is more than ten times that of J.""",
     )
 
 
@@ -121,14 +123,14 @@ def c19(results: Results) -> tuple[Word, Evidence]:
     everywhere = derived.max() <= ROUNDINGS and measured.max() <= ROUNDINGS
     word = word_of(everywhere, all((part <= ROUNDINGS).all() for part in away))
     return word, evidence(
-        f"""At {len(rows):,} poses of {rows["arm"].nunique()} arms, (3.3) and (3.5) differ by at most
-        {derived.max():.1f} eps / cos(beta) of the largest element. At {len(kept):,} of these poses, we also
-        differentiated the forward kinematics numerically. The result and (3.3) differ by at most {measured.max():.1f}
-        eps^(2/3) / cos(beta) of the largest element. Number of poses left out because an angle jumps between the two
-        ends of a difference: {len(differenced) - len(kept)}.""",
+        f"""At {len(rows):,} poses of {rows["arm"].nunique()} arms, the Jacobians by (3.3) and by (3.5) differ by at
+        most {derived.max():.1f} eps / cos(beta) of the largest element. At {len(kept):,} of these poses, we also
+        differentiated the forward kinematics numerically. This result and the Jacobian by (3.3) differ by at most
+        {measured.max():.1f} eps^(2/3) / cos(beta) of the largest element. Number of poses that we left out because an
+        angle jumps between the two points of a difference: {len(differenced) - len(kept)}.""",
         len(rows),
-        measured=f"""At {len(rows):,} poses, the elements of the two Jacobians differ by at most {derived.max():.1f}
-        eps / cos(beta), relative to the largest element. This is rounding (eps = 2.2e-16).""",
+        measured=f"""At {len(rows):,} poses, the Jacobians by the two derivations differ by at most
+        {derived.max():.1f} eps / cos(beta) of the largest element. This is rounding (eps = 2.2e-16).""",
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.experiments.tables.read import converged
-from bench.findings.amounts import capitalize, count_of
+from bench.findings.amounts import capitalize, count_of, join_words
 from bench.findings.claims import probes
 from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.at_gains import on_every_engine
@@ -158,20 +158,22 @@ def c11(results: Results, engine: str) -> tuple[Word, Evidence]:
     widest = MARGINS_RAD[-1]
     clear = frame[spins & (frame["min_margin"] > math.sin(widest))]
     peaks = (float(frame.loc[own & (room > MARGINS_RAD[0]), "peak_u"].max()) for own in (~spins, spins))
-    at_rest, spinning, near = (", ".join(map(str, each)) for each in (resting, turning, passed))
+    at_rest, spinning, near = (join_words(map(str, each)) for each in (resting, turning, passed))
     return word_of(any(not any(each) for each in counts), not all(resting)), evidence(
         f"""We tried margins of {MARGINS} rad. For each margin, we excluded the starts that are closer to a boundary
-        point than the margin, and counted the erratic starts among the others. The counts are in the order of the
-        margins. Of {int((~spins).sum()):,} starts at rest, these are erratic: {at_rest}. Of {int(spins.sum())} tumbling
-        starts: {spinning}. Of {probes.BESIDE} starts that spin at {probes.SPEED:g} rad/s just outside each margin:
-        {near}. With the smallest margin, the largest command is {next(peaks):,.0f} rad/s^2 from starts at rest, and
-        {next(peaks):,.0f} rad/s^2 from tumbling starts. From {len(clear)} tumbling starts, the body never comes within
-        {widest} rad of a pole. {capitalize(count_of(int(erratic[clear.index].sum()), len(clear), "starts"))} of this
-        kind are erratic.""",
+        point than the margin, and counted the erratic starts among the others. The counts below are in the order of
+        these margins. Among {int((~spins).sum()):,} starts at rest, the numbers of erratic starts are {at_rest}. Among
+        {int(spins.sum())} random starts that spin (start set 'tumbling'), they are {spinning}. Among {probes.BESIDE}
+        starts that spin at {probes.SPEED:g} rad/s just outside the excluded region of a pole, they are {near}. Outside
+        the smallest excluded region, the largest command is {next(peaks):,.0f} rad/s^2 from starts at rest, and
+        {next(peaks):,.0f} rad/s^2 from starts of the set 'tumbling'. From {len(clear)} starts of this set, the body
+        never comes within {widest} rad of a pole. Of these starts,
+        {int(erratic[clear.index].sum()) or "none"} are erratic.""",
         len(frame) + sum(len(one) for one in beside),
-        measured=f"""We simulated {int((~spins).sum()):,} starts at rest. Outside the excluded region,
-        {resting[0] or "none"} of these starts are erratic (no settling, or an extremely large command). Of
-        {probes.BESIDE} starts that spin at {probes.SPEED:g} rad/s near a pole, {passed[0] or "none"} are erratic.""",
+        measured=f"""Of {int((~spins).sum()):,} starts at rest, {resting[0] or "none"} outside the excluded
+        region are erratic (the body does not settle, or the command is extremely large). Of {probes.BESIDE} starts
+        that spin at {probes.SPEED:g} rad/s just outside this region, {passed[0] or "none"} are erratic."""
+        .replace("XX", ""),
     )
 
 

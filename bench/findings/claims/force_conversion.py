@@ -53,22 +53,22 @@ def c21(results: Results) -> tuple[Word, Evidence]:
     rank = 2 if found.loc[poles, "least"].max() <= LOST else 3
     return word, evidence(
         f"""We tested {len(found):,} orientations, {int(poles.sum())} of them exact poles. The converted moment F_E is
-        finite at {count_of(int(found["exists"].sum()), len(found), "orientations")}. The powers F_E^T Edot
-        and m^T omega are equal to {found["gap"].max() / EPS:.1f} eps. With omega from differences of R(E), these powers
-        are equal to {found["difference_gap"].max() / DIFFERENCED:.1f} eps^(2/3). In the control loop, in
-        {len(looped):,} episodes of the task wrench-probe, the powers are equal to {residual.max():.1f} eps / cos(beta).
-        At the poles, B has rank {rank}, and B^T converts one moment of length 1 to a vector of length
-        {found.loc[poles, "lost"].max():.0g}. In {len(elsewhere)} other representations, the powers are equal to
-        {max(elsewhere) / EPS:.1f} eps. If the moment is not converted, the powers of a
-        moment of 1 N m and of rates of length 1 differ by {found["raw_gap"].median():.2f} W in the median. Where
-        alpha alone complies, the controller amplifies a moment by a factor of at most {LIMIT.USABLE:g} at
-        {count_of(int(usable.sum()), len(found), "orientations")}. Except at the exact poles, the controller
-        amplifies a moment by a factor of up to
-        {found.loc[~poles, "gain"].max():.1e}, as 1 / cos(beta) predicts.""",
+        finite at {count_of(int(found["exists"].sum()), len(found), "orientations")}. We computed the power of the
+        converted moment, F_E^T Edot, and the power of the measured moment, m^T omega. The two powers differ by at most
+        {found["gap"].max() / EPS:.1f} eps. If omega comes from numerical differences of R(E), they differ by at most
+        {found["difference_gap"].max() / DIFFERENCED:.1f} eps^(2/3). In {len(looped):,} simulated episodes of the task
+        'wrench-probe', they differ by at most {residual.max():.1f} eps / cos(beta), relative to |m| |omega|. At the
+        poles, B has rank {rank}, and B^T converts one moment of length 1 to a vector of length
+        {found.loc[poles, "lost"].max():.0g}. In {len(elsewhere)} other representations, the powers differ by at most
+        {max(elsewhere) / EPS:.1f} eps. If a moment of 1 N m is not converted, and the rates have the length 1, the
+        median difference of the powers is {found["raw_gap"].median():.2f} W. If alpha is the only compliant angle, the
+        controller amplifies a moment by a factor of at most {LIMIT.USABLE:g} at
+        {count_of(int(usable.sum()), len(found), "orientations")}. Near the poles, but not exactly on them, this factor
+        reaches {found.loc[~poles, "gain"].max():.1e}, as 1 / cos(beta) predicts.""",
         len(found) + len(looped),
-        measured=f"""At {len(found):,} orientations, a moment does the same work in Euler angles and in Cartesian
-        coordinates, to {found["gap"].max() / EPS:.1f} eps (rounding). Near the poles, the controller amplifies
-        moments by a factor of up to {found.loc[~poles, "gain"].max():.1e}.""",
+        measured=f"""At {len(found):,} orientations, the work of the measured moment and of the converted moment is the
+        same, to {found["gap"].max() / EPS:.1f} eps (rounding). Near the poles, the controller amplifies moments by a
+        factor of up to {found.loc[~poles, "gain"].max():.1e}.""",
     )
 
 

@@ -51,7 +51,8 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         raise NoEvidence("flops and calls say different things, and no time decides: run bench time")
     in_order = [one.sign == ORDERED and not one.is_disputed for one in pairs]
     paper, total = (
-        ", ".join(f"{short} {one[name]}" for short, name in zip(NAMES, THREE, strict=True)) for one in known.accountings
+        "; ".join(f"{one[name]} for {law}" for law, name in zip(IN_WORDS, THREE, strict=True))
+        for one in known.accountings
     )
     own = [known.accountings[0][name] for name in THREE]
     counts = [f"{one.flops} flops and {one.calls or 'no'} calls" for one in own]
@@ -59,8 +60,8 @@ def c12(results: Results) -> tuple[Word, Evidence]:
     ratios = "Their times were not measured."
     if known.times:
         ratios = f"The last two laws take {join_words(times)} times as long as the rotation-matrix law."
-    timed = ", ".join(f"{short} {known.over(name, THREE[0])}" for short, name in zip(NAMES[1:], THREE[1:], strict=True))
     in_words = [law.removeprefix("the ") for law in IN_WORDS]
+    timed = " and ".join(f"{ratio} for {law}" for law, ratio in zip(IN_WORDS[1:], times, strict=True))
     orders = [
         [law for _, law in sorted((one[name].flops, law) for law, name in zip(in_words, THREE, strict=True))]
         for one in known.accountings
@@ -71,32 +72,36 @@ def c12(results: Results) -> tuple[Word, Evidence]:
     as_printed = ""
     if literal:
         as_printed = (
-            f"If (2.15) is computed term by term, as printed, it takes {literal.flops} flops and {literal.calls} calls."
+            "If equation (2.15) is computed term by term, as the paper prints it, it takes "
+            f"{literal.flops} flops and {literal.calls} calls."
         )
-    priced = f" In these times, a call takes as long as {known.price:.0f} flops." if np.isfinite(known.price) else ""
+    priced = ""
+    if np.isfinite(known.price):
+        priced = f" By the measured times, a call takes as long as {known.price:.0f} flops."
     timed_pairs = sum(bool(pair.by_time) for pair in pairs)
     is_ordered = all(pair.sign == ORDERED for pair in pairs)
     by_one_measure = timed_pairs == len(pairs) and not others and all(in_order)
-    ordered: dict[str, list[str]] = {"Measured times": [], "Operations": []}
+    ordered: dict[str, list[str]] = {"measured times": [], "counted operations": []}
     for pair, neighbours in zip(pairs, itertools.pairwise(IN_WORDS), strict=True):
-        ordered["Measured times" if pair.by_time else "Operations"].append(" and ".join(neighbours))
-    decided = " ".join(f"{what} order {', and '.join(each)}." for what, each in ordered.items() if each)
-    instead = f"""The claimed order is right by time and operations together. {decided}
-        By flops alone, the order is: {by_flops}."""
+        ordered["measured times" if pair.by_time else "counted operations"].append(" and ".join(neighbours))
+    parts = {what: ", and of ".join(each) for what, each in ordered.items() if each}
+    decided = " ".join(f"The {what} decide the order of {laws}." for what, laws in parts.items())
+    instead = f"""The paper's order is right if times and operations are used together. {decided}
+        By flops alone, the order from the cheapest law is: {by_flops}."""
     word = word_of(by_one_measure, is_ordered or all(np.logical_or(in_order, [pair.is_disputed for pair in pairs])))
     return word, evidence(
-        f"""The times per control period, divided by that of the rotation-matrix law, are: {timed}. The paper's order
-        has two pairs of neighbours. The intervals of the times do not overlap in
-        {count_of(timed_pairs, len(pairs), "pairs")}. Flops and calls are: {paper}. If the
-        law also computes the goal's angles from the goal's matrix, flops and calls are: {total}. Flops give
-        the same order as calls in
-        {count_of(sum(0 not in pair.by_columns for pair in pairs), len(pairs), "pairs")}.{priced} By flops alone, the
-        order from the cheapest law is: {by_flops}. {as_printed}""",
+        f"""The computing times per control period, divided by the time of the rotation-matrix law, are {timed}. The
+        paper's order has two pairs of neighbouring laws. In {count_of(timed_pairs, len(pairs), "pairs")}, the 95 %
+        intervals of the two times do not overlap. The numbers of flops and of calls (of sin, cos, atan2 or acos) are:
+        {paper}. If a law on Euler angles also computes the goal's angles from the goal's rotation matrix, the numbers
+        are: {total}. In {count_of(sum(0 not in pair.by_columns for pair in pairs), len(pairs), "pairs")}, flops and
+        calls give the same order.{priced} By flops alone, the order from the cheapest law is: {by_flops}.
+        {as_printed}""",
         len(THREE) * (len(known.accountings) + len(known.times)),
         ("costs", "timings") if known.times else ("costs",),
         instead if word == Word.CORRECTED else "",
-        f"""A control step takes {counts[0]} with the rotation-matrix law, {counts[1]} with the linearized law and
-        {counts[2]} with feedback linearization. {ratios}""",
+        f"""The numbers of flops and of calls are {own[0]} for the rotation-matrix law, {own[1]} for the linearized law
+        and {own[2]} for feedback linearization. {ratios}""",
     )
 
 
@@ -136,21 +141,21 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
         instead = f"Whether a law is adequate in both cost and performance is not tested: {lacking}."
     beside = probes.beside_pole(0.1, THREE[-1], results.gains(), results.dt_s)
     return word, evidence(
-        f"""{fine} adequate in both cost and performance. A small error settles in {linear:.3f} s. Starts that
-        spin at {probes.SPEED:g} rad/s beside a pole do not count. The law feedback-linearized
-        loses {count_of(int((~settled(beside)).sum()), len(beside), "starts of this kind")}.""",
+        f"""{fine} adequate in both cost and performance. The settling time of a small error is {linear:.3f} s. Starts
+        that spin at {probes.SPEED:g} rad/s near a pole do not count. Feedback linearization settles from
+        {count_of(int(settled(beside).sum()), len(beside), "starts of this kind")}.""",
         len(THREE) + sum(law.rows for law in three),
         ("episodes", "costs", "timings") if known.times else ("episodes", "costs"),
         instead,
-        f"""{fine} adequate in cost and performance. The rotation-matrix law takes
-        {tables.named_interval(three[0].pace, ".2f", " s")} until 99 % of the starts settle.""",
+        f"""{fine} adequate in both cost and performance. The rotation-matrix law takes
+        {tables.interval_or_never(three[0].pace, ".2f", " s")} until 99 % of the uniform starts settle.""",
         (PLACES, *(_placed(law, asked[name], known) for name, law in zip(NAMES, three, strict=True))),
     )
 
 
 BESIDE = {
-    "e": " But from some starts exactly on a boundary (180°, a pole, or an angle of ±π) the body does not settle.",
-    "h": " But by operations alone it does not cost less than each other law on Euler angles.",
+    "e": " But it does not settle from some starts exactly on a boundary (180°, a pole, or an angle of ±π).",
+    "h": " But its cost is lower than that of the laws on Euler angles only by time, not by counted operations.",
 }
 """What an adequate law may fail: tests of C27 that C17 leaves out."""
 
@@ -163,7 +168,7 @@ PLACES = (
     "Spinning starts that do not settle",
     "Time until 99 % of the uniform starts settle",
     "Flops and calls",
-    "Computing time over that of the rotation-matrix law",
+    "Computing time, divided by that of the rotation-matrix law",
 )
 """Heads of what was measured of a law."""
 

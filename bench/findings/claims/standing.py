@@ -21,10 +21,10 @@ RULE = """
     For each pair, we ask whether the law that the paper calls cheaper is cheaper. The two laws are timed in turns on
     one machine (results/timings). The times confirm the paper's order if two conditions are met on every machine that
     timed both laws: the law that the paper calls cheaper takes less time, and the 95 % intervals do not overlap. The
-    operations confirm this order if the other law has no fewer flops, no fewer calls, and more of one of them. The
-    times decide. If the intervals overlap, or if one of the laws has no time, the operations decide. If flops and calls
-    give different orders, the sum of flops and calls decides. In this sum, a call counts as the number of flops that
-    take the same time.
+    operations confirm this order if the other law has at least as many flops and at least as many calls, and more of
+    one of the two. The times decide. If the intervals overlap, or if one of the laws was not timed, the operations
+    decide. If flops and calls give different orders, their weighted sum decides. In this sum, a call counts as n flops
+    if it takes as long as n flops.
     """
 
 MEASURABLE = 0.04

@@ -55,9 +55,9 @@ def does(word: Word, number: int) -> str:
 
 
 MISPRINTS = """
-    If only a symbol in the paper's statement is wrong, the claim "holds with a correction". The claim also "holds
-    with a correction" if the statement is wrong, but other equations or sentences of the paper are right. If the
-    statement is false in substance, the claim "does not hold".
+    We have a rule for errors of the paper. If only a symbol in the paper's statement is wrong, the claim "holds with a
+    correction". The claim also "holds with a correction" if the statement is wrong, but other equations or sentences of
+    the paper are right. If the statement is false in substance, the claim "does not hold".
     """
 """The rule of C10, C14, C15, C16 and C18."""
 
