@@ -36,7 +36,7 @@ PROPERTIES = {
     "global with memory": "The goal is stable, and the law with its memory brings the body to the goal from every "
     "start. No continuous law without memory brings the body to a stable goal from every start "
     "(Bhat & Bernstein 2000).",
-    "none": "We did not prove that the goal is stable.",
+    "none": "We do not claim that the goal is stable.",
     "": "",
 }
 EQUILIBRIA = {
@@ -121,12 +121,16 @@ def make_card(
     )
 
 
-def say_property(law: Law) -> dict[str, str]:
-    """Return the property of a law: what is proved from its source, by what, about what, and what is cited."""
+def say_property(law: Law, exception: str = "") -> dict[str, str]:
+    """Return the property of a law: what is proved from its source, by what, about what, and what is cited.
+
+    exception: a sentence on the goals for which a measured property does not hold.
+    """
     certificate = read_certificates().get(law.name)
     text = PROPERTIES.get(law.property, f"{law.property[:1].upper()}{law.property[1:]}.")
     if not certificate or not certificate["is_proved"] or certificate["declared"] != law.property:
-        return {"Stability" if law.property == "none" else "Measured, not proved": text}
+        head = "Stability" if law.property == "none" else "Measured, not proved"
+        return {head: html.Html(set_words(f"{text} {exception}".strip()))}
     lemmas = [lemma for lemma in certificate["lemmas"] if lemma["by"] != DRAWN]
     by = " and ".join(METHODS.get(by, by) for by in sorted({lemma["by"] for lemma in lemmas}))
     text += f" The proof holds {certificate['scope']}."
@@ -139,7 +143,7 @@ def say_property(law: Law) -> dict[str, str]:
         upper = f"{certificate['settling']['upper']:.4f} s"
         text += (
             " With the paper's gains and from every start at rest, the angle to the goal falls below 2 % of its "
-            f"initial value within {upper}, and then stays below this 2 %. We proved this bound of the time with the "
+            f"initial value within {upper}, and then stays below 2 % of it. We proved the bound {upper} with the "
             "library Arb, which computes with intervals."
         )
     text += f" {describe_sampled(certificate)}"

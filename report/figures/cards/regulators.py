@@ -110,7 +110,7 @@ def card(one: Contender, run: Run) -> str:
         "Limitations": set_words(fails),
         "Memory": set_words(describe_memory(one.regulator)) if one.regulator.memory else "",
         "Coordinates": f"The law computes its error from {acts}.",
-        **say_property(one.regulator),
+        **({} if one.regulator.costing_only else say_property(one.regulator, except_goals(found))),
         "Measured": measured(episodes, one.regulator),
         "Properties of the command": set_words(command),
         "Recommended": set_words(advised(one.name)),
@@ -118,8 +118,19 @@ def card(one: Contender, run: Run) -> str:
     }
     look, costs = html.both(style.look(one.name).colour), costs_of(one, run)
     shown = costs.to_html(index=False, classes="plain", border=0, formatters=[html.cell] * len(costs.columns))
-    costs_table = f'<div class="card-costs" tabindex="0">{shown}</div>'
+    caption = '<p class="card-fact">Operations of one control step, by stage of the computation:</p>'
+    costs_table = f'{caption}<div class="card-costs" tabindex="0">{shown}</div>'
     return make_card(one.regulator, title, (what, fields), look, costs_table, attribution=one.attribution)
+
+
+def except_goals(field: pd.DataFrame) -> str:
+    """Say at which goals a law in its coordinates does not have what is said of its stiffness; empty of most laws."""
+    whats = dict(zip(field["finding"].astype(str), field["what"].astype(str), strict=True))
+    if whats.get("goal") == "no-number":
+        return "This does not hold for goals at a pole of the coordinates, for example for the goal R_d = I."
+    if whats.get("stiffness") == "uneven-elsewhere":
+        return "The law has exactly this stiffness and damping only for the goal R_d = I."
+    return ""
 
 
 def costs_of(one: Contender, run: Run) -> pd.DataFrame:
@@ -175,8 +186,8 @@ def advised(law: str) -> str:
         return ""
     shares = measure_shares(law, tie=SPOKEN)
     drawn = (
-        f"We drew {shares.qualified.of:,} random situations. A situation is a combination of gains, motors and "
-        "disturbances."
+        f"We drew {shares.qualified.of:,} random situations: combinations of gains, motors and disturbances. In each "
+        "situation our rule (chapter 7) recommends one law that meets its requirements."
     )
     beside = (
         f"In {say_share(shares.qualified.value)} this law meets the requirements of the rule, and no published or "
@@ -187,9 +198,9 @@ def advised(law: str) -> str:
     if is_ours:
         beats = say_share(compare_with_advised(law).value)
         return (
-            f"{drawn} In each situation our rule recommends one law. The rule does not recommend this law, because "
-            f"this law is ours, and the rule recommends published and adapted laws only. In {beats} this law settles "
-            f"more than {percent(SPOKEN)} faster than the recommended law. {beside}"
+            f"{drawn} The rule does not recommend this law, because this law is ours, and the rule recommends only "
+            f"published and adapted laws. This law settles more than {percent(SPOKEN)} faster than the recommended "
+            f"law in {beats}. {beside}"
         )
     if region is None:
         return f"{drawn} {beside}"
@@ -200,7 +211,7 @@ def advised(law: str) -> str:
         f"99 % of the starts within {price.at_equal_peak:.1f}/√p seconds."
     )
     recommends = f"The rule recommends this law in {say_share(region.advised)}."
-    return f"{drawn} In each situation our rule recommends one law. {recommends} {beside} {costs}"
+    return f"{drawn} {recommends} {beside} {costs}"
 
 
 def facts(run: Run) -> dict:
