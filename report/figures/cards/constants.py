@@ -64,7 +64,7 @@ def say(constant: Constant, every: list[Varied], default: str, laws: int) -> str
     """Say what the values of a constant that were tried do to the time of a law, and to its rank among so many laws."""
     values = sorted(one.value for one in every)
     ratios = [f"{one.ratio:.2f}" for one in sorted(every, key=lambda one: one.ratio)]
-    beside = "its settling time with the value used" if constant.law == default else f"that of {families.word(default)}"
+    beside = "its time with the value that we use" if constant.law == default else f"that of {families.word(default)}"
     # a Greek symbol keeps its letter: Δ is another symbol than δ
     name = capitalize(constant.symbol) if constant.symbol[0].isascii() else constant.symbol
     ranks = [f"{one.rank}" for one in sorted(every, key=lambda one: one.rank)]

@@ -207,8 +207,8 @@ def advised(law: str) -> str:
     price = find_price(law)
     costs = (
         "In the nominal situation (damping ratio 1, no command limit and no delay), the largest command of the law "
-        f"is {price.peak:.1f} kp. If we choose kp such that this largest command is p rad/s², the body settles from "
-        f"99 % of the starts within {price.at_equal_peak:.1f}/√p seconds."
+        f"is {price.peak:.1f} kp. With the damping ratio 1, and kp such that this largest command is p rad/s², the "
+        f"body settles from 99 % of the starts within {price.at_equal_peak:.1f}/√p seconds."
     )
     recommends = f"The rule recommends this law in {say_share(region.advised)}."
     return f"{drawn} {recommends} {beside} {costs}"
