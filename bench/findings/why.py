@@ -33,9 +33,9 @@ SENTENCES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding
 """Finding -> what -> text, page and, if it is one, fault."""
 
 SETS = {
-    "every": "every 180° rotation (all {of} axes that were tried)",
+    "every": "180° rotations about all {of} axes that we tried",
     "plane": "180° rotations about axes in one plane",
-    "some": "180° rotations about {found} of the {of} axes that were tried",
+    "some": "180° rotations about {found} of the {of} axes that we tried",
 }
 SETS |= {f"plane-{axis}": f"180° rotations about axes normal to {axis}" for axis in "xyz"}
 

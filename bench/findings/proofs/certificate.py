@@ -25,8 +25,8 @@ DRAWN = "drawn states"
 """Method of a lemma that is checked and not proved: a law's numbers are those of its trace."""
 PROVED, REFUTED, NOT_PROVED = "proved", "refuted", "not proved"
 SCOPE = (
-    "in continuous time, with exact numbers and the exact state, no bound of the command, no "
-    "delay, and the inertia as modelled"
+    "in continuous time, with exact arithmetic, an exactly known state, an exactly known inertia, motors without "
+    "a limit, and no delay"
 )
 """What a property is about, wherever it is said to be proved."""
 WITH_TIME = "spring-and-damper"
@@ -175,8 +175,8 @@ def describe_sampled(certificate: dict[str, Any]) -> str:
         return "We did not simulate this law with a sampled command."
     starts = count_of(measured["settled"], measured["starts"], "starts")
     return (
-        "In a simulation with the paper's gains and a control period of "
-        f"{1e3 * measured['period_s']:g} ms, the body settles from {starts} that were tried."
+        "In simulations with the paper's gains and a control period of "
+        f"{1e3 * measured['period_s']:g} ms, the body settles from {starts} that we tried."
     )
 
 

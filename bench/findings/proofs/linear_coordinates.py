@@ -16,7 +16,7 @@ from bench.findings.proofs.traced_number import Traced, is_zero
 from bench.law.kinds import Law
 from bench.law.so3 import dot
 
-V_FALLS = "We proved by hand that V = |x'|^2/2 + Kp |x|^2/2 falls where x'' + Kv x' + Kp x = 0."
+V_FALLS = "We proved by hand that V = |x'|^2/2 + Kp |x|^2/2 falls if the coordinates x obey x'' + Kv x' + Kp x = 0."
 FINITE_BELOW_180 = "the command is finite below 180°, where it is not defined"
 
 

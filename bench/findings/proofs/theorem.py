@@ -12,13 +12,13 @@ from bench.findings.proofs.reasons import LIMITS, DoesNotFit, LemmaFails, TimeIs
 from bench.findings.proofs.solver import Lemma
 from bench.law.kinds import Law
 
-LASALLE = "By LaSalle's invariance principle, the body comes to rest at a point where the derivative V' stays zero."
+LASALLE = "By LaSalle's invariance principle, the body comes to rest at a point where the derivative of V stays zero."
 MEASURE_ZERO = (
-    "By the stable manifold theorem, if the closed loop has unstable equilibria, only a set of "
-    "starts of measure zero ends at them."
+    "By the stable manifold theorem, the body comes to an unstable equilibrium only from a set of starts of measure "
+    "zero."
 )
 FINITE_JUMPS = (
-    "We proved by hand that V falls by a constant at each change of the stored sign, so the sign "
+    "We proved by hand that V falls by at least a fixed amount at each change of the stored sign. Therefore the sign "
     "changes only a finite number of times."
 )
 """Parts of a proof that no program checks, in the words of a certificate."""

@@ -29,8 +29,8 @@ from bench.law.kinds import Law
 from bench.law.so3 import cross, from_quaternion
 
 FOUR_RESTS = (
-    "We proved by hand that the force of V on the turned body is zero only at the goal and at "
-    "three 180° rotations."
+    "We proved by hand that the force of the potential on the turned body is zero only if this turned body is at the "
+    "goal or at one of three 180° rotations from the goal."
 )
 CITED = (LASALLE, FINITE_JUMPS, FOUR_RESTS)
 

@@ -28,22 +28,28 @@ BACK = (
 )
 PROPERTIES = {
     "local": "The goal is stable, and near the goal the law has the stiffness and damping that the gains define.",
-    "almost global": "The goal is stable from all starts except a set of measure zero. No continuous law without "
-    "memory can make the goal stable from all starts (Bhat & Bernstein 2000).",
-    "almost global from rest": "The goal is stable from all starts at rest except a set of measure zero.",
-    "global with memory": "With its memory, the law makes the goal stable from every start. A continuous law "
-    "without memory cannot make the goal stable from every start (Bhat & Bernstein 2000).",
-    "none": "We did not prove that the goal is stable.",
+    "almost global": "The goal is stable, and the law brings the body to the goal from all starts except a set of "
+    "measure zero. No continuous law without memory brings the body to a stable goal from all starts "
+    "(Bhat & Bernstein 2000).",
+    "almost global from rest": "The goal is stable. If the body starts at rest, the law brings the body to the goal "
+    "from all starts except a set of measure zero.",
+    "global with memory": "The goal is stable, and the law with its memory brings the body to the goal from every "
+    "start. No continuous law without memory brings the body to a stable goal from every start "
+    "(Bhat & Bernstein 2000).",
+    "none": "We do not claim that the goal is stable.",
     "": "",
 }
 EQUILIBRIA = {
-    "none": "The goal is the only equilibrium of the law.",
-    "none, but the command jumps at 180°": "The goal is the only equilibrium of the law. At 180°, its command jumps.",
-    "not defined at 180°": "The law is not defined at 180°.",
-    "every 180° rotation": "Every 180° rotation is an equilibrium.",
-    "180° rotations about n_d, o_d and a_d": "The 180° rotations about n_d, o_d and a_d are equilibria.",
+    "none": "The goal is the only equilibrium of the closed loop.",
+    "none, but the command jumps at 180°": "The goal is the only equilibrium of the closed loop. The command of the "
+    "law jumps at 180° rotations from the goal.",
+    "not defined at 180°": "The command of the law is not defined at 180° rotations from the goal.",
+    "every 180° rotation": "Every 180° rotation from the goal is also an equilibrium.",
+    "180° rotations about n_d, o_d and a_d": "The three 180° rotations from the goal about its axes n_d, o_d and a_d "
+    "are also equilibria.",
 }
 """Say where a law can rest away from the goal: the words of a certificate -> a sentence of its card."""
+METHODS = {"Z3": "the solver Z3", "algebra": "computer algebra"}
 GREEK = {**LETTERS, "eps": "ε", "eta": "η", "lambda": "λ"}
 DOTTED = re.compile(rf"\b({'|'.join(GREEK)}|[A-Za-z])(d?)dot\b")
 SIGNS: tuple[tuple[str, Any], ...] = (
@@ -115,25 +121,30 @@ def make_card(
     )
 
 
-def say_property(law: Law) -> dict[str, str]:
-    """Return the property of a law: what is proved from its source, by what, about what, and what is cited."""
+def say_property(law: Law, exception: str = "") -> dict[str, str]:
+    """Return the property of a law: what is proved from its source, by what, about what, and what is cited.
+
+    exception: a sentence on the goals for which a measured property does not hold.
+    """
     certificate = read_certificates().get(law.name)
     text = PROPERTIES.get(law.property, f"{law.property[:1].upper()}{law.property[1:]}.")
     if not certificate or not certificate["is_proved"] or certificate["declared"] != law.property:
-        return {"Stability" if law.property == "none" else "Measured, not proved": text}
+        head = "Stability" if law.property == "none" else "Measured, not proved"
+        return {head: html.Html(set_words(f"{text} {exception}".strip()))}
     lemmas = [lemma for lemma in certificate["lemmas"] if lemma["by"] != DRAWN]
-    by = " and ".join(sorted({lemma["by"] for lemma in lemmas}))
+    by = " and ".join(METHODS.get(by, by) for by in sorted({lemma["by"] for lemma in lemmas}))
     text += f" The proof holds {certificate['scope']}."
     steps = [f"({i}) {step}" for i, step in enumerate(certificate["cited"], 1)]
     text += f" The proof uses the function V below. A program read the source code of the law and proved {len(lemmas)} "
-    text += f"lemmas with {by}, in {certificate['seconds']:.1f} s."
+    text += f"lemmas in {certificate['seconds']:.1f} s with {by}."
     text += f" No program checked {'these steps' if len(steps) > 1 else 'this step'} of the proof: {' '.join(steps)}"
     text += f" {EQUILIBRIA.get(certificate['equilibria'], certificate['equilibria'])}"
     if "upper" in certificate["settling"]:
         upper = f"{certificate['settling']['upper']:.4f} s"
         text += (
-            " With the paper's gains and from every start at rest, the angle to the goal falls below 2 % "
-            f"of its first value after at most {upper}, and stays below it (proved with the library Arb)."
+            " With the paper's gains and from every start at rest, the angle to the goal falls below 2 % of its "
+            f"initial value within {upper}, and then stays below 2 % of it. We proved the bound {upper} with the "
+            "library Arb, which computes with intervals."
         )
     text += f" {describe_sampled(certificate)}"
     return {"Proved": html.Html(f"{set_words(text)} {html.formula(certificate['V'])}")}
@@ -169,7 +180,7 @@ def show_short(word: str) -> str:
     """Return the short form of a law; nothing of a law that has none."""
     code = write_short(word)
     imports = "<code>import jax.numpy as np</code> or <code>import torch as np</code>"
-    others = f"With {imports} the code runs in JAX or PyTorch."
+    others = f"This code uses NumPy as <code>np</code>. With {imports}, the code also runs in JAX or PyTorch."
     return f"<h2>The law in NumPy</h2><p>{others}</p>{colour(code)}" if code else ""
 
 
@@ -199,7 +210,7 @@ def fold(source: Source) -> str:
     """Return a file's text behind its name."""
     text = source.file.read_text(encoding="utf-8", errors="replace")
     return (
-        '<details class="law-source"><summary>Whole file of the law, '
+        '<details class="law-source"><summary>Complete source file of the law: '
         f"<code>{markup.escape(source.where)}</code></summary>"
         f"{colour(text)}</details>"
     )
@@ -208,5 +219,7 @@ def fold(source: Source) -> str:
 def take_files(word: str, files: dict[str, tuple[str, str]], live: str) -> str:
     """Return what leads to its files and to the page on which it runs."""
     links = ", ".join(f'<a href="code/{name}" download>{title}</a>' for title, (name, _) in files.items())
-    tried = f'<a href="../{live}.html#a={word}">Try this law</a>, or take its code' if live else "Take its code"
-    return f"<p>{tried}: {links}. <code>bench export {word} --to c</code> adds test vectors and a test.</p>"
+    tried = f'<a href="../{live}.html#a={word}">Try this law</a>, or download' if live else "Download"
+    command = f"<code>bench export {word} --to c</code>"
+    also = f"The command {command} writes the C code of the law, test vectors and a test."
+    return f"<p>{tried} the code of the law: {links}. {also}</p>"

@@ -56,22 +56,23 @@ def make_rows(varied: dict[Constant, list[Varied]]) -> Iterator[tuple]:
 def describe_constants(law: str) -> str:
     """Say of a law what its constants that are ours do; nothing of a law without such constants."""
     rows, default = read_rows(), find_default()
-    return " ".join(say(one, vary(one, rows, default), default) for one in CONSTANTS if one.law == law)
+    laws = rows["regulator"].nunique()
+    return " ".join(say(one, vary(one, rows, default), default, laws) for one in CONSTANTS if one.law == law)
 
 
-def say(constant: Constant, every: list[Varied], default: str) -> str:
-    """Say what the values of a constant that were tried do to the time and the rank of a law."""
+def say(constant: Constant, every: list[Varied], default: str, laws: int) -> str:
+    """Say what the values of a constant that were tried do to the time of a law, and to its rank among so many laws."""
     values = sorted(one.value for one in every)
     ratios = [f"{one.ratio:.2f}" for one in sorted(every, key=lambda one: one.ratio)]
-    beside = "with the value used" if constant.law == default else families.word(default)
+    beside = "its time with the value that we use" if constant.law == default else f"that of {families.word(default)}"
     # a Greek symbol keeps its letter: Δ is another symbol than δ
     name = capitalize(constant.symbol) if constant.symbol[0].isascii() else constant.symbol
     ranks = [f"{one.rank}" for one in sorted(every, key=lambda one: one.rank)]
     return (
-        f"{name}: we use {constant.shipped:g}, and also tried values from {values[0]:g} to "
-        f"{values[-1]:g}. With each of these values, the law needs {_span(ratios)} times as long to settle "
-        f"as {beside} (median over the situations). Its rank among the laws of the map is "
-        f"{_span(ranks)} (1 is the fastest)."
+        f"{name}: we use {constant.shipped:g}, and we tried {len(values) - 1} other values between "
+        f"{values[0]:g} and {values[-1]:g}. For each value we divided the settling time of the law by {beside}: the "
+        f"median of this ratio in our situations is {_span(ratios)}. The rank of the law by settling time among "
+        f"the {laws} laws that we compared is {_span(ranks)} (rank 1 is the fastest law)."
     )
 
 

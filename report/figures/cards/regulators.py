@@ -42,15 +42,16 @@ TEXTS = tomllib.loads(Path(__file__).with_name("laws.toml").read_text(encoding="
 """Law -> about, limitations, and memory if it differs from MEMORY."""
 
 MEMORY = (
-    "Reset the memory before the first control step and after a pause. If the goal changes, the "
-    "law keeps its memory. If you also reset the memory when the goal jumps, the path becomes "
-    "shorter, but the body does not settle sooner. Between two control steps, the measured "
-    "orientation must turn by less than 180°. This is certain if phi + 2 e < 180°. Here phi is the "
+    "Reset the memory before the first control step, and after each pause of the control. If the goal "
+    "changes, the law keeps its memory. If you also reset the memory when the goal jumps, the path "
+    "becomes shorter, but the body does not settle sooner. Between two control steps, the measured "
+    "orientation must turn by less than 180°. This condition is met if phi + 2 e < 180°, where phi is the "
     "angle by which the body turns between two control steps, and e is the angle between the "
     "measured and the true orientation."
 )
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
-EXAMPLE = re.compile(r" Shown by |, as from |, as at ")
+EXAMPLE = re.compile(r" Shown by |, as from |, as at | A law that uses ")
+"""Where a sentence begins to show a state, or to name a fault in the code of a law that is new."""
 
 
 def in_order() -> list[Law]:
@@ -103,12 +104,13 @@ def card(one: Contender, run: Run) -> str:
     said = why.sentences(found, declared, stiffness=one.regulator.stiffness) if len(found) else []
     # without the states that show it, which `judge` prints
     command = " ".join(EXAMPLE.split(each.text)[0].rstrip(".") + "." for each in said)
-    acts = one.representation.title if one.representation else "the rotation matrix"
+    acts = one.representation.title if one.representation else "rotation matrix"
+    acts = acts if acts.endswith("angles") else f"the {acts[:1].lower()}{acts[1:]}"
     fields = {
         "Limitations": set_words(fails),
         "Memory": set_words(describe_memory(one.regulator)) if one.regulator.memory else "",
-        "Coordinates": f"{acts[:1].upper()}{acts[1:]}.",
-        **say_property(one.regulator),
+        "Coordinates": f"The law computes its error from {acts}.",
+        **({} if one.regulator.costing_only else say_property(one.regulator, except_goals(found))),
         "Measured": measured(episodes, one.regulator),
         "Properties of the command": set_words(command),
         "Recommended": set_words(advised(one.name)),
@@ -116,8 +118,19 @@ def card(one: Contender, run: Run) -> str:
     }
     look, costs = html.both(style.look(one.name).colour), costs_of(one, run)
     shown = costs.to_html(index=False, classes="plain", border=0, formatters=[html.cell] * len(costs.columns))
-    costs_table = f'<div class="card-costs" tabindex="0">{shown}</div>'
+    caption = '<p class="card-fact">Operations of one control step, by stage of the computation:</p>'
+    costs_table = f'{caption}<div class="card-costs" tabindex="0">{shown}</div>'
     return make_card(one.regulator, title, (what, fields), look, costs_table, attribution=one.attribution)
+
+
+def except_goals(field: pd.DataFrame) -> str:
+    """Say at which goals a law in its coordinates does not have what is said of its stiffness; empty of most laws."""
+    whats = dict(zip(field["finding"].astype(str), field["what"].astype(str), strict=True))
+    if whats.get("goal") == "no-number":
+        return "This does not hold for goals at a pole of the coordinates, for example for the goal R_d = I."
+    if whats.get("stiffness") == "uneven-elsewhere":
+        return "The law has exactly this stiffness and damping only for the goal R_d = I."
+    return ""
 
 
 def costs_of(one: Contender, run: Run) -> pd.DataFrame:
@@ -136,18 +149,25 @@ def measured(episodes: pd.DataFrame, regulator: Law) -> str:
     """How many of the uniform starts settled, and how fast."""
     uniform = episodes[episodes["start_set"] == "uniform"]
     if regulator.costing_only:
-        return "We only counted the operations of this law: up to rounding, it gives the same command as another law."
+        return (
+            "We only counted the operations of this law, and did not simulate it: up to rounding errors, its command "
+            "is the command of another law."
+        )
     if uniform.empty:
         return "The law is not in this run."
     settled = uniform["outcome"] == "settled"
     found = share(settled)
     amount = count_of(int(settled.sum()), len(settled), "uniform starts")
-    interval = f"95\N{NO-BREAK SPACE}% interval of this share: {100 * found.low:.1f} to {100 * found.high:.1f} %"
+    of_share = "95\N{NO-BREAK SPACE}% confidence interval of the share of such starts that settle"
+    interval = f"{of_share}: {100 * found.low:.1f} to {100 * found.high:.1f} %"
     said = f"The body settles from {amount}, which are spread evenly over all orientations ({interval})."
     times = uniform.loc[settled, "settling_time_s"]
     if times.empty:
         return said
-    pace = f"The median settling time is {times.median():.2f} s, and the longest is {times.max():.2f} s."
+    pace = (
+        f"The median settling time from these starts is {times.median():.2f} s, and the longest settling time "
+        f"is {times.max():.2f} s."
+    )
     return f"{said} {pace}"
 
 
@@ -165,29 +185,33 @@ def advised(law: str) -> str:
     if region is None and not is_ours:
         return ""
     shares = measure_shares(law, tie=SPOKEN)
+    drawn = (
+        f"We drew {shares.qualified.of:,} random situations: combinations of gains, motors and disturbances. In each "
+        "situation our rule (chapter 7) recommends one law that meets its requirements."
+    )
     beside = (
-        f"In {say_share(shares.qualified.value)} this law meets the requirements, and no "
-        "published or adapted law that also meets the requirements is more than "
-        f"{percent(SPOKEN)} faster. If we also compare this law with the published and adapted "
-        f"laws that do not meet the requirements, this share is {percent(shares.all.value)}."
+        f"In {say_share(shares.qualified.value)} this law meets the requirements of the rule, and no published or "
+        f"adapted law that also meets these requirements settles more than {percent(SPOKEN)} faster. If we also "
+        "compare this law with the published and adapted laws that do not meet the requirements, this share of the "
+        f"situations is {percent(shares.all.value)}."
     )
     if is_ours:
         beats = say_share(compare_with_advised(law).value)
         return (
-            "Our rule recommends published and adapted laws only. It does not recommend this "
-            f"law, which is ours. The law is more than {percent(SPOKEN)} faster than the "
-            f"recommended law in {beats}. {beside}"
+            f"{drawn} The rule does not recommend this law, because this law is ours, and the rule recommends only "
+            f"published and adapted laws. This law settles more than {percent(SPOKEN)} faster than the recommended "
+            f"law in {beats}. {beside}"
         )
     if region is None:
-        return beside
+        return f"{drawn} {beside}"
     price = find_price(law)
     costs = (
-        f"In the nominal situation the largest command of the law is {price.peak:.1f} kp. With "
-        "the nominal damping ratio and gains for a largest command of p [rad/s²], the body "
-        f"settles from 99 % of the starts within {price.at_equal_peak:.1f}/√p seconds."
+        "In the nominal situation (damping ratio 1, no command limit and no delay), the largest command of the law "
+        f"is {price.peak:.1f} kp. With the damping ratio 1, and kp such that this largest command is p rad/s², the "
+        f"body settles from 99 % of the starts within {price.at_equal_peak:.1f}/√p seconds."
     )
-    recommends = f"It recommends this law in {say_share(region.advised)}."
-    return f"In each situation, our rule recommends one law. {recommends} {beside} {costs}"
+    recommends = f"The rule recommends this law in {say_share(region.advised)}."
+    return f"{drawn} {recommends} {beside} {costs}"
 
 
 def facts(run: Run) -> dict:

@@ -69,7 +69,7 @@ def law_in(representation):
 REGULATOR = Law(
     name="feedback-linearized",
     title="Feedback-linearized",
-    source="Murphy 1988, (2.15)-(2.16), in Z-Y-X angles",
+    source="Murphy 1988, (2.15)-(2.16), which has Z-Y-X angles",
     attribution=PUBLISHED,
     formula=r"u = B\,u_E + \dot B\,\dot E, \quad u_E = K_p (E_d - E) - K_d \dot E",
     law_in=law_in,

@@ -22,7 +22,7 @@ def law(R, omega, goal, gains):
 REGULATOR = Law(
     name="in-engine",
     title="MuJoCo's orientation actuator",
-    source="MuJoCo documentation, XML reference, actuator/orientation (3.11)",
+    source="MuJoCo documentation, XML reference, actuator/orientation (version 3.11)",
     attribution=PUBLISHED,
     formula=r"u = K_p \log(R_d R^\top) - K_v\,\omega",
     law=law,

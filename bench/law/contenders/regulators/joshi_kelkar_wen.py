@@ -33,8 +33,8 @@ REGULATOR = Law(
     name="joshi-kelkar-wen",
     title="Hardening quaternion spring",
     source=(
-        "after Joshi, Kelkar, Wen 1995 (not read; after a report on it); gamma/Gp = 2 and "
-        "the shorter side are ours"
+        "after Joshi, Kelkar, Wen 1995 (we read a report about the paper, not the paper); gamma/Gp = 2 and "
+        "the choice of the shorter way are ours"
     ),
     attribution=ADAPTED,
     formula=r"u = \tfrac12 \bigl((\eta I + [\epsilon]_\times) G_p + \gamma (1 - \eta) I\bigr)\,\epsilon - G_r\,\omega",

@@ -26,7 +26,7 @@ def law_in(representation):
 REGULATOR = Law(
     name="linearized-euler",
     title="Linearized Euler",
-    source="Murphy 1988, (2.14); that goals other than zero may be asked for is ours",
+    source="Murphy 1988, (2.14); the use of goals other than zero is ours",
     attribution=PUBLISHED,
     formula=r"u = P\,\bigl(K_p (E_d - E) - K_d \dot E\bigr), \quad P: (\alpha, \beta, \gamma) \mapsto "
     r"(\gamma, \beta, \alpha)",

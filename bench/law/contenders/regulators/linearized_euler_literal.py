@@ -24,7 +24,7 @@ def law_in(representation):
 REGULATOR = Law(
     name="linearized-euler-literal",
     title="Linearized Euler, as printed",
-    source="after Murphy 1988, 2.3, without the permutation of (2.14): negative control",
+    source="after Murphy 1988, 2.3, without the permutation of (2.14); a wrong law, to check our tests",
     attribution=ADAPTED,
     formula=r"u = K_p (E_d - E) - K_d \dot E",
     law_in=law_in,

@@ -28,7 +28,7 @@ def law_in(representation):
 REGULATOR = Law(
     name="linearized-euler-relative",
     title="Linearized Euler, from the goal",
-    source="after Murphy 1988, 2.4, which proposes it in words",
+    source="after Murphy 1988, 2.4, which proposes this law in words",
     attribution=ADAPTED,
     formula=r"u = R_d\, P\,(-K_p E - K_d \dot E), \quad E = E(R_d^\top R)",
     law_in=law_in,

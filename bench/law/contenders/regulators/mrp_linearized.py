@@ -42,8 +42,8 @@ REGULATOR = Law(
     name="mrp-linearized",
     title="MRP made linear",
     source=(
-        "Schaub, Akella, Junkins 2001; the kept sheet and its switch at |sigma|^2 = 1.5 are "
-        "ours"
+        "Schaub, Akella, Junkins 2001; the stored choice of the MRP vector and its switch at "
+        "|sigma|^2 = 1.5 are ours"
     ),
     attribution=PUBLISHED,
     formula=r"u = -K_v\,\omega + \bigl(4 K_p/(1+\sigma^2) - \omega^2/2\bigr)\,\sigma + \omega\,(\omega\cdot\sigma)",

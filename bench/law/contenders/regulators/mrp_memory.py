@@ -31,8 +31,8 @@ REGULATOR = Law(
     name="mrp-memory",
     title="MRP with memory",
     source=(
-        "after Schaub & Junkins 2018 and Mayhew, Sanfelice, Teel 2011; nearest work: "
-        "Martins, Cardeira, Oliveira, arXiv:2302.01983 (opening read)"
+        "after Schaub & Junkins 2018 and Mayhew, Sanfelice, Teel 2011; most similar work: "
+        "Martins, Cardeira, Oliveira, arXiv:2302.01983 (we read its beginning)"
     ),
     attribution=ADAPTED,
     formula=r"u = 4 K_p\,\sigma - K_v\,\omega, \quad |\sigma|^2 \le (1+\delta)/(1-\delta)",

@@ -33,7 +33,7 @@ def law(R, omega, goal, gains):
 REGULATOR = Law(
     name="paielli-bach",
     title="Paielli–Bach, linear in the quaternion",
-    source="Paielli & Bach 1993 (re-derived)",
+    source="Paielli & Bach 1993 (we derived the law again)",
     attribution=PUBLISHED,
     formula=r"u = (2 K_p - \tfrac{1}{2}|\omega|^2)\, s/(1 + t) - K_v\,\omega",
     law=law,

@@ -45,7 +45,7 @@ REGULATOR = Law(
     title="Predicted side of the rotation vector",
     source=(
         "this benchmark, 2026; after Goncalves, Bena, Matveev, Perez-Arancibia, "
-        "arXiv:2403.07269 (abstract read)"
+        "arXiv:2403.07269 (we read the abstract)"
     ),
     attribution=OURS,
     formula=r"u = K_p\,\theta\,k - K_v\,\omega, \quad k^+ = -k \text{ where } \theta - \pi -"

@@ -28,7 +28,7 @@ REGULATOR = Law(
     name="quaternion-unwinding",
     title="Quaternion without sign",
     source=(
-        "Wen & Kreutz-Delgado 1991; that it begins on the longer side is ours; unwinding: "
+        "Wen & Kreutz-Delgado 1991; the choice of the longer way at the start is ours; unwinding: "
         "Bhat & Bernstein 2000"
     ),
     attribution=PUBLISHED,

@@ -34,8 +34,8 @@ REGULATOR = Law(
     name="slew-limited",
     title="Slew-limited quaternion cascade",
     source=(
-        "after Wie & Lu 1995 (not read; after later reports); the cut of the whole vector "
-        "and its rate, 1 Kp/Kv, are ours"
+        "after Wie & Lu 1995 (we read later reports, not the paper); the limit of the whole vector "
+        "and the largest rate Kp/Kv are ours"
     ),
     attribution=ADAPTED,
     formula=r"u = K_v\Bigl(\operatorname{sat}_{\omega_{\max}}\bigl(2 \tfrac{K_p}{K_v}\,\epsilon\bigr) - \omega\Bigr)",

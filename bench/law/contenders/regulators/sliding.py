@@ -56,8 +56,8 @@ REGULATOR = Law(
     name="sliding",
     title="Sliding on the quaternion",
     source=(
-        "Egeland & Godhavn 1994 (re-derived); lambda and K from Kp and Kv are ours; also Lo "
-        "& Chen 1995"
+        "Egeland & Godhavn 1994 (we derived the law again); lambda and K as functions of Kp and Kv are ours; "
+        "also Lo & Chen 1995"
     ),
     attribution=PUBLISHED,
     formula=r"u = -\tfrac{\lambda}{2}(\eta\,\omega + \epsilon \times \omega) - K(\omega - \lambda\,\epsilon)",

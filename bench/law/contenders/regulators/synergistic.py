@@ -87,7 +87,7 @@ REGULATOR = Law(
     title="Synergistic hybrid, two potentials",
     source=(
         "after Berkane & Tayebi, arXiv:1502.07386, and Wang & Tayebi, arXiv:2012.12470 "
-        "(abstracts read); potentials and constants are ours"
+        "(we read the abstracts); potentials and constants are ours"
     ),
     attribution=ADAPTED,
     formula=r"u = K_p\,\bigl(s_q - q\,\kappa\,(b \cdot s_q)\,s\bigr)/\sqrt{1 - U_q/U_0} - K_v\,\omega, \quad q^+ = -q"
