@@ -55,7 +55,6 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         for one in known.accountings
     )
     own = [known.accountings[0][name] for name in THREE]
-    counts = [f"{one.flops} flops and {one.calls or 'no'} calls" for one in own]
     times = [known.over(name, THREE[0]) for name in THREE[1:]]
     ratios = "Their times were not measured."
     if known.times:
