@@ -117,7 +117,7 @@ def asked(wrapper, own, *others):
 def test_gains_at_which_it_was_not_tested_give_no_word_and_are_named():
     word, said = asked(at_every_gain, Run(16.0, Word.UNTESTED), Run(10.0, Word.HOLDS), Run(20.0, Word.HOLDS))
     assert word == Word.HOLDS
-    assert "At Kp = 100, Kv = 16, the verdict is 'not tested'." in said.sentence
+    assert "At Kp = 100, Kd = 16, the verdict is 'not tested'." in said.sentence
     assert asked(at_every_gain, Run(16.0, Word.UNTESTED), Run(20.0, Word.UNTESTED))[0] == Word.UNTESTED
 
 
@@ -126,7 +126,7 @@ def test_word_is_the_same_from_any_run_and_its_own_rows_come_first():
     for own in (Run(10.0, Word.FAILS), Run(16.0, Word.FAILS), Run(20.0, Word.CORRECTED)):
         word, said = asked(at_every_gain, own, *others)
         assert word == Word.DEPENDS
-        assert said.sentence.count(f"Kv = {own.kv:g}, the verdict") == 1
+        assert said.sentence.count(f"Kd = {own.kv:g}, the verdict") == 1
 
 
 def test_weakest_word_of_all_gains_is_the_claim_s():

@@ -211,7 +211,7 @@ def test_improvement_that_is_not_dramatic_at_other_gains_depends_on_them():
     verdict = judged("C31", experiments={"other_gains": lambda results: [other]}, **reference())
     assert verdict.word == Word.DEPENDS
     assert "At Kp = 100, Kd = 10:" in verdict.correction
-    assert "Kd = 10: does not hold" in str(verdict.evidence)
+    assert "Kd = 10, the verdict is 'does not hold'" in str(verdict.evidence)
 
 
 @pytest.mark.parametrize("euler", [3000.0, 1000.0])

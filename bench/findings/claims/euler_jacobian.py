@@ -84,7 +84,7 @@ def c18(results: Results) -> tuple[Word, Evidence]:
         J_E is not a zero matrix at any pose.""",
         len(rows),
         measured=f"""At 1e-{LIMIT.NEAREST} rad from a pole, elements of the Euler Jacobian J_E reach
-        {ways["nearest"].max():.1e}. At {percent_interval(worse)} of the random poses where the arm's Jacobian J is well
+        {ways["nearest"].max():.0e}. At {percent_interval(worse)} of the random poses where J of the arm is well
         conditioned, the condition number of J_E is more than ten times that of J.""",
     )
 

@@ -17,17 +17,7 @@ from bench.findings.claims import adequacy, probes, tables
 from bench.findings.claims.adequacy import PAPERS, THREE, Adequacy
 from bench.findings.claims.at_gains import at_every_gain, on_every_engine
 from bench.findings.claims.standing import ORDERED, Ledger
-from bench.findings.claims.tables import (
-    MAIN_ENGINE,
-    Results,
-    evidence,
-    percent,
-    percent_interval,
-    settled,
-    settling_times,
-    share,
-    some,
-)
+from bench.findings.claims.tables import MAIN_ENGINE, Results, evidence, percent, settled, share, some
 from bench.findings.claims.verdict import Evidence, NoEvidence, Word, claim, read_limits, word_of
 from bench.findings.theory import closed_form
 from bench.law.attribution import ADAPTED, OURS, PUBLISHED, YOURS
@@ -297,7 +287,7 @@ def c31(results: Results) -> tuple[Word, Evidence]:
     """Shares that settle, and ratios of the time in which nearly all do."""
     laws = _of_the_three(results)
     matrix, linearized, mine = ranges = [share(settled(one)) for one in laws]
-    ratios = [_gain(settling_times(laws[-1]), settling_times(one)) for one in laws[:-1]]
+    ratios = [_gain(tables.settling_times(laws[-1]), tables.settling_times(one)) for one in laws[:-1]]
     is_better = all(ratio.low >= LIMIT.DRAMATIC for ratio in ratios) and mine.low > linearized.high
     longer = [tables.interval_or_never(ratio, ".2f") for ratio in ratios]
     settles = [tables.brief_interval(one) for one in ranges]
@@ -325,7 +315,7 @@ def c31(results: Results) -> tuple[Word, Evidence]:
 def feedback_gain(results: Results) -> Any:
     """Return how many times as long 99 % of the starts take with the rotation-matrix law, at the run's gains."""
     matrix, _, feedback = _of_the_three(results)
-    return _gain(settling_times(feedback), settling_times(matrix))
+    return _gain(tables.settling_times(feedback), tables.settling_times(matrix))
 
 
 def _gain(own: np.ndarray, other: np.ndarray) -> Any:
@@ -345,7 +335,7 @@ def c35(results: Results) -> tuple[Word, Evidence]:
     """Shares and medians of the three."""
     small, laws = closed_form.linear_settling(*results.gains()), _of_the_three(results)
     found = [
-        (law, share(settled(rows)), quantile_estimate(settling_times(rows), 0.5))
+        (law, share(settled(rows)), quantile_estimate(tables.settling_times(rows), 0.5))
         for law, rows in zip(IN_WORDS, laws, strict=True)
     ]
     matrix, linearized, feedback = (one for _, one, _ in found)
@@ -360,7 +350,7 @@ def c35(results: Results) -> tuple[Word, Evidence]:
         is {small:.3f} s. The brackets give 95 % intervals and the number n of starts.""",
         sum(one.n for _, one, _ in found),
         measured=f"""Of {matrix.n:,} uniform random starts, {percent(matrix.value)} % settle with the
-        rotation-matrix law, {percent_interval(linearized)} with the linearized law, and
+        rotation-matrix law, {tables.percent_interval(linearized)} with the linearized law, and
         {percent(feedback.value)} % with feedback linearization.""",
     )
 

@@ -51,7 +51,7 @@ MEMORY = (
 )
 COUNTED = ("flops", "sin", "cos", "atan2", "acos", "compare")
 EXAMPLE = re.compile(r" Shown by |, as from |, as at | A law that uses ")
-"""Where a sentence begins to show a state, or to name a fault in the code of a law that is new."""
+"""Find where a sentence begins to show a state, or to name a fault in the code of a law that is new."""
 
 
 def in_order() -> list[Law]:
