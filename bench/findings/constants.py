@@ -43,8 +43,10 @@ class Constant(NamedTuple):
 KEPT_SIDE = ("hybrid", "mrp-memory", "rotation-vector-memory", "sliding-memory")
 """Laws that change sides at -DELTA."""
 
+HARDENING = "γ/Gp (gain of the hardening term, divided by the linear gain)"
+
 CONSTANTS = (
-    Constant("joshi-kelkar-wen", "HARDENING", "γ/Gp", 2.0, (1.25, 1.5, 2.5, 3.0, 4.0)),
+    Constant("joshi-kelkar-wen", "HARDENING", HARDENING, 2.0, (1.25, 1.5, 2.5, 3.0, 4.0)),
     Constant("slew-limited", "SLEW", "greatest rate, divided by Kp/Kv", 1.0, (0.5, 0.7, 1.4, 2.0)),
     # KAPPA |s| must stay below 1, and |s| is 1.1 at most.
     Constant("synergistic", "KAPPA", "κ", 0.3, (0.2, 0.4, 0.6, 0.8)),

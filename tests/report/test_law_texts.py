@@ -5,7 +5,7 @@ import re
 
 import pytest
 
-from bench.findings.constants import CONSTANTS
+from bench.findings.constants import CONSTANTS, HARDENING
 from bench.law.contenders.registry import contenders
 from bench.law.contenders.regulators import late_braking, mrp_linearized, predicted_side
 from bench.law.side import DELTA
@@ -42,7 +42,7 @@ def test_numbers_of_the_texts_are_those_of_the_laws():
     assert f"theta up to {round(2.0 * math.degrees(math.acos(-DELTA)))}°" in texts["rotation-vector-memory"]
     assert f"above {mrp_linearized.SWITCH:g}" in texts["mrp-linearized"]
     assert f"margin of {math.degrees(predicted_side.MARGIN):.0f}°" in texts["predicted-side"]
-    assert f"h = {SHIPPED['joshi-kelkar-wen', 'γ/Gp']:g}:" in texts["joshi-kelkar-wen"]
+    assert f"h = {SHIPPED['joshi-kelkar-wen', HARDENING]:g}:" in texts["joshi-kelkar-wen"]
     assert "a fifth of Kv at 180°" in texts["late-braking"]
     assert pytest.approx(0.8) == late_braking.EASED
 

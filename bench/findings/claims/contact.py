@@ -153,9 +153,9 @@ def c47(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     return word_of(yields and turn <= LIMIT.HELD_RAD, yields), evidence(
         f"""{capitalize(count_of(done, len(rows), "runs"))} of the tasks {pressed["task"].iloc[0]} and
         {aligned["task"].iloc[0]} have the outcome 'done'. In the task {pressed["task"].iloc[0]}, the root mean square
-        error of the force normal to the plane is at most {percent(force)} % of {LIMIT.FORCE_N:g} N. In the task
-        {aligned["task"].iloc[0]}, the tool complies about two axes. At the end, the angle between the tool and the
-        plane is at most {moment:.1e} rad. In both tasks, a rotation that the controller must keep constant has changed
+        error of the force normal to the plane is at most {percent(force)} % of the commanded {LIMIT.FORCE_N:g} N. In
+        the task {aligned["task"].iloc[0]}, the tool complies about two axes. At the end, the angle between the tool and
+        the plane is at most {moment:.1e} rad. In both tasks, a rotation that the controller must keep constant has changed
         by at most {turn:.1e} rad at the end.""",
         len(rows),
         measured=f"""The root mean square error of the force is at most {percent(force)} % of the commanded

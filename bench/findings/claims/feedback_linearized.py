@@ -107,8 +107,8 @@ def c10(results: Results) -> tuple[Word, Evidence]:
         {capitalize(settled_of(exact, "starts"))} at exact poles settle. The largest element of B at these
         poles is {largest:.3f}.{so} If the body spins near a pole, the length |u| of the command is proportional to
         a power of cos(beta). Its exponent is {slope:.3f}. The largest command is {grown:.1e} rad/s^2. When alpha or
-        gamma passes +-pi, the command jumps by at least {float(jumps.min()):.4f} and at most
-        {float(jumps.max()):.4f} times 2 pi Kp.""",
+        gamma passes +-pi, the smallest jump of the command is {float(jumps.min()):.4f} times 2 pi
+        Kp, and the largest jump is {float(jumps.max()):.4f} times 2 pi Kp.""",
         len(commands) + len(exact) + len(jumps),
         measured=f"""{capitalize(count_of(finite, len(commands), "commands"))} at exact poles (beta = +-pi/2) are
         finite. When alpha or gamma passes +-pi, the command jumps by up to {float(jumps.max()):.4f} times

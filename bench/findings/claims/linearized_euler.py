@@ -10,7 +10,7 @@ from bench.base.on_first_use import pd
 from bench.experiments.suites import SHORT
 from bench.experiments.tables.read import converged
 from bench.experiments.tables.statistics import quantile_estimate
-from bench.findings.amounts import capitalize, count, count_of, join_words
+from bench.findings.amounts import capitalize, count, count_of, join_words, part_of
 from bench.findings.claims import probes, tables
 from bench.findings.claims.adequacy import THREE
 from bench.findings.claims.at_gains import on_every_engine, weakest_at_every_gain
@@ -98,8 +98,9 @@ def c07(results: Results, engine: str) -> tuple[Word, Evidence]:
     beside = converged(poles)
     return word, evidence(
         f"""An episode converges if a shorter time step does not change its result. In {len(passing)} episodes, the body
-        comes within {math.degrees(math.asin(LIMIT.PASSING)):.1f} degrees of a pole, and {len(converged(passing))} of
-        these episodes converge. In {percent(lost_passing.value)} % of those that converge, the body does not settle.
+        comes within {math.degrees(math.asin(LIMIT.PASSING)):.1f} degrees of a pole, and
+        {part_of(len(converged(passing)), len(passing))} episodes converge. In {percent(lost_passing.value)} % of
+        those that converge, the body does not settle.
         The 95 % interval of this share is {percent(lost_passing.low)} to {percent(lost_passing.high)} %. Its lower
         end counts the episodes that do not converge as settled, and its upper end counts them as lost. In
         {percent_interval(lost_rest)} of the episodes in which the body stays farther from the poles, it does not
@@ -225,8 +226,8 @@ def c38(results: Results) -> tuple[Word, Evidence]:
         instead=f"""The law does not settle from {percent(unsettled.value)} % of the starts outside the linear region.
         From the other starts, the settling time differs from that of the linear model by {percent(typical)} %
         (median).""",
-        measured=f"""{percent_interval(unsettled)} of starts at {LIMIT.BEYOND_RAD:g} rad or more never settle. The
-        others' settling times differ from the linear model's by {percent(typical)} % (median).""",
+        measured=f"""{percent_interval(unsettled)} of starts at {LIMIT.BEYOND_RAD:g} rad or more never settle. Other
+        settling times differ from the linear ones by {percent(typical)} % (median).""",
     )
 
 

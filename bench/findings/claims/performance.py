@@ -364,9 +364,9 @@ def c36(results: Results) -> tuple[Word, Evidence]:
     in_words = dict(zip(THREE, IN_WORDS, strict=True))
     told = " ".join(
         f"{capitalize(in_words[one.name])} {tested[one.name].in_words().replace('fails ', 'fails these tests: ')}. "
-        f"With this law, {percent(one.settled)} % of {one.n:,} uniform starts settle. {_paced(one)} The law loses "
-        f"{part_of(one.lost, one.directed)} difficult starts and {part_of(one.lost_exact, one.exact)} starts exactly "
-        f"on a boundary."
+        f"With this law, {percent(one.settled)} % of {one.n:,} uniform starts settle. {_paced(one)} The "
+        f"body does not settle from {part_of(one.lost, one.directed)} difficult starts and from "
+        f"{part_of(one.lost_exact, one.exact)} starts exactly on a boundary."
         for one in three
     )
     word = word_of(len(three) == len(THREE) and all(result.failed for result in tested.values()), False)
@@ -374,15 +374,15 @@ def c36(results: Results) -> tuple[Word, Evidence]:
         word = Word.UNTESTED
     by_name = {law.name: law for law in three}
     on_boundary = join_words([
-        f"{part_of(by_name[name].lost_exact, by_name[name].exact)} do not settle with {law}"
+        f"{part_of(by_name[name].lost_exact, by_name[name].exact)} with {law}"
         for law, name in zip(IN_WORDS, THREE, strict=True)
         if name in by_name
-    ]).replace(" with ", " do not settle with ", 1)
+    ])
     return word, evidence(
         f"{told} The brackets after a time give its 95 % interval.",
         sum(law.rows for law in three),
-        measured=f"""Some starts are exactly on a boundary (a 180° rotation, a pole or an angle of ±π). Of these
-        starts, {on_boundary}.""",
+        measured=f"""Some starts are exactly on a boundary (a 180° rotation, a pole or an angle of ±π). These do
+        not settle: {on_boundary}.""",
     )
 
 

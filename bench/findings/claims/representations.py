@@ -40,9 +40,8 @@ def c40(results: Results) -> tuple[Word, Evidence]:
         in one element.""",
         LIMIT.MATRICES * len(trios),
         measured=f"""{capitalize(count_of(len(possible), len(trios), "choices"))} of three elements
-        can be eliminated. For each of these choices, the three elements that remain do not determine
-        the matrix: two different rotation matrices have them. At the median orientation, these two
-        matrices differ by {apart:.2f} or more in one element.""",
+        can be eliminated. But two different rotation matrices have the same three elements that remain.
+        At the median orientation, these two matrices differ by {apart:.2f} or more in one element.""",
     )
 
 

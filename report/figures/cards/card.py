@@ -40,9 +40,9 @@ PROPERTIES = {
     "": "",
 }
 EQUILIBRIA = {
-    "none": "The goal is the only equilibrium of the closed loop.",
-    "none, but the command jumps at 180°": "The goal is the only equilibrium of the closed loop. The command of the "
-    "law jumps at 180° rotations from the goal.",
+    "none": "The goal is the only orientation at which a body at rest gets no command.",
+    "none, but the command jumps at 180°": "The goal is the only orientation at which a body at rest gets no "
+    "command. The command of the law jumps at 180° rotations from the goal.",
     "not defined at 180°": "The command of the law is not defined at 180° rotations from the goal.",
     "every 180° rotation": "Every 180° rotation from the goal is also an equilibrium.",
     "180° rotations about n_d, o_d and a_d": "The three 180° rotations from the goal about its axes n_d, o_d and a_d "
