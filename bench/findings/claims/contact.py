@@ -155,8 +155,8 @@ def c47(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
         {aligned["task"].iloc[0]} have the outcome 'done'. In the task {pressed["task"].iloc[0]}, the root mean square
         error of the force normal to the plane is at most {percent(force)} % of the commanded {LIMIT.FORCE_N:g} N. In
         the task {aligned["task"].iloc[0]}, the tool complies about two axes. At the end, the angle between the tool and
-        the plane is at most {moment:.1e} rad. In both tasks, a rotation that the controller must keep constant has changed
-        by at most {turn:.1e} rad at the end.""",
+        the plane is at most {moment:.1e} rad. In both tasks, a rotation that the controller must keep constant has
+        changed by at most {turn:.1e} rad at the end.""",
         len(rows),
         measured=f"""The root mean square error of the force is at most {percent(force)} % of the commanded
         {LIMIT.FORCE_N:g} N. A rotation that the controller should keep constant changes by up to {turn:.2g} rad.""",
