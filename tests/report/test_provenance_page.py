@@ -26,7 +26,7 @@ def test_facts_are_in_words_and_the_command_is_code():
     rows = find_rows()
     assert rows["Command"] == "`bench run --suite default --replace`"
     assert rows["Episodes in contact"] == "22\u202f992"
-    assert rows["Episodes in which a user's law crashed or hung"] == "none"
+    assert rows["Episodes in which a law of the user crashed or hung"] == "none"
     assert rows["Changes that were not committed"] == "no"
     assert rows["Version of numpy"] == "2.4.6"
     assert rows["weather"] == "&#60;b&#62;fair&#60;/b&#62;"

@@ -30,7 +30,7 @@ LABELS = {
     "command": "Command",
     "suite": "Suite",
     **EPISODES,
-    "lost": "Episodes in which a user's law crashed or hung",
+    "lost": "Episodes in which a law of the user crashed or hung",
     "seed": "Seed of the random starts",
     "commit": "Commit",
     "dirty": "Changes that were not committed",
