@@ -189,7 +189,7 @@ def variation_names(arm: str = "") -> list[str]:
 
 
 def variation(name: str) -> Variation:
-    """Return the variation of a model that has this name; the error UnknownName lists the known names."""
+    """Return the model variation of this name; the error UnknownName lists the known names."""
     return pick("variation", name, VARIATIONS, "tasks/variations.py")
 
 

@@ -11,7 +11,7 @@ import tasks
 from bench.base.on_first_use import pd
 from bench.experiments.tables.read import FREE_BODY
 from bench.experiments.tables.statistics import Estimate, quantile_estimate
-from bench.findings.amounts import count_of, join_words
+from bench.findings.amounts import count_of, join_words, part_of
 from bench.findings.claims import tables
 from bench.findings.claims.degeneracy import condition_in
 from bench.findings.claims.feedback_linearized import LAW
@@ -126,8 +126,9 @@ def c19(results: Results) -> tuple[Word, Evidence]:
         f"""At {len(rows):,} poses of {rows["arm"].nunique()} arms, the Jacobians by (3.3) and by (3.5) differ by at
         most {derived.max():.1f} eps / cos(beta) of the largest element. At {len(kept):,} of these poses, we also
         differentiated the forward kinematics numerically. This result and the Jacobian by (3.3) differ by at most
-        {measured.max():.1f} eps^(2/3) / cos(beta) of the largest element. Number of poses that we left out because an
-        angle jumps between the two points of a difference: {len(differenced) - len(kept)}.""",
+        {measured.max():.1f} eps^(2/3) / cos(beta) of the largest element. We left out the poses
+        at which an angle jumps between the two points of the finite difference
+        ({part_of(len(differenced) - len(kept), len(differenced))} poses).""",
         len(rows),
         measured=f"""At {len(rows):,} poses, the Jacobians by the two derivations differ by at most
         {derived.max():.1f} eps / cos(beta) of the largest element. This is rounding (eps = 2.2e-16).""",
