@@ -187,7 +187,7 @@ def advised(law: str) -> str:
     shares = measure_shares(law, tie=SPOKEN)
     drawn = (
         f"We drew {shares.qualified.of:,} random situations: combinations of gains, motors and disturbances. In each "
-        "situation our rule (chapter 7) recommends one law that meets its requirements."
+        "situation our rule (chapter 7) recommends one of the laws that meet the requirements of the rule."
     )
     beside = (
         f"In {say_share(shares.qualified.value)} this law meets the requirements of the rule, and no published or "
