@@ -74,7 +74,7 @@ def take_arm_options(command: Callable) -> Callable:
 
 
 def is_asked_of_arm(context: click.Context) -> bool:
-    """Tell whether an arm is asked about; UsageError if the options do not go together."""
+    """Tell whether the options name an arm; UsageError if the options do not go together."""
     words = context.params
     named = [name for name in SOURCES if words[name] is not None]
     if not named:

@@ -1,4 +1,4 @@
-"""A law is told the bound of its command and the delay; a law that takes no notice of them is unchanged."""
+"""A law can read the bound of its command and the delay; a law that does not read them is unchanged."""
 
 import math
 import subprocess

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-SHOWS = '''"""A law that commands what it is told."""
+SHOWS = '''"""A law whose command shows the limits that it reads."""
 
 from bench.law import Law, kernel
 

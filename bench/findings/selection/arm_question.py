@@ -53,7 +53,7 @@ SHORTEST = min(COORDINATES["period"].levels)
 class Question(NamedTuple):
     """What the user says.
 
-    stiffness: K [N m/rad]. damping: D [N m s/rad], None if it is asked for. torque: greatest torque
+    stiffness: K [N m/rad]. damping: D [N m s/rad], None if the answer is to propose it. torque: greatest torque
     on the tool [N m]. period, delay: of the control [s]. spin: speed at the start [rad/s]. jump:
     when the goal jumps [s], 0: never.
     """
@@ -222,7 +222,7 @@ def feel_motors(arm: str) -> tuple[float, float]:
 
 
 def find_bodies(question: Question, felt: Felt) -> tuple[Body, Body]:
-    """Return the lightest and the heaviest body that `advise` is asked about.
+    """Return the lightest and the heaviest body for which `advise` chooses a law.
 
     With the unevenness s, a body of mean inertia J has moments from (1 - s) J to (1 + s) J.
     """
