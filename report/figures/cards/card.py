@@ -130,7 +130,9 @@ def say_property(law: Law, exception: str = "") -> dict[str, str]:
     text = PROPERTIES.get(law.property, f"{law.property[:1].upper()}{law.property[1:]}.")
     if not certificate or not certificate["is_proved"] or certificate["declared"] != law.property:
         head = "Stability" if law.property == "none" else "Measured, not proved"
-        return {head: html.Html(set_words(f"{text} {exception}".strip()))}
+        # a word that is not ours shows its backticks and stars as they are
+        words = set_words(text) if law.property in PROPERTIES else html.foreign(text)
+        return {head: html.Html(f"{words} {set_words(exception)}".strip())}
     lemmas = [lemma for lemma in certificate["lemmas"] if lemma["by"] != DRAWN]
     by = " and ".join(METHODS.get(by, by) for by in sorted({lemma["by"] for lemma in lemmas}))
     text += f" The proof holds {certificate['scope']}."
