@@ -40,14 +40,26 @@ class Constant(NamedTuple):
     others: tuple[float, ...]
 
 
-KEPT_SIDE = ("hybrid", "mrp-memory", "rotation-vector-memory", "sliding-memory")
+KEPT_SIDE = (
+    "hybrid",
+    "mrp-memory",
+    "rotation-vector-memory",
+    "sliding-memory",
+    "braking-cascade-memory",
+    "wie-bailey-heiberg-memory",
+    "braking-feedforward",
+)
 """Laws that change sides at -DELTA."""
 
+PLANNING = ("braking-cascade", "wie-bailey-heiberg", "braking-feedforward")
+"""Laws that plan to brake with a share of the bound."""
+
+SHARE = "a divided by the bound (the share of the bound that the law plans to brake with)"
 HARDENING = "γ/Gp (gain of the hardening term, divided by the linear gain)"
 
 CONSTANTS = (
     Constant("joshi-kelkar-wen", "HARDENING", HARDENING, 2.0, (1.25, 1.5, 2.5, 3.0, 4.0)),
-    Constant("slew-limited", "SLEW", "greatest rate, divided by Kp/Kv", 1.0, (0.5, 0.7, 1.4, 2.0)),
+    *(Constant(law, "SHARE", SHARE, 0.7, (0.4, 0.5, 0.6, 0.85, 1.0)) for law in PLANNING),
     # KAPPA |s| must stay below 1, and |s| is 1.1 at most.
     Constant("synergistic", "KAPPA", "κ", 0.3, (0.2, 0.4, 0.6, 0.8)),
     Constant("synergistic", "GAP", "δ", 0.08, (0.02, 0.04, 0.12)),
@@ -55,7 +67,6 @@ CONSTANTS = (
     Constant("synergistic", "TOP", "U₀", 2.4, (2.25, 3.0, 5.0)),
     *(Constant(law, "DELTA", "δ", 0.4, (0.1, 0.2, 0.6)) for law in KEPT_SIDE),
     Constant("mrp-linearized", "SWITCH", "|σ|² at the switch", 1.5, (1.1, 2.0, 3.0)),
-    Constant("predicted-side", "MARGIN", "δ", 0.8, (0.4, 1.2)),
     Constant("late-braking", "EASED", "share of the damping that is removed at 180°", 0.8, (0.6, 0.7, 0.9)),
 )
 

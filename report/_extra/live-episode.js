@@ -31,7 +31,7 @@
     const isNoisy = settings.attitude_noise > 0 || settings.rate_noise > 0;
     const worst = settings.worst_attitude_error || 0, ahead = LEAD * (steps * h), draw = normals(1);
     const holdTicks = isNoisy ? ticks + 1 : restTicks, every = Math.max(1, Math.round(SAMPLE_S / h));
-    const gains = [settings.kp, settings.kv], goal = [R_d, AT_REST, AT_REST], sent = [];
+    const gains = [settings.kp, settings.kv, settings.bound, settings.delay_s], goal = [R_d, AT_REST, AT_REST], sent = [];
     const slow = rules.slow_squared, { inertia, bound } = settings, isPrompt = late === 0 && steps === 1;
     const samples = [], commandLimit = rules.command_limit ** 2, speedLimit = rules.speed_limit ** 2;
 

@@ -17,8 +17,8 @@
   }
   function codeOf(word, name) { // the very functions that run here
     const { needs, memory } = root.live.laws[word], law = needs[needs.length - 1];
-    const usage = memory ? `[u, memory] = ${law}(R, omega, goal, [kp, kv], memory); memory = ${JSON.stringify(memory)} at first`
-      : `u = ${law}(R, omega, goal, [kp, kv])`;
+    const usage = memory ? `[u, memory] = ${law}(R, omega, goal, [kp, kv, bound, delay], memory); memory = ${JSON.stringify(memory)} at first`
+      : `u = ${law}(R, omega, goal, [kp, kv, bound, delay])`;
     const lines = [`// ${name}: ${usage}`, "// R: its three columns; goal = [R_d, [0, 0, 0], [0, 0, 0]]; base frame"];
     return [...lines, ...needs.map(one => root.live.functions[one].toString())].join("\n\n") + "\n";
   }

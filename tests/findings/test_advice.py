@@ -93,7 +93,7 @@ def test_advice_compares_its_law_with_the_fastest_motions():
 def test_no_law_is_faster_than_the_least_time_of_its_bound():
     trials = Trials(BOUNDED)
     least = look_near_goal(BOUNDED).least
-    for law in ("hybrid", "slew-limited", "late-braking"):
+    for law in ("hybrid", "braking-cascade", "late-braking"):
         assert quantile(trials.run(law, 128).times, CROWD) > least > 0.0
     assert look_near_goal(BOUNDED._replace(spin=1.0)).least == 0.0
     assert look_near_goal(NOMINAL).least == 0.0

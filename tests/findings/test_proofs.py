@@ -22,9 +22,8 @@ from tasks.rules import RULES
 
 STORED = read_certificates()
 TRACED = (
-    "slew-limited",
     "rotation-vector",
-    "bounded-command",
+    "rotation-matrix",
     "late-braking",
     "mrp-linearized",
     "sliding",
@@ -136,7 +135,6 @@ def test_law_without_one_potential_or_one_change_of_side_is_not_proved(tmp_path,
 
 def test_law_that_no_theorem_fits_is_not_proved():
     assert prove(regulator("linearized-euler")) is None
-    assert prove(regulator("predicted-side")) is None
 
 
 @pytest.mark.parametrize("word", ["square-root", "late-braking", "mrp", "sliding"])

@@ -20,13 +20,13 @@ from support.bits import EPS
 from support.states import as_rotation, axis_permuting, matrix, vector
 
 from bench.law.contenders.registry import find_contender
-from bench.law.inputs import AT_REST, Gains, Goal
+from bench.law.inputs import AT_REST, Goal, Tuning
 from bench.studies.libraries import turns
 from bench.studies.libraries.asked import find
 from bench.studies.libraries.asked.simulators import load_model, place_body
 from bench.studies.libraries.library import MATRIX
 
-GAINS = Gains(kp=100.0, kv=20.0)
+GAINS = Tuning(kp=100.0, kv=20.0)
 # A dozen roundings of numbers up to pi on either side; most differences are below 5 EPS.
 TOLERANCE = 20 * EPS
 REGULAR = 0.05  # cos(beta) above which B^-1 is at most 20 times larger than 1
@@ -129,9 +129,28 @@ QUATERNIONS = {
 MRPS = {"scipy": asked("scipy", "4 as_mrp")}
 FAR_SHEET = {"scipy": lambda turn: 2.0 * ScipyRotation.from_quat(-turn.quat_wxyz, scalar_first=True).as_quat()[:3]}
 ORACLES = {
-    **dict.fromkeys(("rotation-vector", "rotation-vector-memory", "predicted-side"), ROTATION_VECTORS),
     **dict.fromkeys(
-        ("quaternion-shortest", "square-root", "hybrid", "sliding", "sliding-memory", "mrp-linearized"), QUATERNIONS
+        (
+            "rotation-vector",
+            "rotation-vector-memory",
+            "braking-cascade",
+            "braking-cascade-memory",
+            "braking-feedforward",
+        ),
+        ROTATION_VECTORS,
+    ),
+    **dict.fromkeys(
+        (
+            "quaternion-shortest",
+            "square-root",
+            "hybrid",
+            "sliding",
+            "sliding-memory",
+            "mrp-linearized",
+            "wie-bailey-heiberg",
+            "wie-bailey-heiberg-memory",
+        ),
+        QUATERNIONS,
     ),
     **dict.fromkeys(("mrp", "mrp-memory"), MRPS),
     "quaternion-unwinding": FAR_SHEET,

@@ -7,7 +7,7 @@ import pytest
 
 from bench.findings.constants import CONSTANTS, HARDENING
 from bench.law.contenders.registry import contenders
-from bench.law.contenders.regulators import late_braking, mrp_linearized, predicted_side
+from bench.law.contenders.regulators import braking_cascade, late_braking, mrp_linearized
 from bench.law.side import DELTA
 from report.figures.cards import regulators
 from report.figures.cards.card import set_paragraph
@@ -41,9 +41,10 @@ def test_numbers_of_the_texts_are_those_of_the_laws():
         assert f"2 arccos(δ) = {at_switch}°" in texts[law]
     assert f"theta up to {round(2.0 * math.degrees(math.acos(-DELTA)))}°" in texts["rotation-vector-memory"]
     assert f"above {mrp_linearized.SWITCH:g}" in texts["mrp-linearized"]
-    assert f"margin of {math.degrees(predicted_side.MARGIN):.0f}°" in texts["predicted-side"]
     assert f"h = {SHIPPED['joshi-kelkar-wen', HARDENING]:g}:" in texts["joshi-kelkar-wen"]
     assert "a fifth of Kv at 180°" in texts["late-braking"]
+    for law in ("braking-cascade", "braking-cascade-memory", "wie-bailey-heiberg", "wie-bailey-heiberg-memory"):
+        assert f"{braking_cascade.SHARE:g} of the bound" in texts[law]
     assert pytest.approx(0.8) == late_braking.EASED
 
 

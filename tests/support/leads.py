@@ -117,7 +117,7 @@ def recompute_noise():
     noise = table("robustness").query(f"axis == 'half-turn-noise' and law not in {CONTROLS} and level > 0")
     left = (noise["outcome"] == "settled").groupby([noise["law"], noise["level"]]).mean().unstack()
     remembers = np.array([find_contender(law).regulator.memory is not None for law in left.index])
-    sided = remembers & ~left.index.isin(["predicted-side", "synergistic"])  # those whose width theory knows
+    sided = remembers & (left.index != "synergistic")  # those whose width theory knows
     middle = max(level for level in left if (left.loc[sided, level] == 1.0).all())
     # at this level no start is lost, by its choice
     return {

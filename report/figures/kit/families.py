@@ -26,6 +26,7 @@ FIRST = (
     "On the quaternion",
     "On three parameters",
     "With memory",
+    "With the bound of the motor",
     "Feedback-linearized elsewhere",
     "Euler variants, controls",
 )
