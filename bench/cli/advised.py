@@ -9,9 +9,9 @@ from bench.base.on_first_use import pd
 from bench.cli.paragraphs import Paragraph, listed
 from bench.cli.screen import counted
 from bench.experiments.situations import HORIZON_S, mapped_laws
-from bench.findings.selection.advice import TIE, Advice, loop_of
+from bench.findings.selection.advice import Advice, loop_of
 from bench.findings.selection.nearest import Outside
-from bench.findings.selection.regions import facts_of
+from bench.findings.selection.regions import RULE, TIE, facts_of, find_overshooting, meets_but_overshoot
 from bench.findings.selection.words import NAMES
 from bench.findings.theory.sampled_loop import Limits, mode_time
 from bench.law.contenders.registry import find_contender
@@ -22,6 +22,7 @@ LACKS = {
     "stuck": "stuck at exact 180°",
     "unwound": "unwinds",
     "trapped": "trapped by noise at 180°",
+    "overshooting": "overshoots",
 }
 """Columns that count what a law must not do, in words."""
 
@@ -125,7 +126,7 @@ def _describe_faster(advice: Advice, time: float) -> list[str]:
     """Return a clause for each law that is faster and is not advised."""
     assert advice.rows is not None
     clauses = []
-    for row in advice.rows.to_dict("records"):
+    for row in with_overshooting(advice.rows).to_dict("records"):
         law, share = str(row["contender"]), row["time"] / time
         if law == advice.law or law in advice.qualified or not share < 1.0 - NEAR_ONE:
             continue
@@ -137,12 +138,19 @@ def _describe_faster(advice: Advice, time: float) -> list[str]:
     return clauses
 
 
+def with_overshooting(rows: pd.DataFrame) -> pd.DataFrame:
+    """Return the rows with a column of which laws overshoot by more than the rule allows."""
+    is_too_far = find_overshooting(rows, meets_but_overshoot(rows), RULE.overshoot)
+    return rows.assign(overshooting=is_too_far)
+
+
 def _list_lacks(row: dict[str, Any]) -> list[str]:
     words = {
         "lost": f"loses {row['lost']} of {row['starts']:,} starts",
         "stuck": "is stuck at exact 180°",
         "unwound": "first turns away from the goal",
         "trapped": "is trapped by noise at 180°",
+        "overshooting": f"overshoots by {row['overshoot']:.0f}°",
     }
     return [text for column, text in words.items() if row[column]]
 
@@ -231,7 +239,7 @@ def _describe_evidence(advice: Advice) -> list[str]:
     if advice.rows is not None:
         sentences.append(_describe_trials(advice))
     if advice.replaced:
-        why = "does not meet the requirements" if advice.lacks else "is slower by more than 1 %"
+        why = "does not meet the requirements" if advice.lacks else f"is slower by more than {TIE:.0%}"
         sentences.append(f"In your situation {advice.replaced}, the law of the map, {why}.")
     return sentences
 
@@ -256,7 +264,7 @@ def describe_outside(number: Outside) -> str:
 def table(advice: Advice, kp: float) -> pd.DataFrame:
     """Return the rows of laws with their numbers at the user's kp, and what each lacks."""
     assert advice.rows is not None
-    rows, unit = advice.rows, 1.0 / math.sqrt(kp)
+    rows, unit = with_overshooting(advice.rows), 1.0 / math.sqrt(kp)
     laws = rows["contender"].astype(str).tolist()
     lacks = []
     for row in rows.to_dict("records"):

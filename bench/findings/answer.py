@@ -20,7 +20,14 @@ from bench.findings.kept import keep
 from bench.findings.selection import regions
 from bench.findings.selection.nearest import decide_nearest, find_outside
 from bench.findings.selection.needs import Decision
-from bench.findings.selection.regions import STUDY, Rule, facts_of, find_default, find_regions
+from bench.findings.selection.regions import (
+    OVERSHOOT,
+    STUDY,
+    Rule,
+    facts_of,
+    find_default,
+    find_regions,
+)
 from bench.findings.selection.robots import ROBOTS, RUN, decide_for
 from bench.findings.selection.unbeaten import (
     SPOKEN,
@@ -133,7 +140,8 @@ def _reason(law: str, folder: Path) -> str:
     return (
         f"In {percent(1.0 - shares.failing.value)} of the random situations of gains and motors, "
         "the law meets our requirements: it settles from every start tried, does not first turn "
-        f"away from the goal, and is not trapped at 180° by a sensor error of {HELD_RAD:g} rad. "
+        f"away from the goal, is not trapped at 180° by a sensor error of {HELD_RAD:g} rad, and "
+        f"overshoots by at most {OVERSHOOT:g}° more than the law that overshoots least. "
         f"In {shares.qualified} of the random situations, the law meets the requirements, and no "
         f"other law that meets them is more than {percent(SPOKEN)} faster."
     )

@@ -161,7 +161,7 @@ def motion(word, theta, omega, gains):
 
 
 def settling_and_overshoot(angles):
-    """Return when the angle is below 2 % of the first for good [s], and its maximum after it was below 1 degree [deg]."""
+    """Return when the angle is below 2 % of the first for good [s], and its maximum after 1 degree [deg]."""
     late = np.flatnonzero(angles > 0.02 * angles[0])[-1] + 1
     near = np.flatnonzero(angles < math.radians(1.0))[0]
     return 1e-3 * late, math.degrees(angles[near:].max())

@@ -12,15 +12,19 @@ from support.tables import table
 from tasks.situation import COORDINATES
 
 RULE_COLUMNS = ("lost", "stuck", "unwound", "trapped")
-NOTABLE, SPOKEN = 0.01, 0.05
+NOTABLE = SPOKEN = 0.05
+OVERSHOOT = 5.0
 
 
 def map_rows(folder="situations"):
     """Return the rows of a map with the word of their situation, and whether the law has what is required."""
     rows = table("situations", folder)
     words = ["_".join(f"{value:g}" for value in values) for values in rows[[*COORDINATES]].to_numpy()]
-    qualified = (rows[[*RULE_COLUMNS]] == 0).all(axis=1) & np.isfinite(rows["time"])
-    return rows.assign(word=words, qualified=qualified)
+    rows = rows.assign(word=words, qualified=(rows[[*RULE_COLUMNS]] == 0).all(axis=1) & np.isfinite(rows["time"]))
+    published = rows[rows["qualified"] & ~rows["law"].map(is_ours)]
+    least = rows["word"].map(published.groupby("word")["overshoot"].min())
+    # a situation without such a law has no least overshoot, and there nobody overshoots
+    return rows.assign(qualified=rows["qualified"] & ~(rows["overshoot"] > least + OVERSHOOT))
 
 
 @functools.cache

@@ -5,7 +5,7 @@
 2. The map names laws: what it advises in the nearest situation, what nothing beats in the NEIGHBOURS nearest ones,
    what it advises anywhere, and the fastest law that lacks what is required. Outside the map every law is tried.
 3. They are simulated in the user's situation, all from the same starts. The map's law is advised if it has what is
-   required and no other is faster by more than NOTABLE, by a paired bootstrap over the starts; else the simplest of
+   required and no other is faster by more than TIE, by a paired bootstrap over the starts; else the simplest of
    those that nothing beats so.
 4. If none of them has what is required, all laws are simulated.
 """
@@ -37,6 +37,7 @@ from bench.findings.selection.pairs import compare_times, find_slower
 from bench.findings.selection.regions import (
     RULE,
     STUDY,
+    TIE,
     Rule,
     facts_of,
     find_regions,
@@ -59,9 +60,6 @@ FIRST, MOST = 1024, 4096
 
 LEAST, SHORT = 4, 6
 """Laws that are tried, at least, and those of them that the map names, at most."""
-
-TIE = 0.05
-"""Laws whose times differ by less are named as ties."""
 
 HORIZON = HORIZON_S * math.sqrt(KP)
 """The end of an episode [1/sqrt(kp)]."""

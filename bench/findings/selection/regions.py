@@ -2,11 +2,12 @@
 
 The rule was committed before the map was run:
 
-1. Asked are the laws that settle from every start tried, exact 180° rotations among them, that never first turn away
-   from the goal, and that worst-case noise of 0.1 rad does not trap at 180° (`Rule` drops each of these).
-2. One law beats another in a situation if 99 % of its starts settle in a time that is shorter by more than NOTABLE, and
-   the paired 95 % interval of the ratio of the two times, over the starts that both ran, excludes 1 (`pairs`). All else
-   is a tie.
+1. A law must settle from every start tried, exact 180° rotations among them; it must not first turn away from the goal;
+   worst-case noise of 0.1 rad must not trap it at 180°; and it must not overshoot by over OVERSHOOT more than that law
+   that overshoots least, of those that meet the rest (`Rule` drops each of these).
+2. One law beats another in a situation if 99 % of its starts settle in a time that is shorter by more than TIE, and the
+   paired 95 % interval of the ratio of the two times, over the starts that both ran, excludes 1 (`pairs`). All else is
+   a tie.
 3. The simplest of the laws that nothing beats is advised: of least memory, then of fewest operations.
 4. A law of ours is never advised; where it is not beaten, or beats what is advised, that is said.
 5. The default is the law with the widest region: advised in most of the situations that were drawn at random.
@@ -24,7 +25,7 @@ import pandas as pd
 from bench.experiments.tables.read import with_contender
 from bench.experiments.tables.schema import RESULTS
 from bench.experiments.tables.store import read
-from bench.findings.selection.criteria import NOTABLE, jump
+from bench.findings.selection.criteria import jump
 from bench.findings.selection.pairs import find_slower, read_pairs
 from bench.law.contenders.registry import find_contender
 from tasks.situation import COORDINATES, Situation, read_situation
@@ -37,6 +38,13 @@ NAMES = list(COORDINATES)
 CONTINUOUS = 1e-3
 """Jump of the command over kp [rad] below which it is the slope's: f'(pi) 2e-6 of any law here."""
 
+OVERSHOOT = 5.0
+"""Overshoot [deg] by which a law may exceed that of the law that overshoots least in a situation. At low damping every
+law overshoots, so that no fixed limit would leave one."""
+
+TIE = 0.05
+"""Times that differ by less than a twentieth are no reason to choose a law."""
+
 NEIGHBOURS = 8
 """Nearest situations whose laws say how sure an answer between the rows is."""
 
@@ -45,19 +53,20 @@ class Rule(NamedTuple):
     """What a law must have, and what decides; the defaults are the rule above.
 
     everywhere: no start is lost, no exact 180° rotation holds it. direct: it never first turns away from the goal.
-    adversary: worst-case noise does not trap it. forgetful: it keeps nothing from tick to tick. continuous: its command
-    does not jump at 180°; exact 180° rotations may hold such a law, for all that keep nothing have some.
-    by: the column that is compared. tie: the relative difference up to which two laws tie. least_peak: of the laws that
-    tie, the one of least peak command is advised.
+    adversary: worst-case noise does not trap it. overshoot: by how much it may exceed the least overshoot [deg].
+    forgetful: it keeps nothing from tick to tick. continuous: its command does not jump at 180°; exact 180° rotations
+    may hold such a law, for all that keep nothing have some. by: the column that is compared. tie: the relative
+    difference up to which two laws tie. least_peak: of the laws that tie, the one of least peak command is advised.
     """
 
     everywhere: bool = True
     direct: bool = True
     adversary: bool = True
+    overshoot: float = OVERSHOOT
     forgetful: bool = False
     continuous: bool = False
     by: str = "time"
-    tie: float = NOTABLE
+    tie: float = TIE
     least_peak: bool = False
 
 
@@ -138,6 +147,23 @@ def decide(rows: pd.DataFrame, rule: Rule = RULE, pairs: pd.DataFrame | None = N
 
 def meets(rows: pd.DataFrame, rule: Rule = RULE) -> np.ndarray:
     """Return whether the law of each row meets the requirements of a rule in the situation of the row."""
+    has = meets_but_overshoot(rows, rule)
+    return has & ~find_overshooting(rows, has, rule.overshoot)
+
+
+def find_overshooting(rows: pd.DataFrame, has: np.ndarray, more: float) -> np.ndarray:
+    """Return which laws overshoot by over `more` degrees more than the least of the published laws that have the rest.
+
+    Nothing overshoots where no published law has the rest: there is nothing to compare with.
+    """
+    is_ours = np.array([facts_of(law).is_ours for law in rows["contender"].astype(str)], dtype=bool)
+    compared = rows["overshoot"].where(has & ~is_ours)
+    least = compared.groupby(rows["situation"].astype(str)).transform("min")
+    return (rows["overshoot"] > least + more).to_numpy()
+
+
+def meets_but_overshoot(rows: pd.DataFrame, rule: Rule = RULE) -> np.ndarray:
+    """Return whether the law of each row meets the requirements of a rule other than that of its overshoot."""
     facts = [facts_of(law) for law in rows["contender"].astype(str)]
     memory = np.array([fact.memory for fact in facts], dtype=int)
     has = np.isfinite(rows[rule.by].to_numpy(dtype=float))

@@ -20,11 +20,13 @@ RULES = {  # ours, and those that a critic would choose
     "a law may fail from some starts": Rule(everywhere=False),
     "unwinding is allowed": Rule(direct=False),
     "noise is left out": Rule(adversary=False),
+    "overshoot is left out": Rule(overshoot=math.inf),
+    "an overshoot of 2° more is too much": Rule(overshoot=2.0),
     "no memory": Rule(forgetful=True),
     "a continuous command": Rule(continuous=True),
     "the median time decides": Rule(by="median"),
     "the 99.9 % time decides": Rule(by="latest"),
-    "times within 5 % are equal": Rule(tie=0.05),
+    "times within 1 % are equal": Rule(tie=0.01),
     "times within 10 % are equal": Rule(tie=0.1),
     "of equally fast laws, the one with the least peak command is advised": Rule(least_peak=True),
     "the least effort decides": Rule(by="effort"),
@@ -70,8 +72,8 @@ class Corrected(NamedTuple):
     """Comparisons of the advised law of every situation with every other law of the map there, corrected all at once.
 
     compared: all that have a finite ratio; winners, ties and losers alike. different: those whose ratio is still not 1
-    after the correction. won: of these, the advised law is faster by more than NOTABLE. lost: it is slower by more.
-    won_before, lost_before: by the paired interval of each comparison alone.
+    after the correction. won: of these, the advised law is faster by more than the tie of the rule. lost: it is slower
+    by more. won_before, lost_before: by the paired interval of each comparison alone.
     """
 
     compared: int

@@ -16,11 +16,11 @@ import pandas as pd
 
 from bench.findings.selection import regions
 from bench.findings.selection.pairs import compare_with_all
-from bench.findings.selection.regions import RULE, STUDY, Rule, facts_of, find_regions, is_drawn, read_map
+from bench.findings.selection.regions import RULE, STUDY, TIE, Rule, facts_of, find_regions, is_drawn, read_map
 from tasks.situation import NOMINAL, Situation, read_situation
 
-SPOKEN = 0.05
-"""A law is called faster in a sentence only if it is so by more than this share; the rule chooses by a smaller one."""
+SPOKEN = TIE
+"""A law is called faster in a sentence only if it is so by more than this share."""
 
 
 class Rival(NamedTuple):

@@ -47,12 +47,15 @@ RELIABLE = html.Table(
 RULE_WORDS = {
     "the rule": "our rule",
     "noise is left out": "the noise test is left out",
+    "overshoot is left out": "the overshoot is left out",
+    "an overshoot of 2° more is too much": "a law may overshoot by 2°, in place of 5°, more than the law that "
+    "overshoots least",
     "no memory": "laws with memory are left out",
     "a continuous command": "laws whose command is not continuous are left out",
     "the median time decides": "laws are compared by their median settling time",
     "the 99.9 % time decides": "laws are compared by the time in which 99.9 % of the starts settle",
     "the least effort decides": "laws are compared by the integral of the squared command",
-    "times within 5 % are equal": "times that differ by up to 5 % count as equal",
+    "times within 1 % are equal": "times that differ by up to 1 % count as equal",
     "times within 10 % are equal": "times that differ by up to 10 % count as equal",
 }
 """What the table calls a rule where its short name needs the text."""
@@ -96,6 +99,7 @@ def facts(run: Run) -> dict[str, Any]:
         "of_halves": of,
         "slower": f"{100 * sensitivity.bound_slower(FIRST):.1f}",
         "noise": f"{NOISE_RAD:g}",
+        "overshoot": f"{regions.OVERSHOOT:g}",
         "held": held.same.of,
         "same": str(held.same),
         "map_unbeaten": f"{100 * held.map.qualified.value:.0f}",
