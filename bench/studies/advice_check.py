@@ -22,7 +22,7 @@ from bench.findings.selection.regions import RULE
 from bench.studies.study import keep_table, make_parser, make_parts
 from tasks.situation import COORDINATES, Situation, rounded
 
-COUNT, SEED = 100, 20261201
+COUNT, SEED = 100, 20261207
 
 NONE = 0.25
 """Chance that a situation has no bound, and no spin, and no jump."""

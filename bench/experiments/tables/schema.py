@@ -10,7 +10,7 @@ RESULTS = WORKPLACE / "results"
 
 NAMES = (
     *("perturbed", "timings", "libraries", "closed_loop", "verdicts", "real_time", "contact_limits"),
-    *("constants", "situations", "pairs", "advice_check", "floor"),
+    *("constants", "situations", "pairs", "advice_check", "weak_motors", "floor"),
 )
 STUDIED = tuple(read_table(__file__, name) for name in NAMES)
 """Tables that no experiment makes: times, results of studies, and other libraries' answers."""
