@@ -8,6 +8,7 @@ from bench.findings.amounts import count_of
 from bench.findings.answer import NOT_TESTED, Answer, find_answer
 from bench.findings.proofs.certificate import read_certificates
 from bench.findings.selection import regions, sensitivity, words
+from bench.findings.selection.checked import LITTLE_DEG, NEAR_LEAST, count_weak_motors, read_weak_motors
 from bench.findings.selection.regions import decide_all, facts_of, find_regions, is_drawn, read_map
 from bench.findings.selection.robots import ROBOTS, list_elsewhere
 from bench.findings.selection.sensitivity import Rated
@@ -113,7 +114,18 @@ def facts(run: Run) -> dict[str, Any]:
         "rules_same": count_same_rules(),
         "needs": in_run(lambda: NEEDS(list_needs())),
         "needs_finding": count_other_needs(),
+        "weak": in_run(describe_weak_motors),
     }
+
+
+def describe_weak_motors() -> str:
+    """Say how often the advised law is near the least time where the command has a bound."""
+    found = count_weak_motors(read_weak_motors())
+    return (
+        f"In {found.of} random situations with a bound of {found.low:.2g} to {found.high:.2g} kp, the advised law "
+        f"settles within {NEAR_LEAST:g} times the time of the fastest motions in {100 * found.near:.0f} %, and "
+        f"overshoots by less than {LITTLE_DEG:g}° in {100 * found.little:.0f} %"
+    )
 
 
 def lead() -> str:
