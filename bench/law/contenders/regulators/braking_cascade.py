@@ -26,11 +26,12 @@ SHARE = 0.7
 def turn_at_brakeable_rate(w, v, omega, gains):
     """Compute Kv (c(theta) k - omega) of the turn with the quaternion (w, v), of any length but 0."""
     size = sqrt(dot(v, v))
-    scale = 2.0 * gains.kp / w
     if size > 0.0:
         theta = 2.0 * atan2(size, w)
         rate, _ = shifted_root(theta, gains.kp / gains.kv, SHARE * gains.bound)
         scale = gains.kv * rate / size
+    else:
+        scale = 2.0 * gains.kp / w
     return spring_damper(scale, v, gains.kv, omega)
 
 

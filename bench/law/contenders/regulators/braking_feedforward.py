@@ -59,7 +59,6 @@ def law(R, omega, goal, gains, memory):
     """u = c0 (c k - omega) + g d(c k)/dt, theta k on the kept side; memory: the quaternion (w, v) of the last tick."""
     w, v, _ = turn_on_kept_side(R, goal.R, memory, DELTA)
     size = sqrt(dot(v, v))
-    u = spring_damper(2.0 * gains.kp / w, v, gains.kv, omega)
     if size > 0.0:
         c0, g = split_gains(gains.kp, gains.kv)
         rate, slope = shifted_root(2.0 * atan2(size, w), gains.kp / c0, SHARE * gains.bound)
@@ -78,6 +77,8 @@ def law(R, omega, goal, gains, memory):
             pull * k[1] - damper * omega[1] - swing * sideways[1],
             pull * k[2] - damper * omega[2] - swing * sideways[2],
         )
+    else:
+        u = spring_damper(2.0 * gains.kp / w, v, gains.kv, omega)
     return u, (w, v[0], v[1], v[2])
 
 
