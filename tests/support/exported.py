@@ -27,6 +27,9 @@ SHAPES = (
 
 KP, KV = PAPERS_GAINS
 NODE = str(Path(shutil.which("node") or "/usr/bin/node").parent)
+LIMITS = 10.0, 0.005
+"""Bound and delay of the motors [rad/s^2, s], for a law that reads them."""
+
 WIDTH, ANSWERS = 25, 7
 """Numbers of a state: R, omega, R_d (matrices by rows) and a memory; of an answer: u, and the memory."""
 
@@ -92,10 +95,16 @@ def _ours():
     return compile_function(loop, types.void(types.FunctionType(EVALUATE), GAINS, MATRIX, MATRIX), cache=False)
 
 
+def gains_of(subject: Subject) -> tuple[float, ...]:
+    """Return the numbers that an exported law takes as its gains: kp and kv, and the limits that a law reads."""
+    [gains] = [one for one in subject.entries[0].parameters if one.name == "gains"]
+    return (KP, KV, *LIMITS)[: gains.size]
+
+
 def our_answers(contender: Contender) -> np.ndarray:
     """u and the memory at every state, by the kernel that the engines compile."""
     answers = np.zeros((STATES, ANSWERS))
-    _ours()(evaluation(contender), Tuning(KP, KV), states(), answers)
+    _ours()(evaluation(contender), Tuning(KP, KV, *LIMITS), states(), answers)
     return answers
 
 
