@@ -14,7 +14,7 @@ from bench.engines.rigid_body import step
 from bench.export.languages.js import COPYSIGN, write_function
 from bench.export.program import REAL, TRUTH, Kind, Tuple, numbers
 from bench.export.reading import Program, Typed
-from bench.export.subject import GAINS, MATRIX
+from bench.export.subject import MATRIX, TUNING
 from bench.law.contender import Contender
 from bench.law.inputs import Goal
 from bench.law.shipped import shortened
@@ -73,7 +73,7 @@ def script(contenders: Iterable[Contender]) -> str:
 def _write_law(program: Program, one: Contender) -> str:
     """Write a law: its function, its memory at first, and what it needs, which ends with itself."""
     memory = one.regulator.memory
-    kinds = (MATRIX, THREE, GOAL, GAINS, *((numbers(len(memory)),) if memory else ()))
+    kinds = (MATRIX, THREE, GOAL, TUNING, *((numbers(len(memory)),) if memory else ()))
     called = list(_with_callees(program.add(one.law, kinds)))
     needs = ["copysign"] * any("copysign(" in write_function(each) for each in called)
     needs += dict.fromkeys(each.name for each in called)

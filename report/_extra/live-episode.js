@@ -31,8 +31,9 @@
     const isNoisy = settings.attitude_noise > 0 || settings.rate_noise > 0;
     const worst = settings.worst_attitude_error || 0, ahead = LEAD * (steps * h), draw = normals(1);
     const holdTicks = isNoisy ? ticks + 1 : restTicks, every = Math.max(1, Math.round(SAMPLE_S / h));
-    const gains = [settings.kp, settings.kv, settings.bound, settings.delay_s], goal = [R_d, AT_REST, AT_REST], sent = [];
-    const slow = rules.slow_squared, { inertia, bound } = settings, isPrompt = late === 0 && steps === 1;
+    const { kp, kv, delay_s, inertia, bound } = settings, goal = [R_d, AT_REST, AT_REST], sent = [];
+    const gains = [kp, kv, bound, delay_s]; // a law may read the limits of its motors
+    const slow = rules.slow_squared, isPrompt = late === 0 && steps === 1;
     const samples = [], commandLimit = rules.command_limit ** 2, speedLimit = rules.speed_limit ** 2;
 
     let { R, omega } = start, memory = law.memory, u = AT_REST, applied = AT_REST, tick = 0, period = 0, peak = 0;

@@ -4,7 +4,7 @@ void {name}_batch(const double *rows, double *answers, long count) {{
         const double *s = rows + {width} * k;
         double *answer = answers + {answers} * k;
         {first}
-        {name}_angular_acceleration(s, s + 9, s + 12, {tuning}, {state}answer);
+        {name}_angular_acceleration(s, s + 9, s + 12, {gains}, {state}answer);
         {last}
     }}
 }}

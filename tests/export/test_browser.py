@@ -71,7 +71,7 @@ def test_every_law_does_what_the_sampled_plant_has_recorded(folder, starts):
 @needs("node")
 @pytest.mark.parametrize("name", PERTURBED)
 def test_perturbed_episodes_end_as_the_compiled_loop_ends_them(folder, starts, name):
-    words = ["rotation-matrix", "late-braking", "quaternion-shortest", "feedback-linearized/zyx-euler"]
+    words = ["rotation-matrix", "late-braking", "quaternion-shortest", "boskovic", "feedback-linearized/zyx-euler"]
     found = played(folder, words, starts, PERTURBED[name])
     wanted = {word: live.by_the_perturbed_plant(word, starts, PERTURBED[name]) for word in words}
     assert beyond(wanted, found) == {}

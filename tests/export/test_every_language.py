@@ -20,10 +20,10 @@ from support.exported import (
     WIDTH,
     ask_some,
     assert_same_bits,
+    gains_of,
     needs,
     our_answers,
     states,
-    tuning_of,
     written,
 )
 
@@ -59,7 +59,7 @@ HAS_EIGEN = pytest.mark.skipif(not EIGEN.is_dir(), reason="no Eigen here (Debian
 EXACT = ("-O2", "-ffp-contract=off")
 
 
-def batch(subject, tuning) -> str:
+def batch(subject) -> str:
     """A function that asks a law's command at many states."""
     copied = "; ".join(f"{{}}[{at}] = {{}}[{at}]" for at in range(4)) + ";"
     own = dict.fromkeys(("first", "state", "last"), "")
@@ -68,7 +68,8 @@ def batch(subject, tuning) -> str:
         last = copied.format(*["(answer + 3)", f"state.{subject.memory_name}"] * 4)
         own = {"first": f"{subject.identifier}_state state; {first}", "state": "&state, ", "last": last}
     text = Path(__file__).with_name("batch.c").read_text()
-    return text.format(name=subject.identifier, width=WIDTH, answers=ANSWERS, tuning=tuning, **own)
+    gains = ", ".join(map(repr, gains_of(subject)))
+    return text.format(name=subject.identifier, width=WIDTH, answers=ANSWERS, gains=gains, **own)
 
 
 @pytest.fixture(scope="module")
@@ -76,10 +77,9 @@ def library(tmp_path_factory):
     """All laws in one program of C, which shows that their headers can be included together."""
     folder = tmp_path_factory.mktemp("library")
     lines = []
-    for contender in all_contenders():
-        one = find_subject(contender.name)
+    for one in (find_subject(one.name) for one in all_contenders()):
         here = written(one, "c", folder, is_tested=False)
-        lines += [f'#include "{here / one.identifier}.h"', batch(one, ", ".join(map(repr, tuning_of(contender))))]
+        lines += [f'#include "{here / one.identifier}.h"', batch(one)]
     (folder / "all.c").write_text("\n".join(lines))
     warnings = ("-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-Wno-unused-function")
     subprocess.run(
@@ -170,10 +170,10 @@ def test_algebraic_laws_give_our_bits_in_node(tmp_path):
     found = [(one, find_subject(one.name)) for one in all_contenders()]
     algebraic = [(one, subject) for one, subject in found if translated(subject).is_algebraic]
     assert len(algebraic) >= 12
-    tunings = {subject.identifier: tuning_of(one) for one, subject in algebraic}
+    laws = {subject.identifier: gains_of(subject) for _, subject in algebraic}
     for _, subject in algebraic:
         written(subject, "js", tmp_path, is_tested=False)
-    (tmp_path / "laws.json").write_text(json.dumps(tunings))
+    (tmp_path / "laws.json").write_text(json.dumps(laws))
     (tmp_path / "ask.js").write_text(ask_some(tmp_path, "ask.js"))
     subprocess.run(["node", "ask.js"], cwd=tmp_path, check=True)
     for contender, _ in algebraic:
@@ -212,14 +212,13 @@ def loaded(subject) -> ModuleType:
 @pytest.mark.parametrize("contender", all_contenders())
 def test_law_in_python_gives_our_bits_where_its_answer_is_finite(contender):
     subject = find_subject(contender.name)
-    law, rows = loaded(subject), states()[::EVERY].tolist()
+    law, gains, rows = loaded(subject), gains_of(subject), states()[::EVERY].tolist()
     ours = our_answers(contender)[::EVERY, : ANSWERS if subject.memory else 3]
     finite = np.isfinite(ours).all(axis=1)
     assert finite.mean() > 0.85  # at 180° and at poles some laws divide by zero
     for row, expected in zip(np.array(rows)[finite].tolist(), ours[finite].tolist(), strict=True):
         R, R_d = ([row[at : at + 3] for at in range(first, first + 9, 3)] for first in (0, 12))
-        memory = [row[21:]] if subject.memory else []
-        answer = law.angular_acceleration(R, row[9:12], R_d, *tuning_of(contender), *memory)
+        answer = law.angular_acceleration(R, row[9:12], R_d, *gains, *([row[21:]] if subject.memory else []))
         found = [*answer[0], *answer[1]] if subject.memory else list(answer)
         assert list(map(float.hex, found)) == list(map(float.hex, expected))
 

@@ -13,7 +13,7 @@ from bench.engines.simulate import evaluation
 from bench.export.language import find_language
 from bench.export.subject import Subject, find_subject
 from bench.law.contender import Contender
-from bench.law.inputs import AT_REST, PAPERS_GAINS, Goal, Tuning, reads_limits
+from bench.law.inputs import AT_REST, PAPERS_GAINS, Goal, Tuning
 from bench.law.so3 import Rotation, from_quaternion
 
 STATES, SOME = 100_000, 20_000
@@ -26,9 +26,10 @@ SHAPES = (
 """With memory, calling libm, with four coordinates and matrices returned, nine numbers among arguments."""
 
 KP, KV = PAPERS_GAINS
-TUNING = Tuning(KP, KV, bound=10.0, delay=0.005)
-"""The gains and the limits of the motor that a law is called with."""
 NODE = str(Path(shutil.which("node") or "/usr/bin/node").parent)
+LIMITS = 10.0, 0.005
+"""Bound and delay of the motors [rad/s^2, s], for a law that reads them."""
+
 WIDTH, ANSWERS = 25, 7
 """Numbers of a state: R, omega, R_d (matrices by rows) and a memory; of an answer: u, and the memory."""
 
@@ -50,11 +51,6 @@ def written(subject: Subject, language: str, folder: Path, is_tested: bool = Tru
         (here / name).parent.mkdir(exist_ok=True)
         (here / name).write_text(text, encoding="utf-8")
     return here
-
-
-def tuning_of(contender: Contender) -> tuple[float, ...]:
-    """Return what the export of a law takes of TUNING: all of it if the law reads a limit, else the gains alone."""
-    return tuple(TUNING) if contender.regulator.law and reads_limits(contender.law) else (KP, KV)
 
 
 @functools.cache
@@ -99,10 +95,16 @@ def _ours():
     return compile_function(loop, types.void(types.FunctionType(EVALUATE), GAINS, MATRIX, MATRIX), cache=False)
 
 
+def gains_of(subject: Subject) -> tuple[float, ...]:
+    """Return the numbers that an exported law takes as its gains: kp and kv, and the limits that a law reads."""
+    [gains] = [one for one in subject.entries[0].parameters if one.name == "gains"]
+    return (KP, KV, *LIMITS)[: gains.size]
+
+
 def our_answers(contender: Contender) -> np.ndarray:
     """u and the memory at every state, by the kernel that the engines compile."""
     answers = np.zeros((STATES, ANSWERS))
-    _ours()(evaluation(contender), TUNING, states(), answers)
+    _ours()(evaluation(contender), Tuning(KP, KV, *LIMITS), states(), answers)
     return answers
 
 
