@@ -67,9 +67,11 @@ def test_px4_turns_the_z_axis_by_the_least_turn_and_weighs_the_yaw_that_is_left(
 
 @pytest.mark.parametrize(("tilt_deg", "is_whole"), [(179.3, False), (179.45, False), (179.55, True), (179.9, True)])
 def test_px4_uses_the_whole_turn_where_the_z_axes_are_opposite(tilt_deg, is_whole):
-    for R, azimuth, yaw in zip(ScipyRotation.random(20, rng=5), np.arange(20.0), np.linspace(-2.5, 2.5, 20), strict=True):
-        axis = (math.cos(azimuth), math.sin(azimuth), 0.0)
-        R_d = R * ScipyRotation.from_rotvec(math.radians(tilt_deg) * np.array(axis)) * ScipyRotation.from_rotvec((0, 0, yaw))
+    azimuths, yaws = np.arange(20.0), np.linspace(-2.5, 2.5, 20)
+    for R, azimuth, yaw in zip(ScipyRotation.random(20, rng=5), azimuths, yaws, strict=True):
+        axis = np.array((math.cos(azimuth), math.sin(azimuth), 0.0))
+        tilt = ScipyRotation.from_rotvec(math.radians(tilt_deg) * axis)
+        R_d = R * tilt * ScipyRotation.from_rotvec((0.0, 0.0, yaw))
         rate = error_in_body(R, R_d) / (1.0, 1.0, 0.4) if is_whole else px4_rate(R, R_d)
         hold_to("px4", P * np.clip(rate, -PX4_LIMITS, PX4_LIMITS), R, np.zeros(3), R_d)
 
@@ -167,7 +169,8 @@ def test_boskovic_stays_below_the_bound_at_every_spin_and_comes_near_to_it():
         sizes.append(np.linalg.norm(command("boskovic", R, size * k, gains=gains)))
     assert max(sizes) <= 10.0 * (1.0 + 1e-15)
     assert max(sizes) > 9.999
-    at_rest = [np.linalg.norm(command("boskovic", R, bodies.REST, gains=gains)) for R in ScipyRotation.random(400, rng=8)]
+    turns = ScipyRotation.random(400, rng=8)
+    at_rest = [np.linalg.norm(command("boskovic", R, bodies.REST, gains=gains)) for R in turns]
     assert max(at_rest) < 10.0 * 2.0 * GAINS.kp / (10.0 + 2.0 * GAINS.kp) + 1e-12
 
 

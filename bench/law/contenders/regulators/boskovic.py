@@ -8,8 +8,8 @@ orientation and every rate. Near the goal, where |s| is small, u = Kp phi - Kv o
 
 Source: Boskovic, Li, Mehra 2001, J. Guidance, Control, Dynamics 24(4) 627-634. We read the law in two later codes, not
 in the paper: u_i = u_max s_i/(|s_i| + k^2 delta), s = k^2 eps - omega in our signs, with a gain k that is adapted. So
-k^2 = 2 Kp/Kv and delta = bound/(2 Kp) here. Ours are: the whole vector in place of each component, so that the direction
-of s is kept; the constant k; and the nearer of the two quaternions.
+k^2 = 2 Kp/Kv and delta = bound/(2 Kp) here. Ours are: the whole vector in place of each component, so that the
+direction of s is kept; the constant k; and the nearer of the two quaternions.
 
 Limitations: at 180° the command jumps to its opposite. The law gives less than the motor can: where the law without a
 bound commands just the bound, this one commands half of it. It does not plan its braking: with a small bound the body

@@ -14,8 +14,9 @@ turn exists, and the law uses the whole turn. PX4 tests two components of the le
 test of its length is ours, so that no base frame is special. Equal gains on all axes are ours too, because all laws
 here have equal gains. In PX4 the yaw is slower than the tilt because its gain is smaller; here it is not slower.
 
-Source: PX4, src/modules/mc_att_control/AttitudeControl/AttitudeControl.cpp at 305966ee and 129a2ae6, and its parameters,
-mc_att_control_params.yaml at 01486656 (all read). The law here has no feedforward of the yaw rate and no reference model.
+Source: PX4, src/modules/mc_att_control/AttitudeControl/AttitudeControl.cpp at 305966ee and 129a2ae6, and its
+parameters, mc_att_control_params.yaml at 01486656 (all read). The law here has no feedforward of the yaw rate and no
+reference model.
 
 Limitations: at 180° the command jumps to its opposite. Each component has its own limit, so that a large turn does not
 keep its axis. The law limits the rate, and knows no bound of the command: where the motor is weak, the body passes the
