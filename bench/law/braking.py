@@ -1,8 +1,8 @@
 """The greatest angular velocity that a motor with a bound can still brake before the goal.
 
-A body that turns to its goal at the rate c, and that brakes with the acceleration a, stops after the angle c^2/(2 a).
-Therefore the greatest rate at the angle theta is sqrt(2 a theta). Near the goal this root is too steep for a loop with
-finite gains. There the rate is p theta.
+A body that turns to its goal at the rate c, and that brakes with the acceleration a, stops after
+the angle c^2/(2 a). Therefore the greatest rate at the angle theta is sqrt(2 a theta). Near the
+goal this root is too steep for a loop with finite gains. There the rate is p theta.
 
 Source: ArduPilot, libraries/AP_Math/control.cpp at 00b6cbbf, function `sqrt_controller` (read).
 """

@@ -110,7 +110,7 @@ def commanded_rate(R, gains, p):
 
 
 def test_feedforward_is_the_derivative_of_the_commanded_rate():
-    """By differences of c k along a turn that goes on for 1e-6 s at the rate omega."""
+    """Compare it with differences of c k along a turn that goes on for 1e-6 s at the rate omega."""
     step = 1e-6
     for theta, k, omega, gains in draw_states(200, 5, 3.0):
         c0, g = split_gains(gains.kp, gains.kv)

@@ -2,20 +2,33 @@
 
     u = Kv (c(theta) k - omega)      theta, k: angle and axis of the turn from R to R_d
 
-Near the goal c = (Kp/Kv) theta, so that u = Kp theta k - Kv omega. Far from the goal c = sqrt(2 a (theta - d/2)), with
-d = a/(Kp/Kv)^2 and a = SHARE times the bound of the command. A body with the rate c decelerates by at most a. Without
-a bound the law is the law of the rotation vector.
+Near the goal c = (Kp/Kv) theta, so that u = Kp theta k - Kv omega. Far from the goal c = sqrt(2 a
+(theta - d/2)), with d = a/(Kp/Kv)^2 and a = SHARE times the bound of the command. A body with the
+rate c decelerates by at most a. Without a bound the law is the law of the rotation vector.
 
-Source: ArduPilot, `sqrt_controller` in libraries/AP_Math/control.cpp at 00b6cbbf, and its use on the attitude error in
-libraries/AC_AttitudeControl/AC_AttitudeControl.cpp at 00f02a67 (both read). There the root acts on each component of
-the error with half of the greatest acceleration. The root of the whole angle, so that a turn from rest keeps its axis,
-and SHARE are ours.
+Source: ArduPilot, `sqrt_controller` in libraries/AP_Math/control.cpp at 00b6cbbf, and its use on
+the attitude error in libraries/AC_AttitudeControl/AC_AttitudeControl.cpp at 00f02a67 (both read).
+There the root acts on each component of the error with half of the greatest acceleration. The
+root of the whole angle, so that a turn from rest keeps its axis, and SHARE are ours.
 
-Limitations: at 180° the command jumps to its opposite. If the body is more inert than its model, it brakes too late:
-the true share is SHARE times the true inertia over the modelled one, and above 1 the body passes the goal.
+Limitations: at 180° the command jumps to its opposite. If the body is more inert than its model,
+it brakes too late: the true share is SHARE times the true inertia over the modelled one, and
+above 1 the body passes the goal.
 """
 
-from bench.law import ADAPTED, ANGLE, Display, Law, Look, atan2, dot, kernel, spring_damper, sqrt, turn_quaternion
+from bench.law import (
+    ADAPTED,
+    ANGLE,
+    Display,
+    Law,
+    Look,
+    atan2,
+    dot,
+    kernel,
+    spring_damper,
+    sqrt,
+    turn_quaternion,
+)
 from bench.law.braking import shifted_root
 
 SHARE = 0.7

@@ -2,15 +2,16 @@
 
     u = Kv (c(theta) k - omega)      theta, k: angle and axis of the turn on the kept side
 
-The rate c is that of `braking_cascade`, and the side that of `bench.law.side`: theta goes up to 227 degrees, so that
-noise does not hold the body at 180°. Without a bound the law is `rotation_vector_memory`. The memory outlives the
-goal: reset it before the first tick and after a pause. When the goal jumps, a reset shortens the way and saves no time.
+The rate c is that of `braking_cascade`, and the side that of `bench.law.side`: theta goes up to
+227 degrees, so that noise does not hold the body at 180°. Without a bound the law is
+`rotation_vector_memory`. The memory outlives the goal: reset it before the first tick and after a
+pause. When the goal jumps, a reset shortens the way and saves no time.
 
-Source: ArduPilot's sqrt_controller (read; see `braking_cascade`) and Mayhew, Sanfelice, Teel 2011. The combination is
-ours.
+Source: ArduPilot's sqrt_controller (read; see `braking_cascade`) and Mayhew, Sanfelice, Teel
+2011. The combination is ours.
 
-Limitations: up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it keeps turning the longer way. If the body is
-more inert than its model, it brakes too late, as `braking_cascade` does.
+Limitations: up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it keeps turning the longer
+way. If the body is more inert than its model, it brakes too late, as `braking_cascade` does.
 """
 
 from bench.law import ADAPTED, ANGLE, DELTA, Display, Law, Look, kernel, turn_on_kept_side

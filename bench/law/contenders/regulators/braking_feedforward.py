@@ -6,18 +6,21 @@ The derivative follows from theta' = -k.omega and k' = -(cot(theta/2) omega_perp
 
     d(c k)/dt = -c' (k.omega) k - (c/2) (cot(theta/2) omega_perp + k x omega),   omega_perp = omega - (k.omega) k
 
-With g = 1 the difference omega - c k decays as exp(-c0 t) while the motor carries the command out, whatever the spin;
-a cascade without the derivative lags. Near the goal the law has to be Kp theta k - Kv omega, so that c0 p = Kp and
-c0 + g p = Kv, p the slope of c at the goal. These have a solution with g = 1 only if Kv^2 >= 4 Kp: c0 is then the
-greater root of c0^2 - Kv c0 + Kp. Below that damping g is the greatest share that a solution has, Kv^2/(4 Kp), at
-c0 = Kv/2. The rate c is that of `braking_cascade`, the side that of `bench.law.side`. The memory outlives the goal:
-reset it before the first tick and after a pause. When the goal jumps, a reset shortens the way and saves no time.
+With g = 1 the difference omega - c k decays as exp(-c0 t) while the motor carries the command
+out, whatever the spin; a cascade without the derivative lags. Near the goal the law has to be Kp
+theta k - Kv omega, so that c0 p = Kp and c0 + g p = Kv, p the slope of c at the goal. These have
+a solution with g = 1 only if Kv^2 >= 4 Kp: c0 is then the greater root of c0^2 - Kv c0 + Kp.
+Below that damping g is the greatest share that a solution has, Kv^2/(4 Kp), at c0 = Kv/2. The
+rate c is that of `braking_cascade`, the side that of `bench.law.side`. The memory outlives the
+goal: reset it before the first tick and after a pause. When the goal jumps, a reset shortens the
+way and saves no time.
 
-Source: this benchmark, 2026; the rate after ArduPilot's sqrt_controller, the memory after Mayhew, Sanfelice, Teel 2011.
-Nobody else has reviewed the law.
+Source: this benchmark, 2026; the rate after ArduPilot's sqrt_controller, the memory after Mayhew,
+Sanfelice, Teel 2011. Nobody else has reviewed the law.
 
-Limitations: up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it keeps turning the longer way. If the body is
-more inert than its model, it brakes too late. The derivative needs the rate omega with less delay than the law alone.
+Limitations: up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it keeps turning the longer
+way. If the body is more inert than its model, it brakes too late. The derivative needs the rate
+omega with less delay than the law alone.
 """
 
 from bench.law import (

@@ -2,21 +2,23 @@
 
     u = Kv (omega_c - omega)      omega_c = 2 p sgn(eta) eps, in body axes, p = Kp/Kv
 
-The spin rule acts on each body axis: where omega_c,i and omega_i have opposite signs and |omega_i| exceeds a threshold,
-omega_c,i becomes the greatest rate in the direction of omega_i. So the body does not brake a fast spin. It goes on
-until it has passed 180° from the goal, and brakes on the way to the goal. The rule is the firmware's, in units of its
-gain of 4 1/s: the threshold is 12 rad/s = 3 p about x and y and 5 rad/s = 1.25 p about z; the greatest rate is 30 rad/s
-= 7.5 p about x and y and 10 rad/s = 2.5 p about z. The firmware then shortens omega_c to its greatest rates. This never
-acts here, since 2 p |eps_i| <= 2 p. From rest the rate never exceeds 2 p.
+The spin rule acts on each body axis: where omega_c,i and omega_i have opposite signs and
+|omega_i| exceeds a threshold, omega_c,i becomes the greatest rate in the direction of omega_i. So
+the body does not brake a fast spin. It goes on until it has passed 180° from the goal, and brakes
+on the way to the goal. The rule is the firmware's, in units of its gain of 4 1/s: the threshold
+is 12 rad/s = 3 p about x and y and 5 rad/s = 1.25 p about z; the greatest rate is 30 rad/s = 7.5
+p about x and y and 10 rad/s = 2.5 p about z. The firmware then shortens omega_c to its greatest
+rates. This never acts here, since 2 p |eps_i| <= 2 p. From rest the rate never exceeds 2 p.
 
-Source: Brescianini, Hehn, D'Andrea 2013, Nonlinear quadrocopter attitude control, report of ETH Zurich, as in the
-Crazyflie firmware, src/modules/src/controller/controller_brescianini.c at 1c57f1a9. We read the firmware, not the
-report.
-The firmware's loop of the rate is twice as fast about z as about x and y; equal gains on all axes are ours.
+Source: Brescianini, Hehn, D'Andrea 2013, Nonlinear quadrocopter attitude control, report of ETH
+Zurich, as in the Crazyflie firmware, src/modules/src/controller/controller_brescianini.c at
+1c57f1a9. We read the firmware, not the report. The firmware's loop of the rate is twice as fast
+about z as about x and y; equal gains on all axes are ours.
 
-Limitations: at 180°, and where the rule begins to act, the command jumps. The rule looks at the sign of the error
-alone: close to the goal too it speeds a fast spin up and sends the body around once more. The greatest command is
-large, Kv (7.5 p + |omega_i|) about one axis: a weak motor cannot give it.
+Limitations: at 180°, and where the rule begins to act, the command jumps. The rule looks at the
+sign of the error alone: close to the goal too it speeds a fast spin up and sends the body around
+once more. The greatest command is large, Kv (7.5 p + |omega_i|) about one axis: a weak motor
+cannot give it.
 """
 
 from bench.law import (
@@ -37,11 +39,11 @@ from bench.law import (
 FAST_TILT = 3.0
 """Rate about x and y above which the spin goes on, over Kp/Kv."""
 FAST_YAW = 1.25
-"""The same about z."""
+"""Rate about z above which the spin goes on, over Kp/Kv."""
 GREATEST_TILT = 7.5
 """Rate with which the spin goes on about x and y, over Kp/Kv."""
 GREATEST_YAW = 2.5
-"""The same about z."""
+"""Rate with which the spin goes on about z, over Kp/Kv."""
 
 
 @kernel

@@ -2,25 +2,29 @@
 
     u = Kv (omega_c - omega)
 
-The turn from R to R_d is, in body axes, the least turn of the z axis a to its goal a_d, and then a turn psi about a_d.
-The law scales psi by YAW_WEIGHT. (eta, eps) is the quaternion of both turns together, eta >= 0. With p = Kp/Kv
+The turn from R to R_d is, in body axes, the least turn of the z axis a to its goal a_d, and then
+a turn psi about a_d. The law scales psi by YAW_WEIGHT. (eta, eps) is the quaternion of both turns
+together, eta >= 0. With p = Kp/Kv
 
     omega_c = 2 p (eps_x, eps_y, eps_z/YAW_WEIGHT)      each component cut to its greatest rate
 
-So the yaw bends the tilt less: (eps_x, eps_y) is YAW_WEIGHT psi/2 off the axis of the least turn, and psi/2 off it in
-the quaternion of the whole turn. The division keeps the stiffness Kp about z. The greatest rates are those of PX4 over
-its gains: 220 deg/s over 4.0 1/s about x and y, 200 deg/s over 2.8 1/s about z. Where a and a_d are opposite, no least
-turn exists, and the law uses the whole turn. PX4 tests two components of the least turn for this, in base axes. The
-test of its length is ours, so that no base frame is special. Equal gains on all axes are ours too, because all laws
-here have equal gains. In PX4 the yaw is slower than the tilt because its gain is smaller; here it is not slower.
+So the yaw bends the tilt less: (eps_x, eps_y) is YAW_WEIGHT psi/2 off the axis of the least turn,
+and psi/2 off it in the quaternion of the whole turn. The division keeps the stiffness Kp about z.
+The greatest rates are those of PX4 over its gains: 220 deg/s over 4.0 1/s about x and y, 200
+deg/s over 2.8 1/s about z. Where a and a_d are opposite, no least turn exists, and the law uses
+the whole turn. PX4 tests two components of the least turn for this, in base axes. The test of its
+length is ours, so that no base frame is special. Equal gains on all axes are ours too, because
+all laws here have equal gains. In PX4 the yaw is slower than the tilt because its gain is
+smaller; here it is not slower.
 
-Source: PX4, src/modules/mc_att_control/AttitudeControl/AttitudeControl.cpp at 305966ee and 129a2ae6, and its
-parameters, mc_att_control_params.yaml at 01486656 (all read). The law here has no feedforward of the yaw rate and no
-reference model.
+Source: PX4, src/modules/mc_att_control/AttitudeControl/AttitudeControl.cpp at 305966ee and
+129a2ae6, and its parameters, mc_att_control_params.yaml at 01486656 (all read). The law here has
+no feedforward of the yaw rate and no reference model.
 
-Limitations: at 180° the command jumps to its opposite. Each component has its own limit, so that a large turn does not
-keep its axis. The law limits the rate, and knows no bound of the command: where the motor is weak, the body passes the
-goal. Near a tilt of 180° psi changes fast with the orientation, and so does the command.
+Limitations: at 180° the command jumps to its opposite. Each component has its own limit, so that
+a large turn does not keep its axis. The law limits the rate, and knows no bound of the command:
+where the motor is weak, the body passes the goal. Near a tilt of 180° psi changes fast with the
+orientation, and so does the command.
 """
 
 from bench.law import (

@@ -2,20 +2,33 @@
 
     u = Kv (c e - omega)      c = min(2 (Kp/Kv) |eps|, sqrt(4 a |eps|)),   e = eps/|eps|
 
-Here (eta, eps) is the quaternion of the turn from R to R_d with eta >= 0, and a is SHARE times the bound of the
-command. Near the goal the command is 2 Kp eps - Kv omega. Far from it, sqrt(4 a |eps|) is nearly sqrt(2 a theta), the
-greatest rate that the acceleration a can brake. The two branches meet with different slopes: just below the knee the
-law needs the deceleration 2 a, twice what it plans with. Without a bound the law is `quaternion_shortest`.
+Here (eta, eps) is the quaternion of the turn from R to R_d with eta >= 0, and a is SHARE times
+the bound of the command. Near the goal the command is 2 Kp eps - Kv omega. Far from it, sqrt(4 a
+|eps|) is nearly sqrt(2 a theta), the greatest rate that the acceleration a can brake. The two
+branches meet with different slopes: just below the knee the law needs the deceleration 2 a, twice
+what it plans with. Without a bound the law is `quaternion_shortest`.
 
-Source: Wie, Bailey, Heiberg 2002, J. Guidance, Control, Dynamics 25(1) 96-104. We did not read the paper; the formula
-is from later reports on it. There each component has its own limit, and there is an integral and a greatest rate. The
-limit of the whole vector and SHARE are ours.
+Source: Wie, Bailey, Heiberg 2002, J. Guidance, Control, Dynamics 25(1) 96-104. We did not read
+the paper; the formula is from later reports on it. There each component has its own limit, and
+there is an integral and a greatest rate. The limit of the whole vector and SHARE are ours.
 
-Limitations: at 180° the command jumps to its opposite. With more than half of the bound the body can pass the goal,
-because of the knee; and it brakes too late if the body is more inert than its model.
+Limitations: at 180° the command jumps to its opposite. With more than half of the bound the body
+can pass the goal, because of the knee; and it brakes too late if the body is more inert than its
+model.
 """
 
-from bench.law import ADAPTED, CHORD, Display, Law, Look, dot, kernel, spring_damper, sqrt, turn_quaternion
+from bench.law import (
+    ADAPTED,
+    CHORD,
+    Display,
+    Law,
+    Look,
+    dot,
+    kernel,
+    spring_damper,
+    sqrt,
+    turn_quaternion,
+)
 
 SHARE = 0.7
 """Share of the bound that the law plans to brake with; ours."""

@@ -2,14 +2,16 @@
 
     u = Kv (c e - omega)      c = min(2 (Kp/Kv) |eps|, sqrt(4 a |eps|)),   e = eps/|eps|
 
-Here (eta, eps) is the quaternion on the side that `bench.law.side` keeps, so that noise does not hold the body at 180°.
-Without a bound the law is `hybrid`. The memory outlives the goal: reset it before the first tick and after a pause.
-When the goal jumps, a reset shortens the way and saves no time.
+Here (eta, eps) is the quaternion on the side that `bench.law.side` keeps, so that noise does not
+hold the body at 180°. Without a bound the law is `hybrid`. The memory outlives the goal: reset it
+before the first tick and after a pause. When the goal jumps, a reset shortens the way and saves
+no time.
 
-Source: Wie, Bailey, Heiberg 2002 (see `wie_bailey_heiberg`) and Mayhew, Sanfelice, Teel 2011. The combination is ours.
+Source: Wie, Bailey, Heiberg 2002 (see `wie_bailey_heiberg`) and Mayhew, Sanfelice, Teel 2011. The
+combination is ours.
 
-Limitations: up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it keeps turning the longer way. It can pass the
-goal, as `wie_bailey_heiberg` does.
+Limitations: up to 2 asin(DELTA), 47 degrees, beyond a 180° rotation it keeps turning the longer
+way. It can pass the goal, as `wie_bailey_heiberg` does.
 """
 
 from bench.law import ADAPTED, CHORD, DELTA, Display, Law, Look, kernel, turn_on_kept_side
