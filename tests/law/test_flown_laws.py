@@ -13,6 +13,8 @@ from bench.law.inputs import PAPERS_GAINS, Gains, Goal, Tuning, reads_limits
 
 GAINS = Gains(kp=37.0, kv=9.0)
 P = GAINS.kp / GAINS.kv
+SOFT = Gains(kp=4.0 * P * P, kv=4.0 * P)
+"""Critically damped, with the same P."""
 HOME = ScipyRotation.identity()
 
 
@@ -131,6 +133,28 @@ def test_brescianini_lets_a_fast_spin_go_on_around_and_then_settles(axis, spin):
         assert path[0][-1].magnitude() < 0.01
     assert swept["brescianini"] == pytest.approx(2.0 * math.pi, abs=0.02)
     assert swept["quaternion-shortest"] == pytest.approx(0.0, abs=0.02)
+
+
+def test_brescianini_can_hold_a_body_in_a_spin_for_ever():
+    """It turns about z at the greatest rate, and the rule sees no 180° to pass; the quaternion alone settles."""
+    start = ScipyRotation.from_quat((0.57, -0.67, 0.42, 0.22))
+    omega, times = start.apply(P / 5.0 * np.array((-7.3, 3.7, 12.5))), np.linspace(0.0, 40.0 / P, 401)
+    ends = {}
+    for name in ("brescianini", "quaternion-shortest"):
+        R, rates, _ = bodies.path(
+            lambda _, R, omega, __, name=name: (command(name, R, omega, gains=SOFT), ()),
+            start,
+            omega,
+            times,
+            method="RK45",
+            rtol=1e-6,
+            atol=1e-8,
+        )
+        ends[name] = R[-100:].magnitude(), R[-100:].inv().apply(rates[-100:])[:, 2]
+    angles, about_z = ends["brescianini"]
+    assert angles.min() > 1.0
+    np.testing.assert_allclose(about_z, 2.5 * P, rtol=1e-3)
+    assert ends["quaternion-shortest"][0].max() < 0.01
 
 
 @pytest.mark.parametrize("axis", range(3))

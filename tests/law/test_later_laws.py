@@ -12,10 +12,12 @@ from support.bits import EPS
 from support.states import directions, of_scipy, vector
 
 from bench.law.contenders.registry import all_contenders, find_contender, regulator
-from bench.law.inputs import AT_REST, Gains, Goal
+from bench.law.inputs import AT_REST, Gains, Goal, Tuning
 
 GAINS, RIVALS = Gains(kp=100.0, kv=20.0), Gains(kp=37.0, kv=9.0)
 HOME = ScipyRotation.identity()
+TUNING = Tuning(*GAINS)
+"""The gains and no limits, for a law that reads limits."""
 
 ISOTROPIC = {
     one.name: one.equation
@@ -30,8 +32,8 @@ def command(word, R, omega=AT_REST, R_d=None, memory=None):
     one = find_contender(word)
     goal = Goal(of_scipy(R_d or ScipyRotation.identity()))
     if one.regulator.memory is None:
-        return np.array(one.law(of_scipy(R), vector(omega), goal, GAINS)), None
-    u, after = one.law(of_scipy(R), vector(omega), goal, GAINS, memory or one.regulator.memory)
+        return np.array(one.law(of_scipy(R), vector(omega), goal, TUNING)), None
+    u, after = one.law(of_scipy(R), vector(omega), goal, TUNING, memory or one.regulator.memory)
     return np.array(u), after
 
 

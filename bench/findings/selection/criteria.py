@@ -14,7 +14,7 @@ from bench.findings.claims.standing import MEASURABLE
 from bench.findings.on_arms import passed
 from bench.findings.selection.tables import Tables, by_law
 from bench.law.contender import Contender
-from bench.law.inputs import AT_REST, Gains, Goal
+from bench.law.inputs import AT_REST, Goal, Tuning
 from bench.law.so3 import from_quaternion
 from tasks.haar import axes
 
@@ -97,7 +97,7 @@ def jump(one: Contender) -> float:
 
 
 def _across(one: Contender, axis: np.ndarray) -> float:
-    gains, goal = Gains(np.float64(1.0), np.float64(2.0)), Goal()
+    gains, goal = Tuning(np.float64(1.0), np.float64(2.0)), Goal()
     memory = one.regulator.memory
     commands = []
     with np.errstate(all="ignore"):

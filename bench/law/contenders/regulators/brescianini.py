@@ -14,8 +14,10 @@ Crazyflie firmware, src/modules/src/controller/controller_brescianini.c at 1c57f
 The firmware's loop of the rate is twice as fast about z as about x and y; equal gains on all axes are ours.
 
 Limitations: at 180°, and where the rule begins to act, the command jumps. The rule looks at the sign of the error alone:
-close to the goal too it speeds a fast spin up and sends the body around once more. The greatest command is large,
-Kv (7.5 p + |omega_i|) about one axis: a weak motor cannot give it.
+close to the goal too it speeds a fast spin up and sends the body around once more. The rule can hold a body in a spin
+for ever: omega_z stays at 2.5 p, eps_z stays opposed to it, and the body never passes 180°. A few tumbling starts of
+this benchmark end so, with the firmware's ratio of gains Kv/p = 17 too. The greatest command is large, Kv 4.5 p about x
+or y where the rule begins to act: a weak motor cannot give it.
 """
 
 from bench.law import (
