@@ -41,11 +41,11 @@ from bench.law import (
 FAST_TILT = 3.0
 """Rate about x and y above which the spin goes on, over Kp/Kv."""
 FAST_YAW = 1.25
-"""The same about z."""
+"""Rate about z above which the spin goes on, over Kp/Kv."""
 GREATEST_TILT = 7.5
 """Rate with which the spin goes on about x and y, over Kp/Kv."""
 GREATEST_YAW = 2.5
-"""The same about z."""
+"""Rate with which the spin goes on about z, over Kp/Kv."""
 
 
 @kernel
