@@ -9,7 +9,7 @@ from bench.base.errors import BadLaw
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.law_process import answer, ask
 from bench.law.contenders.registry import contenders_of
-from bench.law.inputs import AT_REST, PAPERS_GAINS, Goal
+from bench.law.inputs import AT_REST, Goal, Tuning
 from bench.law.kinds import Law
 from bench.law.so3 import from_quaternion
 
@@ -34,7 +34,7 @@ def call_law(asked: dict, path: Path | None) -> dict[str, str]:
     for start in asked["starts"]:
         R, R_d = from_quaternion(tuple(start[:4])), from_quaternion(tuple(start[4:]))
         try:
-            contender.law(R, AT_REST, Goal(R_d, AT_REST, AT_REST), PAPERS_GAINS, *memory)
+            contender.law(R, AT_REST, Goal(R_d, AT_REST, AT_REST), Tuning(), *memory)
         except Exception as error:
             return {"raised": f"{type(error).__name__}: {error}"}
     return {}

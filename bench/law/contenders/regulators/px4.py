@@ -1,29 +1,29 @@
-"""PX4's attitude loop: a cascade that splits the turn into a tilt of the body's z axis and a yaw, and weighs the yaw.
+"""PX4's attitude loop: a cascade on the tilt of the body's z axis and a yaw, which has a weight.
 
     u = Kv (omega_c - omega)
 
-The turn from R to R_d is, in body axes, the least turn of the z axis a to its goal a_d, and then
-a turn psi about a_d. The law scales psi by YAW_WEIGHT. (eta, eps) is the quaternion of both turns
+The turn from R to R_d is, in body axes, the least turn of the z axis a to its goal a_d, and then a
+turn psi about a_d. The law scales psi by YAW_WEIGHT. (eta, eps) is the quaternion of both turns
 together, eta >= 0. With p = Kp/Kv
 
     omega_c = 2 p (eps_x, eps_y, eps_z/YAW_WEIGHT)      each component cut to its greatest rate
 
 So the yaw bends the tilt less: (eps_x, eps_y) is YAW_WEIGHT psi/2 off the axis of the least turn,
 and psi/2 off it in the quaternion of the whole turn. The division keeps the stiffness Kp about z.
-The greatest rates are those of PX4 over its gains: 220 deg/s over 4.0 1/s about x and y, 200
-deg/s over 2.8 1/s about z. Where a and a_d are opposite, no least turn exists, and the law uses
-the whole turn. PX4 tests two components of the least turn for this, in base axes. The test of its
-length is ours, so that no base frame is special. Equal gains on all axes are ours too, because
-all laws here have equal gains. In PX4 the yaw is slower than the tilt because its gain is
-smaller; here it is not slower.
+The greatest rates are those of PX4 over its gains: 220 deg/s over 4.0 1/s about x and y, 200 deg/s
+over 2.8 1/s about z. Where a and a_d are opposite, no least turn exists, and the law uses the whole
+turn. PX4 tests two components of the least turn for this, in base axes. The test of its length is
+ours, so that no base frame is special. Equal gains on all axes are ours too, because all laws here
+have equal gains. In PX4 the yaw is slower than the tilt because its gain is smaller; here it is not
+slower.
 
 Source: PX4, src/modules/mc_att_control/AttitudeControl/AttitudeControl.cpp at 305966ee and
-129a2ae6, and its parameters, mc_att_control_params.yaml at 01486656 (all read). The law here has
-no feedforward of the yaw rate and no reference model.
+129a2ae6, and its parameters, mc_att_control_params.yaml at 01486656 (all read). The law here has no
+feedforward of the yaw rate and no reference model.
 
-Limitations: at 180° the command jumps to its opposite. Each component has its own limit, so that
-a large turn does not keep its axis. The law limits the rate, and knows no bound of the command:
-where the motor is weak, the body passes the goal. Near a tilt of 180° psi changes fast with the
+Limitations: at 180° the command jumps to its opposite. Each component has its own limit, so that a
+large turn does not keep its axis. The law limits the rate, and knows no bound of the command: where
+the motor is weak, the body passes the goal. Near a tilt of 180° psi changes fast with the
 orientation, and so does the command.
 """
 
@@ -47,7 +47,10 @@ from bench.law import (
 YAW_WEIGHT = 0.4
 """Weight of the turn about a_d; PX4's MC_YAW_WEIGHT."""
 OPPOSITE = 2e-5
-"""cos^2 of half the tilt below which the whole turn is used: PX4's sin > 1 - 1e-5; a tilt above 179.49 degrees."""
+"""cos^2 of half the tilt below which the whole turn is used: PX4's sin > 1 - 1e-5.
+
+That is a tilt above 179.49 degrees.
+"""
 DEGREE = acos(-1.0) / 180.0
 TILT_RATE = 220.0 * DEGREE / 4.0
 """Greatest rate about x and y, over Kp/Kv: 0.96."""
@@ -68,10 +71,10 @@ def cut(rate, greatest):
 
 @kernel
 def weigh_yaw(w, x, y, z, t):
-    """Return the vector part of the turn with YAW_WEIGHT psi in place of psi; its length is 2 sqrt(t) |eps|.
+    """Return the vector part of the turn with YAW_WEIGHT psi for psi, of length 2 sqrt(t) |eps|.
 
-    The turn is (c, s_x, s_y, 0) (cos(psi/2), 0, 0, sin(psi/2)), so that psi/2 is the angle of (w, z), and the part in
-    the plane of x and y turns by the part of psi/2 that is dropped.
+    The turn is (c, s_x, s_y, 0) (cos(psi/2), 0, 0, sin(psi/2)), so that psi/2 is the angle of
+    (w, z). The part in the plane of x and y turns by the part of psi/2 that is dropped.
     """
     square = w * w + z * z
     weighed = (x, y, z)
@@ -86,7 +89,7 @@ def weigh_yaw(w, x, y, z, t):
 
 @kernel
 def law(R, omega, goal, gains):
-    """u = Kv (R omega_c - omega), omega_c = 2 Kp/Kv (eps_x, eps_y, eps_z/YAW_WEIGHT), cut, in body axes."""
+    """u = Kv (R omega_c - omega), omega_c = 2 p (eps_x, eps_y, eps_z/YAW_WEIGHT), cut, in body."""
     (w, x, y, z), t = quaternion_direction(relative(R, goal.R))
     v = weigh_yaw(w, x, y, z, t)
     p = gains.kp / gains.kv
@@ -102,7 +105,9 @@ def law(R, omega, goal, gains):
 REGULATOR = Law(
     name="px4",
     title="PX4 attitude loop",
-    source="after the file AttitudeControl.cpp of PX4 (we read it); equal gains on all axes are ours",
+    source=(
+        "after the file AttitudeControl.cpp of PX4 (we read it); equal gains on all axes are ours"
+    ),
     attribution=ADAPTED,
     formula=r"u = K_v\Bigl(\operatorname{sat}_{\omega_{\max}}\bigl(2 \tfrac{K_p}{K_v}"
     r"(\epsilon_x, \epsilon_y, \epsilon_z/w)\bigr) - \omega\Bigr), \quad \psi \to w\,\psi",
