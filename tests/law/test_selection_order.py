@@ -7,8 +7,6 @@ The oracle is the arm's own equation with constraints, in joint space, of MuJoCo
 Neither Lambda nor an order of selection is in it.
 """
 
-import itertools
-
 import numpy as np
 import pytest
 from support.bits import EPS
@@ -62,7 +60,7 @@ def inertia(at) -> np.ndarray:
 
 
 def rounding(at, wrench) -> float:
-    """Of wrenches: the normal equations of J and D, and the equation with constraints, which is as ill-conditioned."""
+    """Bound the rounding of wrenches: normal equations of J and D, and the equation with constraints, no better."""
     return 10.0 * backward(at.J) * np.linalg.cond(at.D) * (np.linalg.norm(wrench) + np.linalg.norm(at.fg))
 
 
