@@ -1,20 +1,23 @@
-"""What theory predicts of the two orders of selection: what the hand exerts where it complies, in two limiting cases.
+"""Theory of two orders of selection: what a hand exerts where it complies, in two cases.
 
-Of rows that are held (1) and rows that comply (2), with Lambda in blocks, the commanded acceleration a of what is held
-and the wrench h to exert, on a hand at rest:
+Of rows that are held (1) and rows that comply (2), with Lambda in blocks, the commanded
+acceleration a of what is held and the wrench h to exert, on a hand at rest:
 
     selected-then-decoupled    W = (Lambda_11 a, Lambda_21 a + h)
     decoupled-then-selected    W = (Lambda_11 a, h)
 
-    motion that happens   a rigid wall without friction lets no row move that complies, and leaves the others free:
-                          Lambda_11 xddot_1 = W_1, and W_2 - Lambda_21 xddot_1 is exerted on the wall. Both accelerate
-                          the hand by a; the first exerts h, the second h - Lambda_21 a.
-    motion that is held   nothing moves, and all of W is exerted: h + Lambda_21 a by the first, h by the second.
+    motion that happens   A rigid wall without friction lets no row move that complies, and leaves
+                          the others free: Lambda_11 xddot_1 = W_1, and W_2 - Lambda_21 xddot_1 is
+                          exerted on the wall. Both orders accelerate the hand by a; the first
+                          exerts h, the second h - Lambda_21 a.
+    motion that is held   Nothing moves, and all of W is exerted: h + Lambda_21 a by the first
+                          order, h by the second.
 
 The error is what is exerted less h. Units of Lambda: kg, kg m and kg m^2, by the units of its rows.
 
 Limitations: contact that gives way, or that slips and sticks in turns, lies between the two cases.
-Source: Khatib 1987, eq. 46, for the first order; the rest follows from xddot = Lambda^-1 (W - exerted).
+Source: Khatib 1987, eq. 46, for the first order; the rest follows from xddot = Lambda^-1 (W -
+exerted).
 """
 
 from collections.abc import Sequence
@@ -34,9 +37,13 @@ SELECTED_FIRST, DECOUPLED_FIRST = SELECTION_ORDERS
 
 
 def exerted_error(
-    order: str, case: str, Lambda: np.ndarray, held: Sequence[float], a: Sequence[float]
+    order: str,
+    case: str,
+    Lambda: np.ndarray,
+    held: Sequence[float],
+    a: Sequence[float],
 ) -> np.ndarray:
-    """Return what the hand exerts less h along the rows that comply [N, N m]; one number a row that complies.
+    """Return what the hand exerts less h [N, N m]; one number a row that complies.
 
     Args:
         order: one of SELECTION_ORDERS. case: one of CASES.
@@ -59,7 +66,10 @@ def exerted_error(
 
 
 def inertia_at(arm: Arm, tip: Vector) -> np.ndarray:
-    """Return Lambda = (J D^-1 J^T)^-1 of an arm at home, 6 x 6, base frame, at a point of the wrist's frame [m]."""
+    """Return Lambda = (J D^-1 J^T)^-1 of an arm at home, 6 x 6, base frame.
+
+    tip: the point whose inertia it is, in the wrist's frame [m].
+    """
     from tasks.kinematics import Kinematics  # MuJoCo takes a moment to import
 
     wrist = Kinematics(arm, "wrist")

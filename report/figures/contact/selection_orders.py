@@ -1,4 +1,4 @@
-"""The section on the order of selection: each order on a plate, a crank and a peg, and what theory says of each."""
+"""The section on the order of selection: each on a plate, a crank and a peg, and in theory."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -18,7 +18,10 @@ from tasks.rules import RULES
 
 LAW = "hybrid-base"
 TASKS = ("surface-alignment", "crank", "peg-in-hole")
-ENDS = (Measure("force_error_end_n", "force error [N]"), Measure("moment_error_end_nm", "moment error [N m]"))
+ENDS = (
+    Measure("force_error_end_n", "force error [N]"),
+    Measure("moment_error_end_nm", "moment error [N m]"),
+)
 RESULT_HEADS = (
     "Result at the end",
     "Hands at rest at the end",
@@ -62,7 +65,7 @@ def of_order(run: Run, task: str, order: str) -> pd.DataFrame:
 
 
 def compare_orders(run: Run) -> Iterator[tuple]:
-    """Return a row a task and order: its result, how many are at rest, and what it exerts too much at the end."""
+    """Return a row a task and order: its result, how many are at rest, and errors at the end."""
     for task in TASKS:
         for order in SELECTION_ORDERS:
             rows = of_order(run, task, order)
@@ -91,7 +94,7 @@ def describe_plates(run: Run) -> str:
 
 
 def predict_errors() -> Iterator[tuple]:
-    """Return a row an order: the sizes of the errors of force and moment in both cases, for the plate's selection."""
+    """Return a row an order: the errors of force and moment in both cases, on the plate."""
     task, arm = surface_alignment.TASK, tasks.arm(ARM)
     held = np.array(task.trials(arm)[0].specification.selection)
     Lambda = inertia_at(arm, surface_alignment.TIP)
@@ -100,5 +103,6 @@ def predict_errors() -> Iterator[tuple]:
         cells = []
         for case in CASES:
             error = exerted_error(order, case, Lambda, held, ACCELERATION)
-            cells += [float(np.linalg.norm(error[is_force])), float(np.linalg.norm(error[~is_force]))]
+            cells.append(float(np.linalg.norm(error[is_force])))
+            cells.append(float(np.linalg.norm(error[~is_force])))
         yield name_order(order), *cells
