@@ -14,7 +14,7 @@ from support.springs import STILL, command, of
 from bench.engines.arm_episode import buffers
 from bench.engines.contact_episode import room, rows
 from bench.law.chain import Chain
-from bench.law.control.contact_controller import FORMS, PAPERS_FORM
+from bench.law.control.contact_controller import ACCELERATION_FORMS, FORMS, PAPERS_FORM, SELECTION_ORDERS
 from bench.law.control.hybrid import comply
 from bench.law.control.setpoint import Rows
 from bench.law.control.unshaped import DAMPINGS
@@ -108,7 +108,7 @@ def test_double_diagonalization_is_twice_the_ratio_times_the_geometric_mean():
         )
 
 
-IN_FORMS = pytest.mark.parametrize("form", FORMS)
+IN_FORMS = pytest.mark.parametrize("form", [*ACCELERATION_FORMS, PAPERS_FORM])
 ON_JOINTS = pytest.mark.parametrize("n", [6, 7])
 
 
@@ -193,3 +193,19 @@ def test_torques_are_the_formula_for_every_selection(n, form):
         allowed = backward(at.J) * np.linalg.cond(at.D) * sizes  # normal equations with J and with D
         tau = complied(form, held, at)
         np.testing.assert_allclose(tau, at.D @ wanted + at.fg + at.J.T @ w, rtol=0.0, atol=allowed, err_msg=held)
+
+
+@pytest.mark.parametrize("form", SELECTION_ORDERS)
+@ON_JOINTS
+def test_torques_of_both_orders_of_selection_are_the_formula_for_every_selection(n, form):
+    """W = Lambda S a, of the second order S Lambda S a, and C h; tau = J^T (W - Lambda (drift + J z)) + D z + fg."""
+    for at, held in itertools.product(given(n), SELECTIONS):
+        S, z = np.diag(held), damping(at.qdot)
+        Lambda = np.linalg.inv(at.J @ np.linalg.solve(at.D, at.J.T))
+        moved = Lambda @ S @ at.rows.a
+        wrench = moved if form == "selected-then-decoupled" else S @ moved
+        wrench = wrench + (np.eye(6) - S) @ at.rows.h - Lambda @ (at.rows.drift + at.J @ z)
+        sizes = np.linalg.norm(at.D, 2) * size(form, at) + np.linalg.norm(at.J, 2) * np.linalg.norm(wrench)
+        allowed = backward(at.J) * np.linalg.cond(at.D) * sizes  # normal equations with J and with D
+        wanted = at.J.T @ wrench + at.D @ z + at.fg
+        np.testing.assert_allclose(complied(form, held, at), wanted, rtol=0.0, atol=allowed, err_msg=held)

@@ -25,7 +25,7 @@ from support.states import vector
 
 import tasks
 from bench.law.contender import axes_of, bind
-from bench.law.control.contact_controller import PAPERS_FORM
+from bench.law.control.contact_controller import PAPERS_FORM, SELECTION_ORDERS
 from bench.law.control.setpoint import TOUCH as TOUCHING
 from tasks.contact import Specification
 
@@ -72,10 +72,22 @@ def commanded(one, at, setpoint, held) -> np.ndarray:
         a = M @ np.concatenate((spring, stiff * turn - GAINS.kv * at.velocity[3:]))
         h = np.concatenate((f_d, m_d))
     F = into_frame @ at.F
+    if one.form in SELECTION_ORDERS:
+        return by_selection_order(one.form, mobility(at, M), np.where(held, a, 0.0), np.where(held, 0.0, h), held) + (
+            mobility(at, M) @ F
+        )
     if one.form == PAPERS_FORM:
         exerted = np.where(held, 0.0, h + TOUCH.kf * (h + F))
         return np.where(held, a, -TOUCH.kc * velocity) + mobility(at, M) @ (F + exerted)
     return np.where(held, a, (F + h) / INERTIA - TOUCH.kc * velocity)
+
+
+def by_selection_order(form, mobility, a, h, held) -> np.ndarray:
+    """The acceleration along rows that the wrench of an order of selection makes of a hand that nothing touches."""
+    wrench = np.linalg.solve(mobility, a)
+    if form == "decoupled-then-selected":
+        wrench = np.where(held, wrench, 0.0)
+    return mobility @ (wrench + h)
 
 
 def mobility(at, M) -> np.ndarray:

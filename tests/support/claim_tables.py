@@ -19,7 +19,7 @@ from bench.findings.claims.euler_jacobian import DIFFERENCED, EPS
 from bench.findings.claims.tables import Results
 from bench.findings.theory.compliance_theory import compliance, free
 from bench.law.contenders.registry import representation
-from bench.law.control.contact_controller import FORMS, PAPERS_FORM, hybrid
+from bench.law.control.contact_controller import ACCELERATION_FORMS, PAPERS_FORM, hybrid
 from bench.law.control.setpoint import TOUCH
 from bench.law.inputs import PAPERS_GAINS
 from bench.law.so3 import from_quaternion
@@ -61,8 +61,8 @@ YIELDS = free(HORIZON_S)
 """rad/(N m), of every axis that complies, by commanded accelerations."""
 
 CONTROLLERS = [
-    *(("hybrid-base", "", form) for form in FORMS),
-    *(("hybrid", "zyx-euler", form) for form in FORMS),
+    *(("hybrid-base", "", form) for form in (*ACCELERATION_FORMS, PAPERS_FORM)),
+    *(("hybrid", "zyx-euler", form) for form in (*ACCELERATION_FORMS, PAPERS_FORM)),
     *(("hybrid", "zyz-euler", form) for form in (PAPERS_FORM, "inverse")),
 ]
 
@@ -114,7 +114,7 @@ def contact(is_apart: bool = True) -> Frames:
     """C25: where two turns comply Euler is three times off at 75 degrees, on both arms in every form; or nowhere."""
     found = []
     for task, arm, coordinates, form, beta in itertools.product(
-        CONTACT, ("puma560", "ur5e"), ("", "zyx-euler"), FORMS, (0, 45, 75)
+        CONTACT, ("puma560", "ur5e"), ("", "zyx-euler"), (*ACCELERATION_FORMS, PAPERS_FORM), (0, 45, 75)
     ):
         is_off = is_apart and coordinates and beta == 75 and "about" in CONTACT[task]
         found.append(

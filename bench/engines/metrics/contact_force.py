@@ -15,7 +15,7 @@ from bench.engines.metrics.measured_compliance import in_free_space
 from tasks.contact import Trial
 from tasks.domains import peg_in_hole
 from tasks.rotations import columns
-from tasks.rules import ticks
+from tasks.rules import RULES, ticks
 
 NOTHING = np.empty((0, 3))
 WINDOW_S = 2.5
@@ -59,6 +59,19 @@ def rms(pose: Pose, error_of: Callable[[Pose], np.ndarray]) -> float:
     missing = max(0, count - len(squares)) if one.rested else 0
     total = squares[:count].sum() + missing * squares[-1]
     return float(np.sqrt(total / (min(count, len(squares)) + missing)))
+
+
+def remaining_error(pose: Pose, error_of: Callable[[Pose], np.ndarray]) -> float:
+    """Return the length of the mean of N vectors over the last RULES.hold_s; NaN if there is none, or a failure.
+
+    A hand that is at rest has been so for as long. Of a hand that bounces it is the mean that counts.
+    """
+    error, one = error_of(pose), last(pose)
+    if one is None or not len(error):
+        return np.nan
+    time = one.time[len(one.time) - len(error) :]
+    late = time >= time[-1] - RULES.hold_s
+    return float(np.linalg.norm(error[late].mean(axis=0)))
 
 
 def peak(pose: Pose, error_of: Callable[[Pose], np.ndarray]) -> float:

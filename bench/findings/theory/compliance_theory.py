@@ -17,7 +17,7 @@ With Z-Y-X angles B B^T has the eigenvalues 1 and 1 -+ sin beta, at any alpha an
 and y leaks tan |beta| about z, and at the poles a moment is lost.
 
 Limitations: no prediction (NaN) for moments that are not converted and yet cancelled, since what is not cancelled then
-acts on the whole arm; nor where B^-1 does not exist. Radians, N m.
+acts on the whole arm; nor where B^-1 does not exist; nor for the forms of SELECTION_ORDERS. Radians, N m.
 Source: Murphy 1988, 3.1 and 3.3; Hogan 1985 for stiffness in other coordinates, K -> B^-T K B^-1.
 """
 
@@ -27,7 +27,7 @@ import math
 import numpy as np
 
 from bench.findings.theory.closed_form import linear
-from bench.law.control.contact_controller import PAPERS_FORM, ContactController
+from bench.law.control.contact_controller import PAPERS_FORM, SELECTION_ORDERS, ContactController
 from bench.law.control.hybrid import conversion
 from bench.law.control.setpoint import TOUCH, ContactParameters
 from bench.law.inputs import PAPERS_GAINS, Gains
@@ -60,6 +60,8 @@ def compliance(
     An impedance ignores the specification. The arm is needed where the moment acts through its inertia, by the Jacobian
     transpose.
     """
+    if controller.form in SELECTION_ORDERS:
+        return np.full((3, 3), np.nan)
     B = directions(controller, goal)
     if controller.form != PAPERS_FORM:
         if not controller.converts:

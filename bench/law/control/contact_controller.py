@@ -12,12 +12,15 @@ from bench.law.control.setpoint import TOUCH, ContactParameters
 from bench.law.inputs import PAPERS_GAINS, Gains
 from bench.law.kinds import Coordinates, Impedance
 
-FORMS = ("inverse", "projected", "transpose")
+FORMS = ("inverse", "projected", "transpose", "selected-then-decoupled", "decoupled-then-selected")
 """Forms of `hybrid.comply`, in the order of its numbers."""
 
 PAPERS_FORM = FORMS[hybrid_control.TRANSPOSE]
-ACCELERATION_FORMS = FORMS[:2]
+ACCELERATION_FORMS = FORMS[: hybrid_control.TRANSPOSE]
 """The paper's force control, and the two that command what complies an acceleration."""
+
+SELECTION_ORDERS = FORMS[hybrid_control.SELECTED_FIRST :]
+"""Operational-space force control by its two orders of selection, see `selection_order`."""
 
 ALONG_AXES = {
     "hybrid-base": hybrid_control.in_base,

@@ -27,6 +27,9 @@ Three frames, and with each the wrench converted to it:
                    what is commanded is the acceleration along these axes, not of components in them
     coordinates    J_E,           F_E = diag(I, B)^T F   (Murphy 1988, 3.12)
 
+Two more forms, `selected-then-decoupled` and `decoupled-then-selected`, differ in the order in which S and Lambda act
+(`selection_order`).
+
 `unconverted` is a negative control: the moment's components taken for generalized forces as they are.
 
 Limitations: where J is singular, and on coordinates where B^-1 does not exist.
@@ -45,6 +48,7 @@ from bench.law.contenders.jacobians.geometric import fill
 from bench.law.contenders.regulators import feedback_linearized
 from bench.law.contenders.regulators.rotation_matrix import law as regulate
 from bench.law.control.resolved_acceleration import damp, relax
+from bench.law.control.selection_order import press
 from bench.law.inputs import AT_REST, Goal
 from bench.law.kinds import Coordinates
 from bench.law.linalg import multiply, multiply_transposed
@@ -164,7 +168,7 @@ def conversion(representation: Coordinates, converts: bool = True) -> Callable:
     return convert
 
 
-INVERSE, PROJECTED, TRANSPOSE = 0, 1, 2
+INVERSE, PROJECTED, TRANSPOSE, SELECTED_FIRST, DECOUPLED_FIRST = 0, 1, 2, 3, 4
 """The forms, as a compiled loop takes them."""
 
 
@@ -181,6 +185,9 @@ def exerted(form, held, rows, touch, i):
 @kernel
 def comply(form, held, chain, D, fg, J, rows, gains, touch, room, tau):
     """tau = D y + fg + J^T w, with y and w by the rows that are held (held[i] > 0) or comply; J is 6 x n."""
+    if form >= SELECTED_FIRST:
+        press(form - SELECTED_FIRST, held, chain, D, fg, J, rows, gains, room, tau)
+        return
     n, y, b, scratch = chain.n, room.y, room.b, room.scratch
     for i in range(6):
         if held[i] > 0.0:

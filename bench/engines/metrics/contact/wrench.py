@@ -13,6 +13,7 @@ from bench.engines.metrics.contact_force import (
     last,
     moment_error,
     peak,
+    remaining_error,
     rms,
     scene_normal,
 )
@@ -46,6 +47,9 @@ def normal_force_error(pose: Pose) -> float:
 force_error_peak, force_error_rms = partial(peak, error_of=force_error), partial(rms, error_of=force_error)
 moment_error_peak, moment_error_rms = partial(peak, error_of=moment_error), partial(rms, error_of=moment_error)
 """max and root mean square of |f + h| [N] and |m + h| [N m]; NaN without touch, or if no axis complies."""
+force_error_end = partial(remaining_error, error_of=force_error)
+moment_error_end = partial(remaining_error, error_of=moment_error)
+"""|mean of f + h| [N] and |mean of m + h| [N m] over the last RULES.hold_s."""
 
 
 def force_overshoot(pose: Pose) -> float:
@@ -75,6 +79,8 @@ METRICS = (
     ContactMetric("normal_force_error_n", "N", "error of the force normal to the plane, rms", normal_force_error),
     ContactMetric("force_error_peak_n", "N", "error of the force exerted, largest", force_error_peak),
     ContactMetric("force_error_rms_n", "N", "error of the force exerted, rms", force_error_rms),
+    ContactMetric("force_error_end_n", "N", "error of the force exerted at the end, mean", force_error_end),
+    ContactMetric("moment_error_end_nm", "N m", "error of the moment exerted at the end, mean", moment_error_end),
     ContactMetric("moment_error_peak_nm", "N m", "error of the moment exerted, largest", moment_error_peak),
     ContactMetric("moment_error_rms_nm", "N m", "error of the moment exerted, rms", moment_error_rms),
     ContactMetric("force_overshoot", "1", "largest force over the one ordered, less 1", force_overshoot),
