@@ -127,8 +127,10 @@ HORIZON = {"half-turn": LONG, "poles": LONG, "wraps": LONG}
 
 DECLARED = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 LISTS: dict[str, tuple[str, ...]] = {name: tuple(words) for name, words in DECLARED.pop("lists").items()}
-LAWS, BEST, LATER, AT_INVERSES = (LISTS[name] for name in ("LAWS", "BEST", "LATER", "AT_INVERSES"))
-BY_WORD_ALONE = (*LATER, *LISTS["BY_WORD_ALONE"])
+LAWS, BEST, LATER, BOUNDED, AT_INVERSES = (
+    LISTS[name] for name in ("LAWS", "BEST", "LATER", "BOUNDED", "AT_INVERSES")
+)
+BY_WORD_ALONE = (*LATER, *BOUNDED, *LISTS["BY_WORD_ALONE"])
 STREAMED = ("rotation-matrix", *BEST)
 """What follows goals that arrive as a stream: the paper's first law, and the best of later ones."""
 

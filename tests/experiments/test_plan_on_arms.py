@@ -87,7 +87,7 @@ def test_compared_laws_run_on_every_arm_as_it_is_with_three_levels_of_gains(suit
         own = {(arm.gains[0], 2.0 * arm.gains[0] ** 0.5)} if arm.gains else set()
         assert set(by_gains) == {(0.0, 0.0), (SLOW[0], 10.0), *own}
         for laws in by_gains.values():
-            assert {"late-braking", "mrp-memory", "braking-cascade", "square-root", "rotation-matrix"} <= laws
+            assert {"late-braking", "mrp-memory", "px4", "square-root", "rotation-matrix"} <= laws
 
 
 @pytest.mark.parametrize("kp", [25.0, 100.0, 150.0])
