@@ -14,7 +14,16 @@ from bench.experiments.experiment import Settings, Unit
 from bench.experiments.situations import mapped_laws, order_interval, rows, summarize
 from bench.findings.selection.nearest import answer
 from bench.findings.selection.pairs import compare_laws, read_pairs
-from bench.findings.selection.regions import RULE, STUDY, Rule, decide, facts_of, read_map, with_words
+from bench.findings.selection.regions import (
+    RULE,
+    STUDY,
+    Rule,
+    decide,
+    facts_of,
+    meets,
+    read_map,
+    with_words,
+)
 from bench.findings.selection.sensitivity import bound_slower, count_rejected
 from tasks.situation import COORDINATES, NOMINAL, Situation, read_situation
 
@@ -160,3 +169,35 @@ def test_simulating_every_law_gives_the_answer_of_the_shortlist(capsys):
     laws = [re.search(r"Use ([\w-]+) \(\w+\): ", said)[1] for said in (shortlist, whole)]
     assert laws[0] == laws[1]
     assert f"All {len(LAWS)} laws were simulated now" in whole
+
+
+def plant(law, overshoot, **others):
+    """Return a row of a map that meets every requirement but, maybe, that of the overshoot."""
+    row = {"contender": law, "situation": "a", "overshoot": overshoot, "time": 5.0}
+    return row | dict.fromkeys(("lost", "stuck", "unwound", "trapped"), 0) | others
+
+
+def test_law_overshoots_too_much_beside_the_least_of_the_published_laws_that_meet_the_rest():
+    rows = pd.DataFrame(
+        [
+            plant("hybrid", 10.0),
+            plant("mrp-memory", 15.0),
+            plant("rotation-vector-memory", 15.1),
+            # the least, but of a law that loses starts, and of one of ours
+            plant("sliding-memory", 0.0, lost=1),
+            plant("late-braking", 1.0),
+        ]
+    )
+    assert meets(rows).tolist() == [True, True, False, False, True]
+    assert meets(rows, Rule(overshoot=4.0)).tolist() == [True, False, False, False, True]
+    assert meets(rows, Rule(overshoot=math.inf)).tolist() == [True, True, True, False, True]
+
+
+def test_overshoot_is_compared_within_one_situation():
+    rows = pd.DataFrame([plant("hybrid", 0.0), plant("mrp-memory", 50.0) | {"situation": "b"}])
+    assert meets(rows).tolist() == [True, True]
+
+
+def test_nothing_overshoots_where_no_published_law_meets_the_rest():
+    rows = pd.DataFrame([plant("hybrid", 90.0, lost=1), plant("late-braking", 90.0)])
+    assert meets(rows).tolist() == [False, True]
