@@ -37,9 +37,9 @@ def c22(results: Results) -> tuple[Word, Evidence]:
     by_alpha = np.abs(B[:, :, 0] - (0.0, 0.0, 1.0)).max()
     by_gamma = np.abs(B[:, :, 2] - [R.n for R in turns]).max()
     axes = (
-        f"An angle turns the hand about the axis of this angle. At {LIMIT.POSES} orientations, the axis of "
-        f"alpha is the base's z axis, and the axis of gamma is the hand's x axis. The components of "
-        f"the unit vectors differ by at most {rounding(by_alpha)} for alpha and {rounding(by_gamma)} "
+        f"If one Euler angle changes, the hand turns about one axis, the axis of this angle. At {LIMIT.POSES} "
+        f"orientations, the axis of alpha is the base's z axis, and the axis of gamma is the hand's x axis. The "
+        f"components of the unit vectors differ by at most {rounding(by_alpha)} for alpha and {rounding(by_gamma)} "
         f"for gamma. {MEANT}"
     )
     return word, found._replace(sentence=f"{axes} {found.sentence}")
@@ -84,8 +84,8 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         {f"At these poses, the outcome with Euler compliance is {close}." if close else ""}""",
         len(rows),
         instead=f"""If one Euler angle is compliant, the hand complies about one axis of the base
-        {_by_order(judged, "same")}. The hand complies about the axis of the compliant angle, as the
-        earlier angles have turned it, {_by_order(judged, "same_turned")}.""",
+        {_by_order(judged, "same")}. The Euler angles before the compliant angle turn the axis of this angle. The hand
+        complies about this turned axis {_by_order(judged, "same_turned")}.""",
         measured=f"""In {count_of(int(judged["same_turned"].sum()), len(judged), "tests")}, the hand
         complies only about the axis of the compliant Euler angle.""",
     )
@@ -127,21 +127,19 @@ def c23(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     least = float(np.nanmin(differs[general], initial=np.inf))
     special = _by_order(rows.assign(same=differs <= LIMIT.SAME)[~general], "same") or "in no case"
     return word, evidence(
-        f"""A case is one pair of compliant axes at one pose of one arm, with one variant of force
-        control. {MEANT} If none of the Euler angles is zero, the two compliances differ in
-        {count_of(int(parted.sum()), len(parted), "cases")}. The norm of the difference is at least
-        {least:.2f} times the norm of the Cartesian compliance. If an Euler angle is zero, the two
-        compliances are the same {special}. We tested compliance {LEVEL_PAIR} in
-        {int(level.sum())} cases, up to |beta| = {math.degrees(beta.max()):.0f} degrees, on
-        {rows["arm"].nunique()} arms. The compliant plane is the plane of the axes about which the
-        hand turns most. The measured planes of both controllers differ from the predicted planes by
-        at most {_greatest(tilt):.1e} rad. A moment about the level axis (cos alpha, sin alpha, 0)
-        also turns the hand about z. We divide the rotation about z by the rotation about the level
-        axis. The measured ratio differs from the predicted ratio by at most
-        {_greatest(missed):.1e} times the predicted ratio (times tan {LIMIT.SMALL_DEG:g} degrees,
-        where the predicted ratio is smaller than that). With Euler compliance, the ratio is at most
-        {_greatest(leak):.2f}. For comparison, tan |beta| is at most
-        {_greatest(np.tan(beta)):.2f}. With Cartesian compliance, the ratio is at most
+        f"""A case is one pair of compliant axes at one pose of one arm, with one variant of force control. {MEANT} If
+        none of the Euler angles is zero, the two compliances differ in
+        {count_of(int(parted.sum()), len(parted), "cases")}. The norm of the difference is at least {least:.2f} times
+        the norm of the Cartesian compliance. If an Euler angle is zero, the two compliances are the same {special}. We
+        tested compliance {LEVEL_PAIR} in {int(level.sum())} cases, up to |beta| = {math.degrees(beta.max()):.0f}
+        degrees, on {rows["arm"].nunique()} arms. The compliant plane is the plane of the axes about which the hand
+        turns most. The measured planes of both controllers differ from the predicted planes by at most
+        {_greatest(tilt):.1e} rad. A moment about the level axis (cos alpha, sin alpha, 0) also turns the hand about z.
+        We divide the rotation about z by the rotation about the level axis. The measured ratio differs from the
+        predicted ratio by at most {_greatest(missed):.1e} times the predicted ratio. (Where the predicted ratio is
+        smaller than tan {LIMIT.SMALL_DEG:g} degrees, we divide the difference by tan {LIMIT.SMALL_DEG:g} degrees
+        instead.) With Euler compliance, the ratio is at most {_greatest(leak):.2f}. For comparison, tan |beta| is at
+        most {_greatest(np.tan(beta)):.2f}. With Cartesian compliance, the ratio is at most
         {_greatest(by_base):.2g}.""",
         len(rows),
         measured=f"""In {count_of(int(parted.sum()), len(parted), "tests")} where no Euler angle is

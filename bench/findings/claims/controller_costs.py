@@ -37,6 +37,13 @@ BY_EULER, BY_COMMON, ON_MATRIX = (
 )
 """(3.7), (2.2) with (2.15), and (2.2) with the law on R; the inverse goes by the number of joints."""
 
+CONTROLLERS = (
+    ("The controller (3.7)", BY_EULER),
+    ("The controller (2.2) with the rotation-matrix law", ON_MATRIX),
+    ("The controller (2.2) with the law (2.15)", BY_COMMON),
+)
+"""What they are called in sentences."""
+
 
 EULER = f"hybrid/{COORDINATES}"
 
@@ -76,8 +83,8 @@ def c20(results: Results) -> tuple[Word, Evidence]:
     fails = all(rows["fails"].any() for rows in compared_at.values()) and not clear["fails"].any()
     hides = all(is_hidden for is_hidden, _ in hidden)
     all_failures, all_poles = (sum(map(count, compared_at.values())) for count in (_count_failures, len))
-    at_poles = ", ".join(
-        f"{part_of(_count_failures(rows), len(rows))} starts on the arm {arm}" for arm, rows in compared_at.items()
+    at_poles = join_words(
+        f"{part_of(_count_failures(rows), len(rows))} pole starts on the arm {arm}" for arm, rows in compared_at.items()
     )
     return word_of(is_linear and fails and hides, max(limits) <= LIMIT.BEND_LOOSE and (fails or hides)), evidence(
         f"""We simulated {LIMIT.CURVES * len(arms)} motions on {len(arms)} arms with the full time step and with half of
@@ -86,15 +93,15 @@ def c20(results: Results) -> tuple[Word, Evidence]:
         {max(shares):.3f} times as large. We extrapolated the results to step zero. Then the angles differ from the
         linear response by at most {max(limits):.1e} rad, and the position of the tool differs from its goal by at most
         {max(drifts):.1e} m. A pole start is near a pole, or the shortest path from it to the goal passes near a pole.
-        From these pole starts, the controller (3.7) fails and the rotation-matrix law settles: {at_poles}. In
-        episodes.parquet, {count_of(_count_failures(clear), len(clear), "starts")} of the set 'clear' fail with (3.7)
-        and settle with the rotation-matrix law. With the law of (3.7) and the geometric Jacobian,
+        The controller (3.7) fails and the rotation-matrix law settles from {at_poles}. In episodes.parquet,
+        {count_of(_count_failures(clear), len(clear), "starts")} of the set 'clear' fail with (3.7) and settle with the
+        rotation-matrix law. With the law of the controller (3.7) and the geometric Jacobian,
         {count_of(_count_failures(common), len(common), "starts")} fail in this way.
         {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
-        measured=f"""The Euler angles differ from the linear response by at most {max(limits):.1e} rad.
-        From {count_of(all_failures, all_poles, "starts")} that test the poles, the controller with the Euler
-        Jacobian (3.7) fails and the rotation-matrix law settles.""",
+        measured=f"""The Euler angles differ from the linear response by at most {max(limits):.1e} rad. From
+        {count_of(all_failures, all_poles, "starts")} whose shortest path passes near a pole, the controller with the
+        Euler Jacobian (3.7) fails and the rotation-matrix law settles.""",
     )
 
 
@@ -154,7 +161,7 @@ def _hidden(results: Results, joints: int) -> tuple[bool, str]:
     told = " ".join(
         f"{name} takes {total[one].calls or 'no'} calls and {total[one].flops} flops; the "
         f"law within this controller takes {seen[one].flops} of these flops."
-        for name, one in (("(3.7)", BY_EULER), ("(2.2) with the law on R", ON_MATRIX), ("(2.2) with (2.15)", BY_COMMON))
+        for name, one in CONTROLLERS
     )
     return seems_cheaper and is_dearer, f"On arms with {joints} joints, we counted these operations. {told}"
 

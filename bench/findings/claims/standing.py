@@ -19,12 +19,12 @@ ORDERED, UNDECIDED, REVERSED = 1, 0, -1
 
 RULE = """
     For each pair, we ask whether the law that the paper calls cheaper is cheaper. The two laws are timed in turns on
-    one machine (results/timings). The times confirm the paper's order if two conditions are met on every machine that
-    timed both laws: the law that the paper calls cheaper takes less time, and the 95 % intervals do not overlap. The
-    operations confirm this order if the other law has at least as many flops and at least as many calls, and more of
-    one of the two. The times decide. If the intervals overlap, or if one of the laws was not timed, the operations
-    decide. If flops and calls give different orders, their weighted sum decides. In this sum, a call counts as n flops
-    if it takes as long as n flops.
+    one machine (results/timings). The times confirm the paper's order if two conditions are met on every machine on
+    which both laws were timed: the law that the paper calls cheaper takes less time, and the 95 % intervals do not
+    overlap. The operations confirm this order if the law that the paper calls more expensive has at least as many flops
+    and at least as many calls, and more of one of the two. The times decide. If the intervals overlap, or if one of the
+    laws was not timed, the operations decide. If flops and calls give different orders, their weighted sum decides. In
+    this sum, a call counts as n flops if it takes as long as n flops.
     """
 
 MEASURABLE = 0.04

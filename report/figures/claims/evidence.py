@@ -57,7 +57,7 @@ def describe_slip(one: Erratum) -> tuple:
 def section(one: Verdict, run: Run) -> str:
     """Return what decided a claim, folded under its sentence; a link to it opens it, for the anchor is inside."""
     claim = one.claim
-    value = "" if claim.value == "none given" else f" (What we test in this quotation: {claim.value}.)"
+    value = "" if claim.value == "none given" else f" (In this quotation, we test {claim.value}.)"
     quoted = f"“{claim.quote}”{value}" if claim.quote else claim.sentence
     rows = {
         "The paper says": f"{escape.escape(claim.place)}: {marked_up(quoted)}",
