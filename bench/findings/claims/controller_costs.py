@@ -100,8 +100,8 @@ def c20(results: Results) -> tuple[Word, Evidence]:
         {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
         measured=f"""The Euler angles differ from the linear response by at most {max(limits):.1e} rad. From
-        {count_of(all_failures, all_poles, "starts")} whose shortest path passes near a pole, the controller with the
-        Euler Jacobian (3.7) fails and the rotation-matrix law settles.""",
+        {count_of(all_failures, all_poles, "starts")} whose shortest path to the goal passes near a pole, the controller
+        with the Euler Jacobian (3.7) fails and the rotation-matrix law settles.""",
     )
 
 

@@ -171,8 +171,9 @@ def c11(results: Results, engine: str) -> tuple[Word, Evidence]:
         are erratic.""",
         len(frame) + sum(len(one) for one in beside),
         measured=f"""Of {int((~spins).sum()):,} starts at rest, {resting[0] or "none"} outside the excluded region are
-        erratic (the body does not settle, or the command is extremely large). Of {probes.BESIDE} starts that spin at
-        {probes.SPEED:g} rad/s just outside this region, {passed[0] or "none"} are erratic.""",
+        erratic. (A start is erratic if the body does not settle, or if the command is extremely large.) Of
+        {probes.BESIDE} starts that spin at {probes.SPEED:g} rad/s just outside this region, {passed[0] or "none"} are
+        erratic.""",
     )
 
 

@@ -141,7 +141,7 @@ def describe_commands(one: Verdict) -> str:
     return f"{made}<code>bench claims</code> judges the claim ({HOW_TO_RUN})."
 
 
-HOW_TO_RUN = '<a href="docs-install.html">install</a>'
+HOW_TO_RUN = '<a href="docs-install.html">how to install</a>'
 
 
 def written(when: str) -> str:
