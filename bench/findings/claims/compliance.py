@@ -171,20 +171,19 @@ def c24(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     done = near[near["outcome"] == "done"]
     ends = join_words(f"'{end}'" for end in sorted(set(at_zero["outcome"].astype(str))))
     return word, evidence(
-        f"""A test is one pose of one arm with one variant of force control. A moment about x acts on
-        the hand. At zero rotation, Z-Y-Z angles are a problem in {_problems(at_zero)}. The outcomes
-        of these tests are: {ends}. Within {LIMIT.NEAR_DEG:g} degrees of zero rotation, Z-Y-Z angles
-        are also a problem in {_problems(near)}. In the tests near zero rotation that end with the
-        outcome 'done', the rotation about x is {done["yields"].min():.2g} to
-        {done["yields"].max():.2g} times the wanted rotation. The wanted rotation is that with the
-        controller hybrid-base. The rotation about z is {done["leak"].min():.1f} to
-        {done["leak"].max():.1f} times the rotation about x. Z-Y-X angles are a problem in
-        {_problems(zyx)}. With Z-Y-X angles, the rotation about x is at least
-        {zyx["yields"].min():.3f} times the wanted rotation.""",
+        f"""A test is one pose of one arm with one variant of force control. A moment about x acts on the hand. At
+        zero rotation, Z-Y-Z angles are a problem in {_problems(at_zero)}. The outcomes of these tests are: {ends}.
+        Within {LIMIT.NEAR_DEG:g} degrees of zero rotation, Z-Y-Z angles are also a problem in {_problems(near)}.
+        The wanted rotation is the rotation about x with the controller hybrid-base. In the tests near zero rotation
+        that end with the outcome 'done', the rotation about x is {done["yields"].min():.2g} to
+        {done["yields"].max():.2g} times the wanted rotation. In these tests, the rotation about z is
+        {done["leak"].min():.1f} to {done["leak"].max():.1f} times the rotation about x. Z-Y-X angles are a problem
+        in {_problems(zyx)}. With Z-Y-X angles, the rotation about x is at least {zyx["yields"].min():.3f} times the
+        wanted rotation.""",
         len(zyz) + len(zyx),
-        measured=f"""If the hand must comply about x and the controller uses Z-Y-Z angles, the hand
-        turns {done["leak"].min():.1f} to {done["leak"].max():.1f} times as far about z as about x.
-        Near zero rotation, Z-Y-Z angles are a problem in {_problems(near)}.""",
+        measured=f"""Near zero rotation, Z-Y-Z angles are a problem in {_problems(near)}. In the
+        tests that end with the outcome 'done', a moment about x turns the hand
+        {done["leak"].min():.1f} to {done["leak"].max():.1f} times as far about z as about x.""",
     )
 
 

@@ -176,9 +176,9 @@ TITLES = (
 OPERATIONS = (
     "Joints",
     "Controller",
-    "Flops and calls",
-    "Flops and calls, with those for the Euler angles of the goal",
-    "Time of (3.7), divided by the time of this controller, for each machine and arm",
+    "Flops and calls, without the Euler angles of the goal",
+    "Flops and calls, with the Euler angles of the goal",
+    "Time of (3.7), divided by the time of this controller (a ratio for each machine and arm)",
 )
 """Heads of what was counted and timed of a controller."""
 
@@ -186,12 +186,13 @@ OPERATIONS = (
 @claim("C26")
 def c26(results: Results) -> tuple[Word, Evidence]:
     """Pairs of controllers on six and seven joints."""
-    timed, stands, sizes = results.controller_timings(), [], []
+    timed, stands, counts, surpluses = results.controller_timings(), [], [], []
     rows: list[tuple[str, ...]] = []
     for joints, inverse in INVERSES.items():
         three = {f"{one}+{inverse}": controller_costs(results, one, joints) for one in (BY_COMMON, ON_MATRIX, BY_EULER)}
         alone, whole = ({name: tallied(own, goal) for name, own in three.items()} for goal in (False, True))
-        sizes.append(f"{euler_count(whole, three)} with {joints} joints ({surplus(whole, three)} % more)")
+        counts.append(f"{euler_count(whole, three)} flops on an arm with {joints} joints")
+        surpluses.append(f"{surplus(whole, three)} %")
         times = standing.times_of(timed[timed["contender"].isin(list(three))])
         known = standing.Ledger(times, (alone, whole), math.nan, standing.MEASURABLE)
         *others, euler = three
@@ -201,14 +202,15 @@ def c26(results: Results) -> tuple[Word, Evidence]:
             rows.append((str(joints), title, str(alone[name]), str(whole[name]), ratio))
     dearer = sum(set(one.by_columns) == {ORDERED} for one in stands)
     return word_of(dearer == len(stands), False), evidence(
-        f"""We count the flops and calls of three controllers in a control period. With and without the goal's angles,
-        (3.7) takes more operations than the other controller in {count_of(dearer, len(stands), "pairs")}. The measured
-        times differ in {count_of(sum(bool(one.by_time) for one in stands), len(stands), "pairs")}, and (3.7) takes
-        longer in {count_of(sum(one.by_time == ORDERED for one in stands), len(stands), "pairs")}.""",
+        f"""We counted the flops and calls of three controllers in a control period. A pair is (3.7) and one of the
+        two other controllers, on an arm with 6 or with 7 joints. With and without the goal's angles, (3.7) takes
+        more operations than the other controller in {count_of(dearer, len(stands), "pairs")}. The measured times
+        differ in {count_of(sum(bool(one.by_time) for one in stands), len(stands), "pairs")}, and (3.7) takes longer
+        in {count_of(sum(one.by_time == ORDERED for one in stands), len(stands), "pairs")}.""",
         3 * 2 * len(INVERSES) + len(timed),
         ("costs", "timings") if len(timed) else ("costs",),
-        measured=f"""The controller with the Euler Jacobian (3.7) takes more flops per control step than the
-        cheapest controller with the geometric Jacobian (2.2): {join_words(sizes)}.""",
+        measured=f"""With the Euler Jacobian (3.7), a control step takes {join_words(counts)}. These are
+        {join_words(surpluses)} more than with the cheapest controller on the geometric Jacobian (2.2).""",
         numbers=(OPERATIONS, *rows),
     )
 
@@ -246,7 +248,7 @@ def c33(results: Results) -> tuple[Word, Evidence]:
             f"{euler.calls or 'no'} calls with the Euler Jacobian."
             f"{weighed if math.isfinite(price) else ''}"
         )
-    by_time = f" In this count, a call counts as {price:.0f} flops, because it takes as long as so many flops."
+    by_time = f" In this count, a call counts as {price:.0f} flops, because a call takes as long as {price:.0f} flops."
     return word_of(all(is_more) and all(is_few), all(is_more)), evidence(
         f"{' '.join(told)}{by_time if math.isfinite(price) else ''}",
         2 * len(told),
@@ -293,8 +295,8 @@ def c46(results: Results) -> tuple[Word, Evidence]:
         controller.""",
         len(rows_told),
         measured=f"""The controller (3.7) takes more flops than the cheapest controller that uses (2.2):
-        {join_words(sizes)}. The law within (3.7) takes {law[BY_EULER].flops} flops, and the
-        rotation-matrix law {law[ON_MATRIX].flops} flops.""",
+        {join_words(sizes)}. The law within (3.7) takes {law[BY_EULER].flops} flops, and the rotation-matrix law
+        {law[ON_MATRIX].flops} flops.""",
         numbers=(SIMPLIFIED_HEADS, *rows_told),
     )
 

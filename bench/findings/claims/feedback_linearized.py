@@ -215,10 +215,11 @@ def c30(results: Results) -> tuple[Word, Evidence]:
     as_quick = all(own <= (1 + LIMIT.SLACK) * other for other, own in times)
     of_inertia = word_of(keeps and as_quick, keeps)
     return Word.UNTESTED, evidence(
-        f"""The paper's sentence is about errors of B and of Bdot, which are not tested. We tested a statement of our
-        own: feedback linearization needs no better model of the inertia than a law without a model. This statement
-        {of_inertia}. The table compares both laws from the same {LIMIT.STARTS} starts. For comparison, a linear system
-        with twice the inertia takes {heavy / linear:.2f} times as long to settle.""",
+        f"""The paper's sentence is about errors of B and of Bdot, which are not tested. We tested a statement of
+        our own: feedback linearization needs no better model of the inertia than the rotation-matrix law, which
+        contains no model. This statement {of_inertia}. The table compares both laws from the same {LIMIT.STARTS}
+        starts. For comparison, a linear system with twice the inertia of its model takes {heavy / linear:.2f} times
+        as long to settle.""",
         sum(map(len, runs)),
         measured=f"""Errors of B are not tested. If the inertia of the body is {heaviest:g} times that
         of the model, the median settling time grows by a factor of {own_slow:.2f} with feedback

@@ -159,11 +159,11 @@ def c29(results: Results) -> tuple[Word, Evidence]:
     )
     is_tight, is_loose = (small <= SMALL_ANGLES + ticks).all(), (small <= LOOSE_SETTLING + ticks).all()
     return word_of(is_tight, is_loose), evidence(
-        f"""We tested {LIMIT.DIRECTIONS} axes at {len(GAINS)} pairs of gains. Settling times differ from the closed form
-        of the linear model by at most {by_angle}. With the gains of the run, the closed form gives a settling time of
-        {closed_form.linear_settling(*gains):.4f} s. With these gains, we also tried rotations of
-        {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} rad. Up to {within:g} rad, every settling time is within
-        {100 * LOOSE_SETTLING:.0f} % of the closed form.""",
+        f"""We tested rotations about {LIMIT.DIRECTIONS} axes, at {len(GAINS)} pairs of gains. Settling times differ
+        from the closed form of the linear model by at most {by_angle}. With the gains of the run, the closed form
+        gives a settling time of {closed_form.linear_settling(*gains):.4f} s. With these gains, we also tried
+        rotations of {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} rad. Up to {within:g} rad, every
+        settling time is within {100 * LOOSE_SETTLING:.0f} % of the closed form.""",
         LIMIT.DIRECTIONS * (small.size + len(LIMIT.LARGER_RAD)),
         measured=f"""For rotations of at most {max(SMALL_ANGLES):g} rad about {LIMIT.DIRECTIONS}
         axes, the settling times of the linearized law differ from those of its linear model by at
@@ -226,8 +226,8 @@ def c38(results: Results) -> tuple[Word, Evidence]:
         instead=f"""The law does not settle from {percent(unsettled.value)} % of the starts outside the linear region.
         From the other starts, the settling time differs from that of the linear model by {percent(typical)} %
         (median).""",
-        measured=f"""{percent_interval(unsettled)} of starts at {LIMIT.BEYOND_RAD:g} rad or more never settle. Other
-        settling times differ from the linear ones by {percent(typical)} % (median).""",
+        measured=f"""{percent_interval(unsettled)} of starts at {LIMIT.BEYOND_RAD:g} rad or more never settle.
+        Others settle {percent(typical)} % faster or slower than the linear model (median).""",
     )
 
 

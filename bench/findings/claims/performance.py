@@ -217,14 +217,14 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
     if answers:
         instead = f"These laws pass all eight tests and so answer the open question: {named}.{impossible}"
     return word, evidence(
-        f"""We tested {by_others} later laws by others, of which we adapted {counts[ADAPTED]}, and {counts[OURS]} later
-        laws of ours. {capitalize(count_of(len(adequate), len(later), "later laws"))} are adequate in both cost and
-        performance, that is, they pass tests (a) to (d). These laws pass all eight tests: {", ".join(told) or "none"}.
-        The paper's laws on Euler angles take {" and ".join(known.over(name, THREE[0]) for name in THREE[1:])} times as
-        long as the rotation-matrix law. For laws that were not timed, operations decide:
-        {", ".join(untimed) or "none"}.
-        By the measured times, a call takes {known.price:.0f} flops. A small error settles in {small:.3f} s, and the
-        longest adequate settling time is {adequacy.SLOW * small:.3f} s.""",
+        f"""We tested {by_others} later laws by others, of which we adapted {counts[ADAPTED]}, and {counts[OURS]}
+        later laws of ours. {capitalize(count_of(len(adequate), len(later), "later laws"))} are adequate in both
+        cost and performance, that is, they pass tests (a) to (d). These laws pass all eight tests:
+        {", ".join(told) or "none"}. The paper's laws on Euler angles take
+        {" and ".join(known.over(name, THREE[0]) for name in THREE[1:])} times as long as the rotation-matrix law.
+        For laws that were not timed, operations decide: {", ".join(untimed) or "none"}. By the measured times, a
+        call takes as long as {known.price:.0f} flops. A small error settles in {small:.3f} s, and the longest
+        adequate settling time is {adequacy.SLOW * small:.3f} s.""",
         sum(law.rows + held.get(law.name, (0, 0))[1] for law in later),
         instead=instead,
         measured=f"""{capitalize(count_of(len(answers), len(later), "later laws"))} (all laws except
@@ -240,7 +240,7 @@ ANSWERS = (
     "Flops and calls",
     "Computing time, divided by that of the rotation-matrix law",
     "Uniform starts that settle",
-    "Time until 99 % of the uniform starts settle",
+    "Time until 99 % of the uniform starts settle (95 % interval in brackets)",
     "Length of the path, divided by that of the shortest path (greatest value)",
 )
 """Heads of what was measured of a later law."""
@@ -292,22 +292,24 @@ def c31(results: Results) -> tuple[Word, Evidence]:
     ratios = [_gain(tables.settling_times(laws[-1]), tables.settling_times(one)) for one in laws[:-1]]
     is_better = all(ratio.low >= LIMIT.DRAMATIC for ratio in ratios) and mine.low > linearized.high
     longer = [tables.interval_or_never(ratio, ".2f") for ratio in ratios]
+    by_matrix = tables.named_interval(ratios[0], ".2f")
     settles = [tables.brief_interval(one) for one in ranges]
     return word_of(is_better and mine.low > matrix.high, is_better and mine.high >= matrix.low), evidence(
         f"""Of {matrix.n:,} uniform starts, {percent(matrix.value)} % settle with the rotation-matrix law,
         {percent(linearized.value)} % with the linearized law, and {percent(mine.value)} % with feedback
         linearization.""",
         3 * len(laws[-1]),
-        instead=f"""The time until {100 * LIMIT.NEARLY_ALL:.0f} % of the starts have settled is {longer[0]} times as
-        long with the rotation-matrix law as with feedback linearization. The rotation-matrix law settles from
+        instead=f"""The time until {100 * LIMIT.NEARLY_ALL:.0f} % of the starts settle is {by_matrix} times as long
+        with the rotation-matrix law as with feedback linearization. The rotation-matrix law settles from
         {count_of(matrix.k, matrix.n, "starts")}.""",
-        measured=f"""The time until 99 % of the starts have settled is {longer[0]} times as long with
-        the rotation-matrix law as with feedback linearization.""",
+        measured=f"""The time until 99 % of the starts settle is {by_matrix} times as long with the rotation-matrix
+        law as with feedback linearization.""",
         numbers=(
             (
                 "Law",
                 "Uniform starts that settle (95 % interval in brackets)",
-                "Time until 99 % of the starts settle, divided by this time with feedback linearization",
+                "Time until 99 % of the starts settle, divided by this time with feedback linearization "
+                "(95 % interval in brackets)",
             ),
             *zip(THREE, settles, (*longer, "1"), strict=True),
         ),
@@ -366,9 +368,9 @@ def c36(results: Results) -> tuple[Word, Evidence]:
     in_words = dict(zip(THREE, IN_WORDS, strict=True))
     told = " ".join(
         f"{capitalize(in_words[one.name])} {tested[one.name].in_words().replace('fails ', 'fails these tests: ')}. "
-        f"With this law, {percent(one.settled)} % of {one.n:,} uniform starts settle. {_paced(one)} The "
-        f"body does not settle from {part_of(one.lost, one.directed)} difficult starts and from "
-        f"{part_of(one.lost_exact, one.exact)} starts exactly on a boundary."
+        f"With this law, {percent(one.settled)} % of {one.n:,} uniform starts settle. {_paced(one)} "
+        f"{capitalize(part_of(one.lost, one.directed))} difficult starts and "
+        f"{part_of(one.lost_exact, one.exact)} starts exactly on a boundary are lost."
         for one in three
     )
     word = word_of(len(three) == len(THREE) and all(result.failed for result in tested.values()), False)
@@ -376,15 +378,15 @@ def c36(results: Results) -> tuple[Word, Evidence]:
         word = Word.UNTESTED
     by_name = {law.name: law for law in three}
     on_boundary = join_words([
-        f"{part_of(by_name[name].lost_exact, by_name[name].exact)} with {law}"
+        f"{part_of(by_name[name].lost_exact, by_name[name].exact)}{' do not settle' * (law == IN_WORDS[0])} with {law}"
         for law, name in zip(IN_WORDS, THREE, strict=True)
         if name in by_name
     ])
     return word, evidence(
         f"{told} The brackets after a time give its 95 % interval.",
         sum(law.rows for law in three),
-        measured=f"""Some starts are exactly on a boundary (a 180° rotation, a pole or an angle of ±π). These do
-        not settle: {on_boundary}.""",
+        measured=f"""Some starts are exactly on a boundary (a 180° rotation, a pole or an angle of ±π). Of these,
+        {on_boundary}.""",
     )
 
 

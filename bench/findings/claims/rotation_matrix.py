@@ -239,10 +239,10 @@ def c32(results: Results) -> tuple[Word, Evidence]:
     sound = bool(np.isfinite(ours).all() and off.max() <= LIMIT.ROUNDINGS * EPS and not asked and not ended)
     broken = ", ".join(f"'{outcome}'" for outcome in LIMIT.BROKEN[:-1])
     return word_of(sound and relative.max() <= LIMIT.DIGITS, sound), evidence(
-        f"""At {len(frame):,} starts, the rounding error of the orientation error e is at most {off.max() / EPS:.1f} eps
-        (eps = 2.2e-16). Away from the goal and from 180° rotations, the rounding error is at most
-        {relative.max():.1e} times the length of e. The rotation-matrix law takes {asked or "no"} divisions and function
-        calls. {capitalize(count_of(ended, len(every), "episodes"))} with this law end with the outcome
+        f"""At {len(frame):,} starts, the rounding error of the orientation error e is at most {off.max() / EPS:.1f}
+        eps (eps = 2.2e-16). Away from the goal and from 180° rotations, the rounding error is at most
+        {relative.max():.1e} times the length of e. The rotation-matrix law contains {asked or "no"} divisions or
+        calls of functions. {capitalize(count_of(ended, len(every), "episodes"))} with this law end with the outcome
         {broken} or '{LIMIT.BROKEN[-1]}'.""",
         len(every) + len(costs),
         measured=f"""We computed the orientation error e at {len(frame):,} starts. Away from the goal

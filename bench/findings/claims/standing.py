@@ -14,6 +14,7 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.experiments.tables.statistics import Estimate
+from bench.findings.amounts import join_words
 
 ORDERED, UNDECIDED, REVERSED = 1, 0, -1
 
@@ -109,7 +110,7 @@ class Ledger(NamedTuple):
     def over(self, name: str, other: str) -> str:
         """'10.3', the ratio of their times on each machine that has both; 'not timed'."""
         found = [one[name].value / one[other].value for one in self.times if name in one and other in one]
-        return " and ".join(f"{ratio:.3g}" for ratio in found) or "not timed"
+        return join_words(f"{ratio:.3g}" for ratio in found) or "not timed"
 
 
 def agreed(signs: Iterable[int]) -> int:

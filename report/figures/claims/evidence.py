@@ -21,8 +21,8 @@ SLIPS = html.Table("Error | Where in the paper | Printed words | Correction | Ho
 
 
 STUDIES = {
-    "timings": "the folder <code>results/timings</code> of the repository, which <code>bench time</code> makes",
-    "maps": "the folder <code>results/maps</code> of the repository, which <code>bench map</code> makes",
+    "timings": "the folder <code>results/timings</code> (made by <code>bench time</code>)",
+    "maps": "the folder <code>results/maps</code> (made by <code>bench map</code>)",
 }
 """Evidence that is in no table of a run, and what makes it."""
 
@@ -103,7 +103,8 @@ def describe_rows(one: Verdict, run: Run) -> str:
     evidence = one.evidence
     if not evidence.rows:
         return ""
-    files = [STUDIES.get(name) or link_file(name, run) for name in evidence.tables if name != COMPUTED]
+    files = [link_file(name, run) for name in evidence.tables if name not in (*STUDIES, COMPUTED)]
+    files += [folder for name, folder in STUDIES.items() if name in evidence.tables]
     computed = "values that are in no file of results: the command <code>bench claims</code> computes these values"
     number = html.number(evidence.rows)
     if not files:
