@@ -137,14 +137,17 @@ def lead(uniform: pd.DataFrame) -> str:
     is_shipped = uniform["kp"] == uniform["arm"].map(lambda arm: (*tasks.arm(arm).gains, 0.0)[0])
     kinds = uniform["kp"].map("Kp = {:g}/s²".format).mask(is_shipped, "the gains shipped for the arm")
     both = uniform.assign(kind=kinds, settled=is_settled)
-    both = compare_settings(both[both.groupby("arm")["kp"].transform("nunique") > 2], ["kp"])
+    has_three = both.groupby("arm")["kp"].transform("nunique") > 2
+    few = join_words(f"the {arm_rows.name_arm(arm)}" for arm in both.loc[~has_three, "arm"].unique())
+    both = compare_settings(both[has_three], ["kp"])
     levels = [f"{100 * own['settled'].mean():.0f} % with {kind}" for kind, own in both.groupby("kind")]
     ends = [f"{arm_rows.name_arm(arm)} ({100 * by_arm[arm]:.0f} %)" for arm in (by_arm.idxmin(), by_arm.idxmax())]
     return (
         "In our simulations, motors give at most their rated torque, and joints stop at the ends of their ranges. "
         "These results are from evenly spread starts. "
-        f"{leading(uniform, 'settled').replace('(2.2) ', '')} of the episodes settle. We simulated some arms with "
-        "three pairs of gains. On these arms, with all laws counted together, the share of episodes that settle is "
+        f"{leading(uniform, 'settled').replace('(2.2) ', '')} of the episodes settle. We simulated "
+        f"all arms{f' except {few}' if few else ''} with three pairs of gains. "
+        "On these arms, with all laws counted together, the share of episodes that settle is "
         f"{join_words(levels or [html.UNTESTED])}. A joint was at the end of its range in "
         f"{percent_stopped(uniform):.0f} % of the episodes that do not settle. The share of episodes that settle is "
         f"smallest on the {ends[0]} and largest on the {ends[1]}."
