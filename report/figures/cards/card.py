@@ -108,8 +108,7 @@ def make_card(
     attribution: whose the law is, where that is not the record's own word (in coordinates that its work has not).
     """
     formula = f'<div class="card-formula">{html.formula(record.formula)}</div>' if record.formula else ""
-    source = describe_source(attribution or record.attribution, record.source)
-    source = html.foreign(source) if record.origin else set_words(source)
+    source = html.foreign(describe_source(attribution or record.attribution, record.source))
     lines = [set_paragraph(text) for text in said[0].split("\n\n") if text.strip()]
     for head, text in said[1].items():
         set_text = text if isinstance(text, html.Html) else html.foreign(text)  # only ours is markup
