@@ -8,7 +8,7 @@ WHAT_WE_READ = """
     We read the abstract, section 1 and the first lines of section 2 of arXiv:2412.18921, and a public summary of the
     paper. We also read the abstract and the first lines of section I of the earlier paper of the same authors,
     arXiv:2011.03648. We could not read the theorems, the proofs, the torque law, the simulations and the list of
-    references. The sliding variable that we test, s = omega - lambda sgn(eta) eps, is from memory of the earlier paper,
+    references. The sliding variable that we test, s = ω - λ sgn(η) ε, is from memory of the earlier paper,
     and we derived the command from it again. If the theorems use another variable, the verdicts on LS01 to LS06 are
     verdicts on our variable.
     """

@@ -106,16 +106,15 @@ def ls01(results: Results) -> tuple[Word, Evidence]:
     is_bounded = largest <= bound * (1.0 + LIMIT.SLACK)
     is_free = is_bounded and not broken and not undefined["found"]
     rows = len(frame) + int(undefined["of"]) + int(jump["of"])
+    no_number, jumps = (count_of(int(row["found"]), int(row["of"]), "180° rotations") for row in (undefined, jump))
     return Word.HOLDS if is_free else Word.FAILS, evidence(
         f"""From {len(frame):,} starts at rest, among them starts at the poles of Euler angles and at 180° rotations,
-        {broken or "no"} episodes end without settling. The largest command is {largest:.6g} rad/s². By its formula, the
-        command of a body at rest is at most 2 Kp = {bound:g} rad/s². The command is undefined at
-        {undefined["found"] or "none"} of {undefined["of"]} 180° rotations. But the command is not continuous: at
-        {jump["found"]} of {jump["of"]} 180° rotations it jumps.""",
+        {settled_of(frame, "episodes")} settle. The largest command is {largest:.6g} rad/s². By its formula, the command
+        of a body at rest is at most 2 Kp = {bound:g} rad/s². The command is undefined at {no_number}. But the command is
+        not continuous: it jumps at {jumps}.""",
         rows,
         measured=f"""Largest command from {len(frame):,} starts at rest: {largest:.6g} rad/s² (bound: {bound:g}).
-        Undefined at {undefined["found"]} of {undefined["of"]} 180° rotations. It jumps at {jump["found"]} of
-        {jump["of"]} of them.""",
+        Undefined at {no_number}. It jumps at {jumps}.""",
     )
 
 
@@ -138,15 +137,20 @@ def ls02(results: Results) -> tuple[Word, Evidence]:
     level = float(noisy["level"].iloc[0])
     rate = 0.5 * rates.surface
     return word, evidence(
-        f"""Without noise, {settled_of(frame, "starts at rest")} settle. On s = 0, tan(theta/4) decays as exp(-{rate:g}
+        f"""Without noise, {settled_of(frame, "starts at rest")} settle. On s = 0, tan(θ/4) decays as exp(-{rate:g}
         t): the largest relative difference in {decay.starts} episodes is {decay.largest_error:.0e}. The sine of half
         the angle does not decay at one rate: near 180° its rate is {decay.first_rate:.2g} 1/s, and at the end
-        {decay.last_rate:.3g} 1/s. But tan(theta/4) bounds the angle from both sides, so the angle is at most 4/pi times
+        {decay.last_rate:.3g} 1/s. But tan(θ/4) bounds the angle from both sides, so the angle is at most 4/pi times
         its start times exp(-{rate:g} t). From {bound.starts} starts with rates up to {bound.fastest:.3g} rad/s,
-        the largest ratio of tan(theta/4) to the bound that we proved by hand (see the criterion) is
+        the largest ratio of tan(θ/4) to the bound that we proved by hand (see the criterion) is
         {bound.largest_share:.4g}. With a noise of {level:g} rad at 180°, {settled_of(noisy, "starts")} settle.""",
         len(frame) + len(noisy) + decay.starts + bound.starts,
-        measured=f"""Without noise, {settled_of(frame, "starts at rest")} settle. Largest ratio of tan(theta/4) to its
+        instead="""Without measurement error and with one sign chosen at 180°, the error converges exponentially from
+        every start: tan(θ/4) has the rate λ/2. With an arbitrarily small measurement error, there are starts from which
+        it does not converge."""
+        if word == Word.READING
+        else "",
+        measured=f"""Without noise, {settled_of(frame, "starts at rest")} settle. Largest ratio of tan(θ/4) to its
         exponential bound: {bound.largest_share:.4g}. With {level:g} rad of worst-case noise at 180°,
         {settled_of(noisy, "starts")} settle.""",
     )
@@ -231,7 +235,7 @@ def ls06(results: Results) -> tuple[Word, Evidence]:
     return word, evidence(
         f"""Without noise, {settled_of(exact, "starts exactly at 180°")} settle; with the law on the rotation matrix,
         {settled_of(smooth, "starts")} settle. The difference is the jump of the command at 180°, which we see at
-        {jump["found"]} of {jump["of"]} such rotations. The jump is from 2 Kp to -2 Kp, so zero lies between. The
+        {count_of(int(jump["found"]), int(jump["of"]), "such rotations")}. The jump is from 2 Kp to -2 Kp, so zero lies between. The
         quaternion is not the difference: q and -q give the same command, so this command is a function of the rotation
         matrix. With a noise of {level:g} rad, {settled_of(noisy, "starts")} settle. With the law on the rotation
         matrix, {settled_of(smooth_noisy, "starts")} settle, and with memory {settled_of(kept, "starts")}. At shorter
@@ -257,7 +261,7 @@ def ls07(results: Results) -> tuple[Word, Evidence]:
     """No rows: the sentence is about other authors' works, and we could not read which."""
     return Word.UNTESTED, evidence(
         """The sentence is about five works of other authors, and we could not read the list of references. A sliding
-        variable with the sign of the scalar part, s = omega + k sgn(q4) q_v, is in public code whose command is named
+        variable with the sign of the scalar part, s = ω + k sgn(q4) q_v, is in public code whose command is named
         after Crassidis (repository dtbinh/satellite, file satellite_adcs/controllerSliding.m). From memory: Crassidis,
         Vadali and Markley published this variable in 2000. This sign prevents unwinding as LS03 has it. We cannot say
         whether that work is one of the five.""",
@@ -301,7 +305,7 @@ def ls10(results: Results) -> tuple[Word, Evidence]:
         {capitalize(settled_of(frame, "starts"))} settle. In the last second, the largest angle to the goal is
         {largest:.2g}°, because the law is called only every millisecond. The reason holds for every goal whose rate and
         acceleration the law is given: seen from the goal, the error moves as in front of a fixed goal. There
-        tan(theta/4) decays as LS02 has it, to {decay.largest_error:.0e}. The exception of LS06, the 180° rotation, is
+        tan(θ/4) decays as LS02 has it, to {decay.largest_error:.0e}. The exception of LS06, the 180° rotation, is
         the same. {capitalize(count(len(frame), "episode"))} are a small sample.""",
         len(frame) + decay.starts,
         measured=f"""With goals that move at up to {fastest:g} rad/s, {settled_of(frame, "starts")} settle. Largest

@@ -155,7 +155,7 @@ def measure_decay(gains: Gains) -> Decay:
     motion = follow(LAW, starts, gains)
     expected = motion.T[:, :1] * np.exp(-0.5 * rates.surface * motion.time)
     chord = np.sin(0.5 * motion.angle[-1])
-    decay = -np.gradient(np.log(chord), motion.time[-1])
+    decay = -np.gradient(np.log(chord), motion.time[-1], edge_order=2)
     error = np.abs(motion.T / expected - 1.0)
     return Decay(len(starts), float(np.nanmax(error)), float(decay[0]), float(decay[-2]))
 
