@@ -248,13 +248,9 @@ def of_sliding() -> Frames:
         frame = run.table(name, **(read.FREE_BODY if name != "robustness" else {}))
         found[name] = frame[frame["regulator"].isin(laws)]
     found["decay"] = pd.DataFrame({"starts": [12], "largest_error": 0.0, "first_rate": 0.1, "last_rate": 10.0})
-    found["bound"] = pd.DataFrame({"starts": [300], "fastest": 20.0, "largest_share": 1.0})
-    found["both_frames"] = pd.DataFrame(
-        {"starts": [200], "largest_angle_gap": 0.0, "apart_at_rest": 0.0, "apart_spinning": 1.0}
-    )
-    found["holds"] = pd.DataFrame(
-        {"law": ["sliding", "sliding-memory"], "period_s": 1e-5, "noise_rad": 3e-8, "held": [3, 0], "starts": 3}
-    )
+    found["bound"] = pd.DataFrame({"starts": [300], "largest_share": 1.0})
+    found["both_frames"] = pd.DataFrame({"angle_gap": [0.0], "apart_at_rest": 0.0, "apart_spinning": 1.0})
+    found["hold"] = pd.DataFrame({"starts": [9], "held": 9, "held_with_memory": 0, "least_rad": 3e-8})
     return found
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from bench.experiments import sliding_motion
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
 from bench.findings.claims import controller_costs, degeneracy
@@ -126,17 +127,11 @@ def of_record(name, kind):
     return lambda table: {name: lambda *_: kind(**table.iloc[0].to_dict())}
 
 
-def of_holds(table):
-    """Return LS06's: episodes held at 180°, and no proof."""
-    holds = [motions.Hold(**row) for row in table.to_dict("records")]
-    return {"hold_by_noise": lambda *_: holds, "read_proof": lambda law: ""}
-
-
 EXPERIMENTS = {
-    "decay": of_record("measure_decay", motions.Decay),
-    "bound": of_record("measure_bound", motions.Bounded),
+    "decay": of_record("measure_decay", sliding_motion.Decay),
+    "bound": of_record("measure_bound", sliding_motion.Bounded),
     "both_frames": of_record("compare_frames", motions.Frames),
-    "holds": of_holds,
+    "hold": of_record("hold_by_noise", motions.Hold),
     "balance": lambda table: {"experiment": lambda: (table, [EPS])},
     "bend": of_bend,
     "ways": of_ways,

@@ -124,8 +124,8 @@ class Claim(NamedTuple):
     verdict depends on it. readings: where there are several. judge: results -> (word, evidence). quote: the paper's own
     words; section and equation: where they stand; value: the paper's number. correction: of the paper, what is said
     when the claim holds with one; empty: no criterion of it leads there. instead: what is true where it does not hold,
-    or on what it depends. written: date and commit of the criterion. replay: the command that makes the deciding episodes
-    again; empty: those of the whole run.
+    or on what it depends. written: date and commit of the criterion. replay: the command that makes the episodes again
+    that decide; empty: that of the whole run.
     """
 
     id: str
