@@ -26,9 +26,14 @@ def facts(run: Run) -> dict[str, Any]:
         "kept": f"{KEPT_DEG:.0f}",
         "read": typeset(" ".join(WHAT_WE_READ.split())),
         "verdicts": VERDICTS(map(describe, verdicts)),
-        "sections": html.Html("".join(evidence.section(verdict, run) for verdict in verdicts)),
+        "sections": html.Html("".join(name_command(evidence.section(verdict, run)) for verdict in verdicts)),
         **find_numbers(verdicts),
     }
+
+
+def name_command(section: str) -> str:
+    """Return the fold of a claim with the command that judges the claims of this paper."""
+    return section.replace("<code>bench claims</code>", f"<code>bench claims --paper {PAPER}</code>")
 
 
 def find_numbers(verdicts: Sequence[Verdict]) -> dict[str, str]:

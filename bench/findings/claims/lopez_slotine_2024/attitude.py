@@ -182,9 +182,9 @@ def ls06(results: Results) -> tuple[Word, Evidence]:
     text = f"""At exactly 180°, {settled_of(exact, "starts")} settle without noise. With {noisy["level"].min():g} rad of
         noise, {settled_of(noisy, "starts")} settle, and with memory {settled_of(kept, "starts")}. At a period of
         {1e6 * min(LIMIT.PERIODS_S):.0f} µs, {hold.least_rad:.0e} rad is enough."""
-    instead = f"""{LIMIT.NOMINAL} The jump at 180° does this, not the quaternion. The law with memory fails only from
-        {withstand_noise(results, WITH_MEMORY):g} rad of noise on. Its price is a turn of up to {KEPT_DEG:.0f}° beyond
-        180°."""
+    instead = f"""{LIMIT.NOMINAL} The body leaves 180° because the command jumps there, not because of the quaternion.
+        The law with memory fails only from {withstand_noise(results, WITH_MEMORY):g} rad of noise on. Its price is a
+        turn of up to {KEPT_DEG:.0f}° beyond 180°."""
     return word_of(is_global, False), evidence(
         f"""{text} With the law on the rotation matrix, {settled_of(smooth, "starts")} at exactly 180° settle without
         noise: its command is zero there and does not jump. A noise of {LIMIT.NOISE_SHARE:g} Kp period² holds
