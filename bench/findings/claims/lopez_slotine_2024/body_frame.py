@@ -9,12 +9,14 @@ Because d(R^T s)/dt = R^T (sdot - omega x s), its command is that of `sliding` p
 Source: derived here; the text of the paper gives the two frames (section 1).
 """
 
+from typing import Any
+
 from bench.law import kernel, sqrt, turn_quaternion
 from bench.law.contenders.regulators import sliding
 
 
 @kernel
-def law_in_body_frame(R, omega, goal, gains):
+def law_in_body_frame(R: Any, omega: Any, goal: Any, gains: Any) -> Any:
     """Return u [rad/s^2], base frame, for eta >= 0.
 
     With -eps and -omega, the command of `sliding` is -u: all its terms but eps x omega change their sign.

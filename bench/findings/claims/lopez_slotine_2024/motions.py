@@ -81,4 +81,4 @@ def hold_by_noise(gains: Gains, periods_s: Sequence[float], share: float) -> Hol
             rows = episode_columns(Settings(gains=gains), starts, numbers, period_s, 2.0)
             held[law] += sum(outcome != "settled" for outcome in rows["outcome"])
     least_rad = share * gains.kp * min(periods_s) ** 2
-    return Hold(len(starts) * len(periods_s), *held.values(), least_rad)
+    return Hold(len(starts) * len(periods_s), held[LAW], held[WITH_MEMORY], least_rad)
