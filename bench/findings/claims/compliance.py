@@ -75,7 +75,7 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         tested {judged["arm"].nunique()} arms. Euler compliance is the same as Cartesian compliance
         about the base's axes {_by_order(judged, "same")}. In the other cases, the norm of the
         difference is up to {_greatest(differs[away]):.2f} times the norm of the Cartesian
-        compliance. The Euler angles before the compliant angle turn the axis of this angle. If the
+        compliance. In a sequence of Euler angles, the angles in front of the compliant angle turn its axis. If the
         Cartesian compliance is turned in the same way, the norm of the difference is at most
         {_greatest(differs_turned[away]):.2g} times the norm of the Cartesian compliance. Euler
         compliance is the same as compliance about the hand's own axes
@@ -84,8 +84,8 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         {f"At these poses, the outcome with Euler compliance is {close}." if close else ""}""",
         len(rows),
         instead=f"""If one Euler angle is compliant, the hand complies about one axis of the base
-        {_by_order(judged, "same")}. The Euler angles before the compliant angle turn the axis of this angle. The hand
-        complies about this turned axis {_by_order(judged, "same_turned")}.""",
+        {_by_order(judged, "same")}. In a sequence of Euler angles, the angles in front of the compliant angle turn its
+        axis. The hand complies about this turned axis {_by_order(judged, "same_turned")}.""",
         measured=f"""In {count_of(int(judged["same_turned"].sum()), len(judged), "tests")}, the hand
         complies only about the axis of the compliant Euler angle.""",
     )

@@ -221,7 +221,7 @@ def c30(results: Results) -> tuple[Word, Evidence]:
         starts. For comparison, a linear system with twice the inertia of its model takes {heavy / linear:.2f} times
         as long to settle.""",
         sum(map(len, runs)),
-        measured=f"""Errors of B are not tested. If the inertia of the body is {heaviest:g} times that
+        measured=f"""Errors of the matrix B are not tested. If the inertia of the body is {heaviest:g} times that
         of the model, the median settling time grows by a factor of {own_slow:.2f} with feedback
         linearization, and by a factor of {other_slow:.2f} with the rotation-matrix law.""",
         instead=f"""We did not test whether an error of B or of Bdot is a problem. We judged a statement of our own:

@@ -140,7 +140,7 @@ def describe_commands(one: Verdict) -> str:
     if one.claim.replay:
         return f"<code>{one.claim.replay}</code> ({HOW_TO_RUN})."
     stored = [name for name in one.evidence.tables if name not in (*STUDIES, COMPUTED)]
-    made = "<code>make bench</code> makes the tables, and " if stored or not one.evidence.tables else ""
+    made = "<code>make bench</code> makes the tables of results, and " if stored or not one.evidence.tables else ""
     return f"{made}<code>bench claims</code> judges the claim ({HOW_TO_RUN})."
 
 

@@ -149,9 +149,9 @@ def ls04(results: Results) -> tuple[Word, Evidence]:
     apart = max(frames.apart_at_rest, frames.apart_spinning)
     return decide(
         word_of(apart <= LIMIT.SAME_RAD, frames.angle_gap <= LIMIT.SAME_RAD),
-        f"""Greatest difference between the two motions at one time: {frames.angle_gap:.0e} rad in the angle to the
-        goal. In orientation, it is {frames.apart_at_rest:.0e} rad from rest and
-        {math.degrees(frames.apart_spinning):.0f}° from spinning starts.""",
+        f"""With the variable in the base frame and in the body frame, the angles to the goal differ by at most
+        {frames.angle_gap:.0e} rad at the same time. The orientations differ by at most {frames.apart_at_rest:.0e} rad
+        from rest and {math.degrees(frames.apart_spinning):.0f}° from spinning starts.""",
         2 * sliding_motion.STARTS_OF_A_SET,
     )
 
