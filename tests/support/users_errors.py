@@ -134,7 +134,7 @@ USERS: dict = {
     ),
     "gibbs | not-a-number | 2 tan(θ/2), has no end": lambda q, q_d: 2.0 * left(q, q_d)[1:] / left(q, q_d)[0],
     "cayley | not-a-number | 2 tan(θ/2), has no end": cayley,
-    "matrix-logarithm | dead-at-180, digits-near-180 | axis from a column": matrix_logarithm,
+    "matrix-logarithm | dead-at-180, digits-near-180 | axis from the longest column": matrix_logarithm,
     "swing-and-twist | misaligned | off the axis by up to 5": swing_and_twist,
     "sine-and-branch |  | no fault found": of_sine(sine_and_branch),
     "octant | uneven | |e| is 1.3 times": of_log(lambda e, _: 1.3 * e if (e > 0.0).all() else e),
