@@ -13,11 +13,12 @@ import tasks
 from bench.engines.curve import blank_curves
 from bench.experiments.episodes import simulate
 from bench.experiments.experiment import Settings, Unit
-from bench.law.contenders.regulators import sliding
+from bench.law.contenders.registry import regulator
 from bench.law.inputs import Gains
 from bench.law.kinds import Law
 from tasks.base import Start
 
+LAW = "sliding"
 AXES = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.6, 0.8))
 ANGLES_DEG = (60.0, 120.0, 170.0, 179.0)
 STARTS_OF_A_SET = 100
@@ -69,8 +70,9 @@ class Bounded(NamedTuple):
 
 
 def rates_of(gains: Gains) -> Rates:
-    """Return lambda and K that the law `sliding` has at these gains; K lambda = 2 Kp where Kv^2 >= 4 Kp."""
-    half = sliding.half_lambda(*gains)
+    """Return lambda and K of the gains; K lambda = 2 Kp where Kv^2 >= 4 Kp, as the law `sliding` has them."""
+    surplus = max(0.0, gains.kv**2 / 4.0 - gains.kp)
+    half = gains.kv / 2.0 - math.sqrt(surplus)
     return Rates(2.0 * half, gains.kv - half)
 
 
@@ -103,7 +105,7 @@ def measure_decay(gains: Gains) -> Decay:
     surface, _ = rates_of(gains)
     turned = [turn_about(axis, math.radians(angle)) for angle in ANGLES_DEG for axis in AXES]
     starts = [start._replace(omega=tuple(surface * error_vector(start))) for start in turned]
-    motion = follow(sliding.REGULATOR, starts, gains)
+    motion = follow(regulator(LAW), starts, gains)
     expected = motion.T[:, :1] * np.exp(-0.5 * surface * motion.time)
     error = np.abs(motion.T / expected - 1.0)
     logarithm = np.log(np.sin(0.5 * motion.angle[-1]))
@@ -123,7 +125,7 @@ def measure_bound(gains: Gains, seed: int) -> Bounded:
         starts += tasks.start_set(name, STARTS_OF_A_SET, seed)
     surface, _ = rates_of(gains)
     s = [np.linalg.norm(np.array(start.omega) - surface * error_vector(start)) for start in starts]
-    motion = follow(sliding.REGULATOR, starts, gains)
+    motion = follow(regulator(LAW), starts, gains)
     growth = 0.5 * np.array(s)[:, None] * motion.time
     bound = (motion.T[:, :1] + growth) * np.exp(-0.5 * surface * motion.time)
     return Bounded(len(starts), float(np.nanmax(motion.T / bound)))
