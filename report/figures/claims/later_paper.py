@@ -9,12 +9,11 @@ from bench.findings.claims.lopez_slotine_2024 import WHAT_WE_READ
 from bench.findings.claims.lopez_slotine_2024.attitude import KEPT_DEG
 from report.figures.claims import evidence
 from report.figures.kit import html
-from report.figures.kit.law_names import call_laws
 from report.figures.kit.page import Run
 from report.figures.kit.spelling import prose, typeset
 
 PAPER = "lopez-slotine-2024"
-VERDICTS = html.Table("Claim | What the paper states, in our words | Verdict | What we measured | Command")
+VERDICTS = html.Table("Claim | What the paper states, in our words | Verdict | What we measured")
 
 
 def facts(run: Run) -> dict[str, Any]:
@@ -43,15 +42,11 @@ def find_numbers(verdicts: Sequence[Verdict]) -> dict[str, str]:
 
 
 def describe(verdict: Verdict) -> tuple:
-    """Return the row of a claim: its name and place, statement, verdict, what was measured, and the command."""
+    """Return the row of a claim: its name and place, statement, verdict, and what was measured."""
     claim = verdict.claim
-    measured = prose(verdict.measured)
-    if verdict.correction:
-        measured += f'<br><span class="what-is-true">{prose(call_laws(verdict.correction))}</span>'
     return (
         f'<a href="#{claim.id.lower()}">{claim.id}</a> <span class="section">{claim.section}</span>',
         prose(claim.sentence),
         html.badge(str(verdict.word)),
-        measured,
-        f"`{claim.replay}`" if claim.replay else html.MISSING,
+        prose(verdict.measured),
     )
