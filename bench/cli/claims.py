@@ -14,31 +14,39 @@ from bench.cli.screen import console, examples
 @click.command("claims", epilog=examples("claims"))
 @click.argument("folder", required=False, type=click.Path(path_type=Path))
 @click.option("--criteria", is_flag=True, help="Print each claim's quote and criteria too.")
-def COMMAND(folder: Path | None, criteria: bool) -> None:
+@click.option(
+    "--paper",
+    type=click.Choice(("murphy-1988", "lopez-slotine-2024")),
+    default="murphy-1988",
+    show_default=True,
+    help="Whose claims.",
+)
+def COMMAND(folder: Path | None, criteria: bool, paper: str) -> None:
     """List the claims of Murphy (1988), each with its verdict, measured value and evidence (default: results/latest).
 
     A claim is judged only if the run has the starts that it needs. The others are at the end, with what is lacking.
     """
     from bench.base.files import read_json
     from bench.experiments.tables import read
-    from bench.findings.claims import Results, at_gains, judge_possible
+    from bench.findings.claims import MURPHY, Results, at_gains, judge_possible
     from bench.findings.claims.tables import WHOLE
 
     results = Results(folder or read.folder())
     results.table("episodes")  # refuses a run that has not finished
     with progress("claims", "judging the paper's claims"):
-        verdicts, lacks = judge_possible(results)
+        verdicts, lacks = judge_possible(results, paper)
     for one in verdicts:
         claimed = f"{str(one.word).capitalize()} ({one.rows:,} rows): {one.claim.sentence}"
         correction = (f"What is true: {one.correction}",) if one.correction else ()
         record = _record(one) if criteria else ()
         numbers = (" | ".join(row) for row in one.evidence.numbers)
-        evidence = f"Measured: {one.measured}", *correction, f"Evidence: {one.evidence}", *numbers
+        replay = (f"Replay: {one.claim.replay}",) if one.claim.replay else ()
+        evidence = f"Measured: {one.measured}", *correction, f"Evidence: {one.evidence}", *numbers, *replay
         print_paragraphs(Paragraph(one.id, (claimed, *evidence, *record)))
         console().print()
     if verdicts:
         print_paragraphs(_count(verdicts))
-    if at_gains.STORED.is_file():
+    if paper == MURPHY and at_gains.STORED.is_file():
         study = read_json(at_gains.STORED)
         said = at_gains.describe(study, study["reference"])
         print_paragraphs(Paragraph("Steady?", (f"Of results/reference: {said}",)))

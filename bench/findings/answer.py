@@ -176,7 +176,7 @@ def _price_of_default(law: str, folder: Path) -> str:
     beside = find_price(other, folder)
     return (
         f"{costs} (law {other}: {beside.peak:.2g} kp). With gains that give both laws the same peak "
-        f"command, in rad/s², 99 % of the starts settle in {price.at_equal_peak:.1f}/√peak "
+        f"command (peak, in rad/s²), 99 % of the starts settle in {price.at_equal_peak:.1f}/√peak "
         f"seconds ({other}: {beside.at_equal_peak:.1f}/√peak seconds). The median overshoot of "
         f"the law in the random situations is {price.typical_overshoot:.1f}° ({other}: "
         f"{beside.typical_overshoot:.1f}°)"

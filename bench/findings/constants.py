@@ -56,6 +56,7 @@ PLANNING = ("braking-cascade", "wie-bailey-heiberg", "braking-feedforward")
 
 SHARE = "a divided by the bound (the share of the bound that the law plans to brake with)"
 HARDENING = "γ/Gp (gain of the hardening term, divided by the linear gain)"
+SWITCH = "|σ|² at which the law switches to the other MRP vector"
 
 CONSTANTS = (
     Constant("joshi-kelkar-wen", "HARDENING", HARDENING, 2.0, (1.25, 1.5, 2.5, 3.0, 4.0)),
@@ -66,7 +67,7 @@ CONSTANTS = (
     # The potential is 2.2 at most and must stay below TOP.
     Constant("synergistic", "TOP", "U₀", 2.4, (2.25, 3.0, 5.0)),
     *(Constant(law, "DELTA", "δ", 0.4, (0.1, 0.2, 0.6)) for law in KEPT_SIDE),
-    Constant("mrp-linearized", "SWITCH", "|σ|² at the switch", 1.5, (1.1, 2.0, 3.0)),
+    Constant("mrp-linearized", "SWITCH", SWITCH, 1.5, (1.1, 2.0, 3.0)),
     Constant("late-braking", "EASED", "share of the damping that is removed at 180°", 0.8, (0.6, 0.7, 0.9)),
 )
 

@@ -16,7 +16,7 @@ from bench.base.files import read_json, write_json
 from bench.base.provenance import everything_digest, kept_in
 from bench.experiments.tables.schema import RESULTS
 
-COMMITTED = ("gains", "maps", "timings", "reference", "situations")
+COMMITTED = ("gains", "maps", "proofs", "timings", "reference", "situations")
 """Folders of results/ that runs are compared with."""
 
 KEPT = 64

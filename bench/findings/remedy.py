@@ -52,7 +52,7 @@ def smallest_fix(one: Law) -> Fix:
         steps.append("multiply the vector part by 2" + (", before the clip" if math.isfinite(own.bound) else ""))
         factor = 2.0
     if is_bent(own.error):
-        steps.append(f"to keep the direction, clip the length at {bound:g} instead of each component")
+        steps.append(f"to keep the direction, clip the vector's length at {bound:g}, not each component")
     words = f"{'; '.join(steps)}."
     before = 0.0 if one.level == VELOCITY else one.gains.kp * largest(own.error, None)
     if not steps:

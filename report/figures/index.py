@@ -72,7 +72,7 @@ def describe_citation() -> str:
 def describe_replication(run: Run) -> str:
     """Return the abstract: what the paper concluded, what was simulated, and what came out."""
     sentences = [
-        "In 1988 Murphy compared three regulators for the orientation of an end effector.",
+        "In 1988 Murphy compared three regulators (laws) for the orientation of an end effector.",
         "He concluded that no regulator combines performance with low cost, and that a Jacobian for Euler angles "
         "excludes some orientations. He also concluded that, under force control with this Jacobian, the end effector "
         "complies about the axes of the Euler angles, not about the Cartesian axes. He left open whether better "

@@ -75,7 +75,7 @@ def test_law_from_elsewhere_is_shown_as_text_and_not_run(evil, marker):
     shown = regulators.page(contenders_of(own)[0], run_in(read.folder())).body
     assert (own.name, own.law, marker.exists()) == ("evil-law", None, False)
     assert "was not run" in shown
-    assert "uniform starts, which" in shown
+    assert "interval of the share of uniform starts" in shown
     assert "<script>" not in shown
     assert "REGULATOR" in shown
 

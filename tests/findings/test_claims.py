@@ -165,8 +165,8 @@ def test_every_claim_leads_to_a_figure_or_to_its_own_evidence():
 
 
 def test_claim_that_a_run_lacks_is_not_tested_and_says_why(monkeypatch):
-    monkeypatch.setattr(claims, "judge_possible", lambda results: (EVERY[:1], {"C02": "no row of episodes"}))
-    monkeypatch.setattr(claims, "all_claims", lambda: tuple(verdict.claim for verdict in EVERY[:2]))
+    monkeypatch.setattr(claims, "judge_possible", lambda *_: (EVERY[:1], {"C02": "no row of episodes"}))
+    monkeypatch.setattr(claims, "all_claims", lambda paper: tuple(verdict.claim for verdict in EVERY[:2]))
     there, lacking = claims.judge_each(None)
     assert (there.word, lacking.word) == (Word.HOLDS, Word.UNTESTED)
     assert lacking.measured == "not tested"

@@ -21,7 +21,7 @@ COMMANDED = [one for one in contenders("shipped").values() if one.level != VELOC
         ("libfranka", "by 2", 10.0, 20.0),
         ("isaac-gym", "copysign", 150.0, 300.0),
         ("serl-franka", "before the clip", 7.5, 7.5),
-        ("crisp", "clip the length at 0.5", 15.0, 15.0),
+        ("crisp", "clip the vector's length at 0.5", 15.0, 15.0),
         ("robosuite", "to a length of at most 1", 150.0, 150.0),
         ("fzi-motion", remedy.KEEP, 200.0, 200.0),
         ("mjctrl-opspace", remedy.KEEP, 47.5 * math.pi, 47.5 * math.pi),

@@ -38,9 +38,9 @@ def test_starts_that_the_rotation_matrix_loses_are_those_of_the_rows():
 
 def test_sets_are_described_by_their_difference():
     basis = counts.list_compared(RUN)
-    assert counts.describe_set(basis, RUN) == "the laws compared"
+    assert counts.describe_set(basis, RUN) == "the laws of the row “laws compared”"
     fewer = counts.describe_set(basis - {"rotation-matrix"}, RUN)
-    assert re.fullmatch("the laws compared without rotation matrix", fewer, re.IGNORECASE)
+    assert re.fullmatch("the laws of the row “laws compared” without rotation matrix", fewer, re.IGNORECASE)
 
 
 def test_pages_that_count_laws_refer_to_the_table():

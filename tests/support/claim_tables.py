@@ -237,3 +237,21 @@ TABLES = {"C18": jacobians, "C19": jacobians, "C20": controllers, "C26": control
 TABLES["C46"] = controllers
 TABLES |= dict.fromkeys(("C21", "C22", "C23", "C24"), compliances)
 TABLES |= {f"C{i:02d}": reference for i in (*range(1, 18), 31, 32, *range(34, 39))}
+
+
+@functools.cache
+def of_sliding() -> Frames:
+    """Rows of the committed run about the law of Lopez and Slotine, and what its episodes give by theory."""
+    run, found = Results(RESULTS / "reference"), {}
+    laws = ("sliding", "sliding-memory", "rotation-matrix", "feedback-linearized")
+    for name in ("episodes", "robustness", "command-field"):
+        frame = run.table(name, **(read.FREE_BODY if name != "robustness" else {}))
+        found[name] = frame[frame["regulator"].isin(laws)]
+    found["decay"] = pd.DataFrame({"starts": [12], "largest_error": 0.0, "first_rate": 0.1, "last_rate": 10.0})
+    found["bound"] = pd.DataFrame({"starts": [300], "largest_share": 1.0})
+    found["both_frames"] = pd.DataFrame({"angle_gap": [0.0], "apart_at_rest": 0.0, "apart_spinning": 1.0})
+    found["hold"] = pd.DataFrame({"starts": [9], "held": 9, "held_with_memory": 0, "least_rad": 3e-8})
+    return found
+
+
+TABLES |= {f"LS{i:02d}": of_sliding for i in (1, 2, 3, 4, 5, 6, 10)}

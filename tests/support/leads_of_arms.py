@@ -103,7 +103,9 @@ def recompute_arms():
     rows = table("episodes").query("task == 'arm-regulation' and start_set == 'uniform' and variation == 'nominal'")
     rows = rows[~rows["regulator"].isin(("joint-pd", "resolved-rate"))]
     rows = rows.assign(settled=rows["outcome"] == "settled", by=rows["law"] + "@" + rows["jacobian"])
-    said = [*lead_on_arms(rows.pivot(index=["arm", "kp", "start_id"], columns="by", values="settled")), "three"]
+    said = [*lead_on_arms(rows.pivot(index=["arm", "kp", "start_id"], columns="by", values="settled"))]
+    gains = rows.groupby("arm")["kp"].nunique()
+    said += [*(tasks.arm(arm).title for arm in gains.index[gains < 3]), "three"]
     wide = rows.assign(kind=rows["kp"].map({25.0: "Kp = 25", 100.0: "Kp = 100"}).fillna("shipped"))
     wide = wide.pivot(index=["arm", "start_id", "by"], columns="kind", values="settled").dropna().astype(float)
     for kind in ("Kp = 100", "Kp = 25", "shipped"):

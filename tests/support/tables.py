@@ -7,10 +7,12 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from bench.experiments import sliding_motion
 from bench.experiments.tables.schema import RESULTS
 from bench.findings import claims
 from bench.findings.claims import controller_costs, degeneracy
 from bench.findings.claims.euler_jacobian import EPS, WELL_CONDITIONED
+from bench.findings.claims.lopez_slotine_2024 import motions
 from bench.findings.claims.standing import Operations
 from bench.findings.claims.tables import Results
 from support.claim_tables import YIELDS
@@ -120,7 +122,16 @@ def of_counts(table):
     return {"in_contact": in_contact}
 
 
+def of_record(name, kind):
+    """Return a reader of a table of one row: the experiment of this name finds the row as a record of this kind."""
+    return lambda table: {name: lambda *_: kind(**table.iloc[0].to_dict())}
+
+
 EXPERIMENTS = {
+    "decay": of_record("measure_decay", sliding_motion.Decay),
+    "bound": of_record("measure_bound", sliding_motion.Bounded),
+    "both_frames": of_record("compare_frames", motions.Frames),
+    "hold": of_record("hold_by_noise", motions.Hold),
     "balance": lambda table: {"experiment": lambda: (table, [EPS])},
     "bend": of_bend,
     "ways": of_ways,

@@ -134,7 +134,7 @@ USERS: dict = {
     ),
     "gibbs | not-a-number | 2 tan(θ/2), has no end": lambda q, q_d: 2.0 * left(q, q_d)[1:] / left(q, q_d)[0],
     "cayley | not-a-number | 2 tan(θ/2), has no end": cayley,
-    "matrix-logarithm | dead-at-180, digits-near-180 | axis from a column": matrix_logarithm,
+    "matrix-logarithm | dead-at-180, digits-near-180 | axis from the longest column": matrix_logarithm,
     "swing-and-twist | misaligned | off the axis by up to 5": swing_and_twist,
     "sine-and-branch |  | no fault found": of_sine(sine_and_branch),
     "octant | uneven | |e| is 1.3 times": of_log(lambda e, _: 1.3 * e if (e > 0.0).all() else e),
@@ -173,8 +173,10 @@ USERS: dict = {
     "arc-tangent | long-way | atan2 instead of an arc tangent": of_sine(
         lambda v, s, c, X: np.arctan(s / c) * v / s if s else v
     ),
-    "arc-cosine-of-dot | digits-near-0, non-unit | not by the arc cosine": arc_cosine_of_dot,
-    "constant-in-a-denominator | digits-near-0 | no constant": of_log(lambda e, theta: e * theta / (theta + 1e-6)),
+    "arc-cosine-of-dot | digits-near-0, non-unit | an arc cosine loses digits": arc_cosine_of_dot,
+    "constant-in-a-denominator | digits-near-0 | do not add a constant": of_log(
+        lambda e, theta: e * theta / (theta + 1e-6)
+    ),
     "rotation-vectors-subtracted | misaligned | each θ k": lambda R, R_d: log(R_d) - log(R),
     "vector-parts-subtracted | misaligned | each 2 sin(θ/2) k": lambda q, q_d: 2.0 * (q_d - q)[1:],
     "tangent | not-a-number | 2 tan(θ/2), has no end": of_log(

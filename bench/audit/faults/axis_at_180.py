@@ -1,7 +1,7 @@
 """at 180° the error has a wrong axis.
 
 effect: at 180° or close to 180°, the robot starts to turn about an axis that is not the axis of the shortest rotation
-cure: take the axis, with its signs, from the column of R + R^T that has the largest diagonal element
+cure: take the axis from the longest column of E + E^T + (1 - trace E) I, for E = R_d R^T
 unless: digits-near-180, euler-angles, misaligned, axis-clip
 """
 

@@ -1,8 +1,8 @@
 """the error is zero at 180°.
 
 effect: a robot that starts 180° from its goal stays there; a robot that starts close to 180° starts to move slowly
-cure: let the sign of zero be 1; use atan2 instead of an arc sine; take the axis from a column of R + R^T; do not use
-  the sine of the angle as the length of the error
+cure: let the sign of zero be 1, use atan2 instead of an arc sine, or take the axis from the longest column of
+  E + E^T + (1 - trace E) I, for E = R_d R^T; do not use the sine of the angle as the length of the error
 law: quaternion-shortest
 unless: not-a-number, raises, long-way, misaligned
 """

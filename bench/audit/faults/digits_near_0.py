@@ -1,9 +1,8 @@
 """the error loses digits near the goal.
 
 effect: near the goal the command flickers or is zero
-cure: compute the angle by atan2 from the length of the vector part and the scalar part, not by the arc cosine of a
-  trace or scalar part, which loses digits; add no constant to a denominator; use a branch only if the length is exactly
-  zero
+cure: compute the angle by atan2(length of the vector part, scalar part), because an arc cosine loses digits; do not add
+  a constant to a denominator; treat a length as zero only if it is exactly zero
 unless: single-precision, deadband, euler-angles, norm-clip, axis-clip, long-way
 """
 

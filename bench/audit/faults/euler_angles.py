@@ -1,7 +1,7 @@
 """the error is a difference of Euler angles, not a vector along an axis.
 
 effect: the robot takes a detour that depends on the orientation; at gimbal lock a tiny error can cause a large rotation
-cure: use an error along the axis; or convert angle rates to angular velocity, and avoid gimbal lock
+cure: use an error along the axis of the rotation; or convert angle rates to angular velocity, and avoid gimbal lock
 unless: quaternion-order, transpose, frame
 """
 

@@ -21,14 +21,14 @@ RULES = (
     "A stage is a part of the control step, for example the law or the Jacobian. The operations of a function count "
     "in the stage that calls the function. Functions of the coordinates, such as the conversion from the matrix, "
     "have separate stages.",
-    "The typical count is the most frequent count over uniformly distributed orientations, at "
-    "rest and spinning. On an arm the typical count is the median over the starts, because the "
+    "The typical count is the most frequent count for uniformly distributed orientations of the body, at "
+    "rest and spinning. On an arm the typical count is the median of the counts for all starts, because the "
     "number of steps of an iterated inverse depends on the matrix.",
     "The worst count is the count in the state (orientation and speed) in which the law needs the most operations, "
     "all kinds added. We compare all states, also states that we chose because a law may take a rare branch there. "
     "If a law needs equally many operations in two states, we take the count with more flops.",
-    "A law with memory is counted three times in each state: with the initial memory, with the "
-    "memory that the previous state left, and with the memory that this state left. Only the last "
-    "of these counts is used for the typical count.",
+    "A law with memory is counted three times in each state: first with the initial memory, then with the "
+    "memory that the law stored in the previous state, and last with the memory that the law stored in this state. "
+    "Only the last of these counts is used for the typical count.",
 )
 """The count rules, in the order the report states them."""

@@ -46,7 +46,7 @@ def folder() -> Path:
 
 
 def rows(name: str, **words: str) -> pd.DataFrame:
-    """Return the rows of a table whose columns have the given values.
+    """Return the rows of a table that have the given values in the given columns.
 
     For example: `rows("episodes", engine="native", start_set="poles")`.
     """

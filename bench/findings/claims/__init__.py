@@ -1,6 +1,8 @@
 """The paper's claims, C01 to C47: each sentence with a criterion fixed before the results, and its verdict.
 
 A module holds measurements alone, and says first of which claims; the TOML file of the same name holds their texts.
+The claims of another paper stand in a package here (`PAPERS`): the same rules judge them, and no count of the claims of
+Murphy has them.
 `verdict` has what a claim is, `tables` what judging functions read, `probes` the small experiments that they make.
 """
 
@@ -26,26 +28,35 @@ RULE = (
 """What is common to all criteria."""
 
 
+MURPHY = "murphy-1988"
+PAPERS = {MURPHY: __name__, "lopez-slotine-2024": f"{__name__}.lopez_slotine_2024"}
+"""A paper, and the package that holds its claims."""
+
+
 @functools.cache
-def all_claims() -> tuple[Claim, ...]:
-    """Every claim of every file here, in the order of the ids."""
-    modules = [importlib.import_module(f"{__name__}.{info.name}") for info in pkgutil.iter_modules(__path__)]
+def all_claims(paper: str = MURPHY) -> tuple[Claim, ...]:
+    """Every claim of a paper, in the order of the ids."""
+    package = importlib.import_module(PAPERS[paper])
+    files = [info.name for info in pkgutil.iter_modules(package.__path__) if not info.ispkg]
+    modules = [importlib.import_module(f"{package.__name__}.{name}") for name in files]
     found = {one.id: one for module in modules for one in vars(module).values() if isinstance(one, Claim)}
     return tuple(found[id] for id in sorted(found))
 
 
 def judge(id: str, results: Results) -> Verdict:
     """Return the verdict on one claim on a run's tables."""
-    return decide(next(claim for claim in all_claims() if claim.id == id), results)
+    every = [claim for paper in PAPERS for claim in all_claims(paper)]
+    return decide(next(claim for claim in every if claim.id == id), results)
 
 
-def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
-    """Every claim that a run decides, and for each other one what the run lacks; kept for the next call."""
+def judge_possible(results: Results, paper: str = MURPHY) -> tuple[list[Verdict], dict[str, str]]:
+    """Every claim of a paper that a run decides, and for each other one what it lacks; kept for the next call."""
+    every = all_claims(paper)
 
     def find() -> dict:
         """Return both as JSON holds them."""
         decided, lacks = [], {}
-        for one in all_claims():
+        for one in every:
             try:
                 _, word, evidence = decide(one, results)
                 decided.append((one.id, word, *evidence))
@@ -53,8 +64,9 @@ def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
                 lacks[one.id] = str(error)
         return {"decided": decided, "lacks": lacks}
 
-    found = keep(results.folder, "claims", find) if results.folder and results.is_as_stored else find()
-    claims = {one.id: one for one in all_claims()}
+    what = "claims" if paper == MURPHY else f"claims-{paper}"
+    found = keep(results.folder, what, find) if results.folder and results.is_as_stored else find()
+    claims = {one.id: one for one in every}
     decided = [
         Verdict(claims[id], Word(word), _evidence_of(stored))
         for id, word, *stored in found["decided"]
@@ -62,15 +74,16 @@ def judge_possible(results: Results) -> tuple[list[Verdict], dict[str, str]]:
     return decided, found["lacks"]
 
 
-def judge_each(results: Results) -> list[Verdict]:
+def judge_each(results: Results, paper: str = MURPHY) -> list[Verdict]:
     """Return a verdict on every claim: 'not tested' where the run lacks what it needs, with what is lacking."""
-    decided, lacks = judge_possible(results)
+    decided, lacks = judge_possible(results, paper)
+    every = all_claims(paper)
     verdicts = {verdict.id: verdict for verdict in decided}
-    for claim in all_claims():
+    for claim in every:
         if claim.id in lacks:
             evidence = Evidence(f"This run cannot decide the claim: {lacks[claim.id]}.", 0)
             verdicts[claim.id] = Verdict(claim, Word.UNTESTED, evidence)
-    return [verdicts[claim.id] for claim in all_claims()]
+    return [verdicts[claim.id] for claim in every]
 
 
 def _evidence_of(stored: list) -> Evidence:

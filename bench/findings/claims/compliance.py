@@ -37,9 +37,9 @@ def c22(results: Results) -> tuple[Word, Evidence]:
     by_alpha = np.abs(B[:, :, 0] - (0.0, 0.0, 1.0)).max()
     by_gamma = np.abs(B[:, :, 2] - [R.n for R in turns]).max()
     axes = (
-        f"An angle turns the hand about the axis of this angle. At {LIMIT.POSES} orientations, the axis of "
-        f"alpha is the base's z axis, and the axis of gamma is the hand's x axis. The components of "
-        f"the unit vectors differ by at most {rounding(by_alpha)} for alpha and {rounding(by_gamma)} "
+        f"If one Euler angle changes, the hand turns about one axis, the axis of this angle. At {LIMIT.POSES} "
+        f"orientations, the axis of alpha is the base's z axis, and the axis of gamma is the hand's x axis. The "
+        f"components of the unit vectors differ by at most {rounding(by_alpha)} for alpha and {rounding(by_gamma)} "
         f"for gamma. {MEANT}"
     )
     return word, found._replace(sentence=f"{axes} {found.sentence}")
@@ -75,7 +75,7 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         tested {judged["arm"].nunique()} arms. Euler compliance is the same as Cartesian compliance
         about the base's axes {_by_order(judged, "same")}. In the other cases, the norm of the
         difference is up to {_greatest(differs[away]):.2f} times the norm of the Cartesian
-        compliance. The Euler angles before the compliant angle turn the axis of this angle. If the
+        compliance. In a sequence of Euler angles, the angles in front of the compliant angle turn its axis. If the
         Cartesian compliance is turned in the same way, the norm of the difference is at most
         {_greatest(differs_turned[away]):.2g} times the norm of the Cartesian compliance. Euler
         compliance is the same as compliance about the hand's own axes
@@ -84,8 +84,8 @@ def _one_axis(results: Results, forms: tuple[str, ...]) -> Any:
         {f"At these poses, the outcome with Euler compliance is {close}." if close else ""}""",
         len(rows),
         instead=f"""If one Euler angle is compliant, the hand complies about one axis of the base
-        {_by_order(judged, "same")}. The hand complies about the axis of the compliant angle, as the
-        earlier angles have turned it, {_by_order(judged, "same_turned")}.""",
+        {_by_order(judged, "same")}. In a sequence of Euler angles, the angles in front of the compliant angle turn its
+        axis. The hand complies about this turned axis {_by_order(judged, "same_turned")}.""",
         measured=f"""In {count_of(int(judged["same_turned"].sum()), len(judged), "tests")}, the hand
         complies only about the axis of the compliant Euler angle.""",
     )
@@ -127,21 +127,19 @@ def c23(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     least = float(np.nanmin(differs[general], initial=np.inf))
     special = _by_order(rows.assign(same=differs <= LIMIT.SAME)[~general], "same") or "in no case"
     return word, evidence(
-        f"""A case is one pair of compliant axes at one pose of one arm, with one variant of force
-        control. {MEANT} If none of the Euler angles is zero, the two compliances differ in
-        {count_of(int(parted.sum()), len(parted), "cases")}. The norm of the difference is at least
-        {least:.2f} times the norm of the Cartesian compliance. If an Euler angle is zero, the two
-        compliances are the same {special}. We tested compliance {LEVEL_PAIR} in
-        {int(level.sum())} cases, up to |beta| = {math.degrees(beta.max()):.0f} degrees, on
-        {rows["arm"].nunique()} arms. The compliant plane is the plane of the axes about which the
-        hand turns most. The measured planes of both controllers differ from the predicted planes by
-        at most {_greatest(tilt):.1e} rad. A moment about the level axis (cos alpha, sin alpha, 0)
-        also turns the hand about z. We divide the rotation about z by the rotation about the level
-        axis. The measured ratio differs from the predicted ratio by at most
-        {_greatest(missed):.1e} times the predicted ratio (times tan {LIMIT.SMALL_DEG:g} degrees,
-        where the predicted ratio is smaller than that). With Euler compliance, the ratio is at most
-        {_greatest(leak):.2f}. For comparison, tan |beta| is at most
-        {_greatest(np.tan(beta)):.2f}. With Cartesian compliance, the ratio is at most
+        f"""A case is one pair of compliant axes at one pose of one arm, with one variant of force control. {MEANT} If
+        none of the Euler angles is zero, the two compliances differ in
+        {count_of(int(parted.sum()), len(parted), "cases")}. The norm of the difference is at least {least:.2f} times
+        the norm of the Cartesian compliance. If an Euler angle is zero, the two compliances are the same {special}. We
+        tested compliance {LEVEL_PAIR} in {int(level.sum())} cases, up to |beta| = {math.degrees(beta.max()):.0f}
+        degrees, on {rows["arm"].nunique()} arms. The compliant plane is the plane of the axes about which the hand
+        turns most. The measured planes of both controllers differ from the predicted planes by at most
+        {_greatest(tilt):.1e} rad. A moment about the level axis (cos alpha, sin alpha, 0) also turns the hand about z.
+        We divide the rotation about z by the rotation about the level axis. The measured ratio differs from the
+        predicted ratio by at most {_greatest(missed):.1e} times the predicted ratio. (Where the predicted ratio is
+        smaller than tan {LIMIT.SMALL_DEG:g} degrees, we divide the difference by tan {LIMIT.SMALL_DEG:g} degrees
+        instead.) With Euler compliance, the ratio is at most {_greatest(leak):.2f}. For comparison, tan |beta| is at
+        most {_greatest(np.tan(beta)):.2f}. With Cartesian compliance, the ratio is at most
         {_greatest(by_base):.2g}.""",
         len(rows),
         measured=f"""In {count_of(int(parted.sum()), len(parted), "tests")} where no Euler angle is
@@ -173,20 +171,19 @@ def c24(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     done = near[near["outcome"] == "done"]
     ends = join_words(f"'{end}'" for end in sorted(set(at_zero["outcome"].astype(str))))
     return word, evidence(
-        f"""A test is one pose of one arm with one variant of force control. A moment about x acts on
-        the hand. At zero rotation, Z-Y-Z angles are a problem in {_problems(at_zero)}. The outcomes
-        of these tests are: {ends}. Within {LIMIT.NEAR_DEG:g} degrees of zero rotation, Z-Y-Z angles
-        are also a problem in {_problems(near)}. In the tests near zero rotation that end with the
-        outcome 'done', the rotation about x is {done["yields"].min():.2g} to
-        {done["yields"].max():.2g} times the wanted rotation. The wanted rotation is that with the
-        controller hybrid-base. The rotation about z is {done["leak"].min():.1f} to
-        {done["leak"].max():.1f} times the rotation about x. Z-Y-X angles are a problem in
-        {_problems(zyx)}. With Z-Y-X angles, the rotation about x is at least
-        {zyx["yields"].min():.3f} times the wanted rotation.""",
+        f"""A test is one pose of one arm with one variant of force control. A moment about x acts on the hand. At
+        zero rotation, Z-Y-Z angles are a problem in {_problems(at_zero)}. The outcomes of these tests are: {ends}.
+        Within {LIMIT.NEAR_DEG:g} degrees of zero rotation, Z-Y-Z angles are also a problem in {_problems(near)}.
+        The wanted rotation is the rotation about x with the controller hybrid-base. In the tests near zero rotation
+        that end with the outcome 'done', the rotation about x is {done["yields"].min():.2g} to
+        {done["yields"].max():.2g} times the wanted rotation. In these tests, the rotation about z is
+        {done["leak"].min():.1f} to {done["leak"].max():.1f} times the rotation about x. Z-Y-X angles are a problem
+        in {_problems(zyx)}. With Z-Y-X angles, the rotation about x is at least {zyx["yields"].min():.3f} times the
+        wanted rotation.""",
         len(zyz) + len(zyx),
-        measured=f"""If the hand must comply about x and the controller uses Z-Y-Z angles, the hand
-        turns {done["leak"].min():.1f} to {done["leak"].max():.1f} times as far about z as about x.
-        Near zero rotation, Z-Y-Z angles are a problem in {_problems(near)}.""",
+        measured=f"""Near zero rotation, Z-Y-Z angles are a problem in {_problems(near)}. In the
+        tests that end with the outcome 'done', a moment about x turns the hand
+        {done["leak"].min():.1f} to {done["leak"].max():.1f} times as far about z as about x.""",
     )
 
 

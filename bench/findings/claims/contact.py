@@ -53,24 +53,23 @@ def c25(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     agreed = ""
     if len(forms) > 1:
         same = count_of(int(agree.sum()), len(agree), "combinations of task, arm and frame of the hand")
-        agreed = f" All variants of force control give the same answer (the runs differ or not) in {same}."
+        agreed = f" In {same}, the two runs differ either with every variant of force control or with none."
     simple = rows[rows["turns"] < 2]
     listed = " ".join(_told(task, own) for task, own in complex_ones.groupby("task"))
     return word, evidence(
-        f"""The performance depends on the Jacobian in {count_of(sum(depends), len(depends), "tasks")}
-        in which two rotations comply. A pair is two runs of a task that differ only in the
-        Jacobian: one run with the Euler Jacobian, and one with the geometric Jacobian. The two runs
-        differ if their outcomes differ, or if a measured result differs by a factor of
-        {LIMIT.PARTS:g} or more. We compared {len(complex_ones)} pairs on
-        {complex_ones["arm"].nunique()} arms. {listed} The run with the Euler Jacobian is the worse in
-        {count_of(int(parted["euler_is_worse"].sum()), len(parted), "pairs")} that differ.{agreed}
-        In tasks in which fewer than two rotations comply,
+        f"""The performance depends on the Jacobian in {count_of(sum(depends), len(depends), "tasks")} in which two
+        rotations comply. A pair is two runs of a task that differ only in the Jacobian: one run with the Euler
+        Jacobian, and one with the geometric Jacobian. The two runs differ if their outcomes differ, or if a
+        measured result differs by a factor of {LIMIT.PARTS:g} or more. We compared {len(complex_ones)} pairs on
+        {complex_ones["arm"].nunique()} arms. The angle beta is that of the frame of the hand. {listed} The run with
+        the Euler Jacobian is the worse in {count_of(int(parted["euler_is_worse"].sum()), len(parted), "pairs")}
+        that differ.{agreed} In tasks in which fewer than two rotations comply,
         {count_of(int(simple["parts"].sum()), len(simple), "pairs")} differ.""",
         len(rows),
-        measured=f"""With |beta| >= {LIMIT.TURNED_DEG:g}°, a run with the Euler Jacobian and the same
-        run with the geometric Jacobian perform differently in
-        {count_of(int(turned["parts"].sum()), len(turned), "pairs")} of runs. With beta = 0, they
-        perform differently in {count_of(int(straight["parts"].sum()), len(straight), "pairs")}.""",
+        measured=f"""A pair is one run with each Jacobian (Euler and geometric). If the frame of the hand has |beta|
+        >= {LIMIT.TURNED_DEG:g}°, the two runs perform differently in
+        {count_of(int(turned["parts"].sum()), len(turned), "pairs")}. With beta = 0, they perform differently in
+        {count_of(int(straight["parts"].sum()), len(straight), "pairs")}.""",
     )
 
 
@@ -152,11 +151,11 @@ def c47(results: Results, forms: tuple[str, ...]) -> tuple[Word, Evidence]:
     yields = done == len(rows) and force <= LIMIT.MISSED and moment <= FLOORS["rad"]
     return word_of(yields and turn <= LIMIT.HELD_RAD, yields), evidence(
         f"""{capitalize(count_of(done, len(rows), "runs"))} of the tasks {pressed["task"].iloc[0]} and
-        {aligned["task"].iloc[0]} have the outcome 'done'. In the task {pressed["task"].iloc[0]}, the root mean square
-        error of the force normal to the plane is at most {percent(force)} % of the commanded {LIMIT.FORCE_N:g} N. In
-        the task {aligned["task"].iloc[0]}, the tool complies about two axes. At the end, the angle between the tool and
-        the plane is at most {moment:.1e} rad. In both tasks, a rotation that the controller must keep constant has
-        changed by at most {turn:.1e} rad at the end.""",
+        {aligned["task"].iloc[0]} have the outcome 'done'. In the task {pressed["task"].iloc[0]}, the root mean
+        square error of the force normal to the plane is at most {percent(force)} % of the commanded
+        {LIMIT.FORCE_N:g} N. In the task {aligned["task"].iloc[0]}, the tool complies about two axes. At the end,
+        the angle between the tool and the plane is at most {moment:.1e} rad. In both tasks, a rotation that the
+        controller must keep constant has changed by at most {turn:.2g} rad at the end.""",
         len(rows),
         measured=f"""The root mean square error of the force is at most {percent(force)} % of the commanded
         {LIMIT.FORCE_N:g} N. A rotation that the controller should keep constant changes by up to {turn:.2g} rad.""",

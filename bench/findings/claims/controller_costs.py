@@ -37,6 +37,13 @@ BY_EULER, BY_COMMON, ON_MATRIX = (
 )
 """(3.7), (2.2) with (2.15), and (2.2) with the law on R; the inverse goes by the number of joints."""
 
+CONTROLLERS = (
+    ("The controller (3.7)", BY_EULER),
+    ("The controller (2.2) with the rotation-matrix law", ON_MATRIX),
+    ("The controller (2.2) with the law (2.15)", BY_COMMON),
+)
+"""What they are called in sentences."""
+
 
 EULER = f"hybrid/{COORDINATES}"
 
@@ -76,8 +83,8 @@ def c20(results: Results) -> tuple[Word, Evidence]:
     fails = all(rows["fails"].any() for rows in compared_at.values()) and not clear["fails"].any()
     hides = all(is_hidden for is_hidden, _ in hidden)
     all_failures, all_poles = (sum(map(count, compared_at.values())) for count in (_count_failures, len))
-    at_poles = ", ".join(
-        f"{part_of(_count_failures(rows), len(rows))} starts on the arm {arm}" for arm, rows in compared_at.items()
+    at_poles = join_words(
+        f"{part_of(_count_failures(rows), len(rows))} pole starts on the arm {arm}" for arm, rows in compared_at.items()
     )
     return word_of(is_linear and fails and hides, max(limits) <= LIMIT.BEND_LOOSE and (fails or hides)), evidence(
         f"""We simulated {LIMIT.CURVES * len(arms)} motions on {len(arms)} arms with the full time step and with half of
@@ -86,15 +93,15 @@ def c20(results: Results) -> tuple[Word, Evidence]:
         {max(shares):.3f} times as large. We extrapolated the results to step zero. Then the angles differ from the
         linear response by at most {max(limits):.1e} rad, and the position of the tool differs from its goal by at most
         {max(drifts):.1e} m. A pole start is near a pole, or the shortest path from it to the goal passes near a pole.
-        From these pole starts, the controller (3.7) fails and the rotation-matrix law settles: {at_poles}. In
-        episodes.parquet, {count_of(_count_failures(clear), len(clear), "starts")} of the set 'clear' fail with (3.7)
-        and settle with the rotation-matrix law. With the law of (3.7) and the geometric Jacobian,
+        The controller (3.7) fails and the rotation-matrix law settles from {at_poles}. In episodes.parquet,
+        {count_of(_count_failures(clear), len(clear), "starts")} of the set 'clear' fail with (3.7) and settle with the
+        rotation-matrix law. With the law of the controller (3.7) and the geometric Jacobian,
         {count_of(_count_failures(common), len(common), "starts")} fail in this way.
         {" ".join(said for _, said in hidden)}""",
         sum(samples) + sum(map(len, compared_at.values())) + len(clear) + 3 * len(hidden),
-        measured=f"""The Euler angles differ from the linear response by at most {max(limits):.1e} rad.
-        From {count_of(all_failures, all_poles, "starts")} that test the poles, the controller with the Euler
-        Jacobian (3.7) fails and the rotation-matrix law settles.""",
+        measured=f"""The Euler angles differ from the linear response by at most {max(limits):.1e} rad. From
+        {count_of(all_failures, all_poles, "starts")} whose shortest path to the goal passes near a pole, the controller
+        with the Euler Jacobian (3.7) fails and the rotation-matrix law settles.""",
     )
 
 
@@ -154,7 +161,7 @@ def _hidden(results: Results, joints: int) -> tuple[bool, str]:
     told = " ".join(
         f"{name} takes {total[one].calls or 'no'} calls and {total[one].flops} flops; the "
         f"law within this controller takes {seen[one].flops} of these flops."
-        for name, one in (("(3.7)", BY_EULER), ("(2.2) with the law on R", ON_MATRIX), ("(2.2) with (2.15)", BY_COMMON))
+        for name, one in CONTROLLERS
     )
     return seems_cheaper and is_dearer, f"On arms with {joints} joints, we counted these operations. {told}"
 
@@ -169,9 +176,9 @@ TITLES = (
 OPERATIONS = (
     "Joints",
     "Controller",
-    "Flops and calls",
-    "Flops and calls, with those for the Euler angles of the goal",
-    "Time of (3.7), divided by the time of this controller, for each machine and arm",
+    "Flops and calls, without the Euler angles of the goal",
+    "Flops and calls, with the Euler angles of the goal",
+    "Time of (3.7), divided by the time of this controller (a ratio for each machine and arm)",
 )
 """Heads of what was counted and timed of a controller."""
 
@@ -179,12 +186,13 @@ OPERATIONS = (
 @claim("C26")
 def c26(results: Results) -> tuple[Word, Evidence]:
     """Pairs of controllers on six and seven joints."""
-    timed, stands, sizes = results.controller_timings(), [], []
+    timed, stands, counts, surpluses = results.controller_timings(), [], [], []
     rows: list[tuple[str, ...]] = []
     for joints, inverse in INVERSES.items():
         three = {f"{one}+{inverse}": controller_costs(results, one, joints) for one in (BY_COMMON, ON_MATRIX, BY_EULER)}
         alone, whole = ({name: tallied(own, goal) for name, own in three.items()} for goal in (False, True))
-        sizes.append(f"{euler_count(whole, three)} with {joints} joints ({surplus(whole, three)} % more)")
+        counts.append(f"{euler_count(whole, three)} flops on an arm with {joints} joints")
+        surpluses.append(f"{surplus(whole, three)} %")
         times = standing.times_of(timed[timed["contender"].isin(list(three))])
         known = standing.Ledger(times, (alone, whole), math.nan, standing.MEASURABLE)
         *others, euler = three
@@ -194,14 +202,15 @@ def c26(results: Results) -> tuple[Word, Evidence]:
             rows.append((str(joints), title, str(alone[name]), str(whole[name]), ratio))
     dearer = sum(set(one.by_columns) == {ORDERED} for one in stands)
     return word_of(dearer == len(stands), False), evidence(
-        f"""We count the flops and calls of three controllers in a control period. With and without the goal's angles,
-        (3.7) takes more operations than the other controller in {count_of(dearer, len(stands), "pairs")}. The measured
-        times differ in {count_of(sum(bool(one.by_time) for one in stands), len(stands), "pairs")}, and (3.7) takes
-        longer in {count_of(sum(one.by_time == ORDERED for one in stands), len(stands), "pairs")}.""",
+        f"""We counted the flops and calls of three controllers in a control period. A pair is (3.7) and one of the
+        two other controllers, on an arm with 6 or with 7 joints. With and without the goal's angles, (3.7) takes
+        more operations than the other controller in {count_of(dearer, len(stands), "pairs")}. The measured times
+        differ in {count_of(sum(bool(one.by_time) for one in stands), len(stands), "pairs")}, and (3.7) takes longer
+        in {count_of(sum(one.by_time == ORDERED for one in stands), len(stands), "pairs")}.""",
         3 * 2 * len(INVERSES) + len(timed),
         ("costs", "timings") if len(timed) else ("costs",),
-        measured=f"""The controller with the Euler Jacobian (3.7) takes more flops per control step than the
-        cheapest controller with the geometric Jacobian (2.2): {join_words(sizes)}.""",
+        measured=f"""With the Euler Jacobian (3.7), a control step takes {join_words(counts)}. These are
+        {join_words(surpluses)} more than with the cheapest controller on the geometric Jacobian (2.2).""",
         numbers=(OPERATIONS, *rows),
     )
 
@@ -239,7 +248,7 @@ def c33(results: Results) -> tuple[Word, Evidence]:
             f"{euler.calls or 'no'} calls with the Euler Jacobian."
             f"{weighed if math.isfinite(price) else ''}"
         )
-    by_time = f" In this count, a call counts as {price:.0f} flops, because it takes as long as so many flops."
+    by_time = f" In this count, a call counts as {price:.0f} flops, because a call takes as long as {price:.0f} flops."
     return word_of(all(is_more) and all(is_few), all(is_more)), evidence(
         f"{' '.join(told)}{by_time if math.isfinite(price) else ''}",
         2 * len(told),
@@ -286,8 +295,8 @@ def c46(results: Results) -> tuple[Word, Evidence]:
         controller.""",
         len(rows_told),
         measured=f"""The controller (3.7) takes more flops than the cheapest controller that uses (2.2):
-        {join_words(sizes)}. The law within (3.7) takes {law[BY_EULER].flops} flops, and the
-        rotation-matrix law {law[ON_MATRIX].flops} flops.""",
+        {join_words(sizes)}. The law within (3.7) takes {law[BY_EULER].flops} flops, and the rotation-matrix law
+        {law[ON_MATRIX].flops} flops.""",
         numbers=(SIMPLIFIED_HEADS, *rows_told),
     )
 

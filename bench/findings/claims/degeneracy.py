@@ -183,11 +183,11 @@ def c28(results: Results) -> tuple[Word, Evidence]:
     word = word_of(is_none and plane <= LIMIT.SAME_RAD, is_none)
     missed = join_words(f"{angle:.3f} rad for a = {a:.3g} rad" for a, angle in zip(LOOPS_RAD, loops, strict=True))
     return word, evidence(
-        f"""We used {len(ends)} pairs of paths. Both paths of a pair lead to the same orientation, but their integrals
-        differ by {ends.min():.2f} to {ends.max():.2f} rad. A body made four turns, each by an angle a. The integrals of
-        the four turns sum to zero. But after the four turns, the angle of the body's rotation was {missed}. If all
-        turns of a path are about one axis, the integral gives the rotation, with an error of at most {plane:.0e}
-        rad.""",
+        f"""We used {len(ends)} pairs of paths. Both paths of a pair lead to the same orientation, but their
+        integrals differ by {ends.min():.2f} to {ends.max():.2f} rad. A body turned about x, y, -x and -y, by the
+        angle a each time. The integrals of the four turns sum to zero. But after the four turns, the angle of the
+        body's rotation was {missed}. If all turns of a path are about one axis, the integral gives the rotation,
+        with an error of at most {plane:.0e} rad.""",
         2 * len(ends) + len(loops),
         measured=f"""Along two paths to the same orientation, the integrals of the angular velocity
         differ by {named_interval(quantile_estimate(ends, 0.5), ".2f", " rad")}. This is the median

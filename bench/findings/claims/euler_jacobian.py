@@ -84,7 +84,7 @@ def c18(results: Results) -> tuple[Word, Evidence]:
         J_E is not a zero matrix at any pose.""",
         len(rows),
         measured=f"""At 1e-{LIMIT.NEAREST} rad from a pole, elements of the Euler Jacobian J_E reach
-        {ways["nearest"].max():.0e}. At {percent_interval(worse)} of the random poses where J of the arm is well
+        {ways["nearest"].max():.0e}. At {percent_interval(worse)} of the random poses where the Jacobian J is well
         conditioned, the condition number of J_E is more than ten times that of J.""",
     )
 
@@ -124,14 +124,14 @@ def c19(results: Results) -> tuple[Word, Evidence]:
     word = word_of(everywhere, all((part <= ROUNDINGS).all() for part in away))
     return word, evidence(
         f"""At {len(rows):,} poses of {rows["arm"].nunique()} arms, the Jacobians by (3.3) and by (3.5) differ by at
-        most {derived.max():.1f} eps / cos(beta) of the largest element. At {len(kept):,} of these poses, we also
+        most {derived.max():.1f} eps / cos(beta) times the largest element. At {len(kept):,} of these poses, we also
         differentiated the forward kinematics numerically. This result and the Jacobian by (3.3) differ by at most
-        {measured.max():.1f} eps^(2/3) / cos(beta) of the largest element. We left out the poses
-        at which an angle jumps between the two points of the finite difference
-        ({part_of(len(differenced) - len(kept), len(differenced))} poses).""",
+        {measured.max():.1f} eps^(2/3) / cos(beta) times the largest element. We left out the poses at which an angle
+        jumps between the two points of the finite difference ({part_of(len(differenced) - len(kept), len(differenced))}
+        poses).""",
         len(rows),
-        measured=f"""At {len(rows):,} poses, the Jacobians by the two derivations differ by at most
-        {derived.max():.1f} eps / cos(beta) of the largest element. This is rounding (eps = 2.2e-16).""",
+        measured=f"""At {len(rows):,} poses, the Jacobians by the two derivations differ by at most {derived.max():.1f}
+        eps / cos(beta) times the largest element. This is rounding (eps = 2.2e-16).""",
     )
 
 

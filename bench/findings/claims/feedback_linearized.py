@@ -104,11 +104,11 @@ def c10(results: Results) -> tuple[Word, Evidence]:
     so = " Therefore the division by zero is in B^-1." if math.isfinite(largest) else ""
     return word_of(passes and divides, passes), evidence(
         f"""{capitalize(count_of(finite, len(commands), "commands"))} at exact poles are finite.
-        {capitalize(settled_of(exact, "starts"))} at exact poles settle. The largest element of B at these
-        poles is {largest:.3f}.{so} If the body spins near a pole, the length |u| of the command is proportional to
-        a power of cos(beta). Its exponent is {slope:.3f}. The largest command is {grown:.1e} rad/s^2. When alpha or
-        gamma passes +-pi, the smallest jump of the command is {float(jumps.min()):.4f} times 2 pi
-        Kp, and the largest jump is {float(jumps.max()):.4f} times 2 pi Kp.""",
+        {capitalize(settled_of(exact, "starts"))} at exact poles settle. The largest element of B at these poles is
+        {largest:.3f}.{so} If the body spins near a pole, the length |u| of the command is proportional to a power of
+        cos(beta), and the exponent is {slope:.3f}. The largest command is {grown:.1e} rad/s^2. When alpha or gamma
+        passes +-pi, the smallest jump of the command is {float(jumps.min()):.4f} times 2 pi Kp, and the largest jump is
+        {float(jumps.max()):.4f} times 2 pi Kp.""",
         len(commands) + len(exact) + len(jumps),
         measured=f"""{capitalize(count_of(finite, len(commands), "commands"))} at exact poles (beta = +-pi/2) are
         finite. When alpha or gamma passes +-pi, the command jumps by up to {float(jumps.max()):.4f} times
@@ -164,16 +164,16 @@ def c11(results: Results, engine: str) -> tuple[Word, Evidence]:
         point than the margin, and counted the erratic starts among the others. The counts below are in the order of
         these margins. Among {int((~spins).sum()):,} starts at rest, the numbers of erratic starts are {at_rest}. Among
         {int(spins.sum())} random starts that spin (start set 'tumbling'), they are {spinning}. Among {probes.BESIDE}
-        starts that spin at {probes.SPEED:g} rad/s just outside the excluded region of a pole, they are {near}. Outside
-        the smallest excluded region, the largest command is {next(peaks):,.0f} rad/s^2 from starts at rest, and
-        {next(peaks):,.0f} rad/s^2 from starts of the set 'tumbling'. From {len(clear)} starts of this set, the body
-        never comes within {widest} rad of a pole. Of these starts,
-        {int(erratic[clear.index].sum()) or "none"} are erratic.""",
+        starts that spin at {probes.SPEED:g} rad/s just outside the excluded region of a pole, they are {near}. For
+        starts outside the smallest excluded region, the largest command is {next(peaks):,.0f} rad/s^2 (starts at rest)
+        and {next(peaks):,.0f} rad/s^2 (starts of the set 'tumbling'). From {len(clear)} starts of the set 'tumbling',
+        the body never comes within {widest} rad of a pole. Of these starts, {int(erratic[clear.index].sum()) or "none"}
+        are erratic.""",
         len(frame) + sum(len(one) for one in beside),
-        measured=f"""Of {int((~spins).sum()):,} starts at rest, {resting[0] or "none"} outside the excluded
-        region are erratic (the body does not settle, or the command is extremely large). Of {probes.BESIDE} starts
-        that spin at {probes.SPEED:g} rad/s just outside this region, {passed[0] or "none"} are erratic."""
-        .replace("XX", ""),
+        measured=f"""Of {int((~spins).sum()):,} starts at rest, {resting[0] or "none"} outside the excluded region are
+        erratic. (A start is erratic if the body does not settle, or if the command is extremely large.) Of
+        {probes.BESIDE} starts that spin at {probes.SPEED:g} rad/s just outside this region, {passed[0] or "none"} are
+        erratic.""",
     )
 
 
@@ -215,12 +215,13 @@ def c30(results: Results) -> tuple[Word, Evidence]:
     as_quick = all(own <= (1 + LIMIT.SLACK) * other for other, own in times)
     of_inertia = word_of(keeps and as_quick, keeps)
     return Word.UNTESTED, evidence(
-        f"""The paper's sentence is about errors of B and of Bdot, which are not tested. We tested a statement of our
-        own: feedback linearization needs no better model of the inertia than a law without a model. This statement
-        {of_inertia}. The table compares both laws from the same {LIMIT.STARTS} starts. For comparison, a linear system
-        with twice the inertia takes {heavy / linear:.2f} times as long to settle.""",
+        f"""The paper's sentence is about errors of B and of Bdot, which are not tested. We tested a statement of
+        our own: feedback linearization needs no better model of the inertia than the rotation-matrix law, which
+        contains no model. This statement {of_inertia}. The table compares both laws from the same {LIMIT.STARTS}
+        starts. For comparison, a linear system with twice the inertia of its model takes {heavy / linear:.2f} times
+        as long to settle.""",
         sum(map(len, runs)),
-        measured=f"""Errors of B are not tested. If the inertia of the body is {heaviest:g} times that
+        measured=f"""Errors of the matrix B are not tested. If the inertia of the body is {heaviest:g} times that
         of the model, the median settling time grows by a factor of {own_slow:.2f} with feedback
         linearization, and by a factor of {other_slow:.2f} with the rotation-matrix law.""",
         instead=f"""We did not test whether an error of B or of Bdot is a problem. We judged a statement of our own:

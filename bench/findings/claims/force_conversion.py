@@ -67,8 +67,8 @@ def c21(results: Results) -> tuple[Word, Evidence]:
         reaches {found.loc[~poles, "gain"].max():.1e}, as 1 / cos(beta) predicts.""",
         len(found) + len(looped),
         measured=f"""At {len(found):,} orientations, the work of the measured moment and of the converted moment is the
-        same, to {found["gap"].max() / EPS:.1f} eps (rounding). Near the poles, the controller amplifies moments by a
-        factor of up to {found.loc[~poles, "gain"].max():.1e}.""",
+        same: the difference is at most {found["gap"].max() / EPS:.1f} eps (rounding; eps = 2.2e-16). Near the poles,
+        the controller amplifies moments by a factor of up to {found.loc[~poles, "gain"].max():.1e}.""",
     )
 
 

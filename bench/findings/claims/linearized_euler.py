@@ -58,7 +58,7 @@ def c06(results: Results, engine: str) -> tuple[Word, Evidence]:
         least >= LIMIT.INSIDE_TIGHT and outside.value <= 1 - LIMIT.OUTSIDE_SHARE, least >= LIMIT.INSIDE_LOOSE
     )
     how = uniform["outcome"][~settled(uniform)]
-    ends = ", ".join(f"{end} ({count(n, 'start')})" for end, n in how.value_counts().items() if n)
+    ends = ", ".join(f"'{end}' ({count(n, 'start')})" for end, n in how.value_counts().items() if n)
     ends = ends or "none, because all settle"
     failure = "Along geodesics from the goal, the law fails from no start."
     if len(fails):
@@ -67,8 +67,8 @@ def c06(results: Results, engine: str) -> tuple[Word, Evidence]:
     return word, evidence(
         f"""The box is the range of angles that the paper claims. Of all uniform starts, {whole} settle. Of the uniform
         starts inside the box, {inside} settle. Of the uniform starts outside the box, {outside} settle. Of the starts
-        of the start set “box” that are inside the box, {directed} settle. The uniform starts that do not settle end
-        as follows: {ends}. {failure} {capitalize(count_of(len(sure), len(every), "episodes"))} converge, that is, a
+        of the start set “box” that are inside the box, {directed} settle. The outcomes of the uniform starts that do
+        not settle are: {ends}. {failure} {capitalize(count_of(len(sure), len(every), "episodes"))} converge, that is, a
         shorter time step does not change the result.""",
         len(every) + len(fails),
         measured=f"""Of {whole.n:,} uniform random starts, {percent_interval(whole)} settle. Of the uniform random
@@ -99,18 +99,18 @@ def c07(results: Results, engine: str) -> tuple[Word, Evidence]:
     return word, evidence(
         f"""An episode converges if a shorter time step does not change its result. In {len(passing)} episodes, the body
         comes within {math.degrees(math.asin(LIMIT.PASSING)):.1f} degrees of a pole, and
-        {part_of(len(converged(passing)), len(passing))} episodes converge. In {percent(lost_passing.value)} % of
-        those that converge, the body does not settle.
-        The 95 % interval of this share is {percent(lost_passing.low)} to {percent(lost_passing.high)} %. Its lower
-        end counts the episodes that do not converge as settled, and its upper end counts them as lost. In
+        {part_of(len(converged(passing)), len(passing))} episodes converge. In {percent(lost_passing.value)} % of the
+        episodes near a pole that converge, the body does not settle. The 95 % interval of this share is
+        {percent(lost_passing.low)} to {percent(lost_passing.high)} %. For the lower end of the interval, we count the
+        episodes that do not converge as settled; for the upper end, we count them as lost. In
         {percent_interval(lost_rest)} of the episodes in which the body stays farther from the poles, it does not
         settle. The median peak command is {named_interval(peak, ",.0f", " rad/s^2")} in the episodes near a pole, and
         {named_interval(rest_peak, ",.0f", " rad/s^2")} in the other episodes. We also simulated starts at rest near a
         pole. Of the episodes from these starts, {len(poles) - len(beside)} do not converge. In
         {settled_of(beside, "episodes")} that converge, the body settles.""",
         len(frame) + len(poles),
-        measured=f"""From {len(passing)} starts, the body comes close to a pole (beta = +-pi/2). Of these starts,
-        {percent_interval(lost_passing)} never settle. Of the other starts, {percent(lost_rest.value)} % never
+        measured=f"""From {len(passing)} uniform starts, the body comes close to a pole (beta = +-pi/2). Of these
+        starts, {percent_interval(lost_passing)} never settle. Of the other starts, {percent(lost_rest.value)} % never
         settle.""",
     )
 
@@ -129,12 +129,12 @@ def c08(results: Results, engine: str) -> tuple[Word, Evidence]:
         f"""The law that subtracts E_d reaches {base} of the goals of the start set “goals”. It also reaches
         {count_of(near.k, near.n, "goals")} at {LIMIT.NEAR_GOAL_RAD} rad from zero rotation. The law with angles
         measured from the goal reaches {cure} of the goals of the start set “goals”. If the goal is zero rotation, the
-        law with angles measured from the goal settles from {zero} of the uniform starts. By its eigenvalues near a
-        goal, the law that subtracts E_d is stable at {percent(held_goals.held_share(results.gains()))} % of all goals.
-        It is stable at a goal if |alpha_d| is below a limit. This limit is
-        {math.degrees(math.acos(held_goals.least_cosine(0.0, results.gains()))):.1f} degrees at beta_d = 0 and 90
-        degrees at the poles, and does not depend on gamma_d. The command u that the paper prints contains no
-        goal.""",
+        law with angles measured from the goal settles from {zero} of the uniform starts. We linearized the closed loop
+        near each goal. The linear model of the law that subtracts E_d is stable at
+        {percent(held_goals.held_share(results.gains()))} % of all goals. The model is stable at a goal if |alpha_d| is
+        below a limit. This limit is {math.degrees(math.acos(held_goals.least_cosine(0.0, results.gains()))):.1f}
+        degrees at beta_d = 0 and 90 degrees at the poles, and does not depend on gamma_d. The command u that the paper
+        prints contains no goal.""",
         base.n + cure.n + zero.n + near.n,
         measured=f"""If the linearized law subtracts the angles E_d of the goal, it reaches {percent_interval(base)} of
         {base.n} goals. If the law uses angles measured from the goal, it reaches {percent(cure.value)} % of these
@@ -159,11 +159,11 @@ def c29(results: Results) -> tuple[Word, Evidence]:
     )
     is_tight, is_loose = (small <= SMALL_ANGLES + ticks).all(), (small <= LOOSE_SETTLING + ticks).all()
     return word_of(is_tight, is_loose), evidence(
-        f"""We tested {LIMIT.DIRECTIONS} axes at {len(GAINS)} pairs of gains. Settling times differ from the closed form
-        of the linear model by at most {by_angle}. With the gains of the run, the closed form gives a settling time of
-        {closed_form.linear_settling(*gains):.4f} s. With these gains, we also tried rotations of
-        {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} rad. Up to {within:g} rad, every settling time is within
-        {100 * LOOSE_SETTLING:.0f} % of the closed form.""",
+        f"""We tested rotations about {LIMIT.DIRECTIONS} axes, at {len(GAINS)} pairs of gains. Settling times differ
+        from the closed form of the linear model by at most {by_angle}. With the gains of the run, the closed form
+        gives a settling time of {closed_form.linear_settling(*gains):.4f} s. With these gains, we also tried
+        rotations of {", ".join(f"{angle:g}" for angle in LIMIT.LARGER_RAD)} rad. Up to {within:g} rad, every
+        settling time is within {100 * LOOSE_SETTLING:.0f} % of the closed form.""",
         LIMIT.DIRECTIONS * (small.size + len(LIMIT.LARGER_RAD)),
         measured=f"""For rotations of at most {max(SMALL_ANGLES):g} rad about {LIMIT.DIRECTIONS}
         axes, the settling times of the linearized law differ from those of its linear model by at
@@ -226,8 +226,8 @@ def c38(results: Results) -> tuple[Word, Evidence]:
         instead=f"""The law does not settle from {percent(unsettled.value)} % of the starts outside the linear region.
         From the other starts, the settling time differs from that of the linear model by {percent(typical)} %
         (median).""",
-        measured=f"""{percent_interval(unsettled)} of starts at {LIMIT.BEYOND_RAD:g} rad or more never settle. Other
-        settling times differ from the linear ones by {percent(typical)} % (median).""",
+        measured=f"""{percent_interval(unsettled)} of starts at {LIMIT.BEYOND_RAD:g} rad or more never settle.
+        Others settle {percent(typical)} % faster or slower than the linear model (median).""",
     )
 
 

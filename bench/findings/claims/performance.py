@@ -75,8 +75,8 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         ordered["measured times" if pair.by_time else "counted operations"].append(" and ".join(neighbours))
     parts = {what: ", and of ".join(each) for what, each in ordered.items() if each}
     decided = " ".join(f"The {what} decide the order of {laws}." for what, laws in parts.items())
-    instead = f"""The paper's order is right if times and operations are used together. {decided}
-        By flops alone, the order from the cheapest law is: {by_flops}."""
+    instead = f"""The paper's order is right if times and operations are used together. {decided} By flops alone, the
+    order is (the cheapest law first): {by_flops}."""
     word = word_of(by_one_measure, is_ordered or all(np.logical_or(in_order, [pair.is_disputed for pair in pairs])))
     return word, evidence(
         f"""The computing times per control period, divided by the time of the rotation-matrix law, are {timed}. The
@@ -84,7 +84,7 @@ def c12(results: Results) -> tuple[Word, Evidence]:
         intervals of the two times do not overlap. The numbers of flops and of calls (of sin, cos, atan2 or acos) are:
         {paper}. If a law on Euler angles also computes the goal's angles from the goal's rotation matrix, the numbers
         are: {total}. In {count_of(sum(0 not in pair.by_columns for pair in pairs), len(pairs), "pairs")}, flops and
-        calls give the same order.{priced} By flops alone, the order from the cheapest law is: {by_flops}.
+        calls give the same order.{priced} By flops alone, the order is (the cheapest law first): {by_flops}.
         {as_printed}""",
         len(THREE) * (len(known.accountings) + len(known.times)),
         ("costs", "timings") if known.times else ("costs",),
@@ -128,16 +128,18 @@ def c17(results: Results, engine: str) -> tuple[Word, Evidence]:
     if open_yet:
         lacking = "; ".join(f"{name} ({asked[name]})" for name in open_yet)
         instead = f"Whether a law is adequate in both cost and performance is not tested: {lacking}."
+    within = "fewer than 99 % of uniform starts settle"
+    if np.isfinite(three[0].pace.value):
+        within = f"99 % of uniform starts settle within {tables.named_interval(three[0].pace, '.2f', ' s')}"
     beside = probes.beside_pole(0.1, THREE[-1], results.gains(), results.dt_s)
     return word, evidence(
         f"""{fine} adequate in both cost and performance. The settling time of a small error is {linear:.3f} s. Starts
-        that spin at {probes.SPEED:g} rad/s near a pole do not count. Feedback linearization settles from
-        {count_of(int(settled(beside).sum()), len(beside), "starts of this kind")}.""",
+        that spin at {probes.SPEED:g} rad/s near a pole do not count for the verdict. Feedback linearization settles
+        from {count_of(int(settled(beside).sum()), len(beside), "starts of this kind")}.""",
         len(THREE) + sum(law.rows for law in three),
         ("episodes", "costs", "timings") if known.times else ("episodes", "costs"),
         instead,
-        f"""{fine} adequate in both cost and performance. The rotation-matrix law takes
-        {tables.interval_or_never(three[0].pace, ".2f", " s")} until 99 % of the uniform starts settle.""",
+        f"{fine} adequate in both respects. With the rotation-matrix law, {within}.",
         (PLACES, *(_placed(law, asked[name], known) for name, law in zip(NAMES, three, strict=True))),
     )
 
@@ -154,8 +156,8 @@ PLACES = (
     "Uniform starts that settle",
     "Difficult starts that do not settle",
     "Starts exactly on a boundary that do not settle",
-    "Spinning starts that do not settle",
-    "Time until 99 % of the uniform starts settle",
+    "Spinning starts that do not settle (95 % interval in brackets)",
+    "Time until 99 % of the uniform starts settle (95 % interval in brackets)",
     "Flops and calls",
     "Computing time, divided by that of the rotation-matrix law",
 )
@@ -215,14 +217,14 @@ def c27(results: Results, engine: str) -> tuple[Word, Evidence]:
     if answers:
         instead = f"These laws pass all eight tests and so answer the open question: {named}.{impossible}"
     return word, evidence(
-        f"""We tested {by_others} later laws by others, of which we adapted {counts[ADAPTED]}, and {counts[OURS]} later
-        laws of ours. {capitalize(count_of(len(adequate), len(later), "later laws"))} are adequate in both cost and
-        performance, that is, they pass tests (a) to (d). These laws pass all eight tests: {", ".join(told) or "none"}.
-        The paper's laws on Euler angles take {" and ".join(known.over(name, THREE[0]) for name in THREE[1:])} times as
-        long as the rotation-matrix law. For laws that were not timed, operations decide:
-        {", ".join(untimed) or "none"}.
-        By the measured times, a call takes {known.price:.0f} flops. A small error settles in {small:.3f} s, and the
-        longest adequate settling time is {adequacy.SLOW * small:.3f} s.""",
+        f"""We tested {by_others} later laws by others, of which we adapted {counts[ADAPTED]}, and {counts[OURS]}
+        later laws of ours. {capitalize(count_of(len(adequate), len(later), "later laws"))} are adequate in both
+        cost and performance, that is, they pass tests (a) to (d). These laws pass all eight tests:
+        {", ".join(told) or "none"}. The paper's laws on Euler angles take
+        {" and ".join(known.over(name, THREE[0]) for name in THREE[1:])} times as long as the rotation-matrix law.
+        For laws that were not timed, operations decide: {", ".join(untimed) or "none"}. By the measured times, a
+        call takes as long as {known.price:.0f} flops. A small error settles in {small:.3f} s, and the longest
+        adequate settling time is {adequacy.SLOW * small:.3f} s.""",
         sum(law.rows + held.get(law.name, (0, 0))[1] for law in later),
         instead=instead,
         measured=f"""{capitalize(count_of(len(answers), len(later), "later laws"))} (all laws except
@@ -238,7 +240,7 @@ ANSWERS = (
     "Flops and calls",
     "Computing time, divided by that of the rotation-matrix law",
     "Uniform starts that settle",
-    "Time until 99 % of the uniform starts settle",
+    "Time until 99 % of the uniform starts settle (95 % interval in brackets)",
     "Length of the path, divided by that of the shortest path (greatest value)",
 )
 """Heads of what was measured of a later law."""
@@ -290,22 +292,24 @@ def c31(results: Results) -> tuple[Word, Evidence]:
     ratios = [_gain(tables.settling_times(laws[-1]), tables.settling_times(one)) for one in laws[:-1]]
     is_better = all(ratio.low >= LIMIT.DRAMATIC for ratio in ratios) and mine.low > linearized.high
     longer = [tables.interval_or_never(ratio, ".2f") for ratio in ratios]
+    by_matrix = tables.named_interval(ratios[0], ".2f")
     settles = [tables.brief_interval(one) for one in ranges]
     return word_of(is_better and mine.low > matrix.high, is_better and mine.high >= matrix.low), evidence(
         f"""Of {matrix.n:,} uniform starts, {percent(matrix.value)} % settle with the rotation-matrix law,
         {percent(linearized.value)} % with the linearized law, and {percent(mine.value)} % with feedback
         linearization.""",
         3 * len(laws[-1]),
-        instead=f"""The time until {100 * LIMIT.NEARLY_ALL:.0f} % of the starts have settled is {longer[0]} times as
-        long with the rotation-matrix law as with feedback linearization. The rotation-matrix law settles from
+        instead=f"""The time until {100 * LIMIT.NEARLY_ALL:.0f} % of the starts settle is {by_matrix} times as long
+        with the rotation-matrix law as with feedback linearization. The rotation-matrix law settles from
         {count_of(matrix.k, matrix.n, "starts")}.""",
-        measured=f"""The time until 99 % of the starts have settled is {longer[0]} times as long with
-        the rotation-matrix law as with feedback linearization.""",
+        measured=f"""The time until 99 % of the starts settle is {by_matrix} times as long with the rotation-matrix
+        law as with feedback linearization.""",
         numbers=(
             (
                 "Law",
                 "Uniform starts that settle (95 % interval in brackets)",
-                "Time until 99 % of the starts settle, divided by this time with feedback linearization",
+                "Time until 99 % of the starts settle, divided by this time with feedback linearization "
+                "(95 % interval in brackets)",
             ),
             *zip(THREE, settles, (*longer, "1"), strict=True),
         ),
@@ -364,9 +368,9 @@ def c36(results: Results) -> tuple[Word, Evidence]:
     in_words = dict(zip(THREE, IN_WORDS, strict=True))
     told = " ".join(
         f"{capitalize(in_words[one.name])} {tested[one.name].in_words().replace('fails ', 'fails these tests: ')}. "
-        f"With this law, {percent(one.settled)} % of {one.n:,} uniform starts settle. {_paced(one)} The "
-        f"body does not settle from {part_of(one.lost, one.directed)} difficult starts and from "
-        f"{part_of(one.lost_exact, one.exact)} starts exactly on a boundary."
+        f"With this law, {percent(one.settled)} % of {one.n:,} uniform starts settle. {_paced(one)} "
+        f"{capitalize(part_of(one.lost, one.directed))} difficult starts and "
+        f"{part_of(one.lost_exact, one.exact)} starts exactly on a boundary are lost."
         for one in three
     )
     word = word_of(len(three) == len(THREE) and all(result.failed for result in tested.values()), False)
@@ -374,15 +378,15 @@ def c36(results: Results) -> tuple[Word, Evidence]:
         word = Word.UNTESTED
     by_name = {law.name: law for law in three}
     on_boundary = join_words([
-        f"{part_of(by_name[name].lost_exact, by_name[name].exact)} with {law}"
+        f"{part_of(by_name[name].lost_exact, by_name[name].exact)}{' do not settle' * (law == IN_WORDS[0])} with {law}"
         for law, name in zip(IN_WORDS, THREE, strict=True)
         if name in by_name
     ])
     return word, evidence(
         f"{told} The brackets after a time give its 95 % interval.",
         sum(law.rows for law in three),
-        measured=f"""Some starts are exactly on a boundary (a 180° rotation, a pole or an angle of ±π). These do
-        not settle: {on_boundary}.""",
+        measured=f"""Some starts are exactly on a boundary (a 180° rotation, a pole or an angle of ±π). Of these,
+        {on_boundary}.""",
     )
 
 

@@ -34,14 +34,14 @@ def c40(results: Results) -> tuple[Word, Evidence]:
         f"""There are {len(trios)} choices of three elements of n and o, and {len(possible)} of these choices can be
         eliminated. The elimination divides by the determinant of the derivatives of (2.5) with respect to the three
         elements. We call a quarter of this determinant the divisor. At {LIMIT.MATRICES} random orientations, the
-        divisor differs from a product of two elements of R by at most {off:.0e}. Therefore the divisor is zero at some
-        orientations. For each of these choices, a second matrix has the same three remaining elements and satisfies
-        (2.5) to within {left:.0e}. At the median orientation, the second matrix differs from R by at least {apart:.2f}
-        in one element.""",
+        divisor differs from a product of two elements of R by at most {off:.0e}. Therefore the divisor is zero at
+        some orientations. For each of these {len(possible)} choices, a second matrix has the same three remaining
+        elements and satisfies (2.5) to within {left:.0e}. At the median orientation, the second matrix differs from
+        R by at least {apart:.2f} in one element.""",
         LIMIT.MATRICES * len(trios),
-        measured=f"""{capitalize(count_of(len(possible), len(trios), "choices"))} of three elements
-        can be eliminated. But two different rotation matrices have the same three elements that remain.
-        At the median orientation, these two matrices differ by {apart:.2f} or more in one element.""",
+        measured=f"""{capitalize(count_of(len(possible), len(trios), "choices"))} of three elements can be
+        eliminated. But the three remaining elements do not determine the matrix: a second matrix has the same
+        three. At the median orientation, the two matrices differ by {apart:.2f} or more in one element.""",
     )
 
 
@@ -171,10 +171,10 @@ def c43(results: Results) -> tuple[Word, Evidence]:
     return word_of(longer.value >= LIMIT.LONGER and uneven >= LIMIT.UNEVEN, False), evidence(
         f"""We took {LIMIT.MATRICES} pairs of random orientations. Between the two orientations of a pair, a
         straight line in Z-Y-X angles is {longer.value:.2f} times as long as the shortest path (median). A straight
-        line in the rotation vector from one orientation to the other is the shortest path. Errors of the three Z-Y-X
-        angles turn the hand. For error vectors of the same length, the greatest turn of the hand is {uneven:.2f} times
-        the smallest turn (median). Errors of a small rotation vector turn the hand equally far in all directions.
-        C22 to C25 judge compliance.""",
+        line in the rotation vector from one orientation to the other is the shortest path. A small error in the
+        three Z-Y-X angles is a small rotation of the hand. Among error vectors of the same length, the greatest
+        rotation is {uneven:.2f} times the smallest rotation (median). Near zero rotation, errors of the same length
+        in the rotation vector are rotations by the same angle. C22 to C25 judge compliance.""",
         2 * LIMIT.MATRICES,
         measured=f"""We took {LIMIT.MATRICES} pairs of orientations. Between the two orientations of a pair, a straight
         line in Z-Y-X angles is {longer.value:.2f} times as long as the shortest path. This is the median; its

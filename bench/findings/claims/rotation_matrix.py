@@ -84,9 +84,10 @@ def c02(results: Results) -> tuple[Word, Evidence]:
     largest, count = max(one.max() for one in off), sum(map(len, off))
     is_tight = all((one <= most).all() for one, most in zip(off, allowed, strict=True))
     return word_of(is_tight, largest <= LOOSE_SETTLING), evidence(
-        f"""We simulated {count} small rotations at {len(GAINS)} pairs of gains. The linear model gives settling times
-        of {min(times):.3f} to {max(times):.3f} s ({closed_form.linear_settling(*Gains()):.4f} s at the paper's gains).
-        The simulated settling times differ from those of the linear model by at most {percent(largest)} %.""",
+        f"""We made {count} simulations of small rotations, with {len(GAINS)} pairs of gains. The linear model gives
+        settling times of {min(times):.3f} to {max(times):.3f} s ({closed_form.linear_settling(*Gains()):.4f} s at the
+        paper's gains). The simulated settling times differ from those of the linear model by at most {percent(largest)}
+        %.""",
         count,
         measured=f"""We chose {len(GAINS)} pairs of gains, for which the linear model gives settling times of
         {min(times):.2f} to {max(times):.2f} s. The simulated settling times of {count} small rotations differ from
@@ -149,12 +150,12 @@ def c04(results: Results, engine: str) -> tuple[Word, Evidence]:
         f"""We tested {len(exact)} exact 180° rotations. The largest length |e| of the error at these rotations is
         {largest:.1g}. The body settles from {count_of(int(settled(exact).sum()), len(exact), "rotations")}. At
         {parallel} rotations (about x, y and z), each of the three cross products is zero. At the other
-        {len(exact) - parallel} rotations, only the sum of the three products is zero. The largest length of one product
-        is {max(products):.2f}.""",
+        {len(exact) - parallel} rotations, only the sum of the three products is zero. The longest of all these products
+        has the length {max(products):.2f}.""",
         len(exact),
-        measured=f"""We computed the error vector of the rotation-matrix law at {len(exact)} exact 180° rotations. Its
-        largest length is {largest:.1g}. At {parallel} of these rotations (about x, y and z), each of the three cross
-        products is zero.""",
+        measured=f"""The error of the rotation-matrix law is half the sum of three cross products. At {len(exact)} exact
+        180° rotations, the largest length of this error is {largest:.1g}. At {parallel} of these rotations (about x, y
+        and z), each of the three products is zero.""",
     )
 
 
@@ -176,11 +177,12 @@ def c05(results: Results) -> tuple[Word, Evidence]:
     cancel = sum(_size(R) <= ZERO_ERROR < _largest_product(R) for R in probes.rotations(exact))
     readings = (least < LIMIT.NEAR_ZERO, cancel > 0)
     return word_of(all(readings), any(readings)), evidence(
-        f"""The paper's sentence has two possible meanings, (a) and (b). For meaning (a), we computed |e| at
-        {len(frame):,} starts and at {states:,} orientations of a search. All these orientations are away from 180°. At
-        these orientations, |e| / sin(angle) is at least {lowest:.9f}, and |e| is at least {least:.1e}. For meaning (b),
-        we tested {len(exact)} exact 180° rotations. At {cancel} of these rotations, the sum of the three cross products
-        is zero, but not all of the products are zero.""",
+        f"""The paper's sentence has two possible meanings. Meaning (a): the error e is zero at some orientation away
+        from 180°. We computed |e| at {len(frame):,} starts and at {states:,} orientations of a search, which are all
+        away from 180°. At these orientations, |e| / sin(angle) is at least {lowest:.9f}, and |e| is at least
+        {least:.1e}. Meaning (b): at an exact 180° rotation, the sum of the three cross products is zero, but one of the
+        products is not zero. We tested {len(exact)} exact 180° rotations. At {cancel} of these rotations, the sum of
+        the three cross products is zero, but not all of the products are zero.""",
         len(frame) + states + len(exact),
         measured=f"""At {cancel} of {len(exact)} exact 180° rotations, the sum of the three cross products is zero, but
         not all of the products are zero. Away from 180°, the length |e| of the error is at least {lowest:.4f} times the
@@ -237,10 +239,10 @@ def c32(results: Results) -> tuple[Word, Evidence]:
     sound = bool(np.isfinite(ours).all() and off.max() <= LIMIT.ROUNDINGS * EPS and not asked and not ended)
     broken = ", ".join(f"'{outcome}'" for outcome in LIMIT.BROKEN[:-1])
     return word_of(sound and relative.max() <= LIMIT.DIGITS, sound), evidence(
-        f"""At {len(frame):,} starts, the rounding error of the orientation error e is at most {off.max() / EPS:.1f} eps
-        (eps = 2.2e-16). Away from the goal and from 180° rotations, the rounding error is at most
-        {relative.max():.1e} times the length of e. The rotation-matrix law takes {asked or "no"} divisions and function
-        calls. {capitalize(count_of(ended, len(every), "episodes"))} with this law end with the outcome
+        f"""At {len(frame):,} starts, the rounding error of the orientation error e is at most {off.max() / EPS:.1f}
+        eps (eps = 2.2e-16). Away from the goal and from 180° rotations, the rounding error is at most
+        {relative.max():.1e} times the length of e. The rotation-matrix law contains {asked or "no"} divisions or
+        calls of functions. {capitalize(count_of(ended, len(every), "episodes"))} with this law end with the outcome
         {broken} or '{LIMIT.BROKEN[-1]}'.""",
         len(every) + len(costs),
         measured=f"""We computed the orientation error e at {len(frame):,} starts. Away from the goal

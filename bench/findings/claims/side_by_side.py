@@ -24,8 +24,8 @@ PAIRED = ("task", "arm", "form", "pose", "complies")
 
 DECIDES = f"""
     We simulated several variants of force control (the column `form` of compliance.parquet). The verdict comes from the
-    variant '{PAPERS_FORM}', because it is the paper's force control ("converted to joint torques by the Jacobian
-    transpose", 3.3). Our first verdict came from the variants
+    variant '{PAPERS_FORM}', because this variant is the paper's force control ("converted to joint torques by the
+    Jacobian transpose", 3.3). Our first verdict came from the variants
     {" and ".join(f"'{form}'" for form in ACCELERATION_FORMS)}, which command accelerations. We still report the results
     of these variants, judged by the same criterion.
     """

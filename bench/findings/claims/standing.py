@@ -14,17 +14,18 @@ import numpy as np
 
 from bench.base.on_first_use import pd
 from bench.experiments.tables.statistics import Estimate
+from bench.findings.amounts import join_words
 
 ORDERED, UNDECIDED, REVERSED = 1, 0, -1
 
 RULE = """
     For each pair, we ask whether the law that the paper calls cheaper is cheaper. The two laws are timed in turns on
-    one machine (results/timings). The times confirm the paper's order if two conditions are met on every machine that
-    timed both laws: the law that the paper calls cheaper takes less time, and the 95 % intervals do not overlap. The
-    operations confirm this order if the other law has at least as many flops and at least as many calls, and more of
-    one of the two. The times decide. If the intervals overlap, or if one of the laws was not timed, the operations
-    decide. If flops and calls give different orders, their weighted sum decides. In this sum, a call counts as n flops
-    if it takes as long as n flops.
+    one machine (results/timings). The times confirm the paper's order if two conditions are met on every machine on
+    which both laws were timed: the law that the paper calls cheaper takes less time, and the 95 % intervals do not
+    overlap. The operations confirm this order if the law that the paper calls more expensive has at least as many flops
+    and at least as many calls, and more of one of the two. The times decide. If the intervals overlap, or if one of the
+    laws was not timed, the operations decide. If flops and calls give different orders, their weighted sum decides. In
+    this sum, a call counts as n flops if it takes as long as n flops.
     """
 
 MEASURABLE = 0.04
@@ -109,7 +110,7 @@ class Ledger(NamedTuple):
     def over(self, name: str, other: str) -> str:
         """'10.3', the ratio of their times on each machine that has both; 'not timed'."""
         found = [one[name].value / one[other].value for one in self.times if name in one and other in one]
-        return " and ".join(f"{ratio:.3g}" for ratio in found) or "not timed"
+        return join_words(f"{ratio:.3g}" for ratio in found) or "not timed"
 
 
 def agreed(signs: Iterable[int]) -> int:

@@ -124,7 +124,8 @@ class Claim(NamedTuple):
     verdict depends on it. readings: where there are several. judge: results -> (word, evidence). quote: the paper's own
     words; section and equation: where they stand; value: the paper's number. correction: of the paper, what is said
     when the claim holds with one; empty: no criterion of it leads there. instead: what is true where it does not hold,
-    or on what it depends. written: date and commit of the criterion.
+    or on what it depends. written: date and commit of the criterion. replay: the command that makes the episodes again
+    that decide; empty: that of the whole run.
     """
 
     id: str
@@ -141,6 +142,7 @@ class Claim(NamedTuple):
     instead: str = ""
     written: str = ""
     earlier: tuple[Earlier, ...] = ()
+    replay: str = ""
 
     @property
     def paper_order(self) -> tuple:
@@ -253,9 +255,12 @@ class Verdict(NamedTuple):
 
 
 def decide(claim: Claim, results: Any) -> Verdict:
-    """Judge one claim on a run's results; NoEvidence: the tables hold no row about it."""
+    """Judge one claim on a run's results; NoEvidence: the tables hold no row about it.
+
+    A claim that says itself that it is not tested needs no row.
+    """
     word, evidence = claim.judge(results)
-    if evidence.rows < 1:
+    if evidence.rows < 1 and word != Word.UNTESTED:
         raise NoEvidence(
             f"{claim.id}: no row of {', '.join(evidence.tables) or 'any table'} speaks of it; run "
             "the suite 'quick', 'default' or 'full' without narrowing it"

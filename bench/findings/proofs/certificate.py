@@ -175,7 +175,7 @@ def describe_sampled(certificate: dict[str, Any]) -> str:
         return "We did not simulate this law with a sampled command."
     starts = count_of(measured["settled"], measured["starts"], "starts")
     return (
-        "In simulations with the paper's gains and a control period of "
+        "In simulations with the gains of Murphy 1988 and a control period of "
         f"{1e3 * measured['period_s']:g} ms, the body settles from {starts} that we tried."
     )
 

@@ -98,9 +98,9 @@ def describe_resets(law: str) -> str:
     return (
         f"If the goal jumps within the first {SOON_S:g} s, a reset of the memory makes long paths rarer. "
         f"With the reset, {reset.long_percent:.1f} % of the paths are longer than {DETOUR:g} times the "
-        f"shortest path. Without the reset, {kept.long_percent:.1f} % are longer ({kept.far} jumps to a goal more "
-        f"than {FAR_RAD:g} rad away). The reset does not save time: the median settling time is "
-        f"{_range(reset)} s with the reset and {_range(kept)} s without the reset. Reset "
+        f"shortest path. Without the reset, this share is {kept.long_percent:.1f} %. Both are shares of the "
+        f"{kept.far} jumps to a goal more than {FAR_RAD:g} rad away. The reset does not save time: the median "
+        f"settling time is {_range(reset)} s with the reset and {_range(kept)} s without the reset. Reset "
         "the memory if a short path matters; keep the memory if time matters."
     )
 

@@ -195,7 +195,7 @@ def describe_price(law: str, folder: Path = STUDY, called: Called = str) -> str:
     beside = find_price(other, folder)
     return (
         f"The price: the law commands up to {price.peak:.1f} kp ({called(other)}: "
-        f"{beside.peak:.1f} kp). With gains that give both laws the same peak command, in rad/s², "
+        f"{beside.peak:.1f} kp). With gains that give both laws the same peak command (peak, in rad/s²), "
         f"99 % of the starts settle in {price.at_equal_peak:.1f}/√peak seconds ({called(other)}: "
         f"{beside.at_equal_peak:.1f}/√peak seconds). The median overshoot in the random "
         f"situations is {price.typical_overshoot:.1f}° ({called(other)}: "

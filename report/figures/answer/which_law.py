@@ -185,8 +185,12 @@ def describe_halves(halves: int, of: int) -> str:
 
 
 def describe_condition(answer: Answer) -> str:
-    """Return the condition of the answer, and how the command limits in the table of controllers differ from it."""
-    sentences = [prose(call_laws(answer.condition)), NOMINAL_IN_WORDS]
+    """Return the condition of the answer, and how the command limits in the table of controllers differ from it.
+
+    What the nominal situation is stands before the sentences that speak of it.
+    """
+    first, _, others = prose(call_laws(answer.condition)).partition(". ")
+    sentences = [f"{first}.", NOMINAL_IN_WORDS, others]
     for need in answer.needs:
         if need.name == "weak-motors":
             law = families.word(need.law)
@@ -243,7 +247,7 @@ def describe_default() -> str:
     law, rows = find_regions()[0].law, read_map()
     [row] = rows[(rows["situation"] == NOMINAL.word) & (rows["contender"] == law)].to_dict("records")
     return (
-        f"With {families.word(law)}, kp = {KP:g} 1/s², critical damping and no bound, the body settles from every "
+        f"With {families.word(law)}, kp = {KP:g}/s², critical damping and no bound, the body settles from every "
         "start that we tried. From 99 % of these starts the body settles within "
         f"{row['time'] / KP**0.5:.2f} s. Noise up to {NOISE_RAD:g} rad cannot keep the body at "
         f"180°. {words.describe_shares(law)}"

@@ -52,7 +52,9 @@ def facts(run: Run) -> dict:
         "arms-at-home": media.still(HOMES, "arms"),
         "sources": "\n".join(map(describe_arm, tasks.arm_names())),
         "lead": in_run(lambda: lead(of_laws(arm_rows.episodes(run), "uniform"))),
-        "leading": in_run(lambda: leading(of_laws(arm_rows.episodes(run), "uniform"), "settled").replace("(2.2) ", "")),
+        "leading": in_run(
+            lambda: leading(of_laws(arm_rows.episodes(run), "uniform"), "settled", "turns").replace("(2.2) ", "")
+        ),
         "stopped": in_run(lambda: f"{percent_stopped(of_laws(arm_rows.episodes(run), 'uniform')):.0f}"),
         "advised": families.word(one.law) if one and one.law else "none, for this run does not tell",
         "joint_pd": in_run(lambda: joint_pd(arm_rows.episodes(run))),
@@ -135,29 +137,35 @@ def lead(uniform: pd.DataFrame) -> str:
     is_shipped = uniform["kp"] == uniform["arm"].map(lambda arm: (*tasks.arm(arm).gains, 0.0)[0])
     kinds = uniform["kp"].map("Kp = {:g}/s²".format).mask(is_shipped, "the gains shipped for the arm")
     both = uniform.assign(kind=kinds, settled=is_settled)
-    both = compare_settings(both[both.groupby("arm")["kp"].transform("nunique") > 2], ["kp"])
+    has_three = both.groupby("arm")["kp"].transform("nunique") > 2
+    few = join_words(f"the {arm_rows.name_arm(arm)}" for arm in both.loc[~has_three, "arm"].unique())
+    both = compare_settings(both[has_three], ["kp"])
     levels = [f"{100 * own['settled'].mean():.0f} % with {kind}" for kind, own in both.groupby("kind")]
     ends = [f"{arm_rows.name_arm(arm)} ({100 * by_arm[arm]:.0f} %)" for arm in (by_arm.idxmin(), by_arm.idxmax())]
     return (
         "In our simulations, motors give at most their rated torque, and joints stop at the ends of their ranges. "
-        "In the share of episodes that settle from evenly spread starts, "
-        f"{leading(uniform, 'settled').replace('(2.2) ', '')} of the episodes settle. We simulated some arms with "
-        "three pairs of gains. On these arms, with all laws counted together, the share of episodes that settle is "
+        "These results are from evenly spread starts. "
+        f"{leading(uniform, 'settled').replace('(2.2) ', '')} of the episodes settle. We simulated "
+        f"all arms{f' except {few}' if few else ''} with three pairs of gains. "
+        "On these arms, with all laws counted together, the share of episodes that settle is "
         f"{join_words(levels or [html.UNTESTED])}. A joint was at the end of its range in "
         f"{percent_stopped(uniform):.0f} % of the episodes that do not settle. The share of episodes that settle is "
         f"smallest on the {ends[0]} and largest on the {ends[1]}."
     )
 
 
-def leading(rows: pd.DataFrame, measure: str) -> str:
-    """Which law passes most, or which are not distinguished from it, in words."""
+def leading(rows: pd.DataFrame, measure: str, word: str = "episodes") -> str:
+    """Which law passes most, or which are not distinguished from it, in words; word: what the rows are called."""
     names = best(rows, measure, "controller")
     share_of_first = describe_share(rows, names[0], measure)
     if len(names) == 1:
         return f"{arm_rows.title(names[0])} is better than every other law. With this law, {share_of_first}"
     words = join_words(map(arm_rows.title, names)) if len(names) <= FEW else f"{len(names)} laws"
     first = arm_rows.title(names[0])
-    return f"{words} do not differ significantly from the best of them, {first}. With {first}, {share_of_first}"
+    return (
+        f"With {words}, the share of {word} that settle does not differ significantly from the largest share, "
+        f"the share with {first}. With {first}, {share_of_first}"
+    )
 
 
 def joint_pd(rows: pd.DataFrame) -> str:
@@ -175,8 +183,8 @@ def describe_model_errors(run: Run) -> str:
     apart = np.degrees(np.ptp(angles.to_numpy(), axis=1))
     medians = np.degrees(rows.groupby("variation")["final_angle_rad"].median())
     return (
-        "From the same start, the errors of the controllers that we compared differ by "
-        f"{np.median(apart):.1g}° (median). The median error is largest with the variation "
+        "For each start, we computed the difference between the largest and the smallest error of the controllers. "
+        f"The median difference is {np.median(apart):.1g}°. The median error is largest with the variation "
         f"`{medians.idxmax()}`: {medians.max():.1f}°. The median error is smallest with the "
         f"variation `{medians.idxmin()}`: {medians.min():.2f}°."
     )

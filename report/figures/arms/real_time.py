@@ -30,7 +30,7 @@ GAINS = html.Table(
 )
 PARTS = html.Table("Part of the delay | Median [µs] | 99th percentile [µs] | Longest [µs]")
 PART_NAMES = {
-    "published": "From the start of the period until the arm's process has written the state",
+    "published": "From the start of the control period until the arm's process has written the state",
     "read": "From the writing of the state until the controller's process has read this state",
     "written": "From the reading of the state until the controller's process has written the torques",
     "noticed": "From the writing of the torques until the arm's process has read these torques (not counted as delay)",

@@ -51,11 +51,11 @@ def describe_rules(rows: pd.DataFrame) -> str:
     drifts = join_words(f"{value:.0f} mm ({name_rule(word)})" for word, value in drift.items())
     return (
         f"We simulated each rule from {rows.groupby('arm')['start_id'].nunique().max()} starts close to "
-        f"singularities of the wrist, on each arm. On the arms with six joints and unlimited torques, "
+        f"singularities of the wrist, on each arm. If the arms with six joints have unlimited torques, "
         f"{settled[INVERSE]:.0f} % of the episodes with the plain inverse settle, and the largest torque is "
         f"{html.number(torque[INVERSE])} times the rated torque. With the other rules, "
         f"{settled[others].min():.0f} to {settled[others].max():.0f} % of the episodes settle, and the largest "
-        f"torque is {html.number(torque[others].max())} times the rated torque. With limited torques, "
+        f"torque is {html.number(torque[others].max())} times the rated torque. If these arms have limited torques, "
         f"{cut[INVERSE]:.0f} % of the episodes with the plain inverse settle, and {cut[others].min():.0f} to "
         f"{cut[others].max():.0f} % with the other rules. Before these episodes settle, the tool moves away from the "
         f"position that it should keep. The largest distances from this position are {drifts}. With "

@@ -40,13 +40,13 @@ PROPERTIES = {
     "": "",
 }
 EQUILIBRIA = {
-    "none": "The goal is the only orientation at which a body at rest gets no command.",
-    "none, but the command jumps at 180°": "The goal is the only orientation at which a body at rest gets no "
-    "command. The command of the law jumps at 180° rotations from the goal.",
+    "none": "For a body at rest, the command is zero only at the goal.",
+    "none, but the command jumps at 180°": "For a body at rest, the command is zero only at the goal. "
+    "The command of the law jumps at 180° rotations from the goal.",
     "not defined at 180°": "The command of the law is not defined at 180° rotations from the goal.",
     "every 180° rotation": "Every 180° rotation from the goal is also an equilibrium.",
-    "180° rotations about n_d, o_d and a_d": "The three 180° rotations from the goal about its axes n_d, o_d and a_d "
-    "are also equilibria.",
+    "180° rotations about n_d, o_d and a_d": "The three 180° rotations from the goal about the axes n_d, o_d and "
+    "a_d of the goal are also equilibria.",
 }
 """Say where a law can rest away from the goal: the words of a certificate -> a sentence of its card."""
 METHODS = {"Z3": "the solver Z3", "algebra": "computer algebra"}
@@ -144,9 +144,9 @@ def say_property(law: Law, exception: str = "") -> dict[str, str]:
     if "upper" in certificate["settling"]:
         upper = f"{certificate['settling']['upper']:.4f} s"
         text += (
-            " With the paper's gains and from every start at rest, the angle to the goal falls below 2 % of its "
-            f"initial value within {upper}, and then stays below 2 % of it. We proved the bound {upper} with the "
-            "library Arb, which computes with intervals."
+            " With the gains of Murphy 1988 and from every start at rest, the angle to the goal falls below 2 % of its "
+            f"initial value within {upper}, and then stays below this limit of 2 %. We proved the bound {upper} with "
+            "the library Arb for interval arithmetic."
         )
     text += f" {describe_sampled(certificate)}"
     return {"Proved": html.Html(f"{set_words(text)} {html.formula(certificate['V'])}")}

@@ -4,6 +4,8 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
+import pandas as pd
+
 from bench.findings.amounts import capitalize, join_words
 from bench.findings.constants import CONSTANTS, Constant, Varied, default_times, read_rows, vary
 from bench.findings.selection.regions import find_default
@@ -24,11 +26,10 @@ def facts(_: Run) -> dict[str, Any]:
     rows, default = read_rows(), find_default()
     varied = {constant: vary(constant, rows, default) for constant in CONSTANTS}
     moved = [constant.law for constant, every in varied.items() if len({one.rank for one in every}) > 1]
-    times = default_times(rows, default)
     return {
         "default": families.word(default),
         "situations": rows["situation"].nunique(),
-        "usable": int(times.map(math.isfinite).sum()),
+        "usable": count_usable(rows, default),
         "starts": int(rows["starts"].max()),
         "laws": rows["regulator"].nunique(),
         "moved": join_words([families.word(law) for law in dict.fromkeys(moved)]) if moved else "no law",
@@ -56,24 +57,40 @@ def make_rows(varied: dict[Constant, list[Varied]]) -> Iterator[tuple]:
 def describe_constants(law: str) -> str:
     """Say of a law what its constants that are ours do; nothing of a law without such constants."""
     rows, default = read_rows(), find_default()
-    laws = rows["regulator"].nunique()
-    return " ".join(say(one, vary(one, rows, default), default, laws) for one in CONSTANTS if one.law == law)
+    laws, usable = rows["regulator"].nunique(), count_usable(rows, default)
+    return " ".join(say(one, vary(one, rows, default), default, laws, usable) for one in CONSTANTS if one.law == law)
 
 
-def say(constant: Constant, every: list[Varied], default: str, laws: int) -> str:
-    """Say what the values of a constant that were tried do to the time of a law, and to its rank among so many laws."""
+def count_usable(rows: pd.DataFrame, default: str) -> int:
+    """Return in how many situations the body settles with the default law, so that a ratio to its time is known."""
+    return int(default_times(rows, default).map(math.isfinite).sum())
+
+
+def say(constant: Constant, every: list[Varied], default: str, laws: int, usable: int) -> str:
+    """Say what the values of a constant do to the time of a law, and to its rank among so many laws.
+
+    usable: the number of situations of which a ratio is the median.
+    """
     values = sorted(one.value for one in every)
     ratios = [f"{one.ratio:.2f}" for one in sorted(every, key=lambda one: one.ratio)]
-    beside = "its time with the value that we use" if constant.law == default else f"that of {families.word(default)}"
+    word = families.word(default)
+    beside = "its settling time with the value that we use" if constant.law == default else f"that of {word}"
     # a Greek symbol keeps its letter: Δ is another symbol than δ
     name = capitalize(constant.symbol) if constant.symbol[0].isascii() else constant.symbol
     ranks = [f"{one.rank}" for one in sorted(every, key=lambda one: one.rank)]
     return (
         f"{name}: we use {constant.shipped:g}, and we tried {len(values) - 1} other values between "
-        f"{values[0]:g} and {values[-1]:g}. For each value we divided the settling time of the law by {beside}: the "
-        f"median of this ratio in our situations is {_span(ratios)}. The rank of the law by settling time among "
-        f"the {laws} laws that we compared is {_span(ranks)} (rank 1 is the fastest law)."
+        f"{values[0]:g} and {values[-1]:g}. For each value we divided the settling time of the law by {beside}. We "
+        f"took the median of this ratio over the {usable} situations in which the body settles with {word}. This "
+        f"median is {_by_value(ratios)}. We also ranked the law by settling time among {laws} laws (rank 1 is the "
+        f"fastest law). Its rank is {_by_value(ranks)}."
     )
+
+
+def _by_value(ordered: list[str]) -> str:
+    """Say what a number is for the values of a constant: the one that all have, or from the least to the greatest."""
+    first, last = ordered[0], ordered[-1]
+    return f"{first} for each value" if first == last else f"between {first} and {last}, depending on the value"
 
 
 def _span(ordered: list[str]) -> str:

@@ -39,7 +39,7 @@ LAWS = html.Table(
 )
 TEXTS: dict[str, dict[str, str]]
 TEXTS = tomllib.loads(Path(__file__).with_name("laws.toml").read_text(encoding="utf-8"))
-"""Law -> about, limitations, and memory if it differs from MEMORY."""
+"""Law -> about, limitations, limitations-COORDINATES where they differ, and memory if it differs from MEMORY."""
 
 MEMORY = (
     "Reset the memory before the first control step, and after each pause of the control. If the goal "
@@ -74,10 +74,14 @@ def source(regulator: Law) -> Source:
     return Source(Path(regulators.__path__[0]) / name, f"bench/law/contenders/regulators/{name}")
 
 
-def text_of(regulator: Law) -> tuple[str, str]:
-    """Return what the law is and where it fails: in the words of laws.toml, of a user's law in those of its file."""
+def text_of(regulator: Law, coordinates: str = "") -> tuple[str, str]:
+    """Return what the law is and where it fails: in the words of laws.toml, of a user's law in those of its file.
+
+    coordinates: in which it acts; in some of them a law has limitations of its own.
+    """
     if regulator.name in TEXTS and not regulator.origin:
-        return TEXTS[regulator.name]["about"], TEXTS[regulator.name]["limitations"]
+        own = TEXTS[regulator.name]
+        return own["about"], own.get(f"limitations-{coordinates}", own["limitations"])
     return docstring(source(regulator).file) if regulator.law or regulator.law_in else (UNTRUSTED, "")
 
 
@@ -97,7 +101,7 @@ def page(one: Contender, run: Run, live: str = "") -> LawPage:
 def card(one: Contender, run: Run) -> str:
     """Return the card of one law: source, formula, words and costs."""
     title, episodes = laws.title_of(one), run.any_rows("episodes", contender=one.name, engine=engine_of(one.regulator))
-    what, fails = text_of(one.regulator)
+    what, fails = text_of(one.regulator, one.representation.name if one.representation else "")
     found = run.any_rows("command-field", contender=one.name)
     # a law with memory stores its side of 180°, whatever is proved of it
     declared = "global with memory" if one.regulator.memory else one.regulator.property
@@ -111,7 +115,7 @@ def card(one: Contender, run: Run) -> str:
         "Memory": set_words(describe_memory(one.regulator)) if one.regulator.memory else "",
         "Coordinates": f"The law computes its error from {acts}.",
         **({} if one.regulator.costing_only else say_property(one.regulator, except_goals(found))),
-        "Measured": measured(episodes, one.regulator),
+        "Measured": set_words(measured(episodes, one.regulator)),
         "Properties of the command": set_words(command),
         "Recommended": set_words(advised(one.name)),
         "Constants that are ours": set_words(describe_constants(one.name)),
@@ -150,24 +154,23 @@ def measured(episodes: pd.DataFrame, regulator: Law) -> str:
     uniform = episodes[episodes["start_set"] == "uniform"]
     if regulator.costing_only:
         return (
-            "We only counted the operations of this law, and did not simulate it: up to rounding errors, its command "
-            "is the command of another law."
+            "We only counted the operations of this law. We did not simulate this law, because up to rounding errors "
+            "its command is the command of another law, which we simulated."
         )
     if uniform.empty:
         return "The law is not in this run."
     settled = uniform["outcome"] == "settled"
     found = share(settled)
     amount = count_of(int(settled.sum()), len(settled), "uniform starts")
-    of_share = "95\N{NO-BREAK SPACE}% confidence interval of the share of such starts that settle"
-    interval = f"{of_share}: {100 * found.low:.1f} to {100 * found.high:.1f} %"
-    said = f"The body settles from {amount}, which are spread evenly over all orientations ({interval})."
+    said = (
+        f"The body settles from {amount}. Uniform starts are spread evenly over all orientations. The 95 % confidence "
+        f"interval of the share of uniform starts from which the body settles is {100 * found.low:.1f} to "
+        f"{100 * found.high:.1f} %."
+    )
     times = uniform.loc[settled, "settling_time_s"]
     if times.empty:
         return said
-    pace = (
-        f"The median settling time from these starts is {times.median():.2f} s, and the longest settling time "
-        f"is {times.max():.2f} s."
-    )
+    pace = f"The median settling time is {times.median():.2f} s, and the longest settling time is {times.max():.2f} s."
     return f"{said} {pace}"
 
 
@@ -186,29 +189,30 @@ def advised(law: str) -> str:
         return ""
     shares = measure_shares(law, tie=SPOKEN)
     drawn = (
-        f"We drew {shares.qualified.of:,} random situations: combinations of gains, motors and disturbances. In each "
-        "situation our rule (chapter 7) recommends one of the laws that meet the requirements of the rule."
+        f"We drew {shares.qualified.of:,} situations at random. Each situation is a combination of gains, motors and "
+        "disturbances. In each situation our rule (chapter 7) recommends one of the laws that meet the requirements "
+        "of the rule."
     )
     beside = (
         f"In {say_share(shares.qualified.value)} this law meets the requirements of the rule, and no published or "
-        f"adapted law that also meets these requirements settles more than {percent(SPOKEN)} faster. If we also "
-        "compare this law with the published and adapted laws that do not meet the requirements, this share of the "
-        f"situations is {percent(shares.all.value)}."
+        f"adapted law that also meets these requirements is more than {percent(SPOKEN)} faster than this law. If we "
+        "also compare this law with the published and adapted laws that do not meet these requirements, the share of "
+        f"such situations is {percent(shares.all.value)}."
     )
     if is_ours:
         beats = say_share(compare_with_advised(law).value)
         return (
             f"{drawn} The rule does not recommend this law, because this law is ours, and the rule recommends only "
-            f"published and adapted laws. This law settles more than {percent(SPOKEN)} faster than the recommended "
-            f"law in {beats}. {beside}"
+            f"published and adapted laws. This law is more than {percent(SPOKEN)} faster than the recommended law in "
+            f"{beats}. {beside}"
         )
     if region is None:
         return f"{drawn} {beside}"
     price = find_price(law)
     costs = (
         "In the nominal situation (damping ratio 1, no command limit and no delay), the largest command of the law "
-        f"is {price.peak:.1f} kp. With the damping ratio 1, and kp such that this largest command is p rad/s², the "
-        f"body settles from 99 % of the starts within {price.at_equal_peak:.1f}/√p seconds."
+        f"is {price.peak:.1f} kp. If the damping ratio is 1, and kp is chosen such that this largest command is "
+        f"p rad/s², the body settles from 99 % of the starts within {price.at_equal_peak:.1f}/√p seconds."
     )
     recommends = f"The rule recommends this law in {say_share(region.advised)}."
     return f"{drawn} {recommends} {beside} {costs}"
@@ -223,11 +227,12 @@ def line(one: Contender, run: Run) -> tuple:
     """Return a link to a law's card, whose it is, its property, if that is proved, what was measured, its word."""
     law, known = one.regulator, read_certificates().get(one.regulator.name)
     proved = "proved" if known and known["is_proved"] else "measured"
+    stability = law.property if law.property == "none" else f"{law.property}, {proved}"
     uniform = run.any_rows("episodes", contender=one.name, engine=engine_of(one.regulator), start_set="uniform")
     return (
         families.link(one.name, laws.title_of(one)),
         one.attribution,
-        html.together(html.foreign(law.property if law.property == "none" else f"{law.property}, {proved}")),
+        html.MISSING if law.costing_only else html.together(html.foreign(stability)),
         (uniform["outcome"] == "settled").mean() if len(uniform) else None,
         f"`{one.name}`",
     )

@@ -21,8 +21,8 @@ SLIPS = html.Table("Error | Where in the paper | Printed words | Correction | Ho
 
 
 STUDIES = {
-    "timings": "the folder <code>results/timings</code> of the repository, which <code>bench time</code> makes",
-    "maps": "the folder <code>results/maps</code> of the repository, which <code>bench map</code> makes",
+    "timings": "the folder <code>results/timings</code> (made by <code>bench time</code>)",
+    "maps": "the folder <code>results/maps</code> (made by <code>bench map</code>)",
 }
 """Evidence that is in no table of a run, and what makes it."""
 
@@ -57,7 +57,7 @@ def describe_slip(one: Erratum) -> tuple:
 def section(one: Verdict, run: Run) -> str:
     """Return what decided a claim, folded under its sentence; a link to it opens it, for the anchor is inside."""
     claim = one.claim
-    value = "" if claim.value == "none given" else f" (What we test in this quotation: {claim.value}.)"
+    value = "" if claim.value == "none given" else f" (In this quotation, we test {claim.value}.)"
     quoted = f"“{claim.quote}”{value}" if claim.quote else claim.sentence
     rows = {
         "The paper says": f"{escape.escape(claim.place)}: {marked_up(quoted)}",
@@ -103,7 +103,8 @@ def describe_rows(one: Verdict, run: Run) -> str:
     evidence = one.evidence
     if not evidence.rows:
         return ""
-    files = [STUDIES.get(name) or link_file(name, run) for name in evidence.tables if name != COMPUTED]
+    files = [link_file(name, run) for name in evidence.tables if name not in (*STUDIES, COMPUTED)]
+    files += [folder for name, folder in STUDIES.items() if name in evidence.tables]
     computed = "values that are in no file of results: the command <code>bench claims</code> computes these values"
     number = html.number(evidence.rows)
     if not files:
@@ -136,12 +137,14 @@ def list_conditions(chosen: Iterable[tuple[str, str]]) -> str:
 
 def describe_commands(one: Verdict) -> str:
     """Return the commands that make the rows of a claim again and judge it."""
+    if one.claim.replay:
+        return f"<code>{one.claim.replay}</code> ({HOW_TO_RUN})."
     stored = [name for name in one.evidence.tables if name not in (*STUDIES, COMPUTED)]
-    made = "<code>make bench</code> makes the tables, and " if stored or not one.evidence.tables else ""
+    made = "<code>make bench</code> makes the tables of results, and " if stored or not one.evidence.tables else ""
     return f"{made}<code>bench claims</code> judges the claim ({HOW_TO_RUN})."
 
 
-HOW_TO_RUN = '<a href="docs-install.html">install</a>'
+HOW_TO_RUN = '<a href="docs-install.html">how to install</a>'
 
 
 def written(when: str) -> str:

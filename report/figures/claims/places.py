@@ -39,7 +39,8 @@ class Place(NamedTuple):
     @property
     def html(self) -> str:
         """Return a link for a piece of HTML: 'figure of chapter 2, “What Murphy's regulators do”'."""
-        what = f"{self.kind} of {self.short}" if self.kind else self.short
+        article = "" if CHAPTER.match(self.page) else "the "
+        what = f"{self.kind} of {article}{self.short}" if self.kind else self.short
         target = f"{self.page}.html{'#' * bool(self.label)}{self.label}"
         return f'<a href="{target}">{what}, “{self.title}”</a>'
 

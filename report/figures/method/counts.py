@@ -30,7 +30,7 @@ IN_ENGINE = "in-engine"
 CONTINUOUS, HELD = "continuous", "sampled"
 COUNTS = html.Table(
     "Name | Where | Number of laws | Which laws | Starts per law | Continuous or sampled control "
-    "| Starts that the rotation matrix loses"
+    "| Starts that the rotation-matrix law loses"
 )
 
 
@@ -88,7 +88,7 @@ def describe_set(laws: set[str], run: Run) -> str:
     """Describe laws by what they lack and add to the laws compared."""
     basis = list_compared(run)
     lacking, added = families.in_order(basis - laws), families.in_order(laws - basis)
-    words = "the laws compared"
+    words = "the laws of the row “laws compared”"
     if lacking:
         words += f" without {together([families.word(law) for law in lacking])}"
     if added:
@@ -149,7 +149,7 @@ def count_settling(run: Run) -> Iterator[Count]:
         name="laws compared",
         where="[Comparison of all laws](appendix-side-by-side.md), evenly spread starts",
         laws=len(list_compared(run)),
-        which_laws="all laws that ran from these starts, without the laws that are wrong on purpose",
+        which_laws="all laws that we simulated from these evenly spread starts, except those that are wrong on purpose",
         starts=f"{uniform['start_id'].nunique():,}",
         time=CONTINUOUS,
         lost=lose(uniform),
