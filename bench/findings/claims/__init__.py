@@ -45,8 +45,7 @@ def all_claims(paper: str = MURPHY) -> tuple[Claim, ...]:
 
 def judge(id: str, results: Results) -> Verdict:
     """Return the verdict on one claim on a run's tables."""
-    every = [claim for paper in PAPERS for claim in all_claims(paper)]
-    return decide(next(claim for claim in every if claim.id == id), results)
+    return decide(next(claim for paper in PAPERS for claim in all_claims(paper) if claim.id == id), results)
 
 
 def judge_possible(results: Results, paper: str = MURPHY) -> tuple[list[Verdict], dict[str, str]]:
@@ -64,8 +63,7 @@ def judge_possible(results: Results, paper: str = MURPHY) -> tuple[list[Verdict]
                 lacks[one.id] = str(error)
         return {"decided": decided, "lacks": lacks}
 
-    what = "claims" if paper == MURPHY else f"claims-{paper}"
-    found = keep(results.folder, what, find) if results.folder and results.is_as_stored else find()
+    found = keep(results.folder, f"claims-{paper}", find) if results.folder and results.is_as_stored else find()
     claims = {one.id: one for one in every}
     decided = [
         Verdict(claims[id], Word(word), _evidence_of(stored))
