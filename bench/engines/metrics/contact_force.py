@@ -62,14 +62,16 @@ def rms(pose: Pose, error_of: Callable[[Pose], np.ndarray]) -> float:
 
 
 def remaining_error(pose: Pose, error_of: Callable[[Pose], np.ndarray]) -> float:
-    """Return the length of the mean of N vectors over the last RULES.hold_s; NaN if there is none, or a failure.
+    """Return the length of the mean of N vectors over the last RULES.hold_s.
 
-    A hand that is at rest has been so for as long. Of a hand that bounces it is the mean that counts.
+    NaN if there is none, or a failure. A hand that is at rest has been at rest for as long. If a
+    hand bounces, the mean is what counts.
     """
-    error, one = error_of(pose), last(pose)
-    if one is None or not len(error):
+    error = error_of(pose)
+    trial = last(pose)
+    if trial is None or not len(error):
         return np.nan
-    time = one.time[len(one.time) - len(error) :]
+    time = trial.time[len(trial.time) - len(error) :]
     late = time >= time[-1] - RULES.hold_s
     return float(np.linalg.norm(error[late].mean(axis=0)))
 
