@@ -10,6 +10,7 @@ from bench.findings.selection.regions import RULE, STUDY, list_ours
 from bench.findings.selection.unbeaten import (
     SPOKEN,
     Place,
+    Rival,
     compare_with_advised,
     find_population,
     find_price,
@@ -113,11 +114,23 @@ def describe_rivals(lines: dict[str, list[Place]], among_all: bool, called: Call
             span = list(run)
             if has_rival:
                 values = _span(COORDINATES[name], span[0][0], span[-1][0])
-                most = max((rival for _, rival in span if rival), key=lambda rival: rival.faster)
-                spans.append(f"{values} ({called(most.law)}, {percent(most.faster)})")
+                spans.append(f"{values} ({describe_fastest([rival for _, rival in span if rival], called)})")
         if spans:
             parts.append(f"{NAMES[name]} {together(spans, len(spans))}")
     return "; ".join(parts) or "none"
+
+
+def describe_fastest(rivals: list[Rival], called: Called = str) -> str:
+    """Name the rival that is faster by the most, and say by how much.
+
+    The other law does not settle in time where a rival is faster by the whole of its time.
+    """
+    timed = [rival for rival in rivals if rival.faster < 1.0]
+    if not timed:
+        return f"{called(rivals[0].law)}, and the other law does not settle in time"
+    most = max(timed, key=lambda rival: rival.faster)
+    more = " or more" if len(timed) < len(rivals) else ""
+    return f"{called(most.law)}, {percent(most.faster)}{more}"
 
 
 def percent(share: float) -> str:

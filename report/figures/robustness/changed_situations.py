@@ -5,6 +5,7 @@ The rows are those of the map of advice, one number of the nominal situation cha
 
 import math
 
+import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.ticker import NullLocator
@@ -99,9 +100,10 @@ def describe_line(line: pd.DataFrame) -> str:
 
 
 def describe_widest(line: pd.DataFrame) -> str:
-    """Say at which bound another law is faster than the default by the most."""
+    """Say at which bound another law is faster than the default by the most, where the default settles."""
     default, other = list_shown()[:2]
-    place = (line[default] / line[other]).idxmax()
+    settled = line[np.isfinite(line[default])]
+    place = (settled[default] / settled[other]).idxmax()
     times = {law: f"{line.loc[place, law]:.1f}/√kp" for law in (default, other)}
     return (
         f"At a bound of {place:g} kp, 99 % of the starts settle within {times[other]} with "
