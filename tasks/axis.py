@@ -36,7 +36,7 @@ class Moment(NamedTuple):
 
 
 class Loop(NamedTuple):
-    """Fields that the loop reads itself: they decide when hooks are called, or are told to the law.
+    """Fields that the loop itself reads, to call the hooks in time, and to show limits to the law.
 
     Attributes:
         period_s: Time from one command to the next [s].
