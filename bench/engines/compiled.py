@@ -112,7 +112,7 @@ INLINED = (
         "bench.law.control.resolved_acceleration",
     ),
     *("bench.law.control.hybrid", "bench.engines.arm_episode", "bench.engines.contact_episode"),
-    *("bench.engines.plants", "bench.engines.loop"),
+    *("bench.engines.plants", "bench.engines.loop", "tasks.conditions"),
 )
 """Modules whose kernels take buffers and are always inlined: a call passes each array as seven words, and counts a
 reference to it; the chain's velocity took 60 ns, and takes 9."""

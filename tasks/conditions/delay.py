@@ -8,5 +8,13 @@ AXIS = Axis(
     "s",
     (0.0, 0.002, 0.005, 0.01, 0.015, 0.02),
     0.0,
-    (Field("delay_s", 0.0, "time from measuring to the command's effect [s]", lasts=False),),
+    (
+        Field(
+            "delay_s",
+            0.0,
+            "time from measuring to the command's effect [s]",
+            in_loop=True,
+            lasts=False,
+        ),
+    ),
 )

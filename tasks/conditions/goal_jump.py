@@ -26,8 +26,20 @@ AXIS = Axis(
     (0.0, 0.05, 0.1, 0.2, 0.5, 1.0),
     0.0,
     (
-        Field("jump_s", 0.0, "time at which the goal leaves the base frame for the start's goal [s]", lasts=False),
-        Field("jump_resets", 0, "1: the law's memory is then what it is at first", lasts=False),
+        Field(
+            "jump_s",
+            0.0,
+            "time at which the goal leaves the base frame for the start's goal [s]",
+            in_loop=True,
+            lasts=False,
+        ),
+        Field(
+            "jump_resets",
+            0,
+            "1: the law's memory is then what it is at first",
+            in_loop=True,
+            lasts=False,
+        ),
     ),
     starts=starts,
 )

@@ -8,6 +8,8 @@ lets a law keep to the way it has begun.
 
 from __future__ import annotations
 
+import math
+
 from tasks.axis import Axis, Field
 from tasks.base import Start
 from tasks.haar import direction, halton
@@ -20,12 +22,25 @@ def starts(count: int, seed: int, level: float) -> list[Start]:
     return [Start(f"exact-{i:04d}", short_of_180_degrees(axis, 0.0)) for i, axis in enumerate(axes)]
 
 
+def report_beyond(level, angle, now):
+    """Return the level where this reaches beyond 180°, else 0 [rad]."""
+    return level if angle + level > math.pi else 0.0
+
+
 AXIS = Axis(
     "half-turn-noise",
     "Worst noise at 180°",
     "rad",
     (0.0, 0.001, 0.01, 0.03, 0.1, 0.3, 1.0),
     0.0,
-    (Field("worst_attitude_error", 0.0, "how far the body is reported beyond 180° [rad]", lasts=False),),
+    (
+        Field(
+            "worst_attitude_error",
+            0.0,
+            "how far the body is reported beyond 180° [rad]",
+            measured_away=report_beyond,
+            lasts=False,
+        ),
+    ),
     starts=starts,
 )

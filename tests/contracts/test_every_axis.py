@@ -4,18 +4,22 @@ import math
 
 import numpy as np
 import pytest
+from support.bits import same_bits
+from support.driving import METRICS, settings
 from support.each import each
 
 import tasks
 from bench.base.errors import Incompatible
-from bench.base.provenance import ROOT
-from bench.engines.plants import perturbed
+from bench.engines.plants.hooks import check
+from bench.engines.plants.perturbed import steps_of
+from bench.engines.simulate_bodies import run_disturbed
 from bench.experiments import plan
 from bench.experiments.choice import Choice
 from bench.experiments.experiment import known_experiments
+from bench.findings import perturbed
 from bench.law.contenders.registry import find_contender
-from tasks.axis import Field
-from tasks.condition import Condition, condition_at, declared_fields
+from tasks.axis import Axis, Field
+from tasks.condition import FIELDS, Condition, condition_at, declared_fields
 from tasks.errors import BadValue
 
 AXES = [tasks.axis(name) for name in tasks.axis_names()]
@@ -59,7 +63,7 @@ def test_conditions_are_of_this_world(axis):
 def test_delays_are_whole_steps_of_the_plant(axis):
     for level in axis.levels:
         met = condition_at(axis, level)
-        steps = met.delay_s / (met.period_s / perturbed.steps_of(met))
+        steps = met.delay_s / (met.period_s / steps_of(met))
         assert steps == pytest.approx(round(steps), abs=1e-9)
 
 
@@ -73,23 +77,101 @@ def test_starts_are_as_many_as_asked_for_and_differ(axis, seed):
             assert math.hypot(*one.quat_wxyz) == pytest.approx(1.0, abs=1e-15)
 
 
-@pytest.mark.parametrize(
-    ("fields", "reason"),
-    [
-        ([Field("bias", 0.0, "none")], "tasks/conditions/one.py: the field 'bias' does not say whether .* lasts; give"),
-        ([Field("bias", 0.0, "none", lasts=True)] * 2, "'bias' is declared by two files"),
-        ([Field("bias", (0.0, 0.0), "none", lasts=True)], "must be a number or three numbers"),
-    ],
-)
-def test_field_that_no_verdict_could_be_given_of_is_refused(fields, reason):
+def rows(law, starts, condition):
+    horizon = settings(horizon_s=1.0)
+    return run_disturbed(find_contender(law), starts, condition, horizon, METRICS)
+
+
+@pytest.mark.slow
+def test_its_last_level_changes_rows(axis):
+    ways = [way.outwards(axis.levels) for way in perturbed.ways() if way.axis == axis.name]
+    assert ways
+    for mildest, *_, last in ways:
+        mild, perturbing = condition_at(axis, mildest), condition_at(axis, last)
+        starts = axis.starts(4, 0, last)
+        # Where no field differs, as with a spin, the starts must do it.
+        others = starts if mild != perturbing else axis.starts(4, 0, mildest)
+        changed = rows("rotation-matrix", starts, perturbing)
+        assert not same_bits(changed, rows("rotation-matrix", others, mild))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("field", FIELDS, ids=[field.name for field in FIELDS])
+def test_field_changes_rows_of_a_law_with_memory_where_an_axis_sets_it(field):
+    """So every hook acts, also one that no axis sets alone."""
+    assert any(changes_rows(field, axis, level) for axis in AXES for level in axis.levels)
+
+
+def changes_rows(field, axis, level):
+    """Tell whether a field changes rows at a level of an axis; the other fields stay there."""
+    perturbing, starts = condition_at(axis, level), axis.starts(8, 0, level)
+    without = perturbing._replace(**{field.name: field.default})
+    if perturbing == without:
+        return False
+    return not same_bits(rows("hybrid", starts, perturbing), rows("hybrid", starts, without))
+
+
+def add(level, omega, now):
+    return (omega[0] + level, omega[1], omega[2])
+
+
+def bias(default=0.0, lasts=True, **hooks):
+    return Field("bias", default, "none", lasts, **hooks)
+
+
+REFUSED = [
+    ([bias(lasts=None, measured_rate=add)], "py: the field 'bias' does not say whether .* lasts; give"),
+    ([bias(measured_rate=add)] * 2, "'bias' is declared by two files"),
+    ([bias(default=(0.0, 0.0), measured_rate=add)], "must be a number or three numbers"),
+    (
+        [bias()],
+        r"one\.py: the field 'bias' has no hook, so it would perturb nothing; the hooks are measured_rate, .*, inertia "
+        r".*\(try in the field: measured_rate=lambda level, omega, now: \(omega\[0\] \+ level",
+    ),
+    (
+        [bias(in_loop=True)],
+        r"'bias' is not read by the loop, which reads period_s, delay_s, .* \(give it a hook\)",
+    ),
+]
+
+
+@pytest.mark.parametrize(("fields", "reason"), REFUSED)
+def test_field_that_would_not_act_as_it_says_is_refused(fields, reason):
     with pytest.raises(BadValue, match=reason):
         declared_fields({"one": AXES[0]._replace(fields=tuple(fields))})
 
 
-def test_every_field_is_read_by_an_engine_or_the_experiment():
-    files = [*(ROOT / "bench/engines").rglob("*.py"), ROOT / "bench/experiments/robustness.py"]
-    texts = [path.read_text(encoding="utf-8") for path in files]
-    assert [name for name in Condition._fields if not any(f".{name}" in text for text in texts)] == []
+def test_axis_without_field_or_level_or_start_of_its_own_is_refused():
+    reason = r"conditions/one\.py: AXIS has neither fields nor sets nor starts"
+    with pytest.raises(BadValue, match=reason):
+        declared_fields({"one": Axis("one", "One", "1", (0.0, 1.0), 0.0)})
+
+
+@pytest.mark.parametrize(
+    ("hooks", "reason"),
+    [
+        (
+            {"measured_rate": lambda level, omega: omega},
+            r"measured_rate of the field 'bias' raises TypeError: .*3 were given \(see Field in tasks",
+        ),
+        ({"measured_turn": lambda level, R, now: R + level}, "raises TypeError: can only concat"),
+        ({"measured_away": lambda level, angle, now: now.speed}, "AttributeError: .* 'speed'"),
+        (
+            {"commanded": lambda level, u, now: [*u]},
+            r"returns \[0.5, 1.0, 2.0\]; allowed are floats in tuples, as in \(0.5, 1.0, 2.0\)",
+        ),
+        ({"commanded": lambda level, u, now: (0, *u[1:])}, r"returns \(0, 1.0, 2.0\)"),
+        ({"goal": lambda level, R, time_s: (R, (0.0, 0.0, 0.0))}, "returns .* as in"),
+    ],
+)
+def test_hook_that_the_plant_cannot_call_or_use_is_refused(hooks, reason):
+    [kind] = hooks
+    with pytest.raises(BadValue, match=reason):
+        check(bias(**hooks), kind)
+
+
+def test_hook_may_have_levels_that_it_never_meets():
+    check(bias(measured_away=lambda level, angle, now: math.sqrt(0.5 - level)), "measured_away")
 
 
 def test_axis_that_sets_an_undeclared_field_is_refused():

@@ -3,6 +3,7 @@ metric, task, arm, start set, perturbation, experiment, claim, or page; a metric
 arms."""
 
 import json
+import math
 import shutil
 import signal
 from pathlib import Path
@@ -14,6 +15,7 @@ from support.command_line import digest, python
 from bench.base.provenance import ROOT
 from bench.experiments.tables import store
 from bench.law.contenders.registry import contenders
+from bench.law.inputs import PAPERS_GAINS
 
 
 def renamed(room: str, of: str, kind: str) -> str:
@@ -42,11 +44,15 @@ DROPPED = {
     **{str(path.relative_to(HERE)).removesuffix(".text"): path.read_text() for path in sorted(HERE.rglob("*.text"))},
 }
 """Files that are dropped into a copy of the tree, one of each kind that grows by a file: path -> text."""
-EXPERIMENT, PLANTED = "bench/experiments/dropped_experiment.py", "tasks/conditions/planted_bias.py"
-DROPPED_EXPERIMENT, PLANTED_AXIS, ASKED_OF_AXIS = (
+EXPERIMENT, PLANTED = "bench/experiments/dropped_experiment.py", "tasks/conditions/rate_bias.py"
+DROPPED_EXPERIMENT, ASKED_OF_AXIS = (
     (SUPPORT / "planted_texts" / f"{name}.text").read_text()
-    for name in ("dropped_experiment", "planted_axis", "asked_of_axis")
+    for name in ("dropped_experiment", "asked_of_axis")
 )
+RECIPE = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+PLANTED_AXIS = RECIPE.partition("**A perturbation, for example.**")[2].split("```")[1]
+PLANTED_AXIS = PLANTED_AXIS.removeprefix("python\n")
+"""The file of a perturbation that CONTRIBUTING.md shows."""
 
 INDEX = "# A book of one page\n\nIt cites {cite}`murphy1988`.\n"
 
@@ -94,6 +100,25 @@ for words in json.loads(sys.argv[1]):
 """
 END = "=" * 100
 
+REFUSED_RUN = """
+import sys
+
+sys.stderr = sys.stdout
+from bench.cli import main
+
+sys.exit(main(["run", "--axis", "rate-bias", "--dry-run"]))
+"""
+REFUSED_LEVEL = """
+import tasks
+from tasks.condition import condition_at
+from tasks.errors import BadValue
+
+try:
+    condition_at(tasks.axis("rate-bias"), 1.0)
+except BadValue as error:
+    print(error)
+"""
+
 
 def said(tree: Path, *commands: tuple[str, ...]) -> list[str]:
     """What each command prints in that tree; all must succeed."""
@@ -114,9 +139,32 @@ def sources(tree: Path) -> dict[str, str]:
     }
 
 
-def test_planted_axis_is_in_the_compiled_condition_the_thresholds_and_the_book_without_another_file_touched(tmp_path):
-    (copied(tmp_path) / PLANTED).write_text(PLANTED_AXIS.lstrip("\n"))
-    assert ran(tmp_path, "-c", ASKED_OF_AXIS).splitlines() == ["float64", "0.1", "True ['planted-bias'] True"]
+def test_planted_axis_acts_and_is_in_the_thresholds_and_the_book_without_another_file_touched(
+    tmp_path,
+):
+    (copied(tmp_path) / PLANTED).write_text(PLANTED_AXIS)
+    *counted, mild, perturbed = ran(tmp_path, "-c", ASKED_OF_AXIS).splitlines()
+    assert counted == ["float64", "True ['rate-bias'] True"]
+    # At rest the law's kp sin(angle) balances kv times the bias of 0.1 rad/s.
+    angle = round(math.asin(PAPERS_GAINS.kv * 0.1 / PAPERS_GAINS.kp), 6)
+    assert max(json.loads(mild)) < 1e-4
+    assert json.loads(perturbed) == pytest.approx([angle] * 3, abs=1e-6)
+
+
+def test_planted_axis_without_a_hook_is_refused_with_the_line_to_write(tmp_path):
+    planted = PLANTED_AXIS.replace(", measured_rate=add_bias", "")
+    (copied(tmp_path) / PLANTED).write_text(planted)
+    refused = ran(tmp_path, "-c", REFUSED_RUN, code=2)
+    assert f"{PLANTED}: the field 'rate_bias' has no hook, so it would perturb nothing" in refused
+    assert "(try in the field: measured_rate=lambda level, omega, now: (omega[0] + level," in refused
+
+
+def test_planted_axis_that_moves_the_goal_in_two_ways_is_refused(tmp_path):
+    twice = 'sets=lambda level: {"rate_bias": level, "reference_amplitude": level},\n)'
+    planted = PLANTED_AXIS.replace("measured_rate=add_bias", "goal=lambda *words: None")
+    (copied(tmp_path) / PLANTED).write_text(planted.rstrip().removesuffix(")") + twice)
+    refused = ran(tmp_path, "-c", REFUSED_LEVEL)
+    assert "'rate-bias' sets rate_bias, reference_amplitude, of which more than one moves" in refused
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""The perturbed free body (tasks/condition.py): a low rate, delay, noise, saturation, model errors, moving goals.
+"""The perturbed free body: a low rate, a delay, a goal that jumps, and the hooks of tasks/conditions.
 
 The plant is the paper's (2.6)-(2.7) or, with an inertia that is not the model's, Euler's equations; a command holds
 from tick to tick of the control, and the body is moved by steps of at most STEP_S between.
@@ -9,18 +9,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bench.engines.arrays import Cube, Matrix, Vector
+from bench.engines.arrays import Cube, Matrix, Three, Vector
 from bench.engines.episode import FIRST_METRIC, Numbers
-from bench.engines.ideal import angle_between, haversine, plus, turned
+from bench.engines.ideal import angle_between, haversine, plus
 from bench.engines.loop import Act, Controller, Plant, Sensed, episodes_of, sampled
-from bench.engines.plants.goals import NO_BAND, fed_forward, goal_at, restart
+from bench.engines.plants.goals import NO_BAND, restart
+from bench.engines.plants.hooks import commanded, fed_forward, goal_at, inertia_of, measured
 from bench.engines.plants.ideal import measure
 from bench.engines.rigid_body import step
 from bench.law.inputs import AT_REST, Goal
 from bench.law.scalar import kernel, sqrt
-from bench.law.shipped import shortened
-from bench.law.so3 import IDENTITY, Rotation, dot, from_quaternion, minus, turn_quaternion
+from bench.law.so3 import IDENTITY, Rotation, dot, from_quaternion, minus
 from bench.law.tracking import carried_along
+from tasks.axis import Moment
 from tasks.condition import Condition
 from tasks.verdict import GOING, check_command
 
@@ -30,9 +31,6 @@ STEP_S = 1e-3
 TAIL_S = 1.0
 """The end of an episode, over which its error is averaged [s]."""
 
-LEAD = 2.0
-"""Periods that the worst of measurements looks ahead."""
-
 TAIL_SQUARES, TAIL_COUNT, TAIL_WORST, VARIATION, JUMPED = range(5)
 EXTRA = 5
 """Columns behind the metrics', zero at first: sum of squared angles in the tail, how many, the largest, the variation
@@ -40,63 +38,73 @@ of u, and the angle to a goal that jumps (`goals.restart`)."""
 
 
 class Timing(NamedTuple):
-    """A condition's times in steps of the plant: a period of control, how late a command is, the tail, the jump."""
+    """A condition's times in steps of the plant.
+
+    Attributes:
+        steps: A period of the control.
+        late: How late a command takes effect.
+        tail: The end of an episode over which its error is averaged.
+        jump: When the goal jumps; 0 for never.
+        resets: Whether the law's memory is then reset.
+    """
 
     steps: int
     late: int
     tail: int
     jump: int
+    resets: bool
 
 
 def timing(condition: Condition) -> Timing:
     """Return the condition's times."""
-    steps = steps_of(condition)
-    step_s = condition.period_s / steps
-    return Timing(steps, *(round(seconds / step_s) for seconds in (condition.delay_s, TAIL_S, condition.jump_s)))
+    loop, steps = condition.loop, steps_of(condition)
+    step_s = loop.period_s / steps
+    late, tail, jump = (round(seconds / step_s) for seconds in (loop.delay_s, TAIL_S, loop.jump_s))
+    return Timing(steps, late, tail, jump, bool(loop.jump_resets))
 
 
 def steps_of(condition: Condition) -> int:
     """Return the plant's steps in a control period: as few as STEP_S allows."""
-    return max(1, math.ceil(condition.period_s / STEP_S - 1e-9))
-
-
-@kernel
-def reported(R, omega, R_d, noise, condition, ahead):
-    """Return (R, omega) as measured: rotated and shifted by drawn numbers, and by the worst possible error at 180°.
-
-    The worst is reported with foresight: away from the goal as it will be `ahead` of now [s], so that what turns back
-    the body brakes it too. Without it, the body swings through 180° farther each time, and gets away.
-    noise: six numbers, of unit standard deviation.
-    """
-    if condition.attitude_noise > 0.0:
-        s = condition.attitude_noise
-        R = turned(R, (s * noise[0], s * noise[1], s * noise[2]))
-    if condition.rate_noise > 0.0:
-        omega = plus(omega, condition.rate_noise, (noise[3], noise[4], noise[5]))
-    if condition.worst_attitude_error > 0.0 and angle_between(R, R_d) + condition.worst_attitude_error > math.pi:
-        _, v, _ = turn_quaternion(turned(R, (ahead * omega[0], ahead * omega[1], ahead * omega[2])), R_d)
-        away = -condition.worst_attitude_error / sqrt(dot(v, v))
-        R = turned(R, (away * v[0], away * v[1], away * v[2]))
-    return R, omega
+    return max(1, math.ceil(condition.loop.period_s / STEP_S - 1e-9))
 
 
 class World(NamedTuple):
-    """A condition, its times, noise (episodes x periods x six, read only if there is noise), and room for commands.
+    """A condition, and what the plant reads of it.
 
-    fresh: a row's columns from the metrics on, as they are at first.
+    Attributes:
+        condition: The levels of the hooks.
+        timing: Its times in steps of the plant.
+        inertia: Principal moments of the body over those of the law's model.
+        has_moving_goal: Whether the law's command is carried along with the goal.
+        is_noisy: Whether noise is drawn.
+        noise: Drawn numbers, episodes x periods x 6; zeros, 1 x 1 x 6, if none are drawn.
+        sent: Commands on their way, a ring.
+        fresh: A row's columns from the metrics on, as they are at first.
     """
 
     condition: Condition
     timing: Timing
+    inertia: Three
+    has_moving_goal: bool
+    is_noisy: bool
     noise: Cube
     sent: Matrix
     fresh: Vector
 
 
 def world(condition: Condition, noise: np.ndarray, rows: np.ndarray) -> World:
-    """Return the world of a condition and of rows as they are at first: commands on their way are kept in a ring."""
+    """Return the world of a condition and of rows as they are at first."""
     times = timing(condition)
-    return World(condition, times, noise, np.zeros((times.late // times.steps + 2, 3)), rows[0, FIRST_METRIC:].copy())
+    return World(
+        condition=condition,
+        timing=times,
+        inertia=inertia_of(condition),
+        has_moving_goal=bool(condition.acting("goal")),
+        is_noisy=condition.is_noisy,
+        noise=noise,
+        sent=np.zeros((times.late // times.steps + 2, 3)),
+        fresh=rows[0, FIRST_METRIC:].copy(),
+    )
 
 
 class State(NamedTuple):
@@ -133,19 +141,19 @@ def reset(body, k, start):
 
 @kernel
 def sense(body, state, tick, numbers):
-    """Give the truth, what is measured is `reported`; the goal has moved."""
+    """Give the truth; the goal has moved."""
     R, omega, R_0 = state
     held = IDENTITY if tick < body.timing.jump else R_0
-    R_d, omega_d, alpha_d = goal_at(held, tick * numbers.dt, body.condition.reference_amplitude)
-    behind = minus(omega, omega_d)
+    goal = goal_at(body.condition, Goal(held, AT_REST, AT_REST), tick * numbers.dt)
+    behind = minus(omega, goal.omega)
     turning, speed = dot(behind, behind), dot(omega, omega)
-    return Sensed(R, omega, Goal(R_d, omega_d, alpha_d), haversine(R, R_d), turning, speed, turning, GOING, ())
+    return Sensed(R, omega, goal, haversine(R, goal.R), turning, speed, turning, GOING, ())
 
 
 @kernel
 def advance(laws, body, state, act, gains, memory, numbers):
     """Move the body one step."""
-    R, omega = step(state.R, state.omega, act.u, body.condition.inertia, numbers.dt)
+    R, omega = step(state.R, state.omega, act.u, body.inertia, numbers.dt)
     return State(R, omega, state.R_0), memory
 
 
@@ -156,6 +164,15 @@ def begin(laws, memory0, sensed):
 
 
 @kernel
+def moment_of(body, sensed, now, period, numbers):
+    """Return what a hook can read of the beginning of a period."""
+    drawn = body.noise[now.k, period] if body.is_noisy else body.noise[0, 0]
+    noise = (drawn[0], drawn[1], drawn[2], drawn[3], drawn[4], drawn[5])
+    time_s, period_s = now.tick * numbers.dt, body.timing.steps * numbers.dt
+    return Moment(time_s, period_s, sensed.R, sensed.omega, sensed.goal.R, noise)
+
+
+@kernel
 def command(laws, body, sensed, now, gains, memory, numbers):
     """Ask the law once a period, and apply what it commanded a delay ago; more: how far this command jumps."""
     condition, timing, sent = body.condition, body.timing, body.sent
@@ -163,17 +180,16 @@ def command(laws, body, sensed, now, gains, memory, numbers):
     steps, slots, failure, jump = timing.steps, sent.shape[0], GOING, 0.0
     if now.tick == periods * steps:
         before, goal = u, sensed.goal
-        if condition.jump_resets > 0 and 0 <= now.tick - timing.jump < steps:
+        if timing.resets and 0 <= now.tick - timing.jump < steps:
             law = first
-        is_noisy = condition.attitude_noise > 0.0 or condition.rate_noise > 0.0
-        noise = body.noise[now.k, periods] if is_noisy else body.noise[0, 0]
-        R, turning = reported(sensed.R, sensed.omega, goal.R, noise, condition, LEAD * (steps * numbers.dt))
-        rate, acceleration = fed_forward(goal.omega, goal.alpha, condition.feedforward)
+        moment = moment_of(body, sensed, now, periods, numbers)
+        R, turning = measured(condition, (sensed.R, sensed.omega), moment)
+        rate, acceleration = fed_forward(condition, (goal.omega, goal.alpha), moment)
         given, law, margin = laws.law(R, minus(turning, rate), Goal(goal.R, AT_REST, AT_REST), gains, law)
         u = given
-        if condition.reference_amplitude > 0.0:
+        if body.has_moving_goal:
             u = carried_along(u, turning, rate, acceleration)
-        u = shortened(u, condition.bound)
+        u = commanded(condition, u, moment)
         failure = check_command(dot(u, u), numbers.command_limit_squared)
         if periods > 0 and failure == GOING:
             change = plus(u, -1.0, before)
@@ -219,10 +235,16 @@ def in_steps(numbers: Numbers, condition: Condition, hold_s: float, horizon_s: f
 
     They hold the bound of the command and the delay, which a law can read.
     """
-    step_s = condition.period_s / steps_of(condition)
+    loop = condition.loop
+    step_s = loop.period_s / steps_of(condition)
     ticks = max(1, round(horizon_s / step_s)) + timing(condition).jump
     rest = max(1, round(hold_s / step_s))
     hold = ticks + 1 if condition.lasts else rest
     return numbers._replace(
-        dt=step_s, ticks=ticks, hold_ticks=hold, rest_ticks=rest, bound=condition.bound, delay=condition.delay_s
+        dt=step_s,
+        ticks=ticks,
+        hold_ticks=hold,
+        rest_ticks=rest,
+        bound=loop.bound,
+        delay=loop.delay_s,
     )

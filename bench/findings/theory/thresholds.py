@@ -54,7 +54,7 @@ def near_goal(axis: str, grows: bool, kp: float, kv: float) -> float:
     if axis == "control-rate":
         return math.nan if grows else robustness_theory.least_rate(kp, kv)
     unit = condition_at(tasks.axis(axis), 1.0)
-    if unit.is_noisy:
+    if unit.attitude_noise or unit.rate_noise:
         left = robustness_theory.noisy_rms(kp, kv, unit.period_s, unit.attitude_noise, unit.rate_noise)
     elif unit.reference_amplitude:
         left = robustness_theory.tracking_rms(kp, kv, unit.feedforward, unit.period_s, TAIL_HORIZON_S)
