@@ -32,6 +32,7 @@ from bench.findings.selection.robots import ROBOTS, RUN, decide_for
 from bench.findings.selection.unbeaten import (
     SPOKEN,
     find_bounds,
+    find_least_beaten,
     find_population,
     find_price,
     find_runner_up,
@@ -40,7 +41,7 @@ from bench.findings.selection.unbeaten import (
 )
 from bench.findings.selection.words import describe_bounds, list_faster_ours, percent, together
 from bench.law.contenders.registry import find_contender
-from bench.law.inputs import Gains
+from bench.law.inputs import Gains, reads_limits
 from tasks.situation import COORDINATES, NOMINAL
 
 NOT_TESTED = "not tested"
@@ -144,6 +145,19 @@ def _reason(law: str, folder: Path) -> str:
         f"overshoots by at most {OVERSHOOT:g}° more than the law that overshoots least. "
         f"In {shares.qualified} of the random situations, the law meets the requirements, and no "
         f"other law that meets them is more than {percent(SPOKEN)} faster."
+        f"{_name_least_beaten(law, folder, ' Law ', '.')}"
+    )
+
+
+def _name_least_beaten(law: str, folder: Path, before: str, after: str = "") -> str:
+    """Name the law that is unbeaten most often, if it is another one, and say why it is not the default."""
+    other, share = find_least_beaten(folder)
+    if other == law:
+        return ""
+    limit = ", which must be given the command limit," if reads_limits(find_contender(other).law) else ""
+    return (
+        f"{before}{other}{limit} does so in {percent(share.value)}, but where laws tie we advise the "
+        f"simplest{after}"
     )
 
 
@@ -190,6 +204,7 @@ def _usual(law: str, folder: Path) -> Need:
         "law meets our requirements, such as to settle from every start tried; in "
         f"{percent(shares.qualified.value)} of the situations it meets them, and no other law "
         f"that meets them is more than {percent(SPOKEN)} faster"
+        f"{_name_least_beaten(law, folder, '; ')}"
     )
     return Need(ANY_START, law, attribute(law), why, join_words(_list_costs(law, folder)))
 

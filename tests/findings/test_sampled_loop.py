@@ -15,7 +15,7 @@ from bench.findings.theory.closed_form import linear_settling
 from bench.findings.theory.robustness_theory import delay_margin
 from bench.findings.theory.sampled_loop import Loop, find_limits, is_stable, mode_time, settling_time, spectral_radius
 from bench.law.contenders.registry import find_contender
-from bench.law.inputs import AT_REST, Gains, Goal
+from bench.law.inputs import AT_REST, Gains, Goal, Tuning
 from bench.law.so3 import IDENTITY, from_quaternion
 from tasks.base import Start
 from tasks.condition import Condition
@@ -121,7 +121,7 @@ def test_response_has_the_settling_time_of_the_simulators_small_errors():
 
 @pytest.mark.parametrize("law", [one.name for one in mapped_laws()])
 def test_command_of_every_law_of_the_map_has_the_slopes_of_the_linear_loop_at_the_goal(law):
-    contender, gains, small = find_contender(law), Gains(100.0, 14.0), 1e-5
+    contender, gains, small = find_contender(law), Tuning(100.0, 14.0), 1e-5
     memory = contender.regulator.memory
 
     def command(R, omega):

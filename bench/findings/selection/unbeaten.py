@@ -160,6 +160,16 @@ def find_population(folder: Path = STUDY, rule: Rule = RULE) -> Population:
     )
 
 
+def find_least_beaten(folder: Path = STUDY, rule: Rule = RULE, tie: float = SPOKEN) -> tuple[str, Share]:
+    """Return the law that is unbeaten by qualified laws in most of the drawn situations, and in which share.
+
+    Laws of ours are left out. The rule's default can be another law: where laws tie, it advises the simplest.
+    """
+    shares = {law: measure_shares(law, folder, rule, tie).qualified for law in find_population(folder, rule).qualified}
+    law = max(shares, key=lambda name: (shares[name].number, name))
+    return law, shares[law]
+
+
 def count_rivals(
     law: str, among_all: bool, folder: Path = STUDY, rule: Rule = RULE, tie: float | None = None
 ) -> dict[str, Share]:

@@ -24,7 +24,7 @@ from bench.engines.arm_episode import buffers
 from bench.law.contender import Contender
 from bench.law.contenders.registry import find_contender, inverse
 from bench.law.display import Equation
-from bench.law.inputs import AT_REST, Gains, Goal
+from bench.law.inputs import AT_REST, Goal, Tuning
 from bench.law.kinds import Inverse
 from bench.law.so3 import IDENTITY, from_quaternion
 from tasks.kinematics import kinematics
@@ -57,7 +57,7 @@ def near(one: Contender) -> float:
 
 def derivative(one: Contender) -> np.ndarray:
     """F of a law without memory, 3 x 3, at the goal I: -f(exp([x]x)) = F x + ..."""
-    gains, columns = Gains(), []
+    gains, columns = Tuning(), []
     for axis in np.eye(3):
         ends = (from_quaternion(about(tuple(axis), sign * DIFFERENCE_RAD)) for sign in (1.0, -1.0))
         up, down = (np.array(one.law(R, AT_REST, Goal(IDENTITY), gains)) for R in ends)

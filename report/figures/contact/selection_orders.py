@@ -102,7 +102,7 @@ def predict_errors() -> Iterator[tuple]:
     for order in SELECTION_ORDERS:
         cells = []
         for case in CASES:
-            error = exerted_error(order, case, Lambda, held, ACCELERATION)
+            error = exerted_error(order, case, Lambda, held.tolist(), ACCELERATION)
             cells.append(float(np.linalg.norm(error[is_force])))
             cells.append(float(np.linalg.norm(error[~is_force])))
         yield name_order(order), *cells
