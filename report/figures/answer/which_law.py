@@ -122,9 +122,10 @@ def describe_weak_motors() -> str:
     """Say how often the advised law is near the least time where the command has a bound."""
     found = count_weak_motors(read_weak_motors())
     return (
-        f"In {found.of} random situations with a bound of {found.low:.2g} to {found.high:.2g} kp, the advised law "
-        f"settles within {NEAR_LEAST:g} times the time of the fastest motions in {100 * found.near:.0f} %, and "
-        f"overshoots by less than {LITTLE_DEG:g}° in {100 * found.little:.0f} %"
+        f"We drew {found.of} random situations with a bound of {found.low:.2g} to {found.high:.2g} kp. A law is "
+        f"advised in {found.advised} of these. In {100 * found.near:.0f} % of the {found.advised} situations, the "
+        f"advised law settles within {NEAR_LEAST:g} times the time of the fastest motions, and in "
+        f"{100 * found.little:.0f} % it overshoots by less than {LITTLE_DEG:g}°"
     )
 
 
