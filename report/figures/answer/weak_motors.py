@@ -24,8 +24,8 @@ exp(-pi zeta/sqrt(1 - zeta^2)) is its overshoot as a share."""
 
 TABLE = html.Table(
     "Bound on the command, divided by kp [rad] | Situations | Situations where a law is advised | "
-    f"Of these: settling time at most {NEAR_LEAST:g} times the least time [%]:.0f | "
-    f"Of these: overshoot below {LITTLE_DEG:g}° [%]:.0f | "
+    f"Share of these with a settling time of at most {NEAR_LEAST:g} times the least time [%]:.0f | "
+    f"Share of these with an overshoot below {LITTLE_DEG:g}° [%]:.0f | "
     "Median of the settling time, divided by the least time:.2f | "
     "Median time of the linear loop near the goal, divided by the least time:.2f"
 )
