@@ -84,7 +84,11 @@ def test_least_time_is_unknown_without_a_bound_behind_a_jump_and_of_uneven_bodie
 
 def test_advice_compares_its_law_with_the_fastest_motions():
     found = advise(BOUNDED)
-    assert 2.0 < found.row(found.law)["time"] / found.least < 4.0
+    advised = found.row(found.law)
+    # README's promise; no command has an effect before the delay has passed
+    assert 1.0 < advised["time"] / (BOUNDED.delay + found.least) < 1.15
+    assert advised["overshoot"] < 5.0
+    assert found.row("hybrid")["time"] > 2.0 * found.least
     said = describe_least(found, 1.0)
     assert f"in {found.least:.3f} s; {found.law} takes " in said
     assert "over least" in table(found, 1.0)
@@ -150,8 +154,8 @@ def spread_times(middle, seed=0):
 def test_law_of_the_map_stays_unless_another_is_faster_start_by_start():
     base = spread_times(6.0)
     laws = ("mrp-memory", "hybrid")
-    assert choose(MadeUp({"mrp-memory": base, "hybrid": 0.995 * base}), laws, RULE, "mrp-memory") == "mrp-memory"
-    assert choose(MadeUp({"mrp-memory": base, "hybrid": 0.98 * base}), laws, RULE, "mrp-memory") == "hybrid"
+    assert choose(MadeUp({"mrp-memory": base, "hybrid": 0.96 * base}), laws, RULE, "mrp-memory") == "mrp-memory"
+    assert choose(MadeUp({"mrp-memory": base, "hybrid": 0.93 * base}), laws, RULE, "mrp-memory") == "hybrid"
     held = MadeUp({"mrp-memory": 0.5 * base, "hybrid": base}, stuck=("mrp-memory",))
     assert choose(held, laws, RULE, "mrp-memory") == "hybrid"
 
@@ -188,7 +192,8 @@ def test_situation_between_those_of_the_map_is_simulated():
 
 
 def test_bound_that_makes_every_law_overshoot_is_said_and_lower_gains_brake():
-    found = advise(BOUNDED)
+    # A body of twice the model's inertia: a law that knows the bound brakes too late, too.
+    found = advise(BOUNDED._replace(inertia=2.0))
     assert found.eased is not None
     # a kv^2/kp^2 = 180 degrees at the lower gains: 4 zeta^2 bound/(pi kp)
     assert found.eased.factor == pytest.approx(4.0 * 0.7**2 * 0.075 / math.pi)
