@@ -94,8 +94,8 @@ def say_finding(points: Sequence[Point]) -> str:
     counts = Counter(point.law for point in points if point.law)
     unanswered = len(points) - counts.total()
     (first, most), *others = counts.most_common()
-    rest = ", ".join(f"{families.word(law)} ({count} situations)" for law, count in others)
-    others_text = f" The other advised laws are {rest}." if rest else ""
+    rest = ", ".join(f"{families.word(law)} ({count})" for law, count in others)
+    others_text = f" The other advised laws, with their numbers of situations, are {rest}." if rest else ""
     none = f" In {unanswered} situations {NONE}." if unanswered else ""
     return (
         f"{families.word(first)} is advised in {most} of the {len(points)} simulated situations of this map."
