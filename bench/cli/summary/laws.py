@@ -154,6 +154,9 @@ def _find_nanoseconds(results: Results, law: str) -> float:
 
 
 HEADS = f"{'':{HEAD}} {'settles %':14} {'50 %':>5} {'99 %':>6}  {'fails at':17} {'ops':>5} {'ns':>4}"
+MEDIAN_END = HEAD + 21
+"""Column in which the median time ends."""
+
 WITH_EFFORT = f"{'':{HEAD}} {'settles %':14} {'50 %':>5} {'99 %':>6} {'peak/kp':>7} {'effort':>8} {'ops':>6} {'ns':>5}"
 """Heads of the table: of many laws, and of few laws with their commands."""
 
@@ -165,13 +168,21 @@ UNITS_WITH_EFFORT = (
 
 
 def format_row(row: Row) -> list[str]:
-    """Return the lines of a law: a long name and a second place of failure have lines of their own."""
-    name, first = _split_name(row.law)
-    places = _list_places(row)
+    """Return the lines of a law: a long name and a second place of failure have lines of their own.
+
+    A name stays in the line of its numbers if it and the share fit before the median time.
+    """
+    name = name_law(row.law)
     median, nearly_all = map(write_seconds, row.times)
+    first = []
+    start = f"{name} {row.settles}" if len(name) > HEAD else f"{name:{HEAD}} {row.settles}"
+    if len(start) + 1 + len(median) > MEDIAN_END:
+        first = [name]
+        start = f"{'':{HEAD}} {row.settles}"
+    places = _list_places(row)
     lines = [
         *first,
-        f"{name:{HEAD}} {row.settles:14} {median:>5} {nearly_all:>6}  {places[0]:17} {_write_operations(row):>5} "
+        f"{start}{median:>{MEDIAN_END - len(start)}} {nearly_all:>6}  {places[0]:17} {_write_operations(row):>5} "
         f"{_write_nanoseconds(row):>4}",
     ]
     return [*lines, *(f"{'':{HEAD + 30}}{place}" for place in places[1:])]

@@ -57,7 +57,9 @@ def _list_sentences(answer: Answer) -> Iterator[str]:
     yield f"{answer.law} ({answer.attribution}) {needs['default'].price}"
     for name in PRICED:
         if name in needs:
-            yield f"{NAMES[name]}: {_name_law(needs[name])} {needs[name].price}"
+            # Its time beside the default's is in README and book: here a line is saved.
+            price = needs[name].price.split(" and takes, if not limited,")[0]
+            yield f"{NAMES[name]}: {_name_law(needs[name])} {price}"
     others: dict[str, list[str]] = {}
     for need in answer.needs:
         if need.name in NAMES and need.name not in PRICED:
