@@ -128,7 +128,8 @@ def test_summary_without_a_map_says_not_tested(capsys, judged, monkeypatch, tmp_
     monkeypatch.setattr(whole, "list_later_laws", list)
     said = joined(bench(capsys, "show", REFERENCE))
     assert "Use today Not tested: there is no map of situations" in said
-    assert "advise" not in said
+    # the heading of our own laws alone has the word
+    assert "advise" not in said.replace("not advised", "")
 
 
 def test_run_at_other_gains_names_them_and_answers_for_them(capsys, judged):
@@ -142,7 +143,7 @@ def test_run_at_other_gains_names_them_and_answers_for_them(capsys, judged):
 @pytest.mark.parametrize(
     ("gains", "words"),
     [
-        (Gains(100.0, 13.0), "(damping ratio 0.65): mrp-linearized (published), tested at damping ratio 0.648"),
+        (Gains(100.0, 13.0), "(damping ratio 0.65): hybrid (published), tested at damping ratio 0.648"),
         (Gains(400.0, 40.0), "kp = 400, kv = 40 (damping ratio 1): mrp-memory (adapted)"),
         (Gains(100.0, 90.0), "(damping ratio 4.5): not tested in the map (damping ratios 0.5 to 2)"),
     ],
