@@ -36,6 +36,7 @@ from support.leads_of_arms import (
 )
 from support.map_rule import (
     NOTABLE,
+    OVERSHOOT,
     SPOKEN,
     is_of_draw,
     map_rows,
@@ -147,7 +148,7 @@ def recompute_shares(law):
     anywhere = rows.groupby("law")["qualified"].any()
     others = anywhere[[not is_ours(name) for name in anywhere.index]]
     said = [percent(near, "qualified"), near["of"], "5 %", len(others), percent(near, "all"), (~others).sum()]
-    said += ["1 %", percent(close, "qualified"), percent(close, "all"), percent(near, "losing")]
+    said += [f"{100 * NOTABLE:g} %", percent(close, "qualified"), percent(close, "all"), percent(near, "losing")]
     return said
 
 
@@ -171,7 +172,16 @@ def recompute_reason(law):
     near = shares_of(law, SPOKEN)
     low, high = binomtest(near["qualified"], near["of"]).proportion_ci(0.95)
     meets = round(100 * (1 - near["failing"] / near["of"]))
-    return [meets, 180, 0.1, *(round(100 * share) for share in (near["qualified"] / near["of"], low, high)), 5]
+    shares = [round(100 * share) for share in (near["qualified"] / near["of"], low, high)]
+    return [meets, 180, 0.1, OVERSHOOT, *shares, 100 * SPOKEN, *recompute_widest_share(law)]
+
+
+def recompute_widest_share(law):
+    """Return the share of the law that is unbeaten in most drawn situations, in per cent, where it is another law."""
+    others = [name for name in map_rows()["law"].unique() if not is_ours(name)]
+    counts = {name: shares_of(name, SPOKEN)["qualified"] for name in others}
+    most = max(counts.values())
+    return [] if counts[law] == most else [round(100 * most / shares_of(law, SPOKEN)["of"])]
 
 
 def recompute_costs(law):
