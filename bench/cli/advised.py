@@ -36,11 +36,8 @@ def paragraphs(advice: Advice, kp: float) -> list[Paragraph]:
     where = Paragraph("How sure", tuple(_describe_evidence(advice)))
     if advice.law is None:
         return [Paragraph("Which law", tuple(_describe_none(advice, kp))), where]
-    answer = [_describe_law(advice, unit)]
-    if advice.eased:
-        answer.insert(0, _describe_bound(advice, kp))
     return [
-        Paragraph("Which law", tuple(answer)),
+        Paragraph("Which law", (_describe_law(advice, unit),)),
         Paragraph("Price", tuple(_describe_prices(advice, kp))),
         Paragraph("Theory", (_describe_theory(advice, unit),)),
         where,
@@ -153,26 +150,6 @@ def _list_lacks(row: dict[str, Any]) -> list[str]:
         "overshooting": f"overshoots by {row['overshoot']:.0f}°",
     }
     return [text for column, text in words.items() if row[column]]
-
-
-def _describe_bound(advice: Advice, kp: float) -> str:
-    """Say that the bound makes every law overshoot, and at which lower gains it does not."""
-    assert advice.eased is not None
-    assert advice.rows is not None
-    factor, eased = advice.eased
-    lower_kp = factor * kp
-    lower_kv = 2.0 * advice.wanted.zeta * math.sqrt(lower_kp)
-    finite = advice.rows[advice.rows["time"] < math.inf]
-    spread = finite["time"].max() / finite["time"].min() - 1.0
-    here = advice.row(str(advice.law))
-    times = eased["time"] / math.sqrt(lower_kp), here["time"] / math.sqrt(kp)
-    return (
-        f"With this bound each of the {counted(len(finite), 'law')} that were simulated overshoots by "
-        f"{finite['overshoot'].min():.0f}° or more, and the choice of law matters by {spread:.0%} of the time. Lower "
-        f"kp to about {lower_kp:.3g} 1/s² (kv {lower_kv:.3g} 1/s), or limit the speed: with these gains {advice.law} "
-        f"overshoots by {eased['overshoot']:.0f}° in place of {here['overshoot']:.0f}°, and 99 % of the starts settle "
-        f"in {times[0]:.3f} s in place of {times[1]:.3f} s."
-    )
 
 
 def _describe_prices(advice: Advice, kp: float) -> list[str]:

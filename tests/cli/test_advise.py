@@ -48,12 +48,15 @@ def test_bound_far_below_the_map_has_a_least_time(capsys):
     assert "No law: with this bound no law can settle 99 % of the starts in less than 9.71 s" in said
 
 
-def test_example_of_the_readme_says_first_that_the_bound_is_what_is_wrong(capsys):
+def test_weak_motor_is_answered_by_a_law_close_to_the_fastest_motions(capsys):
     words = ("--kp", "400", "--kv", "28", "--bound", "30", "--delay", "5ms", "--rate", "500", "--robot", "torque")
     said = advise(capsys, *words)
-    assert said.startswith("Which law With this bound each of the ")
-    assert "Lower kp to about 18.7 1/s² (kv 6.06 1/s), or limit the speed" in said
-    assert "but" in said.partition("Use ")[2].partition("Price")[0]
+    law, seconds = re.search(r"^Which law Use (\S+) \(adapted\): 99 % of the starts settle in (\S+) s", said).groups()
+    fastest, ratio = re.search(rf"99 % of the starts in (\S+) s; {law} takes (\S+) times as long", said).groups()
+    overshoot = re.search(rf"{law}: greatest command 30 rad/s², overshoot (\S+)°", said)[1]
+    assert float(ratio) == pytest.approx(float(seconds) / float(fastest), abs=0.01)
+    assert float(ratio) < 1.15
+    assert float(overshoot) < 5.0
 
 
 def test_ties_price_and_runner_up_stand_with_the_law(capsys):

@@ -191,17 +191,6 @@ def test_situation_between_those_of_the_map_is_simulated():
     assert not found.is_whole
 
 
-def test_bound_that_makes_every_law_overshoot_is_said_and_lower_gains_overshoot_less():
-    # A body of twice the model's inertia: a law that knows the bound brakes too late, too.
-    found = advise(BOUNDED._replace(inertia=2.0))
-    assert found.eased is not None
-    # a kv^2/kp^2 = 180 degrees at the lower gains: 4 zeta^2 a/(pi kp), with a = bound/2 of this body
-    assert found.eased.factor == pytest.approx(4.0 * 0.7**2 * 0.0375 / math.pi)
-    here = found.row(found.law)
-    assert found.eased.row["overshoot"] < 0.7 * here["overshoot"]
-    assert advise(NOMINAL).eased is None
-
-
 def test_rule_without_memory_advises_a_law_without_memory():
     found = advise(NOMINAL, Rule(forgetful=True))
     assert not mapped(found.law).regulator.memory

@@ -10,7 +10,7 @@ from bench.engines.episode import Settings as Limits
 from bench.engines.plants import perturbed
 from bench.engines.simulate_bodies import run_disturbed
 from bench.experiments.situations import mapped_laws
-from bench.findings.theory.bang_bang import angle_of_share, brake_knee, least_time
+from bench.findings.theory.bang_bang import angle_of_share, least_time
 from bench.findings.theory.closed_form import linear_settling
 from bench.findings.theory.robustness_theory import delay_margin
 from bench.findings.theory.sampled_loop import Loop, find_limits, is_stable, mode_time, settling_time, spectral_radius
@@ -149,8 +149,3 @@ def test_angle_of_a_share_of_uniform_orientations_is_known():
     angle = angle_of_share(0.5)
     assert (angle - math.sin(angle)) / math.pi == pytest.approx(0.5, abs=1e-12)
     assert angle_of_share(1.0) == pytest.approx(math.pi)
-
-
-def test_knee_is_where_the_shifted_root_begins():
-    # a Kv^2/Kp^2 with a = 0.1 Kp and Kv^2 = 4 Kp: 0.4 rad
-    assert brake_knee(10.0, 100.0, 20.0, 1.0) == pytest.approx(0.4)

@@ -44,7 +44,7 @@ from bench.findings.selection.regions import (
     meets,
     with_words,
 )
-from bench.findings.theory.bang_bang import angle_of_share, brake_knee, least_time
+from bench.findings.theory.bang_bang import angle_of_share, least_time
 from bench.findings.theory.sampled_loop import Limits, Loop, find_limits, settling_time, spectral_radius
 from bench.law.contender import Contender
 from tasks.situation import KP, Situation
@@ -64,24 +64,19 @@ LEAST, SHORT = 4, 6
 HORIZON = HORIZON_S * math.sqrt(KP)
 """The end of an episode [1/sqrt(kp)]."""
 
-LONG_WAY_PAST = 20.0
-"""Overshoot [deg] of every law that meets the requirements from which on the bound, not the law, is what is wrong."""
-
 
 class NearGoal(NamedTuple):
     """What closed forms say of a situation, in units of 1/sqrt(kp) and kp.
 
     radius: of the sampled loop near the goal; 1 and more is unstable. time: until the linear response stays in the
     band. limits: what would make an unstable loop stable. least: the time of the map's CROWD below which no law can be
-    with this bound; 0 without one, with spin, or where goals jump. knee: from this angle on [rad] a well damped law
-    comes too fast for the bound to brake.
+    with this bound; 0 without one, with spin, or where goals jump.
     """
 
     radius: float
     time: float
     limits: Limits | None
     least: float
-    knee: float
 
     @property
     def is_hopeless(self) -> bool:
@@ -103,8 +98,7 @@ def look_near_goal(at: Situation) -> NearGoal:
     if math.isfinite(at.bound) and not at.spin and not at.jump:
         # The lightest axis turns the fastest; until the first command arrives nothing turns.
         least = at.delay + least_time(angle_of_share(CROWD), at.bound / min(loop.moments))
-    knee = brake_knee(at.bound, loop.kp, loop.kv, at.inertia)
-    return NearGoal(radius, settling_time(loop, HORIZON), limits, least, knee)
+    return NearGoal(radius, settling_time(loop, HORIZON), limits, least)
 
 
 def find_least_time(at: Situation, count: int, seed: int) -> float:
@@ -208,16 +202,6 @@ class Trials:
         return [law for place, law in enumerate(laws) if not is_slower[place].any()]
 
 
-class Eased(NamedTuple):
-    """Lower gains of the same damping ratio, at which the bound can brake: the factor of kp, and the law's row there.
-
-    The row's times are in 1/sqrt(factor kp).
-    """
-
-    factor: float
-    row: dict[str, Any]
-
-
 class Advice(NamedTuple):
     """What is advised in a situation.
 
@@ -225,7 +209,7 @@ class Advice(NamedTuple):
     where it was not asked. rows: of each law that was simulated there, a row as in situations.parquet. qualified: laws
     that have what is required, published ones. ours: our own that have it. tied: qualified within TIE of the advised
     one, the fastest first. is_whole: every law was simulated. replaced: the map's law, where another is advised, and
-    lacks: whether that is because it lacks what is required. eased: where the bound makes every law overshoot.
+    lacks: whether that is because it lacks what is required.
     least: the time of the fastest motions that the bound allows [1/sqrt(kp)], NaN where it is not known.
     """
 
@@ -241,7 +225,6 @@ class Advice(NamedTuple):
     is_whole: bool = False
     replaced: str | None = None
     lacks: bool = False
-    eased: Eased | None = None
     least: float = math.nan
 
     def row(self, law: str) -> dict[str, Any]:
@@ -302,29 +285,7 @@ def advise(
         tied=list_tied(rows, published, law),
         replaced=preferred if preferred != law else None,
         lacks=preferred not in published,
-        eased=ease(advice, trials.settings.seed),
     )
-
-
-def ease(advice: Advice, seed: int) -> Eased | None:
-    """Return lower gains if every law that has what is required overshoots, and the bound is why; else None."""
-    at, rows = advice.wanted, advice.rows
-    assert rows is not None
-    assert advice.law is not None
-    overshoot = rows[rows["contender"].isin(advice.qualified)]["overshoot"].min()
-    # The knee of a loop with kp' and kv' of the same damping ratio lies at 180°.
-    factor = advice.near_goal.knee / math.pi
-    if overshoot < LONG_WAY_PAST or factor >= 1.0:
-        return None
-    root = math.sqrt(factor)
-    lower = at._replace(
-        bound=at.bound / factor,
-        delay=at.delay * root,
-        period=at.period * root,
-        spin=at.spin / root,
-        jump=at.jump * root,
-    )
-    return Eased(factor, Trials(lower, seed).run(advice.law).row)
 
 
 def shortlist(nearest: Answer, rule: Rule, folder: Path = STUDY) -> tuple[str, ...]:

@@ -26,12 +26,3 @@ def least_time(angle: float, acceleration: float, tolerance: float = RULES.toler
 def angle_of_share(share: float) -> float:
     """Return the angle [rad] that this share of uniform orientations does not exceed: (angle - sin angle)/pi."""
     return bisect(lambda angle: angle - math.sin(angle) < share * math.pi, 0.0, math.pi, HALVINGS)[1]
-
-
-def brake_knee(bound: float, kp: float, kv: float, inertia: float) -> float:
-    """Return the angle [rad] from which a law of gains kp and kv comes too fast for its bound to brake.
-
-    Damped well, it approaches with the speed (kp/kv) angle. To slow down along that line takes (kp/kv)^2 angle, and
-    bound/inertia is what there is.
-    """
-    return bound * kv * kv / (inertia * kp * kp)
