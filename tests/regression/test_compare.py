@@ -184,6 +184,7 @@ def test_gate_wants_one_outcome_in_common_and_no_cause(pair, beside, beside_now,
 
 
 FREE, POLE, NEAR = (f"alpha+0 beta+{beta} gamma+0, about x" for beta in (45, 90, 89))
+PEG = {"task": "peg-in-hole"}
 
 
 @pytest.mark.parametrize(
@@ -199,6 +200,10 @@ FREE, POLE, NEAR = (f"alpha+0 beta+{beta} gamma+0, about x" for beta in (45, 90,
         (FREE, {"remaining_speed_m_per_s": 1e-3}, {"remaining_speed_m_per_s": 1.2e-3}, "remaining_speed_m_per_s: "),
         (FREE, {"time_to_rest_s": 3.4}, {"time_to_rest_s": 3.6}, ""),
         (FREE, {"time_to_rest_s": 3.4}, {"time_to_rest_s": 3.7}, "time_to_rest_s: "),
+        # rounding decides where the last slip of a peg ends, and of no other hand
+        (FREE, PEG | {"force_error_end_n": 0.042}, PEG | {"force_error_end_n": 0.038}, ""),
+        (FREE, PEG | {"force_error_end_n": 0.042}, PEG | {"force_error_end_n": 0.056}, "force_error_end_n: "),
+        (FREE, {"force_error_end_n": 0.042}, {"force_error_end_n": 0.038}, "force_error_end_n: "),
         # rounding decides whether a coordinate is lost on the pole, and what a hand does that was thrown about
         (POLE, {"peak_torque_ratio": 0.5, "outcome": "done"}, {"peak_torque_ratio": 0.5, "outcome": "saturated"}, ""),
         (NEAR, {"peak_torque_ratio": 9.0, "outcome": "done"}, {"peak_torque_ratio": 8.0, "outcome": "saturated"}, ""),
