@@ -60,7 +60,8 @@ def units(asked: Asked) -> tuple[Unit, ...]:
     for task, arm in pairs:
         words, poses = part.on(arm.joints)
         for one in _controllers(words, choice):
-            if one.law in part.in_free_space and task.touches(arm) and not choice.controllers:
+            nowhere = one.law in part.in_free_space if task.touches(arm) else one.name in part.in_touch
+            if nowhere and not choice.controllers:
                 continue
             found += cut(one, task, arm, asked.count or poses, part.dense, asked.horizon_s or task.horizon_s)
     if not found and choice.is_about_contact:

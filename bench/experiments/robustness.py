@@ -19,7 +19,7 @@ from bench.experiments.columns import SINGLE, of_metrics, read_table
 from bench.experiments.episode_rows import episode_columns, lost_numbers, measured_columns
 from bench.experiments.episodes import prepare_law
 from bench.experiments.experiment import OF_LAWS, Asked, Experiment, Settings, Unit
-from bench.experiments.suites import Robustness
+from bench.experiments.suites import BOUNDED, Robustness
 from bench.law.contender import Contender
 from bench.law.contenders.registry import papers_laws
 from tasks.condition import Condition, condition_at
@@ -58,7 +58,14 @@ def units(asked: Asked) -> tuple[Unit, ...]:
         )
         for one in chosen
         for axis in axes
+        if _is_told_apart(one, axis.name, part, choice)
     )
+
+
+def _is_told_apart(one: Contender, axis: str, part: Robustness, choice: Choice) -> bool:
+    """Return whether a law may differ along an axis from another law that runs there, or is asked for by name."""
+    is_named = bool(choice.axes or choice.regulators or one.regulator.origin)
+    return is_named or not part.bounded or one.name not in BOUNDED or axis in part.bounded
 
 
 def _takes_part(one: Contender, part: Robustness, choice: Choice) -> bool:

@@ -59,13 +59,15 @@ class InContact(NamedTuple):
 
     controllers: their names; none at all: every one. poses: the first so many of each task; None: all. dense: the
     task's dense set of trials instead. in_free_space: laws that take part only where there is nothing to touch.
-    redundant, redundant_poses: the first two on arms of seven joints.
+    in_touch: controllers that take part only where there is something to touch. redundant, redundant_poses: the first
+    two on arms of seven joints.
     """
 
     controllers: tuple[str, ...]
     poses: int | None = None
     dense: bool = False
     in_free_space: tuple[str, ...] = ("hybrid-rate", "hybrid-unconverted")
+    in_touch: tuple[str, ...] = ()
     redundant: tuple[str, ...] = ()
     redundant_poses: int | None = None
 
@@ -78,10 +80,12 @@ class Robustness(NamedTuple):
     """The part of a suite that perturbs laws of the free body, along every axis of tasks/conditions.
 
     starts: at each level of each axis. others: laws on coordinates that the paper sets aside; None: all of them.
+    bounded: the axes along which the laws of BOUNDED run; none at all: every one.
     """
 
     starts: int
     others: tuple[str, ...] | None = ("feedback-linearized/mrp",)
+    bounded: tuple[str, ...] = ()
 
 
 class Velocity(NamedTuple):
@@ -176,7 +180,9 @@ def read_suite(name: str, declared: dict[str, Any]) -> Suite:
         part: expanded(one) if isinstance(one, list) else one for part, one in said["in_contact"].items()
     }
     said["on_arms"], said["in_contact"] = read_on_arms(**said["on_arms"]), InContact(**contact)
-    said["robustness"] = Robustness(**perturbed | ({"others": None} if perturbed.get("others") == "all" else {}))
+    others = {"others": None} if perturbed.get("others") == "all" else {}
+    bounded = {"bounded": tuple(perturbed.get("bounded", ()))}
+    said["robustness"] = Robustness(**perturbed | others | bounded)
     return Suite(name, **said | {"velocity": Velocity(**said["velocity"])})
 
 
