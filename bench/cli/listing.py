@@ -84,6 +84,12 @@ def find_starts(of_arms: bool) -> Mapping[str, Any]:
     return {name: SimpleNamespace(starts=one.size, title=one.title) for name, one in every.items()}
 
 
+def find_holders(folder: str) -> Mapping[str, Any]:
+    """Return the records of a folder that have a law, each with the fields of its law beside its own."""
+    records = registry.contenders(folder)
+    return {name: SimpleNamespace(**(vars(one) | one.law._asdict())) for name, one in records.items()}
+
+
 def find_engines() -> Mapping[str, Any]:
     """Return the engines, from the docstring of their package."""
     from bench import engines
@@ -106,7 +112,7 @@ KINDS = {
     "inverses": Kind("Inverses", "inverses", "gives title source"),
     "controllers": Kind("Controllers in contact", find_controllers, "coordinates forms title"),
     "impedances": Kind("Impedances", "impedances"),
-    "shipped": Kind("Controllers as they are shipped", "shipped", "level title source"),
+    "shipped": Kind("Controllers as they are shipped", lambda: find_holders("shipped"), "level title source"),
     "baselines": Kind("Baselines of arms, which are no laws", "baselines"),
     "springs": Kind("Springs of an orientation", "springs", "title source"),
     "compensators": Kind("Laws with a state", "compensators", "state.measures_rate property title source"),

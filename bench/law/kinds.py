@@ -7,18 +7,14 @@ Each has an `attribution`: published, adapted or ours (`bench.law.attribution`).
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from bench.law.attribution import OURS, YOURS
 from bench.law.display import Display
-from bench.law.inputs import PAPERS_GAINS, Gains
 
 ON_MATRIX = "rotation-matrix"
 """The coordinates of a law that acts on R itself."""
-
-ACCELERATION, TORQUE, VELOCITY, POSITION = "acceleration", "torque", "velocity", "position"
-"""Levels: what a controller commands. Of a position, it simulates the plant that moves there."""
-
 
 class State(NamedTuple):
     """The state of a law that obeys a differential equation: a filter in place of the measured rate, or an integral.
@@ -55,12 +51,6 @@ class Law(NamedTuple):
             state over the control period.
         property: what is proved about convergence: "local", "almost global", "global with memory" or
             "none", or the gains for which it is proved.
-        level: the kind of command: "acceleration", "torque", "velocity" or "position".
-        gains: the gains that the authors of the law set, or Murphy's gains.
-        shipped: AsShipped for a controller as its authors ship it; otherwise None. The formula of
-            such a law is the formula of its error, with clips and deadbands in the order in which
-            the controller applies them. The unit of the stiffness is N m/rad. It is 1/s^2 if the
-            controller cancels or simulates an inertia, and 1/s if it commands a velocity.
         origin: the file of a law that a user wrote; `text` is the content of this file. Both fields
             are empty for our laws.
         later: True for a law that is not in the paper. We simulate such a law from fewer starts.
@@ -95,9 +85,6 @@ class Law(NamedTuple):
     memory: tuple | None = None
     state: State | Any = None
     property: str = "local"
-    level: str = ACCELERATION
-    gains: Gains = PAPERS_GAINS
-    shipped: Any = None
     origin: str = ""
     text: str = ""
     costing_only: bool = False
@@ -116,6 +103,23 @@ class Law(NamedTuple):
     def is_ours(self) -> bool:
         """Whether the law was made here and nobody else has reviewed it: such a law is never advised."""
         return self.attribution == OURS
+
+
+@dataclass(frozen=True)
+class HasLaw:
+    """A record that has a law, and is called as its law is."""
+
+    law: Law
+
+    @property
+    def name(self) -> str:
+        """Name of the law."""
+        return self.law.name
+
+    @property
+    def attribution(self) -> str:
+        """Attribution of the law (`bench.law.attribution`)."""
+        return self.law.attribution
 
 
 class Coordinates(NamedTuple):

@@ -83,8 +83,7 @@ def load_law(path: Path, text: bytes | None = None) -> Law:
         exec(compile(text, path, "exec"), module.__dict__)
     except (Exception, SystemExit) as error:
         del sys.modules[name]
-        cure = _new_imports(text) if isinstance(error, ImportError) else "correct the file"
-        raise BadLaw(f"--law {path}: it does not import ({_said(error, str(path))}); {cure}") from error
+        raise BadLaw(f"--law {path}: it does not import ({_said(error, str(path))}); {_cure(error, text)}") from error
     own = getattr(module, "REGULATOR", None)
     if not isinstance(own, Law):
         given = "no REGULATOR" if own is None else f"a REGULATOR of type {type(own).__name__}"
@@ -94,6 +93,24 @@ def load_law(path: Path, text: bytes | None = None) -> Law:
         raise BadLaw(f"--law {path}: the name '{own.name}' is one of ours; give your REGULATOR another name")
     # Whatever the file says of itself: nobody here has compared a user's law with a work.
     return own._replace(origin=str(path), text=text.decode(), attribution=YOURS)
+
+
+FORMER_FIELDS = {
+    "level": "omit it, for a law commands an angular acceleration",
+    "gains": "omit it, for a law is called with its gains",
+    "shipped": "omit it, for a file in contenders/shipped/ has a law, not a law it",
+}
+"""What to write in place of a field that a `Law` had before."""
+
+NO_FIELD = re.compile(r"unexpected keyword argument '(\w+)'")
+
+
+def _cure(error: BaseException, text: bytes) -> str:
+    """Return what to write in a file that does not import."""
+    if isinstance(error, ImportError):
+        return _new_imports(text)
+    field = NO_FIELD.search(str(error))
+    return FORMER_FIELDS.get(field[1], "correct the file") if field else "correct the file"
 
 
 def _new_imports(text: bytes) -> str:
@@ -152,8 +169,8 @@ def _problems(own: Law) -> Iterator[str]:
         yield f"its memory is {own.memory!r}; give None or a tuple of up to {len(NO_MEMORY)} floats"
     if own.in_engine is not False:
         yield "it has in_engine; MuJoCo's own actuator would run in its place: omit it"
-    if own.state or own.shipped:
-        yield "it has a state or is shipped, which only files in contenders/ may: omit it"
+    if own.state:
+        yield "it has a state, which only files in contenders/ may: omit it"
 
 
 MISTAKES = (TypeError, NameError, AttributeError, ImportError)

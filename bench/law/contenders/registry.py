@@ -15,6 +15,7 @@ from bench.base.errors import BadLaw, Incompatible, UnknownWord
 from bench.law.attribution import SHIPPED_ATTRIBUTIONS
 from bench.law.contender import Contender, contender
 from bench.law.kinds import ON_MATRIX, Coordinates, Impedance, Inverse, Jacobian, Law, Spring
+from bench.law.shipped import AsShipped
 
 FOLDERS: dict[str, Any] = {
     "regulators": Law,
@@ -23,7 +24,7 @@ FOLDERS: dict[str, Any] = {
     "inverses": Inverse,
     "impedances": Impedance,
     "baselines": Law,
-    "shipped": Law,
+    "shipped": AsShipped,
     "springs": Spring,
     "compensators": Law,
 }

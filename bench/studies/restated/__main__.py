@@ -1,7 +1,7 @@
 """python -P -m bench.studies.restated FOLDER: compare each restated controller with its source; writes restated.json.
 
 FOLDER has a copy of each repository as `owner+name` or `owner+name/repo`: a clone, bare or not, that has the commit of
-`SHIPPED.source`, or, of a release, its files. A file of sources/ is a few lines of ours around the lines of theirs: a
+`SHIPPED.law.source`, or, of a release, its files. A file of sources/ is a few lines of ours around the lines of theirs: a
 line `//@ FILE FIRST-LAST` or `#@ FILE FIRST-LAST` stands for these lines of FILE at that commit. It is built in a
 folder that is removed afterwards, and none of their code stays here. The marks of the last file named are the error
 block. What is not built keeps its earlier row of the same lines. C++ needs g++, Eigen, KDL and, by --include,
@@ -26,7 +26,7 @@ from scipy.spatial.transform import Rotation
 from bench.base.files import read_json, write_json
 from bench.experiments.tables.schema import RESULTS
 from bench.law.contenders.registry import contenders
-from bench.law.kinds import Law
+from bench.law.shipped import AsShipped
 from bench.studies.study import describe_study, make_parser
 
 STORED = RESULTS / "libraries" / "restated.json"
@@ -57,9 +57,9 @@ def pairs() -> np.ndarray:
     return np.hstack([one.as_quat(scalar_first=True) for one in (goal, now)])
 
 
-def filled(one: Law, template: str, folder: Path) -> str:
+def filled(one: AsShipped, template: str, folder: Path) -> str:
     """Return a file of sources/ with the lines of theirs in the places of its marks."""
-    repository, _, revision = one.source.partition("@")
+    repository, _, revision = one.law.source.partition("@")
     name = repository.replace("/", "+")
     copies = [path for path in (folder / name / "repo", folder / name) if path.is_dir()]
     if not copies:
@@ -101,17 +101,17 @@ def turns_of(both: np.ndarray) -> Rotation:
     return goal * now.inv()
 
 
-def errors_of(one: Law, turns: Rotation) -> np.ndarray:
+def errors_of(one: AsShipped, turns: Rotation) -> np.ndarray:
     """Return the errors of our kernel, n x 3."""
-    return np.array([one.shipped.error(tuple(q)) for q in turns.as_quat(canonical=True, scalar_first=True).tolist()])
+    return np.array([one.error(tuple(q)) for q in turns.as_quat(canonical=True, scalar_first=True).tolist()])
 
 
-def compare(one: Law, source: Path, folder: Path, options: list[str]) -> dict:
+def compare(one: AsShipped, source: Path, folder: Path, options: list[str]) -> dict:
     """Return the row of a controller."""
     template = source.read_text()
     marks = list(MARK.finditer(template))
     file = marks[-1]["file"]
-    repository, _, revision = one.source.partition("@")
+    repository, _, revision = one.law.source.partition("@")
     row = {"name": one.name, "repository": repository, "commit": revision, "file": file}
     row["lines"] = ", ".join(f"{mark['first']}-{mark['last']}" for mark in marks if mark["file"] == file)
     try:
