@@ -113,9 +113,11 @@ KINDS = {
     "controllers": Kind("Controllers in contact", find_controllers, "coordinates forms title"),
     "impedances": Kind("Impedances", "impedances"),
     "shipped": Kind("Controllers as they are shipped", lambda: find_holders("shipped"), "level title source"),
-    "baselines": Kind("Baselines of arms, which are no laws", "baselines"),
+    "baselines": Kind("Baselines of arms, which are no laws", lambda: find_holders("baselines")),
     "springs": Kind("Springs of an orientation", "springs", "title source"),
-    "compensators": Kind("Laws with a state", "compensators", "state.measures_rate property title source"),
+    "compensators": Kind(
+        "Laws with a state", lambda: find_holders("compensators"), "measures_rate property title source"
+    ),
     "metrics": Kind("Metrics", known_metrics, "unit arm_only title"),
     "contact-metrics": Kind("Metrics of contact", known_contact_metrics, "unit title"),
     "tasks": Kind("Tasks", find_tasks, "contact title source"),

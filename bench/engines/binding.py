@@ -27,7 +27,7 @@ def command_of(contender: Contender):
     if contender.is_by_coordinates:
         guarded = _guarded_four if contender.rows == 7 else _guarded_three
         return guarded(contender.coordinate_law) if contender.regulator.origin else contender.coordinate_law
-    if contender.regulator.through:
+    if contender.regulator.law is None and contender.baseline is not None:
         return None  # a baseline on the joints has no law of an orientation
     law = contender.law if contender.regulator.memory is not None else _memoryless(contender.law)
     return _guarded_memory(law) if contender.regulator.origin else law

@@ -26,7 +26,20 @@ from bench.law.chain import bias_acceleration, twist
 from bench.law.contender import Contender
 from bench.law.display import ANGLE, CHORD, LINEAR_MRP, LINEAR_SINE, QUARTER, SINE, TANGENT, Display, Equation, Look
 from bench.law.inputs import AT_REST, Gains, Goal, Tuning
-from bench.law.kinds import Coordinates, Impedance, Inverse, Jacobian, Law, Spring, State, functions_of
+from bench.law.kinds import (
+    ACTUATOR,
+    CONTROL,
+    COSTING,
+    Baseline,
+    Coordinates,
+    Impedance,
+    Inverse,
+    Jacobian,
+    Law,
+    Spring,
+    Stateful,
+    functions_of,
+)
 from bench.law.linalg import (
     determinant,
     dot_rows,

@@ -6,16 +6,20 @@ from typing import NamedTuple
 from bench.base.errors import Incompatible
 from bench.law.attribution import ADAPTED, PUBLISHED
 from bench.law.display import Equation
-from bench.law.kinds import ON_MATRIX, Coordinates, Impedance, Inverse, Jacobian, Law
+from bench.law.kinds import ON_MATRIX, Baseline, Coordinates, Impedance, Inverse, Jacobian, Law
 
 
 class Contender(NamedTuple):
-    """A regulator in the coordinates it acts on, and on an arm its Jacobian and inverse: what one row is about."""
+    """A regulator in the coordinates it acts on, and on an arm its Jacobian and inverse: what one row is about.
+
+    baseline: the record whose law the regulator is, where a baseline of arms controls in its place.
+    """
 
     regulator: Law
     representation: Coordinates | None = None
     jacobian: Jacobian | None = None
     inverse: Inverse | None = None
+    baseline: Baseline | None = None
 
     @property
     def name(self) -> str:
@@ -31,7 +35,8 @@ class Contender(NamedTuple):
     @property
     def words(self) -> dict[str, str]:
         """Return the names of its parts, by the columns of tables that name a contender; empty where it has none."""
-        return {kind: part.name if part else "" for kind, part in self._asdict().items()}
+        parts = {kind: getattr(self, kind) for kind in ("regulator", "representation", "jacobian", "inverse")}
+        return {kind: part.name if part else "" for kind, part in parts.items()}
 
     @property
     def way(self) -> tuple[str, str]:
@@ -156,6 +161,12 @@ def contender(regulator: Law, representation: Coordinates | None = None) -> Cont
             "its gains are permuted for those coordinates"
         )
     return Contender(regulator, representation)
+
+
+def of_baseline(baseline: Baseline) -> Contender:
+    """Return a baseline of arms as a contender, by its own Jacobian and inverse if it brings them."""
+    jacobian, inverse = baseline.through or (None, None)
+    return Contender(baseline.law, jacobian=jacobian, inverse=inverse, baseline=baseline)
 
 
 def axes_of(representation: Coordinates) -> tuple[int, int, int]:

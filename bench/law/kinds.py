@@ -6,6 +6,7 @@ array A[i, j] or b[i] of numbers: float64, or counting scalars. Base frame, radi
 Each has an `attribution`: published, adapted or ours (`bench.law.attribution`).
 """
 
+import builtins  # in `Law`, `property` is a field
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -16,19 +17,17 @@ from bench.law.display import Display
 ON_MATRIX = "rotation-matrix"
 """The coordinates of a law that acts on R itself."""
 
-class State(NamedTuple):
-    """The state of a law that obeys a differential equation: a filter in place of the measured rate, or an integral.
+CONTESTANT, CONTROL, COSTING, ACTUATOR = "contestant", "control", "costing", "actuator"
+"""Roles of a law in this benchmark. A contestant is simulated, counted, and compared.
 
-    begin(R): the state at the start, four numbers. measures_rate: whether the law reads omega. rejects: whether a
-    constant disturbance leaves no error. polynomial(kp, kv): of small angles, the coefficients (c2, c1, c0) of
-    s^3 + c2 s^2 + c1 s + c0; None of one whose state does nothing. bound(kp, kv): what |u| never exceeds [rad/s^2].
-    """
+control: A negative control: a law that is wrong on purpose and must fail. It is simulated, and never recommended.
+costing: The law only writes another law of the list in a different form. We count its operations and test it, but do
+    not simulate it.
+actuator: An actuator of MuJoCo computes the command for MuJoCo's free body. The function of the law computes the same.
+"""
 
-    begin: Callable
-    polynomial: Callable | None
-    measures_rate: bool
-    rejects: bool
-    bound: Callable | None = None
+USERS_ROLES = (CONTESTANT, CONTROL, COSTING)
+"""Roles that the law of a user's file may have: MuJoCo's own actuator would run in place of the law."""
 
 
 class Law(NamedTuple):
@@ -46,30 +45,19 @@ class Law(NamedTuple):
             law(R, omega, goal, gains, memory) -> (u, memory). The law returns the new memory, and
             the caller passes this memory unchanged to the next control step. A law with memory
             does not need the control period.
-        state: a State for a law with a state; otherwise None. A law with a state is
-            law(R, omega, goal, gains, state) -> (u, rates). The caller integrates the rates of the
-            state over the control period.
         property: what is proved about convergence: "local", "almost global", "global with memory" or
             "none", or the gains for which it is proved.
         origin: the file of a law that a user wrote; `text` is the content of this file. Both fields
             are empty for our laws.
         later: True for a law that is not in the paper. We simulate such a law from fewer starts.
-        costing_only: whether the law only writes another law of the list in a different form. We
-            count the operations of such a law and test it, but do not simulate it.
-        in_engine: whether an actuator of MuJoCo computes the command for MuJoCo's free body. The
-            function `law` computes the same command.
+        role: "contestant"; "control", "costing" or "actuator" for the few laws that are here for
+            another reason than to be compared.
         stiffness: stiffness near the goal about the axes n_d, o_d and a_d of the goal, divided by kp.
         margin: for a law on R with singular orientations: margin(R, R_d) in [0, 1], which is 0
             exactly at the singular orientations.
         coordinate_law_in: for a law that commands Eddot, the second derivatives of the coordinates.
             coordinate_law_in(coordinates) returns law(chart, E_d, Edot, gains) -> u_E. The
             controller with an analytic Jacobian (Murphy 1988, 3.7) uses this law.
-        assemble: for a baseline (contenders/baselines): assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory).
-            This function replaces equations (2.2) and (3.7).
-        through: for a baseline (contenders/baselines) that commands joints: the Jacobian, and
-            the method that inverts this Jacobian. Empty for every other law.
-        papers: the number (1 to 3) of the law among the paper's three laws; 0 for every other law.
-        control: whether the law is a negative control: a law that is wrong on purpose and must fail.
         attribution: "published", "adapted" or "ours" (see `bench.law.attribution`); "yours" for the
             law of a user.
     """
@@ -83,26 +71,30 @@ class Law(NamedTuple):
     coordinates: str | tuple = ON_MATRIX
     relative: bool = False
     memory: tuple | None = None
-    state: State | Any = None
     property: str = "local"
     origin: str = ""
     text: str = ""
-    costing_only: bool = False
     later: bool = False
-    in_engine: bool = False
+    role: str = CONTESTANT
     stiffness: tuple[float, float, float] = (1.0, 1.0, 1.0)
     margin: Callable | None = None
     coordinate_law_in: Callable | None = None
-    assemble: Callable | None = None
-    through: tuple["Jacobian", "Inverse"] | tuple[()] = ()
-    papers: int = 0
-    control: bool = False
     display: Display = Display()
     attribution: str = YOURS
 
     def is_ours(self) -> bool:
         """Whether the law was made here and nobody else has reviewed it: such a law is never advised."""
         return self.attribution == OURS
+
+    @builtins.property
+    def in_engine(self) -> bool:
+        """Whether an actuator of MuJoCo computes the command."""
+        return self.role == ACTUATOR
+
+    @builtins.property
+    def costing_only(self) -> bool:
+        """Whether its operations are counted, and it is not simulated."""
+        return self.role == COSTING
 
 
 @dataclass(frozen=True)
@@ -120,6 +112,35 @@ class HasLaw:
     def attribution(self) -> str:
         """Attribution of the law (`bench.law.attribution`)."""
         return self.law.attribution
+
+    @builtins.property
+    def property(self) -> str:
+        """What is said of the law's convergence."""
+        return self.law.property
+
+
+@dataclass(frozen=True)
+class Stateful(HasLaw):
+    """A law whose state obeys a differential equation: a filter in place of the measured rate, or an integral.
+
+    Its law is law(R, omega, goal, gains, state) -> (u, rates). The caller integrates the rates of the state over the
+    control period.
+
+    Attributes:
+        law: The law.
+        begin: begin(R) returns the state at the start, four numbers.
+        polynomial: polynomial(kp, kv) returns, of small angles, the coefficients (c2, c1, c0) of
+            s^3 + c2 s^2 + c1 s + c0; None for a law whose state does nothing.
+        measures_rate: Whether the law reads omega.
+        rejects: Whether a constant disturbance leaves no error.
+        bound: bound(kp, kv) returns what |u| never exceeds [rad/s^2]; None if there is no bound.
+    """
+
+    begin: Callable
+    polynomial: Callable | None
+    measures_rate: bool
+    rejects: bool
+    bound: Callable | None = None
 
 
 class Coordinates(NamedTuple):
@@ -223,6 +244,22 @@ class Inverse(NamedTuple):
     refuses: Callable[[int, int], str] = lambda rows, n: ""
     uses_inertia: bool = False
     attribution: str = YOURS
+
+
+@dataclass(frozen=True)
+class Baseline(HasLaw):
+    """A controller of an arm that laws are compared with; its law is None where it commands no orientation.
+
+    Attributes:
+        law: The words of the controller, and the law that it commands the tool by.
+        assemble: assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory) replaces equations
+            (2.2) and (3.7).
+        through: For a baseline that commands joints: the Jacobian, and the method that inverts it.
+            Empty for every other baseline.
+    """
+
+    assemble: Callable
+    through: tuple[Jacobian, Inverse] | tuple[()] = ()
 
 
 class Impedance(NamedTuple):

@@ -50,6 +50,7 @@ def with_fields(fields: str) -> str:
         (with_fields("memory=(0, 1)"), "its memory is (0, 1)"),
         (with_fields("memory=(0.0,)"), "law(R, omega, goal, gains, memory)"),
         (with_fields("in_engine=True"), "MuJoCo's own actuator would run"),
+        (with_fields("role='actuator'"), "its role is 'actuator'; omit it"),
         (law_text("return (1.0, 2.0)"), "returned (1.0, 2.0); it must return a tuple of three floats"),
         (law_text("return [1.0, 2.0, 3.0]"), "returned [1.0, 2.0, 3.0]"),
         (law_text("return ('a', 'b', 'c')"), "returned ('a', 'b', 'c')"),

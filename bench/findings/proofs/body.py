@@ -217,7 +217,7 @@ class FreeBody:
 
 def check_kind(law: Law) -> None:
     """Refuse a law of which no theorem on a free body speaks."""
-    if law.law is None or law.state is not None or law.coordinates != ON_MATRIX:
+    if law.law is None or law.coordinates != ON_MATRIX:
         raise DoesNotFit("it is no law on the rotation matrix without a state")
-    if law.origin and (law.in_engine or law.law_in or law.assemble):
+    if law.origin and law.law_in:
         raise DoesNotFit("its command is computed by more than the function `law` of its source")

@@ -32,7 +32,7 @@ WAITS_S, TRIAL_WAITS_S = 60.0, 10.0
 """The limit in wall time: for a law that waits, or is kept waiting by a busy machine."""
 
 FUNCTIONS = ("law", "law_in", "margin", "coordinate_law_in")
-ELSEWHERE = ("origin", "text", "in_engine", "state", "display", "attribution")
+ELSEWHERE = ("origin", "text", "display", "attribution")
 """Fields that say nothing of a user's law, or that only its own process needs."""
 
 WORDS = tuple(name for name in Law._fields if name not in (*FUNCTIONS, *ELSEWHERE))

@@ -19,7 +19,7 @@ from bench.law.contender import Contender
 from bench.law.contenders.registry import contenders, contenders_of, representation
 from bench.law.display import COLOURS, LINES, MARKERS, Equation, Look
 from bench.law.inputs import NO_MEMORY, Goal, Tuning
-from bench.law.kinds import ON_MATRIX, Law
+from bench.law.kinds import ON_MATRIX, USERS_ROLES, Law
 from bench.law.so3 import Rotation
 
 WORD = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
@@ -98,7 +98,11 @@ def load_law(path: Path, text: bytes | None = None) -> Law:
 FORMER_FIELDS = {
     "level": "omit it, for a law commands an angular acceleration",
     "gains": "omit it, for a law is called with its gains",
-    "shipped": "omit it, for a file in contenders/shipped/ has a law, not a law it",
+    "in_engine": "omit it, for MuJoCo's own actuator would run in place of the law",
+    "costing_only": 'write role="costing"',
+    "control": 'write role="control"',
+    "papers": "omit it, for the paper's laws are those of bench/law/contenders",
+    **dict.fromkeys(("shipped", "state"), "omit it, for only files in contenders/ have it, in a record with a law"),
 }
 """What to write in place of a field that a `Law` had before."""
 
@@ -167,10 +171,8 @@ def _problems(own: Law) -> Iterator[str]:
         yield f"its {needed} is {_shown(getattr(own, needed))}; on {own.coordinates!r} coordinates give a function"
     if not (isinstance(memory, tuple) and len(memory) <= len(NO_MEMORY) and all(isinstance(x, float) for x in memory)):
         yield f"its memory is {own.memory!r}; give None or a tuple of up to {len(NO_MEMORY)} floats"
-    if own.in_engine is not False:
-        yield "it has in_engine; MuJoCo's own actuator would run in its place: omit it"
-    if own.state:
-        yield "it has a state, which only files in contenders/ may: omit it"
+    if own.role not in USERS_ROLES:
+        yield f"its role is {_shown(own.role)}; omit it, or give one of {', '.join(USERS_ROLES)}"
 
 
 MISTAKES = (TypeError, NameError, AttributeError, ImportError)

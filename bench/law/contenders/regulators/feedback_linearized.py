@@ -75,7 +75,6 @@ REGULATOR = Law(
     law_in=law_in,
     coordinate_law_in=coordinate_law_in,
     coordinates="any",
-    papers=3,
     display=Display(
         "feedback-linearized",
         Look("green", "^", "dash-dot"),

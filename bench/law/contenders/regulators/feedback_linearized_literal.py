@@ -4,7 +4,7 @@ The same command as feedback-linearized to rounding; listed so that its price ca
 Limitations: as feedback-linearized does.
 """
 
-from bench.law import PUBLISHED, Display, Law, Look, cos, kernel, sin
+from bench.law import COSTING, PUBLISHED, Display, Law, Look, cos, kernel, sin
 
 
 @kernel
@@ -62,6 +62,6 @@ REGULATOR = Law(
     formula=r"u = B\,\bigl(u_E - \tfrac{d}{dt}(B^{-1})\,\omega\bigr)",
     law_in=law_in,
     coordinates=("zyx-euler",),
-    costing_only=True,
+    role=COSTING,
     display=Display(look=Look("sky", "v", "dotted")),
 )

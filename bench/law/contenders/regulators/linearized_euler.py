@@ -32,6 +32,5 @@ REGULATOR = Law(
     r"(\gamma, \beta, \alpha)",
     law_in=law_in,
     coordinates=("zyx-euler",),
-    papers=2,
     display=Display("linearized Euler", Look("vermillion", "s", "dashed"), "The paper's three"),
 )

@@ -4,7 +4,7 @@
 alpha. Limitations: unstable at the goal itself.
 """
 
-from bench.law import ADAPTED, Display, Law, Look, kernel, minus, spring_damper
+from bench.law import ADAPTED, CONTROL, Display, Law, Look, kernel, minus, spring_damper
 
 
 def law_in(representation):
@@ -30,6 +30,6 @@ REGULATOR = Law(
     law_in=law_in,
     coordinates=("zyx-euler",),
     property="none",
-    control=True,
+    role=CONTROL,
     display=Display("Euler as printed", Look("orange", "x", "dotted"), "Euler variants, controls"),
 )
