@@ -14,6 +14,7 @@ from bench.engines.episode import CRASHED_COMMAND, FIRST_METRIC, has_crashed
 from bench.law.contender import Contender
 from bench.law.control.resolved_acceleration import Parts, parts_of
 from bench.law.inputs import NO_MEMORY, Gains
+from bench.law.kinds import OnCoordinates
 from bench.law.scalar import kernel
 from bench.law.so3 import relative
 from tasks.base import Task
@@ -117,7 +118,8 @@ def margin_of(contender: Contender):
     """Return the margin of the coordinates the law acts on; of a law on R its own, or NaN if it is singular nowhere."""
     if contender.representation is None:
         return contender.regulator.margin or _no_margin
-    at, is_relative = contender.representation.margin, contender.regulator.relative
+    at, law = contender.representation.margin, contender.regulator.law
+    is_relative = isinstance(law, OnCoordinates) and law.relative
 
     @kernel
     def margin(R, R_d):

@@ -36,6 +36,7 @@ from bench.law.kinds import (
     Inverse,
     Jacobian,
     Law,
+    OnCoordinates,
     Spring,
     Stateful,
     functions_of,

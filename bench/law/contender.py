@@ -6,7 +6,7 @@ from typing import NamedTuple
 from bench.base.errors import Incompatible
 from bench.law.attribution import ADAPTED, PUBLISHED
 from bench.law.display import Equation
-from bench.law.kinds import ON_MATRIX, Baseline, Coordinates, Impedance, Inverse, Jacobian, Law
+from bench.law.kinds import ON_MATRIX, Baseline, Coordinates, Impedance, Inverse, Jacobian, Law, OnCoordinates
 
 
 class Contender(NamedTuple):
@@ -102,18 +102,27 @@ class Contender(NamedTuple):
 
     @property
     def coordinate_law(self) -> Callable:
-        """The law that commands the coordinates' acceleration; see `Law.coordinate_law_in`."""
-        law_in = self.regulator.coordinate_law_in
-        if law_in is None or self.representation is None:
+        """The law that commands the coordinates' acceleration; see `OnCoordinates`."""
+        if self.coordinate_law_in is None or self.representation is None:
             raise Incompatible(f"'{self.on_free_body}' commands no acceleration of coordinates")
-        return law_in(self.representation)
+        return self.coordinate_law_in(self.representation)
+
+    @property
+    def coordinate_law_in(self) -> Callable | None:
+        """What makes the law that commands the coordinates' acceleration; None if the law commands none."""
+        law = self.regulator.law
+        return law.coordinate_law_in if isinstance(law, OnCoordinates) else None
 
 
 def bind(one: Law | Impedance, representation: Coordinates | None) -> Callable:
     """Return the law of a regulator or an impedance, in a representation if it acts on one."""
-    law = one.law
-    if representation is not None and one.law_in is not None:
-        law = one.law_in(representation)
+    law, law_in = one.law, None
+    if isinstance(one, Impedance):
+        law_in = one.law_in
+    elif isinstance(law, OnCoordinates):
+        law, law_in = None, law.law_in
+    if representation is not None and law_in is not None:
+        return law_in(representation)
     if law is None:
         raise Incompatible(f"'{one.name}' has neither law nor law_in for the coordinates it names")
     return law
@@ -130,7 +139,7 @@ def refusal(one: Contender, joints: int) -> str:
     if jacobian is None or inverse is None:
         return "an arm needs a Jacobian and an inverse (try: @geometric+pseudo-inverse)"
     if jacobian.takes == "coordinates":
-        if one.regulator.coordinate_law_in is None or representation is None:
+        if one.coordinate_law_in is None or representation is None:
             return (
                 f"the Jacobian '{jacobian.name}' takes an acceleration of coordinates, and regulator "
                 f"'{one.regulator.name}' commands an angular acceleration (try: the Jacobian geometric)"

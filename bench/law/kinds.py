@@ -30,34 +30,53 @@ USERS_ROLES = (CONTESTANT, CONTROL, COSTING)
 """Roles that the law of a user's file may have: MuJoCo's own actuator would run in place of the law."""
 
 
+class OnCoordinates(NamedTuple):
+    """What a `Law` on coordinates of the rotation has in place of a function of R.
+
+    Attributes:
+        law_in: law_in(coordinates) returns the law in those coordinates; None if the law is known by
+            its rows alone.
+        names: The names of the coordinates that the law acts on, or "any".
+        relative: True if the coordinates, and the margin to their singularity, are computed from
+            R_d^T R; False if they are computed from R.
+        coordinate_law_in: For a law that commands Eddot, the second derivatives of the coordinates:
+            coordinate_law_in(coordinates) returns law(chart, E_d, Edot, gains) -> u_E. The
+            controller with an analytic Jacobian (Murphy 1988, 3.7) uses this law.
+    """
+
+    law_in: Callable | None
+    names: str | tuple[str, ...]
+    relative: bool = False
+    coordinate_law_in: Callable | None = None
+
+
+class UserFile(NamedTuple):
+    """The file of a law that a user wrote: its path, and its content if that may be run."""
+
+    path: str
+    text: str = ""
+
+
 class Law(NamedTuple):
     """A law u = law(R, omega, goal, gains), which commands an angular acceleration in the base frame [rad/s^2].
 
     The law is called with a `Tuning` as gains: gains.kp, gains.kv, and the limits gains.bound and gains.delay.
 
     Args:
-        coordinates: "rotation-matrix" if the law acts on R; otherwise the names of the coordinates
-            that it acts on, or "any". A law that acts on coordinates has `law_in(coordinates)`,
-            which returns the law in those coordinates.
-        relative: True if the coordinates, and the margin to their singularity, are computed from
-            R_d^T R; False if they are computed from R.
+        law: the function of a law on R; `OnCoordinates` of a law on coordinates.
         memory: initial memory of a law with memory; otherwise None. A law with memory is
             law(R, omega, goal, gains, memory) -> (u, memory). The law returns the new memory, and
             the caller passes this memory unchanged to the next control step. A law with memory
             does not need the control period.
         property: what is proved about convergence: "local", "almost global", "global with memory" or
             "none", or the gains for which it is proved.
-        origin: the file of a law that a user wrote; `text` is the content of this file. Both fields
-            are empty for our laws.
+        file: the `UserFile` of a law that a user wrote; None for our laws.
         later: True for a law that is not in the paper. We simulate such a law from fewer starts.
         role: "contestant"; "control", "costing" or "actuator" for the few laws that are here for
             another reason than to be compared.
         stiffness: stiffness near the goal about the axes n_d, o_d and a_d of the goal, divided by kp.
         margin: for a law on R with singular orientations: margin(R, R_d) in [0, 1], which is 0
             exactly at the singular orientations.
-        coordinate_law_in: for a law that commands Eddot, the second derivatives of the coordinates.
-            coordinate_law_in(coordinates) returns law(chart, E_d, Edot, gains) -> u_E. The
-            controller with an analytic Jacobian (Murphy 1988, 3.7) uses this law.
         attribution: "published", "adapted" or "ours" (see `bench.law.attribution`); "yours" for the
             law of a user.
     """
@@ -66,25 +85,41 @@ class Law(NamedTuple):
     title: str
     source: str
     formula: str
-    law: Callable | None = None
-    law_in: Callable | None = None
-    coordinates: str | tuple = ON_MATRIX
-    relative: bool = False
+    law: Callable | OnCoordinates | None = None
     memory: tuple | None = None
     property: str = "local"
-    origin: str = ""
-    text: str = ""
     later: bool = False
     role: str = CONTESTANT
     stiffness: tuple[float, float, float] = (1.0, 1.0, 1.0)
     margin: Callable | None = None
-    coordinate_law_in: Callable | None = None
     display: Display = Display()
     attribution: str = YOURS
+    file: UserFile | None = None
 
     def is_ours(self) -> bool:
         """Whether the law was made here and nobody else has reviewed it: such a law is never advised."""
         return self.attribution == OURS
+
+    @builtins.property
+    def coordinates(self) -> str | tuple[str, ...]:
+        """The names of the coordinates that it acts on, or "any"; "rotation-matrix" of a law on R."""
+        return self.law.names if isinstance(self.law, OnCoordinates) else ON_MATRIX
+
+    @builtins.property
+    def has_function(self) -> bool:
+        """Whether there is something to call: a law that is known by its rows alone has no function."""
+        function = self.law.law_in if isinstance(self.law, OnCoordinates) else self.law
+        return function is not None
+
+    @builtins.property
+    def origin(self) -> str:
+        """The path of the user's file; empty for our laws."""
+        return self.file.path if self.file else ""
+
+    @builtins.property
+    def text(self) -> str:
+        """The content of the user's file; empty for our laws."""
+        return self.file.text if self.file else ""
 
     @builtins.property
     def in_engine(self) -> bool:

@@ -22,6 +22,12 @@ def with_fields(fields: str) -> str:
     return law_text("return omega").replace("law)", f"law, {fields})").replace("import Law", "import Display, Law")
 
 
+def on_coordinates(fields: str) -> str:
+    """Return a law on coordinates, by these fields."""
+    text = law_text("return omega").replace("law)", f"OnCoordinates({fields}))")
+    return text.replace("import Law", "import Law, OnCoordinates")
+
+
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
@@ -41,12 +47,10 @@ def with_fields(fields: str) -> str:
         (with_fields("display=Display(equation=3.0)"), "give a bench.law.Equation(formula, spring)"),
         (law_text("return omega").replace('"u", law', '"u"'), "its law is None"),
         (law_text("return omega").replace('"u", law', '"u", 3.0'), "its law is 3.0"),
-        (with_fields("coordinates='any'"), "its law_in is None"),
-        (with_fields("coordinates='zyx-euler'"), "its coordinates are 'zyx-euler'"),
-        (
-            law_text("return omega").replace("law)", "None, lambda r: law, coordinates=('zyx',))"),
-            "representation 'zyx' is unknown",
-        ),
+        (with_fields("coordinates='any'"), "write law=OnCoordinates(law_in, coordinates)"),
+        (on_coordinates("None, 'any'"), "its law_in is None"),
+        (on_coordinates("lambda r: law, 'zyx-euler'"), "its coordinates are 'zyx-euler'"),
+        (on_coordinates("lambda r: law, ('zyx',)"), "representation 'zyx' is unknown"),
         (with_fields("memory=(0, 1)"), "its memory is (0, 1)"),
         (with_fields("memory=(0.0,)"), "law(R, omega, goal, gains, memory)"),
         (with_fields("in_engine=True"), "MuJoCo's own actuator would run"),

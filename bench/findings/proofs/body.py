@@ -18,7 +18,7 @@ from bench.findings.proofs.solver import Lemma, Solver, is_below, undecided
 from bench.findings.proofs.trace import Symbols
 from bench.findings.proofs.traced_number import Traced
 from bench.law.inputs import Gains, Goal
-from bench.law.kinds import ON_MATRIX, Law
+from bench.law.kinds import Law
 from bench.law.so3 import Rotation, cross, dot, from_quaternion, rotate, rotate_back
 
 QUATERNION, RATES, GOAL = ("w", "x", "y", "z"), ("omega_x", "omega_y", "omega_z"), ("a", "b", "c", "d")
@@ -217,7 +217,5 @@ class FreeBody:
 
 def check_kind(law: Law) -> None:
     """Refuse a law of which no theorem on a free body speaks."""
-    if law.law is None or law.coordinates != ON_MATRIX:
+    if not callable(law.law):
         raise DoesNotFit("it is no law on the rotation matrix without a state")
-    if law.origin and law.law_in:
-        raise DoesNotFit("its command is computed by more than the function `law` of its source")
