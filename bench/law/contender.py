@@ -35,8 +35,8 @@ class Contender(NamedTuple):
     @property
     def words(self) -> dict[str, str]:
         """Return the names of its parts, by the columns of tables that name a contender; empty where it has none."""
-        parts = {kind: getattr(self, kind) for kind in ("regulator", "representation", "jacobian", "inverse")}
-        return {kind: part.name if part else "" for kind, part in parts.items()}
+        parts = zip(self._fields, self[:4], strict=False)  # all but the baseline
+        return {kind: part.name if part else "" for kind, part in parts}
 
     @property
     def way(self) -> tuple[str, str]:
@@ -116,11 +116,11 @@ class Contender(NamedTuple):
 
 def bind(one: Law | Impedance, representation: Coordinates | None) -> Callable:
     """Return the law of a regulator or an impedance, in a representation if it acts on one."""
-    law, law_in = one.law, None
-    if isinstance(one, Impedance):
-        law_in = one.law_in
-    elif isinstance(law, OnCoordinates):
-        law, law_in = None, law.law_in
+    law = one.law
+    law_in = one.law_in if isinstance(one, Impedance) else None
+    if isinstance(law, OnCoordinates):
+        law_in = law.law_in
+        law = None
     if representation is not None and law_in is not None:
         return law_in(representation)
     if law is None:
@@ -170,12 +170,6 @@ def contender(regulator: Law, representation: Coordinates | None = None) -> Cont
             "its gains are permuted for those coordinates"
         )
     return Contender(regulator, representation)
-
-
-def of_baseline(baseline: Baseline) -> Contender:
-    """Return a baseline of arms as a contender, by its own Jacobian and inverse if it brings them."""
-    jacobian, inverse = baseline.through or (None, None)
-    return Contender(baseline.law, jacobian=jacobian, inverse=inverse, baseline=baseline)
 
 
 def axes_of(representation: Coordinates) -> tuple[int, int, int]:

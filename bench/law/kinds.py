@@ -53,7 +53,7 @@ class OnCoordinates(NamedTuple):
 class UserFile(NamedTuple):
     """The file of a law that a user wrote: its path, and its content if that may be run."""
 
-    path: str
+    path: str = ""
     text: str = ""
 
 
@@ -70,7 +70,7 @@ class Law(NamedTuple):
             does not need the control period.
         property: what is proved about convergence: "local", "almost global", "global with memory" or
             "none", or the gains for which it is proved.
-        file: the `UserFile` of a law that a user wrote; None for our laws.
+        file: the `UserFile` of a law that a user wrote; empty for our laws.
         later: True for a law that is not in the paper. We simulate such a law from fewer starts.
         role: "contestant"; "control", "costing" or "actuator" for the few laws that are here for
             another reason than to be compared.
@@ -94,7 +94,7 @@ class Law(NamedTuple):
     margin: Callable | None = None
     display: Display = Display()
     attribution: str = YOURS
-    file: UserFile | None = None
+    file: UserFile = UserFile()
 
     def is_ours(self) -> bool:
         """Whether the law was made here and nobody else has reviewed it: such a law is never advised."""
@@ -106,20 +106,14 @@ class Law(NamedTuple):
         return self.law.names if isinstance(self.law, OnCoordinates) else ON_MATRIX
 
     @builtins.property
-    def has_function(self) -> bool:
-        """Whether there is something to call: a law that is known by its rows alone has no function."""
-        function = self.law.law_in if isinstance(self.law, OnCoordinates) else self.law
-        return function is not None
-
-    @builtins.property
     def origin(self) -> str:
         """The path of the user's file; empty for our laws."""
-        return self.file.path if self.file else ""
+        return self.file.path
 
     @builtins.property
     def text(self) -> str:
         """The content of the user's file; empty for our laws."""
-        return self.file.text if self.file else ""
+        return self.file.text
 
     @builtins.property
     def in_engine(self) -> bool:

@@ -85,10 +85,12 @@ def certify(law: Law | HasLaw) -> dict[str, Any]:
     if proof is None:
         return without_proof(law, say_why_none(result))
     is_proved = proof.is_proved() and not result.late and proof.stands == law.property
-    settling = bound_settling(law, proof) if is_proved else {}
+    # Episodes are those of a free body, which runs no law with a state and no joints of an arm.
+    alone = law if isinstance(law, Law) else None
+    settling = bound_settling(alone, proof) if is_proved and alone else {}
     LIMITS.stop()  # episodes follow, and the compilation of engines
     false = next((lemma for lemma in proof.lemmas if lemma.counterexample), None)
-    counterexample = replay(law, false) if false and isinstance(law, Law) else None
+    counterexample = replay(alone, false) if false and alone else None
     verdict, why = PROVED, ""
     if not is_proved:
         verdict, why = judge(law, result, counterexample)
@@ -103,7 +105,7 @@ def certify(law: Law | HasLaw) -> dict[str, Any]:
         "why": why,
         "scope": SCOPE,
         "settling": settling,
-        "sampled": measure_sampled(law) if is_proved else {},
+        "sampled": measure_sampled(alone) if is_proved and alone else {},
         "counterexample": counterexample,
     }
 
@@ -129,12 +131,12 @@ def judge(law: Law | HasLaw, result: Any, counterexample: dict[str, Any] | None)
     return NOT_PROVED, f"{why}, after {failed.seconds:.0f} s"
 
 
-def bound_settling(law: Law | HasLaw, proof: Any) -> dict[str, Any]:
+def bound_settling(law: Law, proof: Any) -> dict[str, Any]:
     """Return bounds of the settling time of a law that is proved, or why there are none."""
     from bench.findings.proofs import settling_time
     from bench.findings.proofs.reasons import DoesNotFit, TimeIsUp
 
-    if proof.theorem != WITH_TIME or isinstance(law, HasLaw):
+    if proof.theorem != WITH_TIME:
         return {}
     try:
         return settling_time.bound(law)._asdict()
@@ -148,7 +150,7 @@ SAMPLED_S, SAMPLED_STARTS = 1e-3, (("uniform", 200), ("tumbling", 200))
 """The period for which a command is held, and the starts tried: at rest, and spinning."""
 
 
-def measure_sampled(law: Law | HasLaw) -> dict[str, Any]:
+def measure_sampled(law: Law) -> dict[str, Any]:
     """Return how many episodes settle at the paper's gains where the command is held from tick to tick.
 
     A proof is about continuous time; this is measured beside it. Empty of a law that no such engine runs: not tested.
@@ -160,8 +162,6 @@ def measure_sampled(law: Law | HasLaw) -> dict[str, Any]:
     from tasks.rules import RULES, ticks
     from tasks.verdict import OUTCOMES
 
-    if isinstance(law, HasLaw):
-        return {}
     starts = [start for name, count in SAMPLED_STARTS for start in start_set(name, count)]
     settings = Settings(PAPERS_GAINS, SAMPLED_S, ticks(5.0, SAMPLED_S), RULES.hold_ticks(SAMPLED_S))
     rows = run("ideal-held", contenders_of(law)[0], "free-body", starts, settings, ())

@@ -19,7 +19,7 @@ from bench.base.errors import BadLaw, BenchError
 from bench.law.contenders.law_file import check_answers, check_fields, load_law, read_law
 from bench.law.contenders.law_process import LawProcess, ending, limit
 from bench.law.display import Display, Look
-from bench.law.kinds import ON_MATRIX, Law, OnCoordinates, UserFile
+from bench.law.kinds import Law, OnCoordinates, UserFile
 
 LOAD_S, TRIAL_S = 20.0, 5.0
 """Seconds of processor time for a user's file to import, and for its law to be called once."""
@@ -31,11 +31,9 @@ crashes or hangs then is known all the same: its rows will say so."""
 WAITS_S, TRIAL_WAITS_S = 60.0, 10.0
 """The limit in wall time: for a law that waits, or is kept waiting by a busy machine."""
 
-FUNCTIONS = ("law", "margin")
+FUNCTIONS = ("law", "law_in", "margin", "coordinate_law_in")
 ELSEWHERE = ("file", "display", "attribution")
 """Fields that say nothing of a user's law, or that only its own process needs."""
-
-WORDS = tuple(name for name in Law._fields if name not in (*FUNCTIONS, *ELSEWHERE))
 
 
 def described(path: Path, text: bytes | None = None, limit_s: float = LOAD_S, waits_s: float = WAITS_S) -> Law:
@@ -90,24 +88,18 @@ def stand_in(content: str, file: UserFile) -> Law:
     given |= {name: tuple(value) if isinstance(value, list) else value for name, value in fields.items()}
     look = given.pop("look")
     display = Display(given.pop("short"), look and Look(*look), given.pop("family"))
-    names, relative = given.pop("coordinates"), given.pop("relative")
-    coordinate_law_in = not_here if given.pop("commands_coordinates") else None
-    if names != ON_MATRIX:
-        given["law"] = OnCoordinates(not_here, names, relative, coordinate_law_in)
+    on_coordinates = {name: given.pop(name) for name in OnCoordinates._fields if name in given}
+    if on_coordinates:
+        given["law"] = OnCoordinates(**on_coordinates)
     return Law(**given, display=display, file=file)
 
 
 def fields_of(own: Law) -> dict[str, Any]:
     """Return the words of a law, as JSON takes them."""
-    functions = [name for name in FUNCTIONS if getattr(own, name) is not None]
+    every = own._asdict() | (own.law._asdict() if isinstance(own.law, OnCoordinates) else {})
+    words = {name: value for name, value in every.items() if name not in (*FUNCTIONS, *ELSEWHERE)}
     shown = {name: getattr(own.display, name) for name in ("short", "look", "family")}
-    on_coordinates = own.law if isinstance(own.law, OnCoordinates) else OnCoordinates(None, ON_MATRIX)
-    acts_on = {
-        "coordinates": on_coordinates.names,
-        "relative": on_coordinates.relative,
-        "commands_coordinates": on_coordinates.coordinate_law_in is not None,
-    }
-    return {**{name: getattr(own, name) for name in WORDS}, **shown, **acts_on, "functions": functions}
+    return {**words, **shown, "functions": [name for name in FUNCTIONS if callable(every.get(name))]}
 
 
 def not_here(*_):

@@ -110,15 +110,15 @@ FORMER_FIELDS = {
 }
 """What to write in place of a field that a `Law` had before."""
 
-NO_FIELD = re.compile(r"unexpected keyword argument '(\w+)'")
+NO_FIELD = re.compile(r".*unexpected keyword argument '(\w+)'.*", re.DOTALL)
 
 
 def _cure(error: BaseException, text: bytes) -> str:
     """Return what to write in a file that does not import."""
     if isinstance(error, ImportError):
         return _new_imports(text)
-    field = NO_FIELD.search(str(error))
-    return FORMER_FIELDS.get(field[1], "correct the file") if field else "correct the file"
+    field = NO_FIELD.sub(r"\1", str(error))
+    return FORMER_FIELDS.get(field, "correct the file")
 
 
 def _new_imports(text: bytes) -> str:

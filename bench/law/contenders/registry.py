@@ -13,7 +13,7 @@ from typing import Any
 
 from bench.base.errors import BadLaw, Incompatible, UnknownWord
 from bench.law.attribution import SHIPPED_ATTRIBUTIONS
-from bench.law.contender import Contender, contender, of_baseline
+from bench.law.contender import Contender, contender
 from bench.law.kinds import ON_MATRIX, Baseline, Coordinates, Impedance, Inverse, Jacobian, Law, Spring, Stateful
 from bench.law.shipped import AsShipped
 
@@ -59,7 +59,8 @@ def contenders(folder: str) -> dict[str, Any]:
 
 def baselines_of_arms() -> dict[str, Contender]:
     """Word -> the controllers of arms that laws are compared with; an orientation alone they do not regulate."""
-    return {name: of_baseline(one) for name, one in contenders("baselines").items()}
+    every = contenders("baselines").values()
+    return {one.name: Contender(one.law, None, *(one.through or (None, None)), one) for one in every}
 
 
 def contenders_of(regulator: Law) -> list[Contender]:
