@@ -84,12 +84,6 @@ def find_starts(of_arms: bool) -> Mapping[str, Any]:
     return {name: SimpleNamespace(starts=one.size, title=one.title) for name, one in every.items()}
 
 
-def find_holders(folder: str) -> Mapping[str, Any]:
-    """Return the records of a folder that have a law, each with the fields of its law beside its own."""
-    records = registry.contenders(folder)
-    return {name: SimpleNamespace(**(vars(one) | one.law._asdict())) for name, one in records.items()}
-
-
 def find_engines() -> Mapping[str, Any]:
     """Return the engines, from the docstring of their package."""
     from bench import engines
@@ -112,12 +106,10 @@ KINDS = {
     "inverses": Kind("Inverses", "inverses", "gives title source"),
     "controllers": Kind("Controllers in contact", find_controllers, "coordinates forms title"),
     "impedances": Kind("Impedances", "impedances"),
-    "shipped": Kind("Controllers as they are shipped", lambda: find_holders("shipped"), "level title source"),
-    "baselines": Kind("Baselines of arms, which are no laws", lambda: find_holders("baselines")),
+    "shipped": Kind("Controllers as they are shipped", "shipped", "level title source"),
+    "baselines": Kind("Baselines of arms, which are no laws", "baselines"),
     "springs": Kind("Springs of an orientation", "springs", "title source"),
-    "compensators": Kind(
-        "Laws with a state", lambda: find_holders("compensators"), "measures_rate property title source"
-    ),
+    "compensators": Kind("Laws with a state", "compensators", "measures_rate property title source"),
     "metrics": Kind("Metrics", known_metrics, "unit arm_only title"),
     "contact-metrics": Kind("Metrics of contact", known_contact_metrics, "unit title"),
     "tasks": Kind("Tasks", find_tasks, "contact title source"),

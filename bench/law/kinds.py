@@ -138,6 +138,16 @@ class HasLaw:
         return self.law.name
 
     @property
+    def title(self) -> str:
+        """Title of the law."""
+        return self.law.title
+
+    @property
+    def source(self) -> str:
+        """Source of the law."""
+        return self.law.source
+
+    @property
     def attribution(self) -> str:
         """Attribution of the law (`bench.law.attribution`)."""
         return self.law.attribution

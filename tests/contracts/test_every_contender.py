@@ -43,10 +43,9 @@ def read_comment(kind, one):
 
 @on_every
 def test_contender_says_what_it_is_and_where_it_is_from(kind, one):
-    record = one.law if isinstance(one, HasLaw) else one
-    assert record.title
-    assert record.source
-    assert getattr(record, "formula", "none")
+    assert one.title
+    assert one.source
+    assert getattr(one.law if isinstance(one, HasLaw) else one, "formula", "none")
     assert read_comment(kind, one)
 
 
@@ -82,7 +81,7 @@ def test_fields_say_what_it_is_and_its_source_is_pinned(one):
     assert one.level in {TORQUE, VELOCITY, POSITION}
     assert (one.gains.kv == 0.0) == (one.level == VELOCITY)
     assert one.gains.kp > 0.0
-    repository, _, revision = one.law.source.partition("@")
+    repository, _, revision = one.source.partition("@")
     assert repository.count("/") == 1
     assert revision.startswith("v") or (len(revision) == 40 and int(revision, 16))
 

@@ -109,7 +109,7 @@ def test_right_function_needs_no_replacement():
 
 
 def test_every_restated_controller_was_read_at_the_commit_that_its_source_names():
-    named = {name: contenders("shipped")[word].law.source.partition("@")[2][:8] for name, word in ours.RESTATED.items()}
+    named = {name: contenders("shipped")[word].source.partition("@")[2][:8] for name, word in ours.RESTATED.items()}
     for table in (libraries.table("closed_loop"), libraries.table("verdicts")):
         restated = table[table["library"].isin(named)]
         assert restated.groupby("library")["version"].unique().map(list).to_dict() == {k: [v] for k, v in named.items()}

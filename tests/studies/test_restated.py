@@ -35,7 +35,7 @@ def compute_exact_logarithm(pair):
 def test_every_controller_was_compared_at_the_commit_that_it_names():
     assert set(ROWS) == set(contenders("shipped"))
     for name, one in contenders("shipped").items():
-        assert f"{ROWS[name]['repository']}@{ROWS[name]['commit']}" == one.law.source
+        assert f"{ROWS[name]['repository']}@{ROWS[name]['commit']}" == one.source
         assert ROWS[name]["file"] in one.path.split(", ")
 
 

@@ -1,10 +1,10 @@
 """python -P -m bench.studies.restated FOLDER: compare each restated controller with its source; writes restated.json.
 
 FOLDER has a copy of each repository as `owner+name` or `owner+name/repo`: a clone, bare or not, that has the commit of
-`SHIPPED.law.source`, or, of a release, its files. A file of sources/ is a few lines of ours around the lines of
-theirs: a line `//@ FILE FIRST-LAST` or `#@ FILE FIRST-LAST` stands for these lines of FILE at that commit. It is
-built in a folder that is removed afterwards, and none of their code stays here. The marks of the last file named are
-the error block. What is not built keeps its earlier row of the same lines. C++ needs g++, Eigen, KDL and, by --include,
+`SHIPPED.source`, or, of a release, its files. A file of sources/ is a few lines of ours around the lines of theirs: a
+line `//@ FILE FIRST-LAST` or `#@ FILE FIRST-LAST` stands for these lines of FILE at that commit. It is built in a
+folder that is removed afterwards, and none of their code stays here. The marks of the last file named are the error
+block. What is not built keeps its earlier row of the same lines. C++ needs g++, Eigen, KDL and, by --include,
 pinocchio's headers; Python needs torch, mujoco and pinocchio.
 
 Compared are pairs of orientations: half of them uniform, a quarter within 1e-5 to 0.1 rad of the goal, a quarter as
@@ -59,7 +59,7 @@ def pairs() -> np.ndarray:
 
 def filled(one: AsShipped, template: str, folder: Path) -> str:
     """Return a file of sources/ with the lines of theirs in the places of its marks."""
-    repository, _, revision = one.law.source.partition("@")
+    repository, _, revision = one.source.partition("@")
     name = repository.replace("/", "+")
     copies = [path for path in (folder / name / "repo", folder / name) if path.is_dir()]
     if not copies:
@@ -111,7 +111,7 @@ def compare(one: AsShipped, source: Path, folder: Path, options: list[str]) -> d
     template = source.read_text()
     marks = list(MARK.finditer(template))
     file = marks[-1]["file"]
-    repository, _, revision = one.law.source.partition("@")
+    repository, _, revision = one.source.partition("@")
     row = {"name": one.name, "repository": repository, "commit": revision, "file": file}
     row["lines"] = ", ".join(f"{mark['first']}-{mark['last']}" for mark in marks if mark["file"] == file)
     try:

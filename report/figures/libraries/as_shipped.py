@@ -121,7 +121,7 @@ def stuck(row: Any) -> str:
 
 def link(one: AsShipped) -> str:
     """Return a controller's name as a link to its source, at the revision that was restated."""
-    source, _, revision = one.law.source.partition("@")
+    source, _, revision = one.source.partition("@")
     return f"[{one.name}]({HOST}/{source}/blob/{revision}/{one.path.partition(',')[0]})"
 
 

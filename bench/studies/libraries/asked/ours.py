@@ -43,7 +43,7 @@ def shipped() -> list[Library]:
 
     def restate(name: str, word: str) -> Library:
         one = contenders("shipped")[word]
-        repository, _, revision = one.law.source.partition("@")
+        repository, _, revision = one.source.partition("@")
         function = Function("orientation error", QUATERNION, lambda q: one.error(tuple(q.tolist())))
         return Library(name, f"{repository}@{revision[:8]}", (function,), is_restated=True)
 
