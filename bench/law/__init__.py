@@ -80,7 +80,7 @@ from bench.law.so3 import (
 from bench.law.spring import divide_by_left_jacobian, rotation_vector, times
 from bench.law.weighting import GREATEST_GAIN, LENGTH, refuse_seven, smaller_gram, solve_gram, weigh
 
-RENAMED = {"Regulator": "Law", "Compensator": "Law", "Representation": "Coordinates"}
+RENAMED = {"Regulator": "Law", "Compensator": "Law", "Representation": "Coordinates", "State": "Stateful"}
 
 if not TYPE_CHECKING:  # or a type checker would let every name pass
 

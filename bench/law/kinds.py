@@ -6,7 +6,6 @@ array A[i, j] or b[i] of numbers: float64, or counting scalars. Base frame, radi
 Each has an `attribution`: published, adapted or ours (`bench.law.attribution`).
 """
 
-import builtins  # in `Law`, `property` is a field
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -57,7 +56,26 @@ class UserFile(NamedTuple):
     text: str = ""
 
 
-class Law(NamedTuple):
+class LawFields(NamedTuple):
+    """The fields of a `Law`."""
+
+    name: str
+    title: str
+    source: str
+    formula: str
+    law: Callable | OnCoordinates | None = None
+    memory: tuple | None = None
+    property: str = "local"
+    later: bool = False
+    role: str = CONTESTANT
+    stiffness: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    margin: Callable | None = None
+    display: Display = Display()
+    attribution: str = YOURS
+    file: UserFile = UserFile()
+
+
+class Law(LawFields):
     """A law u = law(R, omega, goal, gains), which commands an angular acceleration in the base frame [rad/s^2].
 
     The law is called with a `Tuning` as gains: gains.kp, gains.kv, and the limits gains.bound and gains.delay.
@@ -77,50 +95,59 @@ class Law(NamedTuple):
         stiffness: stiffness near the goal about the axes n_d, o_d and a_d of the goal, divided by kp.
         margin: for a law on R with singular orientations: margin(R, R_d) in [0, 1], which is 0
             exactly at the singular orientations.
+        display: what the book shows of the law (see `bench.law.display`).
         attribution: "published", "adapted" or "ours" (see `bench.law.attribution`); "yours" for the
             law of a user.
+        law_in, coordinates: another way to write law=OnCoordinates(law_in, coordinates).
     """
 
-    name: str
-    title: str
-    source: str
-    formula: str
-    law: Callable | OnCoordinates | None = None
-    memory: tuple | None = None
-    property: str = "local"
-    later: bool = False
-    role: str = CONTESTANT
-    stiffness: tuple[float, float, float] = (1.0, 1.0, 1.0)
-    margin: Callable | None = None
-    display: Display = Display()
-    attribution: str = YOURS
-    file: UserFile = UserFile()
+    __slots__ = ()
+
+    def __new__(
+        cls,
+        name: str,
+        title: str,
+        source: str,
+        formula: str,
+        law: Callable | OnCoordinates | None = None,
+        law_in: Callable | None = None,
+        coordinates: str | tuple[str, ...] = ON_MATRIX,
+        **fields: Any,
+    ) -> "Law":
+        """Make a law; law_in and coordinates are put into one record."""
+        if law_in is not None or coordinates != ON_MATRIX:
+            law = OnCoordinates(law_in, coordinates)
+        return super().__new__(cls, name, title, source, formula, law, **fields)
+
+    def __reduce__(self) -> tuple:
+        """Let copies be made of the fields, not of what `__new__` takes."""
+        return self._make, (tuple(self),)
 
     def is_ours(self) -> bool:
         """Whether the law was made here and nobody else has reviewed it: such a law is never advised."""
         return self.attribution == OURS
 
-    @builtins.property
+    @property
     def coordinates(self) -> str | tuple[str, ...]:
         """The names of the coordinates that it acts on, or "any"; "rotation-matrix" of a law on R."""
         return self.law.names if isinstance(self.law, OnCoordinates) else ON_MATRIX
 
-    @builtins.property
+    @property
     def origin(self) -> str:
         """The path of the user's file; empty for our laws."""
         return self.file.path
 
-    @builtins.property
+    @property
     def text(self) -> str:
         """The content of the user's file; empty for our laws."""
         return self.file.text
 
-    @builtins.property
+    @property
     def in_engine(self) -> bool:
         """Whether an actuator of MuJoCo computes the command."""
         return self.role == ACTUATOR
 
-    @builtins.property
+    @property
     def costing_only(self) -> bool:
         """Whether its operations are counted, and it is not simulated."""
         return self.role == COSTING
@@ -152,7 +179,7 @@ class HasLaw:
         """Attribution of the law (`bench.law.attribution`)."""
         return self.law.attribution
 
-    @builtins.property
+    @property
     def property(self) -> str:
         """What is said of the law's convergence."""
         return self.law.property

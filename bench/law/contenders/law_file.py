@@ -101,10 +101,7 @@ FORMER_FIELDS = {
     "in_engine": "omit it, for MuJoCo's own actuator would run in place of the law",
     "costing_only": 'write role="costing"',
     "control": 'write role="control"',
-    **dict.fromkeys(
-        ("law_in", "coordinates", "relative", "coordinate_law_in"),
-        "write law=OnCoordinates(law_in, coordinates) in place of law_in and coordinates (bench.law.OnCoordinates)",
-    ),
+    **dict.fromkeys(("relative", "coordinate_law_in"), "write it in law=OnCoordinates(law_in, coordinates, ...)"),
     "papers": "omit it, for the paper's laws are those of bench/law/contenders",
     **dict.fromkeys(("shipped", "state"), "omit it, for only files in contenders/ have it, in a record with a law"),
 }

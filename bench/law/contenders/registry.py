@@ -59,8 +59,11 @@ def contenders(folder: str) -> dict[str, Any]:
 
 def baselines_of_arms() -> dict[str, Contender]:
     """Word -> the controllers of arms that laws are compared with; an orientation alone they do not regulate."""
-    every = contenders("baselines").values()
-    return {one.name: Contender(one.law, None, *(one.through or (None, None)), one) for one in every}
+    found = {}
+    for name, baseline in contenders("baselines").items():
+        by, through = baseline.through or (None, None)
+        found[name] = Contender(baseline.law, None, by, through, baseline)
+    return found
 
 
 def contenders_of(regulator: Law) -> list[Contender]:
