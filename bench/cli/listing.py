@@ -109,7 +109,7 @@ KINDS = {
     "shipped": Kind("Controllers as they are shipped", "shipped", "level title source"),
     "baselines": Kind("Baselines of arms, which are no laws", "baselines"),
     "springs": Kind("Springs of an orientation", "springs", "title source"),
-    "compensators": Kind("Laws with a state", "compensators", "state.measures_rate property title source"),
+    "compensators": Kind("Laws with a state", "compensators", "measures_rate property title source"),
     "metrics": Kind("Metrics", known_metrics, "unit arm_only title"),
     "contact-metrics": Kind("Metrics of contact", known_contact_metrics, "unit title"),
     "tasks": Kind("Tasks", find_tasks, "contact title source"),

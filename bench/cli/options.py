@@ -230,7 +230,8 @@ def chosen(files: Files, regulators: Words, representations: Words, costings: bo
         named = {one.regulator.name for one in picked}
         picked += [one for law in own if law.name not in named for one in registry.contenders_of(law)]
     else:
-        picked = [one for one in registry.all_contenders(own) if costings or not one.regulator.costing_only]
+        find_all = registry.all_contenders if costings else registry.simulated_contenders
+        picked = find_all(own)
     for word in representations:
         registry.representation(word)
     if representations:

@@ -65,7 +65,7 @@ def print_all(plan: Plan) -> None:
     if touching:
         console().print(f"controllers in contact: {', '.join(touching)}")
     for title, is_law in (("\nlaws", True), ("baselines", False)):
-        some = [one.on_free_body for one in plan.contenders if (one.regulator.assemble is None) == is_law]
+        some = [one.on_free_body for one in plan.contenders if (one.baseline is None) == is_law]
         if some:
             console().print(f"{title}: {', '.join(dict.fromkeys(some))}")
     sizes: dict[str, dict[str, Counter[str]]] = {}

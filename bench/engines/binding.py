@@ -14,6 +14,7 @@ from bench.engines.episode import CRASHED_COMMAND, FIRST_METRIC, has_crashed
 from bench.law.contender import Contender
 from bench.law.control.resolved_acceleration import Parts, parts_of
 from bench.law.inputs import NO_MEMORY, Gains
+from bench.law.kinds import OnCoordinates
 from bench.law.scalar import kernel
 from bench.law.so3 import relative
 from tasks.base import Task
@@ -27,7 +28,7 @@ def command_of(contender: Contender):
     if contender.is_by_coordinates:
         guarded = _guarded_four if contender.rows == 7 else _guarded_three
         return guarded(contender.coordinate_law) if contender.regulator.origin else contender.coordinate_law
-    if contender.regulator.through:
+    if contender.regulator.law is None and contender.baseline is not None:
         return None  # a baseline on the joints has no law of an orientation
     law = contender.law if contender.regulator.memory is not None else _memoryless(contender.law)
     return _guarded_memory(law) if contender.regulator.origin else law
@@ -117,7 +118,8 @@ def margin_of(contender: Contender):
     """Return the margin of the coordinates the law acts on; of a law on R its own, or NaN if it is singular nowhere."""
     if contender.representation is None:
         return contender.regulator.margin or _no_margin
-    at, is_relative = contender.representation.margin, contender.regulator.relative
+    at, law = contender.representation.margin, contender.regulator.law
+    is_relative = isinstance(law, OnCoordinates) and law.relative
 
     @kernel
     def margin(R, R_d):

@@ -14,7 +14,7 @@ from bench.engines.plants import perturbed, quaternion
 from bench.engines.simulate import compiled_loop, evaluation, simulate
 from bench.law.contender import Contender
 from bench.law.inputs import NO_MEMORY, Gains
-from bench.law.kinds import Law, State
+from bench.law.kinds import Stateful
 from bench.law.scalar import kernel
 from tasks.condition import Condition
 from tasks.rules import RULES
@@ -77,13 +77,13 @@ def run_stream(
     return peak, off, way
 
 
-def parts_of(one: Law) -> tuple:
+def parts_of(one: Stateful) -> tuple:
     """Compile a law with a state, or take it from the disk cache."""
-    return part(one.law, STATEFUL), part(one.state.begin, BEGIN_STATE)
+    return part(one.law.law, STATEFUL), part(one.begin, BEGIN_STATE)
 
 
 def run_compensated(
-    one: Law, starts: Starts, gains: Gains, dt: float, ticks: int, band: float, push: tuple, is_plain: bool = False
+    one: Stateful, starts: Starts, gains: Gains, dt: float, ticks: int, band: float, push: tuple, is_plain: bool = False
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Simulate starts, from their orientation and angular velocity.
 
@@ -92,7 +92,7 @@ def run_compensated(
     is_plain: by the loop in Python.
     """
     loop = quaternion.with_state() if is_plain else compiled_loop("state")
-    parts = (one.law, one.state.begin) if is_plain else parts_of(one)
+    parts = (one.law.law, one.begin) if is_plain else parts_of(one)
     begun, rows = start_rows(starts), np.zeros((len(starts), quaternion.PEAK + 1))
     begun[:, 11] = math.sin(0.5 * band) ** 2
     simulate(loop, parts, quaternion.Disturbance(push), NO_MEMORY, begun, _unlimited(gains, dt, ticks), rows)
@@ -107,7 +107,7 @@ def nothing(R: Any) -> tuple:
 
 
 @made_once
-def without_state(one: Any) -> Law:
+def without_state(one: Any) -> Stateful:
     """Return a law without memory as one with a state, which stays at zero."""
     law = one.law
 
@@ -115,4 +115,4 @@ def without_state(one: Any) -> Law:
     def still(R: Any, omega: Any, goal: Any, gains: Any, state: Any) -> Any:
         return law(R, omega, goal, gains), NO_MEMORY
 
-    return one._replace(law=still, state=State(nothing, None, measures_rate=True, rejects=False))
+    return Stateful(one._replace(law=still), nothing, polynomial=None, measures_rate=True, rejects=False)

@@ -36,7 +36,7 @@ def units(asked: Asked) -> tuple[Unit, ...]:
         for arm in (asked.choice.arms or tasks.arm_names()) if is_meant else ():  # one is read by MuJoCo
             for part, one, *way in _on_arm(asked, tasks.arm(arm)):
                 # only joint-space baselines need the goal's joints
-                is_known = one.regulator.assemble is None or tasks.knows_joints(part.start_set)
+                is_known = one.baseline is None or tasks.knows_joints(part.start_set)
                 if part.start_set in fitting and is_known and episodes.runs_on(part.engine, task, one):
                     places.append(episodes.Place(part, one, task, arm, *way))
     if every_task and not places and asked.choice.is_about_arms:

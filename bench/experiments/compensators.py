@@ -7,7 +7,7 @@ import numpy as np
 import tasks
 from bench.experiments.experiment import Asked, Experiment, Settings, Unit
 from bench.law.contenders.registry import contenders, papers_laws
-from bench.law.kinds import Law
+from bench.law.kinds import Stateful
 from tasks.rules import ticks
 
 DISTURBANCES = (0.0, 5.0, 20.0)
@@ -47,7 +47,7 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
             {
                 "law": one.name,
                 "disturbance": level,
-                "reads_rate": "yes" if one.state.measures_rate else "no",
+                "reads_rate": "yes" if one.measures_rate else "no",
                 **settings.gains._asdict(),
                 "dt_s": settings.dt_s,
                 "horizon_s": unit.horizon_s,
@@ -62,7 +62,7 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
     return found
 
 
-def law_of(name: str) -> Law:
+def law_of(name: str) -> Stateful:
     """Return the law of that name; for an empty name the paper's on R."""
     from bench.engines.simulate_bodies import without_state
 

@@ -23,8 +23,7 @@ from bench.experiments.field import ENGINE, ZERO, Field, about, size
 from bench.experiments.suites import BEST, LONG
 from bench.law.contender import Contender
 from bench.law.contenders.registry import contenders, find_contender
-from bench.law.kinds import VELOCITY, Law
-from bench.law.shipped import ANTIPODE, NEAR
+from bench.law.shipped import ANTIPODE, NEAR, VELOCITY, AsShipped
 from tasks.base import Start
 from tasks.haar import axes
 from tasks.rotations import multiply
@@ -64,15 +63,15 @@ def rows(settings: Settings, unit: Unit) -> list[dict]:
     return compare(contenders("shipped")[unit.selector], laws, settings, unit.horizon_s)
 
 
-def compare(one: Law, laws: Iterable[str], settings: Settings, horizon_s: float) -> list[dict]:
+def compare(one: AsShipped, laws: Iterable[str], settings: Settings, horizon_s: float) -> list[dict]:
     """Return the row of a controller, then those of laws at its gains; no law takes the place of velocity commands."""
-    made = [row(one, "", Contender(one), settings, horizon_s) | {"findings": ", ".join(findings(one))}]
+    made = [row(one, "", Contender(one.law), settings, horizon_s) | {"findings": ", ".join(findings(one))}]
     for law in laws if one.level != VELOCITY else ():
         made.append(row(one, law, find_contender(law), settings, horizon_s) | {"findings": ""})
     return made
 
 
-def row(one: Law, law: str, contender: Contender, settings: Settings, horizon_s: float) -> dict:
+def row(one: AsShipped, law: str, contender: Contender, settings: Settings, horizon_s: float) -> dict:
     """Return a law's numbers at the gains of a controller."""
     gains = one.gains
     field = Field(contender, gains)
@@ -86,12 +85,12 @@ def row(one: Law, law: str, contender: Contender, settings: Settings, horizon_s:
         "shipped": one.name,
         "law": law,
         "level": one.level,
-        "shapes_inertia": "yes" if one.shipped.shapes_inertia else "no",
+        "shapes_inertia": "yes" if one.shapes_inertia else "no",
         "kp": gains.kp,
         "kv": math.nan if is_velocity else gains.kv,
         **felt,
         "damping_ratio": ratio,
-        "critical": math.nan if one.shipped.shapes_inertia else ratio**2,
+        "critical": math.nan if one.shapes_inertia else ratio**2,
         **{f"bent_{angle}_rad": compute_bending(field, math.radians(angle)) for angle in BENT_DEG},
         "half_turns": DIRECTIONS,
         "dead": int(dead.sum()),
@@ -112,12 +111,12 @@ def compute_bending(field: Field, angle: float) -> float:
     return 0.0 if worst < ZERO else worst  # what rounding leaves is no property of a controller
 
 
-def findings(one: Law) -> tuple[str, ...]:
+def findings(one: AsShipped) -> tuple[str, ...]:
     """Return the faults and notes of the audit, for the error as a function of two quaternions with slope 1."""
 
     def error(q: np.ndarray, q_d: np.ndarray) -> tuple[float, float, float]:
         (w, x, y, z), goal = q.tolist(), q_d.tolist()
-        return one.shipped.error(multiply(tuple(goal), (w, -x, -y, -z)))
+        return one.error(multiply(tuple(goal), (w, -x, -y, -z)))
 
     return tuple(found.fault.name for found in audit(error, "wxyz", name=one.name).findings)
 

@@ -29,6 +29,7 @@ from bench.experiments.tables.statistics import order_interval, quantile
 from bench.law.contender import Contender
 from bench.law.contenders.registry import all_contenders
 from bench.law.inputs import Gains
+from bench.law.kinds import ACTUATOR, CONTROL
 from tasks.base import Start
 from tasks.situation import KP, NOMINAL, Situation, read_situation
 from tasks.verdict import SETTLED
@@ -69,7 +70,7 @@ def metrics() -> tuple[Metric, ...]:
 def mapped_laws() -> list[Contender]:
     """Return the laws on R or its quaternion; on coordinates of SO(3) some starts are lost: none can be advised."""
     every = [one for one in all_contenders() if one.representation is None]
-    return [one for one in every if not (one.regulator.in_engine or one.regulator.control)]
+    return [one for one in every if one.regulator.role not in (ACTUATOR, CONTROL)]
 
 
 def plan_of(pairs: Iterable[tuple[Contender, Situation]], seed: int = 0) -> Plan:

@@ -11,6 +11,7 @@ from bench.engines.counting.counted import TOTAL
 from bench.export.subject import COMPENSATOR, IMPEDANCE, SPRING, Subject
 from bench.law.attribution import describe_source
 from bench.law.inputs import reads_limits
+from bench.law.kinds import OnCoordinates
 
 PROJECT = describe_project()
 LICENSE = (
@@ -64,7 +65,10 @@ def heading(subject: Subject, *notes: str) -> str:
     """Return the heading as lines of plain text, for a comment; notes: on the language, each after its padded name."""
     record = subject.record
     of = f" in {subject.representation.title}" if subject.representation else ""
-    functions = (getattr(record, name, None) for name in ("law", "law_in", "chart", "moment"))
+    law = getattr(record, "law", None)
+    if isinstance(law, OnCoordinates):
+        law = law.law_in
+    functions = (law, *(getattr(record, name, None) for name in ("law_in", "chart", "moment")))
     module = sys.modules[next(filter(None, functions)).__module__].__doc__ or ""
     limits = re.search(r"Limitations: (.*?)(?:\n\n|\Z)", module, re.DOTALL)
     entries = "; ".join(f"{one.name}: {one.doc}" for one in subject.entries if not one.name.endswith("_body"))

@@ -17,21 +17,24 @@ from bench.law.contenders import registry
 from bench.law.contenders.registry import contenders
 from bench.law.control.registry import all_controllers
 from bench.law.inputs import NO_MEMORY, Gains, Tuning
-from bench.law.kinds import Law
+from bench.law.kinds import HasLaw, Law
 from bench.law.so3 import Rotation
 
 IMPEDANCE, COMPENSATOR, SPRING = "impedance-", "compensator-", "spring-"
 
 ALONE: dict[str, tuple[str, Callable[[Any], list[Entry]]]] = {
     "representation-": ("representations", of_representation),
-    COMPENSATOR: ("compensators", lambda one: of_compensator(one.law, one.state.begin)),
+    COMPENSATOR: ("compensators", lambda one: of_compensator(one.law.law, one.begin)),
     SPRING: ("springs", lambda one: of_spring(one.moment)),
 }
 """Kinds by what their words begin with: the folder of each, and the entries of a record."""
 
 
 class Subject(NamedTuple):
-    """One thing to export; record: the constant of its file; representation: the coordinates it acts on, or None."""
+    """One thing to export.
+
+    record: the constant of its file, or the law that this has. representation: the coordinates it acts on, or None.
+    """
 
     word: str
     record: Any
@@ -70,7 +73,8 @@ def find_subject(word: str, extra: tuple[Law, ...] = ()) -> Subject:
     for prefix, (folder, entries_of) in ALONE.items():
         if first.startswith(prefix) and first.removeprefix(prefix) in contenders(folder):
             record = contenders(folder)[first.removeprefix(prefix)]
-            return Subject(word, record, None, tuple(entries_of(record)))
+            entries = tuple(entries_of(record))
+            return Subject(word, record.law if isinstance(record, HasLaw) else record, None, entries)
     if first.startswith(IMPEDANCE) and first.removeprefix(IMPEDANCE) in contenders("impedances"):
         impedance = contenders("impedances")[first.removeprefix(IMPEDANCE)]
         along = registry.representation(second) if second else None

@@ -69,7 +69,7 @@ def measure_damping_ratio() -> tuple[float, ...]:
     """Compute the damping ratio of the franka_ros example about an axis, and with the logarithm and D = 2 sqrt(K I)."""
     example, inertia, small = contenders("shipped")["franka-ros"], 0.1, 0.01
     K, turn = example.gains.kp, about((1.0, 0.0, 0.0), small)
-    by_example, by_log = example.shipped.error(turn)[0], Rotation.from_quat(turn, scalar_first=True).as_rotvec()[0]
+    by_example, by_log = example.error(turn)[0], Rotation.from_quat(turn, scalar_first=True).as_rotvec()[0]
     D, felt = (example.gains.kv, 2.0 * np.sqrt(K * inertia)), (K * by_example / small, K * by_log / small)
     return D[0] / (2.0 * np.sqrt(felt[0] * inertia)), D[1] / (2.0 * np.sqrt(felt[1] * inertia))
 

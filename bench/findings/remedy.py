@@ -11,8 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bench.law.contenders.registry import contenders
-from bench.law.kinds import VELOCITY, Law
-from bench.law.shipped import logarithm
+from bench.law.shipped import VELOCITY, AsShipped, logarithm
 from tasks.haar import axes
 
 KEEP = "Keep it."
@@ -32,11 +31,10 @@ class Fix(NamedTuple):
     after: float
 
 
-def smallest_fix(one: Law) -> Fix:
+def smallest_fix(one: AsShipped) -> Fix:
     """Return the smallest fix of a controller's error, by what its error does."""
-    own = one.shipped
-    free, steps, factor = own.unbounded or own.error, [], 1.0
-    fixed, bound = free, own.bound
+    free, steps, factor = one.unbounded or one.error, [], 1.0
+    fixed, bound = free, one.bound
     if not any(free(about(DIRECTIONS[-1], math.pi))):
         if largest(with_sign(free), math.pi) > SMALL:
             steps.append("take the sign of zero as 1 (`copysign(1, w)`)")
@@ -49,12 +47,12 @@ def smallest_fix(one: Law) -> Fix:
             )
             fixed = logarithm
     if HALF[0] < np.dot(free(about(DIRECTIONS[0], NEAR_RAD)), DIRECTIONS[0]) / NEAR_RAD < HALF[1]:
-        steps.append("multiply the vector part by 2" + (", before the clip" if math.isfinite(own.bound) else ""))
+        steps.append("multiply the vector part by 2" + (", before the clip" if math.isfinite(one.bound) else ""))
         factor = 2.0
-    if is_bent(own.error):
+    if is_bent(one.error):
         steps.append(f"to keep the direction, clip the vector's length at {bound:g}, not each component")
     words = f"{'; '.join(steps)}."
-    before = 0.0 if one.level == VELOCITY else one.gains.kp * largest(own.error, None)
+    before = 0.0 if one.level == VELOCITY else one.gains.kp * largest(one.error, None)
     if not steps:
         return Fix(KEEP, before, before)
     return Fix(words[0].upper() + words[1:], before, one.gains.kp * min(bound, factor * largest(fixed, None)))

@@ -23,6 +23,7 @@ from bench.findings.perturbed import WITHSTANDS, by_level, thresholds
 from bench.findings.selection.needs import CHATTER
 from bench.findings.theory.thresholds import near_goal
 from bench.law.contenders.registry import contenders
+from bench.law.kinds import CONTROL
 from tasks.rules import RULES
 
 FAILURES, SIDE = "02-three-regulators", "appendix-side-by-side"
@@ -214,7 +215,7 @@ def beside(field: pd.DataFrame, episodes: pd.DataFrame, run_field: pd.DataFrame,
     lines, pulls = [_line(field, episodes)], dict(iter(run_field.groupby("contender")))
     for name, own in run[run["start_id"].isin(episodes["start_id"])].groupby(run["contender"].astype(str), sort=False):
         regulator = contenders("regulators").get(str(name).partition("/")[0])
-        if regulator is not None and not regulator.control and name in pulls:
+        if regulator is not None and regulator.role != CONTROL and name in pulls:
             lines.append(_line(pulls[name], own))
     laws = pd.DataFrame(lines)
     apart = [(x - x[0]).pow(2).fillna(100.0) for x in (laws["pull at 90 deg"], np.log(laws["median s"]))]

@@ -26,7 +26,21 @@ from bench.law.chain import bias_acceleration, twist
 from bench.law.contender import Contender
 from bench.law.display import ANGLE, CHORD, LINEAR_MRP, LINEAR_SINE, QUARTER, SINE, TANGENT, Display, Equation, Look
 from bench.law.inputs import AT_REST, Gains, Goal, Tuning
-from bench.law.kinds import Coordinates, Impedance, Inverse, Jacobian, Law, Spring, State, functions_of
+from bench.law.kinds import (
+    ACTUATOR,
+    CONTROL,
+    COSTING,
+    Baseline,
+    Coordinates,
+    Impedance,
+    Inverse,
+    Jacobian,
+    Law,
+    OnCoordinates,
+    Spring,
+    Stateful,
+    functions_of,
+)
 from bench.law.linalg import (
     determinant,
     dot_rows,
@@ -66,7 +80,7 @@ from bench.law.so3 import (
 from bench.law.spring import divide_by_left_jacobian, rotation_vector, times
 from bench.law.weighting import GREATEST_GAIN, LENGTH, refuse_seven, smaller_gram, solve_gram, weigh
 
-RENAMED = {"Regulator": "Law", "Compensator": "Law", "Representation": "Coordinates"}
+RENAMED = {"Regulator": "Law", "Compensator": "Law", "Representation": "Coordinates", "State": "Stateful"}
 
 if not TYPE_CHECKING:  # or a type checker would let every name pass
 

@@ -6,16 +6,20 @@ from typing import NamedTuple
 from bench.base.errors import Incompatible
 from bench.law.attribution import ADAPTED, PUBLISHED
 from bench.law.display import Equation
-from bench.law.kinds import ON_MATRIX, Coordinates, Impedance, Inverse, Jacobian, Law
+from bench.law.kinds import ON_MATRIX, Baseline, Coordinates, Impedance, Inverse, Jacobian, Law, OnCoordinates
 
 
 class Contender(NamedTuple):
-    """A regulator in the coordinates it acts on, and on an arm its Jacobian and inverse: what one row is about."""
+    """A regulator in the coordinates it acts on, and on an arm its Jacobian and inverse: what one row is about.
+
+    baseline: the record whose law the regulator is, where a baseline of arms controls in its place.
+    """
 
     regulator: Law
     representation: Coordinates | None = None
     jacobian: Jacobian | None = None
     inverse: Inverse | None = None
+    baseline: Baseline | None = None
 
     @property
     def name(self) -> str:
@@ -31,7 +35,8 @@ class Contender(NamedTuple):
     @property
     def words(self) -> dict[str, str]:
         """Return the names of its parts, by the columns of tables that name a contender; empty where it has none."""
-        return {kind: part.name if part else "" for kind, part in self._asdict().items()}
+        parts = zip(self._fields, self[:4], strict=False)  # all but the baseline
+        return {kind: part.name if part else "" for kind, part in parts}
 
     @property
     def way(self) -> tuple[str, str]:
@@ -97,18 +102,27 @@ class Contender(NamedTuple):
 
     @property
     def coordinate_law(self) -> Callable:
-        """The law that commands the coordinates' acceleration; see `Law.coordinate_law_in`."""
-        law_in = self.regulator.coordinate_law_in
-        if law_in is None or self.representation is None:
+        """The law that commands the coordinates' acceleration; see `OnCoordinates`."""
+        if self.coordinate_law_in is None or self.representation is None:
             raise Incompatible(f"'{self.on_free_body}' commands no acceleration of coordinates")
-        return law_in(self.representation)
+        return self.coordinate_law_in(self.representation)
+
+    @property
+    def coordinate_law_in(self) -> Callable | None:
+        """What makes the law that commands the coordinates' acceleration; None if the law commands none."""
+        law = self.regulator.law
+        return law.coordinate_law_in if isinstance(law, OnCoordinates) else None
 
 
 def bind(one: Law | Impedance, representation: Coordinates | None) -> Callable:
     """Return the law of a regulator or an impedance, in a representation if it acts on one."""
     law = one.law
-    if representation is not None and one.law_in is not None:
-        law = one.law_in(representation)
+    law_in = one.law_in if isinstance(one, Impedance) else None
+    if isinstance(law, OnCoordinates):
+        law_in = law.law_in
+        law = None
+    if representation is not None and law_in is not None:
+        return law_in(representation)
     if law is None:
         raise Incompatible(f"'{one.name}' has neither law nor law_in for the coordinates it names")
     return law
@@ -125,7 +139,7 @@ def refusal(one: Contender, joints: int) -> str:
     if jacobian is None or inverse is None:
         return "an arm needs a Jacobian and an inverse (try: @geometric+pseudo-inverse)"
     if jacobian.takes == "coordinates":
-        if one.regulator.coordinate_law_in is None or representation is None:
+        if one.coordinate_law_in is None or representation is None:
             return (
                 f"the Jacobian '{jacobian.name}' takes an acceleration of coordinates, and regulator "
                 f"'{one.regulator.name}' commands an angular acceleration (try: the Jacobian geometric)"

@@ -7,25 +7,199 @@ Each has an `attribution`: published, adapted or ours (`bench.law.attribution`).
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from bench.law.attribution import OURS, YOURS
 from bench.law.display import Display
-from bench.law.inputs import PAPERS_GAINS, Gains
 
 ON_MATRIX = "rotation-matrix"
 """The coordinates of a law that acts on R itself."""
 
-ACCELERATION, TORQUE, VELOCITY, POSITION = "acceleration", "torque", "velocity", "position"
-"""Levels: what a controller commands. Of a position, it simulates the plant that moves there."""
+CONTESTANT, CONTROL, COSTING, ACTUATOR = "contestant", "control", "costing", "actuator"
+"""Roles of a law in this benchmark. A contestant is simulated, counted, and compared.
+
+control: A negative control: a law that is wrong on purpose and must fail. It is simulated, and never recommended.
+costing: The law only writes another law of the list in a different form. We count its operations and test it, but do
+    not simulate it.
+actuator: An actuator of MuJoCo computes the command for MuJoCo's free body. The function of the law computes the same.
+"""
+
+USERS_ROLES = (CONTESTANT, CONTROL, COSTING)
+"""Roles that the law of a user's file may have: MuJoCo's own actuator would run in place of the law."""
 
 
-class State(NamedTuple):
-    """The state of a law that obeys a differential equation: a filter in place of the measured rate, or an integral.
+class OnCoordinates(NamedTuple):
+    """What a `Law` on coordinates of the rotation has in place of a function of R.
 
-    begin(R): the state at the start, four numbers. measures_rate: whether the law reads omega. rejects: whether a
-    constant disturbance leaves no error. polynomial(kp, kv): of small angles, the coefficients (c2, c1, c0) of
-    s^3 + c2 s^2 + c1 s + c0; None of one whose state does nothing. bound(kp, kv): what |u| never exceeds [rad/s^2].
+    Attributes:
+        law_in: law_in(coordinates) returns the law in those coordinates; None if the law is known by
+            its rows alone.
+        names: The names of the coordinates that the law acts on, or "any".
+        relative: True if the coordinates, and the margin to their singularity, are computed from
+            R_d^T R; False if they are computed from R.
+        coordinate_law_in: For a law that commands Eddot, the second derivatives of the coordinates:
+            coordinate_law_in(coordinates) returns law(chart, E_d, Edot, gains) -> u_E. The
+            controller with an analytic Jacobian (Murphy 1988, 3.7) uses this law.
+    """
+
+    law_in: Callable | None
+    names: str | tuple[str, ...]
+    relative: bool = False
+    coordinate_law_in: Callable | None = None
+
+
+class UserFile(NamedTuple):
+    """The file of a law that a user wrote: its path, and its content if that may be run."""
+
+    path: str = ""
+    text: str = ""
+
+
+class LawFields(NamedTuple):
+    """The fields of a `Law`."""
+
+    name: str
+    title: str
+    source: str
+    formula: str
+    law: Callable | OnCoordinates | None = None
+    memory: tuple | None = None
+    property: str = "local"
+    later: bool = False
+    role: str = CONTESTANT
+    stiffness: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    margin: Callable | None = None
+    display: Display = Display()
+    attribution: str = YOURS
+    file: UserFile = UserFile()
+
+
+class Law(LawFields):
+    """A law u = law(R, omega, goal, gains), which commands an angular acceleration in the base frame [rad/s^2].
+
+    The law is called with a `Tuning` as gains: gains.kp, gains.kv, and the limits gains.bound and gains.delay.
+
+    Args:
+        law: the function of a law on R; `OnCoordinates` of a law on coordinates.
+        memory: initial memory of a law with memory; otherwise None. A law with memory is
+            law(R, omega, goal, gains, memory) -> (u, memory). The law returns the new memory, and
+            the caller passes this memory unchanged to the next control step. A law with memory
+            does not need the control period.
+        property: what is proved about convergence: "local", "almost global", "global with memory" or
+            "none", or the gains for which it is proved.
+        file: the `UserFile` of a law that a user wrote; empty for our laws.
+        later: True for a law that is not in the paper. We simulate such a law from fewer starts.
+        role: "contestant"; "control", "costing" or "actuator" for the few laws that are here for
+            another reason than to be compared.
+        stiffness: stiffness near the goal about the axes n_d, o_d and a_d of the goal, divided by kp.
+        margin: for a law on R with singular orientations: margin(R, R_d) in [0, 1], which is 0
+            exactly at the singular orientations.
+        display: what the book shows of the law (see `bench.law.display`).
+        attribution: "published", "adapted" or "ours" (see `bench.law.attribution`); "yours" for the
+            law of a user.
+        law_in, coordinates: another way to write law=OnCoordinates(law_in, coordinates).
+    """
+
+    __slots__ = ()
+
+    def __new__(
+        cls,
+        name: str,
+        title: str,
+        source: str,
+        formula: str,
+        law: Callable | OnCoordinates | None = None,
+        law_in: Callable | None = None,
+        coordinates: str | tuple[str, ...] = ON_MATRIX,
+        **fields: Any,
+    ) -> "Law":
+        """Make a law; law_in and coordinates are put into one record."""
+        if law_in is not None or coordinates != ON_MATRIX:
+            law = OnCoordinates(law_in, coordinates)
+        return super().__new__(cls, name, title, source, formula, law, **fields)
+
+    def __reduce__(self) -> tuple:
+        """Let copies be made of the fields, not of what `__new__` takes."""
+        return self._make, (tuple(self),)
+
+    def is_ours(self) -> bool:
+        """Whether the law was made here and nobody else has reviewed it: such a law is never advised."""
+        return self.attribution == OURS
+
+    @property
+    def coordinates(self) -> str | tuple[str, ...]:
+        """The names of the coordinates that it acts on, or "any"; "rotation-matrix" of a law on R."""
+        return self.law.names if isinstance(self.law, OnCoordinates) else ON_MATRIX
+
+    @property
+    def origin(self) -> str:
+        """The path of the user's file; empty for our laws."""
+        return self.file.path
+
+    @property
+    def text(self) -> str:
+        """The content of the user's file; empty for our laws."""
+        return self.file.text
+
+    @property
+    def in_engine(self) -> bool:
+        """Whether an actuator of MuJoCo computes the command."""
+        return self.role == ACTUATOR
+
+    @property
+    def costing_only(self) -> bool:
+        """Whether its operations are counted, and it is not simulated."""
+        return self.role == COSTING
+
+
+@dataclass(frozen=True)
+class HasLaw:
+    """A record that has a law, and is called as its law is."""
+
+    law: Law
+
+    @property
+    def name(self) -> str:
+        """Name of the law."""
+        return self.law.name
+
+    @property
+    def title(self) -> str:
+        """Title of the law."""
+        return self.law.title
+
+    @property
+    def source(self) -> str:
+        """Source of the law."""
+        return self.law.source
+
+    @property
+    def attribution(self) -> str:
+        """Attribution of the law (`bench.law.attribution`)."""
+        return self.law.attribution
+
+    @property
+    def property(self) -> str:
+        """What is said of the law's convergence."""
+        return self.law.property
+
+
+@dataclass(frozen=True)
+class Stateful(HasLaw):
+    """A law whose state obeys a differential equation: a filter in place of the measured rate, or an integral.
+
+    Its law is law(R, omega, goal, gains, state) -> (u, rates). The caller integrates the rates of the state over the
+    control period.
+
+    Attributes:
+        law: The law.
+        begin: begin(R) returns the state at the start, four numbers.
+        polynomial: polynomial(kp, kv) returns, of small angles, the coefficients (c2, c1, c0) of
+            s^3 + c2 s^2 + c1 s + c0; None for a law whose state does nothing.
+        measures_rate: Whether the law reads omega.
+        rejects: Whether a constant disturbance leaves no error.
+        bound: bound(kp, kv) returns what |u| never exceeds [rad/s^2]; None if there is no bound.
     """
 
     begin: Callable
@@ -33,89 +207,6 @@ class State(NamedTuple):
     measures_rate: bool
     rejects: bool
     bound: Callable | None = None
-
-
-class Law(NamedTuple):
-    """A law u = law(R, omega, goal, gains), which commands an angular acceleration in the base frame [rad/s^2].
-
-    The law is called with a `Tuning` as gains: gains.kp, gains.kv, and the limits gains.bound and gains.delay.
-
-    Args:
-        coordinates: "rotation-matrix" if the law acts on R; otherwise the names of the coordinates
-            that it acts on, or "any". A law that acts on coordinates has `law_in(coordinates)`,
-            which returns the law in those coordinates.
-        relative: True if the coordinates, and the margin to their singularity, are computed from
-            R_d^T R; False if they are computed from R.
-        memory: initial memory of a law with memory; otherwise None. A law with memory is
-            law(R, omega, goal, gains, memory) -> (u, memory). The law returns the new memory, and
-            the caller passes this memory unchanged to the next control step. A law with memory
-            does not need the control period.
-        state: a State for a law with a state; otherwise None. A law with a state is
-            law(R, omega, goal, gains, state) -> (u, rates). The caller integrates the rates of the
-            state over the control period.
-        property: what is proved about convergence: "local", "almost global", "global with memory" or
-            "none", or the gains for which it is proved.
-        level: the kind of command: "acceleration", "torque", "velocity" or "position".
-        gains: the gains that the authors of the law set, or Murphy's gains.
-        shipped: AsShipped for a controller as its authors ship it; otherwise None. The formula of
-            such a law is the formula of its error, with clips and deadbands in the order in which
-            the controller applies them. The unit of the stiffness is N m/rad. It is 1/s^2 if the
-            controller cancels or simulates an inertia, and 1/s if it commands a velocity.
-        origin: the file of a law that a user wrote; `text` is the content of this file. Both fields
-            are empty for our laws.
-        later: True for a law that is not in the paper. We simulate such a law from fewer starts.
-        costing_only: whether the law only writes another law of the list in a different form. We
-            count the operations of such a law and test it, but do not simulate it.
-        in_engine: whether an actuator of MuJoCo computes the command for MuJoCo's free body. The
-            function `law` computes the same command.
-        stiffness: stiffness near the goal about the axes n_d, o_d and a_d of the goal, divided by kp.
-        margin: for a law on R with singular orientations: margin(R, R_d) in [0, 1], which is 0
-            exactly at the singular orientations.
-        coordinate_law_in: for a law that commands Eddot, the second derivatives of the coordinates.
-            coordinate_law_in(coordinates) returns law(chart, E_d, Edot, gains) -> u_E. The
-            controller with an analytic Jacobian (Murphy 1988, 3.7) uses this law.
-        assemble: for a baseline (contenders/baselines): assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory).
-            This function replaces equations (2.2) and (3.7).
-        through: for a baseline (contenders/baselines) that commands joints: the Jacobian, and
-            the method that inverts this Jacobian. Empty for every other law.
-        papers: the number (1 to 3) of the law among the paper's three laws; 0 for every other law.
-        control: whether the law is a negative control: a law that is wrong on purpose and must fail.
-        attribution: "published", "adapted" or "ours" (see `bench.law.attribution`); "yours" for the
-            law of a user.
-    """
-
-    name: str
-    title: str
-    source: str
-    formula: str
-    law: Callable | None = None
-    law_in: Callable | None = None
-    coordinates: str | tuple = ON_MATRIX
-    relative: bool = False
-    memory: tuple | None = None
-    state: State | Any = None
-    property: str = "local"
-    level: str = ACCELERATION
-    gains: Gains = PAPERS_GAINS
-    shipped: Any = None
-    origin: str = ""
-    text: str = ""
-    costing_only: bool = False
-    later: bool = False
-    in_engine: bool = False
-    stiffness: tuple[float, float, float] = (1.0, 1.0, 1.0)
-    margin: Callable | None = None
-    coordinate_law_in: Callable | None = None
-    assemble: Callable | None = None
-    through: tuple["Jacobian", "Inverse"] | tuple[()] = ()
-    papers: int = 0
-    control: bool = False
-    display: Display = Display()
-    attribution: str = YOURS
-
-    def is_ours(self) -> bool:
-        """Whether the law was made here and nobody else has reviewed it: such a law is never advised."""
-        return self.attribution == OURS
 
 
 class Coordinates(NamedTuple):
@@ -219,6 +310,22 @@ class Inverse(NamedTuple):
     refuses: Callable[[int, int], str] = lambda rows, n: ""
     uses_inertia: bool = False
     attribution: str = YOURS
+
+
+@dataclass(frozen=True)
+class Baseline(HasLaw):
+    """A controller of an arm that laws are compared with; its law is None where it commands no orientation.
+
+    Attributes:
+        law: The words of the controller, and the law that it commands the tool by.
+        assemble: assemble(chain, goal, p_d, gains, memory, J, a) -> (u, memory) replaces equations
+            (2.2) and (3.7).
+        through: For a baseline that commands joints: the Jacobian, and the method that inverts it.
+            Empty for every other baseline.
+    """
+
+    assemble: Callable
+    through: tuple[Jacobian, Inverse] | tuple[()] = ()
 
 
 class Impedance(NamedTuple):

@@ -9,12 +9,12 @@ with the memory ANTIPODE an episode begins on the other sign.
 import math
 import tomllib
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 
 from bench.law.attribution import PUBLISHED
 from bench.law.inputs import Gains
-from bench.law.kinds import Law
+from bench.law.kinds import HasLaw, Law
 from bench.law.scalar import kernel, sqrt
 from bench.law.so3 import dot, quaternion_direction, spring_damper, turn_matrix
 from bench.law.spring import rotation_vector
@@ -23,15 +23,33 @@ NEAR, ANTIPODE = (1.0, 0.0, 0.0, 0.0), (-1.0, 0.0, 0.0, 0.0)
 """Memories from which an episode begins on the sheet with w >= 0, and on the other one."""
 
 
-class AsShipped(NamedTuple):
+TORQUE, VELOCITY, POSITION = "torque", "velocity", "position"
+"""Levels: what a controller commands. Of a position, it simulates the plant that moves there."""
+
+
+@dataclass(frozen=True)
+class AsShipped(HasLaw):
     """A controller as its authors set it, in words and numbers of its source.
 
-    error: kernel of the quaternion. path: the files of the law's source, repository@commit or release, that were read.
-    set_by: where the gains are set. shapes_inertia: whether the body that the gains act on is one of unit inertia
-    whatever the robot's. unbounded, bound: the error before its bound, and the bound of its components or of its
-    length, if it has one. thread: owner/name#number of a public thread on what its error does.
+    The formula of its law is that of its error, with clips and deadbands in the order in which the controller applies
+    them.
+
+    Attributes:
+        law: The law of the error, which `law_of` makes.
+        gains: The gains that its authors set. The unit of the stiffness is N m/rad. It is 1/s^2 if
+            the controller cancels or simulates an inertia, and 1/s if it commands a velocity.
+        level: The kind of command: "torque", "velocity" or "position".
+        error: Kernel of the quaternion.
+        path: The files of the law's source, repository@commit or release, that were read.
+        set_by: Where the gains are set.
+        shapes_inertia: Whether the body that the gains act on is one of unit inertia whatever the robot's.
+        unbounded: The error before its bound, if it has one.
+        bound: The bound of the error's components or of its length, if it has one.
+        thread: owner/name#number of a public thread on what its error does.
     """
 
+    gains: Gains
+    level: str
     error: Callable
     path: str
     set_by: str
@@ -160,8 +178,12 @@ def law_of(error: Callable) -> Callable:
     return law
 
 
-def read_shipped(path: Path) -> Law:
-    """Return the controller that a TOML file declares: an error, one of CHANGES to it, gains, and fields of a law.
+LAWS_WORDS = ("title", "source", "formula")
+"""Words of a TOML file that are fields of the law; the others are fields of `AsShipped`."""
+
+
+def read_shipped(path: Path) -> AsShipped:
+    """Return the controller that a TOML file declares: an error, one of CHANGES to it, gains, and words.
 
     stiffness: over the `inertia` that the source simulates, if it does. damping, or the damping_ratio with which 2√K
     makes it.
@@ -176,6 +198,12 @@ def read_shipped(path: Path) -> Law:
     damping = words.pop("damping", None)
     if damping is None:
         damping = 2.0 * words.pop("damping_ratio") * stiffness**0.5
-    shipped = AsShipped(error, **{name: words.pop(name) for name in AsShipped._fields if name in words})
-    words |= {"name": path.stem.replace("_", "-"), "property": "none", "gains": Gains(stiffness, damping)}
-    return Law(**words, law=law_of(error), memory=NEAR, shipped=shipped, attribution=PUBLISHED)
+    law = Law(
+        name=path.stem.replace("_", "-"),
+        **{word: words.pop(word) for word in LAWS_WORDS},
+        law=law_of(error),
+        memory=NEAR,
+        property="none",
+        attribution=PUBLISHED,
+    )
+    return AsShipped(law, Gains(stiffness, damping), error=error, **words)

@@ -26,6 +26,7 @@ from bench.experiments.experiment import Unit, experiment_of
 from bench.experiments.plan import Plan
 from bench.law.contender import Contender, refusal
 from bench.law.contenders import registry
+from bench.law.kinds import ACTUATOR, COSTING
 from bench.running.precompile import end_without
 from bench.running.wire_format import described, plan_of
 
@@ -79,7 +80,7 @@ def find_stand_in(unit: Unit) -> Contender | None:
     coordinates = word.partition("/")[2]
     for law in (*registry.papers_laws(), *registry.all_contenders()):
         its_coordinates = law.representation.name if law.representation else ""
-        if its_coordinates != coordinates or law.regulator.in_engine or law.regulator.costing_only:
+        if its_coordinates != coordinates or law.regulator.role in (ACTUATOR, COSTING):
             continue
         if not unit.arm:
             return law

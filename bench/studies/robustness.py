@@ -10,7 +10,7 @@ from bench.experiments import plan as planning
 from bench.experiments.choice import Choice
 from bench.experiments.tables.store import read
 from bench.findings.perturbed import STUDY, by_level
-from bench.law.contenders.registry import all_contenders
+from bench.law.contenders.registry import simulated_contenders
 from bench.running import run
 from bench.studies.study import keep_table, make_parser
 
@@ -24,7 +24,7 @@ UNFINISHED = STUDY / "run"
 def main() -> None:
     """Run the study, or go on, and keep a row a law and level."""
     workers = make_parser("robustness", __doc__, workers=2).parse_args().workers
-    laws = [one for one in all_contenders() if not one.regulator.costing_only]
+    laws = simulated_contenders()
     plan = planning.make("default", laws, Choice(experiments=("robustness",)), count=STARTS)
     run.run(plan, UNFINISHED, workers=workers)
     kept = by_level(read(UNFINISHED, "robustness"))

@@ -27,7 +27,7 @@ from bench.findings.claims.adequacy import NOISE
 from bench.findings.claims.at_gains import GAINS, HALF_STEP, STORED, turned
 from bench.findings.claims.controller_costs import BY_COMMON, BY_EULER, ON_MATRIX
 from bench.findings.claims.tables import MAIN_ENGINE, Results
-from bench.law.contenders.registry import all_contenders
+from bench.law.contenders.registry import simulated_contenders
 from bench.running import run
 from bench.studies.study import describe_study, make_parser, make_parts
 
@@ -63,7 +63,7 @@ def _is_judged(unit: Unit) -> bool:
 def plan_of(name: str) -> Plan:
     """Return the part of the reference's suite that is run again."""
     at_half = name == HALF_STEP
-    laws = [one for one in all_contenders() if not one.regulator.costing_only]
+    laws = simulated_contenders()
     drawn = {"dt_s": STEP_S / 2} if at_half else {"seed": int(name)}
     whole = planning.make(read_json(REFERENCE / "plan.json")["suite"], laws, **drawn)
     wanted = STEPPED if at_half else DRAWN

@@ -16,9 +16,9 @@ from support.states import directions, of_scipy
 from bench.law.contender import bind
 from bench.law.contenders import registry
 from bench.law.inputs import Gains, Goal
-from bench.law.kinds import POSITION, TORQUE, VELOCITY
+from bench.law.kinds import HasLaw
 from bench.law.scalar import KERNELS
-from bench.law.shipped import ANTIPODE, NEAR
+from bench.law.shipped import ANTIPODE, NEAR, POSITION, TORQUE, VELOCITY
 from bench.law.so3 import IDENTITY
 
 EVERY = [
@@ -45,15 +45,13 @@ def read_comment(kind, one):
 def test_contender_says_what_it_is_and_where_it_is_from(kind, one):
     assert one.title
     assert one.source
-    assert getattr(one, "formula", "none")
+    assert getattr(one.law if isinstance(one, HasLaw) else one, "formula", "none")
     assert read_comment(kind, one)
 
 
 @on_every
 def test_functions_of_a_contender_are_kernels(kind, one):
-    every = one._asdict()
-    for part in (every.get("state"), every.get("shipped")):
-        every |= part._asdict() if part else {}
+    every = vars(one) | one.law._asdict() if isinstance(one, HasLaw) else one._asdict()
     called = {field: value for field, value in every.items() if inspect.isfunction(value)}
     assert [
         field for field in called.keys() - PLAIN if not field.endswith("_in") and called[field] not in KERNELS
@@ -79,7 +77,7 @@ on_shipped = pytest.mark.parametrize("one", registry.contenders("shipped").value
 
 @on_shipped
 def test_fields_say_what_it_is_and_its_source_is_pinned(one):
-    assert all((one.shipped.path, one.shipped.set_by))
+    assert all((one.path, one.set_by))
     assert one.level in {TORQUE, VELOCITY, POSITION}
     assert (one.gains.kv == 0.0) == (one.level == VELOCITY)
     assert one.gains.kp > 0.0
@@ -90,18 +88,18 @@ def test_fields_say_what_it_is_and_its_source_is_pinned(one):
 
 @on_shipped
 def test_error_is_zero_at_the_goal_and_that_of_the_opposite_turn_is_the_opposite(one):
-    assert not any(one.shipped.error((1.0, 0.0, 0.0, 0.0)))
+    assert not any(one.error((1.0, 0.0, 0.0, 0.0)))
     for k, theta in itertools.product(directions(40, 19), SIZES):
         w, (x, y, z) = math.cos(theta / 2.0), (math.sin(theta / 2.0) * k).tolist()
-        np.testing.assert_array_equal(one.shipped.error((w, -x, -y, -z)), np.negative(one.shipped.error((w, x, y, z))))
+        np.testing.assert_array_equal(one.error((w, -x, -y, -z)), np.negative(one.error((w, x, y, z))))
 
 
 @on_shipped
 def test_law_is_the_error_times_the_gains_and_a_damper(one):
-    law, gains, omega = one.law, Gains(3.0, 5.0), (0.25, -0.5, 1.0)
+    law, gains, omega = one.law.law, Gains(3.0, 5.0), (0.25, -0.5, 1.0)
     drawn = ScipyRotation.random(20, rng=np.random.default_rng(3))
     for turn, sheet in zip(drawn, [NEAR, ANTIPODE] * 10, strict=True):
         u, q = law(of_scipy(turn), omega, Goal(IDENTITY), gains, sheet)
         assert np.dot(q, sheet) >= 0.0
         assert np.linalg.norm(q) == pytest.approx(1.0, abs=1e-15)
-        np.testing.assert_allclose(u, 3.0 * np.array(one.shipped.error(q)) - 5.0 * np.array(omega), rtol=1e-14)
+        np.testing.assert_allclose(u, 3.0 * np.array(one.error(q)) - 5.0 * np.array(omega), rtol=1e-14)

@@ -50,7 +50,7 @@ def is_regular(contender, R, R_d) -> bool:
 # the law claims the small-angle gains, and its coordinates exist at the goal they are tested at
 LINEAR = [one for one in all_contenders() if one.regulator.property != "none" and is_regular(one, IDENTITY, IDENTITY)]
 # a law on R, or on R_d^T R, can tell base frames apart only by mistake; angles of R are measured in one
-FRAMELESS = [one for one in all_contenders() if one.regulator.relative or one.representation is None]
+FRAMELESS = [one for one in all_contenders() if one.representation is None or one.regulator.law.relative]
 
 
 def through(evaluate, R, omega, goal, gains, memory):

@@ -14,16 +14,20 @@ from support.command_line import digest, python
 
 from bench.base.provenance import ROOT
 from bench.experiments.tables import store
-from bench.law.contenders.registry import contenders
+from bench.law.contenders.registry import FOLDERS, contenders
 from bench.law.inputs import PAPERS_GAINS
+from bench.law.kinds import HasLaw
 
 
 def renamed(room: str, of: str, kind: str) -> str:
     """The file of a contender that is another one by another name."""
     name = f'name="dropped-{kind}", title="Dropped {kind}"'
     constant = room.removesuffix("s").upper()
-    head = f'"""By another name."""\n\nfrom bench.law.contenders.{room} import {of}\n\n'
-    return f"{head}{constant} = {of}.{constant}._replace({name})\n"
+    head = f'"""By another name."""\n\nimport dataclasses\n\nfrom bench.law.contenders.{room} import {of}\n\n'
+    record = f"{of}.{constant}"
+    if issubclass(FOLDERS[room], HasLaw):
+        return f"{head}{constant} = dataclasses.replace({record}, law={record}.law._replace({name}))\n"
+    return f"{head}{constant} = {record}._replace({name})\n"
 
 
 SUPPORT = ROOT / "tests" / "support"

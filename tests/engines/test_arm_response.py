@@ -43,7 +43,7 @@ SMOOTH = [
 CASES = [
     pytest.param(arm, law, by, id=f"{arm}-{law.name}-{by}")
     for k, law in enumerate(law for law in SMOOTH if law.regulator.property != "none")
-    for by in (("geometric", "analytic") if law.regulator.coordinate_law_in else ("geometric",))
+    for by in (("geometric", "analytic") if law.coordinate_law_in else ("geometric",))
     for arm in (ARMS[k % len(ARMS)],)
 ]
 

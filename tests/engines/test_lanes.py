@@ -127,9 +127,9 @@ def test_law_is_compiled_into_lanes_for_many_episodes_without_curves():
 
     def law_in(representation):
         made.append(word)
-        return one.regulator.law_in(representation)
+        return one.regulator.law.law_in(representation)
 
-    seen = one._replace(regulator=one.regulator._replace(law_in=law_in))
+    seen = one._replace(regulator=one.regulator._replace(law=one.regulator.law._replace(law_in=law_in)))
     kept = blank_curves(len(begun()), samples=1)
 
     def compilations(total, curves=None):

@@ -20,6 +20,7 @@ from bench.experiments.kept_rows import kept
 from bench.experiments.rounding import BESIDE, CHANGE, NUDGE, judged_beside, nudged
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import find_contender
+from bench.law.kinds import UserFile
 from tasks.rules import RULES
 
 LAW = find_contender("mrp")
@@ -60,7 +61,7 @@ def test_without_room_are_made_each_time(of, made, tmp_path):
 
 
 def test_what_is_kept_is_what_is_counted_and_a_users_law_is_not_kept():
-    own = LAW._replace(regulator=LAW.regulator._replace(name="nobody-s", origin="nobody_s.py"))
+    own = LAW._replace(regulator=LAW.regulator._replace(name="nobody-s", file=UserFile("nobody_s.py")))
     assert count_operations(own) == counting.rows([own])
     assert not list((cache.FOLDER / "costs").glob("*nobody-s*"))
     assert count_operations(LAW) == counting.rows([LAW])

@@ -1,5 +1,6 @@
 """Controllers as they are shipped: what is felt against closed forms, settling against scipy's integrator."""
 
+import dataclasses
 import functools
 import math
 
@@ -51,7 +52,7 @@ def moved(name: str, angle: float, inertia: float = 1.0):
     one = contenders("shipped")[name]
 
     def rate(_, state):
-        e = one.shipped.error((math.cos(state[0] / 2.0), math.sin(state[0] / 2.0), 0.0, 0.0))[0]
+        e = one.error((math.cos(state[0] / 2.0), math.sin(state[0] / 2.0), 0.0, 0.0))[0]
         return (state[1], (-one.gains.kp * e - one.gains.kv * state[1]) / inertia)
 
     return solve_ivp(rate, (0.0, HORIZON_S), (angle, 0.0), rtol=1e-10, atol=1e-14, dense_output=True).sol
@@ -98,7 +99,8 @@ def bare(q):
 
 def test_error_without_a_sign_is_found_to_unwind_from_the_antipode():
     one = contenders("shipped")["franka-ros"]
-    one = one._replace(name="no-sign", law=law_of(bare), shipped=one.shipped._replace(error=bare))
+    law = one.law._replace(name="no-sign", law=law_of(bare))
+    one = dataclasses.replace(one, law=law, error=bare)
     [found] = compare(one, (), Settings(), HORIZON_S)
     assert found["away"] > 0
     assert "double-cover" in found["findings"] or "long-way" in found["findings"]

@@ -114,7 +114,7 @@ def of_compensator(name):
 def test_disturbance_leaves_its_sine_over_kp_without_an_integral_and_nothing_with_one(name):
     one, found = law_of(name), of_compensator(name)
     for level, off, settled in zip(found["disturbance"], found["left_rad"], found["settled"], strict=True):
-        assert off == pytest.approx(0.0 if one.state.rejects else math.asin(level / Gains().kp), abs=1e-6)
+        assert off == pytest.approx(0.0 if one.rejects else math.asin(level / Gains().kp), abs=1e-6)
         assert settled == (8 if off < BAND_RAD else 0)
 
 
@@ -123,4 +123,4 @@ def test_rows_are_one_a_disturbance_and_within_a_stated_bound(name):
     one, found = law_of(name), of_compensator(name)
     assert tuple(found["disturbance"]) == DISTURBANCES
     assert found["settling_median_s"].isna().equals(found["settled"] == 0)
-    assert one.state.bound is None or (found["peak_u"] <= one.state.bound(*Gains())).all()
+    assert one.bound is None or (found["peak_u"] <= one.bound(*Gains())).all()

@@ -262,7 +262,7 @@ FALSE = {
     ),
     "another-level": (
         write("    kp = kp").replace("law, property", 'law, level="velocity", property'),
-        "velocity",
+        "omit it, for a law commands an angular acceleration",
     ),
 }
 

@@ -9,8 +9,7 @@ import pytest
 from bench.findings import remedy
 from bench.findings.questions import QUESTIONS
 from bench.law.contenders.registry import contenders
-from bench.law.kinds import VELOCITY
-from bench.law.shipped import clipped, vector_part
+from bench.law.shipped import VELOCITY, clipped, vector_part
 
 COMMANDED = [one for one in contenders("shipped").values() if one.level != VELOCITY]
 
@@ -37,7 +36,7 @@ def test_fix_and_greatest_command_are_those_of_the_formula(name, says, before, a
 @pytest.mark.parametrize("one", COMMANDED)
 def test_fix_exceeds_no_bound_and_raises_a_command_by_its_factor_alone(one):
     fix = remedy.smallest_fix(one)
-    assert fix.after <= one.gains.kp * one.shipped.bound
+    assert fix.after <= one.gains.kp * one.bound
     assert fix.after <= fix.before * (2.0 if "by 2" in fix.words else 1.0) * (1.0 + 1e-9)
 
 
@@ -49,9 +48,9 @@ def test_bound_of_each_component_is_found_and_one_of_the_length_is_kept():
 
 def test_bounds_are_those_of_the_errors():
     for one in contenders("shipped").values():
-        if one.shipped.unbounded is not None:
-            most = max(np.abs(one.shipped.error(remedy.about(k, math.pi))).max() for k in remedy.DIRECTIONS)
-            assert most == pytest.approx(one.shipped.bound)
+        if one.unbounded is not None:
+            most = max(np.abs(one.error(remedy.about(k, math.pi))).max() for k in remedy.DIRECTIONS)
+            assert most == pytest.approx(one.bound)
 
 
 @pytest.mark.parametrize("one", QUESTIONS, ids=lambda one: one.threads[0])

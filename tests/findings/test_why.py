@@ -13,6 +13,7 @@ from bench.findings.judged import ENGINE, START_SETS, judgement, plan_of
 from bench.findings.why import ends, sentences
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.registry import contenders_of, find_contender
+from bench.law.kinds import CONTROL
 
 REFERENCE = RESULTS / "reference"
 
@@ -96,7 +97,7 @@ def test_our_own_laws_raise_no_false_alarm():
     run = run[(run["arm"] == "") & (run["engine"] == ENGINE) & run["start_set"].isin(START_SETS)]
     laws = [find_contender(name) for name in field["contender"].unique()]
     assert laws
-    for one in (law for law in laws if not law.regulator.control):
+    for one in (law for law in laws if law.regulator.role != CONTROL):
         declared, rows = one.regulator.property, field[field["contender"] == one.name]
         faults = {s.fault for s in sentences(rows, declared) + ends(run[run["contender"] == one.name], declared)}
         assert len(rows) == 10

@@ -22,6 +22,12 @@ def with_fields(fields: str) -> str:
     return law_text("return omega").replace("law)", f"law, {fields})").replace("import Law", "import Display, Law")
 
 
+def on_coordinates(fields: str) -> str:
+    """Return a law on coordinates, by these fields."""
+    text = law_text("return omega").replace("law)", f"OnCoordinates({fields}))")
+    return text.replace("import Law", "import Law, OnCoordinates")
+
+
 @pytest.mark.parametrize(
     ("text", "reason"),
     [
@@ -47,9 +53,14 @@ def with_fields(fields: str) -> str:
             law_text("return omega").replace("law)", "None, lambda r: law, coordinates=('zyx',))"),
             "representation 'zyx' is unknown",
         ),
+        (with_fields("relative=True"), "write it in law=OnCoordinates(law_in, coordinates, ...)"),
+        (on_coordinates("None, 'any'"), "its law_in is None"),
+        (on_coordinates("lambda r: law, 'zyx-euler'"), "its coordinates are 'zyx-euler'"),
+        (on_coordinates("lambda r: law, ('zyx',)"), "representation 'zyx' is unknown"),
         (with_fields("memory=(0, 1)"), "its memory is (0, 1)"),
         (with_fields("memory=(0.0,)"), "law(R, omega, goal, gains, memory)"),
         (with_fields("in_engine=True"), "MuJoCo's own actuator would run"),
+        (with_fields("role='actuator'"), "its role is 'actuator'; omit it"),
         (law_text("return (1.0, 2.0)"), "returned (1.0, 2.0); it must return a tuple of three floats"),
         (law_text("return [1.0, 2.0, 3.0]"), "returned [1.0, 2.0, 3.0]"),
         (law_text("return ('a', 'b', 'c')"), "returned ('a', 'b', 'c')"),

@@ -77,7 +77,7 @@ def test_law_without_a_condition_has_no_limits(shows):
 def test_limits_are_found_in_the_law_and_in_what_it_calls(shows, cascade):
     assert reads_limits(shows.law)
     assert reads_limits(cascade.law)
-    laws = [one for one in all_contenders() if one.regulator.law is not None]
+    laws = [one for one in all_contenders() if one.representation is None]
     assert len(laws) > 20
     assert {one.name for one in laws if reads_limits(one.law)} == {*KNOW_THEIR_MOTOR}
 

@@ -17,7 +17,7 @@ from bench.law.contender import Contender
 from bench.law.contenders.described_law import described
 from bench.law.contenders.registry import contenders_of, find_contender
 from bench.law.inputs import PAPERS_GAINS
-from bench.law.kinds import Law
+from bench.law.kinds import Law, UserFile
 from bench.law.scalar import kernel, sqrt
 from bench.running import timing
 from bench.running.timing import benchmarks, controller, law, on_arms, reference_kernel
@@ -141,7 +141,7 @@ def not_a_number(R, omega, goal, gains):
 
 
 def test_law_without_a_finite_command_is_a_row_without_a_time():
-    failing = Contender(Law("failing", "", "", "", law=not_a_number, origin=__file__))
+    failing = Contender(Law("failing", "", "", "", law=not_a_number, file=UserFile(__file__)))
     one = benchmarks._law(LAW, failing)
     assert one.ticks == 0
     every, seconds = three(drift=np.ones(7))

@@ -26,7 +26,7 @@ def path(acceleration, R, omega, times, more=(), method="DOP853", rtol=1e-11, at
 
 def commanded(one, R, omega, R_d, gains, state):
     """(u, state') of scipy rotations, as arrays."""
-    u, rate = one.law(of_scipy(R), vector(omega), Goal(of_scipy(R_d)), Gains(*gains), tuple(map(np.float64, state)))
+    u, rate = one.law.law(of_scipy(R), vector(omega), Goal(of_scipy(R_d)), Gains(*gains), tuple(map(np.float64, state)))
     return np.array(u), np.array(rate)
 
 
@@ -37,7 +37,7 @@ def motion(one, R, R_d, gains, times, omega=REST, disturbance=REST):
         u, rate = commanded(one, R, omega, R_d, gains, state)
         return u + disturbance, rate
 
-    return path(pushed, R, omega, times, one.state.begin(of_scipy(R)))
+    return path(pushed, R, omega, times, one.begin(of_scipy(R)))
 
 
 def regulated(law, start, times, **how):

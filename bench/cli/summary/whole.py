@@ -18,7 +18,7 @@ from bench.findings.claims import Results
 from bench.findings.claims.adequacy import PAPERS, THREE
 from bench.findings.claims.tables import MAIN_ENGINE, settling_times
 from bench.findings.replication import NEARLY_ALL
-from bench.law.contenders.registry import all_contenders
+from bench.law.contenders.registry import simulated_contenders
 from bench.law.inputs import Gains
 
 FEW = 6
@@ -202,7 +202,7 @@ def list_absent(results: Results) -> str:
     present = parts.list_parts(results)
     absent = [part.replace("-", " ") for part in PARTS if part not in present]
     ran = {str(name).partition("@")[0] for name in episodes["contender"].unique()}
-    known = [law.name for law in all_contenders() if not law.regulator.costing_only]
+    known = [law.name for law in simulated_contenders()]
     missing = [law for law in known if law not in ran]
     if "free-body" in present and missing:
         absent.append(f"{len(missing)} of {counted(len(known), 'law')}")

@@ -98,7 +98,7 @@ def _command(contender: Contender, tally: Tally | None) -> Any:
     """Return the law as `resolved_acceleration.Parts` takes it; staged if there is a tally."""
     if contender.is_by_coordinates:
         return contender.coordinate_law
-    if contender.regulator.through:
+    if contender.regulator.law is None and contender.baseline is not None:
         return None
     law = contender.law if tally is None else law_of(contender, tally)
     if contender.regulator.memory is not None:

@@ -1,6 +1,6 @@
 """A representation whose functions tell the tally which stage of the tick they are.
 
-`regulator.law_in` is handed this in place of the representation: the law is the same source. A law on R takes
+`OnCoordinates.law_in` is handed this in place of the representation: the law is the same source. A law on R takes
 no representation and is all `regulate`.
 """
 

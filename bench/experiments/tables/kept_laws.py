@@ -11,7 +11,7 @@ from bench.experiments.tables import trust
 from bench.law.contenders.described_law import described
 from bench.law.contenders.law_file import WORD
 from bench.law.contenders.registry import contenders
-from bench.law.kinds import ON_MATRIX, Law
+from bench.law.kinds import Law, OnCoordinates, UserFile
 
 UNTRUSTED = "a file that came with the results; it was not run"
 """The source of a law that is known by its rows alone."""
@@ -52,7 +52,7 @@ def _by_its_rows(path: Path, costs: pd.DataFrame) -> Law:
         title=word,
         source=UNTRUSTED,
         formula="",
-        coordinates=coordinates or ON_MATRIX,
+        law=OnCoordinates(None, coordinates) if coordinates else None,
         property="nothing is known",
-        origin=str(path),
+        file=UserFile(str(path)),
     )

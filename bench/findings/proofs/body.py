@@ -7,7 +7,6 @@ A law is called with R = E^T R_d. Where its answer, in normal form, does not men
 goal.
 """
 
-import math
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
@@ -19,7 +18,7 @@ from bench.findings.proofs.solver import Lemma, Solver, is_below, undecided
 from bench.findings.proofs.trace import Symbols
 from bench.findings.proofs.traced_number import Traced
 from bench.law.inputs import Gains, Goal
-from bench.law.kinds import ACCELERATION, ON_MATRIX, Law
+from bench.law.kinds import Law
 from bench.law.so3 import Rotation, cross, dot, from_quaternion, rotate, rotate_back
 
 QUATERNION, RATES, GOAL = ("w", "x", "y", "z"), ("omega_x", "omega_y", "omega_z"), ("a", "b", "c", "d")
@@ -218,11 +217,5 @@ class FreeBody:
 
 def check_kind(law: Law) -> None:
     """Refuse a law of which no theorem on a free body speaks."""
-    if law.law is None or law.state is not None or law.coordinates != ON_MATRIX:
+    if not callable(law.law):
         raise DoesNotFit("it is no law on the rotation matrix without a state")
-    if law.level != ACCELERATION:
-        raise DoesNotFit(f"it commands a {law.level}, and the theorems are about an acceleration")
-    if law.origin and (law.in_engine or law.law_in or law.assemble or law.shipped):
-        raise DoesNotFit("its command is computed by more than the function `law` of its source")
-    if not all(0.0 < gain < math.inf for gain in law.gains):
-        raise DoesNotFit(f"its gains {tuple(law.gains)} are not positive")

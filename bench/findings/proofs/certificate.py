@@ -12,7 +12,7 @@ from bench.findings.amounts import count_of
 from bench.law.contenders.law_file import load_law
 from bench.law.contenders.law_process import answer, ask
 from bench.law.contenders.registry import contenders, contenders_of
-from bench.law.kinds import Law
+from bench.law.kinds import HasLaw, Law
 
 STORED = RESULTS / "proofs" / "proofs.json"
 LEMMA_S, LAW_S = 30.0, 150.0
@@ -33,7 +33,7 @@ WITH_TIME = "spring-and-damper"
 """The theorem whose V bounds the time after the last crossing of the band."""
 
 
-def list_laws() -> list[Law]:
+def list_laws() -> list[Law | HasLaw]:
     """Return the laws whose files call them global or almost global: regulators, laws with a state, baselines."""
     kinds = ("regulators", "compensators", "baselines")
     laws = [law for kind in kinds for law in contenders(kind).values()]
@@ -47,19 +47,20 @@ def read_certificates() -> dict[str, dict[str, Any]]:
     return {certificate["law"]: certificate for certificate in read_json(STORED)["laws"]}
 
 
-def certify_apart(law: Law, lemma_s: float = LEMMA_S, law_s: float = LAW_S) -> dict[str, Any]:
+def certify_apart(law: Law | HasLaw, lemma_s: float = LEMMA_S, law_s: float = LAW_S) -> dict[str, Any]:
     """Return the certificate of a law, made in a process of its own, which says why it ended if it did.
 
     lemma_s, law_s: seconds for one question to Z3, and for the law.
     """
-    request = {"name": law.name, "text": law.text, "origin": law.origin, "lemma_s": lemma_s, "law_s": law_s}
+    inner = law.law if isinstance(law, HasLaw) else law
+    request = {"name": law.name, "text": inner.text, "origin": inner.origin, "lemma_s": lemma_s, "law_s": law_s}
     try:
-        return next(ask(__name__, request, WAITS * law_s, law.origin or law.name))
+        return next(ask(__name__, request, WAITS * law_s, inner.origin or law.name))
     except BadLaw as error:
         return without_proof(law, str(error))
 
 
-def without_proof(law: Law, why: str) -> dict[str, Any]:
+def without_proof(law: Law | HasLaw, why: str) -> dict[str, Any]:
     """Return the certificate of a law of which nothing is proved."""
     empty: dict[str, Any] = {"theorem": None, "stands": "", "lemmas": [], "V": "", "equilibria": ""}
     empty |= {"rate": None, "delta": None, "drop": None, "cited": [], "seconds": 0.0}
@@ -68,7 +69,7 @@ def without_proof(law: Law, why: str) -> dict[str, Any]:
     return {"law": law.name, "declared": law.property, **verdict, **empty}
 
 
-def certify(law: Law) -> dict[str, Any]:
+def certify(law: Law | HasLaw) -> dict[str, Any]:
     """Return what is proved of a law, as JSON has it.
 
     verdict, why: "proved"; "refuted", by a state where a lemma is false and from which an episode fails; or "not
@@ -84,10 +85,12 @@ def certify(law: Law) -> dict[str, Any]:
     if proof is None:
         return without_proof(law, say_why_none(result))
     is_proved = proof.is_proved() and not result.late and proof.stands == law.property
-    settling = bound_settling(law, proof) if is_proved else {}
+    # Episodes are those of a free body, which runs no law with a state and no joints of an arm.
+    alone = law if isinstance(law, Law) else None
+    settling = bound_settling(alone, proof) if is_proved and alone else {}
     LIMITS.stop()  # episodes follow, and the compilation of engines
     false = next((lemma for lemma in proof.lemmas if lemma.counterexample), None)
-    counterexample = replay(law, false) if false else None
+    counterexample = replay(alone, false) if false and alone else None
     verdict, why = PROVED, ""
     if not is_proved:
         verdict, why = judge(law, result, counterexample)
@@ -102,7 +105,7 @@ def certify(law: Law) -> dict[str, Any]:
         "why": why,
         "scope": SCOPE,
         "settling": settling,
-        "sampled": measure_sampled(law) if is_proved else {},
+        "sampled": measure_sampled(alone) if is_proved and alone else {},
         "counterexample": counterexample,
     }
 
@@ -114,7 +117,7 @@ def say_why_none(result: Any) -> str:
     return "; ".join(dict.fromkeys(result.reasons.values())) or "no theorem fits"
 
 
-def judge(law: Law, result: Any, counterexample: dict[str, Any] | None) -> tuple[str, str]:
+def judge(law: Law | HasLaw, result: Any, counterexample: dict[str, Any] | None) -> tuple[str, str]:
     """Return the verdict on a law that is not proved, and why."""
     proof = result.proof
     failed = next((lemma for lemma in proof.lemmas if not lemma.is_proved), None)
@@ -159,8 +162,6 @@ def measure_sampled(law: Law) -> dict[str, Any]:
     from tasks.rules import RULES, ticks
     from tasks.verdict import OUTCOMES
 
-    if law.law is None or law.state is not None or law.assemble is not None:
-        return {}
     starts = [start for name, count in SAMPLED_STARTS for start in start_set(name, count)]
     settings = Settings(PAPERS_GAINS, SAMPLED_S, ticks(5.0, SAMPLED_S), RULES.hold_ticks(SAMPLED_S))
     rows = run("ideal-held", contenders_of(law)[0], "free-body", starts, settings, ())

@@ -17,7 +17,7 @@ from typing import Any
 from bench.findings.proofs.body import GOAL, FreeBody
 from bench.findings.proofs.solver import Lemma, by_algebra
 from bench.findings.proofs.theorem import LASALLE, MEASURE_ZERO, Proof, Theorem
-from bench.law.kinds import Law
+from bench.law.kinds import Stateful
 from bench.law.so3 import dot, from_quaternion
 from tasks.rotations import multiply
 
@@ -32,24 +32,24 @@ def conjugate(q: tuple) -> Any:
     return (q[0], -q[1], -q[2], -q[3])
 
 
-def prove_begin(law: Law) -> Lemma:
+def prove_begin(stateful: Stateful) -> Lemma:
     """Return the lemma that the frame begins at R: the first state is a multiple of R's quaternion, never zero."""
     body = FreeBody()
-    R, state = from_quaternion(body.q), law.state
-    for path in body.symbols.paths(lambda: state.begin(R)):
+    R = from_quaternion(body.q)
+    for path in body.symbols.paths(lambda: stateful.begin(R)):
         body.find_multiple(path, path.answer, BEGINS)
     return body.finite(BEGINS)
 
 
-def prove(law: Law) -> Proof:
+def prove(stateful: Stateful) -> Proof:
     """Prove descent of a body and its frame."""
     body = FreeBody(more=FRAME, goal_frame=True)
     symbol, (kp, kv) = body.symbols.of, body.gains
     p, goal = body.symbols[FRAME], body.symbols[GOAL]
     body.symbols.relate("p_w", 1 - p[1] ** 2 - p[2] ** 2 - p[3] ** 2)
     state = tuple(symbol["size"] * one for one in multiply(goal, p))
-    begins = prove_begin(law)
-    (path,) = body.symbols.paths(lambda: body.command(law, body.omega, state))
+    begins = prove_begin(stateful)
+    (path,) = body.symbols.paths(lambda: body.command(stateful.law, body.omega, state))
     u, rate = path.answer
     moved: Any = tuple(one / symbol["size"] for one in multiply(conjugate(goal), rate))
     turning = tuple(2 * one for one in multiply(moved, conjugate(p))[1:])

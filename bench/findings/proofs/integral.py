@@ -16,7 +16,7 @@ from bench.findings.proofs.body import FreeBody
 from bench.findings.proofs.solver import by_algebra, decide
 from bench.findings.proofs.theorem import LASALLE, MEASURE_ZERO, Proof, Theorem
 from bench.law.contenders.compensators.integral import INTEGRAL, LEAD
-from bench.law.kinds import Law
+from bench.law.kinds import Stateful
 from bench.law.so3 import dot
 
 STATE, BALANCE = ("x_1", "x_2", "x_3"), ("d_1", "d_2", "d_3")
@@ -24,14 +24,14 @@ RATIO = 5
 """Kv^2 over Kp below which V is positive and falls."""
 
 
-def prove(law: Law) -> Proof:
+def prove(stateful: Stateful) -> Proof:
     """Prove descent of a body and its integral."""
     fractions = {one: Fraction(one).limit_denominator(1000) for one in (INTEGRAL, LEAD, 0.5 * LEAD)}
     body = FreeBody(more=(*STATE, *BALANCE, "s", "S"), constants=fractions)
     (kp, kv), omega, half = body.gains, body.omega, body.symbols.number(0.5)
     state, balance = body.symbols[STATE], body.symbols[BALANCE]
     given = (*state, body.symbols.number(0))
-    (path,) = body.symbols.paths(lambda: body.command(law, omega, given))
+    (path,) = body.symbols.paths(lambda: body.command(stateful.law, omega, given))
     u, rate = path.answer
     e = tuple(2 * body.eta * one for one in body.eps)
     c = dot(tuple(w - one for w, one in zip(omega, rate, strict=False)), e) / dot(e, e)

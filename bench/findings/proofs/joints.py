@@ -13,13 +13,13 @@ from bench.findings.proofs.solver import by_algebra
 from bench.findings.proofs.theorem import LASALLE, Proof, Theorem
 from bench.findings.proofs.trace import Symbols
 from bench.law.inputs import Gains
-from bench.law.kinds import Law
+from bench.law.kinds import Baseline
 
 JOINTS = 7
 CITED = (LASALLE, "By Takegaki and Arimoto, D' - 2 C is skew-symmetric, so that V' has no term of C.")
 
 
-def prove(law: Law) -> Proof:
+def prove(baseline: Baseline) -> Proof:
     """Prove descent for an arm of seven joints; one of fewer is one whose other joints do not move."""
     parts = {word: tuple(f"{word}{i}" for i in range(JOINTS)) for word in ("e", "qdot", "m")}
     symbols = Symbols(("kp", "kv", *parts["e"], *parts["qdot"], *parts["m"]), ("kp", "kv", *parts["m"]))
@@ -27,8 +27,8 @@ def prove(law: Law) -> Proof:
     e, qdot, m = (symbols[parts[word]] for word in parts)
     chain = SimpleNamespace(n=JOINTS, axes=np.zeros((JOINTS, 3)), qdot=qdot)
     a, tau = list(e), [None] * JOINTS
-    assemble: Any = law.assemble
-    through: Any = law.through
+    assemble: Any = baseline.assemble
+    through: Any = baseline.through
     assemble(chain, None, None, Gains(kp, kv), (), None, a)
     through[1].resolve(np.diag(m), a, None, tau, JOINTS, JOINTS, None)
     power = sum((qdot[i] * (tau[i] - kp * m[i] * e[i] + kv * m[i] * qdot[i]) for i in range(JOINTS)), symbols.number(0))

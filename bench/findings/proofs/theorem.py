@@ -5,12 +5,13 @@ import pkgutil
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from bench.findings import proofs
 from bench.findings.proofs.reasons import LIMITS, DoesNotFit, LemmaFails, TimeIsUp
 from bench.findings.proofs.solver import Lemma
-from bench.law.kinds import Law
+from bench.law.attribution import YOURS
+from bench.law.kinds import HasLaw, Law
 
 LASALLE = "By LaSalle's invariance principle, the body comes to rest at a point where the derivative of V stays zero."
 MEASURE_ZERO = (
@@ -64,13 +65,14 @@ class Proof(NamedTuple):
 class Theorem(NamedTuple):
     """prove(law) -> Proof; raises DoesNotFit.
 
+    The law is a `Law`, or where `laws` names it what its file declares: it may have a state, or be a baseline.
     laws: for which of ours it is made, by name; empty if it fits by form. order: in which those are tried, the cheap
     first.
     """
 
     name: str
     title: str
-    prove: Callable[[Law], Proof]
+    prove: Callable[[Any], Proof]
     laws: tuple[str, ...] = ()
     order: int = 0
 
@@ -98,13 +100,15 @@ def list_theorems() -> list[Theorem]:
     return sorted(theorems, key=lambda theorem: theorem.order)
 
 
-def theorems_for(law: Law) -> list[Theorem]:
+def theorems_for(law: Law | HasLaw) -> list[Theorem]:
     """Return the theorems to be tried on a law: those that are made for it, if it is ours, else those by form."""
-    named = [theorem for theorem in list_theorems() if law.name in theorem.laws and not law.origin]
-    return named or [theorem for theorem in list_theorems() if not theorem.laws]
+    named = [theorem for theorem in list_theorems() if law.name in theorem.laws and law.attribution != YOURS]
+    if named or isinstance(law, HasLaw):
+        return named
+    return [theorem for theorem in list_theorems() if not theorem.laws]
 
 
-def attempt(law: Law) -> Attempt:
+def attempt(law: Law | HasLaw) -> Attempt:
     """Try theorems on a law until one is proved: the one made for it, or those that it fits."""
     result = Attempt()
     for theorem in theorems_for(law):
@@ -131,6 +135,6 @@ def attempt(law: Law) -> Attempt:
     return result
 
 
-def prove(law: Law) -> Proof | None:
+def prove(law: Law | HasLaw) -> Proof | None:
     """Prove what a theorem says of a law: the one made for it, or the first that holds of those that it fits."""
     return attempt(law).proof

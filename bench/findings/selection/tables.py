@@ -64,7 +64,7 @@ def tables_of(results: Results) -> Tables:
     sets = runs.groupby("contender", observed=True)["start_set"].agg(set)
     laws = published.own_laws(results.folder) if results.folder else ()
     # a user's law that may not run cannot be asked how far it jumps, and is left out
-    own = [one for law in laws if law.law or law.law_in for one in contenders_of(law)]
+    own = [one for law in laws if law.text for one in contenders_of(law)]
     known = {one.name: one for one in (*all_contenders(), *own)}
     names = [name for name in sets.index if {"uniform", "half-turn"} <= sets[name] and name in priced and name in known]
     runs = some(runs[runs["contender"].isin(names)], "law with uniform and half-turn starts and a cost")

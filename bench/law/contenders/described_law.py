@@ -19,7 +19,7 @@ from bench.base.errors import BadLaw, BenchError
 from bench.law.contenders.law_file import check_answers, check_fields, load_law, read_law
 from bench.law.contenders.law_process import LawProcess, ending, limit
 from bench.law.display import Display, Look
-from bench.law.kinds import Law
+from bench.law.kinds import Law, OnCoordinates, UserFile
 
 LOAD_S, TRIAL_S = 20.0, 5.0
 """Seconds of processor time for a user's file to import, and for its law to be called once."""
@@ -32,10 +32,8 @@ WAITS_S, TRIAL_WAITS_S = 60.0, 10.0
 """The limit in wall time: for a law that waits, or is kept waiting by a busy machine."""
 
 FUNCTIONS = ("law", "law_in", "margin", "coordinate_law_in")
-ELSEWHERE = ("origin", "text", "in_engine", "state", "shipped", "gains", "display", "attribution")
+ELSEWHERE = ("file", "display", "attribution")
 """Fields that say nothing of a user's law, or that only its own process needs."""
-
-WORDS = tuple(name for name in Law._fields if name not in (*FUNCTIONS, *ELSEWHERE))
 
 
 def described(path: Path, text: bytes | None = None, limit_s: float = LOAD_S, waits_s: float = WAITS_S) -> Law:
@@ -48,7 +46,8 @@ def described(path: Path, text: bytes | None = None, limit_s: float = LOAD_S, wa
     if text is None:
         text = read_law(path)
     try:
-        own = stand_in(_described(path, text, limit_s, waits_s), path)._replace(text=text.decode())
+        file = UserFile(str(path), text.decode())
+        own = stand_in(_described(path, text, limit_s, waits_s), file)
         check_fields(own, path)
     except (LookupError, TypeError, AttributeError) as error:
         raise BadLaw(f"--law {path}: its process did not say what it is; correct what runs on import") from error
@@ -82,21 +81,25 @@ def _described(path: Path, text: bytes, limit_s: float, waits_s: float) -> str:
     return json.dumps(said[0]["fields"])
 
 
-def stand_in(content: str, path: Path) -> Law:
+def stand_in(content: str, file: UserFile) -> Law:
     """Return the Law that these fields describe, of this file."""
     fields: dict[str, Any] = json.loads(content)
     given: dict[str, Any] = dict.fromkeys(fields.pop("functions"), not_here)
     given |= {name: tuple(value) if isinstance(value, list) else value for name, value in fields.items()}
     look = given.pop("look")
     display = Display(given.pop("short"), look and Look(*look), given.pop("family"))
-    return Law(**given, display=display, origin=str(path))
+    on_coordinates = {name: given.pop(name) for name in OnCoordinates._fields if name in given}
+    if on_coordinates:
+        given["law"] = OnCoordinates(**on_coordinates)
+    return Law(**given, display=display, file=file)
 
 
 def fields_of(own: Law) -> dict[str, Any]:
     """Return the words of a law, as JSON takes them."""
-    functions = [name for name in FUNCTIONS if getattr(own, name) is not None]
+    every = own._asdict() | (own.law._asdict() if isinstance(own.law, OnCoordinates) else {})
+    words = {name: value for name, value in every.items() if name not in (*FUNCTIONS, *ELSEWHERE)}
     shown = {name: getattr(own.display, name) for name in ("short", "look", "family")}
-    return {**{name: getattr(own, name) for name in WORDS}, **shown, "functions": functions}
+    return {**words, **shown, "functions": [name for name in FUNCTIONS if callable(every.get(name))]}
 
 
 def not_here(*_):

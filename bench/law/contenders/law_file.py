@@ -19,7 +19,7 @@ from bench.law.contender import Contender
 from bench.law.contenders.registry import contenders, contenders_of, representation
 from bench.law.display import COLOURS, LINES, MARKERS, Equation, Look
 from bench.law.inputs import NO_MEMORY, Goal, Tuning
-from bench.law.kinds import ON_MATRIX, Law
+from bench.law.kinds import USERS_ROLES, Law, OnCoordinates, UserFile
 from bench.law.so3 import Rotation
 
 WORD = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
@@ -83,8 +83,7 @@ def load_law(path: Path, text: bytes | None = None) -> Law:
         exec(compile(text, path, "exec"), module.__dict__)
     except (Exception, SystemExit) as error:
         del sys.modules[name]
-        cure = _new_imports(text) if isinstance(error, ImportError) else "correct the file"
-        raise BadLaw(f"--law {path}: it does not import ({_said(error, str(path))}); {cure}") from error
+        raise BadLaw(f"--law {path}: it does not import ({_said(error, str(path))}); {_cure(error, text)}") from error
     own = getattr(module, "REGULATOR", None)
     if not isinstance(own, Law):
         given = "no REGULATOR" if own is None else f"a REGULATOR of type {type(own).__name__}"
@@ -93,7 +92,30 @@ def load_law(path: Path, text: bytes | None = None) -> Law:
     if own.name in contenders("regulators"):
         raise BadLaw(f"--law {path}: the name '{own.name}' is one of ours; give your REGULATOR another name")
     # Whatever the file says of itself: nobody here has compared a user's law with a work.
-    return own._replace(origin=str(path), text=text.decode(), attribution=YOURS)
+    return own._replace(file=UserFile(str(path), text.decode()), attribution=YOURS)
+
+
+FORMER_FIELDS = {
+    "level": "omit it, for a law commands an angular acceleration",
+    "gains": "omit it, for a law is called with its gains",
+    "in_engine": "omit it, for MuJoCo's own actuator would run in place of the law",
+    "costing_only": 'write role="costing"',
+    "control": 'write role="control"',
+    **dict.fromkeys(("relative", "coordinate_law_in"), "write it in law=OnCoordinates(law_in, coordinates, ...)"),
+    "papers": "omit it, for the paper's laws are those of bench/law/contenders",
+    **dict.fromkeys(("shipped", "state"), "omit it, for only files in contenders/ have it, in a record with a law"),
+}
+"""What to write in place of a field that a `Law` had before."""
+
+NO_FIELD = re.compile(r".*unexpected keyword argument '(\w+)'.*", re.DOTALL)
+
+
+def _cure(error: BaseException, text: bytes) -> str:
+    """Return what to write in a file that does not import."""
+    if isinstance(error, ImportError):
+        return _new_imports(text)
+    field = NO_FIELD.sub(r"\1", str(error))
+    return FORMER_FIELDS.get(field, "correct the file")
 
 
 def _new_imports(text: bytes) -> str:
@@ -122,9 +144,8 @@ def check_fields(own: Law, path: Path) -> None:
 
 def _problems(own: Law) -> Iterator[str]:
     """Yield what is wrong with the fields of a law."""
-    on_matrix, memory = own.coordinates == ON_MATRIX, own.memory or ()
+    memory = own.memory or ()
     shown: Any = own.display
-    needed = "law" if on_matrix else "law_in"
     if not (isinstance(own.name, str) and WORD.fullmatch(own.name) and len(own.name) <= LONGEST_NAME):
         yield (
             f"its name {_shown(own.name)} is no word of a-z, 0-9 and dashes, such as 'my-law', of up to "
@@ -144,16 +165,23 @@ def _problems(own: Law) -> Iterator[str]:
         )
     if not (shown.equation is None or isinstance(shown.equation, Equation) or callable(shown.equation)):
         yield f"its equation is {_shown(shown.equation)}; give a bench.law.Equation(formula, spring)"
-    if not (own.coordinates in (ON_MATRIX, "any") or (own.coordinates and isinstance(own.coordinates, tuple))):
-        yield f"its coordinates are {own.coordinates!r}; allowed: '{ON_MATRIX}', 'any', a tuple of names"
-    if not callable(getattr(own, needed)):
-        yield f"its {needed} is {_shown(getattr(own, needed))}; on {own.coordinates!r} coordinates give a function"
+    yield from _problems_of_function(own.law)
     if not (isinstance(memory, tuple) and len(memory) <= len(NO_MEMORY) and all(isinstance(x, float) for x in memory)):
         yield f"its memory is {own.memory!r}; give None or a tuple of up to {len(NO_MEMORY)} floats"
-    if own.in_engine is not False:
-        yield "it has in_engine; MuJoCo's own actuator would run in its place: omit it"
-    if own.state or own.shipped:
-        yield "it has a state or is shipped, which only files in contenders/ may: omit it"
+    if own.role not in USERS_ROLES:
+        yield f"its role is {_shown(own.role)}; omit it, or give one of {', '.join(USERS_ROLES)}"
+
+
+def _problems_of_function(law: Any) -> Iterator[str]:
+    """Yield what is wrong with the function of a law, or with what it has on coordinates."""
+    if not isinstance(law, OnCoordinates):
+        if not callable(law):
+            yield f"its law is {_shown(law)}; give a function, or on coordinates OnCoordinates(law_in, names)"
+        return
+    if not (law.names == "any" or (law.names and isinstance(law.names, tuple))):
+        yield f"its coordinates are {law.names!r}; allowed: 'any', a tuple of names"
+    if not callable(law.law_in):
+        yield f"its law_in is {_shown(law.law_in)}; on {law.names!r} coordinates give a function"
 
 
 MISTAKES = (TypeError, NameError, AttributeError, ImportError)

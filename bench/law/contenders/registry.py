@@ -14,7 +14,8 @@ from typing import Any
 from bench.base.errors import BadLaw, Incompatible, UnknownWord
 from bench.law.attribution import SHIPPED_ATTRIBUTIONS
 from bench.law.contender import Contender, contender
-from bench.law.kinds import ON_MATRIX, Coordinates, Impedance, Inverse, Jacobian, Law, Spring
+from bench.law.kinds import ON_MATRIX, Baseline, Coordinates, Impedance, Inverse, Jacobian, Law, Spring, Stateful
+from bench.law.shipped import AsShipped
 
 FOLDERS: dict[str, Any] = {
     "regulators": Law,
@@ -22,10 +23,10 @@ FOLDERS: dict[str, Any] = {
     "jacobians": Jacobian,
     "inverses": Inverse,
     "impedances": Impedance,
-    "baselines": Law,
-    "shipped": Law,
+    "baselines": Baseline,
+    "shipped": AsShipped,
     "springs": Spring,
-    "compensators": Law,
+    "compensators": Stateful,
 }
 """Folder of bench/law/contenders -> the kind of its constants; a constant is named as its folder, in the singular."""
 
@@ -58,7 +59,11 @@ def contenders(folder: str) -> dict[str, Any]:
 
 def baselines_of_arms() -> dict[str, Contender]:
     """Word -> the controllers of arms that laws are compared with; an orientation alone they do not regulate."""
-    return {name: Contender(one, None, *one.through) for name, one in contenders("baselines").items()}
+    found = {}
+    for name, baseline in contenders("baselines").items():
+        by, through = baseline.through or (None, None)
+        found[name] = Contender(baseline.law, None, by, through, baseline)
+    return found
 
 
 def contenders_of(regulator: Law) -> list[Contender]:
@@ -75,11 +80,20 @@ def all_contenders(extra: tuple[Law, ...] = ()) -> list[Contender]:
     return [one for regulator in (*contenders("regulators").values(), *extra) for one in contenders_of(regulator)]
 
 
+def simulated_contenders(extra: tuple[Law, ...] = ()) -> list[Contender]:
+    """Return all contenders but those whose operations alone are counted."""
+    return [one for one in all_contenders(extra) if not one.regulator.costing_only]
+
+
+PAPERS_LAWS = ("rotation-matrix", "linearized-euler", "feedback-linearized")
+"""The paper's three laws in its order (Murphy 1988, 2.3)."""
+
+
 @functools.cache
 def papers_laws() -> tuple[Contender, ...]:
     """Return the paper's three laws in its order and coordinates."""
-    found = (one for one in all_contenders() if one.regulator.papers and not one.is_elsewhere)
-    return tuple(sorted(found, key=lambda one: one.regulator.papers))
+    found = [one for one in all_contenders() if one.regulator.name in PAPERS_LAWS and not one.is_elsewhere]
+    return tuple(sorted(found, key=lambda one: PAPERS_LAWS.index(one.regulator.name)))
 
 
 @functools.cache
@@ -130,7 +144,7 @@ def find_contender(word: str, extra: tuple[Law, ...] = ()) -> Contender:
 
 
 def _by_way(one: Contender, way: str) -> Contender:
-    if one.regulator.through or not way:
+    if not way or (one.baseline is not None and one.baseline.through):
         return one
     by, _, through = way.partition("+")
     return one._replace(jacobian=jacobian(by), inverse=inverse(through))

@@ -60,14 +60,14 @@ class Parts(NamedTuple):
 def parts_of(contender: Contender, command: Callable) -> Parts:
     """Return the parts of a contender on an arm; command: its law in the form `Parts.command` says."""
     jacobian, representation = contender.jacobian, contender.representation
-    baseline = contender.regulator.assemble
+    assemble = None if contender.baseline is None else contender.baseline.assemble
     if jacobian is None:
         raise Incompatible(f"'{contender.name}' names no Jacobian; on an arm it is {contender.name}@geometric+solve")
     if jacobian.takes == "coordinates" and representation is not None:
         fill, drift = jacobian.kernels_in(representation)
         return Parts(command, fill, drift, representation, representation.accelerate)
     fill, express = jacobian.kernels_in(None)
-    return Parts(command, fill, express, assemble=baseline)
+    return Parts(command, fill, express, assemble=assemble)
 
 
 def assembly(parts: Parts) -> Callable:

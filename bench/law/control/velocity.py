@@ -11,6 +11,7 @@ Source: Prabhu, Saxena, Sastry, arXiv:2004.00239 (the logarithm on SO(n), in con
 """
 
 from bench.law.contender import Contender
+from bench.law.kinds import ACTUATOR, COSTING
 from bench.law.scalar import kernel
 
 
@@ -25,4 +26,4 @@ def velocity(limit, u, K, kp):
 def is_velocity_law(one: Contender) -> bool:
     """Whether a law's command at rest is a function of R and R_d, or of a side kept beside them (its equation says)."""
     law = one.regulator
-    return not (law.in_engine or law.costing_only) and (law.memory is None or one.equation is not None)
+    return law.role not in (ACTUATOR, COSTING) and (law.memory is None or one.equation is not None)

@@ -26,7 +26,7 @@ from scipy.spatial.transform import Rotation
 from bench.base.files import read_json, write_json
 from bench.experiments.tables.schema import RESULTS
 from bench.law.contenders.registry import contenders
-from bench.law.kinds import Law
+from bench.law.shipped import AsShipped
 from bench.studies.study import describe_study, make_parser
 
 STORED = RESULTS / "libraries" / "restated.json"
@@ -57,7 +57,7 @@ def pairs() -> np.ndarray:
     return np.hstack([one.as_quat(scalar_first=True) for one in (goal, now)])
 
 
-def filled(one: Law, template: str, folder: Path) -> str:
+def filled(one: AsShipped, template: str, folder: Path) -> str:
     """Return a file of sources/ with the lines of theirs in the places of its marks."""
     repository, _, revision = one.source.partition("@")
     name = repository.replace("/", "+")
@@ -101,12 +101,12 @@ def turns_of(both: np.ndarray) -> Rotation:
     return goal * now.inv()
 
 
-def errors_of(one: Law, turns: Rotation) -> np.ndarray:
+def errors_of(one: AsShipped, turns: Rotation) -> np.ndarray:
     """Return the errors of our kernel, n x 3."""
-    return np.array([one.shipped.error(tuple(q)) for q in turns.as_quat(canonical=True, scalar_first=True).tolist()])
+    return np.array([one.error(tuple(q)) for q in turns.as_quat(canonical=True, scalar_first=True).tolist()])
 
 
-def compare(one: Law, source: Path, folder: Path, options: list[str]) -> dict:
+def compare(one: AsShipped, source: Path, folder: Path, options: list[str]) -> dict:
     """Return the row of a controller."""
     template = source.read_text()
     marks = list(MARK.finditer(template))

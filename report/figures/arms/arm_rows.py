@@ -15,6 +15,7 @@ from bench.experiments.tables import read
 from bench.law.contender import Contender
 from bench.law.contenders import combinations
 from bench.law.contenders.registry import all_contenders, baselines_of_arms, contenders, contenders_of
+from bench.law.kinds import OnCoordinates
 from report.figures.kit import families
 from report.figures.kit.page import Run
 
@@ -90,4 +91,6 @@ def title(controller: str) -> str:
     if one and one.later:
         word = families.word(law)
         name = word[:1].upper() + word[1:]
-    return f"(2.2) {name}, {where}" if where and one and one.coordinate_law_in is not None else f"(2.2) {name}"
+    function = one.law if one else None
+    has_both = isinstance(function, OnCoordinates) and function.coordinate_law_in is not None
+    return f"(2.2) {name}, {where}" if where and has_both else f"(2.2) {name}"

@@ -17,7 +17,7 @@ from bench.base.errors import BadLaw
 from bench.experiments.tables import read
 from bench.export import browser
 from bench.law.contender import Contender
-from bench.law.contenders.registry import all_contenders
+from bench.law.contenders.registry import simulated_contenders
 from report.figures.cost.cost import CALLS
 from report.figures.kit import families, html, laws, media, style
 from report.figures.kit.page import Run
@@ -150,14 +150,14 @@ def degrees(angle_rad: float) -> str:
 
 def alive(names: Iterable[str]) -> list[Contender]:
     """Ours, and of the other laws of these names those that can be translated."""
-    ours = [one for one in all_contenders() if one.regulator.assemble is None and not one.regulator.costing_only]
+    ours = simulated_contenders()
     known = {one.on_free_body for one in ours}
     return [*ours, *filter(None, (_translatable(name) for name in sorted(set(names) - known)))]
 
 
 def _translatable(name: str) -> Contender | None:
     found = laws.contender(name)
-    if found is None or found.regulator.assemble is not None or found.regulator.costing_only:
+    if found is None or found.baseline is not None or found.regulator.costing_only:
         return None
     try:
         browser.script([found])

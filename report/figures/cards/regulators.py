@@ -82,7 +82,7 @@ def text_of(regulator: Law, coordinates: str = "") -> tuple[str, str]:
     if regulator.name in TEXTS and not regulator.origin:
         own = TEXTS[regulator.name]
         return own["about"], own.get(f"limitations-{coordinates}", own["limitations"])
-    return docstring(source(regulator).file) if regulator.law or regulator.law_in else (UNTRUSTED, "")
+    return (UNTRUSTED, "") if regulator.source == UNTRUSTED else docstring(source(regulator).file)
 
 
 def describe_memory(regulator: Law) -> str:

@@ -3,7 +3,8 @@
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from bench.law.contenders.registry import all_contenders
+from bench.law.contenders.registry import PAPERS_LAWS, all_contenders
+from bench.law.kinds import CONTROL
 from report.figures.kit import html, laws
 
 PAGES = "../laws"
@@ -32,7 +33,7 @@ FIRST = (
 )
 """Titles in the order of the figures; what else a law calls its family comes after them."""
 
-CONTROLS = tuple(one.name for one in all_contenders() if one.regulator.control)
+CONTROLS = tuple(one.name for one in all_contenders() if one.regulator.role == CONTROL)
 """Negative controls: laws that are here because they must fail."""
 
 
@@ -50,8 +51,11 @@ def present(names: Iterable[str]) -> list[Family]:
 
 
 def _place(name: str) -> tuple:
-    own = laws.regulator(laws.regulator_of(name))
-    return (own.papers, own.control, name) if own else (0, False, name)
+    regulator = laws.regulator(laws.regulator_of(name))
+    if regulator is None:
+        return 0, False, name
+    rank = PAPERS_LAWS.index(regulator.name) + 1 if regulator.name in PAPERS_LAWS else 0
+    return rank, regulator.role == CONTROL, name
 
 
 def in_order(names: Iterable[str]) -> list[str]:

@@ -11,7 +11,7 @@ from bench.experiments.shipped import BENT_DEG, FELT_RAD
 from bench.findings.amounts import count, count_of
 from bench.findings.remedy import KEEP, fix_of
 from bench.law.contenders.registry import contenders
-from bench.law.kinds import POSITION, TORQUE, VELOCITY, Law
+from bench.law.shipped import POSITION, TORQUE, VELOCITY, AsShipped
 from bench.studies.restated.__main__ import STORED
 from report.figures.kit import html
 from report.figures.kit.page import Run, in_run
@@ -119,10 +119,10 @@ def stuck(row: Any) -> str:
     return f"{row.dead} of {row.half_turns}"
 
 
-def link(one: Law) -> str:
+def link(one: AsShipped) -> str:
     """Return a controller's name as a link to its source, at the revision that was restated."""
     source, _, revision = one.source.partition("@")
-    return f"[{one.name}]({HOST}/{source}/blob/{revision}/{one.shipped.path.partition(',')[0]})"
+    return f"[{one.name}]({HOST}/{source}/blob/{revision}/{one.path.partition(',')[0]})"
 
 
 def reported(thread: str, words: str = "") -> str:
@@ -134,8 +134,8 @@ def reported(thread: str, words: str = "") -> str:
 def describe_fix(row: Any) -> tuple:
     """Return the cells of a controller's fix: what is felt, what to change, the greatest command before and after."""
     one, found = contenders("shipped")[row.shipped], fix_of(row.shipped)
-    known = f" Public thread: {reported(one.shipped.thread)}." if one.shipped.thread else ""
-    unit = "rad/s²" if one.shipped.shapes_inertia else "N m"
+    known = f" Public thread: {reported(one.thread)}." if one.thread else ""
+    unit = "rad/s²" if one.shapes_inertia else "N m"
     return (
         link(one),
         100.0 * row.stiffness_50mrad,

@@ -8,7 +8,7 @@ Vdot = -Kv qdot' M qdot, whatever the arm: it comes to rest at q_d from everywhe
 Limitations: the tool goes where the joints take it, and its response depends on the pose.
 """
 
-from bench.law import PUBLISHED, Inverse, Jacobian, Law, kernel
+from bench.law import PUBLISHED, Baseline, Inverse, Jacobian, Law, kernel
 
 
 @kernel
@@ -34,13 +34,15 @@ def resolve(J, a, D, x, rows, n, scratch):
 JOINTS = Jacobian("joints", "The joints themselves", "", r"\dot q", "joints", lambda representation: (None, None))
 INERTIA = Inverse("inertia-at-home", "Inertia at home", "", r"\tau = M a", resolve, "joint-torque")
 
-BASELINE = Law(
-    name="joint-pd",
-    title="Joint PD with gravity compensation",
-    source="Takegaki & Arimoto 1981; the scale M of the gains is ours",
-    attribution=PUBLISHED,
-    formula=r"\tau = M (K_p (q_d - q) - K_v \dot q) + g(q)",
+BASELINE = Baseline(
+    Law(
+        name="joint-pd",
+        title="Joint PD with gravity compensation",
+        source="Takegaki & Arimoto 1981; the scale M of the gains is ours",
+        attribution=PUBLISHED,
+        formula=r"\tau = M (K_p (q_d - q) - K_v \dot q) + g(q)",
+        property="global in the joints",
+    ),
     assemble=assemble,
     through=(JOINTS, INERTIA),
-    property="global in the joints",
 )

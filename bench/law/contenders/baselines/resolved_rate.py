@@ -7,7 +7,7 @@ Kp/Kv the tool follows v, and errors fall as exp(-Kp/Kv t).
 Limitations: where J has no inverse, and at a 180° rotation, where the logarithm jumps.
 """
 
-from bench.law import ADAPTED, Law, kernel, twist
+from bench.law import ADAPTED, Baseline, Law, kernel, twist
 from bench.law.contenders.jacobians.geometric import fill
 from bench.law.contenders.regulators.rotation_vector import law
 
@@ -24,12 +24,14 @@ def assemble(chain, goal, p_d, gains, memory, J, a):
     return u, memory
 
 
-BASELINE = Law(
-    name="resolved-rate",
-    title="Resolved rate",
-    source="after Whitney 1969; the logarithm as the error and the ideal servo are ours",
-    attribution=ADAPTED,
-    formula=r"\ddot q = K_v \left(J^{-1} v - \dot q\right)",
-    law=law,
+BASELINE = Baseline(
+    Law(
+        name="resolved-rate",
+        title="Resolved rate",
+        source="after Whitney 1969; the logarithm as the error and the ideal servo are ours",
+        attribution=ADAPTED,
+        formula=r"\ddot q = K_v \left(J^{-1} v - \dot q\right)",
+        law=law,
+    ),
     assemble=assemble,
 )

@@ -17,7 +17,7 @@ Source: Goodarzi, Lee, Lee 2013, Geometric nonlinear PID control of a quadrotor 
 omega + c e_R). The gains are this benchmark's.
 """
 
-from bench.law import ADAPTED, Law, State, double_sine, kernel
+from bench.law import ADAPTED, Law, Stateful, double_sine, kernel
 
 INTEGRAL, LEAD = 1.0 / 3.0, 4.0 / 9.0
 """Integral gain over Kp, c over Kv: they make the three poles one where Kv^2 = 4 Kp."""
@@ -42,15 +42,18 @@ def law(R, omega, goal, gains, state):
     return u, (omega[0] - lead * e[0], omega[1] - lead * e[1], omega[2] - lead * e[2], 0.0)
 
 
-COMPENSATOR = Law(
-    name="integral",
-    title="Sine of the angle, with an integral",
-    source="after Goodarzi, Lee & Lee 2013; the base frame of the integral and the gains are ours",
-    attribution=ADAPTED,
-    formula=r"u = K_p\,e - K_v\,\omega - \tfrac13 K_p x, \quad \dot x = \omega - \tfrac49 K_v\,e",
-    law=law,
-    property="almost global where Kv^2 < 5 Kp",
-    state=State(
-        begin, lambda kp, kv: (kv, (1.0 + INTEGRAL) * kp, INTEGRAL * LEAD * kp * kv), measures_rate=True, rejects=True
+COMPENSATOR = Stateful(
+    Law(
+        name="integral",
+        title="Sine of the angle, with an integral",
+        source="after Goodarzi, Lee & Lee 2013; the base frame of the integral and the gains are ours",
+        attribution=ADAPTED,
+        formula=r"u = K_p\,e - K_v\,\omega - \tfrac13 K_p x, \quad \dot x = \omega - \tfrac49 K_v\,e",
+        law=law,
+        property="almost global where Kv^2 < 5 Kp",
     ),
+    begin=begin,
+    polynomial=lambda kp, kv: (kv, (1.0 + INTEGRAL) * kp, INTEGRAL * LEAD * kp * kv),
+    measures_rate=True,
+    rejects=True,
 )

@@ -19,7 +19,7 @@ Tayebi 2008, Unit quaternion-based output feedback for the attitude tracking pro
 Tayebi, Roberts, Benallegue 2013. The gains are this benchmark's.
 """
 
-from bench.law import ADAPTED, Law, State, double_sine, from_quaternion, kernel, quaternion_direction, sqrt
+from bench.law import ADAPTED, Law, Stateful, double_sine, from_quaternion, kernel, quaternion_direction, sqrt
 
 FOLLOWED = 1.5 * sqrt(3.0)
 """gamma over Kv: with 2 Kv^2 it makes the three poles one where Kv^2 = 4 Kp."""
@@ -56,19 +56,19 @@ def law(R, omega, goal, gains, state):
     return u, rate
 
 
-COMPENSATOR = Law(
-    name="velocity-free",
-    title="Sine of the angle, no measured rate",
-    source="after Lizarralde & Wen 1996 and Tayebi 2008; the gains are ours",
-    attribution=ADAPTED,
-    formula=r"u = K_p\,e(R, R_d) - 2 K_v^2\,e(R, F), \quad \dot F = \gamma\,[e(F, R)]_\times F",
-    law=law,
-    property="almost global from rest where Kp < 2 Kv^2",
-    state=State(
-        begin,
-        lambda kp, kv: (FOLLOWED * kv, kp + 2.0 * kv * kv, FOLLOWED * kv * kp),
-        measures_rate=False,
-        rejects=False,
-        bound=lambda kp, kv: kp + 2.0 * kv * kv,
+COMPENSATOR = Stateful(
+    Law(
+        name="velocity-free",
+        title="Sine of the angle, no measured rate",
+        source="after Lizarralde & Wen 1996 and Tayebi 2008; the gains are ours",
+        attribution=ADAPTED,
+        formula=r"u = K_p\,e(R, R_d) - 2 K_v^2\,e(R, F), \quad \dot F = \gamma\,[e(F, R)]_\times F",
+        law=law,
+        property="almost global from rest where Kp < 2 Kv^2",
     ),
+    begin=begin,
+    polynomial=lambda kp, kv: (FOLLOWED * kv, kp + 2.0 * kv * kv, FOLLOWED * kv * kp),
+    measures_rate=False,
+    rejects=False,
+    bound=lambda kp, kv: kp + 2.0 * kv * kv,
 )

@@ -3,7 +3,7 @@
 Limitations: where a coordinate jumps.
 """
 
-from bench.law import ADAPTED, Display, Law, Look, kernel, minus, spring_damper
+from bench.law import ADAPTED, Display, Law, Look, OnCoordinates, kernel, minus, spring_damper
 
 
 def law_in(representation):
@@ -26,8 +26,7 @@ REGULATOR = Law(
     source="after Murphy 1988, (2.15), without its term Bdot Edot",
     attribution=ADAPTED,
     formula=r"u = K_p\, B\,(E_d - E) - K_v\,\omega",
-    law_in=law_in,
-    coordinates=("zyx-euler",),
+    law=OnCoordinates(law_in, ("zyx-euler",)),
     later=True,
     display=Display("Euler gradient", Look("sky", "s", "dashed"), "Euler variants, controls"),
 )

@@ -16,7 +16,7 @@ off them.
 Limitations: where B^-1 does not exist (in Z-Y-Z at the identity itself), and where a coordinate jumps.
 """
 
-from bench.law import PUBLISHED, Display, Law, Look, kernel, minus, spring_damper
+from bench.law import PUBLISHED, Display, Law, Look, OnCoordinates, kernel, minus, spring_damper
 
 
 @kernel
@@ -72,10 +72,7 @@ REGULATOR = Law(
     source="Murphy 1988, (2.15)-(2.16), which has Z-Y-X angles",
     attribution=PUBLISHED,
     formula=r"u = B\,u_E + \dot B\,\dot E, \quad u_E = K_p (E_d - E) - K_d \dot E",
-    law_in=law_in,
-    coordinate_law_in=coordinate_law_in,
-    coordinates="any",
-    papers=3,
+    law=OnCoordinates(law_in, "any", coordinate_law_in=coordinate_law_in),
     display=Display(
         "feedback-linearized",
         Look("green", "^", "dash-dot"),

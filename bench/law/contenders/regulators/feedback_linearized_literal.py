@@ -4,7 +4,7 @@ The same command as feedback-linearized to rounding; listed so that its price ca
 Limitations: as feedback-linearized does.
 """
 
-from bench.law import PUBLISHED, Display, Law, Look, cos, kernel, sin
+from bench.law import COSTING, PUBLISHED, Display, Law, Look, OnCoordinates, cos, kernel, sin
 
 
 @kernel
@@ -60,8 +60,7 @@ REGULATOR = Law(
     source="Murphy 1988, (2.15)",
     attribution=PUBLISHED,
     formula=r"u = B\,\bigl(u_E - \tfrac{d}{dt}(B^{-1})\,\omega\bigr)",
-    law_in=law_in,
-    coordinates=("zyx-euler",),
-    costing_only=True,
+    law=OnCoordinates(law_in, ("zyx-euler",)),
+    role=COSTING,
     display=Display(look=Look("sky", "v", "dotted")),
 )

@@ -7,7 +7,19 @@ are pushed opposite ways.
 Limitations: at 180° the command jumps to its opposite.
 """
 
-from bench.law import PUBLISHED, Display, Law, Look, atan2, dot, kernel, spring_damper, sqrt, turn_quaternion
+from bench.law import (
+    ACTUATOR,
+    PUBLISHED,
+    Display,
+    Law,
+    Look,
+    atan2,
+    dot,
+    kernel,
+    spring_damper,
+    sqrt,
+    turn_quaternion,
+)
 
 
 @kernel
@@ -28,6 +40,6 @@ REGULATOR = Law(
     law=law,
     property="almost global",
     later=True,
-    in_engine=True,
+    role=ACTUATOR,
     display=Display("MuJoCo's actuator", Look("blue", "*", "dotted"), "On three parameters"),
 )

@@ -5,7 +5,7 @@ can be asked for. Limitations: far from zero angles, where B is no longer the pe
 pole.
 """
 
-from bench.law import PUBLISHED, Display, Law, Look, kernel, minus, spring_damper
+from bench.law import PUBLISHED, Display, Law, Look, OnCoordinates, kernel, minus, spring_damper
 
 
 def law_in(representation):
@@ -30,8 +30,6 @@ REGULATOR = Law(
     attribution=PUBLISHED,
     formula=r"u = P\,\bigl(K_p (E_d - E) - K_d \dot E\bigr), \quad P: (\alpha, \beta, \gamma) \mapsto "
     r"(\gamma, \beta, \alpha)",
-    law_in=law_in,
-    coordinates=("zyx-euler",),
-    papers=2,
+    law=OnCoordinates(law_in, ("zyx-euler",)),
     display=Display("linearized Euler", Look("vermillion", "s", "dashed"), "The paper's three"),
 )

@@ -4,7 +4,7 @@
 alpha. Limitations: unstable at the goal itself.
 """
 
-from bench.law import ADAPTED, Display, Law, Look, kernel, minus, spring_damper
+from bench.law import ADAPTED, CONTROL, Display, Law, Look, OnCoordinates, kernel, minus, spring_damper
 
 
 def law_in(representation):
@@ -27,9 +27,8 @@ REGULATOR = Law(
     source="after Murphy 1988, 2.3, without the permutation of (2.14); a wrong law, to check our tests",
     attribution=ADAPTED,
     formula=r"u = K_p (E_d - E) - K_d \dot E",
-    law_in=law_in,
-    coordinates=("zyx-euler",),
+    law=OnCoordinates(law_in, ("zyx-euler",)),
     property="none",
-    control=True,
+    role=CONTROL,
     display=Display("Euler as printed", Look("orange", "x", "dotted"), "Euler variants, controls"),
 )

@@ -3,7 +3,7 @@
 Limitations: as linearized-euler does, but at the same errors for every goal.
 """
 
-from bench.law import ADAPTED, Display, Law, Look, kernel, relative, rotate, rotate_back
+from bench.law import ADAPTED, Display, Law, Look, OnCoordinates, kernel, relative, rotate, rotate_back
 
 
 def law_in(representation):
@@ -31,8 +31,6 @@ REGULATOR = Law(
     source="after Murphy 1988, 2.4, which proposes this law in words",
     attribution=ADAPTED,
     formula=r"u = R_d\, P\,(-K_p E - K_d \dot E), \quad E = E(R_d^\top R)",
-    law_in=law_in,
-    coordinates=("zyx-euler",),
-    relative=True,
+    law=OnCoordinates(law_in, ("zyx-euler",), relative=True),
     display=Display("linearized, from goal", Look("purple", "D", "dash-dot"), "Euler variants, controls"),
 )

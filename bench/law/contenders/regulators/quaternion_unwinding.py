@@ -8,7 +8,7 @@ after a pause, and when the goal jumps.
 Limitations: it settles everywhere but goes the wrong way.
 """
 
-from bench.law import CHORD, PUBLISHED, Display, Law, Look, kernel, spring_damper, sqrt, turn_quaternion
+from bench.law import CHORD, CONTROL, PUBLISHED, Display, Law, Look, kernel, spring_damper, sqrt, turn_quaternion
 
 
 @kernel
@@ -37,7 +37,7 @@ REGULATOR = Law(
     memory=(-1.0, 0.0, 0.0, 0.0),
     property="none",
     later=True,
-    control=True,
+    role=CONTROL,
     display=Display(
         "quaternion without sign",
         Look("yellow", "x", "dotted"),

@@ -34,6 +34,5 @@ REGULATOR = Law(
     formula=r"u = \tfrac{1}{2} K_p\,(n \times n_d + o \times o_d + a \times a_d) - K_v\,\omega",
     law=law,
     property="almost global",
-    papers=1,
     display=Display("rotation matrix", Look("blue", "o", "solid"), "The paper's three", SINE),
 )

@@ -44,7 +44,7 @@ def shipped() -> list[Library]:
     def restate(name: str, word: str) -> Library:
         one = contenders("shipped")[word]
         repository, _, revision = one.source.partition("@")
-        function = Function("orientation error", QUATERNION, lambda q: one.shipped.error(tuple(q.tolist())))
+        function = Function("orientation error", QUATERNION, lambda q: one.error(tuple(q.tolist())))
         return Library(name, f"{repository}@{revision[:8]}", (function,), is_restated=True)
 
     return [restate(*words) for words in RESTATED.items()]
