@@ -19,7 +19,8 @@ from bench.regression.revisions.commits import (
     is_folder,
 )
 from bench.regression.revisions.summary import Finding
-from bench.regression.revisions.timing import SideFailed, Timed
+from bench.regression.revisions.times import Timed
+from bench.regression.timer import SideFailed
 
 LAW = law_text(DAMPER, name="braking")
 SAME = Timed("braking", 1.0, 0.9, 1.1, 0.5, 6, "same")

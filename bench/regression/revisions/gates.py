@@ -14,7 +14,8 @@ from bench.findings.judgement import Judgement
 from bench.law.contenders.described_law import described
 from bench.regression.revisions import commits, exact
 from bench.regression.revisions.summary import IMPROVEMENT, REGRESSION, Comparison, Finding
-from bench.regression.revisions.timing import ROUNDS, SAME, SLOWER, Side, SideFailed, Timed, compare_times
+from bench.regression.revisions.times import SAME, SLOWER, Timed, compare_times
+from bench.regression.timer import ROUNDS, Side, SideFailed
 
 EXACT, TIME, FAULTS = exact.EXACT, "time", "faults"
 ROWS = (EXACT, exact.OPERATIONS)

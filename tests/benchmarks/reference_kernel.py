@@ -10,9 +10,15 @@ stays a few ulps, and RESULT holds on every machine.
 """
 
 import functools
+import time
+from typing import Any
+
+import numpy as np
 
 from bench.engines.compiled import compile_function, float64, int64
+from bench.experiments.tables.statistics import order_interval
 from bench.law.scalar import sin, sqrt
+from benchmarks.subject import KERNEL, Subject
 
 STEPS = 20_000
 """About half a millisecond: a thousand times what calling it costs."""
@@ -34,3 +40,32 @@ def chain(x, steps):
 def compiled():
     """Return the kernel compiled: compiled()(START, STEPS)."""
     return compile_function(chain, float64(float64, int64))
+
+
+def run() -> float:
+    """Run the compiled kernel and return RESULT."""
+    return compiled()(START, STEPS)
+
+
+def time_step() -> float:
+    """Return the CPU time of one step at this moment [s]."""
+    began = time.thread_time()
+    run()
+    return (time.thread_time() - began) / STEPS
+
+
+def reference_kernel() -> Subject:
+    """Return the kernel itself as a subject: two saved runs say by it whether the machine changed."""
+    run()
+    return Subject(KERNEL, run, STEPS)
+
+
+def compare(tick_s: np.ndarray, kernel_s: np.ndarray) -> dict[str, Any]:
+    """Return the time of a tick in steps of the kernel, [median, low, high], and the time of a step [ns].
+
+    tick_s, kernel_s: one value a round, in the order of the rounds. low, high: 95 % interval of the median.
+    """
+    ratios = np.sort(tick_s / kernel_s)
+    low, high = order_interval(len(ratios), 0.5)
+    steps = [float(np.median(ratios)), float(ratios[low]), float(ratios[high])]
+    return {"kernel_steps": steps, "kernel_ns": 1e9 * float(np.median(kernel_s))}
