@@ -1,4 +1,7 @@
-"""The history: one file of pytest-benchmark for each measured build. Times compare only on one machine."""
+"""The history: one file of pytest-benchmark for each measured build.
+
+Limitations: times compare only on one machine.
+"""
 
 from pathlib import Path
 

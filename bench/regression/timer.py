@@ -1,7 +1,8 @@
-"""Run the benchmarks of tests/benchmarks with pytest-benchmark: of one checkout, or of two in turns.
+"""Run the benchmarks of tests/benchmarks with pytest-benchmark, of one checkout or two.
 
-Each side is a process of pytest, and the rounds of two sides alternate, so that a slow moment of the machine meets
-both. Both sides run the same files: a checkout of another revision is given ours (`copy_benchmarks`).
+Each side is a process of pytest, and the rounds of two sides alternate, so that a slow moment of
+the machine meets both. Both sides run the same files: a checkout of another revision is given ours
+(`copy_benchmarks`).
 """
 
 import contextlib
@@ -28,23 +29,27 @@ from bench.law.contenders.law_process import confine, end_all
 BENCHMARKS = Path("tests", "benchmarks")
 """Folder of the benchmarks in a checkout."""
 
-LAWS = f"{BENCHMARKS}/test_laws.py::test_law"
+LAWS_FILE = BENCHMARKS / "test_laws.py"
+ENGINES_FILE = BENCHMARKS / "test_engines.py"
+ARMS_FILE = BENCHMARKS / "test_arms.py"
+
+LAWS = f"{LAWS_FILE}::test_law"
 """The benchmarks of every law alone."""
 
 USUAL = (
     LAWS,
-    f"{BENCHMARKS}/test_engines.py::test_engine[engine ideal-held rotation-matrix]",
-    f"{BENCHMARKS}/test_engines.py::test_engine[engine ideal-rk4 rotation-matrix]",
-    f"{BENCHMARKS}/test_engines.py::test_engine[engine native rotation-matrix]",
-    f"{BENCHMARKS}/test_arms.py::test_arm[engine ur5e native rotation-matrix@geometric+solve]",
+    f"{ENGINES_FILE}::test_engine[engine ideal-held rotation-matrix]",
+    f"{ENGINES_FILE}::test_engine[engine ideal-rk4 rotation-matrix]",
+    f"{ENGINES_FILE}::test_engine[engine native rotation-matrix]",
+    f"{ARMS_FILE}::test_arm[engine ur5e native rotation-matrix@geometric+solve]",
 )
-"""What two revisions are compared by, and what the history holds: all laws, and a loop of each engine."""
+"""What two revisions are compared by, and what the history holds."""
 
 ROUNDS = 60
 """The interval of a median covers the 23rd to 38th; a round takes from 0.3 ms to 20 ms."""
 
 SILENT_S = 300.0
-"""On the wall, until a process that says nothing is ended: ten times what compiling a law for all engines takes."""
+"""On the wall, until processes that say nothing are ended: ten times what compiling a law takes."""
 
 LOOK_S = 0.2
 """How often it is asked whether a process has ended, and what it says."""
@@ -55,7 +60,7 @@ OPTIONS = (
     *("-v", "-rfE", "--tb=line", "--exitfirst", "--assert=plain", "-W", "ignore"),
     *("-o", "console_output_style=count", "--benchmark-only", "--benchmark-quiet"),
 )
-"""No settings, and no conftest, of what else is tested in the checkout; a line for each benchmark as it ends."""
+"""No settings and no conftest of the other tests; a line for each benchmark as it ends."""
 
 OTHER_ENDED = 77
 """Exit code of a process that lost the other one (tests/benchmarks/turns.py)."""
@@ -65,7 +70,10 @@ NOTHING_COLLECTED = 5
 
 ENDED_WELL = (0, NOTHING_COLLECTED, OTHER_ENDED)
 
-PROGRESS = re.compile(r"\[(?P<name>[^\]]+)\] (?:PASSED|SKIPPED).*\[ *(?P<done>\d+)/(?P<total>\d+)\]")
+PROGRESS = re.compile(
+    r"\[(?P<name>[^\]]+)\] (?:PASSED|SKIPPED).*"
+    r"\[ *(?P<done>\d+)/(?P<total>\d+)\]"
+)
 """A line of pytest about a benchmark that has a name and has ended."""
 
 REASONS = (
@@ -191,9 +199,9 @@ def run_benchmarks(
     rounds: int = ROUNDS,
     report: Callable[[Progress], None] = lambda _: None,
 ) -> list[dict[str, Any]]:
-    """Time one side, or two in turns, with more options of pytest; return the files of pytest-benchmark.
+    """Time one side, or two in turns; return the files of pytest-benchmark.
 
-    report: is called with each benchmark that the last side has timed.
+    options: of pytest. report: is called with each benchmark that the last side has timed.
 
     Errors:
         Incompatible: there are no benchmarks in this installation.
@@ -236,13 +244,16 @@ def _start(
     sockets: list[int],
     place: Path,
 ) -> Run:
-    """Start the process of a side, which ends with the stack; place: of its files, without suffix."""
+    """Start the process of a side, which ends with the stack; place: its files, without suffix."""
     variables = dict(os.environ)
     token = secrets.token_hex(8)
     if side.laws:
-        # A user's law may change what is compiled beside it, and an older revision keeps that: so it is kept nowhere.
-        variables = law_environment(token) | {"NUMBA_CACHE_DIR": str(place.with_suffix(".compiled"))}
-    # Under variables of pytest-xdist, pytest-benchmark would switch itself off; others are options of pytest.
+        # A user's law may change what is compiled beside it, and an older revision keeps that: so
+        # it is kept nowhere.
+        variables = law_environment(token)
+        variables["NUMBA_CACHE_DIR"] = str(place.with_suffix(".compiled"))
+    # Under variables of pytest-xdist, pytest-benchmark would switch itself off; others are options
+    # of pytest.
     variables = {name: value for name, value in variables.items() if not name.startswith("PYTEST_")}
     variables |= {"PYTHONPATH": str(side.path), "PYTHONHASHSEED": "0", "PYTHONUNBUFFERED": "1"}
     # As wide as no line is: pytest cuts the reason of a failure.
@@ -272,7 +283,7 @@ def _start(
 
 
 def _wait_for(runs: list[Run], report: Callable[[Progress], None]) -> int | None:
-    """Wait for all processes; return the place of the one that failed, the last one's if all are silent."""
+    """Wait for all processes; return the place of one that failed, the last one if all are silent."""
     while True:
         # First this, then the output: what a process says last is read before it is judged.
         have_ended = all(run.has_ended() for run in runs)

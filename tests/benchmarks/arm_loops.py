@@ -18,18 +18,20 @@ from tasks.base import Start
 TASK = "arm-regulation"
 
 SETTINGS = Settings().limits(6.0)._replace(hold_ticks=NEVER)
-"""6000 ticks of 1 ms, some 20 ms of time: handing the loop its arguments takes a hundredth of it, 0.19 ms a call."""
+"""6000 ticks of 1 ms, some 20 ms of time: handing the loop its arguments takes 0.19 ms of them."""
 
 FEWEST_TICKS = 4000
 """A controller that fails sooner is not timed: what a call costs beside its ticks would show."""
 
 
 def list_controllers(laws: list[Contender], arm: str) -> list[Contender]:
-    """Return the default suite's controllers that use these laws; a user's law by the geometric Jacobian."""
+    """Return the default suite's controllers of these laws; a user's by the geometric Jacobian."""
     on_arms = suite("default").on_arms
     by_name = {law.name: law for law in laws}
     words = [*on_arms.words, *on_arms.compared]
-    words += [f"{law.name}@geometric+standard" for law in laws if law.regulator.origin]
+    for law in laws:
+        if law.regulator.origin:
+            words.append(f"{law.name}@geometric+standard")
     return combinations.on(tuple(words), by_name, tasks.arm(arm).joints)
 
 
@@ -51,7 +53,11 @@ def arm_loop(
     start: Start | None = None,
     fewest_ticks: int = FEWEST_TICKS,
 ) -> Subject:
-    """Return the subject of a controller on an arm; one that fails from the start is held at it, to last longer."""
+    """Return the subject of a controller on an arm.
+
+    One that fails too soon from the start is held at it, to last longer; one that fails even there
+    has no ticks.
+    """
     moving = start or turn_by_20_degrees(arm)
     held = moving._replace(goal_wxyz=moving.quat_wxyz)
     subject = _run_from(moving, arm, contender)

@@ -1,15 +1,17 @@
-"""Time ticks with pytest-benchmark: options, the fixture `time_ticks`, and what the saved file says besides.
+"""Time ticks with pytest-benchmark: options, the fixture `time_ticks`, and the saved file.
 
-A benchmark is timed in rounds of one call. Before each round the reference kernel is timed, and `kernel_steps` of a
-saved benchmark is the CPU time of a tick over that of a step of the kernel in the same round: the median over rounds,
-and its 95 % interval. Times in seconds of two runs differ as the machine does; `kernel_steps` of them do much less.
+A benchmark is timed in rounds of one call. Before each round the reference kernel is timed, and
+`kernel_steps` of a saved benchmark is the CPU time of a tick over that of a step of the kernel in
+the same round: the median over rounds, and its 95 % interval. Times in seconds of two runs differ
+as the machine does; `kernel_steps` of them do much less.
 
-It is CPU time of this thread (time.thread_time) that counts, not the clock on the wall: on a shared machine that leaves
-out the time in which others ran. No benchmark uses a second thread.
+It is CPU time of this thread (time.thread_time) that counts, not the clock on the wall: on a shared
+machine that leaves out the time in which others ran. No benchmark uses a second thread.
 
-`extra_info` of a saved benchmark holds what was timed (`what`, `contender`, `engine`, `arm`), the `ticks` of a round,
-`kernel_steps`, `kernel_ns` (a step of the kernel, median), and a law's `flops` by branch. The file's `not_timed` lists
-what fails. Where two processes time in turns (`bench compare`), both time only what both have.
+`extra_info` of a saved benchmark holds what was timed (`what`, `contender`, `engine`, `arm`), the
+`ticks` of a round, `kernel_steps`, `kernel_ns` (a step of the kernel, median), and a law's `flops`
+by branch. The file's `not_timed` lists what fails. Where two processes time in turns
+(`bench compare`), both time only what both have.
 """
 
 import os
@@ -95,13 +97,27 @@ def pytest_addoption(parser):
         metavar="ARM",
         help="Time only this arm; may be repeated.",
     )
-    group.addoption("--shuffle", type=int, metavar="SEED", help="Time in the random order of this seed.")
-    group.addoption("--turns", type=int, metavar="DESCRIPTOR", help="Socket to a process that times in turns with us.")
-    group.addoption("--first", action="store_true", help="With --turns: this process has the first turn.")
+    group.addoption(
+        "--shuffle",
+        type=int,
+        metavar="SEED",
+        help="Time in the random order of this seed.",
+    )
+    group.addoption(
+        "--turns",
+        type=int,
+        metavar="DESCRIPTOR",
+        help="Socket to another process, which times in turns with this one.",
+    )
+    group.addoption(
+        "--first",
+        action="store_true",
+        help="With --turns: this process has the first turn.",
+    )
 
 
 def pytest_configure(config):
-    """Choose what is timed; a name that is unknown, or a law that does not load, is a usage error."""
+    """Choose what is timed; an unknown name, or a law that does not load, is a usage error."""
     refuse_foreign_sources(config.rootpath)
     try:
         config.stash[CHOICE] = choose(config)
@@ -142,7 +158,7 @@ def choose(config) -> Choice:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config, items):
-    """Time by CPU time, in the order that is asked for, and only what the other process has, too."""
+    """Time by CPU time, in the chosen order, and only what the other process has, too."""
     here = Path(__file__).parent
     ours = [item for item in items if item.path.is_relative_to(here)]
     for item in ours:
@@ -163,7 +179,7 @@ def choice(pytestconfig) -> Choice:
 
 @pytest.fixture
 def on_one_core(request, choice):
-    """Return the function that keeps the timed rounds on one core: of two processes, one might be the busier."""
+    """Return the function that keeps the timed rounds on one core, as busy for both processes."""
 
     def stay() -> None:
         if choice.cores:

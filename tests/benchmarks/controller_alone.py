@@ -1,8 +1,9 @@
-"""A whole controller alone: from the joints' angles and rates to their torques, without plant, judge and metrics.
+"""A whole controller alone: from the joints' angles and rates to their torques.
 
-A tick computes, as a robot's controller must, the forward kinematics, the inertia matrix D, the torques fg of gravity
-and motion (all three by MuJoCo's functions for them), then the law, the Jacobian, its inverse and (2.2). States lie in
-memory; 0 times the torques is added to the next state, so that each tick waits for the one before, as in `law_alone`.
+A tick computes, as a robot's controller must, the forward kinematics, the inertia matrix D, the
+torques fg of gravity and motion (all three by MuJoCo's functions for them), then the law, the
+Jacobian, its inverse and (2.2), without plant, judge and metrics. States lie in memory; 0 times the
+torques is added to the next state, so that each tick waits for the one before, as in `law_alone`.
 """
 
 from typing import NamedTuple
@@ -97,7 +98,10 @@ def controller_alone(task: str, arm: str, contender: Contender, start: Start) ->
 
 
 def states(start: Start) -> np.ndarray:
-    """Return seeded states, one a row: the joints' angles and rates, and the goal's quaternion, uniform on SO(3)."""
+    """Return seeded states, one a row: the joints' angles and rates, and the goal's quaternion.
+
+    Goals are uniform on SO(3); shape (STATES, 2 n + 4) with n joints.
+    """
     random = np.random.default_rng(0)
     shape = (STATES, len(start.q))
     angles = np.array(start.q) + random.normal(scale=SPREAD, size=shape)

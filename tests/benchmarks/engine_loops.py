@@ -1,4 +1,7 @@
-"""A law in the compiled loop of an engine, on the free body: the real loop, all metrics on, no early stop."""
+"""A law in the compiled loop of an engine, on the free body.
+
+It is the real loop, with all metrics on and no early stop.
+"""
 
 import mujoco
 import numpy as np
@@ -15,10 +18,10 @@ from bench.law.contender import Contender
 from benchmarks.subject import NEVER, Episodes, Subject, time_episodes
 
 STARTS = {"ideal-held": 128, "ideal-rk4": 128, "native": 8}
-"""Engines and their uniform starts; a call takes from 3 to 20 ms, 0.05 ms of them to hand the loop its arguments."""
+"""Engines and their uniform starts; of the 3 to 20 ms of a call, 0.05 ms hand over arguments."""
 
 SETTINGS = Settings().limits(0.4)._replace(hold_ticks=NEVER)
-"""400 ticks of 1 ms: from rest through the fastest part of a response; a tick costs the same at any time."""
+"""400 ticks of 1 ms: from rest through the fastest part of a response."""
 
 
 def engine_loop(engine: str, contender: Contender) -> Subject:

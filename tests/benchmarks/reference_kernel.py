@@ -1,12 +1,13 @@
-"""The reference kernel: a fixed piece of arithmetic whose time stands for the speed of the machine at that moment.
+"""The reference kernel: fixed arithmetic whose time stands for the speed of the machine just then.
 
     x <- sqrt(2 + sin(((x/10 + 1/5) x + 3/10) x + k/1000)),   k = 0, 1, 2 ...
 
-Each operation waits for the one before it, as in a law, so nothing is vectorized or overlapped. It must never be
-changed: every stored ratio is a ratio to one step of exactly this. `RESULT` is its value, by which a test knows it.
+Each operation waits for the one before it, as in a law, so nothing is vectorized or overlapped. It
+must never be changed: every stored ratio is a ratio to one step of exactly this. `RESULT` is its
+value, by which a test knows it.
 
-|dx'/dx| <= 0.366 (3 x^2/10 + 2 x/5 + 3/10) < 0.7 for x <= sqrt(3): the map forgets, so an ulp in some libm's sine
-stays a few ulps, and RESULT holds on every machine.
+|dx'/dx| <= 0.366 (3 x^2/10 + 2 x/5 + 3/10) < 0.7 for x <= sqrt(3): the map forgets, so an ulp in
+some libm's sine stays a few ulps, and RESULT holds on every machine.
 """
 
 import functools
@@ -55,15 +56,16 @@ def time_step() -> float:
 
 
 def reference_kernel() -> Subject:
-    """Return the kernel itself as a subject: two saved runs say by it whether the machine changed."""
+    """Return the kernel as a subject, by which two saved runs say whether the machine changed."""
     run()
     return Subject(KERNEL, run, STEPS)
 
 
 def compare(tick_s: np.ndarray, kernel_s: np.ndarray) -> dict[str, Any]:
-    """Return the time of a tick in steps of the kernel, [median, low, high], and the time of a step [ns].
+    """Return the time of a tick in steps of the kernel, and the time of a step [ns].
 
-    tick_s, kernel_s: one value a round, in the order of the rounds. low, high: 95 % interval of the median.
+    tick_s, kernel_s: one value a round, in the order of the rounds. kernel_steps: the median, and
+    the low and the high end of its 95 % interval.
     """
     ratios = np.sort(tick_s / kernel_s)
     low, high = order_interval(len(ratios), 0.5)

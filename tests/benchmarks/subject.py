@@ -35,7 +35,8 @@ class Subject:
         what: KERNEL, LAW, LOOP, ENGINE or CONTROLLER.
         call: Does the work.
         ticks: Control ticks of a call; 0 if the law fails, so that there is nothing to time.
-        contender: The law, on arms with its Jacobian and inverse; None for the kernel and the empty loop.
+        contender: The law, on arms with its Jacobian and inverse; None for the kernel and the empty
+            loop.
         engine: Engine of a loop; else empty.
         arm: Arm of a loop or a controller; else empty.
         prepare: Is called before each round, with the round's number.

@@ -14,7 +14,8 @@ class Turns:
     """The turns of this process and another one; without a socket this process always has the turn.
 
     Args:
-        descriptor: File descriptor of the socket to the other process; None if this process is alone.
+        descriptor: File descriptor of the socket to the other process; None if this process is
+            alone.
         is_first: Whether this process has the first turn.
     """
 
@@ -40,7 +41,7 @@ class Turns:
         return json.loads(answer)
 
     def begin(self) -> None:
-        """Give the first turn: the process that is second calls this once a benchmark, and the other one waits."""
+        """Give the first process its first turn, once a benchmark."""
         if not self.is_first:
             self._write(b".")
 
@@ -58,7 +59,7 @@ class Turns:
         self._write(b".")
 
     def end(self) -> None:
-        """Take back the turn that nobody needs, so that the next benchmark begins with an empty line."""
+        """Take back the last turn, so that the next benchmark begins with an empty line."""
         if self.is_first:
             self.wait()
 

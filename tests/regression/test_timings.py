@@ -1,5 +1,6 @@
 """`bench time`: what is timed, the rows that become of it, a user's law. No time is asserted."""
 
+import json
 import math
 
 import pandas as pd
@@ -12,6 +13,8 @@ from support.user_law import law_text, spring_text
 from bench.base.errors import BadLaw
 from bench.base.provenance import machine_key
 from bench.cli.time import folder_for
+from bench.experiments.tables.read import with_contender
+from bench.experiments.tables.store import read_arrow
 from bench.law.contenders.described_law import described
 from bench.law.contenders.registry import contenders_of, find_contender
 from bench.regression import timings
@@ -30,11 +33,19 @@ def quick(tmp_path_factory):
     return path, reported
 
 
-def saved(steps, ticks=10, **more):
+def saved(steps):
     """A file of pytest-benchmark with one law: [median, low, high] in steps of the kernel, a median of 3 us."""
-    law = {"what": "law", "arm": "", "engine": "", "contender": {"regulator": "mrp"}, "ticks": ticks}
-    info = law | {"kernel_steps": steps, "kernel_ns": 100.0} | more
-    benchmark = {"extra_info": info, "stats": {"median": 3e-6, "rounds": 7}}
+    info = {
+        "what": "law",
+        "arm": "",
+        "engine": "",
+        "contender": {"regulator": "mrp"},
+        "ticks": 10,
+        "kernel_steps": steps,
+        "kernel_ns": 100.0,
+    }
+    stats = {"median": 3e-6, "rounds": 7}
+    benchmark = {"extra_info": info, "stats": stats}
     return {"benchmarks": [benchmark], "not_timed": []}
 
 
@@ -50,7 +61,8 @@ def test_run_reports_every_benchmark_once_and_how_many_there_are(quick):
 def test_file_is_named_after_the_machine_and_says_where_it_comes_from(quick):
     path, _ = quick
     assert path.name == f"{machine_key()}.parquet"
-    about = timings.about(path)
+    metadata = read_arrow(path, "timings").schema.metadata
+    about = json.loads(metadata[b"about"])
     assert {"commit", "dirty", "versions", "cpu", "date"} <= set(about)
     assert about["quick"] is True
 
@@ -58,13 +70,12 @@ def test_file_is_named_after_the_machine_and_says_where_it_comes_from(quick):
 def test_file_has_one_row_of_times_for_everything_timed(quick):
     every = timings.read(quick[0])
     rows = every[every.arm == ""]
-    keys = list(zip(rows.what, rows.engine, rows.regulator, rows.representation, strict=True))
-    laws = [tuple(f"{word}/".split("/")[:2]) for word in LAWS]
-    expected = [("law", "", *law) for law in laws]
+    names = with_contender(rows)["contender"].astype(str)
+    expected = [f"law  {law}" for law in LAWS]
     for engine in sorted(STARTS):
-        expected += [("engine", engine, *law) for law in laws]
-    expected.append(("loop", "", "", ""))
-    assert keys == expected
+        expected += [f"engine {engine} {law}" for law in LAWS]
+    expected.append("loop  ")
+    assert list(rows["what"].astype(str) + " " + rows["engine"].astype(str) + " " + names) == expected
     columns = ["ns_per_tick", "ns_reference_kernel", "ratio_low", "ticks"]
     assert (every[columns] > 0).all(axis=None)
     assert every.ratio.between(every.ratio_low, every.ratio_high).all()
@@ -73,12 +84,11 @@ def test_file_has_one_row_of_times_for_everything_timed(quick):
 
 def test_every_controller_of_the_default_suite_with_these_laws_is_timed_on_the_arm(quick):
     rows = timings.read(quick[0])
-    timed = rows[(rows.arm == "ur5e") & (rows.what == "engine") & (rows.engine == "native")]
-    names = set(zip(timed.regulator, timed.jacobian, timed.inverse, strict=True))
+    loops = rows[(rows.arm == "ur5e") & (rows.what == "engine")]
+    names = set(with_contender(loops)["contender"].astype(str))
     controllers = arm_loops.list_controllers(CONTENDERS, "ur5e")
-    assert names == {(law.regulator.name, *law.way) for law in controllers}
-    assert ("rotation-matrix", "geometric", "solve") in names
-    assert ("linearized-euler", "geometric", "solve") in names
+    assert names == {controller.name for controller in controllers}
+    assert {f"{law}@geometric+solve" for law in LAWS} < names
 
 
 def test_tables_have_a_line_for_each_law_one_for_comparison_and_the_arms_apart(quick):
@@ -87,25 +97,33 @@ def test_tables_have_a_line_for_each_law_one_for_comparison_and_the_arms_apart(q
     assert set(made) == {"", "ur5e"}
     assert list(made[""].law) == [*LAWS, "(empty loop)"]
     assert all(isinstance(cell, str) for cell in made[""].to_numpy().ravel())
-    assert list(made["ur5e"].columns[:2]) == ["law", "native [ns]"]
-    assert len(made["ur5e"]) == ((rows.arm == "ur5e") & (rows.engine == "native")).sum()
+    on_arm = made["ur5e"]
+    assert list(on_arm.columns[:2]) == ["law", "native [ns]"]
+    loops = rows[(rows.arm == "ur5e") & (rows.engine == "native")]
+    assert len(on_arm) == len(loops)
 
 
 def test_row_is_the_median_of_the_processes_and_its_interval_spans_theirs():
     files = [saved([2.0, 1.9, 2.2]), saved([2.4, 2.3, 2.5]), saved([2.1, 1.8, 2.3])]
     [row] = tabulate(files, []).to_dict("records")
-    assert [row[name] for name in ("ratio", "ratio_low", "ratio_high")] == [2.1, 1.8, 2.5]
+    assert row["ratio"] == 2.1
+    assert row["ratio_low"] == 1.8
+    assert row["ratio_high"] == 2.5
     assert row["ns_per_tick"] == pytest.approx(300.0)
-    assert (row["passes"], row["ticks"]) == (21, 10)
+    assert row["passes"] == 21
+    assert row["ticks"] == 10
 
 
 def test_law_that_fails_is_a_row_without_a_time():
     file = saved([2.0, 1.9, 2.2])
-    failing = file["benchmarks"][0]["extra_info"] | {"contender": {"regulator": "gibbs"}, "ticks": 0}
-    rows = tabulate([file | {"not_timed": [failing]}], []).set_index("regulator")
-    assert math.isnan(rows.loc["gibbs", "ratio"])
-    assert (rows.loc["gibbs", "ticks"], rows.loc["mrp", "ticks"]) == (0, 10)
-    [(_, table)] = timings.tables(rows.reset_index())
+    timed = file["benchmarks"][0]["extra_info"]
+    failing = timed | {"contender": {"regulator": "gibbs"}, "ticks": 0}
+    file["not_timed"].append(failing)
+    rows = tabulate([file], [])
+    gibbs = rows[rows["regulator"] == "gibbs"]
+    assert math.isnan(gibbs["ratio"].item())
+    assert gibbs["ticks"].item() == 0
+    [(_, table)] = timings.tables(rows)
     assert list(table["alone [ns]"]) == ["300.0", "fails"]
 
 

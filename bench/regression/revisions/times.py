@@ -1,8 +1,8 @@
 """Time base and head in turns, and judge: slower by more than a tenth, beyond chance, twice.
 
-Two conditions must hold: the Mann-Whitney test of the rounds rejects "not slower" at P, and the median ratio of
-neighbouring rounds is above RATIO, which keeps out what is real but small. A second run of the suspects, in new
-processes, must agree.
+Two conditions must hold: the Mann-Whitney test of the rounds rejects "not slower" at P, and the
+median ratio of neighbouring rounds is above RATIO, which keeps out what is real but small. A second
+run of the suspects, in new processes, must agree.
 
 Limitations: a law that is slower by less than a tenth is not found, unless it has more operations.
 """
@@ -25,9 +25,18 @@ FASTER = "faster"
 
 
 class Timed(NamedTuple):
-    """Head over base: the median ratio of neighbouring rounds with its 95 % interval, the one-sided p, and a verdict.
+    """The verdict of a benchmark, of head over base.
 
-    confirmed: whether a second run agreed with a first verdict other than "same"; None if there was no second run.
+    Attributes:
+        name: Name of the benchmark.
+        ratio: Median ratio of neighbouring rounds.
+        low: Low end of its 95 % interval.
+        high: High end of the interval.
+        p: One-sided p-value of Mann and Whitney's test.
+        rounds: Rounds of each side.
+        verdict: SAME, SLOWER or FASTER.
+        confirmed: Whether a second run agreed with a first verdict other than SAME; None if there
+            was no second run.
     """
 
     name: str
@@ -41,7 +50,7 @@ class Timed(NamedTuple):
 
 
 def judge_rounds(name: str, base: np.ndarray, head: np.ndarray) -> Timed:
-    """Return the verdict of one run, of one time a round each in the order in which they were taken."""
+    """Return the verdict of one run, of one time a round in the order of the rounds."""
     from scipy.stats import mannwhitneyu
 
     from bench.experiments.tables.statistics import order_interval  # both are slow to import
@@ -80,11 +89,17 @@ def judge_files(base: dict[str, Any], head: dict[str, Any]) -> dict[str, Timed]:
     """Return the verdict of one run by name, of base's and head's files of pytest-benchmark."""
     base_ticks = list_ticks(base)
     head_ticks = list_ticks(head)
-    return {name: judge_rounds(name, ticks, head_ticks[name]) for name, ticks in base_ticks.items()}
+    verdicts = {}
+    for name, ticks in base_ticks.items():
+        verdicts[name] = judge_rounds(name, ticks, head_ticks[name])
+    return verdicts
 
 
 def confirm(first: Timed, second: Timed) -> Timed:
-    """Return the first verdict if the second agrees, else "same", with the second's numbers, which nobody picked."""
+    """Return the first verdict if the second agrees, else "same".
+
+    The numbers are the second's, which nobody picked.
+    """
     agrees = second.verdict == first.verdict
     return second._replace(verdict=first.verdict if agrees else SAME, confirmed=agrees)
 
@@ -95,7 +110,10 @@ def compare_times(
     report: Callable[[str], None] = lambda _: None,
     rounds: int = ROUNDS,
 ) -> tuple[list[dict[str, Any]], dict[str, Timed]]:
-    """Time both sides, and once more what differs; return the two files of the first run, and verdicts by name."""
+    """Time both sides, and once more what differs.
+
+    Return the two files of the first run, and verdicts by name.
+    """
 
     def say(progress: Progress) -> None:
         report(f"timed {progress.name}, {progress.done} of {progress.total}")
