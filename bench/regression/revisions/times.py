@@ -15,7 +15,7 @@ import numpy as np
 from bench.regression.timer import ROUNDS, Progress, Side, run_benchmarks
 
 P = 0.002
-"""Of thirty laws and no change, one comparison in seventeen has a p below P by chance."""
+"""Without a change, one comparison of thirty laws in seventeen has a p below P by chance."""
 
 RATIO = 1.10
 
