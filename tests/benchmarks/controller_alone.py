@@ -82,6 +82,7 @@ def controller_alone(task: str, arm: str, contender: Contender, start: Start) ->
     world, data = make_world(task, arm)
     assemble, resolve, _ = simulate_arms.pointers(contender)
     about_start = states(start)
+    in_order = about_start.copy()
     memory = memory_of(contender)
     kp, kv = PAPERS_GAINS.kp, PAPERS_GAINS.kv
     loop = compile_loop()
@@ -92,9 +93,14 @@ def controller_alone(task: str, arm: str, contender: Contender, start: Start) ->
         )  # fmt: skip
         return chain, world, data
 
+    def shuffle(number: int) -> None:
+        # As for a law alone: else the processor learns the branches.
+        order = np.random.default_rng(number).permutation(STATES)
+        about_start[:] = in_order[order]
+
     chain, _, _ = call()
     ticks = SWEEPS * STATES if chain == 0.0 else 0
-    return Subject(CONTROLLER, call, ticks, contender, arm=arm)
+    return Subject(CONTROLLER, call, ticks, contender, arm=arm, prepare=shuffle)
 
 
 def states(start: Start) -> np.ndarray:

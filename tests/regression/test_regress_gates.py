@@ -78,9 +78,7 @@ def test_gates_of_a_law_that_is_as_before_all_pass(user, means):
 
 
 @pytest.mark.parametrize(("head", "state"), [("main", "passed"), ("working tree", "skipped")])
-def test_equal_sources_are_timed_only_if_a_commit_is_compared_with_itself(
-    tmp_path, means, head, state
-):
+def test_equal_sources_are_timed_only_if_a_commit_is_compared_with_itself(tmp_path, means, head, state):
     base = Side(tmp_path, name="main", digest="1")
     comparison = summary.Comparison("main", head)
     gates._compare_times(comparison, base, base._replace(name=head), print, means())
