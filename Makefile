@@ -49,7 +49,7 @@ report: $(VENV)/.report ## build the report: report/_build/html/index.html (ARGS
 bench-quick: $(READY) ## run the quick suite into results/quick (minutes)
 	@$(PY) -m bench run --suite quick --replace --out results/quick $(ARGS)
 	@$(PY) -m bench show results/quick
-time: $(READY) ## time every law per control tick on this machine: results/timings
+time: $(READY) ## time every law, engine and arm a tick (tests/benchmarks) on this machine: results/timings
 	@$(PY) -m bench time $(ARGS)
 prove: $(DEV) ## prove what the laws' files call global, from their source (minutes): results/proofs
 	@$(PY) -m bench prove --out results/proofs/proofs.json $(ARGS)

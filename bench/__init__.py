@@ -19,10 +19,11 @@ experiments/  one file an experiment with its columns, units and rows; what plan
 export/       laws as code for another's controller: C, C++, Python, JavaScript, with test vectors; wheel, which has the
               audit and all laws in Python
 running/      run, run_folder (until it is finished), order, precompile, sandbox (a user's laws), answers, wire_format,
-              schedulers/ (threads, and a Dask cluster), timing/ (time per tick)
+              schedulers/ (threads, and a Dask cluster)
 findings/     claims/ (the paper's sentences), selection/ (which law), why (what a law does), theory/ (closed forms);
               kept: found once, and again when anything differs
-regression/   rows/ (two runs), revisions/ (two revisions), history (every build)
+regression/   rows/ (two runs), revisions/ (two revisions), history (every build), timings (time per
+              tick); timer runs tests/benchmarks for the last three
 studies/      what is run rarely: libraries/ (other robot libraries), contact/, verdicts, gates, scale, settings
 cli/          the command line, one file a command
 

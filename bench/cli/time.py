@@ -18,7 +18,7 @@ WHOLE, PARTIAL = RESULTS / "timings", RESULTS / "timings-partial"
 @options.regulator
 @options.representation
 @options.arm
-@click.option("--quick", is_flag=True, help="Fewer passes: rougher numbers in a fraction of the time.")
+@click.option("--quick", is_flag=True, help="Fewer rounds: rougher numbers in a fraction of the time.")
 @click.option(
     "--out",
     type=options.PATH,
@@ -26,30 +26,35 @@ WHOLE, PARTIAL = RESULTS / "timings", RESULTS / "timings-partial"
     help="Folder of the machine's file; by default results/timings for everything, results/timings-partial for less.",
 )
 def COMMAND(
-    laws: options.Files, regulators: options.Words, representations: options.Words, arms: options.Words, quick: bool,
+    laws: options.Files,
+    regulators: options.Words,
+    representations: options.Words,
+    arms: options.Words,
+    quick: bool,
     out: Path | None,
-) -> None:  # fmt: skip
-    """Time every law, engine and arm per tick, interleaved with a fixed reference kernel.
+) -> None:
+    """Time every law, engine and arm per tick, with a fixed reference kernel before each round.
 
+    The benchmarks are tests/benchmarks; pytest tests/benchmarks --benchmark-only runs them, too.
     results/timings is under version control. A run with --quick, or of less or more than everything, does not write
     there unless --out names it.
     """
     import tasks
-    from bench.running import timing
+    from bench.regression import timings
+    from bench.regression.timer import Progress
 
     named = tuple(dict.fromkeys(arms)) or tuple(tasks.arm_names())
     for arm in named:
         tasks.arm(arm)  # a word that names none is refused before anything is compiled
-    with progress("samples") as steps:
+    with progress("benchmarks", "compiling") as steps:
 
-        def report(done: timing.Progress) -> None:
-            steps.now(f"{'timing' if done.total else 'compiling'} {done.name}", done.done, done.total or None)
+        def report(timed: Progress) -> None:
+            steps.now(f"timed {timed.name}", timed.done, timed.total)
 
-        chosen = options.chosen(laws, regulators, representations, costings=True)
-        run = timing.run_apart if laws else timing.run
+        contenders = options.chosen(laws, regulators, representations, costings=True)
         folder = out or folder_for(laws, regulators, representations, arms, quick)
-        path = run(chosen, folder, quick=quick, report=report, arms=named)
-    for arm, table in timing.tables(path):
+        path = timings.time_laws(contenders, folder, quick, report, named)
+    for arm, table in timings.tables(timings.read(path)):
         console().print(frame_table(table, f"\nTime per tick{f' on {arm}' if arm else ''}"))
     console().print(f"wrote {shown_path(path)}")
 

@@ -1,4 +1,7 @@
-"""The history: one file of pytest-benchmark for each measured build. Times compare only on one machine."""
+"""The history: one file of pytest-benchmark for each measured build.
+
+Limitations: times compare only on one machine.
+"""
 
 from pathlib import Path
 
@@ -8,7 +11,7 @@ from bench.base.errors import BadResults
 from bench.base.files import read_json
 from bench.base.provenance import ROOT, commit
 from bench.experiments.tables.schema import RESULTS
-from bench.regression.revisions.timing import ROUNDS, Side, run_benchmarks
+from bench.regression.timer import ROUNDS, Side, run_benchmarks
 
 FOLDER = RESULTS / "history"
 
@@ -19,8 +22,8 @@ def append_build(folder: Path = FOLDER, rounds: int = ROUNDS) -> Path:
     if about["dirty"] or not about["commit"]:
         raise BadResults("this checkout has changes that no commit holds, and the history holds commits; commit them")
     before = set(find_files(folder))
-    words = (f"--benchmark-storage={Path(folder).resolve()}", "--benchmark-autosave")
-    run_benchmarks([Side(ROOT)], words, rounds)
+    options = (f"--benchmark-storage={Path(folder).resolve()}", "--benchmark-autosave")
+    run_benchmarks([Side(ROOT)], options, rounds)
     [new] = set(find_files(folder)) - before
     return new
 
@@ -41,12 +44,22 @@ def read_history(folder: Path = FOLDER) -> pd.DataFrame:
         content = read_json(path)
         try:
             about, machine = content["commit_info"], content["machine_info"]["key"]
-            for one in content["benchmarks"]:
-                more = one["extra_info"]
-                steps = dict(zip(("kernel_steps", "low", "high"), more["kernel_steps"], strict=True))
-                build = {"commit": about["id"], "date": pd.to_datetime(about["time"], utc=True), "machine": machine}
-                flops = float(more["flops"].get("typical", "nan"))
-                rows.append({**build, "what": more["what"], "name": one["param"], **steps, "flops": flops})
+            date = pd.to_datetime(about["time"], utc=True)
+            for benchmark in content["benchmarks"]:
+                info = benchmark["extra_info"]
+                median, low, high = info["kernel_steps"]
+                row = {
+                    "commit": about["id"],
+                    "date": date,
+                    "machine": machine,
+                    "what": info["what"],
+                    "name": benchmark["param"],
+                    "kernel_steps": median,
+                    "low": low,
+                    "high": high,
+                    "flops": float(info["flops"].get("typical", "nan")),
+                }
+                rows.append(row)
         except (KeyError, TypeError, ValueError) as error:
             raise BadResults(f"{path}: no build of this history ({error!r}); delete it, or take it from git") from error
     frame = pd.DataFrame(rows)

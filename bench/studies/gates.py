@@ -9,7 +9,8 @@ from typing import Any
 from bench.base.files import write_json
 from bench.base.provenance import ROOT
 from bench.experiments.tables.schema import RESULTS
-from bench.regression.revisions.timing import SAME, Side, compare_times
+from bench.regression.revisions.times import SAME, compare_times
+from bench.regression.timer import Side
 from bench.studies.study import describe_study, make_parser, make_parts
 
 STORED = RESULTS / "regress" / "same_code.json"

@@ -19,7 +19,8 @@ from bench.regression.revisions.commits import (
     is_folder,
 )
 from bench.regression.revisions.summary import Finding
-from bench.regression.revisions.timing import SideFailed, Timed
+from bench.regression.revisions.times import Timed
+from bench.regression.timer import Side, SideFailed
 
 LAW = law_text(DAMPER, name="braking")
 SAME = Timed("braking", 1.0, 0.9, 1.1, 0.5, 6, "same")
@@ -74,6 +75,14 @@ def test_gates_of_a_law_that_is_as_before_all_pass(user, means):
     assert states(said) == dict.fromkeys(("exact", "operations", "faults", "time"), "passed")
     assert (said.findings, said.head) == ([], "working tree")
     assert "| braking | 1.000 \\[0.900, 1.100\\] | 0.5 | same |" in summary.write_markdown(said)
+
+
+@pytest.mark.parametrize(("head", "state"), [("main", "passed"), ("working tree", "skipped")])
+def test_equal_sources_are_timed_only_if_a_commit_is_compared_with_itself(tmp_path, means, head, state):
+    base = Side(tmp_path, name="main", digest="1")
+    comparison = summary.Comparison("main", head)
+    gates._compare_times(comparison, base, base._replace(name=head), print, means())
+    assert states(comparison) == {"time": state}
 
 
 def test_law_that_is_slower_twice_is_a_regression(user, means):

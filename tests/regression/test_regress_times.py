@@ -10,11 +10,11 @@ import pytest
 from support.command_line import bench, refused
 from support.user_law import law_text
 
-from bench.base.errors import BadResults
+from bench.base.errors import BadResults, Incompatible
 from bench.base.provenance import ROOT
 from bench.regression.history import append_build, find_files, read_history
-from bench.regression.revisions import timing
-from bench.regression.revisions.timing import RATIO, P, Side, SideFailed, confirm, judge_files, judge_rounds
+from bench.regression.revisions.times import RATIO, P, compare_times, confirm, judge_files, judge_rounds
+from bench.regression.timer import Side, SideFailed, copy_benchmarks, run_benchmarks
 
 
 def rounds(factor=1.0, spread=0.01, count=60):
@@ -72,7 +72,7 @@ def sides(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def compared(sides):
-    return timing.compare_times(*sides, rounds=12)
+    return compare_times(*sides, rounds=12)
 
 
 def test_law_that_multiplies_sixty_times_more_is_slower_twice(compared):
@@ -99,15 +99,32 @@ def test_side_that_cannot_compile_says_so_and_which_it_is(sides, tmp_path, at):
     both = list(sides)
     both[at] = Side(ROOT, (broken,), only=True)
     with pytest.raises(SideFailed, match=r"cannot be compiled and timed \(.*division by zero") as caught:
-        timing.run_benchmarks(both, rounds=2)
+        run_benchmarks(both, rounds=2)
     assert caught.value.at == at
 
 
-def test_base_from_before_there_was_bench_timing_says_so(tmp_path):
+def test_base_that_lacks_what_the_benchmarks_import_says_so(tmp_path):
     (tmp_path / "bench").mkdir()
     (tmp_path / "bench" / "__init__.py").touch()
-    with pytest.raises(SideFailed, match=r"there is no bench\.running\.timing yet"):
-        timing.run_benchmarks([Side(tmp_path)], rounds=2)
+    copy_benchmarks(tmp_path)
+    with pytest.raises(SideFailed, match=r"has no bench\.\S+: it is too old"):
+        run_benchmarks([Side(tmp_path)], rounds=2)
+
+
+def test_installation_without_benchmarks_says_where_they_are(monkeypatch, tmp_path):
+    monkeypatch.setattr("bench.regression.timer.ROOT", tmp_path)
+    with pytest.raises(Incompatible, match="clone the repository"):
+        run_benchmarks([Side(tmp_path)], rounds=2)
+
+
+def test_side_without_a_law_of_the_other_one_is_timed_in_what_both_have(sides, tmp_path):
+    other = tmp_path / "other.py"
+    other.write_text(law_text("return (0.0, 0.0, 0.0)", name="another"))
+    base = sides[0]
+    files = run_benchmarks([base, base._replace(laws=(*base.laws, other))], rounds=2)
+    assert [[benchmark["param"] for benchmark in file["benchmarks"]] for file in files] == [["tilted"]] * 2
+    files = run_benchmarks([base, base._replace(laws=(other,))], rounds=2)
+    assert [file["benchmarks"] for file in files] == [[], []]
 
 
 @pytest.fixture

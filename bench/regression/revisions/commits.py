@@ -14,7 +14,7 @@ from subprocess import PIPE, STDOUT
 from bench.base.errors import BadLaw, BadResults, Incompatible, UnknownWord
 from bench.base.provenance import ROOT
 from bench.law.contenders.described_law import described
-from bench.regression.revisions.timing import Side
+from bench.regression.timer import Side, copy_benchmarks
 
 MAIN = ("origin/main", "main", "origin/master", "master")
 DIGEST = "from bench.base.provenance import source_digest; print(source_digest())"  # each knows its own sources
@@ -113,7 +113,11 @@ def _loads(law: Path) -> bool:
 
 def _make(stack: contextlib.ExitStack, folder: Path, revision: str | None, laws: tuple[Path, ...]) -> Side:
     commit = find_commit(folder, revision or "HEAD")
-    path = stack.enter_context(check_out(folder, commit)) if revision else folder
+    path = folder
+    if revision:
+        path = stack.enter_context(check_out(folder, commit))
+        if not laws:
+            copy_benchmarks(path)
     files = tuple(file for law in laws if (file := path / law.resolve().relative_to(folder)).is_file())
     sources = ROOT if laws else path
     name = f"{revision} ({commit[:10]})" if revision and not commit.startswith(revision) else commit[:10]

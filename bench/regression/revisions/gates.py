@@ -14,7 +14,8 @@ from bench.findings.judgement import Judgement
 from bench.law.contenders.described_law import described
 from bench.regression.revisions import commits, exact
 from bench.regression.revisions.summary import IMPROVEMENT, REGRESSION, Comparison, Finding
-from bench.regression.revisions.timing import ROUNDS, SAME, SLOWER, Side, SideFailed, Timed, compare_times
+from bench.regression.revisions.times import SAME, SLOWER, Timed, compare_times
+from bench.regression.timer import ROUNDS, Side, SideFailed
 
 EXACT, TIME, FAULTS = exact.EXACT, "time", "faults"
 ROWS = (EXACT, exact.OPERATIONS)
@@ -99,10 +100,14 @@ def _compare_faults(said: Comparison, old: Side, new: Side, judge: Callable[...,
 
 
 def _compare_times(said: Comparison, old: Side, new: Side, report: Callable, means: Means) -> None:
-    is_same = old.digest == new.digest and not new.only
-    if old.is_new or is_same or not means.rounds:
-        says = "left out on request" if not means.rounds else "the same sources" if is_same else "there is no base"
-        return said.skip([TIME], says)
+    """Time both sides in turns; equal sources only if somebody compares a commit with itself."""
+    if not means.rounds:
+        return said.skip([TIME], "left out on request")
+    if old.is_new:
+        return said.skip([TIME], "there is no base")
+    has_same_sources = old.digest == new.digest and not new.only
+    if has_same_sources and old.name != new.name:
+        return said.skip([TIME], "the same sources")
     try:
         said.files, times = means.compare_times(old, new, report, means.rounds)
     except SideFailed as error:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from bench.base.provenance import cpu_name, describe
 from bench.findings.judgement import Judgement
-from bench.regression.revisions.timing import Timed
+from bench.regression.revisions.times import Timed
 
 REGRESSION, CHANGE, IMPROVEMENT = "regression", "change", "improvement"
 SHOWN = 40  # findings that a summary lists

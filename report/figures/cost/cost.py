@@ -92,10 +92,10 @@ def describe_machine(run: Run) -> str:
     if not paths:
         return "No law has been timed yet (`make time` does)."
     table = read_arrow(paths[0], "timings")
-    about, passes = json.loads(table.schema.metadata[b"about"]), max(table["passes"].to_pylist())
+    about, rounds = json.loads(table.schema.metadata[b"about"]), max(table["passes"].to_pylist())
     return (
         f"We measured the times on a computer with {about['cores']} cores ({about['cpu']}) on {about['date'][:10]}, "
-        f"in {passes} passes."
+        f"in {rounds} rounds."
     )
 
 
