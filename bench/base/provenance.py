@@ -68,8 +68,15 @@ def describe_project() -> dict[str, Any]:
 
 @functools.cache
 def source_digest() -> str:
-    """Return sixteen hex digits over every source that results depend on, as first read, and versions of packages."""
-    return _digest(DECIDING, repr(sorted(versions().items())))
+    """Return sixteen hex digits over the code that results depend on, as first read, and versions of packages.
+
+    Comments and docstrings are no code (sources.py).
+    """
+    from bench.base.sources import reader
+
+    files = reader()
+    paths = [path for name in DECIDING for path in files.list_files(name)]
+    return files.digest(paths, repr(sorted(versions().items())))[:16]
 
 
 @functools.cache

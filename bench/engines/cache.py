@@ -1,7 +1,7 @@
 """Choose where compiled code is kept between processes. Import it before numba, which reads the folder only once.
 
-numba's cache looks only at the file of the function it caches, so an edited law or another mujoco would run stale
-code; here the folder is a digest of all our sources and the versions that matter.
+There is a folder for each set of versions of Python and of the packages that matter. Which code in it is taken, its own
+name says (kept_code.py).
 """
 
 import hashlib
@@ -10,23 +10,25 @@ import shutil
 from pathlib import Path
 
 from bench.base.processes import RUNS_A_LAW
-from bench.base.provenance import ARITHMETIC, cpu_name, kept_in, source_digest, vectors
+from bench.base.provenance import ARITHMETIC, cpu_name, kept_in, source_digest, vectors, versions
 
 KEPT = 8
-"""States of the sources whose compiled code is kept, the newest first: some 15 MB each."""
+"""Sets of versions whose compiled code is kept, the newest first."""
 
 
 def home() -> Path:
-    """Return the folder that holds one cache for each state of the sources."""
+    """Return the folder that holds one cache for each set of versions."""
     return kept_in("XDG_CACHE_HOME", ".cache") / "numba"
 
 
 def _chosen() -> Path:
-    """Return the cache of these sources, which NUMBA_CACHE_DIR overrides; the oldest of the others go."""
+    """Return the cache of these versions, which NUMBA_CACHE_DIR overrides; the oldest of the others go."""
+    source_digest()  # reads all files now: a file that is edited later is not taken for what was imported
     named = os.environ.get("NUMBA_CACHE_DIR")
     if named:
         return Path(named)
-    folder = home() / source_digest()
+    words = repr(sorted(versions().items()))
+    folder = home() / hashlib.sha256(words.encode()).hexdigest()[:16]
     os.environ["NUMBA_CACHE_DIR"] = str(folder)
     if not folder.exists() and home().is_dir() and not RUNS_A_LAW:
         by_age = sorted(home().iterdir(), key=lambda path: path.stat().st_mtime, reverse=True)

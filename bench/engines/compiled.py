@@ -25,7 +25,7 @@ from bench.base.errors import BadLaw
 from bench.engines.arrays import Four, Three
 from bench.engines.curve import Curves
 from bench.engines.episode import Numbers
-from bench.engines.kept_code import KeptCode
+from bench.engines.kept_code import KeptCode, PlaceOfCode
 from bench.engines.typed import PART, type_of
 from bench.engines.uncompiled import explain_failure
 from bench.law import scalar
@@ -49,6 +49,7 @@ place, no two processes meet; a fork begins at another one too."""
 
 
 caching.IndexDataCacheFile = KeptCode
+caching.CacheImpl._locator_classes.insert(0, PlaceOfCode)
 """The files of compiled code are ours, see kept_code.py."""
 
 _look_for_blas, linalg.ensure_blas = linalg.ensure_blas, lambda: None
