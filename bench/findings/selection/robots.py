@@ -20,6 +20,7 @@ from bench.findings.selection.nearest import answer
 from bench.findings.selection.needs import FACTS, Decision, Measured, Need, decide, measure, measured
 from bench.findings.selection.regions import Rule, find_default
 from bench.findings.selection.tables import by_law, by_standard_inverse, common, tables_of
+from bench.findings.subjects import SentenceSubject
 from tasks.situation import UNCANCELLED
 
 
@@ -57,11 +58,11 @@ def measure_velocities(results: Results) -> Measured:
 
 
 class Robot(NamedTuple):
-    """A kind of robot: what it takes, the rows that were run, its page in the book, and how laws are measured on it."""
+    """A kind of robot: what it takes, the rows that were run, its subject, and how laws are measured on it."""
 
     takes: str
     rows: str
-    page: str
+    subject: SentenceSubject
     need: Need
     measure: Callable[[Results], Measured]
 
@@ -70,7 +71,7 @@ ROBOTS = {
     name: Robot(
         said["takes"],
         said["rows"],
-        said["page"],
+        SentenceSubject(said["subject"]),
         Need(tuple(FACTS[word] for word in said["facts"]), tuple(said.get("by", ()))),
         measure if name == "arm" else measure_velocities,
     )
@@ -96,13 +97,12 @@ def decide_for(robot: Robot, folder: Path = RUN) -> Decision | None:
 
 
 class Elsewhere(NamedTuple):
-    """What leads to a law: the words after "if", the law, those that tie with it, how many were compared, the page."""
+    """What leads to a law: the words after "if", the law, those that tie with it, how many were compared."""
 
     words: str
     law: str
     tied: tuple[str, ...] = ()
     compared: int = 0
-    page: str = "07-which-error"
 
 
 def list_elsewhere() -> list[Elsewhere]:
@@ -117,5 +117,5 @@ def list_elsewhere() -> list[Elsewhere]:
         decision = decide_for(robot)
         if decision and decision.law:
             words = f"your robot takes {robot.takes}"
-            found.append(Elsewhere(words, decision.law, decision.tied, len(decision.asked), robot.page))
+            found.append(Elsewhere(words, decision.law, decision.tied, len(decision.asked)))
     return found
