@@ -20,11 +20,15 @@ from bench.experiments.tables.statistics import quantile
 from bench.findings.amounts import count_of, join_words
 from bench.findings.judgement import Said
 from bench.findings.perturbed import WITHSTANDS, by_level, thresholds
-from bench.findings.selection.needs import CHATTER
 from bench.findings.subjects import SentenceSubject
 from bench.findings.theory.thresholds import near_goal
 from bench.law.contenders.registry import contenders
 from tasks.rules import RULES
+
+CHATTER = 1.0
+"""Largest change of the command from tick to tick at rest [rad/s^2]: a hundredth of Kp times a radian. A linear loop
+that has just come to rest from 180 degrees changes by (Kp w + Kv (Kp b + Kv w)) dt = 0.25 at most, b = 0.063 rad being
+the band and w = b/0.25 s."""
 
 SENTENCES: dict[str, dict[str, dict[str, str]]]
 SENTENCES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
